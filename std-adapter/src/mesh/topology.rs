@@ -1,0 +1,497 @@
+//! The vertices, edges and triangles of a mesh, and how they hang together.
+
+use std::fmt;
+
+/// The vertices, edges and triangles of a mesh that may be anything a file can hold: edges with
+/// one, two or more triangles, several components, vertices without a triangle, duplicate
+/// triangles, and triangles that name a vertex twice. Nothing is dropped or renumbered.
+///
+/// ```
+/// use selvedge::mesh::Topology;
+///
+/// // Two triangles that share the edge 1-2, and vertex 4, which has no triangle.
+/// let topology = Topology::new(5, vec![[0, 1, 2], [2, 1, 3]])?;
+/// assert_eq!(topology.edges(), [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3]]);
+/// assert_eq!(topology.triangle_edges(), [[0, 2, 1], [2, 3, 4]]);
+/// assert_eq!(topology.statistics().interior_edges, 1);
+/// assert_eq!(topology.statistics().isolated_vertices, 1);
+/// # Ok::<(), selvedge::mesh::TopologyError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Topology {
+    vertex_count: usize,
+    triangles: Vec<[u32; 3]>,
+    edges: Vec<[u32; 2]>,
+    triangle_edges: Vec<[u32; 3]>,
+}
+
+/// Why a list of triangles has no [`Topology`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TopologyError {
+    /// A triangle names a vertex that does not exist.
+    #[error(
+        "triangle {triangle} names vertex {vertex}, but there are {vertex_count} vertices, numbered from 0"
+    )]
+    VertexOutOfRange {
+        /// The first such triangle.
+        triangle: usize,
+        /// The vertex that it names.
+        vertex: u32,
+        /// How many vertices there are.
+        vertex_count: usize,
+    },
+    /// The list of triangles is empty.
+    #[error("the mesh has no triangles")]
+    NoTriangles,
+    /// Vertices, or the corners of all triangles, are too many to be numbered by a `u32`.
+    #[error(
+        "the mesh has {vertex_count} vertices and {triangle_count} triangles: more than {} vertices or {} triangles cannot be numbered",
+        u32::MAX,
+        Topology::MAX_TRIANGLES
+    )]
+    TooLarge {
+        /// How many vertices there are.
+        vertex_count: usize,
+        /// How many triangles there are.
+        triangle_count: usize,
+    },
+}
+
+impl Topology {
+    /// Stands in [`triangle_edges`](Self::triangle_edges) where a triangle has no edge because
+    /// both ends are the same vertex.
+    pub const NO_EDGE: u32 = u32::MAX;
+
+    /// Three edges to a triangle must be numbered below [`NO_EDGE`](Self::NO_EDGE).
+    const MAX_TRIANGLES: usize = (u32::MAX / 3) as usize;
+
+    /// Finds the edges of `triangles`, in O(v + n log d) time for v vertices, n triangles and at
+    /// most d edges to a vertex.
+    ///
+    /// # Errors
+    /// If there are no triangles, a triangle names a vertex that does not exist, or there are more
+    /// than a `u32` can number.
+    pub fn new(vertex_count: usize, triangles: Vec<[u32; 3]>) -> Result<Self, TopologyError> {
+        if triangles.is_empty() {
+            return Err(TopologyError::NoTriangles);
+        }
+        if vertex_count > u32::MAX as usize || triangles.len() > Self::MAX_TRIANGLES {
+            return Err(TopologyError::TooLarge {
+                vertex_count,
+                triangle_count: triangles.len(),
+            });
+        }
+        for (triangle, vertices) in triangles.iter().enumerate() {
+            if let Some(&vertex) = vertices.iter().find(|&&v| v as usize >= vertex_count) {
+                return Err(TopologyError::VertexOutOfRange {
+                    triangle,
+                    vertex,
+                    vertex_count,
+                });
+            }
+        }
+        let (edges, triangle_edges) = find_edges(vertex_count, &triangles);
+        Ok(Self {
+            vertex_count,
+            triangles,
+            edges,
+            triangle_edges,
+        })
+    }
+
+    /// How many vertices there are, those without a triangle included.
+    #[must_use]
+    pub fn vertex_count(&self) -> usize {
+        self.vertex_count
+    }
+
+    /// The three vertices of each triangle, as given.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// Each edge once, as `[smaller vertex, larger vertex]`, sorted by the larger vertex, then by
+    /// the smaller. Public collision benchmarks number edges in this order.
+    #[must_use]
+    pub fn edges(&self) -> &[[u32; 2]] {
+        &self.edges
+    }
+
+    /// The three edges of each triangle, as indices into [`edges`](Self::edges): entry k joins the
+    /// triangle's vertices k and (k + 1) mod 3.
+    ///
+    /// A degenerate triangle (v, v, w) has [`NO_EDGE`](Self::NO_EDGE) where both ends are v, and
+    /// its other two entries name the *same* edge. A triangle (v, v, v) has no edge at all.
+    #[must_use]
+    pub fn triangle_edges(&self) -> &[[u32; 3]] {
+        &self.triangle_edges
+    }
+
+    /// Counts what is unusual about the mesh. Takes about as long as [`Topology::new`].
+    #[must_use]
+    pub fn statistics(&self) -> TopologyStatistics {
+        let (components, isolated_vertices) = count_components(self.vertex_count, &self.triangles);
+        let mut statistics = TopologyStatistics {
+            components,
+            isolated_vertices,
+            degenerate_triangles: self.triangles.iter().filter(|t| is_degenerate(t)).count(),
+            duplicate_triangles: count_duplicates(self.vertex_count, &self.triangles),
+            ..TopologyStatistics::default()
+        };
+        for count in self.triangles_per_edge() {
+            match count {
+                1 => statistics.boundary_edges += 1,
+                2 => statistics.interior_edges += 1,
+                _ => statistics.non_manifold_edges += 1,
+            }
+        }
+        statistics
+    }
+
+    /// How many triangles each edge has; a triangle (v, v, w) counts once for its edge v-w.
+    fn triangles_per_edge(&self) -> Vec<u32> {
+        let mut counts = vec![0; self.edges.len()];
+        for &[a, b, c] in &self.triangle_edges {
+            let distinct = [
+                Some(a),
+                Some(b).filter(|_| b != a),
+                Some(c).filter(|_| c != a && c != b),
+            ];
+            for edge in distinct.into_iter().flatten() {
+                if edge != Self::NO_EDGE {
+                    counts[edge as usize] += 1;
+                }
+            }
+        }
+        counts
+    }
+}
+
+/// What is unusual about a mesh. None of it is an error: everything is kept and takes part in
+/// collision, except isolated vertices, which belong to no triangle and so can touch nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TopologyStatistics {
+    /// Sets of triangles connected through shared vertices.
+    pub components: usize,
+    /// Vertices without a triangle. They keep their number.
+    pub isolated_vertices: usize,
+    /// Edges with one triangle.
+    pub boundary_edges: usize,
+    /// Edges with two triangles.
+    pub interior_edges: usize,
+    /// Edges with three triangles or more.
+    pub non_manifold_edges: usize,
+    /// Triangles with the same set of vertices as an earlier one, whatever the order.
+    pub duplicate_triangles: usize,
+    /// Triangles that name a vertex twice. A triangle of zero area with three different vertices
+    /// is not counted: that is geometry, and changes as the mesh moves.
+    pub degenerate_triangles: usize,
+}
+
+impl fmt::Display for TopologyStatistics {
+    /// One line that names only what is there: `1 component, 41 boundary and 1996 interior edges`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let s = |count| if count == 1 { "" } else { "s" };
+        write!(
+            f,
+            "{} component{}, {} boundary and {} interior edges",
+            self.components,
+            s(self.components),
+            self.boundary_edges,
+            self.interior_edges
+        )?;
+        for (count, singular, plural) in [
+            (
+                self.non_manifold_edges,
+                "non-manifold edge",
+                "non-manifold edges",
+            ),
+            (
+                self.isolated_vertices,
+                "isolated vertex",
+                "isolated vertices",
+            ),
+            (
+                self.duplicate_triangles,
+                "duplicate triangle",
+                "duplicate triangles",
+            ),
+            (
+                self.degenerate_triangles,
+                "degenerate triangle",
+                "degenerate triangles",
+            ),
+        ] {
+            if count > 0 {
+                write!(
+                    f,
+                    ", {count} {}",
+                    if count == 1 { singular } else { plural }
+                )?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn is_degenerate(&[a, b, c]: &[u32; 3]) -> bool {
+    a == b || b == c || c == a
+}
+
+/// Edges in their order, and each triangle's three.
+fn find_edges(vertex_count: usize, triangles: &[[u32; 3]]) -> (Vec<[u32; 2]>, Vec<[u32; 3]>) {
+    // A slot is a triangle's entry: 3 × triangle + k.
+    let ends = |slot: usize| {
+        let (triangle, k) = (triangles[slot / 3], slot % 3);
+        (triangle[k], triangle[(k + 1) % 3])
+    };
+    let slots = (0..triangles.len() * 3).filter_map(|slot| {
+        let (a, b) = ends(slot);
+        (a != b).then(|| (a.max(b), (a.min(b), slot as u32)))
+    });
+    let groups = Groups::new(vertex_count, slots);
+
+    let mut edges: Vec<[u32; 2]> = Vec::with_capacity(triangles.len() * 3 / 2);
+    let mut triangle_edges = vec![[Topology::NO_EDGE; 3]; triangles.len()];
+    for (larger, group) in groups.iter() {
+        for same_edge in group.chunk_by(|a, b| a.0 == b.0) {
+            for &(_, slot) in same_edge {
+                triangle_edges[slot as usize / 3][slot as usize % 3] = edges.len() as u32;
+            }
+            edges.push([same_edge[0].0, larger]);
+        }
+    }
+    (edges, triangle_edges)
+}
+
+/// How many triangles have the same set of vertices as an earlier one.
+fn count_duplicates(vertex_count: usize, triangles: &[[u32; 3]]) -> usize {
+    let keys = triangles.iter().map(|&triangle| {
+        let mut key = triangle;
+        key.sort_unstable();
+        // {v, w} is one set, whether it was written (v, v, w) or (v, w, w).
+        if key[0] == key[1] {
+            key[1] = key[2];
+        }
+        (key[2], (key[0], key[1]))
+    });
+    let groups = Groups::new(vertex_count, keys);
+    let distinct: usize = groups
+        .iter()
+        .map(|(_, group)| group.chunk_by(|a, b| a == b).count())
+        .sum();
+    triangles.len() - distinct
+}
+
+/// How many sets of connected triangles there are, and how many vertices without a triangle.
+fn count_components(vertex_count: usize, triangles: &[[u32; 3]]) -> (usize, usize) {
+    // Union-find over vertices, by path halving and the smaller number as root.
+    let mut parents: Vec<u32> = (0..vertex_count as u32).collect();
+    let mut used = vec![false; vertex_count];
+    let mut joins = 0;
+    for &[a, b, c] in triangles {
+        for vertex in [a, b, c] {
+            used[vertex as usize] = true;
+        }
+        for (u, v) in [(a, b), (b, c)] {
+            let (u, v) = (root(&mut parents, u), root(&mut parents, v));
+            if u != v {
+                parents[u.max(v) as usize] = u.min(v);
+                joins += 1;
+            }
+        }
+    }
+    let used = used.iter().filter(|&&used| used).count();
+    (used - joins, vertex_count - used)
+}
+
+fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
+    while parents[vertex as usize] != vertex {
+        let grandparent = parents[parents[vertex as usize] as usize];
+        parents[vertex as usize] = grandparent;
+        vertex = grandparent;
+    }
+    vertex
+}
+
+/// Items grouped by a key below a known bound and sorted within each group: a counting sort by
+/// key, then a small sort for each group. A mesh has few items to a vertex, so this is much faster
+/// than sorting everything at once.
+struct Groups<T> {
+    /// Group k is `items[starts[k]..starts[k + 1]]`.
+    starts: Vec<u32>,
+    items: Vec<T>,
+}
+
+impl<T: Copy + Default + Ord> Groups<T> {
+    fn new(key_count: usize, keyed: impl Iterator<Item = (u32, T)> + Clone) -> Self {
+        let mut starts = vec![0_u32; key_count + 1];
+        for (key, _) in keyed.clone() {
+            starts[key as usize + 1] += 1;
+        }
+        for key in 0..key_count {
+            starts[key + 1] += starts[key];
+        }
+        let mut items = vec![T::default(); starts[key_count] as usize];
+        let mut next = starts.clone();
+        for (key, item) in keyed {
+            let place = &mut next[key as usize];
+            items[*place as usize] = item;
+            *place += 1;
+        }
+        for key in 0..key_count {
+            items[starts[key] as usize..starts[key + 1] as usize].sort_unstable();
+        }
+        Self { starts, items }
+    }
+
+    /// The groups in order of their keys; some may be empty.
+    fn iter(&self) -> impl Iterator<Item = (u32, &[T])> {
+        self.starts.windows(2).enumerate().map(|(key, bounds)| {
+            let group = &self.items[bounds[0] as usize..bounds[1] as usize];
+            (key as u32, group)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::collections::{BTreeMap, BTreeSet};
+
+    /// Any triangles over a few vertices: many duplicates, degenerates and non-manifold edges.
+    fn index_soup() -> impl Strategy<Value = (usize, Vec<[u32; 3]>)> {
+        (1..9_u32).prop_flat_map(|vertex_count| {
+            let triangles = prop::collection::vec(prop::array::uniform3(0..vertex_count), 1..24);
+            (Just(vertex_count as usize), triangles)
+        })
+    }
+
+    fn naive_edges(triangles: &[[u32; 3]]) -> BTreeMap<(u32, u32), BTreeSet<usize>> {
+        let mut edges: BTreeMap<_, BTreeSet<_>> = BTreeMap::new();
+        for (index, t) in triangles.iter().enumerate() {
+            for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
+                if a != b {
+                    edges.entry((a.max(b), a.min(b))).or_default().insert(index);
+                }
+            }
+        }
+        edges
+    }
+
+    /// Grows each component until nothing more joins it.
+    fn naive_components(triangles: &[[u32; 3]]) -> usize {
+        let mut rest: Vec<BTreeSet<u32>> = triangles
+            .iter()
+            .map(|t| t.iter().copied().collect())
+            .collect();
+        let mut components = 0;
+        while let Some(mut component) = rest.pop() {
+            while let Some(index) = rest.iter().position(|t| !t.is_disjoint(&component)) {
+                component.extend(rest.swap_remove(index));
+            }
+            components += 1;
+        }
+        components
+    }
+
+    proptest! {
+        #[test]
+        fn edges_are_each_found_once_and_sorted_by_larger_then_smaller_vertex((n, triangles) in index_soup()) {
+            let topology = Topology::new(n, triangles.clone()).unwrap();
+            let expected: Vec<[u32; 2]> = naive_edges(&triangles).keys().map(|&(large, small)| [small, large]).collect();
+            prop_assert_eq!(topology.edges(), expected);
+        }
+
+        #[test]
+        fn a_triangles_edge_k_joins_its_vertices_k_and_k_plus_1((n, triangles) in index_soup()) {
+            let topology = Topology::new(n, triangles.clone()).unwrap();
+            prop_assert_eq!(topology.triangles(), &triangles);
+            for (triangle, edges) in triangles.iter().zip(topology.triangle_edges()) {
+                for k in 0..3 {
+                    let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
+                    if a == b {
+                        prop_assert_eq!(edges[k], Topology::NO_EDGE);
+                    } else {
+                        prop_assert_eq!(topology.edges()[edges[k] as usize], [a.min(b), a.max(b)]);
+                    }
+                }
+            }
+        }
+
+        #[test]
+        fn statistics_agree_with_a_naive_recount((n, triangles) in index_soup()) {
+            let statistics = Topology::new(n, triangles.clone()).unwrap().statistics();
+            let edges = naive_edges(&triangles);
+            let edges_with = |wanted: fn(usize) -> bool| edges.values().filter(|t| wanted(t.len())).count();
+            let sets: Vec<BTreeSet<u32>> = triangles.iter().map(|t| t.iter().copied().collect()).collect();
+            let used: BTreeSet<u32> = triangles.iter().flatten().copied().collect();
+            prop_assert_eq!(statistics, TopologyStatistics {
+                components: naive_components(&triangles),
+                isolated_vertices: n - used.len(),
+                boundary_edges: edges_with(|count| count == 1),
+                interior_edges: edges_with(|count| count == 2),
+                non_manifold_edges: edges_with(|count| count >= 3),
+                duplicate_triangles: (0..sets.len()).filter(|&i| sets[..i].contains(&sets[i])).count(),
+                degenerate_triangles: sets.iter().filter(|set| set.len() < 3).count(),
+            });
+        }
+    }
+
+    #[test]
+    fn a_triangle_that_names_a_vertex_twice_has_one_edge_in_two_entries() {
+        let topology = Topology::new(2, vec![[0, 0, 1]]).unwrap();
+        assert_eq!(topology.edges(), [[0, 1]]);
+        assert_eq!(topology.triangle_edges(), [[Topology::NO_EDGE, 0, 0]]);
+        assert_eq!(topology.statistics().boundary_edges, 1);
+    }
+
+    #[test]
+    fn a_triangle_of_one_vertex_has_no_edge_and_is_a_component() {
+        let topology = Topology::new(1, vec![[0, 0, 0]]).unwrap();
+        assert_eq!(topology.triangle_edges(), [[Topology::NO_EDGE; 3]]);
+        assert_eq!(topology.statistics().components, 1);
+        assert_eq!(topology.statistics().isolated_vertices, 0);
+    }
+
+    #[test]
+    fn an_index_out_of_range_is_refused_with_the_first_triangle_and_its_vertex() {
+        let error = Topology::new(3, vec![[0, 1, 2], [0, 3, 1], [9, 9, 9]]).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "triangle 1 names vertex 3, but there are 3 vertices, numbered from 0"
+        );
+    }
+
+    #[test]
+    fn a_mesh_without_triangles_is_refused() {
+        assert_eq!(
+            Topology::new(3, vec![]).unwrap_err(),
+            TopologyError::NoTriangles
+        );
+    }
+
+    #[test]
+    fn more_vertices_than_a_u32_can_number_are_refused_before_memory_is_asked_for() {
+        let error = Topology::new(usize::MAX, vec![[0, 1, 2]]).unwrap_err();
+        assert!(matches!(error, TopologyError::TooLarge { .. }), "{error}");
+    }
+
+    #[test]
+    fn statistics_print_only_what_is_unusual() {
+        let plain = Topology::new(3, vec![[0, 1, 2]]).unwrap().statistics();
+        assert_eq!(
+            plain.to_string(),
+            "1 component, 3 boundary and 0 interior edges"
+        );
+        let odd = Topology::new(5, vec![[0, 1, 2], [2, 1, 0], [3, 3, 3]])
+            .unwrap()
+            .statistics();
+        assert_eq!(
+            odd.to_string(),
+            "2 components, 0 boundary and 3 interior edges, 1 isolated vertex, 1 duplicate triangle, 1 degenerate triangle"
+        );
+    }
+}
