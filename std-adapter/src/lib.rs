@@ -3,3 +3,5 @@
 pub mod mesh;
 
 pub use selvedge_core as core;
+
+pub mod broad_phase;
