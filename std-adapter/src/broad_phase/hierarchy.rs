@@ -2,7 +2,7 @@
 
 use super::SweptBox;
 use super::candidates::{Bounds, EMPTY, bounds, union};
-use super::parallel;
+use crate::parallel;
 
 /// Triangles in a group of the lowest level.
 pub(super) const LEAF: usize = 16;

@@ -35,7 +35,6 @@
 mod candidates;
 mod hierarchy;
 mod output;
-mod parallel;
 mod traversal;
 
 use candidates::CandidateList;

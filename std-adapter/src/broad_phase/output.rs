@@ -1,8 +1,8 @@
 //! Puts the partners of all triangles in a row.
 
 use super::hierarchy::Hierarchy;
-use super::parallel;
 use super::traversal::Traversal;
+use crate::parallel;
 
 /// Fewer triangles than this are not split between threads.
 const SEQUENTIAL: usize = 4096;

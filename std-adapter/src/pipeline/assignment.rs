@@ -68,10 +68,15 @@ impl FeatureAssignment {
                     vertices,
                     edges: edges.map(|edge| FeatureEdge {
                         edge,
-                        ends: topology.edges().get(edge as usize).copied().unwrap_or_default(),
+                        ends: topology
+                            .edges()
+                            .get(edge as usize)
+                            .copied()
+                            .unwrap_or_default(),
                     }),
                     // Never more than three of each.
-                    features: Features::new(represented_vertices, represented_edges).unwrap_or_default(),
+                    features: Features::new(represented_vertices, represented_edges)
+                        .unwrap_or_default(),
                 }
             })
             .collect();

@@ -1,5 +1,6 @@
 //! The stages after the broad phase, on one batch of candidate triangle pairs that stays in the cache.
 
+use super::Distributed;
 use super::assignment::FeatureAssignment;
 use super::dops::StoredDops;
 use super::pairs::{Contact, MovingMesh, PairKind};
@@ -7,7 +8,7 @@ use super::preset::{CullingTest, ElementaryTest, Stages};
 use super::report::PairCounts;
 use arrayvec::ArrayVec;
 use selvedge_core::distribution::distribute;
-use selvedge_core::{Scalar, Verdict, boxes, elementary, filter};
+use selvedge_core::{EdgeEdge, Scalar, Verdict, VertexFace, boxes, elementary, filter};
 use std::time::Instant;
 
 /// What every batch of a step reads.
@@ -23,12 +24,12 @@ pub(super) struct StepInput<'a, S: Scalar> {
 pub(super) type Tally = (PairCounts, f64);
 
 /// Primitive pairs on their way through the stages. Each stage drops pairs in place; their order never changes.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(super) struct Batch<S> {
     pub(super) vertex_face: Vec<[u32; 2]>,
     pub(super) edge_edge: Vec<[u32; 2]>,
     pub(super) contacts: Vec<Contact<S>>,
-    /// One for each culling test, one for the elementary test. Distribution is tallied by the caller.
+    /// Distribution, each culling test, the elementary test.
     pub(super) tallies: ArrayVec<Tally, 8>,
 }
 
@@ -50,8 +51,12 @@ impl<S: Scalar> Batch<S> {
         }
     }
 
-    /// Replaces the batch by the primitive pairs of `triangle_pairs`. Returns the seconds it took.
-    pub(super) fn distribute(&mut self, triangle_pairs: &[[u32; 2]], assignment: &FeatureAssignment) -> f64 {
+    /// Replaces the batch by the primitive pairs of `triangle_pairs`.
+    pub(super) fn distribute(
+        &mut self,
+        triangle_pairs: &[[u32; 2]],
+        assignment: &FeatureAssignment,
+    ) {
         let begin = Instant::now();
         self.vertex_face.clear();
         self.edge_edge.clear();
@@ -63,7 +68,24 @@ impl<S: Scalar> Batch<S> {
             self.vertex_face.extend_from_slice(&pairs.vertex_face);
             self.edge_edge.extend_from_slice(&pairs.edge_edge);
         }
-        begin.elapsed().as_secs_f64()
+        self.tallies
+            .push((self.counts(), begin.elapsed().as_secs_f64()));
+    }
+
+    /// Drops the pairs that were distributed before, and notes the others. Belongs to distribution, and is counted there.
+    pub(super) fn keep_new(&mut self, distributed: &mut Distributed) {
+        let begin = Instant::now();
+        keep_where(&mut self.vertex_face, |pair| {
+            distributed.vertex_face.insert(pair)
+        });
+        keep_where(&mut self.edge_edge, |[a, b]| {
+            distributed.edge_edge.insert([a.min(b), a.max(b)])
+        });
+        let counts = self.counts();
+        if let Some((survivors, seconds)) = self.tallies.first_mut() {
+            *survivors = counts;
+            *seconds += begin.elapsed().as_secs_f64();
+        }
     }
 
     /// The culling tests in their order.
@@ -71,7 +93,8 @@ impl<S: Scalar> Batch<S> {
         for &test in step.stages.tests {
             let begin = Instant::now();
             self.cull_by(test, step);
-            self.tallies.push((self.counts(), begin.elapsed().as_secs_f64()));
+            self.tallies
+                .push((self.counts(), begin.elapsed().as_secs_f64()));
         }
     }
 
@@ -89,16 +112,32 @@ impl<S: Scalar> Batch<S> {
                 self.keep(step, boxes::segment::vertex_face, boxes::swept_boxes);
             }
             CullingTest::RelativeBoxes | CullingTest::SubspaceThree => {
-                self.keep(step, boxes::relative::three_axes, boxes::relative::three_axes);
+                self.keep(
+                    step,
+                    boxes::relative::three_axes,
+                    boxes::relative::three_axes,
+                );
             }
             CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => {
-                self.keep(step, boxes::relative::nine_directions, boxes::relative::nine_directions);
+                self.keep(
+                    step,
+                    boxes::relative::nine_directions,
+                    boxes::relative::nine_directions,
+                );
             }
             CullingTest::PlainNonCoplanarity => {
-                self.keep(step, filter::plain::non_coplanarity, filter::plain::non_coplanarity);
+                self.keep(
+                    step,
+                    filter::plain::non_coplanarity,
+                    filter::plain::non_coplanarity,
+                );
             }
             CullingTest::CertifiedNonCoplanarity => {
-                self.keep(step, filter::certified::non_coplanarity, filter::certified::non_coplanarity);
+                self.keep(
+                    step,
+                    filter::certified::non_coplanarity,
+                    filter::certified::non_coplanarity,
+                );
             }
         }
     }
@@ -107,12 +146,16 @@ impl<S: Scalar> Batch<S> {
     fn keep(
         &mut self,
         step: &StepInput<'_, S>,
-        vertex_face: impl Fn(&selvedge_core::VertexFace<S>) -> Verdict,
-        edge_edge: impl Fn(&selvedge_core::EdgeEdge<S>) -> Verdict,
+        vertex_face: impl Fn(&VertexFace<S>) -> Verdict,
+        edge_edge: impl Fn(&EdgeEdge<S>) -> Verdict,
     ) {
         let mesh = step.mesh;
-        keep_where(&mut self.vertex_face, |pair| !vertex_face(&mesh.vertex_face(pair)).is_culled());
-        keep_where(&mut self.edge_edge, |pair| !edge_edge(&mesh.edge_edge(pair)).is_culled());
+        keep_where(&mut self.vertex_face, |pair| {
+            !vertex_face(&mesh.vertex_face(pair)).is_culled()
+        });
+        keep_where(&mut self.edge_edge, |pair| {
+            !edge_edge(&mesh.edge_edge(pair)).is_culled()
+        });
     }
 
     /// The elementary test of what is left: fills `contacts`, vertex–face first.

@@ -1,7 +1,7 @@
 //! A swept 18-DOP for every vertex, edge and face, refitted each step (Hutter, Fuhrmann 2007).
 
 use super::pairs::MovingMesh;
-use rayon::prelude::*;
+use crate::parallel::fill;
 use selvedge_core::Scalar;
 use selvedge_core::boxes::Dop18;
 
@@ -15,14 +15,20 @@ pub(super) struct StoredDops<S> {
 
 impl<S: Scalar> StoredDops<S> {
     pub(super) const fn new() -> Self {
-        Self { vertices: Vec::new(), edges: Vec::new(), faces: Vec::new() }
+        Self {
+            vertices: Vec::new(),
+            edges: Vec::new(),
+            faces: Vec::new(),
+        }
     }
 
     pub(super) fn refit(&mut self, mesh: MovingMesh<'_, S>) {
         fill(&mut self.vertices, mesh.motions, Dop18::swept);
         let vertices = &self.vertices;
         let vertex = |v: u32| &vertices[v as usize];
-        fill(&mut self.edges, mesh.topology.edges(), |&[a, b]| vertex(a).merged(vertex(b)));
+        fill(&mut self.edges, mesh.topology.edges(), |&[a, b]| {
+            vertex(a).merged(vertex(b))
+        });
         fill(&mut self.faces, mesh.topology.triangles(), |&[a, b, c]| {
             vertex(a).merged(vertex(b)).merged(vertex(c))
         });
@@ -36,15 +42,5 @@ impl<S: Scalar> StoredDops<S> {
     #[inline(always)]
     pub(super) fn edge_edge_overlap(&self, [first, second]: [u32; 2]) -> bool {
         self.edges[first as usize].overlaps(&self.edges[second as usize])
-    }
-}
-
-/// Replaces `output` by `make` of each input, on all threads if there are several.
-pub(super) fn fill<I: Sync, O: Send>(output: &mut Vec<O>, input: &[I], make: impl Fn(&I) -> O + Sync) {
-    if rayon::current_num_threads() == 1 {
-        output.clear();
-        output.extend(input.iter().map(make));
-    } else {
-        input.par_iter().map(make).collect_into_vec(output);
     }
 }

@@ -78,7 +78,11 @@ impl<S: Scalar> MovingMesh<'_, S> {
 
     #[inline(always)]
     pub(super) fn edge_edge(&self, [first, second]: [u32; 2]) -> EdgeEdge<S> {
-        let edge = |edge: u32| self.topology.edges()[edge as usize].map(|v| self.motions[v as usize]);
-        EdgeEdge { first: edge(first), second: edge(second) }
+        let edge =
+            |edge: u32| self.topology.edges()[edge as usize].map(|v| self.motions[v as usize]);
+        EdgeEdge {
+            first: edge(first),
+            second: edge(second),
+        }
     }
 }

@@ -259,13 +259,21 @@ mod tests {
     #[test]
     fn an_unknown_name_is_told_the_known_ones() {
         let message = "curtis".parse::<Preset>().unwrap_err().to_string();
-        assert!(message.contains("`curtis`") && message.contains("curtis_2008, tang_2010"), "{message}");
+        assert!(
+            message.contains("`curtis`") && message.contains("curtis_2008, tang_2010"),
+            "{message}"
+        );
     }
 
     #[test]
     fn no_preset_has_two_tests_for_one_stage() {
         for preset in Preset::ALL {
-            let mut stages: Vec<_> = preset.stages().tests.iter().map(|test| test.stage()).collect();
+            let mut stages: Vec<_> = preset
+                .stages()
+                .tests
+                .iter()
+                .map(|test| test.stage())
+                .collect();
             stages.dedup();
             assert_eq!(stages.len(), preset.stages().tests.len());
             assert!(stages.is_sorted(), "{preset}");
