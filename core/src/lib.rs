@@ -58,6 +58,6 @@ mod verdict;
 pub use features::{FeatureEdge, FeatureTriangle, Features};
 pub use lanes::{Lanes, Rounding};
 pub use motion::{EdgeEdge, Motion, PrimitivePair, VertexFace};
-pub use scalar::Scalar;
+pub use scalar::{Position, Scalar};
 pub use vector::Vector;
 pub use verdict::Verdict;

@@ -1,7 +1,7 @@
 //! Points that move on a straight line during the step, and the two primitive pairs made of them.
 
 use crate::coplanarity::MovingTetrahedron;
-use crate::scalar::Scalar;
+use crate::scalar::{Position, Scalar};
 use crate::vector::Vector;
 
 /// A point that moves from `start` (time 0) to `end` (time 1) at constant velocity.
@@ -16,13 +16,19 @@ pub struct Motion<S: Scalar> {
 impl<S: Scalar> Motion<S> {
     /// From `start` to `end`.
     #[inline]
-    pub const fn new(start: S::Vector, end: S::Vector) -> Self {
+    pub const fn new<P: Position<Scalar = S>>(start: P, end: P) -> Self
+    where
+        S: Scalar<Vector = P>,
+    {
         Self { start, end }
     }
 
     /// At the same place throughout.
     #[inline]
-    pub const fn resting(position: S::Vector) -> Self {
+    pub const fn resting<P: Position<Scalar = S>>(position: P) -> Self
+    where
+        S: Scalar<Vector = P>,
+    {
         Self::new(position, position)
     }
 

@@ -27,14 +27,7 @@ pub trait Scalar:
     + sealed::Sealed
 {
     /// [`glam::Vec3`] or [`glam::DVec3`].
-    type Vector: Copy
-        + Debug
-        + Default
-        + PartialEq
-        + Send
-        + Sync
-        + From<[Self; 3]>
-        + Into<[Self; 3]>;
+    type Vector: Position<Scalar = Self>;
 
     /// `"f32"` or `"f64"`.
     const NAME: &'static str;
@@ -54,8 +47,20 @@ pub trait Scalar:
     fn sqrt(self) -> Self;
 }
 
+/// [`glam::Vec3`] or [`glam::DVec3`]: a position, from which its [`Scalar`] can be inferred. Sealed with it.
+pub trait Position:
+    Copy + Debug + Default + PartialEq + Send + Sync + From<[Self::Scalar; 3]> + Into<[Self::Scalar; 3]>
+{
+    /// The format of the three coordinates.
+    type Scalar: Scalar<Vector = Self>;
+}
+
 macro_rules! scalar {
     ($scalar:ident, $vector:ty, $sqrt:path) => {
+        impl Position for $vector {
+            type Scalar = $scalar;
+        }
+
         impl Scalar for $scalar {
             type Vector = $vector;
             const NAME: &'static str = stringify!($scalar);

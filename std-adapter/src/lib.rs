@@ -4,6 +4,7 @@ pub mod broad_phase;
 pub mod mesh;
 mod parallel;
 pub mod pipeline;
+pub mod study;
 
 pub use selvedge_core as core;
 pub use selvedge_core::glam;

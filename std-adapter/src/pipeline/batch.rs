@@ -14,7 +14,6 @@ use std::time::Instant;
 /// What every batch of a step reads.
 #[derive(Clone, Copy)]
 pub(super) struct StepInput<'a, S: Scalar> {
-    pub(super) assignment: &'a FeatureAssignment,
     pub(super) mesh: MovingMesh<'a, S>,
     pub(super) dops: &'a StoredDops<S>,
     pub(super) stages: Stages,

@@ -313,7 +313,6 @@ impl<S: Scalar> Buffers<S> {
             report.stages[1 + test].seconds += begin.elapsed().as_secs_f64();
         }
         let step = StepInput {
-            assignment,
             mesh,
             dops: &self.dops,
             stages,

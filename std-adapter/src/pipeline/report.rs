@@ -78,6 +78,21 @@ impl StepReport {
         self.survivors(Stage::Elementary).unwrap_or_default()
     }
 
+    /// Adds the counts and times of another step of the same method (of any, to a report that is still empty).
+    pub fn add(&mut self, other: &Self) {
+        if self.stages.is_empty() {
+            self.stages.clone_from(&other.stages);
+        } else {
+            for (stage, other) in self.stages.iter_mut().zip(&other.stages) {
+                stage.survivors += other.survivors;
+                stage.seconds += other.seconds;
+            }
+        }
+        self.triangle_pairs += other.triangle_pairs;
+        self.broad_phase_seconds += other.broad_phase_seconds;
+        self.seconds += other.seconds;
+    }
+
     fn last_survivors(&self, wanted: impl Fn(Stage) -> bool) -> PairCounts {
         let last = self.stages.iter().rfind(|report| wanted(report.stage));
         last.map(|report| report.survivors).unwrap_or_default()
