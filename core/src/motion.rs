@@ -46,7 +46,7 @@ impl<S: Scalar> Motion<S> {
     }
 
     #[inline(always)]
-    fn is_finite(&self) -> bool {
+    pub(crate) fn is_finite(&self) -> bool {
         let [[x, y, z], [u, v, w]] = self.ends();
         // `&`, not `&&`: six tests without a branch.
         x.is_finite()
