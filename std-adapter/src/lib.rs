@@ -8,6 +8,7 @@ pub mod pipeline;
 #[cfg(feature = "files")]
 pub mod queries;
 pub mod study;
+pub mod scene;
 
 pub use pair_kind::{PairKind, ParsePairKindError};
 pub use selvedge_core as core;
