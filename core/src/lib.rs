@@ -1,4 +1,63 @@
-//! Certified culling of vertex-face and edge-edge pairs.
+//! Which vertex–face and edge–edge pairs of deforming triangles can *not* meet during a time step.
+//!
+//! This crate looks at one primitive pair at a time: four points, each moving on a straight line from
+//! its position at the start of a step (time 0) to its position at the end (time 1). It answers with a
+//! [`Verdict`]: [`Culled`](Verdict::Culled) is a proof that the pair does not touch at any time in [0, 1],
+//! [`Kept`](Verdict::Kept) says nothing. Positions are in any length unit of the caller's.
+//!
+//! ```
+//! use selvedge_core::{filter, glam::DVec3, Motion, Verdict, VertexFace};
+//!
+//! // A vertex that falls from 2 to 1 above a resting triangle.
+//! let pair = VertexFace {
+//!     vertex: Motion::new(DVec3::new(0.2, 0.2, 2.0), DVec3::new(0.2, 0.2, 1.0)),
+//!     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+//! };
+//! assert_eq!(filter::certified::non_coplanarity(&pair), Verdict::Culled);
+//! ```
+//!
+//! # What is promised
+//! * Every function marked *certified* or *exact* covers its own rounding: it never culls a pair that
+//!   touches at some time in [0, 1], whatever the input, under IEEE 754 arithmetic that rounds to nearest.
+//! * NaN, infinite or overflowing input is always kept.
+//! * No allocation, no `unsafe`, no panic, no dependence on `std`.
+//! * The published baselines ([`filter::plain`], [`elementary::cubic`]) promise nothing of the kind and say so.
+//!
+//! # The rooms
+//! | module | what it does | promise |
+//! |---|---|---|
+//! | [`motion`] | the two primitive pairs, in [`glam`] types | |
+//! | [`coplanarity`] | the signed volume of four moving points, as a cubic in Bernstein form, and its rounding error | proven bound |
+//! | [`filter`] | culls pairs that are never coplanar | certified, or plain as in the paper |
+//! | [`boxes`] | swept boxes, segment against box, relative boxes, 18-DOPs | exact or certified |
+//! | [`features`], [`distribution`] | representative features of a triangle; a candidate triangle pair to its primitive pairs | each pair once |
+//! | [`elementary`] | time of impact | plain cubic (baseline) |
+//!
+//! # Words
+//! The paper that this work starts from (Lv, He, Mi: *Improved Method in Lower Tailoring of Self-collision
+//! Detection of Arm Cloth Simulation*) says *lower tailoring* for culling primitive pairs, *higher tailoring*
+//! for the broad phase, *PCTP* for a candidate triangle pair and *basic intersection test* for the elementary
+//! test. We use the field's words.
 #![no_std]
 #![forbid(unsafe_code)]
+
 pub use glam;
+
+pub mod boxes;
+pub mod coplanarity;
+pub mod distribution;
+pub mod elementary;
+pub mod features;
+pub mod filter;
+pub mod lanes;
+pub mod motion;
+pub mod scalar;
+pub mod vector;
+mod verdict;
+
+pub use features::{FeatureEdge, FeatureTriangle, Features};
+pub use lanes::{Lanes, Rounding};
+pub use motion::{EdgeEdge, Motion, PrimitivePair, VertexFace};
+pub use scalar::{Position, Scalar};
+pub use vector::Vector;
+pub use verdict::Verdict;

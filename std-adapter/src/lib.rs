@@ -1,6 +1,11 @@
-//! Finds which vertex-face and edge-edge pairs of a deforming mesh can collide during a time step.
+//! Finds which vertex–face and edge–edge pairs of a deforming triangle mesh can collide during a time step.
 
+pub mod broad_phase;
 pub mod mesh;
+mod parallel;
+pub mod pipeline;
 pub mod scene;
+pub mod study;
 
 pub use selvedge_core as core;
+pub use selvedge_core::glam;

@@ -1,0 +1,134 @@
+//! When are four moving points coplanar? The signed volume as a cubic, and how far rounding can move it.
+//!
+//! # The cubic
+//! Four points a, b, c, p move linearly. With B = b − a, C = c − a, P = p − a the signed volume
+//! K(t) = P(t) · (B(t) × C(t)) is zero exactly when they are coplanar. It is a cubic in t, in Bernstein form
+//! k₀(1−t)³ + 3k₁(1−t)²t + 3k₂(1−t)t² + k₃t³. With n₀ = B₀×C₀, n₁ = B₁×C₁ and h = B₀×C₁ + B₁×C₀
+//!
+//! ```text
+//!  k₀ = P₀·n₀          3k₁ = P₀·h + P₁·n₀
+//!  k₃ = P₁·n₁          3k₂ = P₁·h + P₀·n₁
+//! ```
+//!
+//! the polar form (blossom) of the triple product. The paper's equation (14) has n₀ + n₁ − (v_b − v_a)×(v_c − v_a)
+//! in place of h: the same in exact arithmetic, but it cancels, and its rounding error is not bounded by the
+//! magnitudes that bound ours. Only [`filter::plain`](crate::filter::plain) uses it.
+//!
+//! K lies in the convex hull of its control values: if all four are positive, or all four negative, K has no root in [0, 1].
+//! VF and EE share one kernel because the volume does not depend on which of the four points is the base.
+//!
+//! # Rounding
+//! u is the unit roundoff. Let P̂ᵢ be the expression of kᵢ in the same order with magnitudes for components and
+//! additions for subtractions (its *permanent*). A monomial of k₀ or k₃ passes through 3 differences, a product,
+//! a subtraction, a product and 2 additions: 8 roundings. One of 3k₁ or 3k₂ passes through one addition more in h
+//! and one more at the end: 10. Computing P̂ itself loses as many; that second-order part is covered because
+//! rounding is monotone: the last addition of kᵢ cannot cross a floating-point number, which leaves 7 and 9 that
+//! count. Hence
+//!
+//! ```text
+//!  |kᵢ(computed) − kᵢ| ≤ Eᵢ = Cᵢ·P̂ᵢ + (p_max + 1)·η,    C₀ = C₃ = 8u,   C₁ = C₂ = 10u (for 3k₁, 3k₂)
+//! ```
+//!
+//! in the sense that a computed kᵢ > Eᵢ proves kᵢ > 0.
+//!
+//! **Underflow.** Additions and subtractions are exact when their result is subnormal. Each product loses at most
+//! half of the smallest subnormal, η₀ = 2⁻¹⁰⁷⁵ (`f64`) or 2⁻¹⁵⁰ (`f32`); with p_max the largest component of P₀ and
+//! P₁ the sum is at most (6·p_max + 3)·η₀ for k₀ and (18·p_max + 6)·η₀ for 3k₁. η = 32·η₀
+//! ([`Rounding::UNDERFLOW`]) covers it and the rounding of E.
+//!
+//! **Overflow and NaN.** P̂ is at least as large as every intermediate result, so whatever overflows makes Eᵢ infinite
+//! or NaN, and the ordered comparisons that decide are false.
+
+use crate::lanes::{Lanes, Rounding};
+use crate::vector::Vector;
+
+/// A moving tetrahedron a b c p, as its three edges from a, each at the start and at the end of the step.
+#[derive(Clone, Copy, Debug)]
+pub struct MovingTetrahedron<L> {
+    /// b − a at times 0 and 1.
+    pub b: [Vector<L>; 2],
+    /// c − a at times 0 and 1.
+    pub c: [Vector<L>; 2],
+    /// p − a at times 0 and 1.
+    pub p: [Vector<L>; 2],
+}
+
+/// The control values k₀, 3k₁, 3k₂, k₃ of the signed volume (the middle ones tripled, which saves a rounded division
+/// and changes no sign).
+#[derive(Clone, Copy, Debug)]
+pub struct ControlValues<L>(pub [L; 4]);
+
+impl<L: Lanes> MovingTetrahedron<L> {
+    /// Differences of four points, each given at times 0 and 1; every difference is rounded once.
+    #[inline(always)]
+    #[must_use]
+    pub fn from_points(
+        a: [Vector<L>; 2],
+        b: [Vector<L>; 2],
+        c: [Vector<L>; 2],
+        p: [Vector<L>; 2],
+    ) -> Self {
+        let from_a = |[start, end]: [Vector<L>; 2]| [start - a[0], end - a[1]];
+        Self {
+            b: from_a(b),
+            c: from_a(c),
+            p: from_a(p),
+        }
+    }
+
+    /// The control values, in blossom form, rounded. [`error_bounds`](Self::error_bounds) says by how much.
+    #[inline(always)]
+    #[must_use]
+    pub fn control_values(&self) -> ControlValues<L> {
+        let ([b0, b1], [c0, c1], [p0, p1]) = (self.b, self.c, self.p);
+        let (n0, n1) = (b0.cross(c0), b1.cross(c1));
+        let h = b0.cross(c1) + b1.cross(c0);
+        ControlValues([
+            p0.dot(n0),
+            p0.dot(h) + p1.dot(n0),
+            p1.dot(h) + p0.dot(n1),
+            p1.dot(n1),
+        ])
+    }
+
+    /// Eᵢ of the module's documentation: a computed control value above Eᵢ (below −Eᵢ) proves that the exact one is
+    /// positive (negative). Infinite or NaN on overflow.
+    #[inline(always)]
+    #[must_use]
+    pub fn error_bounds(&self) -> [L; 4] {
+        let magnitudes = |[start, end]: [Vector<L>; 2]| [start.abs(), end.abs()];
+        let ([b0, b1], [c0, c1], [p0, p1]) =
+            (magnitudes(self.b), magnitudes(self.c), magnitudes(self.p));
+        let (n0, n1) = (b0.cross_permanent(c0), b1.cross_permanent(c1));
+        let h = b0.cross_permanent(c1) + b1.cross_permanent(c0);
+
+        let constant = |value| p0.x.splat(value);
+        let roundoffs =
+            |count| constant(L::Scalar::UNIT_ROUNDOFF) * constant(L::Scalar::small(count));
+        let (outer, inner) = (roundoffs(8), roundoffs(10));
+        let p_max = p0.larger(p1).largest();
+        let underflow = (p_max + constant(L::Scalar::ONE)) * constant(L::Scalar::UNDERFLOW);
+        [
+            outer * p0.dot(n0) + underflow,
+            inner * (p0.dot(h) + p1.dot(n0)) + underflow,
+            inner * (p1.dot(h) + p0.dot(n1)) + underflow,
+            outer * p1.dot(n1) + underflow,
+        ]
+    }
+}
+
+impl<L: Lanes> ControlValues<L> {
+    /// All four above `bounds`, or all four below their negatives. False with NaN.
+    #[inline(always)]
+    #[must_use]
+    pub fn one_sign_beyond(&self, bounds: [L; 4]) -> L::Mask {
+        let [k0, k1, k2, k3] = self.0;
+        let [e0, e1, e2, e3] = bounds;
+        // Eight ordered comparisons rather than a smallest and a largest value: a comparison is false on NaN,
+        // while the vector minimum of most machines drops it.
+        let above = (k0.greater(e0) & k1.greater(e1)) & (k2.greater(e2) & k3.greater(e3));
+        let below =
+            ((-e0).greater(k0) & (-e1).greater(k1)) & ((-e2).greater(k2) & (-e3).greater(k3));
+        above | below
+    }
+}

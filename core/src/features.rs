@@ -1,0 +1,93 @@
+//! Representative features: which of its vertices and edges a triangle stands for.
+//!
+//! Triangles of a mesh share vertices and edges, so the 15 primitive pairs of each candidate triangle pair hold
+//! the same pair many times. Curtis et al. 2008 give every vertex and every edge to exactly one of its triangles,
+//! its *representative*; a pair is tested only where both representatives meet (a face represents itself). The paper
+//! adds that each triangle lists the features it represents first, so that two counts describe them.
+
+/// How many vertices and edges a triangle represents, in one byte: they come first in its lists.
+///
+/// ```
+/// use selvedge_core::Features;
+/// let features = Features::new(1, 2).unwrap();
+/// assert_eq!((features.vertices(), features.edges()), (1, 2));
+/// assert!(Features::new(4, 0).is_none());
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Features(u8); // bits 0 and 1: vertices; bits 2 and 3: edges
+
+impl Features {
+    /// Represents nothing.
+    pub const NONE: Self = Self(0);
+    /// Represents all three vertices and all three edges.
+    pub const ALL: Self = Self(0b1111);
+
+    /// `None` if a triangle has not that many.
+    #[must_use]
+    pub const fn new(vertices: u8, edges: u8) -> Option<Self> {
+        if vertices > 3 || edges > 3 {
+            return None;
+        }
+        Some(Self(vertices | edges << 2))
+    }
+
+    /// How many vertices, 0 to 3.
+    #[inline(always)]
+    #[must_use]
+    pub const fn vertices(self) -> usize {
+        (self.0 & 0b11) as usize
+    }
+
+    /// How many edges, 0 to 3.
+    #[inline(always)]
+    #[must_use]
+    pub const fn edges(self) -> usize {
+        (self.0 >> 2) as usize
+    }
+
+    /// Whether two triangles with these features have any pair to test (the paper's *compatible feature pairs*): a
+    /// vertex on either side, or an edge on both.
+    #[inline(always)]
+    #[must_use]
+    pub const fn are_compatible(self, other: Self) -> bool {
+        (self.0 | other.0) & 0b11 != 0 || (self.0 >> 2 != 0 && other.0 >> 2 != 0)
+    }
+}
+
+/// An edge of a triangle: its identity and the identities of its two ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FeatureEdge<I> {
+    /// Which edge of the mesh.
+    pub edge: I,
+    /// Which vertices it joins.
+    pub ends: [I; 2],
+}
+
+/// A triangle as distribution sees it: its identity, its vertices and edges with those it represents first.
+///
+/// `I` is whatever the caller names vertices, edges and faces by; only equality of vertices matters here.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FeatureTriangle<I> {
+    /// Which face of the mesh.
+    pub face: I,
+    /// Its vertices, represented ones first.
+    pub vertices: [I; 3],
+    /// Its edges, represented ones first.
+    pub edges: [FeatureEdge<I>; 3],
+    /// How many of each it represents.
+    pub features: Features,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Features;
+
+    #[test]
+    fn compatible_means_a_vertex_on_either_side_or_an_edge_on_both() {
+        for (v, e, w, f) in (0..256u32).map(|k| (k & 3, k >> 2 & 3, k >> 4 & 3, k >> 6)) {
+            let [v, e, w, f] = [v, e, w, f].map(|k| k as u8);
+            let (a, b) = (Features::new(v, e).unwrap(), Features::new(w, f).unwrap());
+            assert_eq!(a.are_compatible(b), v > 0 || w > 0 || (e > 0 && f > 0));
+        }
+    }
+}

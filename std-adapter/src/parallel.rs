@@ -1,0 +1,70 @@
+//! Loops that run on the rayon pool they are called in when it has more than one thread, and touch no pool otherwise.
+//!
+//! Outside a pool there is one thread: rayon's global pool is never started behind a caller's back, and code that is not
+//! run in a pool allocates nothing for it.
+
+use rayon::prelude::*;
+
+/// Whether work should be split between threads.
+pub(crate) fn has_many_threads() -> bool {
+    rayon::current_thread_index().is_some() && rayon::current_num_threads() > 1
+}
+
+/// Calls `action` with each item and its index.
+pub(crate) fn for_each<T: Send>(items: &mut [T], action: impl Fn(usize, &mut T) + Sync) {
+    if items.len() > 1 && has_many_threads() {
+        items
+            .par_iter_mut()
+            .enumerate()
+            .for_each(|(index, item)| action(index, item));
+    } else {
+        for (index, item) in items.iter_mut().enumerate() {
+            action(index, item);
+        }
+    }
+}
+
+/// Replaces `output` by `make` of each input.
+pub(crate) fn fill<I: Sync, O: Send>(
+    output: &mut Vec<O>,
+    input: &[I],
+    make: impl Fn(&I) -> O + Sync + Send,
+) {
+    if has_many_threads() {
+        input.par_iter().map(make).collect_into_vec(output);
+    } else {
+        output.clear();
+        output.extend(input.iter().map(make));
+    }
+}
+
+/// Calls both, in any order.
+pub(crate) fn both(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+    if has_many_threads() {
+        rayon::join(one, other);
+    } else {
+        one();
+        other();
+    }
+}
+
+/// Calls `action` with each item, its index, and its chunk of `others`, `size` long.
+pub(crate) fn for_each_with_chunk<T: Send, U: Send>(
+    items: &mut [T],
+    others: &mut [U],
+    size: usize,
+    action: impl Fn(usize, &mut T, &mut [U]) + Sync,
+) {
+    if items.len() > 1 && has_many_threads() {
+        let chunks = others.par_chunks_mut(size);
+        items
+            .par_iter_mut()
+            .zip(chunks)
+            .enumerate()
+            .for_each(|(index, (item, chunk))| action(index, item, chunk));
+    } else {
+        for (index, (item, chunk)) in items.iter_mut().zip(others.chunks_mut(size)).enumerate() {
+            action(index, item, chunk);
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! The stages after the broad phase, on one batch of candidate triangle pairs that stays in the cache.
+
+use super::Distributed;
+use super::assignment::FeatureAssignment;
+use super::dops::StoredDops;
+use super::pairs::{Contact, MovingMesh, PairKind};
+use super::preset::{CullingTest, ElementaryTest, Stages};
+use super::report::PairCounts;
+use arrayvec::ArrayVec;
+use selvedge_core::distribution::distribute;
+use selvedge_core::{EdgeEdge, Scalar, Verdict, VertexFace, boxes, elementary, filter};
+use std::time::Instant;
+
+/// What every batch of a step reads.
+#[derive(Clone, Copy)]
+pub(super) struct StepInput<'a, S: Scalar> {
+    pub(super) mesh: MovingMesh<'a, S>,
+    pub(super) dops: &'a StoredDops<S>,
+    pub(super) stages: Stages,
+}
+
+/// Survivors and seconds of one stage.
+pub(super) type Tally = (PairCounts, f64);
+
+/// Primitive pairs on their way through the stages. Each stage drops pairs in place; their order never changes.
+#[derive(Clone, Debug)]
+pub(super) struct Batch<S> {
+    pub(super) vertex_face: Vec<[u32; 2]>,
+    pub(super) edge_edge: Vec<[u32; 2]>,
+    pub(super) contacts: Vec<Contact<S>>,
+    /// Distribution, each culling test, the elementary test.
+    pub(super) tallies: ArrayVec<Tally, 8>,
+}
+
+impl<S: Scalar> Batch<S> {
+    /// Room for the primitive pairs of so many candidate triangle pairs, so that no step has to make more.
+    pub(super) fn with_capacity(triangle_pairs: usize) -> Self {
+        Self {
+            vertex_face: Vec::with_capacity(6 * triangle_pairs),
+            edge_edge: Vec::with_capacity(9 * triangle_pairs),
+            contacts: Vec::with_capacity(15 * triangle_pairs),
+            tallies: ArrayVec::new(),
+        }
+    }
+
+    pub(super) fn counts(&self) -> PairCounts {
+        PairCounts {
+            vertex_face: self.vertex_face.len() as u64,
+            edge_edge: self.edge_edge.len() as u64,
+        }
+    }
+
+    /// Replaces the batch by the primitive pairs of `triangle_pairs`.
+    pub(super) fn distribute(
+        &mut self,
+        triangle_pairs: &[[u32; 2]],
+        assignment: &FeatureAssignment,
+    ) {
+        let begin = Instant::now();
+        self.vertex_face.clear();
+        self.edge_edge.clear();
+        self.contacts.clear();
+        self.tallies.clear();
+        let triangles = assignment.triangles();
+        for &[a, b] in triangle_pairs {
+            let pairs = distribute(&triangles[a as usize], &triangles[b as usize]);
+            self.vertex_face.extend_from_slice(&pairs.vertex_face);
+            self.edge_edge.extend_from_slice(&pairs.edge_edge);
+        }
+        self.tallies
+            .push((self.counts(), begin.elapsed().as_secs_f64()));
+    }
+
+    /// Drops the pairs that were distributed before, and notes the others. Belongs to distribution, and is counted there.
+    pub(super) fn keep_new(&mut self, distributed: &mut Distributed) {
+        let begin = Instant::now();
+        keep_where(&mut self.vertex_face, |pair| {
+            distributed.vertex_face.insert(pair)
+        });
+        keep_where(&mut self.edge_edge, |[a, b]| {
+            distributed.edge_edge.insert([a.min(b), a.max(b)])
+        });
+        let counts = self.counts();
+        if let Some((survivors, seconds)) = self.tallies.first_mut() {
+            *survivors = counts;
+            *seconds += begin.elapsed().as_secs_f64();
+        }
+    }
+
+    /// The culling tests in their order.
+    pub(super) fn cull(&mut self, step: &StepInput<'_, S>) {
+        for &test in step.stages.tests {
+            let begin = Instant::now();
+            self.cull_by(test, step);
+            self.tallies
+                .push((self.counts(), begin.elapsed().as_secs_f64()));
+        }
+    }
+
+    fn cull_by(&mut self, test: CullingTest, step: &StepInput<'_, S>) {
+        match test {
+            CullingTest::SweptBoxes => {
+                self.keep(step, boxes::swept_boxes, boxes::swept_boxes);
+            }
+            CullingTest::StoredDop18 => {
+                let dops = step.dops;
+                keep_where(&mut self.vertex_face, |pair| dops.vertex_face_overlap(pair));
+                keep_where(&mut self.edge_edge, |pair| dops.edge_edge_overlap(pair));
+            }
+            CullingTest::SegmentBox => {
+                self.keep(step, boxes::segment::vertex_face, boxes::swept_boxes);
+            }
+            CullingTest::RelativeBoxes | CullingTest::SubspaceThree => {
+                self.keep(
+                    step,
+                    boxes::relative::three_axes,
+                    boxes::relative::three_axes,
+                );
+            }
+            CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => {
+                self.keep(
+                    step,
+                    boxes::relative::nine_directions,
+                    boxes::relative::nine_directions,
+                );
+            }
+            CullingTest::PlainNonCoplanarity => {
+                self.keep(
+                    step,
+                    filter::plain::non_coplanarity,
+                    filter::plain::non_coplanarity,
+                );
+            }
+            CullingTest::CertifiedNonCoplanarity => {
+                self.keep(
+                    step,
+                    filter::certified::non_coplanarity,
+                    filter::certified::non_coplanarity,
+                );
+            }
+        }
+    }
+
+    /// Drops what the two tests cull.
+    fn keep(
+        &mut self,
+        step: &StepInput<'_, S>,
+        vertex_face: impl Fn(&VertexFace<S>) -> Verdict,
+        edge_edge: impl Fn(&EdgeEdge<S>) -> Verdict,
+    ) {
+        let mesh = step.mesh;
+        keep_where(&mut self.vertex_face, |pair| {
+            !vertex_face(&mesh.vertex_face(pair)).is_culled()
+        });
+        keep_where(&mut self.edge_edge, |pair| {
+            !edge_edge(&mesh.edge_edge(pair)).is_culled()
+        });
+    }
+
+    /// The elementary test of what is left: fills `contacts`, vertex–face first.
+    pub(super) fn find_contacts(&mut self, step: &StepInput<'_, S>) {
+        let begin = Instant::now();
+        let mesh = step.mesh;
+        let ElementaryTest::Cubic = step.stages.elementary;
+        let contact = |kind, pair| move |time| Contact { kind, pair, time };
+        let vertex_face = self.vertex_face.iter().filter_map(|&pair| {
+            let time = elementary::cubic::vertex_face(&mesh.vertex_face(pair));
+            time.map(contact(PairKind::VertexFace, pair))
+        });
+        self.contacts.extend(vertex_face);
+        let found_vertex_face = self.contacts.len() as u64;
+        let edge_edge = self.edge_edge.iter().filter_map(|&pair| {
+            let time = elementary::cubic::edge_edge(&mesh.edge_edge(pair));
+            time.map(contact(PairKind::EdgeEdge, pair))
+        });
+        self.contacts.extend(edge_edge);
+        let found = PairCounts {
+            vertex_face: found_vertex_face,
+            edge_edge: self.contacts.len() as u64 - found_vertex_face,
+        };
+        self.tallies.push((found, begin.elapsed().as_secs_f64()));
+    }
+}
+
+/// Like `Vec::retain`, without a branch on the outcome: what survives is hard to predict.
+fn keep_where(pairs: &mut Vec<[u32; 2]>, mut keep: impl FnMut([u32; 2]) -> bool) {
+    let mut kept = 0;
+    for read in 0..pairs.len() {
+        let pair = pairs[read];
+        pairs[kept] = pair;
+        kept += usize::from(keep(pair));
+    }
+    pairs.truncate(kept);
+}

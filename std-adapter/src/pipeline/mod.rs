@@ -1,0 +1,388 @@
+//! From two frames of a mesh to the primitive pairs that may collide, and those that do.
+//!
+//! ```text
+//! triangles, positions at the start and at the end of the step
+//!   │  once per mesh    feature assignment: each vertex and edge gets one representative triangle
+//!   │  every step       broad phase over swept triangle boxes
+//!   ▼
+//! candidate triangle pairs
+//!   │  distribution     at most 6 VF and 9 EE pairs each
+//!   │  culling tests    boxes, relative boxes, non-coplanarity: a method's choice
+//!   ▼
+//! candidate primitive pairs
+//!   │  elementary test
+//!   ▼
+//! contacts
+//! ```
+//!
+//! A published method is a [`Preset`]: a choice of stages ([`Stages`]), never another loop. All presets run the
+//! same code, on the same broad phase, so their times compare.
+//!
+//! ```
+//! use selvedge::{glam::DVec3, mesh::Topology, pipeline::{Pipeline, Preset}};
+//!
+//! // A small triangle falls through a large one.
+//! let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?;
+//! let mut start = vec![DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, -5.0, 0.0), DVec3::new(0.0, 5.0, 0.0)];
+//! start.extend([DVec3::new(0.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 1.1), DVec3::new(0.0, 1.0, 1.2)]);
+//! let mut end = start.clone();
+//! for vertex in &mut end[3..] {
+//!     vertex.z -= 4.0;
+//! }
+//!
+//! let mut pipeline = Pipeline::<f64>::new(topology, Preset::Selvedge.stages(), 1)?;
+//! let report = pipeline.step(&start, &end)?;
+//! assert_eq!((report.triangle_pairs, report.contacts().vertex_face), (1, 3));
+//! assert_eq!(pipeline.contacts()[0].time, 0.25);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod assignment;
+mod batch;
+mod dops;
+mod pairs;
+mod preset;
+mod report;
+mod swept;
+
+pub use assignment::FeatureAssignment;
+pub use pairs::{Contact, PairKind};
+pub use preset::{CullingTest, ElementaryTest, Preset, Redundancy, Stage, Stages, UnknownPreset};
+pub use report::{PairCounts, StageReport, StepReport};
+
+use crate::broad_phase::{BroadPhase, SweptBox};
+use crate::mesh::Topology;
+use crate::parallel;
+use batch::{Batch, StepInput};
+use dops::StoredDops;
+use pairs::MovingMesh;
+use rustc_hash::FxHashSet;
+use selvedge_core::{Motion, Scalar};
+use std::time::Instant;
+
+/// Candidate triangle pairs in a batch. Their primitive pairs take at most a quarter of a megabyte, so that a batch
+/// goes through all stages in a core's own cache; smaller batches gain nothing and pay for the clock more often.
+const BATCH: usize = 2048;
+
+/// A method, set up for one mesh; [`step`](Self::step) runs it on one time step after another.
+///
+/// Contacts and counts are the same, in the same order, for any number of threads. After the first step nothing is
+/// allocated unless a step has more pairs than any before (with several threads rayon may still allocate for its queues).
+#[derive(Debug)]
+pub struct Pipeline<S: Scalar> {
+    topology: Topology,
+    assignment: FeatureAssignment,
+    stages: Stages,
+    pool: Option<rayon::ThreadPool>,
+    buffers: Buffers<S>,
+    report: StepReport,
+}
+
+/// What is filled anew in each step.
+#[derive(Debug)]
+struct Buffers<S: Scalar> {
+    keep_candidates: bool,
+    motions: Vec<Motion<S>>,
+    swept: Vec<SweptBox>,
+    broad_phase: BroadPhase,
+    triangle_pairs: Vec<[u32; 2]>,
+    dops: StoredDops<S>,
+    batches: Vec<Batch<S>>,
+    distributed: Distributed,
+    candidates: [Vec<[u32; 2]>; 2],
+    contacts: Vec<Contact<S>>,
+}
+
+/// The primitive pairs distributed so far in this step, for [`Redundancy::HashSets`].
+#[derive(Debug, Default)]
+struct Distributed {
+    vertex_face: FxHashSet<[u32; 2]>,
+    edge_edge: FxHashSet<[u32; 2]>,
+}
+
+/// Why a step could not be run. The pipeline is as it was and can run another.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepError {
+    /// A frame has too few or too many positions.
+    #[error("the {frame} frame has {found} positions, but the mesh has {expected} vertices")]
+    WrongLength {
+        /// `"start"` or `"end"`.
+        frame: &'static str,
+        /// The length of the slice.
+        found: usize,
+        /// The mesh's vertices.
+        expected: usize,
+    },
+    /// A position is NaN or infinite. (Culling would keep every pair of that vertex; better to say so.)
+    #[error(
+        "the {frame} frame has a coordinate that is not a finite number: vertex {vertex} is at {position}"
+    )]
+    NotFinite {
+        /// `"start"` or `"end"`.
+        frame: &'static str,
+        /// The first such vertex.
+        vertex: usize,
+        /// Its position.
+        position: String,
+    },
+}
+
+/// The threads of a [`Pipeline`] could not be started.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot start {threads} threads: {source}")]
+pub struct ThreadError {
+    threads: usize,
+    source: rayon::ThreadPoolBuildError,
+}
+
+impl<S: Scalar> Pipeline<S> {
+    /// Prepares `stages` for a mesh, on `threads` threads (0: one for each core).
+    ///
+    /// With one thread everything runs on the calling thread, and no pool is made.
+    ///
+    /// # Errors
+    /// If the operating system refuses the threads.
+    pub fn new(topology: Topology, stages: Stages, threads: usize) -> Result<Self, ThreadError> {
+        let pool = match threads {
+            1 => None,
+            threads => Some(
+                rayon::ThreadPoolBuilder::new()
+                    .num_threads(threads)
+                    .build()
+                    .map_err(|source| ThreadError { threads, source })?,
+            ),
+        };
+        let assignment = match stages.redundancy {
+            Redundancy::RepresentativeTriangles => FeatureAssignment::representative(&topology),
+            Redundancy::Kept | Redundancy::HashSets => FeatureAssignment::every_feature(&topology),
+        };
+        // A few batches for each thread, so that an unlucky one does not keep the others waiting.
+        let batches = pool
+            .as_ref()
+            .map_or(1, |pool| 4 * pool.current_num_threads());
+        Ok(Self {
+            buffers: Buffers {
+                keep_candidates: false,
+                motions: Vec::with_capacity(topology.vertex_count()),
+                swept: Vec::with_capacity(topology.triangles().len()),
+                broad_phase: BroadPhase::new(),
+                triangle_pairs: Vec::new(),
+                dops: StoredDops::new(),
+                batches: vec![Batch::with_capacity(BATCH); batches],
+                distributed: Distributed::default(),
+                candidates: [Vec::new(), Vec::new()],
+                contacts: Vec::new(),
+            },
+            report: StepReport::default(),
+            topology,
+            assignment,
+            stages,
+            pool,
+        })
+    }
+
+    /// Whether the pairs that reach the elementary test are kept for [`candidates`](Self::candidates). Off at first.
+    pub const fn keep_candidates(&mut self, keep: bool) {
+        self.buffers.keep_candidates = keep;
+    }
+
+    /// Runs the step from `start` to `end`, one position for each vertex, in any length unit.
+    ///
+    /// # Errors
+    /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
+    pub fn step(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+    ) -> Result<&StepReport, StepError> {
+        for (frame, positions) in [("start", start), ("end", end)] {
+            check_frame::<S>(frame, positions, self.topology.vertex_count())?;
+        }
+        let Self {
+            topology,
+            assignment,
+            stages,
+            pool,
+            buffers,
+            report,
+        } = self;
+        let mut run = || buffers.step(topology, assignment, *stages, start, end, report);
+        match pool {
+            Some(pool) => pool.install(run),
+            None => run(),
+        }
+        Ok(report)
+    }
+
+    /// The contacts of the last step: batch by batch in the order of candidate triangle pairs.
+    #[must_use]
+    pub fn contacts(&self) -> &[Contact<S>] {
+        &self.buffers.contacts
+    }
+
+    /// The pairs of the last step that reached the elementary test, if they are [kept](Self::keep_candidates).
+    #[must_use]
+    pub fn candidates(&self, kind: PairKind) -> &[[u32; 2]] {
+        &self.buffers.candidates[kind as usize]
+    }
+
+    /// What the last step counted and how long it took.
+    #[must_use]
+    pub const fn report(&self) -> &StepReport {
+        &self.report
+    }
+
+    /// The mesh's vertices, edges and triangles.
+    #[must_use]
+    pub const fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    /// How many threads a step uses.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        self.pool
+            .as_ref()
+            .map_or(1, rayon::ThreadPool::current_num_threads)
+    }
+}
+
+impl<S: Scalar> Buffers<S> {
+    fn step(
+        &mut self,
+        topology: &Topology,
+        assignment: &FeatureAssignment,
+        stages: Stages,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        report: &mut StepReport,
+    ) {
+        let begin = Instant::now();
+        self.motions.clear();
+        self.motions.extend(
+            start
+                .iter()
+                .zip(end)
+                .map(|(&start, &end)| Motion::new(start, end)),
+        );
+        swept::triangle_boxes(&mut self.swept, topology, &self.motions);
+        self.broad_phase.update(&self.swept);
+        self.broad_phase
+            .candidate_triangle_pairs(&mut self.triangle_pairs);
+        report.broad_phase_seconds = begin.elapsed().as_secs_f64();
+        report.triangle_pairs = self.triangle_pairs.len() as u64;
+
+        self.primitive_stages(topology, assignment, stages, report);
+        report.seconds = begin.elapsed().as_secs_f64();
+    }
+
+    fn primitive_stages(
+        &mut self,
+        topology: &Topology,
+        assignment: &FeatureAssignment,
+        stages: Stages,
+        report: &mut StepReport,
+    ) {
+        let names = std::iter::once(Stage::Distribution)
+            .chain(stages.tests.iter().map(|test| test.stage()))
+            .chain([Stage::Elementary]);
+        report.stages = names
+            .map(|stage| StageReport {
+                stage,
+                survivors: PairCounts::default(),
+                seconds: 0.0,
+            })
+            .collect();
+        self.contacts.clear();
+        self.candidates.iter_mut().for_each(Vec::clear);
+        self.distributed.vertex_face.clear();
+        self.distributed.edge_edge.clear();
+
+        let mesh = MovingMesh {
+            topology,
+            motions: &self.motions,
+        };
+        if let Some(test) = stages
+            .tests
+            .iter()
+            .position(|&test| test == CullingTest::StoredDop18)
+        {
+            let begin = Instant::now();
+            self.dops.refit(mesh);
+            report.stages[1 + test].seconds += begin.elapsed().as_secs_f64();
+        }
+        let step = StepInput {
+            mesh,
+            dops: &self.dops,
+            stages,
+        };
+
+        for pairs in self.triangle_pairs.chunks(BATCH * self.batches.len()) {
+            let batches = &mut self.batches[..pairs.len().div_ceil(BATCH)];
+            let distribute = |index: usize, batch: &mut Batch<S>| {
+                let pairs = &pairs[index * BATCH..pairs.len().min((index + 1) * BATCH)];
+                batch.distribute(pairs, assignment);
+            };
+            let finish = |batch: &mut Batch<S>| {
+                batch.cull(&step);
+                batch.find_contacts(&step);
+            };
+            if stages.redundancy == Redundancy::HashSets {
+                // The sets are asked in order, by one thread: whichever pair comes first stays.
+                parallel::for_each(batches, distribute);
+                batches
+                    .iter_mut()
+                    .for_each(|batch| batch.keep_new(&mut self.distributed));
+                parallel::for_each(batches, |_, batch| finish(batch));
+            } else {
+                parallel::for_each(batches, |index, batch| {
+                    distribute(index, batch);
+                    finish(batch);
+                });
+            }
+            for batch in batches {
+                for (stage, &(survivors, seconds)) in report.stages.iter_mut().zip(&batch.tallies) {
+                    stage.survivors += survivors;
+                    stage.seconds += seconds;
+                }
+                if self.keep_candidates {
+                    self.candidates[PairKind::VertexFace as usize]
+                        .extend_from_slice(&batch.vertex_face);
+                    self.candidates[PairKind::EdgeEdge as usize]
+                        .extend_from_slice(&batch.edge_edge);
+                }
+                self.contacts.extend_from_slice(&batch.contacts);
+            }
+        }
+    }
+}
+
+fn check_frame<S: Scalar>(
+    frame: &'static str,
+    positions: &[S::Vector],
+    expected: usize,
+) -> Result<(), StepError> {
+    if positions.len() != expected {
+        return Err(StepError::WrongLength {
+            frame,
+            found: positions.len(),
+            expected,
+        });
+    }
+    let is_finite = |&position: &S::Vector| {
+        let coordinates: [S; 3] = position.into();
+        coordinates.into_iter().all(Scalar::is_finite)
+    };
+    match positions.iter().position(|position| !is_finite(position)) {
+        None => Ok(()),
+        Some(vertex) => {
+            let [x, y, z]: [S; 3] = positions[vertex].into();
+            Err(StepError::NotFinite {
+                frame,
+                vertex,
+                position: format!("({x}, {y}, {z})"),
+            })
+        }
+    }
+}

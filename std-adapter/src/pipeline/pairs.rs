@@ -1,0 +1,88 @@
+//! Primitive pairs by the numbers of their features, and the points that belong to them.
+
+use crate::mesh::Topology;
+use selvedge_core::{EdgeEdge, Motion, Scalar, VertexFace};
+use std::fmt;
+
+/// Which of the two kinds a primitive pair is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum PairKind {
+    /// A vertex and a face.
+    VertexFace,
+    /// Two edges.
+    EdgeEdge,
+}
+
+/// A pair that the elementary test found to touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact<S> {
+    /// Vertex–face or edge–edge.
+    pub kind: PairKind,
+    /// The vertex and the face, or the two edges, as numbered by the [`Topology`].
+    pub pair: [u32; 2],
+    /// When, in [0, 1] of the step.
+    pub time: S,
+}
+
+impl PairKind {
+    /// `"vertex-face"` or `"edge-edge"`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::VertexFace => "vertex-face",
+            Self::EdgeEdge => "edge-edge",
+        }
+    }
+
+    /// The four mesh vertices of a pair of this kind: the vertex and the face's three, or the two edges' ends.
+    ///
+    /// # Panics
+    /// If the pair is not of this mesh.
+    #[must_use]
+    pub fn vertices(self, pair: [u32; 2], topology: &Topology) -> [u32; 4] {
+        let [first, second] = pair.map(|feature| feature as usize);
+        match self {
+            Self::VertexFace => {
+                let [a, b, c] = topology.triangles()[second];
+                [pair[0], a, b, c]
+            }
+            Self::EdgeEdge => {
+                let ([a, b], [c, d]) = (topology.edges()[first], topology.edges()[second]);
+                [a, b, c, d]
+            }
+        }
+    }
+}
+
+impl fmt::Display for PairKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// The mesh with the motion of each vertex in one row: where the stages gather a pair's points from.
+#[derive(Clone, Copy)]
+pub(super) struct MovingMesh<'a, S: Scalar> {
+    pub(super) topology: &'a Topology,
+    pub(super) motions: &'a [Motion<S>],
+}
+
+impl<S: Scalar> MovingMesh<'_, S> {
+    #[inline(always)]
+    pub(super) fn vertex_face(&self, [vertex, face]: [u32; 2]) -> VertexFace<S> {
+        VertexFace {
+            vertex: self.motions[vertex as usize],
+            face: self.topology.triangles()[face as usize].map(|v| self.motions[v as usize]),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn edge_edge(&self, [first, second]: [u32; 2]) -> EdgeEdge<S> {
+        let edge =
+            |edge: u32| self.topology.edges()[edge as usize].map(|v| self.motions[v as usize]);
+        EdgeEdge {
+            first: edge(first),
+            second: edge(second),
+        }
+    }
+}

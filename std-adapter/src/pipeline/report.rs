@@ -1,0 +1,100 @@
+//! What a step counted and how long its stages took.
+
+use super::preset::Stage;
+use arrayvec::ArrayVec;
+use std::ops::AddAssign;
+
+/// How many pairs of each kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PairCounts {
+    /// Vertex–face pairs.
+    pub vertex_face: u64,
+    /// Edge–edge pairs.
+    pub edge_edge: u64,
+}
+
+impl PairCounts {
+    /// Both kinds together.
+    #[must_use]
+    pub const fn total(self) -> u64 {
+        self.vertex_face + self.edge_edge
+    }
+}
+
+impl AddAssign for PairCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.vertex_face += other.vertex_face;
+        self.edge_edge += other.edge_edge;
+    }
+}
+
+/// One stage after the broad phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StageReport {
+    /// Which stage.
+    pub stage: Stage,
+    /// The pairs that it passed on; for the elementary test, the contacts.
+    pub survivors: PairCounts,
+    /// Seconds, summed over threads.
+    pub seconds: f64,
+}
+
+/// One step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StepReport {
+    /// Candidate triangle pairs: their swept boxes overlap.
+    pub triangle_pairs: u64,
+    /// Seconds of the broad phase: boxes, refit or build, traversal.
+    pub broad_phase_seconds: f64,
+    /// The stages after it, in order, from distribution to the elementary test.
+    pub stages: ArrayVec<StageReport, 8>,
+    /// Seconds of the whole step by the clock on the wall.
+    pub seconds: f64,
+}
+
+impl StepReport {
+    /// What a stage passed on, if the method has that stage.
+    #[must_use]
+    pub fn survivors(&self, stage: Stage) -> Option<PairCounts> {
+        let report = self.stages.iter().find(|report| report.stage == stage)?;
+        Some(report.survivors)
+    }
+
+    /// The pairs that reach the elementary test.
+    #[must_use]
+    pub fn candidates(&self) -> PairCounts {
+        self.last_survivors(|stage| stage != Stage::Elementary)
+    }
+
+    /// The pairs after the last box test; where there is none, as distributed.
+    #[must_use]
+    pub fn after_boxes(&self) -> PairCounts {
+        self.last_survivors(|stage| stage == Stage::Distribution || stage.is_box_test())
+    }
+
+    /// The contacts found.
+    #[must_use]
+    pub fn contacts(&self) -> PairCounts {
+        self.survivors(Stage::Elementary).unwrap_or_default()
+    }
+
+    /// Adds the counts and times of another step of the same method (of any, to a report that is still empty).
+    pub fn add(&mut self, other: &Self) {
+        if self.stages.is_empty() {
+            self.stages.clone_from(&other.stages);
+        } else {
+            for (stage, other) in self.stages.iter_mut().zip(&other.stages) {
+                stage.survivors += other.survivors;
+                stage.seconds += other.seconds;
+            }
+        }
+        self.triangle_pairs += other.triangle_pairs;
+        self.broad_phase_seconds += other.broad_phase_seconds;
+        self.seconds += other.seconds;
+    }
+
+    fn last_survivors(&self, wanted: impl Fn(Stage) -> bool) -> PairCounts {
+        let last = self.stages.iter().rfind(|report| wanted(report.stage));
+        last.map(|report| report.survivors).unwrap_or_default()
+    }
+}
