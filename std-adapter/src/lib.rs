@@ -7,8 +7,8 @@ mod parallel;
 pub mod pipeline;
 #[cfg(feature = "files")]
 pub mod queries;
-pub mod study;
 pub mod scene;
+pub mod study;
 
 pub use pair_kind::{PairKind, ParsePairKindError};
 pub use selvedge_core as core;
