@@ -82,10 +82,12 @@ impl Block {
 #[inline]
 fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
-        let lane = mask.trailing_zeros() as usize;
-        mask &= mask.wrapping_sub(1);
-        // The remainder changes nothing but tells the compiler that the lane exists.
-        (lane < 32).then_some(lane % LANES)
+        (mask != 0).then(|| {
+            let lane = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            // The remainder changes nothing but tells the compiler that the lane exists.
+            lane % LANES
+        })
     })
 }
 
