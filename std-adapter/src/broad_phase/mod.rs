@@ -15,7 +15,7 @@
 //! (`output`).
 //!
 //! Nothing depends on the number of threads but the time. After the first step nothing is allocated,
-//! unless there are more overlaps than in any step before.
+//! unless some buffer needs half as much again as in any step before.
 //!
 //! ```
 //! use selvedge::broad_phase::{BroadPhase, SweptBox};
