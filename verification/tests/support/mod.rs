@@ -5,6 +5,8 @@
 
 #![allow(dead_code, reason = "each test file uses a part")]
 
+pub(crate) mod distance;
+
 use rug::Rational;
 
 pub(crate) type Point = [Rational; 3];
