@@ -339,7 +339,7 @@ impl Isolation {
         let variations = self.0.variations(index, bits);
         End {
             variations,
-            sign: self.0.polynomial().sign_at_dyadic(&index, bits),
+            sign: self.0.polynomial().sign_at_dyadic(index, bits),
         }
     }
 
