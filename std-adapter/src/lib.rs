@@ -2,9 +2,14 @@
 
 pub mod broad_phase;
 pub mod mesh;
+mod pair_kind;
 mod parallel;
 pub mod pipeline;
+#[cfg(feature = "files")]
+pub mod queries;
+pub mod scene;
 pub mod study;
 
+pub use pair_kind::{PairKind, ParsePairKindError};
 pub use selvedge_core as core;
 pub use selvedge_core::glam;
