@@ -44,7 +44,27 @@ pub fn read(path: &Path, kind: Option<PairKind>) -> Result<QueryFile, QueryError
             .ok_or_else(|| QueryError::UnknownKind {
                 path: path.to_owned(),
             })?;
+    read_from(source, path, kind)
+}
 
+/// Reads all queries from `source`, which holds what a file would; `path` is what messages and [`QueryFile::path`] call it.
+///
+/// # Errors
+///
+/// Those of [`read`] that concern the content.
+///
+/// ```
+/// use selvedge::{PairKind, queries::read_from};
+/// let rows = "1,2,0,1,-3,4\n".repeat(8);
+/// let file = read_from(rows.as_bytes(), "generated".as_ref(), PairKind::EdgeEdge)?;
+/// assert_eq!(file.queries[0].start[0].to_array(), [0.5, 0.0, -0.75]);
+/// # Ok::<(), selvedge::queries::QueryError>(())
+/// ```
+pub fn read_from(source: impl Read, path: &Path, kind: PairKind) -> Result<QueryFile, QueryError> {
+    let unreadable = |source| QueryError::Read {
+        path: path.to_owned(),
+        source,
+    };
     let mut reader = ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
