@@ -34,7 +34,7 @@ pub fn vertex_face<S: Scalar>(pair: &VertexFace<S>) -> Verdict {
     Verdict::culled_if(misses(&pair.vertex, &Aabb::swept(&pair.face)))
 }
 
-/// Whether the path of `vertex` certainly misses `target`.
+/// Whether the path of `vertex` certainly misses `target`. False with a coordinate that is NaN or infinite.
 #[inline]
 #[must_use]
 pub fn misses<S: Scalar>(vertex: &Motion<S>, target: &Aabb<S>) -> bool {
@@ -50,8 +50,10 @@ pub fn misses<S: Scalar>(vertex: &Motion<S>, target: &Aabb<S>) -> bool {
         )
     };
     let [x, y, z] = [relative(0), relative(1), relative(2)];
+    // One coordinate that is NaN or infinite does not show in the axis that leaves it out, but in the differences.
+    let is_finite = (x.2 + y.2 + z.2).is_finite();
     // No shortcut between the three: they are cheap, and a branch is not.
-    separates(y, z) | separates(z, x) | separates(x, y)
+    (separates(y, z) | separates(z, x) | separates(x, y)) & is_finite
 }
 
 /// One cross axis: (lower − p, upper − p, d) along its two coordinates.
@@ -100,6 +102,18 @@ mod tests {
     #[test]
     fn a_resting_point_on_a_corner_is_kept() {
         assert!(!misses(&Motion::from(([1.0; 3], [1.0; 3])), &unit_box()));
+    }
+
+    #[test]
+    fn a_path_with_one_coordinate_that_is_no_number_is_kept() {
+        // Past an edge of the box as seen along x, whatever x is.
+        let kept = |x: f64| {
+            let ends = [[x, 0.0, 2.5], [0.0, 2.5, 0.0]];
+            !misses(&Motion::from((ends[0], ends[1])), &unit_box())
+                && !misses(&Motion::from((ends[1], ends[0])), &unit_box())
+        };
+        assert!(!kept(0.0));
+        assert!(kept(f64::NAN) && kept(f64::INFINITY) && kept(-f64::INFINITY));
     }
 
     #[test]
