@@ -10,6 +10,7 @@ use super::{
     rational::{self, RatioError},
 };
 use crate::PairKind;
+use crate::excerpt::excerpt;
 
 /// Rows of a query: four points at the start of the step, four at its end.
 const ROWS: usize = 8;
@@ -240,13 +241,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// A field as text for a message, cut so that the message stays readable.
+/// A field for a message.
 fn shorten(field: &[u8]) -> String {
-    const LENGTH: usize = 24;
-    let text = String::from_utf8_lossy(field);
-    let mut start: String = text.chars().take(LENGTH).collect();
-    if start.len() < text.len() {
-        start.push('…');
-    }
-    start
+    excerpt(&String::from_utf8_lossy(field), 24)
 }
