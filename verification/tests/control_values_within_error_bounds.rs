@@ -82,7 +82,10 @@ fn exact(points: &WholePoints) -> [[Vector<Exact>; 2]; 4] {
 
 fn tetrahedron(points: &WholePoints) -> MovingTetrahedron<Exact> {
     let points = exact(points);
-    MovingTetrahedron::from_points(points.map(|ends| ends[0].clone()), points.map(|ends| ends[1].clone()))
+    MovingTetrahedron::from_points(
+        points.map(|ends| ends[0].clone()),
+        points.map(|ends| ends[1].clone()),
+    )
 }
 
 /// The volume P · (B × C) at time i/3, times 27, by the rule of Sarrus.
