@@ -4,6 +4,8 @@ pub mod broad_phase;
 pub mod mesh;
 mod parallel;
 pub mod pipeline;
+#[cfg(feature = "report")]
+pub mod report;
 pub mod study;
 
 pub use selvedge_core as core;
