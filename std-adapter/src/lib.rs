@@ -2,11 +2,16 @@
 
 pub mod broad_phase;
 pub mod mesh;
+mod pair_kind;
 mod parallel;
 pub mod pipeline;
+#[cfg(feature = "files")]
+pub mod queries;
 #[cfg(feature = "report")]
 pub mod report;
 pub mod study;
+pub mod scene;
 
+pub use pair_kind::{PairKind, ParsePairKindError};
 pub use selvedge_core as core;
 pub use selvedge_core::glam;
