@@ -9,8 +9,8 @@ pub mod pipeline;
 pub mod queries;
 #[cfg(feature = "report")]
 pub mod report;
-pub mod study;
 pub mod scene;
+pub mod study;
 
 pub use pair_kind::{PairKind, ParsePairKindError};
 pub use selvedge_core as core;
