@@ -23,6 +23,8 @@ const OUTLINE: Colour = [90, 100, 112];
 /// How much of what lies behind a face shows through it.
 const CLOTH_OPACITY: f32 = 0.5;
 const MARK_OPACITY: f32 = 0.8;
+/// Outlines of faces whose edges are shorter than this, in pixels, would only make all cloth grey.
+const LEAST_OUTLINED: f32 = 4.0;
 
 /// Which primitives have a candidate pair.
 pub(super) struct Marks {
@@ -149,6 +151,7 @@ fn shapes(topology: &Topology, seen: &[Seen], marks: &Marks, edge_length: f32) -
 /// Widths of lines and dots, in pixels, to suit the size of the faces.
 struct Pen {
     edge_length: f32,
+    has_outlines: bool,
     outline: f32,
     edge: f32,
     dot: f32,
@@ -165,6 +168,7 @@ impl Pen {
         let edge_length = (sum / edges.len().max(1) as f64) as f32;
         Self {
             edge_length,
+            has_outlines: edge_length >= LEAST_OUTLINED,
             outline: (0.03 * edge_length).clamp(0.15, 1.0),
             edge: (0.1 * edge_length).clamp(1.0, 5.0),
             dot: (0.13 * edge_length).clamp(1.5, 8.0),
@@ -172,6 +176,9 @@ impl Pen {
     }
 
     fn draw_face(&self, picture: &mut Pixmap, corners: [Seen; 3], marked: bool) {
+        if self.misses(picture, &corners) {
+            return;
+        }
         let Some(path) = polyline(&corners, true) else {
             return;
         };
@@ -180,17 +187,34 @@ impl Pen {
             // The line keeps a face visible that is seen from its side.
             let yellow = shaded(YELLOW, brightness);
             fill(picture, &path, yellow, MARK_OPACITY);
-            stroke(picture, &path, yellow, 1.0, 0.7 * self.edge);
+            if self.has_outlines {
+                stroke(picture, &path, yellow, 1.0, 0.7 * self.edge);
+            }
         } else {
             fill(picture, &path, shaded(CLOTH, brightness), CLOTH_OPACITY);
         }
-        stroke(picture, &path, OUTLINE, 0.6, self.outline);
+        if self.has_outlines {
+            stroke(picture, &path, OUTLINE, 0.6, self.outline);
+        }
     }
 
     fn draw_edge(&self, picture: &mut Pixmap, ends: [Seen; 2]) {
+        if self.misses(picture, &ends) {
+            return;
+        }
         if let Some(path) = polyline(&ends, false) {
             stroke(picture, &path, GREEN, 1.0, self.edge);
         }
+    }
+
+    /// Whether a line around these points is outside the picture. Drawing it would do no harm but take time.
+    fn misses(&self, picture: &Pixmap, points: &[Seen]) -> bool {
+        let (width, height) = (picture.width() as f32, picture.height() as f32);
+        let all = |outside: &dyn Fn(&Seen) -> bool| points.iter().all(outside);
+        all(&|p| p.x < -self.edge)
+            || all(&|p| p.y < -self.edge)
+            || all(&|p| p.x > width + self.edge)
+            || all(&|p| p.y > height + self.edge)
     }
 }
 
