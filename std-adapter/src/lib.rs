@@ -4,6 +4,10 @@ pub mod broad_phase;
 pub mod mesh;
 mod parallel;
 pub mod pipeline;
+#[cfg(feature = "files")]
+pub mod queries;
+#[cfg(feature = "report")]
+pub mod report;
 pub mod study;
 
 pub use selvedge_core as core;
