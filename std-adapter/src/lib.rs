@@ -8,6 +8,7 @@ pub mod pipeline;
 pub mod queries;
 #[cfg(feature = "report")]
 pub mod report;
+pub mod scene;
 pub mod study;
 
 pub use selvedge_core as core;
