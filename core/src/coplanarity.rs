@@ -33,8 +33,8 @@
 //!
 //! **Underflow.** Additions and subtractions are exact when their result is subnormal. Each product loses at most
 //! half of the smallest subnormal, η₀ = 2⁻¹⁰⁷⁵ (`f64`) or 2⁻¹⁵⁰ (`f32`); with p_max the largest component of P₀ and
-//! P₁ the sum is at most (6·p_max + 3)·η₀ for k₀ and (18·p_max + 6)·η₀ for 3k₁. η = 32·η₀
-//! ([`Rounding::UNDERFLOW`]) covers it and the rounding of E.
+//! P₁ the sum is at most (6·p_max + 3)·η₀ for k₀ and (18·p_max + 6)·η₀ for 3k₁. 32·(p_max + 1)·η₀ covers it and the
+//! rounding of E; η ([`Rounding::UNDERFLOW`]) is larger, for speed.
 //!
 //! **Overflow and NaN.** P̂ is at least as large as every intermediate result, so whatever overflows makes Eᵢ infinite
 //! or NaN, and the ordered comparisons that decide are false.

@@ -44,18 +44,6 @@ impl<S: Scalar> Motion<S> {
         let [start, end] = self.ends().map(Vector::from);
         start.scaled(S::ONE - time) + end.scaled(time)
     }
-
-    #[inline(always)]
-    fn is_finite(&self) -> bool {
-        let [[x, y, z], [u, v, w]] = self.ends();
-        // `&`, not `&&`: six tests without a branch.
-        x.is_finite()
-            & y.is_finite()
-            & z.is_finite()
-            & u.is_finite()
-            & v.is_finite()
-            & w.is_finite()
-    }
 }
 
 impl From<([f32; 3], [f32; 3])> for Motion<f32> {
@@ -125,20 +113,25 @@ pub trait PrimitivePair<S: Scalar>: Copy + sealed::Sealed {
     /// The points of one set, then those of the other: vertex, face; or first, second edge.
     fn motions(&self) -> [Motion<S>; 4];
 
-    /// How many of [`motions`](Self::motions) belong to the first set: 1 for VF, 2 for EE.
-    const FIRST: usize;
+    /// The smallest and largest value over each set's points, given one value for each of
+    /// [`motions`](Self::motions). NaN may be dropped.
+    fn ranges(values: [S; 4]) -> [[S; 2]; 2];
 
-    /// Whether all 24 coordinates are finite.
+    /// True only if all 24 coordinates are finite. (Also false where their sum overflows.)
+    ///
+    /// A sum is NaN or infinite if a term is: two dozen additions, without a branch, cost less than as many tests.
     #[inline(always)]
     fn is_finite(&self) -> bool {
-        let [a, b, c, d] = self.motions();
-        a.is_finite() & b.is_finite() & c.is_finite() & d.is_finite()
+        let [a, b, c, d] = self.motions().map(|motion| {
+            let [start, end] = motion.ends().map(Vector::from);
+            start + end
+        });
+        let sum = (a + b) + (c + d);
+        ((sum.x + sum.y) + sum.z).is_finite()
     }
 }
 
 impl<S: Scalar> PrimitivePair<S> for VertexFace<S> {
-    const FIRST: usize = 1;
-
     #[inline(always)]
     fn volume_points(&self) -> [Motion<S>; 4] {
         let [a, b, c] = self.face;
@@ -150,11 +143,17 @@ impl<S: Scalar> PrimitivePair<S> for VertexFace<S> {
         let [a, b, c] = self.face;
         [self.vertex, a, b, c]
     }
+
+    #[inline(always)]
+    fn ranges([vertex, a, b, c]: [S; 4]) -> [[S; 2]; 2] {
+        [
+            [vertex; 2],
+            [a.smaller(b).smaller(c), a.larger(b).larger(c)],
+        ]
+    }
 }
 
 impl<S: Scalar> PrimitivePair<S> for EdgeEdge<S> {
-    const FIRST: usize = 2;
-
     #[inline(always)]
     fn volume_points(&self) -> [Motion<S>; 4] {
         let ([u, v], [k, l]) = (self.first, self.second);
@@ -165,5 +164,10 @@ impl<S: Scalar> PrimitivePair<S> for EdgeEdge<S> {
     fn motions(&self) -> [Motion<S>; 4] {
         let ([u, v], [k, l]) = (self.first, self.second);
         [u, v, k, l]
+    }
+
+    #[inline(always)]
+    fn ranges([u, v, k, l]: [S; 4]) -> [[S; 2]; 2] {
+        [[u.smaller(v), u.larger(v)], [k.smaller(l), k.larger(l)]]
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod broad_phase;
 pub mod mesh;
+mod pair_kind;
 mod parallel;
 pub mod pipeline;
 #[cfg(feature = "files")]
@@ -11,5 +12,6 @@ pub mod report;
 pub mod scene;
 pub mod study;
 
+pub use pair_kind::{PairKind, ParsePairKindError};
 pub use selvedge_core as core;
 pub use selvedge_core::glam;

@@ -30,27 +30,32 @@ use crate::verdict::Verdict;
 /// Culls `pair` if the swept boxes of its two sets do not overlap. Exact; boxes that touch overlap.
 ///
 /// NaN and infinite coordinates keep the pair.
-#[inline]
+#[inline(always)]
 pub fn swept_boxes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    let motions = pair.motions();
-    let (first, second) = motions.split_at(P::FIRST);
-    Verdict::culled_if(!Aabb::swept(first).overlaps(&Aabb::swept(second)))
+    let [start, end] = coordinates(pair);
+    let apart = |axis: usize| {
+        let [first, second] = P::ranges(start[axis]);
+        let [first_at_end, second_at_end] = P::ranges(end[axis]);
+        let swept = |[low, high]: [S; 2], [low_at_end, high_at_end]: [S; 2]| {
+            [low.smaller(low_at_end), high.larger(high_at_end)]
+        };
+        let ([low, high], [other_low, other_high]) =
+            (swept(first, first_at_end), swept(second, second_at_end));
+        (low > other_high) | (other_low > high)
+    };
+    // The ranges drop NaN, hence the last condition.
+    Verdict::culled_if((apart(0) | apart(1) | apart(2)) & pair.is_finite())
+}
+
+/// For each end of the step and each axis, the coordinates of the pair's four points.
+#[inline(always)]
+fn coordinates<S: Scalar>(pair: &impl PrimitivePair<S>) -> [[[S; 4]; 3]; 2] {
+    let [a, b, c, d] = pair.motions().map(|motion| motion.ends());
+    [0, 1].map(|end| [0, 1, 2].map(|axis| [a[end][axis], b[end][axis], c[end][axis], d[end][axis]]))
 }
 
 /// The nine directions of an 18-DOP, as values of one point: x, y, z, x±y, x±z, y±z. The sums round to nearest.
 #[inline(always)]
 fn along_nine_directions<S: Scalar>([x, y, z]: [S; 3]) -> [S; 9] {
     [x, y, z, x + y, x - y, x + z, x - z, y + z, y - z]
-}
-
-/// The smaller of two numbers neither of which is NaN.
-#[inline(always)]
-fn smaller<S: Scalar>(a: S, b: S) -> S {
-    if a < b { a } else { b }
-}
-
-/// The larger of two numbers neither of which is NaN.
-#[inline(always)]
-fn larger<S: Scalar>(a: S, b: S) -> S {
-    if a > b { a } else { b }
 }

@@ -7,7 +7,7 @@
 //! axis-aligned boxes cull and more, because it knows that the two move together, which swept boxes forget. The same test
 //! is the reading that we give to the subspace filters of Tang, Li and Wang 2010 and 2011 (*reconstructed*).
 
-use super::{along_nine_directions, larger, smaller};
+use super::coordinates;
 use crate::motion::PrimitivePair;
 use crate::scalar::Scalar;
 use crate::verdict::Verdict;
@@ -27,40 +27,50 @@ use crate::verdict::Verdict;
 /// assert_eq!(swept_boxes(&pair), Verdict::Kept);
 /// assert_eq!(relative::three_axes(&pair), Verdict::Culled);
 /// ```
-#[inline]
+#[inline(always)]
 pub fn three_axes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    keeps_order::<S, P, 3>(pair, |position| position)
+    let [start, end] = coordinates(pair);
+    // The ranges drop NaN, hence the last condition.
+    Verdict::culled_if(apart_along_axes::<S, P>(&start, &end) & pair.is_finite())
 }
 
 /// [`three_axes`], and the six diagonals x±y, x±z, y±z as well.
-#[inline]
+#[inline(always)]
 pub fn nine_directions<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    keeps_order::<S, P, 9>(pair, along_nine_directions)
+    let [start, end] = coordinates(pair);
+    let apart =
+        apart_along_axes::<S, P>(&start, &end) || apart_along_diagonals::<S, P>(&start, &end);
+    Verdict::culled_if(apart & pair.is_finite())
 }
 
 #[inline(always)]
-fn keeps_order<S: Scalar, P: PrimitivePair<S>, const N: usize>(
-    pair: &P,
-    project: impl Fn([S; 3]) -> [S; N],
-) -> Verdict {
-    let motions = pair.motions().map(|motion| motion.ends().map(&project));
-    let (first, second) = motions.split_at(P::FIRST);
-    let mut apart = false;
-    for direction in 0..N {
-        let bounds = |set: &[[[S; N]; 2]], end: usize| {
-            let mut range = [S::INFINITY, -S::INFINITY];
-            for point in set {
-                range[0] = smaller(point[end][direction], range[0]);
-                range[1] = larger(point[end][direction], range[1]);
-            }
-            range
-        };
-        let [[low_0, high_0], [low_1, high_1]] = [bounds(first, 0), bounds(first, 1)];
-        let [[other_low_0, other_high_0], [other_low_1, other_high_1]] =
-            [bounds(second, 0), bounds(second, 1)];
-        apart |= (low_0 > other_high_0) & (low_1 > other_high_1);
-        apart |= (other_low_0 > high_0) & (other_low_1 > high_1);
-    }
-    // The bounds above drop NaN.
-    Verdict::culled_if(apart && pair.is_finite())
+fn apart_along_axes<S: Scalar, P: PrimitivePair<S>>(
+    start: &[[S; 4]; 3],
+    end: &[[S; 4]; 3],
+) -> bool {
+    let apart = |axis: usize| keeps_order::<S, P>(start[axis], end[axis]);
+    apart(0) | apart(1) | apart(2)
+}
+
+#[inline(always)]
+fn apart_along_diagonals<S: Scalar, P: PrimitivePair<S>>(
+    start: &[[S; 4]; 3],
+    end: &[[S; 4]; 3],
+) -> bool {
+    let sum = |[a, b, c, d]: [S; 4], [e, f, g, h]: [S; 4]| [a + e, b + f, c + g, d + h];
+    let difference = |[a, b, c, d]: [S; 4], [e, f, g, h]: [S; 4]| [a - e, b - f, c - g, d - h];
+    let apart = |i: usize, j: usize| {
+        keeps_order::<S, P>(sum(start[i], start[j]), sum(end[i], end[j]))
+            | keeps_order::<S, P>(difference(start[i], start[j]), difference(end[i], end[j]))
+    };
+    apart(0, 1) | apart(0, 2) | apart(1, 2)
+}
+
+/// Whether one set's values are all above the other's at the start, and at the end too.
+#[inline(always)]
+fn keeps_order<S: Scalar, P: PrimitivePair<S>>(start: [S; 4], end: [S; 4]) -> bool {
+    let [[low_0, high_0], [other_low_0, other_high_0]] = P::ranges(start);
+    let [[low_1, high_1], [other_low_1, other_high_1]] = P::ranges(end);
+    ((low_0 > other_high_0) & (low_1 > other_high_1))
+        | ((other_low_0 > high_0) & (other_low_1 > high_1))
 }

@@ -13,7 +13,7 @@ use crate::verdict::Verdict;
 /// Culls `pair` if A, B, 2C + F and 2D + E, as computed, all have the same strict sign.
 ///
 /// One deviation from the paper: where a value overflows the pair is kept.
-#[inline]
+#[inline(always)]
 pub fn non_coplanarity<S: Scalar>(pair: &impl PrimitivePair<S>) -> Verdict {
     let [[a0, a1], [b0, b1], [c0, c1], [p0, p1]] = pair
         .volume_points()

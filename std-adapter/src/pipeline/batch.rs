@@ -3,9 +3,10 @@
 use super::Distributed;
 use super::assignment::FeatureAssignment;
 use super::dops::StoredDops;
-use super::pairs::{Contact, MovingMesh, PairKind};
+use super::pairs::{Contact, MovingMesh};
 use super::preset::{CullingTest, ElementaryTest, Stages};
 use super::report::PairCounts;
+use crate::PairKind;
 use arrayvec::ArrayVec;
 use selvedge_core::distribution::distribute;
 use selvedge_core::{EdgeEdge, Scalar, Verdict, VertexFace, boxes, elementary, filter};

@@ -46,10 +46,11 @@ mod report;
 mod swept;
 
 pub use assignment::FeatureAssignment;
-pub use pairs::{Contact, PairKind};
+pub use pairs::Contact;
 pub use preset::{CullingTest, ElementaryTest, Preset, Redundancy, Stage, Stages, UnknownPreset};
 pub use report::{PairCounts, StageReport, StepReport};
 
+use crate::PairKind;
 use crate::broad_phase::{BroadPhase, SweptBox};
 use crate::mesh::Topology;
 use crate::parallel;

@@ -18,7 +18,7 @@
 //! std::fs::write(&path, format!("1,4,1,4,1,2,1\n{face}1,4,1,4,-1,2,1\n{face}"))?;
 //!
 //! let file = selvedge::queries::read(&path, None)?;
-//! assert_eq!(file.kind, selvedge::queries::PairKind::VertexFace);
+//! assert_eq!(file.kind, selvedge::PairKind::VertexFace);
 //! assert_eq!(file.inexact, 0);
 //! let query = &file.queries[0];
 //! assert_eq!((query.start[0].z, query.end[0].z), (0.5, -0.5));
@@ -28,7 +28,6 @@
 //! ```
 
 mod error;
-mod kind;
 mod query;
 mod rational;
 mod read;
@@ -36,6 +35,5 @@ mod read;
 mod tests;
 
 pub use error::QueryError;
-pub use kind::{PairKind, ParsePairKindError};
 pub use query::{Query, QueryFile, SinglePrecision};
 pub use read::read;

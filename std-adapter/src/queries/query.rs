@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use selvedge_core::glam::{DVec3, Vec3};
 
-use super::{PairKind, QueryError};
+use super::QueryError;
+use crate::PairKind;
 
 /// Four points that move linearly from `start` to `end` over the step, and whether they collide.
 ///

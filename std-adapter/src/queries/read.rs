@@ -6,9 +6,10 @@ use csv::{ByteRecord, ReaderBuilder, Terminator, Trim};
 use selvedge_core::glam::DVec3;
 
 use super::{
-    PairKind, Query, QueryError, QueryFile,
+    Query, QueryError, QueryFile,
     rational::{self, RatioError},
 };
+use crate::PairKind;
 
 /// Rows of a query: four points at the start of the step, four at its end.
 const ROWS: usize = 8;

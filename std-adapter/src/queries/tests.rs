@@ -1,3 +1,4 @@
+use crate::PairKind;
 use std::{fs, path::PathBuf};
 
 use proptest::prelude::*;

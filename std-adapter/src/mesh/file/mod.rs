@@ -128,10 +128,10 @@ pub fn write(path: &Path, mesh: &Mesh) -> Result<(), MeshError> {
     }
 }
 
-/// Writes `mesh` to `path` like [`write`], but in the given format whatever the extension.
+/// Writes `mesh` to `path` like [`write()`], but in the given format whatever the extension.
 ///
 /// # Errors
-/// Those of [`write`], but for the extension.
+/// Those of [`write()`], but for the extension.
 pub fn write_as(path: &Path, mesh: &Mesh, format: FileFormat) -> Result<(), MeshError> {
     check(mesh)
         .and_then(|()| save(path, mesh, format).map_err(FileProblem::Write))

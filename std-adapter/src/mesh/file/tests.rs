@@ -422,7 +422,7 @@ fn a_mesh_that_could_not_be_read_again_is_not_written_and_the_old_file_stays() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("a.ply");
     fs::write(&path, "old").unwrap();
-    let bad = |change: fn(&mut Mesh)| {
+    let bad = |change: Change| {
         let mut mesh = triangle();
         change(&mut mesh);
         write(&path, &mesh).unwrap_err().to_string()
@@ -474,7 +474,10 @@ fn a_written_file_has_the_permissions_of_any_new_file() {
     assert_eq!(mode(ours), mode(plain));
 }
 
-fn written_step(change: fn(&mut Mesh)) -> (TempDir, Result<MeshStep, MeshError>) {
+/// A change to a mesh.
+type Change = fn(&mut Mesh);
+
+fn written_step(change: Change) -> (TempDir, Result<MeshStep, MeshError>) {
     let folder = TempDir::new().unwrap();
     let (start, end) = (
         folder.path().join("start.obj"),
@@ -501,7 +504,7 @@ fn two_frames_of_one_mesh_are_a_step_whatever_their_formats() {
 
 #[test]
 fn frames_of_different_meshes_are_refused_with_both_names_and_the_first_difference() {
-    let cases: [(fn(&mut Mesh), &str); 3] = [
+    let cases: [(Change, &str); 3] = [
         (
             |mesh| mesh.positions.push(DVec3::ONE),
             "the first has 4 vertices, the second 5",

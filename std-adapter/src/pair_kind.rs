@@ -1,9 +1,10 @@
 //! The two kinds of primitive pair, and how a benchmark file's path tells which it holds.
 
+use crate::mesh::Topology;
 use std::{fmt, path::Path, str::FromStr};
 
 /// A kind of primitive pair.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PairKind {
     /// A vertex against a triangle; written `vertex-face`.
     VertexFace,
@@ -12,6 +13,34 @@ pub enum PairKind {
 }
 
 impl PairKind {
+    /// `"vertex-face"` or `"edge-edge"`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::VertexFace => "vertex-face",
+            Self::EdgeEdge => "edge-edge",
+        }
+    }
+
+    /// The four mesh vertices of a pair of this kind: the vertex and the face's three, or the two edges' ends.
+    ///
+    /// # Panics
+    /// If the pair is not of this mesh.
+    #[must_use]
+    pub fn vertices(self, pair: [u32; 2], topology: &Topology) -> [u32; 4] {
+        let [first, second] = pair.map(|feature| feature as usize);
+        match self {
+            Self::VertexFace => {
+                let [a, b, c] = topology.triangles()[second];
+                [pair[0], a, b, c]
+            }
+            Self::EdgeEdge => {
+                let ([a, b], [c, d]) = (topology.edges()[first], topology.edges()[second]);
+                [a, b, c, d]
+            }
+        }
+    }
+
     /// The names of a query's four points, in the order of its rows.
     #[must_use]
     pub fn point_names(self) -> [&'static str; 4] {
@@ -56,10 +85,7 @@ impl PairKind {
 
 impl fmt::Display for PairKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::VertexFace => "vertex-face",
-            Self::EdgeEdge => "edge-edge",
-        })
+        f.pad(self.name())
     }
 }
 

@@ -1,0 +1,336 @@
+//! Times in [0, 1] that are roots of polynomials.
+
+use super::geometry::Signs;
+use super::polynomial::{Polynomial, SturmSequence};
+use rug::{Integer, Rational};
+use std::cmp::Ordering;
+
+/// A real root, in [0, 1], of a polynomial with integer coefficients; known exactly.
+///
+/// Equality and order are those of the numbers.
+#[derive(Clone, Debug)]
+pub struct AlgebraicTime {
+    /// Square-free; has this root.
+    polynomial: Polynomial,
+    place: Place,
+}
+
+#[derive(Clone, Debug)]
+enum Place {
+    Exact(Rational),
+    /// The only root in the closed interval `[index, index + 1] / 2^bits`, and not at an end of it.
+    Isolated {
+        index: Integer,
+        bits: u32,
+        sign_at_low: Ordering,
+    },
+}
+
+/// How often an interval is halved in the hope of telling a sign, before a greatest common divisor
+/// decides whether the value is zero. Affects speed alone.
+const HALVINGS_BEFORE_GCD: u32 = 24;
+
+impl AlgebraicTime {
+    /// A rational time.
+    ///
+    /// # Panics
+    /// If it is not in [0, 1].
+    #[must_use]
+    pub fn rational(time: Rational) -> Self {
+        assert!(
+            (0..=1).contains(&time),
+            "a time of the step lies in [0, 1], not at {time}"
+        );
+        let coefficients = vec![Integer::from(-time.numer()), time.denom().clone()];
+        Self {
+            polynomial: Polynomial::new(coefficients),
+            place: Place::Exact(time),
+        }
+    }
+
+    /// The distinct roots in [0, 1] of a polynomial that is not zero, in ascending order.
+    pub(crate) fn roots(polynomial: &Polynomial) -> Vec<Self> {
+        let mut roots = Vec::new();
+        if polynomial.degree() == 0 {
+            return roots;
+        }
+        let isolation = Isolation(SturmSequence::new(polynomial));
+        let (low, high) = (
+            isolation.end(&Integer::from(0), 0),
+            isolation.end(&Integer::from(1), 0),
+        );
+        if low.sign.is_eq() {
+            roots.push(Self::rational(Rational::from(0)));
+        }
+        isolation.inside(Integer::from(0), 0, &low, &high, &mut roots);
+        if high.sign.is_eq() {
+            roots.push(Self::rational(Rational::from(1)));
+        }
+        roots
+    }
+
+    /// A square-free polynomial that has this root.
+    #[must_use]
+    pub fn polynomial(&self) -> &Polynomial {
+        &self.polynomial
+    }
+
+    /// The value, where it is known to be rational. What [`collides`](super::collides) returns is
+    /// known to be rational exactly when it is.
+    #[must_use]
+    pub fn as_rational(&self) -> Option<&Rational> {
+        match &self.place {
+            Place::Exact(value) => Some(value),
+            Place::Isolated { .. } => None,
+        }
+    }
+
+    /// An interval that holds this root and no other root of [`polynomial`](Self::polynomial); both
+    /// ends are the root itself when it is known to be rational.
+    #[must_use]
+    pub fn interval(&self) -> [Rational; 2] {
+        match &self.place {
+            Place::Exact(value) => [value.clone(), value.clone()],
+            Place::Isolated { index, bits, .. } => {
+                [index.clone(), Integer::from(index + 1)].map(|end| Rational::from(end) >> *bits)
+            }
+        }
+    }
+
+    /// Makes the interval no wider than `2^-bits`.
+    pub fn refine(&mut self, bits: u32) {
+        while matches!(self.place, Place::Isolated { bits: known, .. } if known < bits) {
+            self.halve();
+        }
+    }
+
+    fn halve(&mut self) {
+        if let Place::Isolated {
+            index,
+            bits,
+            sign_at_low,
+        } = &mut self.place
+        {
+            *index <<= 1;
+            *bits += 1;
+            let middle = Integer::from(&*index + 1);
+            let sign = self.polynomial.sign_at_dyadic(&middle, *bits);
+            if sign.is_eq() {
+                self.place = Place::Exact(Rational::from(middle) >> *bits);
+            } else if sign == *sign_at_low {
+                *index = middle;
+            }
+        }
+    }
+
+    /// Compares with a rational number.
+    #[must_use]
+    pub fn cmp_rational(&self, other: &Rational) -> Ordering {
+        match &self.place {
+            Place::Exact(value) => value.cmp(other),
+            Place::Isolated { sign_at_low, .. } => {
+                let [low, high] = self.interval();
+                if *other <= low {
+                    Ordering::Greater
+                } else if *other >= high {
+                    Ordering::Less
+                } else {
+                    match self.polynomial.sign_at(other) {
+                        Ordering::Equal => Ordering::Equal,
+                        sign if sign == *sign_at_low => Ordering::Greater,
+                        _ => Ordering::Less,
+                    }
+                }
+            }
+        }
+    }
+
+    /// Compares with a floating-point number, exactly.
+    ///
+    /// # Panics
+    /// If `other` is NaN.
+    #[must_use]
+    pub fn cmp_f64(&self, other: f64) -> Ordering {
+        assert!(!other.is_nan(), "NaN has no place among the times");
+        match Rational::from_f64(other) {
+            Some(value) => self.cmp_rational(&value),
+            None if other > 0.0 => Ordering::Less,
+            None => Ordering::Greater,
+        }
+    }
+
+    /// The largest floating-point number that is not above the root.
+    #[must_use]
+    pub fn to_f64_down(&self) -> f64 {
+        // The representations of floats that are not negative have the order of the floats.
+        let (mut below, mut above) = (0_f64.to_bits(), 1_f64.next_up().to_bits());
+        while above - below > 1 {
+            let middle = below.midpoint(above);
+            if self.cmp_f64(f64::from_bits(middle)).is_ge() {
+                below = middle;
+            } else {
+                above = middle;
+            }
+        }
+        f64::from_bits(below)
+    }
+
+    /// The same number, known to be rational if it is.
+    ///
+    /// A rational root, times the leading coefficient, is an integer.
+    pub(crate) fn settled(mut self) -> Self {
+        let lead = self
+            .polynomial
+            .coefficients()
+            .last()
+            .map(|c| Integer::from(c.abs_ref()));
+        let lead = lead.expect("not the zero polynomial");
+        self.refine(lead.significant_bits() + 1);
+        if let Place::Isolated { index, bits, .. } = &self.place {
+            // The interval is shorter than 1 / lead: this is the only candidate that can be in it.
+            let candidate = ((Integer::from(&lead * index) >> *bits) + 1, lead);
+            let candidate = Rational::from(candidate);
+            if self.cmp_rational(&candidate).is_eq() {
+                self.place = Place::Exact(candidate);
+            }
+        }
+        self
+    }
+}
+
+impl Signs<Polynomial> for AlgebraicTime {
+    /// The sign of another polynomial at this time.
+    fn sign(&mut self, value: &Polynomial) -> Ordering {
+        for halvings in 0.. {
+            let (index, bits) = match &self.place {
+                Place::Exact(time) => return value.sign_at(time),
+                Place::Isolated { index, bits, .. } => (index, *bits),
+            };
+            if let Some(sign) = value.sign_on_cell(index, bits) {
+                return sign;
+            }
+            if halvings == HALVINGS_BEFORE_GCD {
+                // A common factor is square-free like the polynomial, and not zero at the ends of the
+                // interval: it has the root if it changes sign.
+                let common = self.polynomial.gcd(value);
+                let sign_at_low = common.sign_at_dyadic(index, bits);
+                if sign_at_low != common.sign_at_dyadic(&Integer::from(index + 1), bits) {
+                    // It describes the root as well, more simply.
+                    self.place = Place::Isolated {
+                        index: index.clone(),
+                        bits,
+                        sign_at_low,
+                    };
+                    self.polynomial = common;
+                    return Ordering::Equal;
+                }
+            }
+            self.halve();
+        }
+        unreachable!("a value other than zero has a sign on a small enough interval")
+    }
+}
+
+impl Ord for AlgebraicTime {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let (mut a, mut b) = (self.clone(), other.clone());
+        let mut b_vanishes_at_a = None;
+        loop {
+            if let Some(value) = b.as_rational() {
+                return a.cmp_rational(value);
+            }
+            if let Some(value) = a.as_rational() {
+                return b.cmp_rational(value).reverse();
+            }
+            let ([a_low, a_high], [b_low, b_high]) = (a.interval(), b.interval());
+            if a_high <= b_low {
+                return Ordering::Less;
+            }
+            if b_high <= a_low {
+                return Ordering::Greater;
+            }
+            // If a is a root of b's polynomial and in b's interval, it is b.
+            if *b_vanishes_at_a.get_or_insert_with(|| a.sign(&b.polynomial).is_eq())
+                && a.cmp_rational(&b_low).is_gt()
+                && a.cmp_rational(&b_high).is_lt()
+            {
+                return Ordering::Equal;
+            }
+            a.halve();
+            b.halve();
+        }
+    }
+}
+
+impl PartialOrd for AlgebraicTime {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for AlgebraicTime {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for AlgebraicTime {}
+
+/// Isolates the roots that a Sturm sequence counts.
+struct Isolation(SturmSequence);
+
+/// An end of an interval: what is known of the sequence there.
+struct End {
+    variations: usize,
+    sign: Ordering,
+}
+
+impl Isolation {
+    fn end(&self, index: &Integer, bits: u32) -> End {
+        let variations = self.0.variations(index, bits);
+        End {
+            variations,
+            sign: self.0.polynomial().sign_at_dyadic(&index, bits),
+        }
+    }
+
+    /// Appends the roots in the open interval `(index, index + 1) / 2^bits`, in ascending order.
+    fn inside(
+        &self,
+        index: Integer,
+        bits: u32,
+        low: &End,
+        high: &End,
+        roots: &mut Vec<AlgebraicTime>,
+    ) {
+        let count = low.variations - high.variations - usize::from(high.sign.is_eq());
+        if count == 0 {
+            return;
+        }
+        let polynomial = self.0.polynomial();
+        if count == 1 && low.sign.is_ne() && high.sign.is_ne() {
+            let place = Place::Isolated {
+                index,
+                bits,
+                sign_at_low: low.sign,
+            };
+            roots.push(AlgebraicTime {
+                polynomial: polynomial.clone(),
+                place,
+            });
+            return;
+        }
+        let left = index << 1;
+        let right = Integer::from(&left + 1);
+        let middle = self.end(&right, bits + 1);
+        self.inside(left, bits + 1, low, &middle, roots);
+        if middle.sign.is_eq() {
+            let time = Rational::from(right.clone()) >> (bits + 1);
+            roots.push(AlgebraicTime {
+                polynomial: polynomial.clone(),
+                place: Place::Exact(time),
+            });
+        }
+        self.inside(right, bits + 1, &middle, high, roots);
+    }
+}

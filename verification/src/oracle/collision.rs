@@ -1,0 +1,151 @@
+//! Coplanarity and contact of primitive pairs in motion.
+
+use super::algebraic::AlgebraicTime;
+use super::geometry::{
+    AtRest, EDGES, Point, Ring, Signs, coplanar_point_in_triangle, coplanar_segments_meet, cross,
+    dot, normal, point_in_triangle, segments_meet, subtract, volume,
+};
+use super::motion::{Kind, Motion, Pair};
+use super::polynomial::{Polynomial, SturmSequence};
+use rug::{Integer, Rational};
+
+/// Are four points, each moving linearly from `start` to `end`, coplanar at some time in [0, 1]?
+///
+/// # Panics
+/// If a coordinate is NaN or infinite.
+#[must_use]
+pub fn coplanar(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> bool {
+    let [a, b, c, d] = Motion::new(start, end).trajectories();
+    let volume = volume(&a, &b, &c, &d);
+    if volume.is_zero() {
+        return true;
+    }
+    let [at_start, at_end] = [0, 1].map(|t| volume.sign_at_dyadic(&Integer::from(t), 0));
+    if at_start.is_eq() || at_start != at_end {
+        return true;
+    }
+    let roots = SturmSequence::new(&volume);
+    roots.variations(&Integer::from(0), 0) != roots.variations(&Integer::from(1), 0)
+}
+
+/// The earliest time in [0, 1] at which the closed vertex and face, or the two closed edges, share a
+/// point; `None` if they never do.
+///
+/// A time that is rational is given as such.
+///
+/// # Panics
+/// If a coordinate is NaN or infinite.
+#[must_use]
+pub fn collides(pair: &Pair) -> Option<AlgebraicTime> {
+    if separated_along_an_axis(pair) {
+        return None;
+    }
+    let motion = Motion::new(&pair.start, &pair.end);
+    let start = Rational::from(0);
+    if touches(pair.kind, &motion, &start) {
+        return Some(AlgebraicTime::rational(start));
+    }
+    let points = motion.trajectories();
+    let [a, b, c, d] = &points;
+    let volume = volume(a, b, c, d);
+
+    // Touching at t is a combination of signs of polynomials at t, and the times of contact are a
+    // closed set: its first element, if it is not 0, is a root of one of these polynomials.
+    if !volume.is_zero() {
+        // Contact makes the points coplanar.
+        let mut times = AlgebraicTime::roots(&volume).into_iter();
+        return times.find_map(|mut time| {
+            touches_when_coplanar(pair.kind, &mut time, &points).then(|| time.settled())
+        });
+    }
+    let mut earliest: Option<AlgebraicTime> = None;
+    for polynomial in predicates_in_the_plane(pair.kind, &points) {
+        if polynomial.is_zero() {
+            continue;
+        }
+        for mut time in AlgebraicTime::roots(&polynomial) {
+            let earlier = earliest.as_ref().is_none_or(|known| time < *known);
+            if earlier && touches_when_coplanar(pair.kind, &mut time, &points) {
+                earliest = Some(time);
+            }
+        }
+    }
+    earliest.map(AlgebraicTime::settled)
+}
+
+/// Do the closed vertex and face, or the two closed edges, share a point at time `t`?
+///
+/// # Panics
+/// If a coordinate is NaN or infinite.
+#[must_use]
+pub fn touches_at(pair: &Pair, t: &Rational) -> bool {
+    touches(pair.kind, &Motion::new(&pair.start, &pair.end), t)
+}
+
+fn touches(kind: Kind, motion: &Motion, t: &Rational) -> bool {
+    let [a, b, c, d] = &motion.at(t);
+    match kind {
+        Kind::VertexFace => point_in_triangle(&mut AtRest, a, [b, c, d]),
+        Kind::EdgeEdge => segments_meet(&mut AtRest, [a, b], [c, d]),
+    }
+}
+
+/// The same at a time when the four points are coplanar.
+fn touches_when_coplanar<R: Ring>(
+    kind: Kind,
+    signs: &mut impl Signs<R>,
+    [a, b, c, d]: &[Point<R>; 4],
+) -> bool {
+    match kind {
+        Kind::VertexFace => coplanar_point_in_triangle(signs, a, [b, c, d]),
+        Kind::EdgeEdge => coplanar_segments_meet(signs, [a, b], [c, d]),
+    }
+}
+
+/// Every polynomial whose sign [`touches_when_coplanar`] can ask for (some up to their sign).
+fn predicates_in_the_plane(kind: Kind, [a, b, c, d]: &[Point<Polynomial>; 4]) -> Vec<Polynomial> {
+    // Which end or vertex is tested against which segment.
+    let (normal, tests) = match kind {
+        Kind::VertexFace => {
+            let face = [b, c, d];
+            (
+                normal(b, c, d),
+                EDGES.map(|[i, j]| (a, face[i], face[j])).to_vec(),
+            )
+        }
+        Kind::EdgeEdge => (
+            cross(&subtract(b, a), &subtract(d, c)),
+            vec![(a, c, d), (b, c, d), (c, a, b), (d, a, b)],
+        ),
+    };
+    let mut predicates = normal.to_vec();
+    for (x, p, q) in tests {
+        let (from_p, from_q) = (subtract(x, p), subtract(x, q));
+        predicates.extend(cross(&from_p, &from_q));
+        predicates.push(dot(&from_p, &from_q));
+    }
+    predicates
+}
+
+/// Are the two sides of the pair apart along one coordinate axis, in the same order at both ends of
+/// the step? Linear motion then keeps them apart in between.
+fn separated_along_an_axis(pair: &Pair) -> bool {
+    let sides = match pair.kind {
+        Kind::VertexFace => 1,
+        Kind::EdgeEdge => 2,
+    };
+    let below = |positions: &[[f64; 3]; 4], axis: usize, swapped: bool| {
+        let (first, second) = positions.split_at(sides);
+        let (low, high) = if swapped {
+            (second, first)
+        } else {
+            (first, second)
+        };
+        low.iter().all(|p| high.iter().all(|q| p[axis] < q[axis]))
+    };
+    (0..3).any(|axis| {
+        [false, true]
+            .into_iter()
+            .any(|swapped| below(&pair.start, axis, swapped) && below(&pair.end, axis, swapped))
+    })
+}

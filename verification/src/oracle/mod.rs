@@ -1,0 +1,31 @@
+//! Exact answers for points that move linearly during a step, and for meshes at rest.
+//!
+//! Every `f64` is a rational number, so each question below has one true answer, and these functions
+//! give it: no rounding, no tolerance, no case left out. They are total over finite input:
+//! zero-length edges, zero-area triangles, parallel edges, coplanar motion and no motion at all
+//! included; NaN and infinities panic.
+//!
+//! | question | function |
+//! |---|---|
+//! | are four moving points coplanar at some time in \[0, 1\]? | [`coplanar`] |
+//! | does a primitive pair collide, and when first? | [`collides`] |
+//! | do two triangles at rest intersect? | [`triangles_intersect`] |
+//! | which triangles of a mesh intersect? | [`mesh_self_intersections`] |
+//!
+//! The method is kept apart from that of `selvedge-core`: coordinates are scaled to integers, motions
+//! are polynomials in the time `t` by powers of `t`, roots are counted with Sturm's theorem, and a
+//! time that is irrational is a polynomial together with an interval that holds one of its roots
+//! ([`AlgebraicTime`]).
+
+mod algebraic;
+mod collision;
+mod geometry;
+mod mesh;
+mod motion;
+mod polynomial;
+
+pub use algebraic::AlgebraicTime;
+pub use collision::{collides, coplanar, touches_at};
+pub use mesh::{mesh_self_intersections, triangles_intersect};
+pub use motion::{Kind, Pair};
+pub use polynomial::Polynomial;

@@ -1,0 +1,138 @@
+//! Primitive pairs in linear motion, with their coordinates scaled to integers.
+
+use super::geometry::{Point, Ring};
+use super::polynomial::Polynomial;
+use rug::{Integer, Rational};
+
+/// Which four points a primitive pair is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// A vertex, then the three vertices of a face.
+    VertexFace,
+    /// The two ends of one edge, then the two ends of the other.
+    EdgeEdge,
+}
+
+/// Four points that move linearly from their positions at time 0 to those at time 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair {
+    /// What the points are.
+    pub kind: Kind,
+    /// Positions at time 0.
+    pub start: [[f64; 3]; 4],
+    /// Positions at time 1.
+    pub end: [[f64; 3]; 4],
+}
+
+/// Mantissa and exponent: `value = mantissa · 2^exponent`, the mantissa odd or zero.
+fn decode(value: f64) -> (i64, i32) {
+    assert!(value.is_finite(), "coordinates must be finite, not {value}");
+    let bits = value.to_bits();
+    let exponent = i32::try_from((bits >> 52) & 0x7ff).expect("eleven bits");
+    let fraction = i64::try_from(bits & ((1 << 52) - 1)).expect("52 bits");
+    let magnitude = if exponent == 0 {
+        fraction
+    } else {
+        fraction | (1 << 52)
+    };
+    if magnitude == 0 {
+        return (0, 0);
+    }
+    let zeros = magnitude.trailing_zeros();
+    let mantissa = (magnitude >> zeros) * if value.is_sign_negative() { -1 } else { 1 };
+    (mantissa, exponent.max(1) - 1075 + zeros.cast_signed())
+}
+
+/// The points times `2^-exponent`, with the largest exponent that makes all of them integers.
+///
+/// # Panics
+/// If a coordinate is NaN or infinite.
+pub(crate) fn scale_to_integers(points: &[[f64; 3]]) -> (Vec<Point<Integer>>, i32) {
+    let coordinates = points.iter().flatten().map(|&x| decode(x));
+    let exponent = coordinates
+        .filter(|&(m, _)| m != 0)
+        .map(|(_, e)| e)
+        .min()
+        .unwrap_or(0);
+    let scale = |x: f64| match decode(x) {
+        (0, _) => Integer::new(),
+        (mantissa, e) => Integer::from(mantissa) << (e - exponent).cast_unsigned(),
+    };
+    (
+        points.iter().map(|point| point.map(scale)).collect(),
+        exponent,
+    )
+}
+
+/// The four points of a pair, scaled to integers.
+pub(crate) struct Motion {
+    start: [Point<Integer>; 4],
+    end: [Point<Integer>; 4],
+    /// Lengths here times `2^exponent` are lengths in the caller's unit.
+    pub(crate) exponent: i32,
+}
+
+impl Motion {
+    pub(crate) fn new(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> Self {
+        let (points, exponent) = scale_to_integers(&[*start, *end].concat());
+        let mut points = points.into_iter();
+        let mut four = || std::array::from_fn(|_| points.next().expect("eight points"));
+        Self {
+            start: four(),
+            end: four(),
+            exponent,
+        }
+    }
+
+    /// The points as polynomials in the time.
+    pub(crate) fn trajectories(&self) -> [Point<Polynomial>; 4] {
+        std::array::from_fn(|point| {
+            std::array::from_fn(|axis| {
+                let (start, end) = (&self.start[point][axis], &self.end[point][axis]);
+                Polynomial::new(vec![start.clone(), end.difference(start)])
+            })
+        })
+    }
+
+    /// The points at time `t`, times its (positive) denominator.
+    pub(crate) fn at(&self, t: &Rational) -> [Point<Integer>; 4] {
+        std::array::from_fn(|point| {
+            std::array::from_fn(|axis| {
+                let (start, end) = (&self.start[point][axis], &self.end[point][axis]);
+                Integer::from(end - start) * t.numer() + Integer::from(start * t.denom())
+            })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_finite_number_is_decoded_exactly() {
+        for value in [
+            1.0,
+            -0.1,
+            f64::MAX,
+            f64::MIN_POSITIVE,
+            5e-324,
+            -5e-324 * 3.0,
+            0.0,
+            -0.0,
+        ] {
+            let (mantissa, exponent) = decode(value);
+            let decoded = Rational::from(mantissa) << exponent;
+            assert_eq!(decoded, Rational::from_f64(value).expect("finite"));
+        }
+    }
+
+    #[test]
+    fn common_scale_keeps_the_ratios() {
+        let (points, exponent) = scale_to_integers(&[[0.5, 3.0, 5e-324]]);
+        for (integer, value) in points[0].iter().zip([0.5, 3.0, 5e-324]) {
+            let back = Rational::from(integer.clone()) << exponent;
+            assert_eq!(back, Rational::from_f64(value).expect("finite"));
+        }
+    }
+}

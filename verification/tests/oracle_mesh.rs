@@ -1,0 +1,142 @@
+//! Triangle intersections at rest, against clipping.
+
+mod support;
+
+use proptest::prelude::*;
+use selvedge_verification::oracle::{mesh_self_intersections, triangles_intersect};
+use support::{common_part, contains, point};
+
+type Triangle = [[f64; 3]; 3];
+
+/// Is the common part more than the hull of the shared corners?
+fn by_clipping(a: &Triangle, b: &Triangle, shared: &[[usize; 2]]) -> bool {
+    let corners = common_part(&a.map(point), &b.map(point));
+    let simplex: Vec<_> = shared.iter().map(|&[i, _]| point(a[i])).collect();
+    corners
+        .iter()
+        .any(|corner| simplex.is_empty() || !contains(&simplex, corner))
+}
+
+fn grid_point() -> impl Strategy<Value = [f64; 3]> {
+    prop::array::uniform3((-1..=1).prop_map(f64::from))
+}
+
+fn triangle() -> impl Strategy<Value = Triangle> {
+    prop::array::uniform3(grid_point())
+}
+
+/// Every way to share none, one, two or three corners.
+fn shared() -> impl Strategy<Value = Vec<[usize; 2]>> {
+    let corners = || Just([0, 1, 2]).prop_shuffle();
+    (corners(), corners(), 0..=3_usize).prop_map(|(a, b, count)| {
+        a.into_iter()
+            .zip(b)
+            .take(count)
+            .map(|(i, j)| [i, j])
+            .collect()
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+    #[test]
+    fn intersection_is_what_clipping_finds(a in triangle(), mut b in triangle(), shared in shared()) {
+        for &[i, j] in &shared {
+            b[j] = a[i];
+        }
+        prop_assert_eq!(triangles_intersect(&a, &b, &shared), by_clipping(&a, &b, &shared));
+    }
+
+    #[test]
+    fn intersection_ignores_the_order_of_triangles_and_corners(
+        a in triangle(), mut b in triangle(), shared in shared(), turn in 0..3_usize,
+    ) {
+        for &[i, j] in &shared {
+            b[j] = a[i];
+        }
+        let turned: Triangle = std::array::from_fn(|i| a[(i + turn) % 3]);
+        let swapped: Vec<_> = shared.iter().map(|&[i, j]| [j, (i + 3 - turn) % 3]).collect();
+        prop_assert_eq!(
+            triangles_intersect(&a, &b, &shared),
+            triangles_intersect(&b, &turned, &swapped)
+        );
+    }
+
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(500))]
+
+    #[test]
+    fn mesh_intersections_are_those_of_all_pairs(
+        positions in prop::collection::vec(grid_point(), 3..12),
+        corners in prop::collection::vec(prop::array::uniform3(any::<prop::sample::Index>()), 0..12),
+    ) {
+        let triangles: Vec<[u32; 3]> = corners
+            .iter()
+            .map(|c| c.map(|i| u32::try_from(i.index(positions.len())).expect("small")))
+            .collect();
+        let mut expected = Vec::new();
+        for (j, b) in triangles.iter().enumerate() {
+            for (i, a) in triangles[..j].iter().enumerate() {
+                let [at_a, at_b] = [a, b].map(|t| t.map(|v| point(positions[v as usize])));
+                let mut simplex: Vec<u32> = a.iter().copied().filter(|v| b.contains(v)).collect();
+                simplex.sort_unstable();
+                simplex.dedup();
+                let simplex: Vec<_> =
+                    simplex.into_iter().map(|v| point(positions[v as usize])).collect();
+                let beyond =
+                    |x| simplex.is_empty() || !contains(&simplex, x);
+                if common_part(&at_a, &at_b).iter().any(beyond) {
+                    expected.push([i, j].map(|i| u32::try_from(i).expect("small")));
+                }
+            }
+        }
+        expected.sort_unstable();
+        prop_assert_eq!(mesh_self_intersections(&positions, &triangles), expected);
+    }
+}
+
+#[test]
+fn triangles_one_ulp_apart_do_not_intersect() {
+    let a = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
+    let above = a.map(|[x, y, z]: [f64; 3]| [x, y, z.next_up()]);
+    assert!(triangles_intersect(&a, &a, &[]));
+    assert!(!triangles_intersect(&a, &above, &[]));
+}
+
+#[test]
+fn a_corner_that_touches_from_above_intersects() {
+    let a = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
+    let b = [[1.0, 1.0, 0.0], [1.0, 1.0, 1.0], [2.0, 1.0, 1.0]];
+    assert!(triangles_intersect(&a, &b, &[]));
+    let lifted = b.map(|[x, y, z]| [x, y, z + f64::MIN_POSITIVE]);
+    assert!(!triangles_intersect(&a, &lifted, &[]));
+}
+
+#[test]
+fn a_fold_onto_the_neighbour_intersects_and_an_open_hinge_does_not() {
+    let (p, q) = ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
+    let hinge = |b| triangles_intersect(&[p, q, [0.0, 1.0, 0.0]], &[q, p, b], &[[0, 1], [1, 0]]);
+    assert!(hinge([0.5, 1.0, 0.0]));
+    assert!(!hinge([0.5, 1.0, 1e-300]));
+    assert!(!hinge([0.5, -1.0, 0.0]));
+}
+
+#[test]
+fn coordinates_at_both_ends_of_the_range_are_exact() {
+    let tiny = 5e-324;
+    let a = [
+        [-1e308, -1e308, 0.0],
+        [1e308, -1e308, 0.0],
+        [0.0, 1e308, 0.0],
+    ];
+    let b = [[0.0, 0.0, tiny], [1.0, 0.0, tiny], [0.0, 1e308, tiny]];
+    assert!(!triangles_intersect(&a, &b, &[]));
+    assert!(triangles_intersect(
+        &a,
+        &b.map(|[x, y, z]| [x, y, z - tiny]),
+        &[]
+    ));
+}
