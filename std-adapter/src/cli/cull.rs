@@ -4,10 +4,11 @@ use super::Failure;
 use super::options::{ScalarChoice, Threads, preset_parser};
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
+use selvedge::PairKind;
 use selvedge::core::Scalar;
 use selvedge::glam::DVec3;
 use selvedge::mesh::{MeshStep, read_step};
-use selvedge::pipeline::{PairKind, Pipeline, Preset};
+use selvedge::pipeline::{Pipeline, Preset};
 use selvedge::report::{StepSummary, contacts_csv, json, pairs_csv, tables};
 use std::path::{Path, PathBuf};
 

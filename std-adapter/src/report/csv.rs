@@ -2,8 +2,9 @@
 
 use super::distributed;
 use super::paper::paper_row;
+use crate::PairKind;
 use crate::mesh::Topology;
-use crate::pipeline::{Contact, PairKind, Stage};
+use crate::pipeline::{Contact, Stage};
 use crate::study::{Comparison, ComparisonRow};
 use ::csv::Writer;
 use selvedge_core::Scalar;
