@@ -1,14 +1,16 @@
 //! `selvedge compare`, and `selvedge` without a subcommand.
 
 use super::Failure;
-use super::options::{Threads, preset_parser};
+use super::options::{Threads, preset_parser, refinement_parser};
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge::mesh::read_step;
 use selvedge::pipeline::Preset;
-use selvedge::report::{comparison_csv, json, tables};
+use selvedge::report::{FigurePairs, comparison_csv, comparison_svg, figure_3, json, tables};
 use selvedge::scene::ArmScene;
-use selvedge::study::{self, ArmFrames, Comparison, Frames, TwoFrames};
+use selvedge::study::{
+    self, ArmFrames, Comparison, Frames, StepCandidates, TwoFrames, busiest_step, step_candidates,
+};
 use std::path::{Path, PathBuf};
 
 /// How the comparison is run and printed.
@@ -31,7 +33,7 @@ struct Arm {
     #[arg(long, value_name = "N", default_value_t = ArmScene::STEPS as u32, value_parser = clap::value_parser!(u32).range(1..))]
     steps: u32,
     /// Multiply the sleeve's 1,345 triangles by this
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = refinement_parser())]
     refinement: u32,
 }
 
@@ -48,7 +50,7 @@ pub(crate) struct MainJob {
     arm: Arm,
     #[command(flatten)]
     run: Run,
-    /// Write the comparison (CSV) to this folder
+    /// Write the comparison (CSV, SVG) and a picture of candidates (PNG) to this folder
     #[arg(long, value_name = "DIR", default_value = "selvedge-out")]
     output: PathBuf,
 }
@@ -59,8 +61,8 @@ impl MainJob {
         OutputFiles::check_folder(&self.output)?;
         let comparison = self.run.compare(&frames, &Preset::ALL)?;
         let mut files = OutputFiles::default();
-        add_report(&mut files, &self.output, &comparison)?;
-        publish(files)?;
+        add_report(&mut files, &self.output, &frames, &comparison)?;
+        files.publish()?;
         self.run.print(&comparison)
     }
 }
@@ -91,7 +93,7 @@ pub(crate) struct Compare {
     /// Write the table to this file
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Write the comparison (CSV) to this folder
+    /// Write the comparison (CSV, SVG) and a picture of candidates (PNG) to this folder
     #[arg(long, value_name = "DIR")]
     output: Option<PathBuf>,
 }
@@ -117,9 +119,9 @@ impl Compare {
             files.add(path.clone(), |out| comparison_csv(&comparison, out))?;
         }
         if let Some(folder) = &self.output {
-            add_report(&mut files, folder, &comparison)?;
+            add_report(&mut files, folder, frames, &comparison)?;
         }
-        publish(files)?;
+        files.publish()?;
         self.run.print(&comparison)
     }
 
@@ -170,19 +172,36 @@ fn read_frames(start: &Path, end: &Path) -> Result<TwoFrames, Failure> {
     })
 }
 
+/// Everything that a run leaves in its folder: the table as CSV and SVG, and the paper's Figure 3, on the step in which
+/// ours has the most candidates left.
 fn add_report(
     files: &mut OutputFiles,
     folder: &Path,
+    frames: &impl Frames,
     comparison: &Comparison,
 ) -> Result<(), Failure> {
+    let _progress = Progress::spinner("drawing");
     files.add(folder.join("comparison.csv"), |out| {
         comparison_csv(comparison, out)
-    })
+    })?;
+    let table = comparison_svg(comparison);
+    files.add_bytes(folder.join("comparison.svg"), table.as_bytes())?;
+
+    let threads = comparison.threads;
+    let frame = busiest_step(frames, Preset::Selvedge, threads)?;
+    let basic = step_candidates(frames, frame, Preset::Basic, threads)?;
+    let ours = step_candidates(frames, frame, Preset::Selvedge, threads)?;
+    let mut positions = Vec::new();
+    frames.positions(frame + 1, &mut positions);
+    let [basic, ours] = [&basic, &ours].map(panel);
+    let figure = figure_3(frames.topology(), &positions, &basic, &ours)?;
+    files.add_bytes(folder.join("figure-3.png"), &figure)
 }
 
-fn publish(files: OutputFiles) -> Result<(), Failure> {
-    for path in files.publish()? {
-        output::say(format_args!("wrote {}", path.display()));
+fn panel(candidates: &StepCandidates) -> FigurePairs<'_> {
+    FigurePairs {
+        name: candidates.preset.to_string(),
+        vertex_face: &candidates.vertex_face,
+        edge_edge: &candidates.edge_edge,
     }
-    Ok(())
 }

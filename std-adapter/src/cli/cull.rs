@@ -96,9 +96,7 @@ impl Cull {
                 )
             })?;
         }
-        for path in files.publish()? {
-            output::say(format_args!("wrote {}", path.display()));
-        }
+        files.publish()?;
 
         let summary = StepSummary::new(self.pipeline, &pipeline);
         if self.json {

@@ -1,10 +1,13 @@
 //! The `selvedge` command: reads arguments and files, runs a study, prints and writes what it found.
 
+mod arm;
 mod compare;
 mod cull;
 mod options;
 mod output;
 mod progress;
+mod queries;
+mod scaling;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -27,10 +30,11 @@ struct Cli {
 
 const EXAMPLES: &str = "\
 Examples:
-  selvedge                                     compare all methods on the arm scene
-  selvedge cull a.ply b.ply                    pairs that may collide from a to b
-  selvedge cull a.ply b.ply --pairs out.csv    … and the contacts, one a line
-  selvedge compare a.obj b.obj --json          all methods on your own mesh
+  selvedge                                  compare all methods on the arm scene
+  selvedge cull a.ply b.ply                 pairs that may collide from a to b
+  selvedge cull a.ply b.ply --pairs c.csv   … and the contacts, one a line
+  selvedge compare a.obj b.obj --json       all methods on your own mesh
+  selvedge arm --frames 55,56               two meshes to try these on
 
 Exit status: 0 done, 1 the input is at fault, 2 the command line is at fault.";
 
@@ -38,6 +42,9 @@ Exit status: 0 done, 1 the input is at fault, 2 the command line is at fault.";
 enum Command {
     Cull(cull::Cull),
     Compare(compare::Compare),
+    Queries(queries::Queries),
+    Scaling(scaling::Scaling),
+    Arm(arm::Arm),
 }
 
 /// Runs the command line. Errors go to standard error, as does everything else that is not the answer.
@@ -47,6 +54,9 @@ pub(crate) fn main() -> ExitCode {
         None => cli.main_job.run(),
         Some(Command::Cull(cull)) => cull.run(),
         Some(Command::Compare(compare)) => compare.run(),
+        Some(Command::Queries(queries)) => queries.run(),
+        Some(Command::Scaling(scaling)) => scaling.run(),
+        Some(Command::Arm(arm)) => arm.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,10 +1,13 @@
 //! Arguments that several subcommands share.
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
 use selvedge::pipeline::Preset;
 
 /// More threads than any machine has cores; each needs buffers of its own.
 const MAX_THREADS: i64 = 1024;
+
+/// A sleeve of 13 million triangles: what a large machine's memory takes.
+const MAX_REFINEMENT: i64 = 10_000;
 
 /// The format that positions are computed in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -37,4 +40,9 @@ impl Threads {
 /// A method by its name; lists the known ones when it is not one of them.
 pub(crate) fn preset_parser() -> impl TypedValueParser<Value = Preset> {
     PossibleValuesParser::new(Preset::ALL.map(Preset::name)).try_map(|name| name.parse::<Preset>())
+}
+
+/// How many times the sleeve's 1,345 triangles.
+pub(crate) fn refinement_parser() -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=MAX_REFINEMENT)
 }

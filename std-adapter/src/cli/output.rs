@@ -63,15 +63,19 @@ impl OutputFiles {
         Ok(())
     }
 
-    /// Gives all files their names, replacing older ones, and returns the names.
-    pub(crate) fn publish(self) -> Result<Vec<PathBuf>, Failure> {
-        let mut paths = Vec::with_capacity(self.complete.len());
+    /// Writes a file that is all there, not yet under its name.
+    pub(crate) fn add_bytes(&mut self, path: PathBuf, bytes: &[u8]) -> Result<(), Failure> {
+        self.add(path, |out| out.write_all(bytes))
+    }
+
+    /// Gives all files their names, replacing older ones, and says so.
+    pub(crate) fn publish(self) -> Result<(), Failure> {
         for (file, path) in self.complete {
             file.persist(&path)
                 .map_err(|error| unwritable(&path, error.error))?;
-            paths.push(path);
+            say(format_args!("wrote {}", path.display()));
         }
-        Ok(paths)
+        Ok(())
     }
 }
 

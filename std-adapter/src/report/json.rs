@@ -3,10 +3,13 @@
 
 use super::distributed;
 use super::findings::findings;
+use super::n_log_n_ratios;
 use super::paper::paper_row;
 use super::step::StepSummary;
-use crate::pipeline::{PairCounts, Stage, StepReport};
-use crate::study::{Comparison, ComparisonRow, MeanCounts};
+use crate::pipeline::{PairCounts, Preset, Stage, StepReport};
+#[cfg(feature = "files")]
+use crate::study::QueryResult;
+use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
 use serde_json::{Value, json};
 
 /// One step: `selvedge cull`.
@@ -112,4 +115,57 @@ fn comparison_stages(row: &ComparisonRow) -> Vec<Value> {
         })
     }));
     stages
+}
+
+/// What each method said of queries: `selvedge queries`.
+#[cfg(feature = "files")]
+#[must_use]
+pub fn queries(scalar: &str, results: &[QueryResult]) -> Value {
+    let methods = results.iter().map(|result| {
+        let time = result.nanoseconds;
+        json!({
+            "method": result.method.name(),
+            "kind": result.kind.name(),
+            "certified": result.method.is_certified(),
+            "queries": result.queries,
+            "positives": result.positives,
+            "truth_positives": result.truth.map(|truth| truth.positives),
+            "false_positives": result.truth.map(|truth| truth.false_positives),
+            "false_negatives": result.truth.map(|truth| truth.false_negatives),
+            "nanoseconds": {
+                "mean": time.mean,
+                "median": time.median,
+                "p99": time.p99,
+                "max": time.max,
+            },
+        })
+    });
+    json!({"scalar": scalar, "methods": methods.collect::<Vec<_>>()})
+}
+
+/// Cost against size: `selvedge scaling`.
+#[must_use]
+pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value {
+    let ratios = n_log_n_ratios(points);
+    let sizes = points.iter().zip(ratios).map(|(point, ratio)| {
+        let candidates = point.step.candidates();
+        json!({
+            "triangles": point.triangles,
+            "triangle_pairs": point.step.triangle_pairs,
+            "candidates": {
+                "vertex_face": candidates.vertex_face,
+                "edge_edge": candidates.edge_edge,
+            },
+            "setup_seconds": point.setup_seconds,
+            "first_step_seconds": point.first_step_seconds,
+            "seconds": point.step.seconds,
+            "seconds_over_n_log_n": ratio,
+            "stages": step_stages(&point.step),
+        })
+    });
+    json!({
+        "pipeline": preset.name(),
+        "threads": threads,
+        "sizes": sizes.collect::<Vec<_>>(),
+    })
 }

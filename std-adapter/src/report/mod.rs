@@ -21,7 +21,7 @@ pub use step::StepSummary;
 pub use table_svg::comparison_svg;
 
 use crate::pipeline::Stage;
-use crate::study::{ComparisonRow, MeanCounts};
+use crate::study::{ComparisonRow, MeanCounts, ScalingPoint};
 
 /// The primitive pairs of a method before any culling test.
 fn distributed(row: &ComparisonRow) -> MeanCounts {
@@ -30,4 +30,14 @@ fn distributed(row: &ComparisonRow) -> MeanCounts {
         .iter()
         .find(|stage| stage.stage == Stage::Distribution);
     stage.map(|stage| stage.survivors).unwrap_or_default()
+}
+
+/// Each size's time for a step over n log n, as a multiple of the first size's: 1 throughout for a cost of n log n.
+fn n_log_n_ratios(points: &[ScalingPoint]) -> Vec<f64> {
+    let cost = |point: &ScalingPoint| {
+        let n = point.triangles as f64;
+        point.step.seconds / (n * n.ln())
+    };
+    let first = points.first().map_or(1.0, cost);
+    points.iter().map(|point| cost(point) / first).collect()
 }

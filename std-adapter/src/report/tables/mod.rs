@@ -1,9 +1,15 @@
 //! Tables as text, made to be read in a terminal of 80 columns.
 
 mod comparison;
+#[cfg(feature = "files")]
+mod queries;
+mod scaling;
 mod step;
 
 pub use comparison::comparison;
+#[cfg(feature = "files")]
+pub use queries::queries;
+pub use scaling::scaling;
 pub use step::step;
 
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
