@@ -69,6 +69,9 @@ impl Cull {
         for path in [&self.pairs, &self.candidates].into_iter().flatten() {
             OutputFiles::check(path)?;
         }
+        if self.pairs.is_some() && self.pairs == self.candidates {
+            return Err("--pairs and --candidates name the same file".into());
+        }
 
         let mut pipeline =
             Pipeline::<S>::new(step.topology, self.pipeline.stages(), self.threads.get())?;
@@ -131,8 +134,9 @@ fn positions<S: Scalar>(positions: &[DVec3], file: &Path) -> Result<Vec<S::Vecto
     let converted = converted.collect::<Result<Vec<_>, Failure>>()?;
     if rounded > 0 {
         output::say(format_args!(
-            "{}: {rounded} coordinates were rounded to {}",
+            "{}: {} rounded to {}",
             file.display(),
+            output::coordinates_were(rounded),
             S::NAME
         ));
     }

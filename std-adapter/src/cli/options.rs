@@ -32,8 +32,12 @@ pub(crate) struct Threads {
 }
 
 impl Threads {
+    /// At least one.
     pub(crate) fn get(self) -> usize {
-        self.threads.into()
+        match self.threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            threads => threads.into(),
+        }
     }
 }
 

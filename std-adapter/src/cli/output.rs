@@ -27,6 +27,14 @@ pub(crate) fn say(message: fmt::Arguments<'_>) {
     let _ = writeln!(io::stderr().lock(), "{message}");
 }
 
+/// `1 coordinate was`, `2 coordinates were`.
+pub(crate) fn coordinates_were(count: usize) -> String {
+    match count {
+        1 => "1 coordinate was".to_owned(),
+        count => format!("{count} coordinates were"),
+    }
+}
+
 /// Files that appear together, complete, once all of them could be written; until then nothing is visible.
 #[derive(Debug, Default)]
 pub(crate) struct OutputFiles {
@@ -91,8 +99,11 @@ fn temporary(path: &Path) -> Result<NamedTempFile, Failure> {
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder
         .tempfile_in(folder)
-        // Without the temporary file's own name, which tells the user nothing.
-        .map_err(|error| unwritable(path, io::Error::from(error.kind())))
+        .map_err(|error| match error.kind() {
+            ErrorKind::NotFound => unwritable(path, "there is no such folder"),
+            // Without the temporary file's own name, which tells the user nothing.
+            kind => unwritable(path, io::Error::from(kind)),
+        })
 }
 
 fn unwritable(path: &Path, reason: impl fmt::Display) -> Failure {

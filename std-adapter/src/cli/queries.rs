@@ -77,7 +77,8 @@ impl Queries {
         let inexact: usize = files.iter().map(|file| file.inexact).sum();
         if inexact > 0 {
             output::say(format_args!(
-                "{inexact} coordinates were rounded to f64; the truth may not hold for them"
+                "{} rounded to f64; the truth may not hold for the queries they are in",
+                output::coordinates_were(inexact)
             ));
         }
         let (scalar, results) = match self.scalar {
@@ -95,7 +96,8 @@ impl Queries {
                 let results = self.measure::<f32>(&files, single)?;
                 if rounded > 0 {
                     output::say(format_args!(
-                        "{rounded} coordinates were rounded to f32; the truth may not hold for them"
+                        "{} rounded to f32; the truth may not hold for the queries they are in",
+                        output::coordinates_were(rounded)
                     ));
                 }
                 ("f32", results)

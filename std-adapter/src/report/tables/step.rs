@@ -36,17 +36,21 @@ pub fn step(summary: &StepSummary) -> String {
     let first = summary
         .earliest
         .map_or_else(String::new, |time| format!(", the first at t = {time:.6}"));
-    let threads = match summary.threads {
-        1 => "1 thread".to_owned(),
-        threads => format!("{threads} threads (times of stages after the broad phase are sums)"),
+    let s = if summary.threads == 1 { "" } else { "s" };
+    let sums = if summary.threads == 1 {
+        ""
+    } else {
+        "Times after the broad phase are summed over threads.\n"
     };
     format!(
-        "{} on {} vertices, {} edges, {} triangles; {}, {threads}\n\n{}\nContacts: {} vertex–face and {} edge–edge{first}.\n{}",
-        summary.preset,
+        "{} vertices, {} edges, {} triangles\n{} in {} on {} thread{s}\n\n{}\n{sums}\
+         Contacts: {} vertex–face and {} edge–edge{first}.\n{}",
         grouped(summary.vertices as u64),
         grouped(summary.edges as u64),
         grouped(summary.triangles as u64),
+        summary.preset,
         summary.scalar,
+        summary.threads,
         table(header, rows),
         grouped(contacts.vertex_face),
         grouped(contacts.edge_edge),
@@ -59,8 +63,8 @@ fn promise(summary: &StepSummary) -> &'static str {
     let stages = summary.preset.stages();
     let ElementaryTest::Cubic = stages.elementary;
     if stages.tests.iter().copied().all(CullingTest::is_certified) {
-        "The plain cubic elementary test can miss contacts; the culling stages before it cannot.\n"
+        "The plain cubic elementary test can miss contacts; the stages before it cannot.\n"
     } else {
-        "Neither the plain filter nor the plain cubic elementary test is certified: both can miss\ncontacts.\n"
+        "The plain filter and the plain cubic elementary test can both miss contacts.\n"
     }
 }
