@@ -20,7 +20,7 @@ pub(crate) type Failure = Box<dyn std::error::Error + Send + Sync>;
 /// Without a subcommand: runs every published method on a built-in scene, a sleeve on a bending arm, prints the
 /// comparison and writes it to a folder.
 #[derive(Debug, Parser)]
-#[command(version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
+#[command(version, max_term_width = 80, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,

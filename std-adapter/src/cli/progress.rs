@@ -42,7 +42,11 @@ impl Progress {
                     .unwrap_or_else(|_| ProgressStyle::default_bar());
                 let bar = ProgressBar::new(LENGTH)
                     .with_style(style)
-                    .with_message(message);
+                    .with_message(message)
+                    .with_elapsed(DELAY)
+                    .with_position(done.load(Ordering::Relaxed));
+                // What was done before the bar appeared must not count as done at once.
+                bar.reset_eta();
                 loop {
                     bar.set_position(done.load(Ordering::Relaxed));
                     bar.tick();

@@ -183,3 +183,166 @@ fn contacts(comparison: &Comparison) -> Vec<Finding> {
     }
     different
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::MeanCounts;
+
+    fn row(preset: Preset, vertex_face: f64, edge_edge: f64, rate: f64) -> ComparisonRow {
+        let counts = |vertex_face, edge_edge| MeanCounts {
+            vertex_face,
+            edge_edge,
+        };
+        ComparisonRow {
+            preset,
+            triangle_pairs: 5000.0,
+            broad_phase_seconds: 0.0,
+            stages: Vec::new(),
+            after_boxes: counts(2000.0, 3000.0),
+            candidates: counts(vertex_face, edge_edge),
+            contacts: counts(1.0, 2.0),
+            frames_per_second: rate,
+        }
+    }
+
+    fn comparison(rows: Vec<ComparisonRow>) -> Comparison {
+        Comparison {
+            name: "test".to_owned(),
+            vertices: 693,
+            edges: 2038,
+            triangles: 1345,
+            steps: 1,
+            threads: 1,
+            rounds: 1,
+            rows,
+        }
+    }
+
+    /// The paper's own numbers, and ours better than all of them.
+    fn as_in_the_paper() -> Vec<ComparisonRow> {
+        let mut rows = vec![row(Preset::Selvedge, 30.0, 100.0, 40.0)];
+        for preset in Preset::ALL {
+            rows.extend(paper_row(preset).map(|paper| {
+                row(
+                    preset,
+                    paper.vertex_face.into(),
+                    paper.edge_edge.into(),
+                    paper.frames_per_second,
+                )
+            }));
+        }
+        rows
+    }
+
+    /// The sentences that are not as expected, after `change` to the row of `preset`.
+    fn unexpected(preset: Preset, change: impl FnOnce(&mut ComparisonRow)) -> Vec<String> {
+        let mut rows = as_in_the_paper();
+        change(rows.iter_mut().find(|row| row.preset == preset).unwrap());
+        let findings = findings(&comparison(rows)).into_iter();
+        findings
+            .filter(|finding| !finding.as_expected)
+            .map(|finding| finding.text)
+            .collect()
+    }
+
+    #[track_caller]
+    fn assert_only(found: &[String], parts: &[&str]) {
+        assert_eq!(found.len(), 1, "{found:?}");
+        for part in parts {
+            assert!(
+                found[0].contains(part),
+                "`{part}` is missing in: {}",
+                found[0]
+            );
+        }
+    }
+
+    #[test]
+    fn the_papers_own_numbers_go_against_nothing() {
+        assert_eq!(unexpected(Preset::Selvedge, |_| ()), [""; 0]);
+        let all = findings(&comparison(as_in_the_paper()));
+        assert_eq!(all.len(), 3 + 4 + 2 + 1);
+    }
+
+    #[test]
+    fn more_candidates_than_the_paper_has_are_told() {
+        let found = unexpected(Preset::Curtis2008, |row| row.candidates.edge_edge = 3000.0);
+        let parts = [
+            "fewer VF candidates, but no fewer EE than basic",
+            "against the paper",
+        ];
+        assert_only(&found, &parts);
+    }
+
+    #[test]
+    fn a_speed_against_the_paper_is_told() {
+        let found = unexpected(Preset::Lv2014, |row| row.frames_per_second = 39.0);
+        assert_only(
+            &found,
+            &["lv_2014 is faster than tang_2010", "against the paper"],
+        );
+    }
+
+    #[test]
+    fn ours_with_more_candidates_than_the_paper_is_told() {
+        let found = unexpected(Preset::Selvedge, |row| row.candidates.vertex_face = 32.0);
+        assert_only(
+            &found,
+            &["selvedge leaves more candidates than lv_2014 (32 against 31 VF"],
+        );
+    }
+
+    #[test]
+    fn ours_not_the_fastest_is_told() {
+        let found = unexpected(Preset::Selvedge, |row| row.frames_per_second = 37.0);
+        assert_only(&found, &["selvedge is not the fastest: tang_2010"]);
+    }
+
+    #[test]
+    fn a_method_that_loses_contacts_is_told() {
+        let found = unexpected(Preset::Tang2010, |row| row.contacts.vertex_face = 0.5);
+        assert_only(
+            &found,
+            &["tang_2010 finds 0.5 VF and 2 EE contacts a step, basic finds 1 and 2"],
+        );
+    }
+
+    #[test]
+    fn duplicates_are_no_lost_contacts() {
+        let mut rows = as_in_the_paper();
+        rows.insert(0, row(Preset::Naive, 9e3, 9e3, 1.0));
+        rows[0].contacts.edge_edge = 70.0;
+        assert!(
+            findings(&comparison(rows))
+                .iter()
+                .all(|finding| finding.as_expected)
+        );
+    }
+
+    #[test]
+    fn a_method_alone_leaves_nothing_to_say() {
+        let rows = vec![row(Preset::Selvedge, 1.0, 1.0, 1.0)];
+        assert_eq!(findings(&comparison(rows)), []);
+    }
+
+    #[test]
+    fn tables_of_a_large_mesh_still_fit_80_columns() {
+        let mut rows = as_in_the_paper();
+        for row in &mut rows {
+            let millions = MeanCounts {
+                vertex_face: 27_345_678.0,
+                edge_edge: 41_345_678.0,
+            };
+            row.after_boxes = millions;
+            row.candidates = millions;
+            row.frames_per_second = 0.123;
+            row.broad_phase_seconds = 12.0;
+        }
+        rows.push(row(Preset::HutterFuhrmann2007, 27_345_678.0, 4e7, 1e5));
+        let text = crate::report::tables::comparison(&comparison(rows));
+        for line in text.lines() {
+            assert!(line.chars().count() <= 80, "{line}");
+        }
+    }
+}
