@@ -22,6 +22,8 @@ pub trait Rounding: Copy {
     const UNDERFLOW: Self;
     /// One.
     const ONE: Self;
+    /// Positive infinity.
+    const INFINITY: Self;
     /// A small whole number, exactly. The kernels ask for no more than 10.
     fn small(count: u8) -> Self;
 }
@@ -63,6 +65,7 @@ macro_rules! one_lane {
             const UNIT_ROUNDOFF: Self = $roundoff;
             const UNDERFLOW: Self = $underflow;
             const ONE: Self = 1.0;
+            const INFINITY: Self = <$scalar>::INFINITY;
 
             #[inline(always)]
             fn small(count: u8) -> Self {

@@ -23,7 +23,9 @@ pub mod segment;
 pub use aabb::Aabb;
 pub use dop::Dop18;
 
+use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::verdict::Verdict;
 
@@ -32,26 +34,36 @@ use crate::verdict::Verdict;
 /// NaN and infinite coordinates keep the pair.
 #[inline(always)]
 pub fn swept_boxes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    let [start, end] = coordinates(pair);
-    let apart = |axis: usize| {
-        let [first, second] = P::ranges(start[axis]);
-        let [first_at_end, second_at_end] = P::ranges(end[axis]);
-        let swept = |[low, high]: [S; 2], [low_at_end, high_at_end]: [S; 2]| {
-            [low.smaller(low_at_end), high.larger(high_at_end)]
-        };
-        let ([low, high], [other_low, other_high]) =
-            (swept(first, first_at_end), swept(second, second_at_end));
-        (low > other_high) | (other_low > high)
-    };
-    // The ranges drop NaN, hence the last condition.
-    Verdict::culled_if((apart(0) | apart(1) | apart(2)) & pair.is_finite())
+    Verdict::culled_if(have_disjoint_swept_boxes::<P::Shape, S>(&pair.points()))
 }
 
-/// For each end of the step and each axis, the coordinates of the pair's four points.
+/// The same decision on any number of lanes.
 #[inline(always)]
-fn coordinates<S: Scalar>(pair: &impl PrimitivePair<S>) -> [[[S; 4]; 3]; 2] {
-    let [a, b, c, d] = pair.motions().map(|motion| motion.ends());
-    [0, 1].map(|end| [0, 1, 2].map(|axis| [a[end][axis], b[end][axis], c[end][axis], d[end][axis]]))
+#[must_use]
+pub fn have_disjoint_swept_boxes<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
+    let apart = |start: [L; 4], end: [L; 4]| {
+        let ([first, second], [first_at_end, second_at_end]) = (P::ranges(start), P::ranges(end));
+        let swept = |[low, high]: [L; 2], [low_at_end, high_at_end]: [L; 2]| {
+            [low.smaller(low_at_end), high.larger(high_at_end)]
+        };
+        let [low, high] = swept(first, first_at_end);
+        let [other_low, other_high] = swept(second, second_at_end);
+        low.greater(other_high) | other_low.greater(high)
+    };
+    // The ranges drop NaN, hence the last condition.
+    along_axes(points, apart) & points.is_finite()
+}
+
+/// Whether `apart`, given the four points' coordinates at the start and at the end, holds along one of the axes.
+#[inline(always)]
+fn along_axes<L: Lanes>(
+    points: &PairPoints<L>,
+    apart: impl Fn([L; 4], [L; 4]) -> L::Mask,
+) -> L::Mask {
+    let PairPoints { start, end } = points;
+    apart(start.map(|p| p.x), end.map(|p| p.x))
+        | apart(start.map(|p| p.y), end.map(|p| p.y))
+        | apart(start.map(|p| p.z), end.map(|p| p.z))
 }
 
 /// The nine directions of an 18-DOP, as values of one point: x, y, z, x±y, x±z, y±z. The sums round to nearest.

@@ -7,9 +7,12 @@
 //! axis-aligned boxes cull and more, because it knows that the two move together, which swept boxes forget. The same test
 //! is the reading that we give to the subspace filters of Tang, Li and Wang 2010 and 2011 (*reconstructed*).
 
-use super::coordinates;
+use super::along_axes;
+use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
+use crate::vector::Vector;
 use crate::verdict::Verdict;
 
 /// Culls `pair` if one coordinate axis keeps its two sets apart, in the same order, throughout the step.
@@ -29,48 +32,43 @@ use crate::verdict::Verdict;
 /// ```
 #[inline(always)]
 pub fn three_axes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    let [start, end] = coordinates(pair);
-    // The ranges drop NaN, hence the last condition.
-    Verdict::culled_if(apart_along_axes::<S, P>(&start, &end) & pair.is_finite())
+    Verdict::culled_if(are_apart_along_three_axes::<P::Shape, S>(&pair.points()))
 }
 
 /// [`three_axes`], and the six diagonals x±y, x±z, y±z as well.
 #[inline(always)]
 pub fn nine_directions<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    let [start, end] = coordinates(pair);
-    let apart =
-        apart_along_axes::<S, P>(&start, &end) || apart_along_diagonals::<S, P>(&start, &end);
-    Verdict::culled_if(apart & pair.is_finite())
+    Verdict::culled_if(are_apart_along_nine_directions::<P::Shape, S>(
+        &pair.points(),
+    ))
 }
 
+/// The decision of [`three_axes`] on any number of lanes.
 #[inline(always)]
-fn apart_along_axes<S: Scalar, P: PrimitivePair<S>>(
-    start: &[[S; 4]; 3],
-    end: &[[S; 4]; 3],
-) -> bool {
-    let apart = |axis: usize| keeps_order::<S, P>(start[axis], end[axis]);
-    apart(0) | apart(1) | apart(2)
+#[must_use]
+pub fn are_apart_along_three_axes<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
+    // The ranges drop NaN, hence the last condition.
+    along_axes(points, keep_order::<P, L>) & points.is_finite()
 }
 
+/// The decision of [`nine_directions`] on any number of lanes.
 #[inline(always)]
-fn apart_along_diagonals<S: Scalar, P: PrimitivePair<S>>(
-    start: &[[S; 4]; 3],
-    end: &[[S; 4]; 3],
-) -> bool {
-    let sum = |[a, b, c, d]: [S; 4], [e, f, g, h]: [S; 4]| [a + e, b + f, c + g, d + h];
-    let difference = |[a, b, c, d]: [S; 4], [e, f, g, h]: [S; 4]| [a - e, b - f, c - g, d - h];
-    let apart = |i: usize, j: usize| {
-        keeps_order::<S, P>(sum(start[i], start[j]), sum(end[i], end[j]))
-            | keeps_order::<S, P>(difference(start[i], start[j]), difference(end[i], end[j]))
-    };
-    apart(0, 1) | apart(0, 2) | apart(1, 2)
+#[must_use]
+pub fn are_apart_along_nine_directions<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
+    let PairPoints { start, end } = points;
+    let along =
+        |project: fn(Vector<L>) -> L| keep_order::<P, L>(start.map(project), end.map(project));
+    let diagonals = (along(|p| p.x + p.y) | along(|p| p.x - p.y))
+        | (along(|p| p.x + p.z) | along(|p| p.x - p.z))
+        | (along(|p| p.y + p.z) | along(|p| p.y - p.z));
+    (along_axes(points, keep_order::<P, L>) | diagonals) & points.is_finite()
 }
 
 /// Whether one set's values are all above the other's at the start, and at the end too.
 #[inline(always)]
-fn keeps_order<S: Scalar, P: PrimitivePair<S>>(start: [S; 4], end: [S; 4]) -> bool {
+fn keep_order<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> L::Mask {
     let [[low_0, high_0], [other_low_0, other_high_0]] = P::ranges(start);
     let [[low_1, high_1], [other_low_1, other_high_1]] = P::ranges(end);
-    ((low_0 > other_high_0) & (low_1 > other_high_1))
-        | ((other_low_0 > high_0) & (other_low_1 > high_1))
+    (low_0.greater(other_high_0) & low_1.greater(other_high_1))
+        | (other_low_0.greater(high_0) & other_low_1.greater(high_1))
 }
