@@ -205,7 +205,7 @@ const SELVEDGE: Stages = Preset::Selvedge.stages();
 #[inline(always)]
 fn keeps<S: Scalar>(test: CullingTest, pair: &impl QueryPair<S>) -> bool {
     let verdict = match test {
-        CullingTest::SweptBoxes => boxes::swept_boxes(pair),
+        CullingTest::SweptBoxes | CullingTest::StoredSweptBoxes => boxes::swept_boxes(pair),
         CullingTest::StoredDop18 => pair.dop_18(),
         CullingTest::SegmentBox => pair.segment_box(),
         CullingTest::RelativeBoxes | CullingTest::SubspaceThree => {
