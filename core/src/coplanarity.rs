@@ -33,8 +33,8 @@
 //!
 //! **Underflow.** Additions and subtractions are exact when their result is subnormal. Each product loses at most
 //! half of the smallest subnormal, η₀ = 2⁻¹⁰⁷⁵ (`f64`) or 2⁻¹⁵⁰ (`f32`); with p_max the largest component of P₀ and
-//! P₁ the sum is at most (6·p_max + 3)·η₀ for k₀ and (18·p_max + 6)·η₀ for 3k₁. η = 32·η₀
-//! ([`Rounding::UNDERFLOW`]) covers it and the rounding of E.
+//! P₁ the sum is at most (6·p_max + 3)·η₀ for k₀ and (18·p_max + 6)·η₀ for 3k₁. 32·(p_max + 1)·η₀ covers it and the
+//! rounding of E; η ([`Rounding::UNDERFLOW`]) is larger, for speed.
 //!
 //! **Overflow and NaN.** P̂ is at least as large as every intermediate result, so whatever overflows makes Eᵢ infinite
 //! or NaN, and the ordered comparisons that decide are false.
@@ -59,20 +59,15 @@ pub struct MovingTetrahedron<L> {
 pub struct ControlValues<L>(pub [L; 4]);
 
 impl<L: Lanes> MovingTetrahedron<L> {
-    /// Differences of four points, each given at times 0 and 1; every difference is rounded once.
+    /// Differences of the four points a, b, c, p at the start and at the end; each is rounded once.
     #[inline(always)]
     #[must_use]
-    pub fn from_points(
-        a: [Vector<L>; 2],
-        b: [Vector<L>; 2],
-        c: [Vector<L>; 2],
-        p: [Vector<L>; 2],
-    ) -> Self {
-        let from_a = |[start, end]: [Vector<L>; 2]| [start - a[0], end - a[1]];
+    pub fn from_points(start: [Vector<L>; 4], end: [Vector<L>; 4]) -> Self {
+        let ([a0, b0, c0, p0], [a1, b1, c1, p1]) = (start, end);
         Self {
-            b: from_a(b),
-            c: from_a(c),
-            p: from_a(p),
+            b: [b0 - a0, b1 - a1],
+            c: [c0 - a0, c1 - a1],
+            p: [p0 - a0, p1 - a1],
         }
     }
 

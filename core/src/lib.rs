@@ -51,6 +51,7 @@ pub mod features;
 pub mod filter;
 pub mod lanes;
 pub mod motion;
+pub mod points;
 pub mod scalar;
 pub mod vector;
 mod verdict;

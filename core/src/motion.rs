@@ -1,6 +1,7 @@
 //! Points that move on a straight line during the step, and the two primitive pairs made of them.
 
 use crate::coplanarity::MovingTetrahedron;
+use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
 use crate::scalar::{Position, Scalar};
 use crate::vector::Vector;
 
@@ -107,43 +108,31 @@ mod sealed {
 ///
 /// Both are two closed convex sets, each the hull of its moving points; they touch when the sets share a point.
 pub trait PrimitivePair<S: Scalar>: Copy + sealed::Sealed {
-    /// The four points in the roles a, b, c, p of the signed volume ([`coplanarity`](crate::coplanarity)).
-    ///
-    /// VF: a, b, c are the face and p the vertex. EE with edges (u, v) and (k, l): a = k, b = u, c = v, p = l
-    /// (the paper, equations 5 to 11).
-    fn volume_points(&self) -> [Motion<S>; 4];
-
-    /// The four points as a tetrahedron that is flat whenever they are coplanar.
-    #[inline(always)]
-    fn tetrahedron(&self) -> MovingTetrahedron<S> {
-        let [a, b, c, p] = self
-            .volume_points()
-            .map(|motion| motion.ends().map(Vector::from));
-        MovingTetrahedron::from_points(a, b, c, p)
-    }
+    /// Which points belong together.
+    type Shape: PairShape;
 
     /// The points of one set, then those of the other: vertex, face; or first, second edge.
     fn motions(&self) -> [Motion<S>; 4];
 
-    /// How many of [`motions`](Self::motions) belong to the first set: 1 for VF, 2 for EE.
-    const FIRST: usize;
-
-    /// Whether all 24 coordinates are finite.
+    /// The same points, as the kernels take them.
     #[inline(always)]
-    fn is_finite(&self) -> bool {
-        let [a, b, c, d] = self.motions();
-        a.is_finite() & b.is_finite() & c.is_finite() & d.is_finite()
+    fn points(&self) -> PairPoints<S> {
+        let motions = self.motions();
+        PairPoints {
+            start: motions.map(|motion| Vector::from(motion.start.into())),
+            end: motions.map(|motion| Vector::from(motion.end.into())),
+        }
+    }
+
+    /// The four points as a tetrahedron that is flat whenever they are coplanar.
+    #[inline(always)]
+    fn tetrahedron(&self) -> MovingTetrahedron<S> {
+        self.points().tetrahedron::<Self::Shape>()
     }
 }
 
 impl<S: Scalar> PrimitivePair<S> for VertexFace<S> {
-    const FIRST: usize = 1;
-
-    #[inline(always)]
-    fn volume_points(&self) -> [Motion<S>; 4] {
-        let [a, b, c] = self.face;
-        [a, b, c, self.vertex]
-    }
+    type Shape = VertexAndFace;
 
     #[inline(always)]
     fn motions(&self) -> [Motion<S>; 4] {
@@ -153,13 +142,7 @@ impl<S: Scalar> PrimitivePair<S> for VertexFace<S> {
 }
 
 impl<S: Scalar> PrimitivePair<S> for EdgeEdge<S> {
-    const FIRST: usize = 2;
-
-    #[inline(always)]
-    fn volume_points(&self) -> [Motion<S>; 4] {
-        let ([u, v], [k, l]) = (self.first, self.second);
-        [k, u, v, l]
-    }
+    type Shape = EdgeAndEdge;
 
     #[inline(always)]
     fn motions(&self) -> [Motion<S>; 4] {

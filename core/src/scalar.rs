@@ -33,8 +33,6 @@ pub trait Scalar:
     const NAME: &'static str;
     /// Zero.
     const ZERO: Self;
-    /// Positive infinity.
-    const INFINITY: Self;
 
     /// The nearest number of this format; infinite if `value` is out of range.
     fn from_f64(value: f64) -> Self;
@@ -65,7 +63,6 @@ macro_rules! scalar {
             type Vector = $vector;
             const NAME: &'static str = stringify!($scalar);
             const ZERO: Self = 0.0;
-            const INFINITY: Self = $scalar::INFINITY;
 
             #[inline(always)]
             #[allow(

@@ -4,12 +4,13 @@
 use crate::generator::{Format, PairCase};
 use crate::oracle::Kind;
 use selvedge::pipeline::CullingTest;
-use selvedge_core::boxes::{Dop18, relative, segment, swept_boxes};
+use selvedge_core::boxes::{Aabb, Dop18, relative, segment, swept_boxes};
 use selvedge_core::{PrimitivePair, Verdict, filter};
 
 /// Every test there is.
-pub const ALL: [CullingTest; 9] = [
+pub const ALL: [CullingTest; 10] = [
     CullingTest::SweptBoxes,
+    CullingTest::StoredSweptBoxes,
     CullingTest::StoredDop18,
     CullingTest::SegmentBox,
     CullingTest::RelativeBoxes,
@@ -31,17 +32,27 @@ pub fn verdict<S: Format>(test: CullingTest, case: &PairCase<S>) -> Verdict {
         Kind::VertexFace if test == CullingTest::SegmentBox => {
             segment::vertex_face(&case.vertex_face())
         }
-        Kind::VertexFace => of_either_kind(test, &case.vertex_face()),
-        Kind::EdgeEdge => of_either_kind(test, &case.edge_edge()),
+        Kind::VertexFace => of_either_kind(test, &case.vertex_face(), 1),
+        Kind::EdgeEdge => of_either_kind(test, &case.edge_edge(), 2),
     }
 }
 
-fn of_either_kind<S: Format, P: PrimitivePair<S>>(test: CullingTest, pair: &P) -> Verdict {
+/// `first` is how many of the four points are the first set's.
+fn of_either_kind<S: Format>(
+    test: CullingTest,
+    pair: &impl PrimitivePair<S>,
+    first: usize,
+) -> Verdict {
     match test {
         CullingTest::SweptBoxes | CullingTest::SegmentBox => swept_boxes(pair),
+        CullingTest::StoredSweptBoxes => {
+            let motions = pair.motions();
+            let (first, second) = motions.split_at(first);
+            Verdict::culled_if(!Aabb::swept(first).overlaps(&Aabb::swept(second)))
+        }
         CullingTest::StoredDop18 => {
             let dops = pair.motions().map(|motion| Dop18::swept(&motion));
-            let (first, second) = dops.split_at(P::FIRST);
+            let (first, second) = dops.split_at(first);
             let [first, second] = [first, second].map(|dops| {
                 let merge = |all: Dop18<S>, dop: &Dop18<S>| all.merged(dop);
                 dops[1..].iter().fold(dops[0], merge)

@@ -168,6 +168,7 @@ macro_rules! with_constants {
             const UNIT_ROUNDOFF: Self = Self(S::UNIT_ROUNDOFF);
             const UNDERFLOW: Self = Self(S::UNDERFLOW);
             const ONE: Self = Self(S::ONE);
+            const INFINITY: Self = Self(S::INFINITY);
             fn small(count: u8) -> Self {
                 Self(S::small(count))
             }
@@ -191,6 +192,9 @@ macro_rules! with_constants {
             }
             fn larger(self, other: Self) -> Self {
                 Self(self.0.larger(other.0))
+            }
+            fn smaller(self, other: Self) -> Self {
+                Self(self.0.smaller(other.0))
             }
             fn greater(self, other: Self) -> bool {
                 self.0.greater(other.0)

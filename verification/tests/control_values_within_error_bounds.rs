@@ -47,6 +47,7 @@ impl Rounding for Exact {
     const UNIT_ROUNDOFF: Self = Self(0);
     const UNDERFLOW: Self = Self(0);
     const ONE: Self = Self(1);
+    const INFINITY: Self = Self(i128::MAX);
     fn small(count: u8) -> Self {
         Self(count.into())
     }
@@ -63,6 +64,9 @@ impl Lanes for Exact {
     }
     fn larger(self, other: Self) -> Self {
         Self(self.0.max(other.0))
+    }
+    fn smaller(self, other: Self) -> Self {
+        Self(self.0.min(other.0))
     }
     fn greater(self, other: Self) -> bool {
         self.0 > other.0
@@ -81,8 +85,8 @@ fn exact(points: &WholePoints) -> [[Vector<Exact>; 2]; 4] {
 }
 
 fn tetrahedron(points: &WholePoints) -> MovingTetrahedron<Exact> {
-    let [a, b, c, p] = exact(points);
-    MovingTetrahedron::from_points(a, b, c, p)
+    let points = exact(points);
+    MovingTetrahedron::from_points(points.map(|ends| ends[0]), points.map(|ends| ends[1]))
 }
 
 /// The volume P · (B × C) at time i/3, times 27, by the rule of Sarrus.

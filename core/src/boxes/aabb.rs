@@ -1,4 +1,3 @@
-use super::{larger, smaller};
 use crate::motion::Motion;
 use crate::scalar::Scalar;
 
@@ -47,8 +46,8 @@ impl<S: Scalar> Aabb<S> {
             for position in motion.ends() {
                 for axis in 0..3 {
                     finite &= position[axis].is_finite();
-                    swept.lower[axis] = smaller(position[axis], swept.lower[axis]);
-                    swept.upper[axis] = larger(position[axis], swept.upper[axis]);
+                    swept.lower[axis] = position[axis].smaller(swept.lower[axis]);
+                    swept.upper[axis] = position[axis].larger(swept.upper[axis]);
                 }
             }
         }
@@ -61,8 +60,8 @@ impl<S: Scalar> Aabb<S> {
     pub fn merged(&self, other: &Self) -> Self {
         let mut merged = *self;
         for axis in 0..3 {
-            merged.lower[axis] = smaller(other.lower[axis], merged.lower[axis]);
-            merged.upper[axis] = larger(other.upper[axis], merged.upper[axis]);
+            merged.lower[axis] = other.lower[axis].smaller(merged.lower[axis]);
+            merged.upper[axis] = other.upper[axis].larger(merged.upper[axis]);
         }
         merged
     }

@@ -1,4 +1,4 @@
-use super::{along_nine_directions, larger, smaller};
+use super::along_nine_directions;
 use crate::motion::Motion;
 use crate::scalar::Scalar;
 
@@ -35,8 +35,8 @@ impl<S: Scalar> Dop18<S> {
             upper: start,
         };
         for direction in 0..9 {
-            dop.lower[direction] = smaller(start[direction], end[direction]);
-            dop.upper[direction] = larger(start[direction], end[direction]);
+            dop.lower[direction] = start[direction].smaller(end[direction]);
+            dop.upper[direction] = start[direction].larger(end[direction]);
         }
         dop
     }
@@ -47,8 +47,8 @@ impl<S: Scalar> Dop18<S> {
     pub fn merged(&self, other: &Self) -> Self {
         let mut merged = *self;
         for direction in 0..9 {
-            merged.lower[direction] = smaller(other.lower[direction], merged.lower[direction]);
-            merged.upper[direction] = larger(other.upper[direction], merged.upper[direction]);
+            merged.lower[direction] = other.lower[direction].smaller(merged.lower[direction]);
+            merged.upper[direction] = other.upper[direction].larger(merged.upper[direction]);
         }
         merged
     }

@@ -23,34 +23,51 @@ pub mod segment;
 pub use aabb::Aabb;
 pub use dop::Dop18;
 
+use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::verdict::Verdict;
 
 /// Culls `pair` if the swept boxes of its two sets do not overlap. Exact; boxes that touch overlap.
 ///
 /// NaN and infinite coordinates keep the pair.
-#[inline]
+#[inline(always)]
 pub fn swept_boxes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    let motions = pair.motions();
-    let (first, second) = motions.split_at(P::FIRST);
-    Verdict::culled_if(!Aabb::swept(first).overlaps(&Aabb::swept(second)))
+    Verdict::culled_if(have_disjoint_swept_boxes::<P::Shape, S>(&pair.points()))
+}
+
+/// The same decision on any number of lanes.
+#[inline(always)]
+#[must_use]
+pub fn have_disjoint_swept_boxes<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
+    let apart = |start: [L; 4], end: [L; 4]| {
+        let ([first, second], [first_at_end, second_at_end]) = (P::ranges(start), P::ranges(end));
+        let swept = |[low, high]: [L; 2], [low_at_end, high_at_end]: [L; 2]| {
+            [low.smaller(low_at_end), high.larger(high_at_end)]
+        };
+        let [low, high] = swept(first, first_at_end);
+        let [other_low, other_high] = swept(second, second_at_end);
+        low.greater(other_high) | other_low.greater(high)
+    };
+    // The ranges drop NaN, hence the last condition.
+    along_axes(points, apart) & points.is_finite()
+}
+
+/// Whether `apart`, given the four points' coordinates at the start and at the end, holds along one of the axes.
+#[inline(always)]
+fn along_axes<L: Lanes>(
+    points: &PairPoints<L>,
+    apart: impl Fn([L; 4], [L; 4]) -> L::Mask,
+) -> L::Mask {
+    let PairPoints { start, end } = points;
+    apart(start.map(|p| p.x), end.map(|p| p.x))
+        | apart(start.map(|p| p.y), end.map(|p| p.y))
+        | apart(start.map(|p| p.z), end.map(|p| p.z))
 }
 
 /// The nine directions of an 18-DOP, as values of one point: x, y, z, x±y, x±z, y±z. The sums round to nearest.
 #[inline(always)]
 fn along_nine_directions<S: Scalar>([x, y, z]: [S; 3]) -> [S; 9] {
     [x, y, z, x + y, x - y, x + z, x - z, y + z, y - z]
-}
-
-/// The smaller of two numbers neither of which is NaN.
-#[inline(always)]
-fn smaller<S: Scalar>(a: S, b: S) -> S {
-    if a < b { a } else { b }
-}
-
-/// The larger of two numbers neither of which is NaN.
-#[inline(always)]
-fn larger<S: Scalar>(a: S, b: S) -> S {
-    if a > b { a } else { b }
 }

@@ -7,9 +7,12 @@
 //! axis-aligned boxes cull and more, because it knows that the two move together, which swept boxes forget. The same test
 //! is the reading that we give to the subspace filters of Tang, Li and Wang 2010 and 2011 (*reconstructed*).
 
-use super::{along_nine_directions, larger, smaller};
+use super::along_axes;
+use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
+use crate::vector::Vector;
 use crate::verdict::Verdict;
 
 /// Culls `pair` if one coordinate axis keeps its two sets apart, in the same order, throughout the step.
@@ -27,40 +30,45 @@ use crate::verdict::Verdict;
 /// assert_eq!(swept_boxes(&pair), Verdict::Kept);
 /// assert_eq!(relative::three_axes(&pair), Verdict::Culled);
 /// ```
-#[inline]
+#[inline(always)]
 pub fn three_axes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    keeps_order::<S, P, 3>(pair, |position| position)
+    Verdict::culled_if(are_apart_along_three_axes::<P::Shape, S>(&pair.points()))
 }
 
 /// [`three_axes`], and the six diagonals x±y, x±z, y±z as well.
-#[inline]
+#[inline(always)]
 pub fn nine_directions<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    keeps_order::<S, P, 9>(pair, along_nine_directions)
+    Verdict::culled_if(are_apart_along_nine_directions::<P::Shape, S>(
+        &pair.points(),
+    ))
 }
 
+/// The decision of [`three_axes`] on any number of lanes.
 #[inline(always)]
-fn keeps_order<S: Scalar, P: PrimitivePair<S>, const N: usize>(
-    pair: &P,
-    project: impl Fn([S; 3]) -> [S; N],
-) -> Verdict {
-    let motions = pair.motions().map(|motion| motion.ends().map(&project));
-    let (first, second) = motions.split_at(P::FIRST);
-    let mut apart = false;
-    for direction in 0..N {
-        let bounds = |set: &[[[S; N]; 2]], end: usize| {
-            let mut range = [S::INFINITY, -S::INFINITY];
-            for point in set {
-                range[0] = smaller(point[end][direction], range[0]);
-                range[1] = larger(point[end][direction], range[1]);
-            }
-            range
-        };
-        let [[low_0, high_0], [low_1, high_1]] = [bounds(first, 0), bounds(first, 1)];
-        let [[other_low_0, other_high_0], [other_low_1, other_high_1]] =
-            [bounds(second, 0), bounds(second, 1)];
-        apart |= (low_0 > other_high_0) & (low_1 > other_high_1);
-        apart |= (other_low_0 > high_0) & (other_low_1 > high_1);
-    }
-    // The bounds above drop NaN.
-    Verdict::culled_if(apart && pair.is_finite())
+#[must_use]
+pub fn are_apart_along_three_axes<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
+    // The ranges drop NaN, hence the last condition.
+    along_axes(points, keep_order::<P, L>) & points.is_finite()
+}
+
+/// The decision of [`nine_directions`] on any number of lanes.
+#[inline(always)]
+#[must_use]
+pub fn are_apart_along_nine_directions<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
+    let PairPoints { start, end } = points;
+    let along =
+        |project: fn(Vector<L>) -> L| keep_order::<P, L>(start.map(project), end.map(project));
+    let diagonals = (along(|p| p.x + p.y) | along(|p| p.x - p.y))
+        | (along(|p| p.x + p.z) | along(|p| p.x - p.z))
+        | (along(|p| p.y + p.z) | along(|p| p.y - p.z));
+    (along_axes(points, keep_order::<P, L>) | diagonals) & points.is_finite()
+}
+
+/// Whether one set's values are all above the other's at the start, and at the end too.
+#[inline(always)]
+fn keep_order<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> L::Mask {
+    let [[low_0, high_0], [other_low_0, other_high_0]] = P::ranges(start);
+    let [[low_1, high_1], [other_low_1, other_high_1]] = P::ranges(end);
+    (low_0.greater(other_high_0) & low_1.greater(other_high_1))
+        | (other_low_0.greater(high_0) & other_low_1.greater(high_1))
 }

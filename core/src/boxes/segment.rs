@@ -14,12 +14,12 @@
 //! |T − T̂| ≤ ((1 − u)⁻³ − 1)·|T̂| ≤ 3.1u·|T̂|, plus η₀ if it underflows (differences are exact then). The least of
 //! two products and the greatest of two move by no more than the larger of theirs, and the last subtraction is rounded
 //! once more, so s > 0 follows from fl(s) > (1 + u)(3.1u·Ŝ + 2η₀), Ŝ = Σ|T̂| over the four products. The test asks for
-//! fl(s) > fl(4u·Ŝ + η): at least 4(1 − u)⁴u·Ŝ + 31η₀(1 − u), η = 32·η₀, which is more.
+//! fl(s) > fl(4u·Ŝ + η): at least 4(1 − u)⁴u·Ŝ + 31η₀(1 − u), η ≥ 32·η₀, which is more.
 //! Infinite or NaN products make the bound infinite or NaN, and the comparison false.
 //!
 //! Strict inequalities: what touches is kept, and d = 0 gives 0 > η, which is false.
 
-use super::{Aabb, larger, smaller};
+use super::Aabb;
 use crate::lanes::Rounding;
 use crate::motion::{Motion, VertexFace};
 use crate::scalar::Scalar;
@@ -66,8 +66,8 @@ fn separates<S: Scalar>(
 ) -> bool {
     let (left_a, left_b) = (lower_j * d_k, upper_j * d_k);
     let (right_a, right_b) = (lower_k * d_j, upper_k * d_j);
-    let least = smaller(left_a, left_b) - larger(right_a, right_b);
-    let largest = larger(left_a, left_b) - smaller(right_a, right_b);
+    let least = left_a.smaller(left_b) - right_a.larger(right_b);
+    let largest = left_a.larger(left_b) - right_a.smaller(right_b);
     let sizes = (left_a.abs() + left_b.abs()) + (right_a.abs() + right_b.abs());
     let bound = S::small(4) * S::UNIT_ROUNDOFF * sizes + <S as Rounding>::UNDERFLOW;
     least > bound || -largest > bound

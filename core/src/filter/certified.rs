@@ -23,7 +23,7 @@ use crate::verdict::Verdict;
 /// };
 /// assert_eq!(non_coplanarity(&crossing), Verdict::Kept);
 /// ```
-#[inline]
+#[inline(always)]
 pub fn non_coplanarity<S: Scalar>(pair: &impl PrimitivePair<S>) -> Verdict {
     Verdict::culled_if(is_never_coplanar(&pair.tetrahedron()))
 }

@@ -6,18 +6,18 @@
 //! Prefer [`certified`](super::certified).
 
 use crate::motion::PrimitivePair;
+use crate::points::PairShape;
 use crate::scalar::Scalar;
-use crate::vector::Vector;
 use crate::verdict::Verdict;
 
 /// Culls `pair` if A, B, 2C + F and 2D + E, as computed, all have the same strict sign.
 ///
 /// One deviation from the paper: where a value overflows the pair is kept.
-#[inline]
-pub fn non_coplanarity<S: Scalar>(pair: &impl PrimitivePair<S>) -> Verdict {
-    let [[a0, a1], [b0, b1], [c0, c1], [p0, p1]] = pair
-        .volume_points()
-        .map(|motion| motion.ends().map(Vector::from));
+#[inline(always)]
+pub fn non_coplanarity<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
+    let points = pair.points();
+    let [a0, b0, c0, p0] = P::Shape::volume_points(points.start);
+    let [a1, b1, c1, p1] = P::Shape::volume_points(points.end);
     let half = S::from_f64(0.5);
     let two = S::small(2);
 

@@ -1,11 +1,18 @@
-//! Triangle meshes: their topology, and the sleeve that the built-in scene wears.
+//! Triangle meshes: their topology, their files, and the sleeve that the built-in scene wears.
 //!
 //! A [`Mesh`] is positions and triangles, nothing else. [`Topology`] is what a mesh's triangles
 //! say about its edges; it does not change while the mesh moves, so it is built once.
 
+#[cfg(feature = "files")]
+mod file;
 mod sleeve;
 mod topology;
 
+#[cfg(feature = "files")]
+pub use file::{
+    FileFormat, FileProblem, FrameDifference, MeshError, MeshFile, MeshNotes, MeshStep,
+    PlyEncoding, read, read_bytes, read_step, write, write_as, write_bytes,
+};
 pub use sleeve::{MAX_REFINEMENT, RefinementError, ring_sizes, sleeve};
 pub use topology::{Topology, TopologyError, TopologyStatistics};
 

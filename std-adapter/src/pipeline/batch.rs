@@ -2,11 +2,13 @@
 
 use super::Distributed;
 use super::assignment::FeatureAssignment;
-use super::dops::StoredDops;
-use super::pairs::{Contact, MovingMesh, PairKind};
+use super::pairs::{Contact, MovingMesh};
 use super::preset::{CullingTest, ElementaryTest, Stages};
 use super::report::PairCounts;
+use super::stored::{BoundingVolume, Stored};
+use crate::PairKind;
 use arrayvec::ArrayVec;
+use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
 use selvedge_core::{EdgeEdge, Scalar, Verdict, VertexFace, boxes, elementary, filter};
 use std::time::Instant;
@@ -15,7 +17,8 @@ use std::time::Instant;
 #[derive(Clone, Copy)]
 pub(super) struct StepInput<'a, S: Scalar> {
     pub(super) mesh: MovingMesh<'a, S>,
-    pub(super) dops: &'a StoredDops<S>,
+    pub(super) boxes: &'a Stored<Aabb<S>>,
+    pub(super) dops: &'a Stored<Dop18<S>>,
     pub(super) stages: Stages,
 }
 
@@ -99,14 +102,9 @@ impl<S: Scalar> Batch<S> {
 
     fn cull_by(&mut self, test: CullingTest, step: &StepInput<'_, S>) {
         match test {
-            CullingTest::SweptBoxes => {
-                self.keep(step, boxes::swept_boxes, boxes::swept_boxes);
-            }
-            CullingTest::StoredDop18 => {
-                let dops = step.dops;
-                keep_where(&mut self.vertex_face, |pair| dops.vertex_face_overlap(pair));
-                keep_where(&mut self.edge_edge, |pair| dops.edge_edge_overlap(pair));
-            }
+            CullingTest::SweptBoxes => self.keep(step, boxes::swept_boxes, boxes::swept_boxes),
+            CullingTest::StoredSweptBoxes => self.keep_overlapping(step.boxes),
+            CullingTest::StoredDop18 => self.keep_overlapping(step.dops),
             CullingTest::SegmentBox => {
                 self.keep(step, boxes::segment::vertex_face, boxes::swept_boxes);
             }
@@ -155,6 +153,14 @@ impl<S: Scalar> Batch<S> {
         keep_where(&mut self.edge_edge, |pair| {
             !edge_edge(&mesh.edge_edge(pair)).is_culled()
         });
+    }
+
+    /// Drops the pairs whose stored volumes do not overlap.
+    fn keep_overlapping(&mut self, stored: &Stored<impl BoundingVolume<S>>) {
+        keep_where(&mut self.vertex_face, |pair| {
+            stored.vertex_face_overlap(pair)
+        });
+        keep_where(&mut self.edge_edge, |pair| stored.edge_edge_overlap(pair));
     }
 
     /// The elementary test of what is left: fills `contacts`, vertex–face first.

@@ -39,26 +39,28 @@
 
 mod assignment;
 mod batch;
-mod dops;
 mod pairs;
 mod preset;
 mod report;
+mod stored;
 mod swept;
 
 pub use assignment::FeatureAssignment;
-pub use pairs::{Contact, PairKind};
+pub use pairs::Contact;
 pub use preset::{CullingTest, ElementaryTest, Preset, Redundancy, Stage, Stages, UnknownPreset};
 pub use report::{PairCounts, StageReport, StepReport};
 
+use crate::PairKind;
 use crate::broad_phase::{BroadPhase, SweptBox};
 use crate::mesh::Topology;
 use crate::parallel;
 use batch::{Batch, StepInput};
-use dops::StoredDops;
 use pairs::MovingMesh;
 use rustc_hash::FxHashSet;
+use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::{Motion, Scalar};
 use std::time::Instant;
+use stored::Stored;
 
 /// Candidate triangle pairs in a batch. Their primitive pairs take at most a quarter of a megabyte, so that a batch
 /// goes through all stages in a core's own cache; smaller batches gain nothing and pay for the clock more often.
@@ -86,7 +88,8 @@ struct Buffers<S: Scalar> {
     swept: Vec<SweptBox>,
     broad_phase: BroadPhase,
     triangle_pairs: Vec<[u32; 2]>,
-    dops: StoredDops<S>,
+    boxes: Stored<Aabb<S>>,
+    dops: Stored<Dop18<S>>,
     batches: Vec<Batch<S>>,
     distributed: Distributed,
     candidates: [Vec<[u32; 2]>; 2],
@@ -168,7 +171,8 @@ impl<S: Scalar> Pipeline<S> {
                 swept: Vec::with_capacity(topology.triangles().len()),
                 broad_phase: BroadPhase::new(),
                 triangle_pairs: Vec::new(),
-                dops: StoredDops::new(),
+                boxes: Stored::new(),
+                dops: Stored::new(),
                 batches: vec![Batch::with_capacity(BATCH); batches],
                 distributed: Distributed::default(),
                 candidates: [Vec::new(), Vec::new()],
@@ -266,7 +270,12 @@ impl<S: Scalar> Buffers<S> {
                 .zip(end)
                 .map(|(&start, &end)| Motion::new(start, end)),
         );
-        swept::triangle_boxes(&mut self.swept, topology, &self.motions);
+        let mesh = MovingMesh {
+            topology,
+            motions: &self.motions,
+        };
+        self.boxes.refit_vertices_and_faces(mesh);
+        swept::map_boxes(&mut self.swept, self.boxes.faces());
         self.broad_phase.update(&self.swept);
         self.broad_phase
             .candidate_triangle_pairs(&mut self.triangle_pairs);
@@ -303,17 +312,22 @@ impl<S: Scalar> Buffers<S> {
             topology,
             motions: &self.motions,
         };
-        if let Some(test) = stages
-            .tests
-            .iter()
-            .position(|&test| test == CullingTest::StoredDop18)
-        {
+        // What only some methods keep is refitted in the stage that uses it.
+        for (test, report) in stages.tests.iter().zip(&mut report.stages[1..]) {
             let begin = Instant::now();
-            self.dops.refit(mesh);
-            report.stages[1 + test].seconds += begin.elapsed().as_secs_f64();
+            match test {
+                CullingTest::StoredSweptBoxes => self.boxes.refit_edges(mesh),
+                CullingTest::StoredDop18 => {
+                    self.dops.refit_vertices_and_faces(mesh);
+                    self.dops.refit_edges(mesh);
+                }
+                _ => continue,
+            }
+            report.seconds += begin.elapsed().as_secs_f64();
         }
         let step = StepInput {
             mesh,
+            boxes: &self.boxes,
             dops: &self.dops,
             stages,
         };

@@ -1,17 +1,8 @@
 //! Primitive pairs by the numbers of their features, and the points that belong to them.
 
+use crate::PairKind;
 use crate::mesh::Topology;
 use selvedge_core::{EdgeEdge, Motion, Scalar, VertexFace};
-use std::fmt;
-
-/// Which of the two kinds a primitive pair is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum PairKind {
-    /// A vertex and a face.
-    VertexFace,
-    /// Two edges.
-    EdgeEdge,
-}
 
 /// A pair that the elementary test found to touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,42 +13,6 @@ pub struct Contact<S> {
     pub pair: [u32; 2],
     /// When, in [0, 1] of the step.
     pub time: S,
-}
-
-impl PairKind {
-    /// `"vertex-face"` or `"edge-edge"`.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::VertexFace => "vertex-face",
-            Self::EdgeEdge => "edge-edge",
-        }
-    }
-
-    /// The four mesh vertices of a pair of this kind: the vertex and the face's three, or the two edges' ends.
-    ///
-    /// # Panics
-    /// If the pair is not of this mesh.
-    #[must_use]
-    pub fn vertices(self, pair: [u32; 2], topology: &Topology) -> [u32; 4] {
-        let [first, second] = pair.map(|feature| feature as usize);
-        match self {
-            Self::VertexFace => {
-                let [a, b, c] = topology.triangles()[second];
-                [pair[0], a, b, c]
-            }
-            Self::EdgeEdge => {
-                let ([a, b], [c, d]) = (topology.edges()[first], topology.edges()[second]);
-                [a, b, c, d]
-            }
-        }
-    }
-}
-
-impl fmt::Display for PairKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
 }
 
 /// The mesh with the motion of each vertex in one row: where the stages gather a pair's points from.

@@ -7,20 +7,14 @@
 //! off first keeps `f32` precise for a mesh that is far from the origin.
 
 use crate::broad_phase::SweptBox;
-use crate::mesh::Topology;
 use crate::parallel;
+use selvedge_core::Scalar;
 use selvedge_core::boxes::Aabb;
-use selvedge_core::{Motion, Scalar};
 
-/// Replaces `boxes` by the mapped swept box of each triangle.
-pub(super) fn triangle_boxes<S: Scalar>(
-    boxes: &mut Vec<SweptBox>,
-    topology: &Topology,
-    motions: &[Motion<S>],
-) {
-    let middle = middle(motions);
-    parallel::fill(boxes, topology.triangles(), |triangle| {
-        let swept = Aabb::swept(&triangle.map(|vertex| motions[vertex as usize]));
+/// Replaces `mapped` by the mapped boxes.
+pub(super) fn map_boxes<S: Scalar>(mapped: &mut Vec<SweptBox>, boxes: &[Aabb<S>]) {
+    let middle = middle(boxes);
+    parallel::fill(mapped, boxes, |swept| {
         let map = |bounds: [S; 3]| {
             [0, 1, 2].map(|axis| nearest_f32(bounds[axis].to_f64() - middle[axis]))
         };
@@ -39,19 +33,13 @@ fn nearest_f32(value: f64) -> f32 {
     value as f32
 }
 
-/// About the middle of the start positions; zero where that overflows.
-fn middle<S: Scalar>(motions: &[Motion<S>]) -> [f64; 3] {
-    let mut lower = [f64::INFINITY; 3];
-    let mut upper = [f64::NEG_INFINITY; 3];
-    for motion in motions {
-        let position: [S; 3] = motion.start.into();
-        for axis in 0..3 {
-            lower[axis] = lower[axis].min(position[axis].to_f64());
-            upper[axis] = upper[axis].max(position[axis].to_f64());
-        }
-    }
+/// The middle of all boxes; zero where that overflows.
+fn middle<S: Scalar>(boxes: &[Aabb<S>]) -> [f64; 3] {
+    let all = boxes
+        .iter()
+        .fold(Aabb::empty(), |all, swept| all.merged(swept));
     [0, 1, 2].map(|axis| {
-        let middle = 0.5 * (lower[axis] + upper[axis]);
+        let middle = 0.5 * (all.lower[axis].to_f64() + all.upper[axis].to_f64());
         if middle.is_finite() { middle } else { 0.0 }
     })
 }

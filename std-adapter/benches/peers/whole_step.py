@@ -1,0 +1,241 @@
+"""Times one whole collision step of a mesh: selvedge against ipctk (the IPC Toolkit for Python).
+
+Both start from positions and triangles in memory; reading files is not timed. What is compared, and
+what is not, is in README.md.
+"""
+
+import argparse
+import json
+import os
+import platform
+import statistics
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple, TypeVar
+
+import common
+
+try:
+    import ipctk
+except ImportError as error:
+    common.missing_package(error)
+
+# ipctk's defaults, written out so that a new version cannot change the comparison unnoticed.
+TIGHT_INCLUSION = {"tolerance": 1e-6, "max_iterations": 10_000_000, "conservative_rescaling": 0.8}
+ADDITIVE = {"max_iterations": 10_000_000, "conservative_rescaling": 0.9}
+MINIMUM_DISTANCE = 0.0
+
+BROAD_PHASE = "ipctk broad phase (LBVH)"
+TIGHT_INCLUSION_STEP = "ipctk LBVH + Tight-Inclusion"
+ADDITIVE_STEP = "ipctk LBVH + additive CCD"
+
+T = TypeVar("T")
+
+
+class Sample(NamedTuple):
+    seconds: float
+    # Process time over wall time.
+    cores: float
+
+
+class Measurement:
+    """The samples of one row of the table, one for each round."""
+
+    def __init__(self, result: str = "") -> None:
+        self.samples: list[Sample] = []
+        self.result = result
+
+    def seconds(self) -> list[float]:
+        return [sample.seconds for sample in self.samples]
+
+    def as_json(self) -> dict:
+        return {**spread(self.seconds()), "cores": self.cores(), "result": self.result}
+
+    def cores(self) -> float:
+        return statistics.median(sample.cores for sample in self.samples)
+
+
+class Ipctk:
+    """ipctk on one step. Its mesh (edges and adjacency) is built once, outside the timed part."""
+
+    def __init__(self, step: common.Step, threads: int) -> None:
+        ipctk.set_num_threads(threads)
+        self.step = step
+        begin = time.perf_counter()
+        edges = ipctk.edges(step.triangles)
+        self.mesh = ipctk.CollisionMesh(step.start, edges, step.triangles)
+        self.mesh_seconds = time.perf_counter() - begin
+        self.edges = len(edges)
+
+    def run(self, rows: dict[str, Measurement], record: bool) -> None:
+        """One round: candidates, then both step sizes from those same candidates."""
+        motion = (self.mesh, self.step.start, self.step.end)
+        candidates = ipctk.Candidates()
+        _, build = timed(lambda: candidates.build(*motion, 0.0, ipctk.LBVH()))
+        tight = ipctk.TightInclusionCCD(**TIGHT_INCLUSION)
+        additive = ipctk.AdditiveCCD(**ADDITIVE)
+        size = candidates.compute_collision_free_stepsize
+        tight_size, tight_time = timed(lambda: size(*motion, MINIMUM_DISTANCE, tight))
+        additive_size, additive_time = timed(lambda: size(*motion, MINIMUM_DISTANCE, additive))
+        if not record:
+            return
+        counts = f"{len(candidates.fv_candidates):,} VF, {len(candidates.ee_candidates):,} EE pairs"
+        for name, sample, result in (
+            (BROAD_PHASE, build, counts),
+            (TIGHT_INCLUSION_STEP, add(build, tight_time), f"step size {tight_size:.4g}"),
+            (ADDITIVE_STEP, add(build, additive_time), f"step size {additive_size:.4g}"),
+        ):
+            rows[name].samples.append(sample)
+            rows[name].result = result
+
+
+def timed(work: Callable[[], T]) -> tuple[T, Sample]:
+    cpu, wall = time.process_time(), time.perf_counter()
+    result = work()
+    wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
+    return result, Sample(wall, cpu / wall)
+
+
+def add(first: Sample, second: Sample) -> Sample:
+    seconds = first.seconds + second.seconds
+    cpu = first.seconds * first.cores + second.seconds * second.cores
+    return Sample(seconds, cpu / seconds)
+
+
+def run_selvedge(
+    arguments: argparse.Namespace, pipeline: str, row: Measurement, stages: dict[str, list[float]]
+) -> None:
+    run = common.cull(
+        arguments.selvedge, arguments.START, arguments.END, pipeline, arguments.threads
+    )
+    try:
+        row.samples.append(Sample(run.report["seconds"], run.cores))
+        for stage in run.report["stages"]:
+            stages.setdefault(stage["stage"], []).append(stage["seconds"])
+        contacts = run.report["contacts"]
+        first = contacts["earliest"]
+        row.result = f"{contacts['vertex_face']:,} VF, {contacts['edge_edge']:,} EE contacts" + (
+            "" if first is None else f" from {first:.4g}"
+        )
+    except (KeyError, TypeError) as error:
+        common.fail(f"selvedge's report for {pipeline} lacks or mistypes a field: {error}")
+
+
+def spread(values: list[float]) -> dict[str, float]:
+    return {"median": statistics.median(values), "min": min(values), "max": max(values)}
+
+
+def compare(rows: dict[str, Measurement], stages: dict[str, dict[str, list[float]]]) -> list[dict]:
+    """ipctk's time over selvedge's, round by round, for each pipeline and each figure of ipctk."""
+    ratios = []
+    for pipeline, own_stages in stages.items():
+        for peer in (TIGHT_INCLUSION_STEP, ADDITIVE_STEP):
+            ratios.append((peer, pipeline, "whole step", rows[pipeline].seconds()))
+        if "broad-phase" in own_stages:
+            ratios.append((BROAD_PHASE, pipeline, "broad-phase stage", own_stages["broad-phase"]))
+    return [
+        {
+            "ipctk": peer,
+            "pipeline": pipeline,
+            "part": part,
+            **spread([a / b if b else float("inf") for a, b in zip(rows[peer].seconds(), own)]),
+        }
+        for peer, pipeline, part, own in ratios
+    ]
+
+
+def print_tables(settings: dict, rows: dict[str, Measurement], ratios: list[dict]) -> None:
+    print(
+        f"{settings['vertices']:,} vertices, {settings['edges']:,} edges,"
+        f" {settings['triangles']:,} triangles; {settings['threads']} thread(s), f64,"
+        f" {settings['repeats']} rounds, {settings['processor']}\n"
+        f"Tight-Inclusion: {written_out(TIGHT_INCLUSION)}\n"
+        f"additive CCD: {written_out(ADDITIVE)}\n"
+        f"minimum distance {MINIMUM_DISTANCE:g}; ipctk's mesh, not timed below:"
+        f" {settings['ipctk_mesh_seconds']:.3f} s\n"
+    )
+    width = max(map(len, rows)) + 2
+    print(f"{'seconds':<{width}} {'median':>8} {'min':>8} {'max':>8} {'cores':>6}  result")
+    for name, row in rows.items():
+        time = spread(row.seconds())
+        figures = " ".join(f"{time[key]:8.4f}" for key in ("median", "min", "max"))
+        print(f"{name:<{width}} {figures} {row.cores():6.2f}  {row.result}")
+    if ratios:
+        print("\nHow many times as long ipctk takes (of the same round)")
+    for ratio in ratios:
+        figures = " ".join(f"{ratio[key]:8.3f}" for key in ("median", "min", "max"))
+        print(f"{figures}  {ratio['ipctk']} / {ratio['pipeline']}, {ratio['part']}")
+    if any(row.cores() < 0.9 for row in rows.values()):
+        print("\nA row below 0.9 cores means that the machine was busy: trust only the ratios.")
+
+
+def written_out(settings: dict) -> str:
+    return ", ".join(f"{name.replace('_', ' ')} {value:g}" for name, value in settings.items())
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("START", type=Path, help="mesh at the start of the step (OBJ, PLY)")
+    parser.add_argument("END", type=Path, help="mesh at its end, with the same triangles")
+    parser.add_argument(
+        "--repeats", type=common.positive, default=5, help="rounds (default: %(default)s)"
+    )
+    common.add_shared_arguments(parser, "selvedge,lv_2014,curtis_2008")
+    arguments = parser.parse_args()
+    names = common.pipelines(arguments) if arguments.selvedge else []
+
+    step = common.read_step(arguments.START, arguments.END)
+    peer = Ipctk(step, arguments.threads)
+    if ipctk.get_num_threads() != arguments.threads:
+        common.fail(f"ipctk runs on {ipctk.get_num_threads()} threads, not {arguments.threads}")
+    own = {f"selvedge cull {name}": name for name in names}
+    rows = {
+        name: Measurement() for name in (BROAD_PHASE, TIGHT_INCLUSION_STEP, ADDITIVE_STEP, *own)
+    }
+    stages: dict[str, dict[str, list[float]]] = {name: {} for name in own}
+
+    # ipctk stays in memory from round to round and each run of selvedge is a new process, so ipctk
+    # gets its first round for free; that favours it.
+    peer.run(rows, record=False)
+    for number in range(arguments.repeats):
+        turns: list[Callable[[], None]] = [lambda: peer.run(rows, record=True)]
+        for row, name in own.items():
+            turns.append(
+                lambda row=row, name=name: run_selvedge(arguments, name, rows[row], stages[row])
+            )
+        # Every other round runs backwards, so that no one always comes after the same neighbour.
+        for turn in turns if number % 2 == 0 else reversed(turns):
+            turn()
+
+    ratios = compare(rows, stages)
+    settings = {
+        "start": os.fspath(arguments.START),
+        "end": os.fspath(arguments.END),
+        "vertices": len(step.start),
+        "edges": peer.edges,
+        "triangles": len(step.triangles),
+        "threads": arguments.threads,
+        "repeats": arguments.repeats,
+        "scalar": "f64",
+        "processor": platform.processor() or platform.machine(),
+        "ipctk_version": ipctk.__version__,
+        "ipctk_mesh_seconds": peer.mesh_seconds,
+        "tight_inclusion": TIGHT_INCLUSION,
+        "additive": ADDITIVE,
+        "minimum_distance": MINIMUM_DISTANCE,
+    }
+    if arguments.json:
+        stage_seconds = {
+            row: {stage: spread(seconds) for stage, seconds in own_stages.items()}
+            for row, own_stages in stages.items()
+        }
+        report = {"settings": settings, "seconds": {n: r.as_json() for n, r in rows.items()}}
+        report |= {"stages": stage_seconds, "ratios": ratios}
+        print(json.dumps(report, indent=2))
+    else:
+        print_tables(settings, rows, ratios)
+
+
+if __name__ == "__main__":
+    main()

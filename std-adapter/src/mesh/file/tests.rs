@@ -1,0 +1,545 @@
+//! What the readers and writers of mesh files promise.
+
+use super::*;
+use proptest::prelude::*;
+use std::fs;
+use tempfile::TempDir;
+
+const FORMATS: [FileFormat; 4] = [
+    FileFormat::Obj,
+    FileFormat::Ply(PlyEncoding::Ascii),
+    FileFormat::Ply(PlyEncoding::LittleEndian),
+    FileFormat::Ply(PlyEncoding::BigEndian),
+];
+const PLY: FileFormat = FileFormat::Ply(PlyEncoding::Ascii);
+
+/// Any finite coordinates, denormals, huge ones and both zeros included; any triangles.
+fn meshes() -> impl Strategy<Value = Mesh> {
+    let coordinate = prop_oneof![
+        any::<u64>()
+            .prop_map(f64::from_bits)
+            .prop_filter("finite", |value| value.is_finite()),
+        Just(-0.0),
+        Just(f64::MIN_POSITIVE / 4.0),
+        -1.0..1.0,
+    ];
+    let position = prop::array::uniform3(coordinate).prop_map(DVec3::from_array);
+    prop::collection::vec(position, 1..12).prop_flat_map(|positions| {
+        let vertices = positions.len() as u32;
+        let triangles = prop::collection::vec(prop::array::uniform3(0..vertices), 1..12);
+        (Just(positions), triangles).prop_map(|(positions, triangles)| Mesh {
+            positions,
+            triangles,
+        })
+    })
+}
+
+fn bytes_of(mesh: &Mesh, format: FileFormat) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    match format {
+        FileFormat::Obj => obj::write(&mut bytes, mesh).unwrap(),
+        FileFormat::Ply(encoding) => ply::write(&mut bytes, mesh, encoding).unwrap(),
+    }
+    bytes
+}
+
+fn bits(mesh: &Mesh) -> Vec<[u64; 3]> {
+    mesh.positions
+        .iter()
+        .map(|p| p.to_array().map(f64::to_bits))
+        .collect()
+}
+
+fn triangle() -> Mesh {
+    Mesh {
+        positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+        triangles: vec![[0, 1, 2]],
+    }
+}
+
+fn read_obj(text: &str) -> MeshFile {
+    read_bytes(text.as_bytes(), FileFormat::Obj).unwrap()
+}
+
+fn problem(bytes: impl AsRef<[u8]>, format: FileFormat) -> String {
+    read_bytes(bytes.as_ref(), format).unwrap_err().to_string()
+}
+
+/// An ASCII PLY file: a header for three-number vertices and faces, and what follows it.
+fn ply_text(vertices: usize, faces: usize, body: &str) -> String {
+    format!(
+        "ply\nformat ascii 1.0\nelement vertex {vertices}\nproperty double x\nproperty double y\n\
+         property double z\nelement face {faces}\nproperty list uchar int vertex_indices\nend_header\n{body}"
+    )
+}
+
+/// A binary PLY file with the properties of its elements and its bytes given.
+fn ply_binary(vertex: &str, faces: &str, body: &[u8]) -> Vec<u8> {
+    let mut bytes =
+        format!("ply\nformat binary_little_endian 1.0\n{vertex}\n{faces}\nend_header\n")
+            .into_bytes();
+    bytes.extend_from_slice(body);
+    bytes
+}
+
+proptest! {
+    #[test]
+    fn every_format_gives_back_every_bit_and_every_number(mesh in meshes()) {
+        for format in FORMATS {
+            let read = read_bytes(&bytes_of(&mesh, format), format).unwrap().mesh;
+            prop_assert_eq!(bits(&read), bits(&mesh), "{:?}", format);
+            prop_assert_eq!(&read.triangles, &mesh.triangles, "{:?}", format);
+        }
+    }
+
+    #[test]
+    fn a_damaged_file_never_panics(
+        mesh in meshes(),
+        format in prop::sample::select(&FORMATS),
+        damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
+        cut in any::<prop::sample::Index>(),
+    ) {
+        let mut bytes = bytes_of(&mesh, format);
+        for (index, byte) in damage {
+            *index.get_mut(&mut bytes) = byte;
+        }
+        let _ = read_bytes(&bytes, format);
+        let _ = read_bytes(&bytes[..cut.index(bytes.len())], format);
+    }
+
+    #[test]
+    fn a_header_that_claims_anything_never_panics(vertices: u64, faces: u64, count in "char|uchar|short|int|uint|float", number in "char|ushort|int|uint|double", body: Vec<u8>) {
+        let vertex = format!("element vertex {vertices}\nproperty char x\nproperty char y\nproperty char z");
+        let faces = format!("element face {faces}\nproperty list {count} {number} vertex_index");
+        let _ = read_bytes(&ply_binary(&vertex, &faces, &body), PLY);
+    }
+
+    #[test]
+    fn no_proper_beginning_of_a_binary_file_is_taken_for_the_whole(mesh in meshes(), cut in any::<prop::sample::Index>()) {
+        let format = FileFormat::Ply(PlyEncoding::LittleEndian);
+        let bytes = bytes_of(&mesh, format);
+        prop_assert!(read_bytes(&bytes[..cut.index(bytes.len())], format).is_err());
+    }
+}
+
+#[test]
+fn vertices_keep_the_files_numbers_across_objects_and_without_faces() {
+    let file =
+        read_obj("o a\nv 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\no b\ng c\nv 0 0 1\nf 5 3 2\n");
+    assert_eq!(file.mesh.positions.len(), 5);
+    assert_eq!(file.mesh.triangles, [[1, 2, 3], [4, 2, 1]]);
+    assert_eq!(file.notes.statistics.isolated_vertices, 1);
+}
+
+#[test]
+fn obj_corners_count_back_from_the_last_vertex_when_negative() {
+    let file = read_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 1\nf -1 -3 -2\n");
+    assert_eq!(file.mesh.triangles, [[0, 1, 2], [3, 1, 2]]);
+}
+
+#[test]
+fn obj_faces_may_come_before_their_vertices() {
+    let file = read_obj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    assert_eq!(file.mesh.triangles, [[0, 1, 2]]);
+}
+
+#[test]
+fn obj_weights_colours_normals_textures_lines_points_and_comments_are_left_out() {
+    let file = read_obj(
+        "\u{feff}# made by hand \\\nmtllib a.mtl\nv 0 0 0 1.0\nv 1 0 0 0.5 0.5 0.5 # grey\nv 0 1 0\nvn 0 0 1\nvt 0 0\n\
+         usemtl red\ns off\nl 1 2\np 3\nf 1/1/1 2//1 3/1\r\n",
+    );
+    assert_eq!(file.mesh, triangle());
+}
+
+#[test]
+fn obj_lines_go_on_after_a_backslash() {
+    let file = read_obj("v 0 0 0\nv 1 0 \\\n0\nv 0 1 0\nf 1 \\\n2 \\\n3\n");
+    assert_eq!(file.mesh, triangle());
+}
+
+#[test]
+fn polygons_become_fans_from_their_first_vertex_and_are_counted() {
+    let file =
+        read_obj("v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 2 0\nf 2 3 4 5 1\nf 1 2 3\nf 1 2 3 4\n");
+    assert_eq!(
+        file.mesh.triangles,
+        [
+            [1, 2, 3],
+            [1, 3, 4],
+            [1, 4, 0],
+            [0, 1, 2],
+            [0, 1, 2],
+            [0, 2, 3]
+        ]
+    );
+    assert_eq!(file.notes.polygons_triangulated, 2);
+    assert_eq!(file.notes.statistics.duplicate_triangles, 1);
+    assert!(
+        file.notes
+            .to_string()
+            .ends_with(", 1 duplicate triangle, 2 polygons split into triangles"),
+        "{}",
+        file.notes
+    );
+}
+
+#[test]
+fn ply_numbers_of_every_type_are_read_in_both_byte_orders() {
+    let header = "element vertex 3\nproperty uchar red\nproperty float x\nproperty short y\nproperty uint z\nproperty list int float weights";
+    let mut little = Vec::new();
+    let mut big = Vec::new();
+    for (x, y, z) in [(0.1_f32, -7_i16, u32::MAX), (1.0, 0, 0), (0.0, 1, 0)] {
+        little.extend(
+            [
+                [3].as_slice(),
+                &x.to_le_bytes(),
+                &y.to_le_bytes(),
+                &z.to_le_bytes(),
+                &1_i32.to_le_bytes(),
+                &[0; 4],
+            ]
+            .concat(),
+        );
+        big.extend(
+            [
+                [3].as_slice(),
+                &x.to_be_bytes(),
+                &y.to_be_bytes(),
+                &z.to_be_bytes(),
+                &1_i32.to_be_bytes(),
+                &[0; 4],
+            ]
+            .concat(),
+        );
+    }
+    for (count, number, face) in [
+        ("uchar", "char", vec![3, 0, 1, 2]),
+        ("char", "uchar", vec![3, 0, 1, 2]),
+        ("ushort", "short", vec![3, 0, 0, 0, 1, 0, 2, 0]),
+        ("short", "ushort", vec![3, 0, 0, 0, 1, 0, 2, 0]),
+        (
+            "uint",
+            "int",
+            [[3_i32, 0, 1, 2].map(i32::to_le_bytes)].concat().concat(),
+        ),
+        (
+            "int",
+            "uint",
+            [[3_i32, 0, 1, 2].map(i32::to_le_bytes)].concat().concat(),
+        ),
+    ] {
+        let faces = format!(
+            "element face 1\nproperty list {count} {number} vertex_index\nproperty double quality\nelement edge 1\nproperty int vertex1"
+        );
+        let rest = [0; 12];
+        let mesh = read_bytes(
+            &ply_binary(header, &faces, &[&little, &face, rest.as_slice()].concat()),
+            PLY,
+        )
+        .unwrap()
+        .mesh;
+        assert_eq!(
+            mesh.positions[0],
+            DVec3::new(f64::from(0.1_f32), -7.0, f64::from(u32::MAX))
+        );
+        assert_eq!(mesh.triangles, [[0, 1, 2]], "{count} {number}");
+    }
+    let faces = "element face 1\nproperty list uchar int vertex_indices";
+    let face = [
+        [3].as_slice(),
+        &0_i32.to_be_bytes(),
+        &1_i32.to_be_bytes(),
+        &2_i32.to_be_bytes(),
+    ]
+    .concat();
+    let file = ply_binary(header, faces, &[big, face].concat());
+    let text = file.iter().position(|&b| b == b'b').unwrap();
+    let file = [
+        &file[..text],
+        b"binary_big_endian",
+        &file[text + b"binary_little_endian".len()..],
+    ]
+    .concat();
+    let mesh = read_bytes(&file, PLY).unwrap().mesh;
+    assert_eq!(
+        mesh.positions[0],
+        DVec3::new(f64::from(0.1_f32), -7.0, f64::from(u32::MAX))
+    );
+    assert_eq!(mesh.triangles, [[0, 1, 2]]);
+}
+
+#[test]
+fn ply_elements_may_come_in_any_order_and_lines_end_in_any_way() {
+    let text = "ply\r\nformat ascii 1.0\r\ncomment element face 9\r\nelement face 1\r\nproperty list uchar int vertex_indices\r\n\
+                element vertex 3\r\nproperty double x\r\nproperty double y\r\nproperty double z\r\nend_header\r\n\
+                3 0 1 2\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n\r\n";
+    assert_eq!(read_bytes(text.as_bytes(), PLY).unwrap().mesh, triangle());
+}
+
+#[test]
+fn obj_errors_name_the_line_and_what_is_wrong_with_it() {
+    let three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (text, expected) in [
+        ("v 0 0\n", "line 1: vertex 0 has no z coordinate"),
+        (
+            "v 0 0 0\nv 0 abc 0\n",
+            "line 2: vertex 1 has the y coordinate 'abc', which is not a number",
+        ),
+        (
+            "v 0 0 0\nv 0 0 nan\n",
+            "line 2: the z coordinate of vertex 1 is NaN, but must be finite",
+        ),
+        (
+            "v 1e999 0 0\n",
+            "line 1: the x coordinate of vertex 0 is inf, but must be finite",
+        ),
+        (
+            &format!("{three}f 1 2 4\n"),
+            "line 4: face 0 names vertex 4, but there are 3 vertices, numbered from 1",
+        ),
+        (
+            &format!("{three}f 1 2 3\nf 1 2 0\n"),
+            "line 5: face 1 names vertex 0, but there are 3 vertices, numbered from 1",
+        ),
+        (
+            &format!("{three}f 1 2 -4\n"),
+            "line 4: face 0 names vertex -4, but there are 3 vertices, numbered from 1",
+        ),
+        (
+            &format!("{three}f 1 2 x/1\n"),
+            "line 4: face 0 names a vertex 'x/1', which is not a whole number",
+        ),
+        (
+            &format!("{three}\nf 1 2\n"),
+            "line 5: face 0 has 2 vertices, but needs three or more",
+        ),
+        (three, "the mesh has no triangles"),
+        ("", "the file is empty"),
+    ] {
+        assert_eq!(problem(text, FileFormat::Obj), expected);
+    }
+    assert_eq!(
+        problem(b"# ok\nv \xff 0 0\n", FileFormat::Obj),
+        "line 2 is not UTF-8 text; is this the right kind of file?"
+    );
+}
+
+#[test]
+fn ply_errors_name_the_line_and_the_element() {
+    let three = "0 0 0\n1 0 0\n0 1 0\n";
+    for (text, expected) in [
+        (ply_text(3, 1, &format!("{three}3 0 1 3\n")), "line 13: face 0 names vertex 3, but there are 3 vertices, numbered from 0"),
+        (ply_text(3, 1, &format!("{three}3 0 1 -1\n")), "line 13: face 0 names vertex -1, but there are 3 vertices, numbered from 0"),
+        (ply_text(3, 1, &format!("{three}2 0 1\n")), "line 13: face 0 has 2 vertices, but needs three or more"),
+        (ply_text(3, 1, &format!("{three}3 0 1 2 2\n")), "line 13: 'face' element 0 must be the numbers vertex_indices that the header declares, not '3 0 1 2 2'"),
+        (ply_text(3, 1, "0 0 0\n1 0\n0 1 0\n3 0 1 2\n"), "line 11: 'vertex' element 1 must be the numbers x, y, z that the header declares, not '1 0'"),
+        (ply_text(3, 1, "0 0 0\n1 -nan 0\n0 1 0\n3 0 1 2\n"), "line 11: the y coordinate of vertex 1 is NaN, but must be finite"),
+        (ply_text(3, 1, "0 0 0\n1 0 1e999\n0 1 0\n3 0 1 2\n"), "line 11: the z coordinate of vertex 1 is inf, but must be finite"),
+        (ply_text(3, 2, &format!("{three}3 0 1 2\n")), "the file ends after 1 of the 2 'face' elements that its header declares; is it complete?"),
+        (ply_text(4, 1, &format!("{three}3 0 1 2\n")), "line 13: 'vertex' element 3 must be the numbers x, y, z that the header declares, not '3 0 1 2'"),
+        (ply_text(3, 1, &format!("{three}3 0 1 2\n3 0 1 2\n")), "line 14: the file goes on for 7 bytes after the elements that its header declares; do the counts in the header match?"),
+        (ply_text(3, 0, three), "the mesh has no triangles"),
+        (ply_text(1 << 40, 1, three), "the header declares 1099511627776 'vertex' elements, which take at least 6597069766655 bytes, but only 18 are left; is the file complete?"),
+        ("solid cube\n".to_owned(), "the header is missing: a PLY file begins with a line 'ply'"),
+        ("ply\nformat ascii 1.0\n".to_owned(), "the header has no end: the line 'end_header' is missing; is the file complete?"),
+        ("ply\nformat ascii 1.0\nelment vertex 3\nend_header\n".to_owned(), "line 3: this does not belong in the header of a PLY file: 'elment vertex 3'"),
+        ("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty int x\nend_header\n".to_owned(), "line 5: the header declares this name twice: 'property int x'"),
+        ("ply\nformat ascii 1.0\nelement face 0\nend_header\n".to_owned(), "the header declares no element 'vertex'"),
+        (ply_text(0, 0, "").replace("double z", "double w"), "the header declares no number 'z' for the element 'vertex'"),
+        (ply_text(0, 0, "").replace("element face", "element strip"), "the header declares no element 'face', so there are no triangles"),
+        (ply_text(0, 0, "").replace("uchar int", "uchar float"), "the header declares no list of integers 'vertex_indices' or 'vertex_index' for the element 'face'"),
+    ] {
+        assert_eq!(problem(text, PLY), expected);
+    }
+}
+
+#[test]
+fn a_truncated_binary_ply_is_refused_with_how_much_is_there() {
+    let bytes = bytes_of(&triangle(), FileFormat::Ply(PlyEncoding::LittleEndian));
+    let faces = 1 + 3 * 4;
+    assert_eq!(
+        problem(&bytes[..bytes.len() - faces], PLY),
+        "the header declares 1 'face' elements, which take at least 1 bytes, but only 0 are left; is the file complete?"
+    );
+    assert_eq!(
+        problem(&bytes[..bytes.len() - 1], PLY),
+        "the file ends after 0 of the 1 'face' elements that its header declares; is it complete?"
+    );
+    assert_eq!(
+        problem([bytes.as_slice(), b"x"].concat(), PLY),
+        "the file goes on for 1 bytes after the elements that its header declares; do the counts in the header match?"
+    );
+}
+
+#[test]
+fn a_binary_ply_with_a_coordinate_that_is_not_finite_is_refused() {
+    let mut mesh = triangle();
+    mesh.positions[2].y = f64::NEG_INFINITY;
+    for encoding in [PlyEncoding::LittleEndian, PlyEncoding::BigEndian] {
+        assert_eq!(
+            problem(bytes_of(&mesh, FileFormat::Ply(encoding)), PLY),
+            "the y coordinate of vertex 2 is -inf, but must be finite"
+        );
+    }
+}
+
+#[test]
+fn paths_that_are_no_mesh_file_are_refused_by_name() {
+    let folder = TempDir::new().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir(at("folder.obj")).unwrap();
+    fs::write(at("mesh.stl"), "solid").unwrap();
+    fs::write(at("empty.ply"), "").unwrap();
+    for (name, expected) in [
+        ("none.obj", "there is no such file"),
+        ("folder.obj", "this is a folder; name a mesh file in it"),
+        ("mesh.stl", "the file's extension must be .obj or .ply"),
+        ("empty.ply", "the file is empty"),
+    ] {
+        let error = read(&at(name)).unwrap_err().to_string();
+        assert_eq!(error, format!("{}: {expected}", at(name).display()));
+    }
+}
+
+#[test]
+fn a_written_file_is_read_back_by_its_extension_in_capitals_or_not() {
+    let folder = TempDir::new().unwrap();
+    for name in ["a.obj", "a.ply", "b.OBJ", "b.PLY"] {
+        let path = folder.path().join(name);
+        write(&path, &triangle()).unwrap();
+        assert_eq!(read(&path).unwrap().mesh, triangle(), "{name}");
+    }
+    assert_eq!(
+        fs::read_dir(&folder).unwrap().count(),
+        4,
+        "nothing else is left in the folder"
+    );
+}
+
+#[test]
+fn a_mesh_that_could_not_be_read_again_is_not_written_and_the_old_file_stays() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("a.ply");
+    fs::write(&path, "old").unwrap();
+    let bad = |change: Change| {
+        let mut mesh = triangle();
+        change(&mut mesh);
+        write(&path, &mesh).unwrap_err().to_string()
+    };
+    assert!(
+        bad(|mesh| mesh.positions[1].x = f64::NAN)
+            .ends_with("the x coordinate of vertex 1 is NaN, but must be finite")
+    );
+    assert!(
+        bad(|mesh| mesh.triangles[0][2] = 3)
+            .ends_with("face 0 names vertex 3, but there are 3 vertices, numbered from 0")
+    );
+    assert!(bad(|mesh| mesh.triangles.clear()).ends_with("the mesh has no triangles"));
+    assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+    assert_eq!(
+        fs::read_dir(&folder).unwrap().count(),
+        1,
+        "nothing else is left in the folder"
+    );
+}
+
+#[test]
+fn nothing_is_left_behind_where_a_file_cannot_be_put() {
+    let folder = TempDir::new().unwrap();
+    fs::create_dir_all(folder.path().join("a.obj/in the way")).unwrap();
+    let error = write(&folder.path().join("a.obj"), &triangle()).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            MeshError::File {
+                problem: FileProblem::Write(_),
+                ..
+            }
+        ),
+        "{error}"
+    );
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+}
+
+#[test]
+#[cfg(unix)]
+fn a_written_file_has_the_permissions_of_any_new_file() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = TempDir::new().unwrap();
+    let (ours, plain) = (folder.path().join("a.obj"), folder.path().join("b.obj"));
+    write(&ours, &triangle()).unwrap();
+    fs::write(&plain, "").unwrap();
+    let mode = |path| fs::metadata(path).unwrap().permissions().mode();
+    assert_eq!(mode(ours), mode(plain));
+}
+
+/// A change to a mesh.
+type Change = fn(&mut Mesh);
+
+fn written_step(change: Change) -> (TempDir, Result<MeshStep, MeshError>) {
+    let folder = TempDir::new().unwrap();
+    let (start, end) = (
+        folder.path().join("start.obj"),
+        folder.path().join("end.ply"),
+    );
+    let mut mesh = Mesh {
+        positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
+        triangles: vec![[0, 1, 2], [1, 2, 3]],
+    };
+    write(&start, &mesh).unwrap();
+    change(&mut mesh);
+    write(&end, &mesh).unwrap();
+    let step = read_step(&start, &end);
+    (folder, step)
+}
+
+#[test]
+fn two_frames_of_one_mesh_are_a_step_whatever_their_formats() {
+    let (_folder, step) = written_step(|mesh| mesh.positions[3] *= 2.0);
+    let step = step.unwrap();
+    assert_eq!(step.topology.triangles(), [[0, 1, 2], [1, 2, 3]]);
+    assert_eq!((step.start[3], step.end[3]), (DVec3::Z, 2.0 * DVec3::Z));
+}
+
+#[test]
+fn frames_of_different_meshes_are_refused_with_both_names_and_the_first_difference() {
+    let cases: [(Change, &str); 3] = [
+        (
+            |mesh| mesh.positions.push(DVec3::ONE),
+            "the first has 4 vertices, the second 5",
+        ),
+        (
+            |mesh| mesh.triangles[1] = [1, 3, 2],
+            "triangle 1 is 1 2 3 in the first, 1 3 2 in the second",
+        ),
+        (
+            |mesh| mesh.triangles.truncate(1),
+            "the first has 2 triangles, the second 1",
+        ),
+    ];
+    for (change, difference) in cases {
+        let (folder, step) = written_step(change);
+        let at = |name: &str| folder.path().join(name).display().to_string();
+        assert_eq!(
+            step.unwrap_err().to_string(),
+            format!(
+                "{} and {} are not frames of the same mesh: {difference}; export both with the same vertices and triangles in the same order",
+                at("start.obj"),
+                at("end.ply")
+            )
+        );
+    }
+}
+
+#[test]
+fn a_step_with_a_bad_second_file_names_that_file() {
+    let folder = TempDir::new().unwrap();
+    let (start, end) = (
+        folder.path().join("start.obj"),
+        folder.path().join("end.obj"),
+    );
+    write(&start, &triangle()).unwrap();
+    let error = read_step(&start, &end).unwrap_err().to_string();
+    assert_eq!(error, format!("{}: there is no such file", end.display()));
+}

@@ -1,0 +1,5 @@
+//! Built-in scenes: meshes with a motion.
+
+mod arm;
+
+pub use arm::ArmScene;
