@@ -118,12 +118,13 @@ impl<const E: u32, const F: u32> Neg for Minifloat<E, F> {
 
 impl<const E: u32, const F: u32> Rounding for Minifloat<E, F> {
     const UNIT_ROUNDOFF: Self = Self(1.0 / (2 << F) as f64);
-    /// 32 times half of the smallest subnormal.
+    /// 32 times half of the smallest subnormal: the least that the derivation allows. (`f32` and `f64` have a larger one.)
     const UNDERFLOW: Self = {
         let smallest = 1.0 / (1_u64 << -Self::MIN_EXPONENT) as f64;
         Self(16.0 * smallest)
     };
     const ONE: Self = Self(1.0);
+    const INFINITY: Self = Self(f64::INFINITY);
 
     /// Rounded up where the format has too few bits for it.
     fn small(count: u8) -> Self {
@@ -151,6 +152,10 @@ impl<const E: u32, const F: u32> Lanes for Minifloat<E, F> {
 
     fn larger(self, other: Self) -> Self {
         if self.0 > other.0 { self } else { other }
+    }
+
+    fn smaller(self, other: Self) -> Self {
+        if self.0 < other.0 { self } else { other }
     }
 
     fn greater(self, other: Self) -> bool {

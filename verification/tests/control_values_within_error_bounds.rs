@@ -346,7 +346,7 @@ fn a_control_value_beyond_its_bound_has_the_exact_sign_f32() {
     );
 }
 
-/// Eᵢ = Cᵢ·P̂ᵢ + (p_max + 1)·η with C = 8u, 10u and η = 32·η₀, but for the bound's own 13 roundings at most and what its
+/// Eᵢ = Cᵢ·P̂ᵢ + (p_max + 1)·η with C = 8u, 10u, but for the bound's own 13 roundings at most and what its
 /// products lose by underflow, which is less than an eighth of the last term.
 fn error_bounds_are_the_documented_ones<S: Format>(pair: PairCase<S>) -> Result<(), TestCaseError> {
     let Some(Compared {
@@ -358,7 +358,7 @@ fn error_bounds_are_the_documented_ones<S: Format>(pair: PairCase<S>) -> Result<
     else {
         return Ok(());
     };
-    let eta = lost_by_underflow::<S>() * 32_u32;
+    let eta = rational(S::UNDERFLOW);
     let slack = relative_error::<S>(13) + 1_u32;
     for (k, (bound, exact)) in bounds.iter().zip(&exact).enumerate() {
         let count = if k == 0 || k == 3 { 8_u32 } else { 10 };

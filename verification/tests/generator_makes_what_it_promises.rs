@@ -44,7 +44,11 @@ fn a_coplanar_pair_is_coplanar_f32() {
 #[test]
 fn any_bytes_make_a_pair_of_finite_coordinates() {
     let bytes = prop::collection::vec(any::<u8>(), 0..700);
-    proptest!(|(bytes in bytes)| {
+    let settings = ProptestConfig {
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    };
+    proptest!(settings, |(bytes in bytes)| {
         for kind in [Kind::VertexFace, Kind::EdgeEdge] {
             prop_assert!(PairCase::<f32>::from_bytes(kind, &bytes).is_finite());
             prop_assert!(PairCase::<f64>::from_bytes(kind, &bytes).is_finite());
