@@ -70,7 +70,7 @@ macro_rules! property {
         mod $name {
             use super::*;
 
-            fn property<S: Format>($pair: PairCase<S>) -> Result<(), TestCaseError> {
+            fn property<S: Format>($pair: &PairCase<S>) -> Result<(), TestCaseError> {
                 $property
             }
 
@@ -91,21 +91,21 @@ property!(
     reversing_time_changes_no_verdict_but_the_segment_box_test,
     30_000,
     pairs_of_any_kind(),
-    |pair| same(all_but([SegmentBox]), &pair, &pair.reversed())
+    |pair| same(all_but([SegmentBox]), pair, &pair.reversed())
 );
 
 property!(
     mirroring_an_axis_changes_no_verdict,
     30_000,
     pairs_of_any_kind(),
-    |pair| (0..3).try_for_each(|axis| same(all_but([]), &pair, &mirrored(&pair, axis)))
+    |pair| (0..3).try_for_each(|axis| same(all_but([]), pair, &mirrored(pair, axis)))
 );
 
 property!(
     exchanging_x_and_y_changes_no_verdict,
     30_000,
     pairs_of_any_kind(),
-    |pair| same(all_but([]), &pair, &pair.with_axes([1, 0, 2]))
+    |pair| same(all_but([]), pair, &pair.with_axes([1, 0, 2]))
 );
 
 property!(
@@ -116,7 +116,7 @@ property!(
         .into_iter()
         .try_for_each(|axes| same(
             all_but([CertifiedNonCoplanarity]),
-            &pair,
+            pair,
             &pair.with_axes(axes)
         ))
 );
@@ -125,7 +125,7 @@ property!(
     exchanging_the_faces_second_and_third_vertex_changes_no_verdict,
     30_000,
     pairs(Kind::VertexFace),
-    |pair| same(all_but([]), &pair, &pair.reordered([0, 1, 3, 2]))
+    |pair| same(all_but([]), pair, &pair.reordered([0, 1, 3, 2]))
 );
 
 property!(
@@ -136,7 +136,7 @@ property!(
         .into_iter()
         .try_for_each(|order| same(
             all_but([CertifiedNonCoplanarity]),
-            &pair,
+            pair,
             &pair.reordered(order)
         ))
 );
@@ -145,7 +145,7 @@ property!(
     exchanging_the_first_edges_ends_changes_no_verdict,
     30_000,
     pairs(Kind::EdgeEdge),
-    |pair| same(all_but([]), &pair, &pair.reordered([1, 0, 2, 3]))
+    |pair| same(all_but([]), pair, &pair.reordered([1, 0, 2, 3]))
 );
 
 property!(
@@ -156,7 +156,7 @@ property!(
         .into_iter()
         .try_for_each(|order| same(
             all_but([CertifiedNonCoplanarity]),
-            &pair,
+            pair,
             &pair.reordered(order)
         ))
 );
@@ -192,7 +192,7 @@ property!(
     grids(),
     |pair| [-12, -1, 1, 12].into_iter().try_for_each(|exponent| {
         let factor = S::exact(1, exponent);
-        same(all_but([]), &pair, &pair.map(|x| x * factor))
+        same(all_but([]), pair, &pair.map(|x| x * factor))
     })
 );
 
@@ -205,7 +205,7 @@ property!(
         let by = [1 << 18, -102_528, 2].map(|whole| S::exact(whole, -10));
         let moved = pair.with_positions(|x| std::array::from_fn(|axis| x[axis] + by[axis]));
         let back = moved.with_positions(|x| std::array::from_fn(|axis| x[axis] - by[axis]));
-        prop_assert_eq!(back, pair);
-        same(all_but([]), &pair, &moved)
+        prop_assert_eq!(back, *pair);
+        same(all_but([]), pair, &moved)
     }
 );
