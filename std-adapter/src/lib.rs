@@ -1,6 +1,8 @@
 //! Finds which vertex–face and edge–edge pairs of a deforming triangle mesh can collide during a time step.
 
 pub mod broad_phase;
+#[cfg(feature = "files")]
+mod excerpt;
 pub mod mesh;
 mod pair_kind;
 mod parallel;

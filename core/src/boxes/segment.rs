@@ -34,10 +34,14 @@ pub fn vertex_face<S: Scalar>(pair: &VertexFace<S>) -> Verdict {
     Verdict::culled_if(misses(&pair.vertex, &Aabb::swept(&pair.face)))
 }
 
-/// Whether the path of `vertex` certainly misses `target`.
+/// Whether the path of `vertex` certainly misses `target`. False if a coordinate of the path is NaN or infinite.
 #[inline]
 #[must_use]
 pub fn misses<S: Scalar>(vertex: &Motion<S>, target: &Aabb<S>) -> bool {
+    // The cross axis of two coordinates does not see the third.
+    if !vertex.is_finite() {
+        return false;
+    }
     if !Aabb::swept(&[*vertex]).overlaps(target) {
         return true;
     }
@@ -100,6 +104,15 @@ mod tests {
     #[test]
     fn a_resting_point_on_a_corner_is_kept() {
         assert!(!misses(&Motion::from(([1.0; 3], [1.0; 3])), &unit_box()));
+    }
+
+    #[test]
+    fn a_path_that_is_not_finite_on_one_axis_is_kept() {
+        for z in [f64::INFINITY, f64::NAN] {
+            // Misses the box in x and y alone.
+            let path = Motion::from(([0.0, 2.5, 0.0], [2.5, 0.0, z]));
+            assert!(!misses(&path, &unit_box()));
+        }
     }
 
     #[test]

@@ -7,9 +7,9 @@ use plotters::prelude::*;
 use plotters::series::DashedLineSeries;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-const SIZE: (u32, u32) = (880, 540);
+const SIZE: (u32, u32) = (900, 560);
 /// Room to the right of the axes for the names of the lines.
-const LABEL_ROOM: u32 = 200;
+const LABEL_ROOM: u32 = 220;
 /// Pixels from one name to the next, so that they never overlap.
 const LABEL_SPACING: i32 = 19;
 const BACKGROUND: RGBColor = RGBColor(253, 253, 252);
@@ -119,13 +119,16 @@ fn draw(root: &Drawing<'_>, lines: &[Curve]) -> DrawResult {
     root.fill(&BACKGROUND)?;
     let title = ("sans-serif", 24).into_font().color(&INK);
     root.draw_text("Time for one step against size", &title, (24, 16))?;
+    let subtitle = ("sans-serif", 17).into_font().color(&FAINT_INK);
+    let explanation = "stages: summed over threads; n log n: through the first whole step; beside the names: the last times";
+    root.draw_text(explanation, &subtitle, (24, 46))?;
     let Some([sizes, times]) = ranges(lines) else {
         let note = ("sans-serif", 20).into_font().color(&FAINT_INK);
-        root.draw_text("no times above zero to plot", &note, (24, 60))?;
+        root.draw_text("no times above zero to plot", &note, (24, 90))?;
         return root.present().map_err(Into::into);
     };
     let mut chart = ChartBuilder::on(root)
-        .margin_top(56)
+        .margin_top(76)
         .margin_left(12)
         .margin_bottom(12)
         .margin_right(LABEL_ROOM)
@@ -169,7 +172,7 @@ fn draw(root: &Drawing<'_>, lines: &[Curve]) -> DrawResult {
     let plotting_area = chart.plotting_area();
     let labels = lines.iter().filter_map(|line| {
         let &last = line.points.last()?;
-        let label = format!("{}  {}", line.name, time(last.1));
+        let label = format!("{}: {}", line.name, time(last.1));
         Some((plotting_area.map_coordinate(&last), label, line))
     });
     draw_labels(root, labels.collect())?;
@@ -233,7 +236,7 @@ fn ranges(lines: &[Curve]) -> Option<[(f64, f64); 2]> {
             });
         (ends.0 / room, ends.1 * room)
     };
-    Some([range(|point| point.0, 1.25), range(|point| point.1, 1.6)])
+    Some([range(|point| point.0, 1.4), range(|point| point.1, 1.6)])
 }
 
 /// `1 µs`, `10 ms`: the times at an axis of powers of ten.
@@ -246,4 +249,122 @@ fn power_of_ten_time(seconds: f64) -> String {
     };
     let rounded = (value * 1000.0).round() / 1000.0;
     format!("{rounded} {unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pipeline::{PairCounts, StageReport, StepReport};
+    use proptest::prelude::*;
+    use roxmltree::Document;
+
+    fn point(triangles: usize, stages: &[(Stage, f64)]) -> ScalingPoint {
+        let seconds = |wanted| {
+            stages
+                .iter()
+                .find(|&&(stage, _)| stage == wanted)
+                .map_or(0.0, |&(_, seconds)| seconds)
+        };
+        let later = stages
+            .iter()
+            .filter(|&&(stage, _)| stage != Stage::BroadPhase);
+        ScalingPoint {
+            triangles,
+            setup_seconds: 0.0,
+            first_step_seconds: 0.0,
+            step: StepReport {
+                triangle_pairs: 0,
+                broad_phase_seconds: seconds(Stage::BroadPhase),
+                stages: later
+                    .map(|&(stage, seconds)| StageReport {
+                        stage,
+                        survivors: PairCounts::default(),
+                        seconds,
+                    })
+                    .collect(),
+                seconds: stages.iter().map(|&(_, seconds)| seconds).sum(),
+            },
+        }
+    }
+
+    fn texts(svg: &str) -> Vec<String> {
+        let document = Document::parse(svg).unwrap();
+        let texts = document
+            .descendants()
+            .filter(|node| node.has_tag_name("text"));
+        texts
+            .map(|node| node.text().unwrap_or_default().trim().to_owned())
+            .collect()
+    }
+
+    fn has(svg: &str, wanted: &str) -> bool {
+        texts(svg).iter().any(|text| text == wanted)
+    }
+
+    #[test]
+    fn each_stage_is_named_with_its_last_time() {
+        let svg = scaling_svg(&[
+            point(13_450, &[(Stage::BroadPhase, 0.004), (Stage::Boxes, 0.03)]),
+            point(1345, &[(Stage::BroadPhase, 0.001), (Stage::Boxes, 0.002)]),
+        ]);
+        for label in [
+            "whole step: 34.0 ms",
+            "broad-phase: 4.00 ms",
+            "boxes: 30.0 ms",
+            "triangles",
+        ] {
+            assert!(has(&svg, label), "{label}: {:?}", texts(&svg));
+        }
+        assert!(!svg.contains("subspace"));
+    }
+
+    #[test]
+    fn the_reference_is_n_log_n_through_the_first_whole_step() {
+        let seconds = |n: f64| 1e-6 * n;
+        let svg = scaling_svg(
+            &[10_usize, 100, 10_000].map(|n| point(n, &[(Stage::Boxes, seconds(n as f64))])),
+        );
+        // 10 µs × (10,000 ln 10,000) / (10 ln 10).
+        assert!(has(&svg, "n log n: 40.0 ms"), "{:?}", texts(&svg));
+    }
+
+    #[test]
+    fn times_of_zero_are_left_out() {
+        let svg = scaling_svg(
+            &[10, 100].map(|n| point(n, &[(Stage::Boxes, 0.0), (Stage::Elementary, 0.5)])),
+        );
+        assert!(has(&svg, "elementary: 500 ms"));
+        assert!(!texts(&svg).iter().any(|text| text.starts_with("boxes")));
+    }
+
+    #[test]
+    fn a_plot_of_nothing_says_so() {
+        for points in [
+            vec![],
+            vec![point(10, &[(Stage::Boxes, 0.0)])],
+            vec![point(0, &[(Stage::Boxes, 1.0)])],
+        ] {
+            assert!(has(&scaling_svg(&points), "no times above zero to plot"));
+        }
+    }
+
+    #[test]
+    fn names_keep_their_order_and_distance() {
+        assert_eq!(spread(&[10, 12, 80], 19, 400), [10, 29, 80]);
+        assert_eq!(spread(&[390, 395, 398], 19, 400), [362, 381, 400]);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn any_finite_times_give_a_picture(
+            points in prop::collection::vec((0..=u32::MAX as usize, 0.0..1e9, proptest::num::f64::POSITIVE | proptest::num::f64::ZERO), 0..5)
+        ) {
+            let points: Vec<_> = points.into_iter().map(|(n, a, b)| point(n, &[(Stage::BroadPhase, a), (Stage::Boxes, b)])).collect();
+            let svg = scaling_svg(&points);
+            prop_assert!(Document::parse(&svg).is_ok());
+            prop_assert_eq!(svg, scaling_svg(&points));
+        }
+    }
 }

@@ -12,6 +12,11 @@ const FONT: &str = "system-ui, -apple-system, 'Segoe UI', 'Helvetica Neue', Aria
 const FONT_SIZE: f64 = 13.0;
 /// What a letter or digit takes at most on average, in the widest of the fonts above.
 const LETTER: f64 = 7.9;
+/// The same for a sentence, for each pixel of font size.
+const PROSE_LETTER: f64 = 0.54;
+const TITLE_SIZE: f64 = 16.0;
+const SUBTITLE_SIZE: f64 = 12.0;
+const NOTE_SIZE: f64 = 11.5;
 const MARGIN: f64 = 20.0;
 const COLUMN_GAP: f64 = 14.0;
 const GROUP_GAP: f64 = 26.0;
@@ -105,6 +110,10 @@ impl Column {
 
 fn text_width(text: &str) -> f64 {
     text.chars().count() as f64 * LETTER
+}
+
+fn prose_width(text: &str, size: f64) -> f64 {
+    text.chars().count() as f64 * PROSE_LETTER * size
 }
 
 fn column_groups(comparison: &Comparison) -> Vec<ColumnGroup> {
@@ -243,12 +252,12 @@ impl<'a> Table<'a> {
         }
         let (title, subtitle) = (title(comparison), subtitle(comparison));
         let notes = notes(comparison);
-        // The title is half as large again, the subtitle and the notes a little smaller.
-        let lines = std::iter::once(&*title)
-            .chain([&*subtitle])
-            .chain(notes.iter().copied())
-            .zip([1.3].into_iter().chain(std::iter::repeat(0.85)))
-            .map(|(line, scale)| 2.0 * MARGIN + scale * text_width(line));
+        // Bold letters are wider.
+        let lines = [(&*title, 1.15 * TITLE_SIZE), (&*subtitle, SUBTITLE_SIZE)];
+        let lines = lines
+            .into_iter()
+            .chain(notes.iter().map(|&note| (note, NOTE_SIZE)))
+            .map(|(line, size)| 2.0 * MARGIN + prose_width(line, size));
         Self {
             width: lines.fold(x - GROUP_GAP + MARGIN, f64::max),
             groups: placed,
@@ -270,9 +279,13 @@ impl<'a> Table<'a> {
     fn draw_title(&self, picture: &mut Group, comparison: &Comparison) {
         debug_assert_eq!(comparison.rows.len(), self.rows);
         let title = text(MARGIN, 30.0, "start", &self.title);
-        picture.append(title.set("font-size", 16).set("font-weight", 600));
+        picture.append(title.set("font-size", TITLE_SIZE).set("font-weight", 600));
         let subtitle = text(MARGIN, 50.0, "start", &self.subtitle);
-        picture.append(subtitle.set("font-size", 12).set("fill", FAINT_INK));
+        picture.append(
+            subtitle
+                .set("font-size", SUBTITLE_SIZE)
+                .set("fill", FAINT_INK),
+        );
     }
 
     fn draw_highlight(&self, picture: &mut Group, comparison: &Comparison) {
@@ -334,7 +347,7 @@ impl<'a> Table<'a> {
         for (line, note) in self.notes.iter().enumerate() {
             let y = self.rows_end() + NOTE_HEIGHT * (line as f64 + 1.0);
             let note = text(MARGIN, y, "start", note);
-            picture.append(note.set("font-size", 11.5).set("fill", FAINT_INK));
+            picture.append(note.set("font-size", NOTE_SIZE).set("fill", FAINT_INK));
         }
     }
 }
@@ -421,4 +434,220 @@ fn rule(left: f64, right: f64, y: f64) -> Line {
 /// To a tenth of a pixel, to keep the file short.
 fn round(length: f64) -> f64 {
     (length * 10.0).round() / 10.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::MeanStage;
+    use proptest::prelude::*;
+    use roxmltree::{Document, Node};
+
+    /// A row of which every number is different from every other row's.
+    fn row(preset: Preset, scale: f64) -> ComparisonRow {
+        let counts = |share: f64| MeanCounts {
+            vertex_face: (scale * share).round(),
+            edge_edge: (1.5 * scale * share).round(),
+        };
+        let tests = preset.stages().tests.iter().map(|test| test.stage());
+        let stages = [Stage::Distribution]
+            .into_iter()
+            .chain(tests)
+            .chain([Stage::Elementary]);
+        let stages: Vec<MeanStage> = stages
+            .enumerate()
+            .map(|(index, stage)| MeanStage {
+                stage,
+                survivors: counts(1.0 / (1.0 + index as f64)),
+                seconds: 0.001,
+            })
+            .collect();
+        let last = |wanted: &dyn Fn(Stage) -> bool| {
+            stages
+                .iter()
+                .rfind(|stage| wanted(stage.stage))
+                .unwrap()
+                .survivors
+        };
+        ComparisonRow {
+            preset,
+            triangle_pairs: 8412.0,
+            broad_phase_seconds: 0.001,
+            after_boxes: last(&|stage| stage == Stage::Distribution || stage.is_box_test()),
+            candidates: last(&|stage| stage != Stage::Elementary),
+            contacts: last(&|stage| stage == Stage::Elementary),
+            frames_per_second: 0.01 * scale,
+            stages,
+        }
+    }
+
+    fn comparison(name: &str, rows: Vec<ComparisonRow>) -> Comparison {
+        Comparison {
+            name: name.to_owned(),
+            vertices: 693,
+            edges: 2038,
+            triangles: 1345,
+            steps: 60,
+            threads: 1,
+            rounds: 3,
+            rows,
+        }
+    }
+
+    fn every_preset(scale: f64) -> Comparison {
+        let rows = Preset::ALL.iter().enumerate();
+        let rows = rows.map(|(index, &preset)| row(preset, scale / (1.0 + index as f64)));
+        comparison("arm", rows.collect())
+    }
+
+    fn texts(svg: &str) -> Vec<String> {
+        let document = Document::parse(svg).unwrap();
+        let texts = document
+            .descendants()
+            .filter(|node| node.has_tag_name("text"));
+        texts
+            .map(|node| node.text().unwrap_or_default().trim().to_owned())
+            .collect()
+    }
+
+    fn fills(svg: &str, colour: &str) -> usize {
+        let document = Document::parse(svg).unwrap();
+        document
+            .descendants()
+            .filter(|node| node.attribute("fill") == Some(colour))
+            .count()
+    }
+
+    #[test]
+    fn every_name_and_number_is_in_the_picture() {
+        let comparison = every_preset(98_765.0);
+        let texts = texts(&comparison_svg(&comparison));
+        let has = |text: &str| texts.iter().any(|found| found == text);
+        for row in &comparison.rows {
+            let name = row.preset.name();
+            let dagger = format!("{name} †");
+            assert!(
+                has(if row.preset.is_reconstructed() {
+                    &dagger
+                } else {
+                    name
+                }),
+                "{name}"
+            );
+            assert!(has(&rate(row.frames_per_second)));
+            let shown = |stage: &&MeanStage| {
+                stage.stage != Stage::Boxes || row.after_boxes == stage.survivors
+            };
+            for MeanStage {
+                stage, survivors, ..
+            } in row.stages.iter().filter(shown)
+            {
+                let numbers = [mean(survivors.vertex_face), mean(survivors.edge_edge)];
+                assert!(numbers.iter().all(|number| has(number)), "{name} {stage}");
+            }
+        }
+        for printed in [
+            "1,122", "2,056", "12.70", "74", "475", "32.00", "44", "338", "37.54", "31", "137",
+            "34.22",
+        ] {
+            assert!(has(printed), "the paper's {printed}");
+        }
+        let subtitle = "693 vertices, 2,038 edges, 1,345 triangles; mean of 60 steps, 1 thread, fastest of 3 rounds; 8,412 candidate triangle pairs a step";
+        assert!(has(subtitle), "{texts:?}");
+    }
+
+    #[test]
+    fn a_stage_that_a_method_lacks_is_a_dash() {
+        let dashes = |preset| {
+            let svg = comparison_svg(&comparison("arm", vec![row(preset, 1e4)]));
+            texts(&svg).iter().filter(|&text| text == ABSENT).count()
+        };
+        assert_eq!(
+            [Preset::Curtis2008, Preset::Tang2010, Preset::Lv2014].map(dashes),
+            [2, 2, 0]
+        );
+    }
+
+    #[test]
+    fn our_row_alone_is_highlighted() {
+        let mut comparison = every_preset(1e4);
+        assert_eq!(fills(&comparison_svg(&comparison), HIGHLIGHT), 1);
+        comparison.rows.retain(|row| row.preset != Preset::Selvedge);
+        assert_eq!(fills(&comparison_svg(&comparison), HIGHLIGHT), 0);
+    }
+
+    #[test]
+    fn the_dagger_is_explained_only_where_there_is_one() {
+        let has_dagger = |presets: &[Preset]| {
+            let rows = presets.iter().map(|&preset| row(preset, 1e4)).collect();
+            comparison_svg(&comparison("arm", rows)).contains("† Reconstructed")
+        };
+        assert!(has_dagger(&[Preset::TangC2010]));
+        assert!(!has_dagger(&[Preset::Lv2014]));
+    }
+
+    #[test]
+    fn any_name_is_written_as_it_is_but_for_control_characters() {
+        for (name, expected) in [
+            ("a<b> & \"c\" ']]>", "a<b> & \"c\" ']]>"),
+            ("x\u{0}y\u{1b}[1m", "x\u{fffd}y\u{fffd}[1m"),
+        ] {
+            let texts = texts(&comparison_svg(&comparison(name, Vec::new())));
+            assert!(
+                texts.iter().any(|text| text.ends_with(expected)),
+                "{texts:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn rates_that_are_no_numbers_have_no_bar() {
+        for frames_per_second in [f64::NAN, f64::INFINITY, 0.0] {
+            let row = ComparisonRow {
+                frames_per_second,
+                ..row(Preset::Basic, 1e4)
+            };
+            let svg = comparison_svg(&comparison("arm", vec![row]));
+            let document = Document::parse(&svg).unwrap();
+            let mut bars = document
+                .descendants()
+                .filter(|node| node.attribute("fill") == Some(BAR));
+            assert_eq!(bars.next().unwrap().attribute("width"), Some("0"));
+        }
+    }
+
+    /// Left and right end of a text, as wide as it may be.
+    fn extent(node: Node<'_, '_>) -> [f64; 2] {
+        let x: f64 = node.attribute("x").unwrap().parse().unwrap();
+        let text = node.text().unwrap().trim();
+        let size = node
+            .attribute("font-size")
+            .map(|size| size.parse().unwrap());
+        let width = size.map_or(text_width(text), |size| prose_width(text, size));
+        match node.attribute("text-anchor").unwrap() {
+            "start" => [x, x + width],
+            "middle" => [x - 0.5 * width, x + 0.5 * width],
+            _ => [x - width, x],
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn texts_never_overlap_nor_leave_the_picture(scale in 1.0..1e13) {
+            let svg = comparison_svg(&every_preset(scale));
+            let document = Document::parse(&svg).unwrap();
+            let width: f64 = document.root_element().attribute("width").unwrap().parse().unwrap();
+            let lines_of_text: Vec<_> = document.descendants().filter(|node| node.has_tag_name("text")).collect();
+            for (index, &one) in lines_of_text.iter().enumerate() {
+                let [left, right] = extent(one);
+                prop_assert!(left >= 0.0 && right <= width, "{one:?}");
+                let same_line = |other: &Node<'_, '_>| other.attribute("y") == one.attribute("y");
+                for other in lines_of_text[index + 1..].iter().copied().filter(same_line) {
+                    let [other_left, other_right] = extent(other);
+                    // A tenth of a pixel is lost in rounding.
+                    prop_assert!(right <= other_left + 0.2 || other_right <= left + 0.2, "{one:?} {other:?}");
+                }
+            }
+        }
+    }
 }

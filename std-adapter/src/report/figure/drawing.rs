@@ -15,12 +15,16 @@ pub(super) const BLUE: Colour = [0, 78, 200];
 pub(super) const YELLOW: Colour = [255, 214, 10];
 /// Edges of edge–edge pairs.
 pub(super) const GREEN: Colour = [0, 150, 60];
+/// Around a close-up.
+pub(super) const FRAME: Colour = [60, 66, 74];
 const CLOTH: Colour = [196, 204, 214];
 const OUTLINE: Colour = [90, 100, 112];
 
 /// How much of what lies behind a face shows through it.
 const CLOTH_OPACITY: f32 = 0.5;
 const MARK_OPACITY: f32 = 0.8;
+/// Outlines of faces whose edges are shorter than this, in pixels, would only make all cloth grey.
+const LEAST_OUTLINED: f32 = 4.0;
 
 /// Which primitives have a candidate pair.
 pub(super) struct Marks {
@@ -58,6 +62,21 @@ impl Marks {
         }
         Ok(marks)
     }
+
+    /// The positions of all marked primitives' vertices.
+    pub(super) fn positions(&self, topology: &Topology, positions: &[DVec3]) -> Vec<DVec3> {
+        let vertices = marked(&self.vertices).map(|vertex| vertex as u32);
+        let faces = marked(&self.faces).flat_map(|face| topology.triangles()[face]);
+        let edges = marked(&self.edges).flat_map(|edge| topology.edges()[edge]);
+        let vertices = vertices.chain(faces).chain(edges);
+        vertices.map(|vertex| positions[vertex as usize]).collect()
+    }
+}
+
+/// The numbers of what is marked.
+fn marked(marks: &[bool]) -> impl Iterator<Item = usize> {
+    let marks = marks.iter().enumerate();
+    marks.filter(|&(_, &marked)| marked).map(|(index, _)| index)
 }
 
 /// What is drawn in one stroke, with its depth.
@@ -68,43 +87,42 @@ enum Shape {
     Vertex(usize),
 }
 
-pub(super) fn draw_mesh(
-    picture: &mut Pixmap,
-    topology: &Topology,
-    positions: &[DVec3],
-    view: &View,
-    marks: &Marks,
-) {
-    let seen: Vec<Seen> = positions
-        .iter()
-        .map(|&position| view.see(position))
-        .collect();
-    let pen = Pen::new(topology, &seen);
-    for (_, shape) in shapes(topology, &seen, marks, pen.edge_length) {
-        match shape {
-            Shape::Face(face) => {
-                let corners = topology.triangles()[face].map(|vertex| seen[vertex as usize]);
-                pen.draw_face(picture, corners, marks.faces[face]);
+/// A mesh with its marks.
+pub(super) struct Drawing<'a> {
+    pub(super) topology: &'a Topology,
+    pub(super) positions: &'a [DVec3],
+    pub(super) marks: &'a Marks,
+}
+
+impl Drawing<'_> {
+    pub(super) fn draw(&self, picture: &mut Pixmap, view: &View) {
+        let Self {
+            topology, marks, ..
+        } = *self;
+        let seen: Vec<Seen> = self.positions.iter().map(|&p| view.see(p)).collect();
+        let pen = Pen::new(topology, &seen);
+        for shape in shapes(topology, &seen, marks, pen.edge_length) {
+            match shape {
+                Shape::Face(face) => {
+                    let corners = topology.triangles()[face].map(|vertex| seen[vertex as usize]);
+                    pen.draw_face(picture, corners, marks.faces[face]);
+                }
+                Shape::Edge(edge) => {
+                    let ends = topology.edges()[edge].map(|vertex| seen[vertex as usize]);
+                    pen.draw_edge(picture, ends);
+                }
+                Shape::Vertex(vertex) => draw_dot(picture, seen[vertex], pen.dot),
             }
-            Shape::Edge(edge) => {
-                let ends = topology.edges()[edge].map(|vertex| seen[vertex as usize]);
-                pen.draw_edge(picture, ends);
-            }
-            Shape::Vertex(vertex) => draw_dot(picture, seen[vertex], pen.dot),
         }
     }
 }
 
-/// Every face, and the marked edges and vertices, from the furthest to the nearest.
+/// Faces without a mark from the furthest to the nearest, then everything with one in the same order: so that cloth never
+/// hides a mark.
 ///
-/// A face is as deep as its middle. Marks lie on faces, so they come half an edge's length nearer: otherwise the faces
-/// beside them, of which one always has its middle nearer, would cover them.
-fn shapes(
-    topology: &Topology,
-    seen: &[Seen],
-    marks: &Marks,
-    edge_length: f32,
-) -> Vec<(f32, Shape)> {
+/// A face is as deep as its middle. Edges and vertices lie on faces, so edges come half an edge's length nearer and
+/// vertices a whole one: otherwise the faces and edges beside them whose middles are nearer would cover them.
+fn shapes(topology: &Topology, seen: &[Seen], marks: &Marks, edge_length: f32) -> Vec<Shape> {
     fn mean<const N: usize>(seen: &[Seen], vertices: [u32; N]) -> f32 {
         vertices
             .iter()
@@ -112,39 +130,28 @@ fn shapes(
             .sum::<f32>()
             / N as f32
     }
-    let marked = |marks: &[bool]| {
-        marks
-            .iter()
-            .enumerate()
-            .filter(|&(_, &marked)| marked)
-            .map(|(index, _)| index)
-            .collect::<Vec<_>>()
-    };
     let faces = topology
         .triangles()
         .iter()
         .enumerate()
-        .map(|(face, &corners)| (mean(seen, corners), Shape::Face(face)));
-    let edges = marked(&marks.edges).into_iter().map(|edge| {
-        (
-            mean(seen, topology.edges()[edge]) + 0.5 * edge_length,
-            Shape::Edge(edge),
-        )
+        .map(|(face, &corners)| (marks.faces[face], mean(seen, corners), Shape::Face(face)));
+    let edges = marked(&marks.edges).map(|edge| {
+        let depth = mean(seen, topology.edges()[edge]) + 0.5 * edge_length;
+        (true, depth, Shape::Edge(edge))
     });
-    let vertices = marked(&marks.vertices).into_iter().map(|vertex| {
-        (
-            seen[vertex].depth + 0.6 * edge_length,
-            Shape::Vertex(vertex),
-        )
+    let vertices = marked(&marks.vertices).map(|vertex| {
+        let depth = seen[vertex].depth + edge_length;
+        (true, depth, Shape::Vertex(vertex))
     });
     let mut shapes: Vec<_> = faces.chain(edges).chain(vertices).collect();
-    shapes.sort_by(|a, b| a.0.total_cmp(&b.0));
-    shapes
+    shapes.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    shapes.into_iter().map(|(_, _, shape)| shape).collect()
 }
 
 /// Widths of lines and dots, in pixels, to suit the size of the faces.
 struct Pen {
     edge_length: f32,
+    has_outlines: bool,
     outline: f32,
     edge: f32,
     dot: f32,
@@ -161,30 +168,53 @@ impl Pen {
         let edge_length = (sum / edges.len().max(1) as f64) as f32;
         Self {
             edge_length,
+            has_outlines: edge_length >= LEAST_OUTLINED,
             outline: (0.03 * edge_length).clamp(0.15, 1.0),
-            edge: (0.1 * edge_length).clamp(1.0, 3.5),
-            dot: (0.15 * edge_length).clamp(1.5, 5.5),
+            edge: (0.1 * edge_length).clamp(1.0, 5.0),
+            dot: (0.13 * edge_length).clamp(1.5, 8.0),
         }
     }
 
     fn draw_face(&self, picture: &mut Pixmap, corners: [Seen; 3], marked: bool) {
+        if self.misses(picture, &corners) {
+            return;
+        }
         let Some(path) = polyline(&corners, true) else {
             return;
         };
-        let (colour, opacity) = if marked {
-            (YELLOW, MARK_OPACITY)
+        let brightness = brightness(corners, marked);
+        if marked {
+            // The line keeps a face visible that is seen from its side.
+            let yellow = shaded(YELLOW, brightness);
+            fill(picture, &path, yellow, MARK_OPACITY);
+            if self.has_outlines {
+                stroke(picture, &path, yellow, 1.0, 0.7 * self.edge);
+            }
         } else {
-            (CLOTH, CLOTH_OPACITY)
-        };
-        let colour = shaded(colour, brightness(corners, marked));
-        fill(picture, &path, colour, opacity);
-        stroke(picture, &path, OUTLINE, 0.6, self.outline);
+            fill(picture, &path, shaded(CLOTH, brightness), CLOTH_OPACITY);
+        }
+        if self.has_outlines {
+            stroke(picture, &path, OUTLINE, 0.6, self.outline);
+        }
     }
 
     fn draw_edge(&self, picture: &mut Pixmap, ends: [Seen; 2]) {
+        if self.misses(picture, &ends) {
+            return;
+        }
         if let Some(path) = polyline(&ends, false) {
             stroke(picture, &path, GREEN, 1.0, self.edge);
         }
+    }
+
+    /// Whether a line around these points is outside the picture. Drawing it would do no harm but take time.
+    fn misses(&self, picture: &Pixmap, points: &[Seen]) -> bool {
+        let (width, height) = (picture.width() as f32, picture.height() as f32);
+        let all = |outside: &dyn Fn(&Seen) -> bool| points.iter().all(outside);
+        all(&|p| p.x < -self.edge)
+            || all(&|p| p.y < -self.edge)
+            || all(&|p| p.x > width + self.edge)
+            || all(&|p| p.y > height + self.edge)
     }
 }
 

@@ -7,13 +7,13 @@ mod view;
 
 use crate::glam::DVec3;
 use crate::mesh::Topology;
-use drawing::Marks;
+use drawing::{Drawing, Marks};
 use std::error::Error;
 use tiny_skia::{Color, Pixmap};
 use view::View;
 
 /// Width and height of the picture of [`figure_3`], in pixels.
-pub const FIGURE_SIZE: [u32; 2] = [1600, 900];
+pub const FIGURE_SIZE: [u32; 2] = [1600, 1000];
 
 /// One panel of [`figure_3`].
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,8 +67,9 @@ pub enum FigureError {
 /// bytes.
 ///
 /// The marks are those of Figure 3 in Lv, He, Mi: vertices of vertex–face pairs are blue, their faces yellow, and edges of
-/// edge–edge pairs green. The mesh is translucent, so that marks on its far and inner side show through. It is seen from
-/// the side to which it bends, so that the inner side of an elbow faces the viewer, without perspective.
+/// edge–edge pairs green. The mesh is seen without perspective from the side to which it bends, so that the inner side of
+/// an elbow faces the viewer. Cloth without a mark never hides a mark. Where the right panel's marks are in a small part
+/// of the mesh, both panels show that part close up.
 ///
 /// ```
 /// use selvedge::{glam::DVec3, mesh::Topology, report::{FigurePairs, figure_3}};
@@ -98,16 +99,23 @@ pub fn figure_3(
     let [width, height] = FIGURE_SIZE;
     let mut picture = Pixmap::new(width, height).expect("the size is not zero");
     picture.fill(Color::WHITE);
-    let view = View::new(positions, panel::MESH_ROOM);
+    let view = View::new(topology, positions, panel::OVERVIEW);
+    let close_up = view.close_up(&marks[1].positions(topology, positions), panel::CLOSE_UP);
+    let view = match close_up {
+        Some(_) => view,
+        None => View::new(topology, positions, panel::OVERVIEW_ALONE),
+    };
     for (index, (pairs, marks)) in panels.into_iter().zip(&marks).enumerate() {
         let left = index as f32 * panel::WIDTH;
-        drawing::draw_mesh(
-            &mut picture,
+        let mesh = Drawing {
             topology,
             positions,
-            &view.moved_right(left),
             marks,
-        );
+        };
+        mesh.draw(&mut picture, &view.moved(left, 0.0));
+        if let Some(close_up) = &close_up {
+            panel::draw_close_up(&mut picture, left, &mesh, &view, close_up);
+        }
         panel::write_caption(&mut picture, left, pairs);
     }
     panel::write_legend(&mut picture);
@@ -128,3 +136,6 @@ fn check_positions(topology: &Topology, positions: &[DVec3]) -> Result<(), Figur
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,26 +1,68 @@
 //! Where things are in the picture, captions and legend.
 
 use super::FigurePairs;
-use super::drawing::{GREEN, YELLOW, draw_dot, fill, stroke};
+use super::drawing::{Drawing, FRAME, GREEN, YELLOW, draw_dot, fill, stroke};
 use super::lettering::{Size, width, write};
-use super::view::{Room, Seen};
+use super::view::{Room, Seen, View};
 use crate::report::number::grouped;
-use tiny_skia::{PathBuilder, Pixmap, Rect};
+use tiny_skia::{Color, PathBuilder, Pixmap, PixmapPaint, Rect, Transform};
 
 /// Width of a panel.
 pub(super) const WIDTH: f32 = 800.0;
-/// The mesh's place in the left panel.
-pub(super) const MESH_ROOM: Room = Room {
+/// The whole mesh, in the left panel.
+pub(super) const OVERVIEW: Room = Room {
     left: 40.0,
-    top: 30.0,
+    top: 24.0,
     width: WIDTH - 80.0,
-    height: 690.0,
+    height: 440.0,
 };
-const NAME_TOP: u32 = 746;
-const COUNTS_TOP: u32 = 788;
-const LEGEND_TOP: u32 = 852;
+/// The whole mesh, where there is no close-up.
+pub(super) const OVERVIEW_ALONE: Room = Room {
+    height: 780.0,
+    ..OVERVIEW
+};
+/// The part with the right panel's marks, in the left panel.
+pub(super) const CLOSE_UP: Room = Room {
+    left: 120.0,
+    top: 490.0,
+    width: WIDTH - 240.0,
+    height: 320.0,
+};
+const NAME_TOP: u32 = 834;
+const COUNTS_TOP: u32 = 876;
+const LEGEND_TOP: u32 = 948;
 const LEGEND_MIDDLE: f32 = LEGEND_TOP as f32 + 13.0;
 const SWATCH: f32 = 26.0;
+
+/// The part of the mesh that a close-up shows, and a frame around that part in the overview.
+pub(super) fn draw_close_up(
+    picture: &mut Pixmap,
+    left: f32,
+    mesh: &Drawing<'_>,
+    overview: &View,
+    close_up: &View,
+) {
+    let (width, height) = (CLOSE_UP.width as u32, CLOSE_UP.height as u32);
+    let mut part = Pixmap::new(width, height).expect("the size is not zero");
+    part.fill(Color::WHITE);
+    mesh.draw(&mut part, &close_up.moved(-CLOSE_UP.left, -CLOSE_UP.top));
+    let (x, y) = ((left + CLOSE_UP.left) as i32, CLOSE_UP.top as i32);
+    picture.draw_pixmap(
+        x,
+        y,
+        part.as_ref(),
+        &PixmapPaint::default(),
+        Transform::identity(),
+        None,
+    );
+    for frame in [CLOSE_UP, overview.frame_of(close_up, CLOSE_UP)] {
+        if let Some(frame) =
+            Rect::from_xywh(left + frame.left, frame.top, frame.width, frame.height)
+        {
+            stroke(picture, &PathBuilder::from_rect(frame), FRAME, 1.0, 2.0);
+        }
+    }
+}
 
 /// The method's name, and below it how many pairs there are.
 pub(super) fn write_caption(picture: &mut Pixmap, left: f32, pairs: &FigurePairs<'_>) {
