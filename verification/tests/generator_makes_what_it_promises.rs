@@ -2,11 +2,10 @@
 
 use proptest::prelude::*;
 use selvedge::pipeline::CullingTest::CertifiedNonCoplanarity;
-use selvedge_core::Verdict;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
-    Format, Meeting, MeshCase, Moment, PairCase, Simplify, check, coplanar_pairs, from_choices,
-    meshes, pairs_of_any_kind, touching_pairs,
+    Choices, Format, Meeting, MeshCase, Moment, PairCase, Simplify, check, coplanar_pairs,
+    from_choices, meshes, pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides, coplanar, touches_at};
 use std::cell::Cell;
@@ -67,13 +66,21 @@ fn share<S: Format>(cases: u32, of: impl Fn(&PairCase<S>) -> bool) -> u32 {
 
 #[test]
 fn pairs_are_culled_coplanar_and_colliding_often_enough_f64() {
-    assert!(share::<f64>(3000, |pair| verdict(CertifiedNonCoplanarity, pair).is_culled()) > 30);
+    assert!(
+        share::<f64>(3000, |pair| verdict(CertifiedNonCoplanarity, pair)
+            .is_culled())
+            > 30
+    );
     assert!(share::<f64>(3000, |pair| collides(&pair.question()).is_some()) > 200);
 }
 
 #[test]
 fn pairs_are_culled_coplanar_and_colliding_often_enough_f32() {
-    assert!(share::<f32>(3000, |pair| verdict(CertifiedNonCoplanarity, pair).is_culled()) > 30);
+    assert!(
+        share::<f32>(3000, |pair| verdict(CertifiedNonCoplanarity, pair)
+            .is_culled())
+            > 30
+    );
     assert!(share::<f32>(3000, |pair| collides(&pair.question()).is_some()) > 200);
 }
 
@@ -95,7 +102,10 @@ fn meshes_are_degenerate_non_manifold_and_incomplete_often_enough() {
         counts.set(sums);
         Ok(())
     });
-    assert!(counts.get().into_iter().all(|count| count > 50), "{counts:?}");
+    assert!(
+        counts.get().into_iter().all(|count| count > 50),
+        "{counts:?}"
+    );
 }
 
 /// Follows every success of an attempt to simplify, as proptest does.
@@ -113,26 +123,32 @@ fn simplest<T: Simplify>(mut case: T, fails: impl Fn(&T) -> bool) -> T {
 
 #[test]
 fn shrinking_ends_in_a_pair_of_small_numbers() {
-    let culled = |pair: &PairCase<f64>| {
-        verdict(CertifiedNonCoplanarity, pair) == Verdict::Culled
-    };
-    let small = |x: f64| x == x.round() && x.abs() <= 4.0;
-    check(300, pairs_of_any_kind::<f64>(), |pair| {
+    let culled = |pair: &PairCase<f64>| verdict(CertifiedNonCoplanarity, pair).is_culled();
+    let mut culled_pairs = 0;
+    let mut state = 1_u64;
+    for _ in 0..2000 {
+        let bytes: [u8; Choices::ENOUGH] = std::array::from_fn(|_| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 56) as u8
+        });
+        let pair = PairCase::from_bytes(Kind::EdgeEdge, &bytes);
         if culled(&pair) {
+            culled_pairs += 1;
             let simplest = simplest(pair, culled);
-            let zeros = simplest.coordinates().filter(|&x| x == 0.0).count();
-            prop_assert!(zeros >= 12, "{simplest:?}");
-            prop_assert!(simplest.coordinates().filter(|&x| small(x)).count() >= 20, "{simplest:?}");
+            let small = |x: f64| x == x.round() && x.abs() <= 4.0;
+            let count = simplest.coordinates().filter(|&x| small(x)).count();
+            assert!(count >= 20, "{simplest:?}");
         }
-        Ok(())
-    });
+    }
+    assert!(culled_pairs > 20, "{culled_pairs} are too few to tell");
 }
 
 #[test]
 fn shrinking_a_meeting_keeps_it() {
-    let strategy = from_choices(|choices| {
-        Moment::<f32>::choose(Kind::VertexFace, Meeting::Touching, choices)
-    });
+    let strategy =
+        from_choices(|choices| Moment::<f32>::choose(Kind::VertexFace, Meeting::Touching, choices));
     check(300, strategy, |moment| {
         for attempt in 0..moment.attempts() {
             if let Some(simpler) = moment.simpler(attempt) {

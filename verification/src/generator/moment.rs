@@ -71,9 +71,9 @@ impl<S: Format> Moment<S> {
     /// The pair.
     #[must_use]
     pub fn pair(&self) -> PairCase<S> {
-        let points = self.whole_points().map(|ends| {
-            ends.map(|position| position.map(|whole| S::exact(whole, self.exponent)))
-        });
+        let points = self
+            .whole_points()
+            .map(|ends| ends.map(|position| position.map(|whole| S::exact(whole, self.exponent))));
         PairCase::new(self.kind, points)
     }
 
@@ -97,9 +97,8 @@ impl<S: Format> Moment<S> {
 
 /// Four positions that touch, or are coplanar, each up to 2^(reach + 4).
 fn target(kind: Kind, meeting: Meeting, reach: u32, choices: &mut Choices<'_>) -> [[i64; 3]; 4] {
-    let position = |choices: &mut Choices<'_>| -> [i64; 3] {
-        std::array::from_fn(|_| whole(choices, reach))
-    };
+    let position =
+        |choices: &mut Choices<'_>| -> [i64; 3] { std::array::from_fn(|_| whole(choices, reach)) };
     let combine = |from: [i64; 3], terms: [(i64, [i64; 3]); 2]| -> [i64; 3] {
         std::array::from_fn(|axis| {
             let sum: i64 = terms.iter().map(|(times, x)| times * x[axis]).sum();

@@ -48,7 +48,11 @@ pub trait Format: Scalar {
     fn nudged(self, steps: i64) -> Self {
         let mut number = self;
         for _ in 0..steps.abs() {
-            let next = if steps > 0 { number.up() } else { number.down() };
+            let next = if steps > 0 {
+                number.up()
+            } else {
+                number.down()
+            };
             if !Scalar::is_finite(next) {
                 break;
             }

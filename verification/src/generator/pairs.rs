@@ -121,8 +121,7 @@ fn graze<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
         ];
         for (point, [x, y, z]) in relative.into_iter().enumerate() {
             let position = [x, y, z + shear * x];
-            points[order[point]][end] =
-                std::array::from_fn(|k| position[axes[k]] + base[axes[k]]);
+            points[order[point]][end] = std::array::from_fn(|k| position[axes[k]] + base[axes[k]]);
         }
     }
     scaled(kind, points, choices)
@@ -253,7 +252,7 @@ fn disturbed<S: Format>(mut case: PairCase<S>, choices: &mut Choices<'_>) -> Pai
 
 impl<S: Format> Simplify for PairCase<S> {
     fn attempts(&self) -> usize {
-        15 + 4 * 24
+        19 + 4 * 24
     }
 
     fn simpler(&self, attempt: usize) -> Option<Self> {
@@ -270,8 +269,31 @@ impl<S: Format> Simplify for PairCase<S> {
             }
             // A point at the origin.
             11..15 => simpler.points[attempt - 11] = [[S::ZERO; 3]; 2],
+            // All axes, or one, brought to unit size.
+            15..19 => {
+                let axes = if attempt == 15 {
+                    0..3
+                } else {
+                    attempt - 16..attempt - 15
+                };
+                let numbers = simpler.points.iter().flatten();
+                let exponents =
+                    numbers.flat_map(|x| x[axes.clone()].iter().map(|&x| binary_exponent(x)));
+                let factor = S::exact(
+                    1,
+                    -exponents
+                        .max()
+                        .unwrap_or(0)
+                        .clamp(S::MIN_EXPONENT / 2, S::MAX_EXPONENT / 2),
+                );
+                for x in simpler.points.iter_mut().flatten() {
+                    for number in &mut x[axes.clone()] {
+                        *number = *number * factor;
+                    }
+                }
+            }
             _ => {
-                let (kind, index) = ((attempt - 15) % 4, (attempt - 15) / 4);
+                let (kind, index) = ((attempt - 19) % 4, (attempt - 19) / 4);
                 let (point, end, axis) = (index / 6, index / 3 % 2, index % 3);
                 let number = &mut simpler.points[point][end][axis];
                 *number = simpler_number(*number, kind);
@@ -317,17 +339,20 @@ fn significant_bits(value: f64) -> u32 {
     52 - value.to_bits().trailing_zeros().min(52)
 }
 
-/// 0 for zero, small for small whole numbers, large for many digits and far exponents.
+/// Nothing for zero, small for small whole numbers, large for many digits and far exponents.
 pub(super) fn complexity<S: Format>(number: S) -> u64 {
     let value = number.to_f64();
     if value == 0.0 {
-        return 0;
+        return u64::from(value.is_sign_negative());
     }
     if !value.is_finite() {
         return 4000;
     }
-    let exponent = (value.to_bits() >> 52 & 0x7ff) as i64 - 1023;
-    2 + 16 * u64::from(significant_bits(value))
-        + exponent.unsigned_abs()
-        + u64::from(value < 0.0)
+    let exponent = i64::from(binary_exponent(number));
+    2 + 16 * u64::from(significant_bits(value)) + exponent.unsigned_abs() + u64::from(value < 0.0)
+}
+
+/// The power of two below the number's magnitude; far below for zero.
+fn binary_exponent<S: Format>(number: S) -> i32 {
+    (number.to_f64().to_bits() >> 52 & 0x7ff) as i32 - 1023
 }

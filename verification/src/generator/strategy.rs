@@ -118,7 +118,9 @@ pub fn check<T: Simplify>(
 ) {
     match TestRunner::new(settings(cases)).run(&strategy, property) {
         Ok(()) => {}
-        Err(TestError::Fail(reason, case)) => panic!("{reason}\nThe simplest case found:\n{case:?}"),
+        Err(TestError::Fail(reason, case)) => {
+            panic!("{reason}\nThe simplest case found:\n{case:?}")
+        }
         Err(TestError::Abort(reason)) => panic!("{reason}"),
     }
 }
