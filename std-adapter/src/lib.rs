@@ -9,6 +9,8 @@ mod parallel;
 pub mod pipeline;
 #[cfg(feature = "files")]
 pub mod queries;
+#[cfg(feature = "report")]
+pub mod report;
 pub mod scene;
 pub mod study;
 
