@@ -357,6 +357,28 @@ fn a_tiny_path_that_meets_the_box_is_kept_by_the_underflow_term_alone() {
     assert!(!verdict(SegmentBox, &in_f64).is_culled());
 }
 
+/// Found by search with a quarter of the test's rounding bound, which culls it.
+#[test]
+fn a_path_that_meets_the_box_by_less_than_its_rounding_error_is_kept() {
+    let pair = PairCase::<f32>::new(
+        Kind::VertexFace,
+        [
+            [
+                [-1.884_149_1, -0.034_371_793, 0.0],
+                [0.277_877_8, -1.877_597_8, 0.0],
+            ],
+            [[-1.0, -1.113_415_8, 0.0]; 2],
+            [[-1.0, -1.1875, 0.0], [-2.0, -1.1875, 0.0]],
+            [[-1.0, -1.113_415_8, 0.0], [-0.618_475_6, -1.113_415_8, 0.0]],
+        ],
+    );
+    assert!(segment_meets_box(
+        &pair.points[0].map(rational),
+        &swept_bounds(&pair)
+    ));
+    assert!(!verdict(SegmentBox, &pair).is_culled());
+}
+
 /// A corner of the box, its size, where the path goes through it, the path's direction, how far it goes either way.
 type PathThroughBox = ([i16; 3], [u8; 3], [u8; 3], [i16; 3], [u8; 2]);
 
