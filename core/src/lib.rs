@@ -43,6 +43,7 @@
 
 pub use glam;
 
+pub mod batch;
 pub mod boxes;
 pub mod coplanarity;
 pub mod distribution;

@@ -1,0 +1,126 @@
+//! `f32` and `f64` vectors as [`Lanes`], and how rows become lanes.
+
+use super::{LANES, Mask, Test, VertexRow};
+use crate::lanes::Lanes;
+use crate::points::{PairPoints, PairShape};
+use crate::scalar::Scalar;
+use crate::vector::Vector;
+use fearless_simd::{ExtractToken, Simd, SimdBase, SimdCombine, SimdMask, f32x8, f32x16, f64x8};
+
+/// `f32` or `f64`, with its vectors.
+pub trait BatchScalar: Scalar {
+    /// Runs `test` on sixteen pairs.
+    #[doc(hidden)]
+    fn sixteen<V: Simd, P: PairShape>(
+        simd: V,
+        test: Test,
+        pairs: [[&VertexRow<Self>; 4]; LANES],
+    ) -> Mask;
+}
+
+macro_rules! lanes {
+    ($vector:ident, $scalar:ty) => {
+        impl<V: Simd> Lanes for $vector<V> {
+            type Scalar = $scalar;
+            type Mask = <Self as SimdBase<V>>::Mask;
+
+            #[inline(always)]
+            fn splat(self, value: $scalar) -> Self {
+                <Self as SimdBase<V>>::splat(self.token(), value)
+            }
+
+            #[inline(always)]
+            fn abs(self) -> Self {
+                <Self as SimdBase<V>>::abs(self)
+            }
+
+            #[inline(always)]
+            fn larger(self, other: Self) -> Self {
+                <Self as SimdBase<V>>::max(self, other)
+            }
+
+            #[inline(always)]
+            fn smaller(self, other: Self) -> Self {
+                <Self as SimdBase<V>>::min(self, other)
+            }
+
+            #[inline(always)]
+            fn greater(self, other: Self) -> Self::Mask {
+                self.simd_gt(other)
+            }
+        }
+    };
+}
+
+lanes!(f32x16, f32);
+lanes!(f64x8, f64);
+
+impl BatchScalar for f32 {
+    #[inline(always)]
+    fn sixteen<V: Simd, P: PairShape>(
+        simd: V,
+        test: Test,
+        pairs: [[&VertexRow<f32>; 4]; LANES],
+    ) -> Mask {
+        let points = load(|point| {
+            let half = |first: usize| -> [f32x8<V>; 8] {
+                transposed(core::array::from_fn(|k| {
+                    f32x8::load_array_ref(simd, &pairs[first + k][point].0)
+                }))
+            };
+            let (low, high) = (half(0), half(8));
+            core::array::from_fn(|k| low[k].combine(high[k]))
+        });
+        test.on::<P, f32x16<V>>(&points).to_bitmask() as Mask
+    }
+}
+
+impl BatchScalar for f64 {
+    #[inline(always)]
+    fn sixteen<V: Simd, P: PairShape>(
+        simd: V,
+        test: Test,
+        pairs: [[&VertexRow<f64>; 4]; LANES],
+    ) -> Mask {
+        let eight = |first: usize| {
+            let points = load(|point| {
+                transposed(core::array::from_fn(|k| {
+                    f64x8::load_array_ref(simd, &pairs[first + k][point].0)
+                }))
+            });
+            test.on::<P, f64x8<V>>(&points).to_bitmask() as Mask
+        };
+        eight(0) | eight(8) << 8
+    }
+}
+
+/// The four points from the transposed rows of each.
+#[inline(always)]
+fn load<L: Lanes>(columns: impl Fn(usize) -> [L; 8]) -> PairPoints<L> {
+    let columns: [[L; 8]; 4] = core::array::from_fn(columns);
+    PairPoints {
+        start: columns.map(|[x, y, z, ..]| Vector::new(x, y, z)),
+        end: columns.map(|[_, _, _, _, x, y, z, _]| Vector::new(x, y, z)),
+    }
+}
+
+/// Transposes eight rows of eight by three rounds of interleaving row k with row k + 4:
+///
+/// ```text
+/// rows        a0 a1 … a7, b0 b1 … b7, …, h0 h1 … h7
+/// 1 round     a0 e0 a1 e1 …               (rows a, e)
+/// 2 rounds    a0 c0 e0 g0 a1 c1 e1 g1     (rows a, c, e, g)
+/// 3 rounds    a0 b0 c0 d0 e0 f0 g0 h0     column 0
+/// ```
+#[inline(always)]
+fn transposed<V: Simd, T: SimdBase<V>>(mut rows: [T; 8]) -> [T; 8] {
+    for _ in 0..3 {
+        let [a, b, c, d, e, f, g, h] = rows;
+        let (row_0, row_1) = a.interleave(e);
+        let (row_2, row_3) = b.interleave(f);
+        let (row_4, row_5) = c.interleave(g);
+        let (row_6, row_7) = d.interleave(h);
+        rows = [row_0, row_1, row_2, row_3, row_4, row_5, row_6, row_7];
+    }
+    rows
+}
