@@ -89,7 +89,7 @@ pub fn culled<S: BatchScalar, P: PrimitivePair<S>>(
             *row = pair.motions().map(VertexRow::new);
         }
         let sixteen = rows.each_ref().map(<[_; 4]>::each_ref);
-        *mask = dispatch!(level, simd => S::sixteen::<_, P::Shape>(simd, test, sixteen));
+        *mask = dispatch!(level, simd => S::sixteen::<_, P::Shape>(simd, test, &sixteen));
     }
 }
 
@@ -116,12 +116,13 @@ fn culled_from_rows_with<S: BatchScalar, P: PairShape, V: Simd>(
     masks: &mut [Mask],
 ) {
     let unknown = VertexRow::unknown();
-    let row = |&index: &u32| rows.get(index as usize).unwrap_or(&unknown);
     for (indices, mask) in indices.chunks(LANES).zip(masks) {
         let mut sixteen = [[&unknown; 4]; LANES];
         for (pair, indices) in sixteen.iter_mut().zip(indices) {
-            *pair = indices.each_ref().map(row);
+            for (row, &index) in pair.iter_mut().zip(indices) {
+                *row = rows.get(index as usize).unwrap_or(&unknown);
+            }
         }
-        *mask = S::sixteen::<_, P>(simd, test, sixteen);
+        *mask = S::sixteen::<_, P>(simd, test, &sixteen);
     }
 }

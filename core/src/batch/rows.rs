@@ -27,6 +27,6 @@ impl<S: Scalar> VertexRow<S> {
     /// Stands in for a vertex that does not exist: not a number, so that every test keeps the pair.
     #[inline(always)]
     pub(super) fn unknown() -> Self {
-        Self([S::INFINITY - S::INFINITY; 8])
+        Self([S::INFINITY * S::ZERO; 8])
     }
 }

@@ -5,7 +5,9 @@ use crate::lanes::Lanes;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
-use fearless_simd::{ExtractToken, Simd, SimdBase, SimdCombine, SimdMask, f32x8, f32x16, f64x8};
+use fearless_simd::{
+    ExtractToken, Simd, SimdBase, SimdCombine, SimdFrom, SimdMask, f32x8, f32x16, f64x8,
+};
 
 /// `f32` or `f64`, with its vectors.
 pub trait BatchScalar: Scalar {
@@ -14,7 +16,7 @@ pub trait BatchScalar: Scalar {
     fn sixteen<V: Simd, P: PairShape>(
         simd: V,
         test: Test,
-        pairs: [[&VertexRow<Self>; 4]; LANES],
+        pairs: &[[&VertexRow<Self>; 4]; LANES],
     ) -> Mask;
 }
 
@@ -52,6 +54,23 @@ macro_rules! lanes {
     };
 }
 
+/// The rows of one point of eight pairs.
+macro_rules! load_rows {
+    ($vector:ident, $simd:expr, $pairs:expr, $first:expr, $point:expr) => {{
+        let pairs: &[[&VertexRow<_>; 4]; LANES] = $pairs;
+        [
+            $vector::load_array_ref($simd, &pairs[$first][$point].0),
+            $vector::load_array_ref($simd, &pairs[$first + 1][$point].0),
+            $vector::load_array_ref($simd, &pairs[$first + 2][$point].0),
+            $vector::load_array_ref($simd, &pairs[$first + 3][$point].0),
+            $vector::load_array_ref($simd, &pairs[$first + 4][$point].0),
+            $vector::load_array_ref($simd, &pairs[$first + 5][$point].0),
+            $vector::load_array_ref($simd, &pairs[$first + 6][$point].0),
+            $vector::load_array_ref($simd, &pairs[$first + 7][$point].0),
+        ]
+    }};
+}
+
 lanes!(f32x16, f32);
 lanes!(f64x8, f64);
 
@@ -60,18 +79,17 @@ impl BatchScalar for f32 {
     fn sixteen<V: Simd, P: PairShape>(
         simd: V,
         test: Test,
-        pairs: [[&VertexRow<f32>; 4]; LANES],
+        pairs: &[[&VertexRow<f32>; 4]; LANES],
     ) -> Mask {
-        let points = load(|point| {
-            let half = |first: usize| -> [f32x8<V>; 8] {
-                transposed(core::array::from_fn(|k| {
-                    f32x8::load_array_ref(simd, &pairs[first + k][point].0)
-                }))
-            };
-            let (low, high) = (half(0), half(8));
-            core::array::from_fn(|k| low[k].combine(high[k]))
-        });
-        test.on::<P, f32x16<V>>(&points).to_bitmask() as Mask
+        let mut columns = [[f32x16::simd_from(simd, 0.0); 8]; 4];
+        for point in 0..4 {
+            let low = transposed(load_rows!(f32x8, simd, pairs, 0, point));
+            let high = transposed(load_rows!(f32x8, simd, pairs, 8, point));
+            for column in 0..8 {
+                columns[point][column] = low[column].combine(high[column]);
+            }
+        }
+        test.on::<P, f32x16<V>>(&points(columns)).to_bitmask() as Mask
     }
 }
 
@@ -80,27 +98,44 @@ impl BatchScalar for f64 {
     fn sixteen<V: Simd, P: PairShape>(
         simd: V,
         test: Test,
-        pairs: [[&VertexRow<f64>; 4]; LANES],
+        pairs: &[[&VertexRow<f64>; 4]; LANES],
     ) -> Mask {
-        let eight = |first: usize| {
-            let points = load(|point| {
-                transposed(core::array::from_fn(|k| {
-                    f64x8::load_array_ref(simd, &pairs[first + k][point].0)
-                }))
-            });
-            test.on::<P, f64x8<V>>(&points).to_bitmask() as Mask
-        };
-        eight(0) | eight(8) << 8
+        let mut mask = 0;
+        for first in [0, 8] {
+            let mut columns = [[f64x8::simd_from(simd, 0.0); 8]; 4];
+            for point in 0..4 {
+                columns[point] = transposed(load_rows!(f64x8, simd, pairs, first, point));
+            }
+            let culled = test.on::<P, f64x8<V>>(&points(columns)).to_bitmask() as Mask;
+            mask |= culled << first;
+        }
+        mask
     }
 }
 
 /// The four points from the transposed rows of each.
 #[inline(always)]
-fn load<L: Lanes>(columns: impl Fn(usize) -> [L; 8]) -> PairPoints<L> {
-    let columns: [[L; 8]; 4] = core::array::from_fn(columns);
+fn points<L: Lanes>(columns: [[L; 8]; 4]) -> PairPoints<L> {
+    let [
+        [ax, ay, az, _, au, av, aw, _],
+        [bx, by, bz, _, bu, bv, bw, _],
+        c,
+        d,
+    ] = columns;
+    let ([cx, cy, cz, _, cu, cv, cw, _], [dx, dy, dz, _, du, dv, dw, _]) = (c, d);
     PairPoints {
-        start: columns.map(|[x, y, z, ..]| Vector::new(x, y, z)),
-        end: columns.map(|[_, _, _, _, x, y, z, _]| Vector::new(x, y, z)),
+        start: [
+            Vector::new(ax, ay, az),
+            Vector::new(bx, by, bz),
+            Vector::new(cx, cy, cz),
+            Vector::new(dx, dy, dz),
+        ],
+        end: [
+            Vector::new(au, av, aw),
+            Vector::new(bu, bv, bw),
+            Vector::new(cu, cv, cw),
+            Vector::new(du, dv, dw),
+        ],
     }
 }
 

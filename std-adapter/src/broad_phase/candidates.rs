@@ -1,6 +1,7 @@
 //! Lists of triangles with their boxes, in order of triangle, laid out so that one comparison tests 16.
 
 use super::SweptBox;
+use super::buffer::Buffer;
 
 /// Lanes of a block.
 pub(super) const LANES: usize = 16;
@@ -37,79 +38,95 @@ pub(super) fn limits(bounds: &Bounds) -> Bounds {
 }
 
 /// Up to 16 triangles.
-#[derive(Clone, Debug)]
-pub(super) struct Block {
+#[derive(Clone, Copy, Debug)]
+struct Block {
     /// `bounds[k][lane]`; NaN, which is within no limits, in lanes that are not used.
     bounds: [[f32; LANES]; 6],
     triangles: [u32; LANES],
 }
 
-impl Block {
-    const UNUSED: Self = Self {
-        bounds: [[f32::NAN; LANES]; 6],
-        triangles: [u32::MAX; LANES],
-    };
-
-    /// The lanes whose box is within `limits`, as bits.
-    #[inline]
-    fn within(&self, limits: &Bounds) -> u32 {
-        const BIT: [u32; LANES] = {
-            let mut bits = [0; LANES];
-            let mut lane = 0;
-            while lane < LANES {
-                bits[lane] = 1 << lane;
-                lane += 1;
-            }
-            bits
-        };
-        let mut mask = 0;
-        for lane in 0..LANES {
-            let mut inside = true;
-            for k in 0..6 {
-                inside &= self.bounds[k][lane] <= limits[k];
-            }
-            mask |= if inside { BIT[lane] } else { 0 };
+impl Default for Block {
+    /// No triangles.
+    fn default() -> Self {
+        Self {
+            bounds: [[f32::NAN; LANES]; 6],
+            triangles: [u32::MAX; LANES],
         }
-        mask
     }
 }
 
+impl Block {
+    /// The lanes whose box is within `limits`, as bits.
+    #[inline]
+    fn within(&self, limits: &Bounds) -> u32 {
+        let mut mask = 0;
+        for lane in 0..LANES {
+            let mut inside = true;
+            for (bounds, limit) in self.bounds.iter().zip(limits) {
+                inside &= bounds[lane] <= *limit;
+            }
+            mask |= if inside { 1 << lane } else { 0 };
+        }
+        mask
+    }
+
+    /// The lanes with a triangle after `triangle`, as bits.
+    fn after(&self, triangle: u32) -> u32 {
+        (0..LANES).fold(0, |mask, lane| {
+            mask | u32::from(self.triangles[lane] > triangle) << lane
+        })
+    }
+}
+
+/// The bits set in `mask`, lowest first.
+#[inline]
+fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        (mask != 0).then(|| {
+            let lane = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            // The remainder changes nothing but tells the compiler that the lane exists.
+            lane % LANES
+        })
+    })
+}
+
 /// Triangles with their boxes, in order of triangle.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(super) struct CandidateList {
-    /// Grows, and never shrinks; only the first `len` lanes count.
-    blocks: Vec<Block>,
+    /// Only the first `len` lanes count.
+    blocks: Buffer<Block>,
     len: usize,
 }
 
 impl CandidateList {
     /// All triangles.
     pub(super) fn assign(&mut self, boxes: &[SweptBox]) {
-        self.reserve(boxes.len());
-        for (index, swept) in boxes.iter().enumerate() {
-            let block = &mut self.blocks[index / LANES];
-            let bounds = bounds(swept);
-            for k in 0..6 {
-                block.bounds[k][index % LANES] = bounds[k];
+        self.blocks.ensure(boxes.len().div_ceil(LANES));
+        for ((first, block), boxes) in (0..)
+            .step_by(LANES)
+            .zip(self.blocks.iter_mut())
+            .zip(boxes.chunks(LANES))
+        {
+            for (lane, swept) in boxes.iter().enumerate() {
+                for (row, bound) in block.bounds.iter_mut().zip(bounds(swept)) {
+                    row[lane] = bound;
+                }
+                block.triangles[lane] = first + lane as u32;
             }
-            block.triangles[index % LANES] = index as u32;
         }
-        self.len = boxes.len();
-        self.close();
+        self.end_at(boxes.len());
     }
 
     /// The triangles of `list` from `first` on whose boxes overlap `bounds`. Returns the number of
     /// blocks tested.
     pub(super) fn assign_overlapping(&mut self, list: &Self, bounds: &Bounds, first: u32) -> u64 {
-        let blocks = list.blocks_from(first);
-        self.reserve(LANES * blocks.len());
+        let sources = list.blocks_from(first);
         let limits = limits(bounds);
         let mut len = 0;
-        for source in blocks {
-            let mut mask = source.within(&limits);
-            while mask != 0 {
-                let lane = mask.trailing_zeros() as usize % LANES;
-                mask &= mask - 1;
+        for source in sources {
+            self.blocks.ensure((len + LANES).div_ceil(LANES));
+            for lane in lanes(source.within(&limits)) {
                 let target = &mut self.blocks[len / LANES];
                 for k in 0..6 {
                     target.bounds[k][len % LANES] = source.bounds[k][lane];
@@ -118,9 +135,8 @@ impl CandidateList {
                 len += 1;
             }
         }
-        self.len = len;
-        self.close();
-        blocks.len() as u64
+        self.end_at(len);
+        sources.len() as u64
     }
 
     /// Appends the triangles after `triangle` whose boxes overlap `bounds` to `partners`. Returns the
@@ -131,52 +147,44 @@ impl CandidateList {
         triangle: u32,
         partners: &mut Partners,
     ) -> u64 {
-        let blocks = self.blocks_from(triangle);
-        let Some(first) = blocks.first() else {
+        let sources = self.blocks_from(triangle);
+        let Some(first) = sources.first() else {
             return 0;
         };
         let limits = limits(bounds);
-        let mut later = 0;
-        for lane in 0..LANES {
-            later |= u32::from(first.triangles[lane] > triangle) << lane;
-        }
-        let target = partners.room_for(LANES * blocks.len());
+        let mut after = first.after(triangle);
+        let target = partners.room_for(LANES * sources.len());
         let mut len = 0;
-        for source in blocks {
-            let mut mask = source.within(&limits) & later;
-            later = u32::MAX;
-            while mask != 0 {
-                let lane = mask.trailing_zeros() as usize % LANES;
-                mask &= mask - 1;
+        for source in sources {
+            for lane in lanes(source.within(&limits) & after) {
                 target[len] = source.triangles[lane];
                 len += 1;
             }
+            after = u32::MAX;
         }
         partners.len += len;
-        blocks.len() as u64
+        sources.len() as u64
     }
 
-    /// The blocks without those that end before `triangle`.
+    /// To be called at the end of a step.
+    pub(super) fn settle(&mut self) {
+        self.blocks.settle();
+    }
+
+    /// The blocks in use, without those that end before `triangle`.
     fn blocks_from(&self, triangle: u32) -> &[Block] {
         let blocks = &self.blocks[..self.len.div_ceil(LANES)];
         let start = blocks.partition_point(|block| block.triangles[LANES - 1] < triangle);
         &blocks[start..]
     }
 
-    fn reserve(&mut self, len: usize) {
-        if self.blocks.len() < len.div_ceil(LANES) {
-            self.blocks.resize(len.div_ceil(LANES), Block::UNUSED);
-        }
-    }
-
-    /// Marks the lanes after the last as unused.
-    fn close(&mut self) {
-        if !self.len.is_multiple_of(LANES) {
-            let block = &mut self.blocks[self.len / LANES];
-            for lane in self.len % LANES..LANES {
-                block.bounds[0][lane] = f32::NAN;
-                block.triangles[lane] = u32::MAX;
-            }
+    /// Makes the list `len` long, and marks the lanes left in the last block as unused.
+    fn end_at(&mut self, len: usize) {
+        self.len = len;
+        if !len.is_multiple_of(LANES) {
+            let block = &mut self.blocks[len / LANES];
+            block.bounds[0][len % LANES..].fill(f32::NAN);
+            block.triangles[len % LANES..].fill(u32::MAX);
         }
     }
 }
@@ -184,14 +192,19 @@ impl CandidateList {
 /// The partners of one triangle after another.
 #[derive(Debug, Default)]
 pub(super) struct Partners {
-    /// Grows, and never shrinks; only the first `len` count.
-    triangles: Vec<u32>,
+    /// Only the first `len` count.
+    triangles: Buffer<u32>,
     len: usize,
 }
 
 impl Partners {
     pub(super) fn clear(&mut self) {
         self.len = 0;
+    }
+
+    /// To be called at the end of a step.
+    pub(super) fn settle(&mut self) {
+        self.triangles.settle();
     }
 
     pub(super) fn len(&self) -> usize {
@@ -203,10 +216,7 @@ impl Partners {
     }
 
     fn room_for(&mut self, count: usize) -> &mut [u32] {
-        if self.triangles.len() < self.len + count {
-            self.triangles
-                .resize((self.len + count).max(2 * self.triangles.len()), 0);
-        }
+        self.triangles.ensure(self.len + count);
         &mut self.triangles[self.len..self.len + count]
     }
 }

@@ -1,5 +1,6 @@
 //! Puts the partners of all triangles in a row.
 
+use super::buffer::with_headroom;
 use super::hierarchy::Hierarchy;
 use super::traversal::Traversal;
 use crate::parallel;
@@ -21,6 +22,9 @@ pub(super) fn concatenate(
         total += traversal.count(position as usize);
         offset
     }));
+    if pairs.capacity() < total {
+        pairs.reserve_exact(with_headroom(total) - pairs.len());
+    }
     // What is left from the last step is overwritten.
     pairs.resize(total, [0; 2]);
     Concatenation {

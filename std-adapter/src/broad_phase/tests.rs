@@ -113,3 +113,111 @@ proptest! {
         prop_assert_eq!(&with(5), &one);
     }
 }
+
+/// A square sheet of `side * side` boxes that touch their neighbours, in rows.
+fn sheet(side: usize) -> Vec<SweptBox> {
+    let boxes = (0..side * side).map(|index| {
+        let lower = [(index % side) as f32, (index / side) as f32, 0.0];
+        SweptBox {
+            lower,
+            upper: lower.map(|x| x + 1.0),
+        }
+    });
+    boxes.collect()
+}
+
+#[test]
+fn boxes_that_touch_overlap() {
+    let boxes = [
+        SweptBox {
+            lower: [0.0; 3],
+            upper: [1.0; 3],
+        },
+        SweptBox {
+            lower: [1.0; 3],
+            upper: [2.0; 3],
+        },
+    ];
+    assert_eq!(step(&mut BroadPhase::new(), &boxes), [[0, 1]]);
+}
+
+#[test]
+fn a_bound_that_is_not_a_number_separates_nothing() {
+    let nan = SweptBox {
+        lower: [f32::NAN; 3],
+        upper: [f32::NAN; 3],
+    };
+    let mut boxes = sheet(10);
+    boxes[37] = nan;
+    let with_nan = step(&mut BroadPhase::new(), &boxes)
+        .iter()
+        .filter(|pair| pair.contains(&37))
+        .count();
+    assert_eq!(with_nan, 99);
+}
+
+#[test]
+fn equal_boxes_are_all_paired() {
+    let boxes = vec![
+        SweptBox {
+            lower: [1.0; 3],
+            upper: [2.0; 3]
+        };
+        3000
+    ];
+    let pairs = step(&mut BroadPhase::new(), &boxes);
+    assert_eq!(pairs.len(), 3000 * 2999 / 2);
+    assert!(pairs.is_sorted());
+}
+
+#[test]
+fn no_pairs_before_the_first_update() {
+    let mut pairs = vec![[1, 2]];
+    BroadPhase::new().candidate_triangle_pairs(&mut pairs);
+    assert!(pairs.is_empty());
+}
+
+#[test]
+fn large_meshes_give_the_same_for_any_number_of_threads() {
+    let boxes = sheet(110);
+    let with = |threads| with_threads(threads, || step(&mut BroadPhase::new(), &boxes));
+    let one = with(1);
+    assert_eq!(one.len(), 2 * 110 * 109 + 2 * 109 * 109);
+    assert!(with(3) == one);
+}
+
+#[test]
+fn a_motion_that_keeps_neighbours_together_never_rebuilds() {
+    let mut broad_phase = BroadPhase::new();
+    for time in 0..50 {
+        let moved = sheet(40).into_iter().map(|swept| SweptBox {
+            lower: swept.lower.map(|x| x + time as f32),
+            upper: swept.upper.map(|x| x + time as f32),
+        });
+        step(&mut broad_phase, &moved.collect::<Vec<_>>());
+    }
+    assert_eq!(broad_phase.rebuilds(), 0);
+}
+
+#[test]
+fn a_hierarchy_that_has_degraded_is_rebuilt_once_and_costs_as_before() {
+    let ordered = sheet(40);
+    // 7 has no divisor in common with 1600, so that this is a permutation, far from the identity.
+    let mixed: Vec<_> = (0..ordered.len())
+        .map(|index| ordered[index * 7 % ordered.len()])
+        .collect();
+    let fresh = {
+        let mut broad_phase = BroadPhase::new();
+        step(&mut broad_phase, &mixed);
+        broad_phase.statistics().block_tests
+    };
+    let mut broad_phase = BroadPhase::new();
+    step(&mut broad_phase, &ordered);
+    step(&mut broad_phase, &mixed);
+    assert!(broad_phase.statistics().block_tests > 2 * fresh);
+    for _ in 0..20 {
+        step(&mut broad_phase, &mixed);
+    }
+    assert_eq!(broad_phase.rebuilds(), 1);
+    assert_eq!(broad_phase.statistics().block_tests, fresh);
+}

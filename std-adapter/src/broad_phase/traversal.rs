@@ -59,6 +59,7 @@ impl Traversal {
                     .first()
                     .map_or(everything, |parents| &parents[index / BRANCHES]);
                 count(candidates.assign_overlapping(parent, &group.bounds, group.first));
+                candidates.settle();
             });
         }
         let upper = &self.upper;
@@ -78,6 +79,8 @@ impl Traversal {
                 };
                 descent.group(task_level, index, candidates, &mut task.lower);
                 count(descent.tests);
+                task.partners.settle();
+                task.lower.iter_mut().for_each(CandidateList::settle);
             },
         );
         tests.into_inner()
@@ -133,10 +136,8 @@ impl Descent<'_> {
         let Some((inside, lower)) = lower.split_last_mut() else {
             return self.leaf(index, candidates);
         };
-        let children = &self.hierarchy.levels[level - 1].groups;
-        let first = index * BRANCHES;
-        for child in first..children.len().min(first + BRANCHES) {
-            let group = &children[child];
+        let children = self.hierarchy.levels[level - 1].groups.iter().enumerate();
+        for (child, group) in children.skip(index * BRANCHES).take(BRANCHES) {
             self.tests += inside.assign_overlapping(candidates, &group.bounds, group.first);
             self.group(level - 1, child, inside, lower);
         }
