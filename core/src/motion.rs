@@ -45,6 +45,18 @@ impl<S: Scalar> Motion<S> {
         let [start, end] = self.ends().map(Vector::from);
         start.scaled(S::ONE - time) + end.scaled(time)
     }
+
+    #[inline(always)]
+    pub(crate) fn is_finite(&self) -> bool {
+        let [[x, y, z], [u, v, w]] = self.ends();
+        // `&`, not `&&`: six tests without a branch.
+        x.is_finite()
+            & y.is_finite()
+            & z.is_finite()
+            & u.is_finite()
+            & v.is_finite()
+            & w.is_finite()
+    }
 }
 
 impl From<([f32; 3], [f32; 3])> for Motion<f32> {

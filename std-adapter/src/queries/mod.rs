@@ -36,4 +36,4 @@ mod tests;
 
 pub use error::QueryError;
 pub use query::{Query, QueryFile, SinglePrecision};
-pub use read::read;
+pub use read::{read, read_from};

@@ -10,6 +10,7 @@ use super::{
     rational::{self, RatioError},
 };
 use crate::PairKind;
+use crate::excerpt::excerpt;
 
 /// Rows of a query: four points at the start of the step, four at its end.
 const ROWS: usize = 8;
@@ -44,7 +45,27 @@ pub fn read(path: &Path, kind: Option<PairKind>) -> Result<QueryFile, QueryError
             .ok_or_else(|| QueryError::UnknownKind {
                 path: path.to_owned(),
             })?;
+    read_from(source, path, kind)
+}
 
+/// Reads all queries from `source`, which holds what a file would; `path` is what messages and [`QueryFile::path`] call it.
+///
+/// # Errors
+///
+/// Those of [`read`] that concern the content.
+///
+/// ```
+/// use selvedge::{PairKind, queries::read_from};
+/// let rows = "1,2,0,1,-3,4\n".repeat(8);
+/// let file = read_from(rows.as_bytes(), "generated".as_ref(), PairKind::EdgeEdge)?;
+/// assert_eq!(file.queries[0].start[0].to_array(), [0.5, 0.0, -0.75]);
+/// # Ok::<(), selvedge::queries::QueryError>(())
+/// ```
+pub fn read_from(source: impl Read, path: &Path, kind: PairKind) -> Result<QueryFile, QueryError> {
+    let unreadable = |source| QueryError::Read {
+        path: path.to_owned(),
+        source,
+    };
     let mut reader = ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -220,13 +241,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// A field as text for a message, cut so that the message stays readable.
+/// A field for a message.
 fn shorten(field: &[u8]) -> String {
-    const LENGTH: usize = 24;
-    let text = String::from_utf8_lossy(field);
-    let mut start: String = text.chars().take(LENGTH).collect();
-    if start.len() < text.len() {
-        start.push('…');
-    }
-    start
+    excerpt(&String::from_utf8_lossy(field), 24)
 }

@@ -1,9 +1,19 @@
 //! Experiments: they run pipelines and return data. Nothing here prints or writes a file; `report` does.
 
+mod arm;
+mod candidates;
 mod comparison;
 mod frames;
+#[cfg(feature = "files")]
+mod queries;
 mod scaling;
 
+pub use arm::ArmFrames;
+pub use candidates::{StepCandidates, busiest_step, step_candidates};
 pub use comparison::{Comparison, ComparisonRow, MeanCounts, MeanStage, compare};
 pub use frames::{Frames, TwoFrames};
+#[cfg(feature = "files")]
+pub use queries::{
+    Nanoseconds, QueryMethod, QueryResult, TruthCounts, UnknownMethod, measure_queries,
+};
 pub use scaling::{ScalingPoint, measure_size};

@@ -2,6 +2,7 @@
 
 use super::geometry::Signs;
 use super::polynomial::{Polynomial, SturmSequence};
+use rug::ops::DivRounding;
 use rug::{Integer, Rational};
 use std::cmp::Ordering;
 
@@ -22,13 +23,16 @@ enum Place {
     Isolated {
         index: Integer,
         bits: u32,
+        /// The polynomial's sign at the low end.
         sign_at_low: Ordering,
+        /// How many bits [`AlgebraicTime::narrow`] tries to add next.
+        pace: u32,
     },
 }
 
-/// How often an interval is halved in the hope of telling a sign, before a greatest common divisor
-/// decides whether the value is zero. Affects speed alone.
-const HALVINGS_BEFORE_GCD: u32 = 24;
+/// How narrow, in bits, an interval is made in the hope of telling a sign, before a greatest common
+/// divisor decides whether the value is zero. Affects speed alone.
+const BITS_BEFORE_GCD: u32 = 48;
 
 impl AlgebraicTime {
     /// A rational time.
@@ -100,6 +104,46 @@ impl AlgebraicTime {
     /// Makes the interval no wider than `2^-bits`.
     pub fn refine(&mut self, bits: u32) {
         while matches!(self.place, Place::Isolated { bits: known, .. } if known < bits) {
+            self.narrow();
+        }
+    }
+
+    /// Halves the interval at least; near the root the number of known bits doubles.
+    ///
+    /// Quadratic interval refinement (J. Abbott 2006): the secant tells which of `2^pace` parts of the
+    /// interval should hold the root. If it does, the next step dares twice the pace.
+    fn narrow(&mut self) {
+        let Place::Isolated {
+            index,
+            bits,
+            sign_at_low,
+            pace,
+        } = &mut self.place
+        else {
+            return;
+        };
+        let low = self.polynomial.value_at_dyadic(index, *bits);
+        let high = self
+            .polynomial
+            .value_at_dyadic(&Integer::from(&*index + 1), *bits);
+        // The signs differ, so the quotient is in (0, 1), and its floor after scaling a valid part.
+        let part = (Integer::from(&low << *pace)).div_floor(low - high);
+        *index <<= *pace;
+        *index += part;
+        *bits += *pace;
+        let ends = [index.clone(), Integer::from(&*index + 1)];
+        let signs = ends
+            .each_ref()
+            .map(|end| self.polynomial.sign_at_dyadic(end, *bits));
+        if let Some(found) = signs.iter().position(|sign| sign.is_eq()) {
+            self.place = Place::Exact(Rational::from(ends[found].clone()) >> *bits);
+        } else if signs[0] == *sign_at_low && signs[1] != *sign_at_low {
+            *pace *= 2;
+        } else {
+            // A wrong guess: back to the interval it was made in, and halve that.
+            *index >>= *pace;
+            *bits -= *pace;
+            *pace = (*pace / 2).max(1);
             self.halve();
         }
     }
@@ -109,6 +153,7 @@ impl AlgebraicTime {
             index,
             bits,
             sign_at_low,
+            ..
         } = &mut self.place
         {
             *index <<= 1;
@@ -201,15 +246,18 @@ impl AlgebraicTime {
 impl Signs<Polynomial> for AlgebraicTime {
     /// The sign of another polynomial at this time.
     fn sign(&mut self, value: &Polynomial) -> Ordering {
-        for halvings in 0.. {
-            let (index, bits) = match &self.place {
+        let mut is_not_zero = false;
+        loop {
+            let (index, bits, pace) = match &self.place {
                 Place::Exact(time) => return value.sign_at(time),
-                Place::Isolated { index, bits, .. } => (index, *bits),
+                Place::Isolated {
+                    index, bits, pace, ..
+                } => (index, *bits, *pace),
             };
             if let Some(sign) = value.sign_on_cell(index, bits) {
                 return sign;
             }
-            if halvings == HALVINGS_BEFORE_GCD {
+            if !is_not_zero && bits >= BITS_BEFORE_GCD {
                 // A common factor is square-free like the polynomial, and not zero at the ends of the
                 // interval: it has the root if it changes sign.
                 let common = self.polynomial.gcd(value);
@@ -220,14 +268,15 @@ impl Signs<Polynomial> for AlgebraicTime {
                         index: index.clone(),
                         bits,
                         sign_at_low,
+                        pace,
                     };
                     self.polynomial = common;
                     return Ordering::Equal;
                 }
+                is_not_zero = true;
             }
-            self.halve();
+            self.narrow();
         }
-        unreachable!("a value other than zero has a sign on a small enough interval")
     }
 }
 
@@ -256,8 +305,8 @@ impl Ord for AlgebraicTime {
             {
                 return Ordering::Equal;
             }
-            a.halve();
-            b.halve();
+            a.narrow();
+            b.narrow();
         }
     }
 }
@@ -290,7 +339,7 @@ impl Isolation {
         let variations = self.0.variations(index, bits);
         End {
             variations,
-            sign: self.0.polynomial().sign_at_dyadic(&index, bits),
+            sign: self.0.polynomial().sign_at_dyadic(index, bits),
         }
     }
 
@@ -313,6 +362,7 @@ impl Isolation {
                 index,
                 bits,
                 sign_at_low: low.sign,
+                pace: 1,
             };
             roots.push(AlgebraicTime {
                 polynomial: polynomial.clone(),

@@ -37,10 +37,10 @@ pub fn coplanar(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> bool {
 /// If a coordinate is NaN or infinite.
 #[must_use]
 pub fn collides(pair: &Pair) -> Option<AlgebraicTime> {
-    if separated_along_an_axis(pair) {
+    let motion = Motion::new(&pair.start, &pair.end);
+    if motion.apart_along_an_axis(pair.kind, &Integer::new()) {
         return None;
     }
-    let motion = Motion::new(&pair.start, &pair.end);
     let start = Rational::from(0);
     if touches(pair.kind, &motion, &start) {
         return Some(AlgebraicTime::rational(start));
@@ -125,27 +125,4 @@ fn predicates_in_the_plane(kind: Kind, [a, b, c, d]: &[Point<Polynomial>; 4]) ->
         predicates.push(dot(&from_p, &from_q));
     }
     predicates
-}
-
-/// Are the two sides of the pair apart along one coordinate axis, in the same order at both ends of
-/// the step? Linear motion then keeps them apart in between.
-fn separated_along_an_axis(pair: &Pair) -> bool {
-    let sides = match pair.kind {
-        Kind::VertexFace => 1,
-        Kind::EdgeEdge => 2,
-    };
-    let below = |positions: &[[f64; 3]; 4], axis: usize, swapped: bool| {
-        let (first, second) = positions.split_at(sides);
-        let (low, high) = if swapped {
-            (second, first)
-        } else {
-            (first, second)
-        };
-        low.iter().all(|p| high.iter().all(|q| p[axis] < q[axis]))
-    };
-    (0..3).any(|axis| {
-        [false, true]
-            .into_iter()
-            .any(|swapped| below(&pair.start, axis, swapped) && below(&pair.end, axis, swapped))
-    })
 }

@@ -37,7 +37,7 @@ pub fn triangles_intersect(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], shared: &[[usiz
             "corner {i} of a and corner {j} of b are not the same vertex"
         );
     }
-    let (points, _) = scale_to_integers(&[*a, *b].concat());
+    let points = scale_to_integers(&[*a, *b].concat());
     let [a0, a1, a2, b0, b1, b2] = points.as_slice() else {
         unreachable!("six points")
     };
@@ -51,7 +51,7 @@ pub fn triangles_intersect(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], shared: &[[usiz
 /// If a coordinate is NaN or infinite, or an index is out of range.
 #[must_use]
 pub fn mesh_self_intersections(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
-    let (integers, _) = scale_to_integers(positions);
+    let integers = scale_to_integers(positions);
     let mut found = Vec::new();
     for [i, j] in overlapping_boxes(positions, triangles) {
         let pair = [triangles[i as usize], triangles[j as usize]];

@@ -9,6 +9,7 @@
 //! |---|---|
 //! | are four moving points coplanar at some time in \[0, 1\]? | [`coplanar`] |
 //! | does a primitive pair collide, and when first? | [`collides`] |
+//! | does it come within a distance? | [`within`] |
 //! | do two triangles at rest intersect? | [`triangles_intersect`] |
 //! | which triangles of a mesh intersect? | [`mesh_self_intersections`] |
 //!
@@ -23,9 +24,11 @@ mod geometry;
 mod mesh;
 mod motion;
 mod polynomial;
+mod separation;
 
 pub use algebraic::AlgebraicTime;
 pub use collision::{collides, coplanar, touches_at};
 pub use mesh::{mesh_self_intersections, triangles_intersect};
 pub use motion::{Kind, Pair};
 pub use polynomial::Polynomial;
+pub use separation::within;

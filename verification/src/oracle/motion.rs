@@ -43,11 +43,11 @@ fn decode(value: f64) -> (i64, i32) {
     (mantissa, exponent.max(1) - 1075 + zeros.cast_signed())
 }
 
-/// The points times `2^-exponent`, with the largest exponent that makes all of them integers.
+/// The points, all times the same power of two: the smallest that makes them integers.
 ///
 /// # Panics
 /// If a coordinate is NaN or infinite.
-pub(crate) fn scale_to_integers(points: &[[f64; 3]]) -> (Vec<Point<Integer>>, i32) {
+pub(crate) fn scale_to_integers(points: &[[f64; 3]]) -> Vec<Point<Integer>> {
     let coordinates = points.iter().flatten().map(|&x| decode(x));
     let exponent = coordinates
         .filter(|&(m, _)| m != 0)
@@ -58,30 +58,66 @@ pub(crate) fn scale_to_integers(points: &[[f64; 3]]) -> (Vec<Point<Integer>>, i3
         (0, _) => Integer::new(),
         (mantissa, e) => Integer::from(mantissa) << (e - exponent).cast_unsigned(),
     };
-    (
-        points.iter().map(|point| point.map(scale)).collect(),
-        exponent,
-    )
+    points.iter().map(|point| point.map(scale)).collect()
 }
 
-/// The four points of a pair, scaled to integers.
+/// Four points in motion, scaled to integers.
 pub(crate) struct Motion {
     start: [Point<Integer>; 4],
     end: [Point<Integer>; 4],
-    /// Lengths here times `2^exponent` are lengths in the caller's unit.
-    pub(crate) exponent: i32,
 }
 
 impl Motion {
     pub(crate) fn new(start: &[[f64; 3]; 4], end: &[[f64; 3]; 4]) -> Self {
-        let (points, exponent) = scale_to_integers(&[*start, *end].concat());
-        let mut points = points.into_iter();
+        let mut points = scale_to_integers(&[*start, *end].concat()).into_iter();
         let mut four = || std::array::from_fn(|_| points.next().expect("eight points"));
         Self {
             start: four(),
             end: four(),
-            exponent,
         }
+    }
+
+    /// The points of a pair and a length, at a common scale.
+    pub(crate) fn with_separation(pair: &Pair, separation: f64) -> (Self, Integer) {
+        let length = [[separation, 0.0, 0.0]; 4];
+        let [start, end] = [&pair.start, &pair.end].map(|side| side.as_slice());
+        let mut points = scale_to_integers(&[start, end, &length[..1]].concat());
+        let [separation, _, _] = points.pop().expect("nine points");
+        let mut points = points.into_iter();
+        let mut four = || std::array::from_fn(|_| points.next().expect("eight points"));
+        (
+            Self {
+                start: four(),
+                end: four(),
+            },
+            separation,
+        )
+    }
+
+    /// Are the two sides of the pair more than `separation` apart along one coordinate axis, in the
+    /// same order at both ends of the step? Linear motion then keeps them so in between.
+    pub(crate) fn apart_along_an_axis(&self, kind: Kind, separation: &Integer) -> bool {
+        let first = match kind {
+            Kind::VertexFace => 1,
+            Kind::EdgeEdge => 2,
+        };
+        let apart = |low: usize, high: usize, axis: usize| {
+            [&self.start, &self.end].iter().all(|positions| {
+                Integer::from(&positions[high][axis] - &positions[low][axis]) > *separation
+            })
+        };
+        let side = |swapped: bool, axis: usize| {
+            (0..first).all(|i| {
+                (first..4).all(|j| {
+                    if swapped {
+                        apart(j, i, axis)
+                    } else {
+                        apart(i, j, axis)
+                    }
+                })
+            })
+        };
+        (0..3).any(|axis| side(false, axis) || side(true, axis))
     }
 
     /// The points as polynomials in the time.
@@ -129,10 +165,12 @@ mod tests {
 
     #[test]
     fn common_scale_keeps_the_ratios() {
-        let (points, exponent) = scale_to_integers(&[[0.5, 3.0, 5e-324]]);
-        for (integer, value) in points[0].iter().zip([0.5, 3.0, 5e-324]) {
-            let back = Rational::from(integer.clone()) << exponent;
-            assert_eq!(back, Rational::from_f64(value).expect("finite"));
+        let values = [0.5, 3.0, 5e-324];
+        let integers = &scale_to_integers(&[values])[0];
+        let exact = values.map(|x| Rational::from_f64(x).expect("finite"));
+        for (integer, value) in integers.iter().zip(&exact) {
+            let ratio = Rational::from((integer, &integers[0]));
+            assert_eq!(ratio, Rational::from(value / &exact[0]));
         }
     }
 }

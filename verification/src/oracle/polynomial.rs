@@ -55,10 +55,10 @@ impl Polynomial {
         value.cmp0()
     }
 
-    /// The sign of the value at `index / 2^bits`.
-    pub(crate) fn sign_at_dyadic(&self, index: &Integer, bits: u32) -> Ordering {
+    /// The value at `index / 2^bits`, times `2^(bits · degree)`.
+    pub(crate) fn value_at_dyadic(&self, index: &Integer, bits: u32) -> Integer {
         let Some((last, lower)) = self.coefficients.split_last() else {
-            return Ordering::Equal;
+            return Integer::new();
         };
         let mut value = last.clone();
         let mut shifted = Integer::new();
@@ -67,7 +67,12 @@ impl Polynomial {
             shifted.assign(coefficient << (bits * steps));
             value += &shifted;
         }
-        value.cmp0()
+        value
+    }
+
+    /// The sign of the value at `index / 2^bits`.
+    pub(crate) fn sign_at_dyadic(&self, index: &Integer, bits: u32) -> Ordering {
+        self.value_at_dyadic(index, bits).cmp0()
     }
 
     /// The sign on the whole closed interval `[index, index + 1] / 2^bits`, if interval arithmetic shows

@@ -5,6 +5,8 @@
 
 #![allow(dead_code, reason = "each test file uses a part")]
 
+pub(crate) mod distance;
+
 use rug::Rational;
 
 pub(crate) type Point = [Rational; 3];
@@ -107,7 +109,7 @@ pub(crate) fn common_part(a: &[Point], b: &[Point]) -> Vec<Point> {
                 clipped.push(p.clone());
             }
             if above_p.is_negative() != above_q.is_negative() {
-                let part = Rational::from(&above_p / Rational::from(&above_p - &above_q));
+                let part = &above_p / Rational::from(&above_p - &above_q);
                 clipped.push(std::array::from_fn(|i| {
                     Rational::from(&q[i] - &p[i]) * &part + &p[i]
                 }));

@@ -138,6 +138,29 @@ pub fn write_as(path: &Path, mesh: &Mesh, format: FileFormat) -> Result<(), Mesh
         .map_err(|problem| MeshError::file(path, problem))
 }
 
+/// The bytes of a file that holds `mesh`, as [`write()`] would write it: the counterpart of [`read_bytes`].
+///
+/// # Errors
+/// If the mesh is one that [`read`] would refuse.
+///
+/// ```
+/// use selvedge::{glam::DVec3, mesh::{FileFormat, Mesh, write_bytes}};
+///
+/// let mesh = Mesh {
+///     positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+///     triangles: vec![[0, 1, 2]],
+/// };
+/// let bytes = write_bytes(&mesh, FileFormat::Obj)?;
+/// assert_eq!(bytes, b"v 0.0 0.0 0.0\nv 1.0 0.0 0.0\nv 0.0 1.0 0.0\nf 1 2 3\n");
+/// # Ok::<(), selvedge::mesh::FileProblem>(())
+/// ```
+pub fn write_bytes(mesh: &Mesh, format: FileFormat) -> Result<Vec<u8>, FileProblem> {
+    check(mesh)?;
+    let mut bytes = Vec::new();
+    write_to(&mut bytes, mesh, format).map_err(FileProblem::Write)?;
+    Ok(bytes)
+}
+
 /// A mesh as a parser hands it over: finite and in range, but perhaps without triangles.
 #[derive(Default)]
 struct Parsed {
@@ -234,12 +257,16 @@ fn save(path: &Path, mesh: &Mesh, format: FileFormat) -> io::Result<()> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let mut out = BufWriter::new(builder.tempfile_in(folder)?);
-    match format {
-        FileFormat::Obj => obj::write(&mut out, mesh)?,
-        FileFormat::Ply(encoding) => ply::write(&mut out, mesh, encoding)?,
-    }
+    write_to(&mut out, mesh, format)?;
     out.flush()?;
     let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
     file.persist(path).map_err(|error| error.error)?;
     Ok(())
+}
+
+fn write_to(out: &mut impl Write, mesh: &Mesh, format: FileFormat) -> io::Result<()> {
+    match format {
+        FileFormat::Obj => obj::write(out, mesh),
+        FileFormat::Ply(encoding) => ply::write(out, mesh, encoding),
+    }
 }

@@ -9,6 +9,7 @@
 
 use super::error::FileProblem;
 use super::{Parsed, check_finite};
+use crate::excerpt::excerpt;
 use crate::mesh::Mesh;
 use selvedge_core::glam::DVec3;
 use std::borrow::Cow;
@@ -161,9 +162,9 @@ impl Reader {
     }
 }
 
-/// A field for a message, cut if it is absurdly long.
+/// A field for a message.
 fn quoted(field: &str) -> String {
-    field.chars().take(40).collect()
+    excerpt(field, 40)
 }
 
 /// Lines with their numbers from 1; one that ends in a backslash goes on in the next.

@@ -6,6 +6,7 @@
 
 use super::error::FileProblem;
 use super::{Parsed, check_finite};
+use crate::excerpt::excerpt;
 use crate::mesh::Mesh;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{
@@ -274,7 +275,7 @@ impl Body<'_> {
         let needed = element.count.saturating_mul(each).saturating_sub(last);
         if needed > self.rest.len() {
             return Err(FileProblem::TooShort {
-                element: element.name.clone(),
+                element: quoted(&element.name),
                 declared: element.count,
                 needed,
                 left: self.rest.len(),
@@ -295,9 +296,9 @@ impl Body<'_> {
         row.map_err(|error| match error.kind() {
             io::ErrorKind::UnexpectedEof => truncated(element, index),
             _ => FileProblem::Element {
-                element: element.name.clone(),
+                element: quoted(&element.name),
                 index,
-                reason: error.to_string(),
+                reason: quoted(&error.to_string()),
             },
         })
     }
@@ -340,8 +341,8 @@ impl Body<'_> {
             line: self.line,
             reason: format!(
                 "'{}' element {index} must be the numbers {} that the header declares, not '{}'",
-                element.name,
-                names.join(", "),
+                quoted(&element.name),
+                quoted(&names.join(", ")),
                 quoted(&self.text)
             ),
         }
@@ -362,7 +363,7 @@ impl Body<'_> {
 
 fn truncated(element: &ElementDef, found: usize) -> FileProblem {
     FileProblem::Truncated {
-        element: element.name.clone(),
+        element: quoted(&element.name),
         declared: element.count,
         found,
     }
@@ -471,11 +472,11 @@ fn header_problem(bytes: &[u8], error: &ParseError) -> FileProblem {
                 ),
             }
         }
-        _ => FileProblem::Header(format!("cannot be read: {error}")),
+        _ => FileProblem::Header(format!("cannot be read: {}", quoted(&error.to_string()))),
     }
 }
 
-/// A line for a message, cut if it is long.
+/// A line, or a name from the header, for a message.
 fn quoted(text: &str) -> String {
-    text.trim().chars().take(60).collect()
+    excerpt(text.trim(), 60)
 }

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# selvedge-core links into a program without std, and the optimised program has no panic in it.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+target="${CARGO_TARGET_DIR:-$PWD/../../target}/no-std-check"
+cargo build --release --target-dir "$target"
+program="$target/release/no-std-check"
+# Drops every function that the program cannot reach; what a panic needs is there only if it can be.
+cc main.c "$target/release/libno_std_check.a" -Wl,--gc-sections -o "$program"
+"$program" || { echo "no-std-check: the program's answer $? is wrong; main.c says what it should be" >&2; exit 1; }
+
+symbols="$(nm --defined-only "$program")"
+grep -q ' T verdicts_f64$' <<<"$symbols" || { echo "no-std-check: nm lists no symbols to look at" >&2; exit 1; }
+if panics="$(grep -iE 'panic|rust_begin_unwind|_fail(_|$)|3std' <<<"$symbols")"; then
+    printf 'no-std-check: the core can panic, or uses std:\n%s\n' "$panics" >&2
+    exit 1
+fi
+echo "no-std-check: no std, no panic"

@@ -1,0 +1,27 @@
+/* Calls the static library: what it returns for a pair that touches, one that does not, and two triangles apart. */
+#include <stddef.h>
+#include <stdint.h>
+
+uint32_t verdicts_f64(const double points[4][2][3]);
+uint32_t verdicts_f32(const float points[4][2][3]);
+size_t distributed(const uint32_t corners[2][3], uint8_t vertices, uint8_t edges);
+
+#define FACE {{0, 0, 0}, {0, 0, 0}}, {{1, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 0}}
+
+int main(void) {
+    /* A vertex falls through a triangle: as vertex and face nothing is culled and the contact is found. */
+    const double through[4][2][3] = {{{0.2, 0.2, 1}, {0.2, 0.2, -1}}, FACE};
+    const float through_f32[4][2][3] = {{{0.2f, 0.2f, 1}, {0.2f, 0.2f, -1}}, FACE};
+    /* It stays above: every one of the nine answers is that they do not touch. */
+    const double above[4][2][3] = {{{0.2, 0.2, 2}, {0.2, 0.2, 1}}, FACE};
+    const float above_f32[4][2][3] = {{{0.2f, 0.2f, 2}, {0.2f, 0.2f, 1}}, FACE};
+    const uint32_t apart[2][3] = {{0, 1, 2}, {3, 4, 5}};
+
+    if ((verdicts_f64(through) & 0xffff) != 0) return 1;
+    if ((verdicts_f32(through_f32) & 0xffff) != 0) return 2;
+    if ((verdicts_f64(above) & 0xffff) != 0x1ff) return 3;
+    if ((verdicts_f32(above_f32) & 0xffff) != 0x1ff) return 4;
+    if (distributed(apart, 3, 3) != 15) return 5;
+    if (distributed(apart, 4, 3) != 0) return 6;
+    return 0;
+}

@@ -1,0 +1,101 @@
+//! A program's use of `selvedge-core` where there is no std: every culling test, distribution and elementary test, for
+//! both number formats. `check.sh` links it into a C program and looks for the machinery of panics.
+//!
+//! It would not compile if anything below it used std, which brings a panic handler of its own.
+#![no_std]
+
+use core::panic::PanicInfo;
+use selvedge_core::boxes::{Aabb, Dop18, relative, segment, swept_boxes};
+use selvedge_core::distribution::distribute;
+use selvedge_core::{
+    EdgeEdge, FeatureTriangle, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary,
+    filter,
+};
+
+#[panic_handler]
+fn panic(_: &PanicInfo<'_>) -> ! {
+    loop {}
+}
+
+/// Positions at the start and at the end of the step of four points.
+type Points<S> = [[[S; 3]; 2]; 4];
+
+fn bit(index: u32, verdict: Verdict) -> u32 {
+    u32::from(verdict.is_culled()) << index
+}
+
+fn verdicts<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
+    bit(0, swept_boxes(pair))
+        | bit(1, relative::three_axes(pair))
+        | bit(2, relative::nine_directions(pair))
+        | bit(3, filter::plain::non_coplanarity(pair))
+        | bit(4, filter::certified::non_coplanarity(pair))
+}
+
+/// One bit for each test that culls, another where the elementary test finds no contact.
+fn all_tests<S: Scalar>(points: &Points<S>) -> [u32; 2] {
+    let motions = points.map(|[start, end]| Motion::<S> {
+        start: start.into(),
+        end: end.into(),
+    });
+    let [a, b, c, d] = motions;
+    let vertex_face = VertexFace {
+        vertex: a,
+        face: [b, c, d],
+    };
+    let edge_edge = EdgeEdge {
+        first: [a, b],
+        second: [c, d],
+    };
+    let dops = motions.map(|motion| Dop18::swept(&motion));
+    let apart = |one: bool, other: bool| u32::from(!one) << 5 | u32::from(!other) << 6;
+    let missed = |contact: Option<S>| u32::from(contact.is_none()) << 8;
+    [
+        verdicts(&vertex_face)
+            | apart(
+                Aabb::swept(&[a]).overlaps(&Aabb::swept(&[b, c, d])),
+                dops[0].overlaps(&dops[1].merged(&dops[2]).merged(&dops[3])),
+            )
+            | bit(7, segment::vertex_face(&vertex_face))
+            | missed(elementary::cubic::vertex_face(&vertex_face)),
+        verdicts(&edge_edge)
+            | apart(
+                Aabb::swept(&[a, b]).overlaps(&Aabb::swept(&[c, d])),
+                dops[0].merged(&dops[1]).overlaps(&dops[2].merged(&dops[3])),
+            )
+            | missed(elementary::cubic::edge_edge(&edge_edge)),
+    ]
+}
+
+/// The tests' answers: vertex–face in the low half, edge–edge in the high one.
+#[unsafe(no_mangle)]
+pub extern "C" fn verdicts_f64(points: &Points<f64>) -> u32 {
+    let [vertex_face, edge_edge] = all_tests(points);
+    vertex_face | edge_edge << 16
+}
+
+/// The same for single precision.
+#[unsafe(no_mangle)]
+pub extern "C" fn verdicts_f32(points: &Points<f32>) -> u32 {
+    let [vertex_face, edge_edge] = all_tests(points);
+    vertex_face | edge_edge << 16
+}
+
+/// A triangle that represents as many of its vertices and edges as the two digits of `features` say; the number of primitive
+/// pairs that it makes with itself and with another one.
+#[unsafe(no_mangle)]
+pub extern "C" fn distributed(corners: &[[u32; 3]; 2], vertices: u8, edges: u8) -> usize {
+    use selvedge_core::{FeatureEdge, Features};
+    let features = Features::new(vertices, edges).unwrap_or(Features::NONE);
+    let [a, b] = corners.map(|[a, b, c]| FeatureTriangle {
+        face: a,
+        vertices: [a, b, c],
+        edges: [[a, b], [b, c], [c, a]].map(|ends| FeatureEdge {
+            edge: ends[0],
+            ends,
+        }),
+        features,
+    });
+    let pairs = distribute(&a, &b);
+    pairs.vertex_face.len() + pairs.edge_edge.len()
+}

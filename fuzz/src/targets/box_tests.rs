@@ -1,0 +1,102 @@
+use super::pair::{self, Numbers};
+use rug::Rational;
+use selvedge::core::boxes::{Aabb, segment::misses};
+use selvedge::core::{Motion, Scalar, Verdict};
+use selvedge::pipeline::CullingTest;
+use selvedge_verification::culling;
+use selvedge_verification::generator::{Format, PairCase};
+use selvedge_verification::oracle::collides;
+
+/// No certified test culls a pair that touches, or one with NaN or infinities; every test culls at least what swept
+/// boxes cull, and more directions cull more; the path of a vertex misses a box only if it does so exactly, and always
+/// then where nothing is rounded.
+pub fn box_tests(data: &[u8]) {
+    match pair::numbers(data) {
+        Numbers::Single(case) => check(&case),
+        Numbers::Double(case) => check(&case),
+    }
+    let whole = pair::whole(data).map(|ends| ends.map(|position| position.map(f64::from)));
+    let (missed, apart) = path_and_box(whole);
+    assert_eq!(missed, apart, "{whole:?}");
+}
+
+fn check<S: Format>(case: &PairCase<S>) {
+    use CullingTest::{
+        RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, StoredSweptBoxes, SweptBoxes,
+    };
+    let culls = |test| culling::verdict(test, case).is_culled();
+
+    if !case.is_finite() {
+        for test in culling::certified() {
+            assert_eq!(
+                culling::verdict(test, case),
+                Verdict::Kept,
+                "{test:?}: {case:?}"
+            );
+        }
+        return;
+    }
+    for (weaker, stronger) in [
+        (SweptBoxes, StoredSweptBoxes),
+        (SweptBoxes, StoredDop18),
+        (SweptBoxes, SegmentBox),
+        (SweptBoxes, RelativeBoxes),
+        (RelativeBoxes, RelativeBoxesNine),
+        (StoredDop18, RelativeBoxesNine),
+    ] {
+        assert!(
+            !culls(weaker) || culls(stronger) || overflows(case),
+            "{weaker:?} culls, {stronger:?} does not: {case:?}"
+        );
+    }
+    if let Some(test) = culling::certified().find(|&test| culls(test)) {
+        let contact = collides(&case.question());
+        assert!(contact.is_none(), "{test:?} at {contact:?}: {case:?}");
+    }
+    let (missed, apart) = path_and_box(case.points);
+    assert!(!missed || apart, "{case:?}");
+}
+
+/// Sums of coordinates may be infinite; which tests then keep a pair is not promised.
+fn overflows<S: Format>(case: &PairCase<S>) -> bool {
+    let sum: f64 = case.coordinates().map(|x| x.to_f64().abs()).sum();
+    sum >= S::LARGEST.to_f64()
+}
+
+/// The first point's path and the box that the others sweep: whether the test says that they miss each other, and whether
+/// they do.
+fn path_and_box<S: Format>(points: [[[S; 3]; 2]; 4]) -> (bool, bool) {
+    let [path, face @ ..] = points.map(|[start, end]| Motion {
+        start: start.into(),
+        end: end.into(),
+    });
+    let target = Aabb::<S>::swept(&face);
+    (misses(&path, &target), !meets(points[0], &target))
+}
+
+/// Whether a segment and a closed box share a point, by cutting the segment at the box's planes in exact arithmetic.
+fn meets<S: Scalar>([start, end]: [[S; 3]; 2], target: &Aabb<S>) -> bool {
+    let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
+    let (mut from, mut to) = (Rational::from(0), Rational::from(1));
+    for axis in 0..3 {
+        let [start, end] = [start, end].map(|position| exact(position[axis]));
+        let [lower, upper] = [target.lower, target.upper].map(|bound| exact(bound[axis]));
+        let along = Rational::from(&end - &start);
+        if along.is_zero() {
+            if start < lower || start > upper {
+                return false;
+            }
+            continue;
+        }
+        let times = [lower, upper].map(|bound| (bound - &start) / &along);
+        let [enters, leaves] = if along.is_positive() {
+            times
+        } else {
+            let [lower, upper] = times;
+            [upper, lower]
+        };
+        from = from.max(enters);
+        to = to.min(leaves);
+    }
+    from <= to
+}

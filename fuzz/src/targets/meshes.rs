@@ -1,0 +1,53 @@
+use super::message;
+use selvedge::mesh::{FileFormat, Mesh, PlyEncoding, read_bytes, write_bytes};
+
+const FORMATS: [FileFormat; 4] = [
+    FileFormat::Obj,
+    FileFormat::Ply(PlyEncoding::Ascii),
+    FileFormat::Ply(PlyEncoding::LittleEndian),
+    FileFormat::Ply(PlyEncoding::BigEndian),
+];
+
+/// OBJ: see [`check`].
+pub fn obj(data: &[u8]) {
+    check(data, FileFormat::Obj);
+}
+
+/// PLY, in the encoding that the bytes declare: see [`check`].
+pub fn ply(data: &[u8]) {
+    check(data, FileFormat::Ply(PlyEncoding::default()));
+}
+
+/// A file is refused with a readable message, or read as a mesh whose triangles exist and whose coordinates are finite;
+/// written in any format that mesh is read back bit for bit.
+fn check(data: &[u8], format: FileFormat) {
+    let file = match read_bytes(data, format) {
+        Ok(file) => file,
+        Err(problem) => return message::check(&problem),
+    };
+    let Mesh {
+        positions,
+        triangles,
+    } = &file.mesh;
+    assert!(!triangles.is_empty());
+    assert!(positions.iter().all(|position| position.is_finite()));
+    let mut vertices = triangles.iter().flatten();
+    assert!(vertices.all(|&vertex| (vertex as usize) < positions.len()));
+    let polygons = file.notes.polygons_triangulated;
+    assert!(2 * polygons <= triangles.len(), "a polygon is two or more");
+
+    for format in FORMATS {
+        let written = write_bytes(&file.mesh, format).expect("what was read can be written");
+        let again = read_bytes(&written, format).expect("what was written can be read");
+        assert_eq!(again.mesh.triangles, *triangles, "{format:?}");
+        assert_eq!(bits(&again.mesh), bits(&file.mesh), "{format:?}");
+        assert_eq!(again.notes.statistics, file.notes.statistics, "{format:?}");
+        assert_eq!(again.notes.polygons_triangulated, 0, "{format:?}");
+    }
+}
+
+/// The sign of zero included.
+fn bits(mesh: &Mesh) -> Vec<[u64; 3]> {
+    let bits = |position: &selvedge::glam::DVec3| position.to_array().map(f64::to_bits);
+    mesh.positions.iter().map(bits).collect()
+}

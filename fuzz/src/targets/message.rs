@@ -1,0 +1,13 @@
+use std::fmt::Display;
+
+/// An error message is one readable line, whatever the input was: not empty, not endless, and free of control characters,
+/// with which a file could write over a terminal.
+pub(super) fn check(error: &impl Display) {
+    let message = error.to_string();
+    assert!(!message.trim().is_empty(), "an empty message");
+    assert!(message.chars().count() < 1000, "endless: {message:?}");
+    assert!(
+        !message.chars().any(char::is_control),
+        "control characters: {message:?}"
+    );
+}

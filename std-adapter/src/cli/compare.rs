@@ -1,0 +1,207 @@
+//! `selvedge compare`, and `selvedge` without a subcommand.
+
+use super::Failure;
+use super::options::{Threads, preset_parser, refinement_parser};
+use super::output::{self, OutputFiles};
+use super::progress::Progress;
+use selvedge::mesh::read_step;
+use selvedge::pipeline::Preset;
+use selvedge::report::{FigurePairs, comparison_csv, comparison_svg, figure_3, json, tables};
+use selvedge::scene::ArmScene;
+use selvedge::study::{
+    self, ArmFrames, Comparison, Frames, StepCandidates, TwoFrames, busiest_step, step_candidates,
+};
+use std::path::{Path, PathBuf};
+
+/// How the comparison is run and printed.
+#[derive(Debug, clap::Args)]
+struct Run {
+    #[command(flatten)]
+    threads: Threads,
+    /// How often each method runs each step; the fastest counts
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
+    rounds: u32,
+    /// Print one JSON document instead of tables
+    #[arg(long)]
+    json: bool,
+}
+
+/// How finely the arm scene is cut, in time and in space.
+#[derive(Debug, clap::Args)]
+struct Arm {
+    /// Bend the arm in this many steps
+    #[arg(long, value_name = "N", default_value_t = ArmScene::STEPS as u32, value_parser = clap::value_parser!(u32).range(1..))]
+    steps: u32,
+    /// Multiply the sleeve's 1,345 triangles by this
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = refinement_parser())]
+    refinement: u32,
+}
+
+impl Arm {
+    fn frames(&self) -> Result<ArmFrames, Failure> {
+        Ok(ArmFrames::new(self.refinement, self.steps as usize)?)
+    }
+}
+
+/// The arguments of `selvedge` alone.
+#[derive(Debug, clap::Args)]
+pub(crate) struct MainJob {
+    #[command(flatten)]
+    arm: Arm,
+    #[command(flatten)]
+    run: Run,
+    /// Write the comparison (CSV, SVG) and a picture of candidates (PNG) to this folder
+    #[arg(long, value_name = "DIR", default_value = "selvedge-out")]
+    output: PathBuf,
+}
+
+impl MainJob {
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        let frames = self.arm.frames()?;
+        OutputFiles::check_folder(&self.output)?;
+        let comparison = self.run.compare(&frames, &Preset::ALL)?;
+        let mut files = OutputFiles::default();
+        add_report(&mut files, &self.output, &frames, &comparison)?;
+        files.publish()?;
+        self.run.print(&comparison)
+    }
+}
+
+/// Runs every method on the same steps: the paper's Table 1.
+///
+/// Takes the built-in arm scene, or the step between two meshes of equal topology (OBJ or PLY). All methods share one
+/// broad phase and run each step in turn, so that their times compare.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  selvedge compare
+  selvedge compare --pipelines lv_2014,selvedge --refinement 100 --threads 0
+  selvedge compare frame-92.ply frame-93.ply --csv table.csv")]
+pub(crate) struct Compare {
+    /// The mesh at the start of the step; without it, the arm scene
+    #[arg(requires = "end", conflicts_with_all = ["steps", "refinement"])]
+    start: Option<PathBuf>,
+    /// The mesh at the end of the step
+    end: Option<PathBuf>,
+    /// The methods to run, with commas between; all of them if left out
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = preset_parser())]
+    pipelines: Vec<Preset>,
+    #[command(flatten)]
+    arm: Arm,
+    #[command(flatten)]
+    run: Run,
+    /// Write the table to this file
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write the comparison (CSV, SVG) and a picture of candidates (PNG) to this folder
+    #[arg(long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+impl Compare {
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        match (&self.start, &self.end) {
+            (Some(start), Some(end)) => self.run_on(&read_frames(start, end)?),
+            _ => self.run_on(&self.arm.frames()?),
+        }
+    }
+
+    fn run_on(&self, frames: &impl Frames) -> Result<(), Failure> {
+        if let Some(path) = &self.csv {
+            OutputFiles::check(path)?;
+        }
+        if let Some(folder) = &self.output {
+            OutputFiles::check_folder(folder)?;
+        }
+        let comparison = self.run.compare(frames, &self.presets())?;
+        let mut files = OutputFiles::default();
+        if let Some(path) = &self.csv {
+            files.add(path.clone(), |out| comparison_csv(&comparison, out))?;
+        }
+        if let Some(folder) = &self.output {
+            add_report(&mut files, folder, frames, &comparison)?;
+        }
+        files.publish()?;
+        self.run.print(&comparison)
+    }
+
+    /// Each method once, in the order asked for.
+    fn presets(&self) -> Vec<Preset> {
+        let mut presets = Vec::new();
+        for &preset in &self.pipelines {
+            if !presets.contains(&preset) {
+                presets.push(preset);
+            }
+        }
+        if presets.is_empty() {
+            presets.extend(Preset::ALL);
+        }
+        presets
+    }
+}
+
+impl Run {
+    fn compare(&self, frames: &impl Frames, presets: &[Preset]) -> Result<Comparison, Failure> {
+        let progress = Progress::bar("comparing");
+        let rounds = self.rounds as usize;
+        study::compare(frames, presets, self.threads.get(), rounds, &mut |share| {
+            progress.set(share);
+        })
+    }
+
+    fn print(&self, comparison: &Comparison) -> Result<(), Failure> {
+        if self.json {
+            output::print_json(&json::comparison(comparison))
+        } else {
+            output::print(&tables::comparison(comparison))
+        }
+    }
+}
+
+fn read_frames(start: &Path, end: &Path) -> Result<TwoFrames, Failure> {
+    let step = {
+        let _progress = Progress::spinner("reading");
+        read_step(start, end)?
+    };
+    output::say(format_args!("{}: {}", start.display(), step.notes));
+    Ok(TwoFrames {
+        name: format!("{} to {}", start.display(), end.display()),
+        topology: step.topology,
+        start: step.start,
+        end: step.end,
+    })
+}
+
+/// Everything that a run leaves in its folder: the table as CSV and SVG, and the paper's Figure 3, on the step in which
+/// ours has the most candidates left.
+fn add_report(
+    files: &mut OutputFiles,
+    folder: &Path,
+    frames: &impl Frames,
+    comparison: &Comparison,
+) -> Result<(), Failure> {
+    let _progress = Progress::spinner("drawing");
+    files.add(folder.join("comparison.csv"), |out| {
+        comparison_csv(comparison, out)
+    })?;
+    let table = comparison_svg(comparison);
+    files.add_bytes(folder.join("comparison.svg"), table.as_bytes())?;
+
+    let threads = comparison.threads;
+    let frame = busiest_step(frames, Preset::Selvedge, threads)?;
+    let basic = step_candidates(frames, frame, Preset::Basic, threads)?;
+    let ours = step_candidates(frames, frame, Preset::Selvedge, threads)?;
+    let mut positions = Vec::new();
+    frames.positions(frame + 1, &mut positions);
+    let [basic, ours] = [&basic, &ours].map(panel);
+    let figure = figure_3(frames.topology(), &positions, &basic, &ours)?;
+    files.add_bytes(folder.join("figure-3.png"), &figure)
+}
+
+fn panel(candidates: &StepCandidates) -> FigurePairs<'_> {
+    FigurePairs {
+        name: candidates.preset.to_string(),
+        vertex_face: &candidates.vertex_face,
+        edge_edge: &candidates.edge_edge,
+    }
+}

@@ -1,0 +1,144 @@
+//! `selvedge cull`.
+
+use super::Failure;
+use super::options::{ScalarChoice, Threads, preset_parser};
+use super::output::{self, OutputFiles};
+use super::progress::Progress;
+use selvedge::PairKind;
+use selvedge::core::Scalar;
+use selvedge::glam::DVec3;
+use selvedge::mesh::{MeshStep, read_step};
+use selvedge::pipeline::{Pipeline, Preset};
+use selvedge::report::{StepSummary, contacts_csv, json, pairs_csv, tables};
+use std::path::{Path, PathBuf};
+
+/// Finds the pairs of a mesh that may collide during one time step.
+///
+/// Reads the mesh at the start and at the end of the step (OBJ or PLY, the same vertices and triangles in the same
+/// order; vertices move on straight lines), runs one method, and prints what each stage left over.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  selvedge cull frame-92.ply frame-93.ply
+  selvedge cull a.obj b.obj --pipeline lv_2014 --threads 0 --json
+  selvedge cull a.ply b.ply --pairs contacts.csv --candidates candidates.csv
+
+Pairs are written as kind,i0,i1,i2,i3: the vertex and the face's three vertices,
+or the two edges' vertices, numbered from 0 in the order of the file. Times are
+in [0, 1] of the step.")]
+pub(crate) struct Cull {
+    /// The mesh at the start of the step
+    start: PathBuf,
+    /// The mesh at the end of the step
+    end: PathBuf,
+    /// The method: author and year, or ours
+    #[arg(long, value_name = "NAME", default_value_t = Preset::Selvedge, value_parser = preset_parser())]
+    pipeline: Preset,
+    #[command(flatten)]
+    threads: Threads,
+    /// The format to compute in
+    #[arg(long, value_enum, default_value_t = ScalarChoice::F64)]
+    scalar: ScalarChoice,
+    /// Write the contacts, with their times, to this file
+    #[arg(long, value_name = "OUT.csv")]
+    pairs: Option<PathBuf>,
+    /// Write the pairs that reach the elementary test to this file
+    #[arg(long, value_name = "OUT.csv")]
+    candidates: Option<PathBuf>,
+    /// Print one JSON document instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+impl Cull {
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        let step = {
+            let _progress = Progress::spinner("reading");
+            read_step(&self.start, &self.end)?
+        };
+        output::say(format_args!("{}: {}", self.start.display(), step.notes));
+        match self.scalar {
+            ScalarChoice::F32 => self.run_in::<f32>(step),
+            ScalarChoice::F64 => self.run_in::<f64>(step),
+        }
+    }
+
+    fn run_in<S: Scalar>(&self, step: MeshStep) -> Result<(), Failure> {
+        let start = positions::<S>(&step.start, &self.start)?;
+        let end = positions::<S>(&step.end, &self.end)?;
+        for path in [&self.pairs, &self.candidates].into_iter().flatten() {
+            OutputFiles::check(path)?;
+        }
+        if self.pairs.is_some() && self.pairs == self.candidates {
+            return Err("--pairs and --candidates name the same file".into());
+        }
+
+        let mut pipeline =
+            Pipeline::<S>::new(step.topology, self.pipeline.stages(), self.threads.get())?;
+        pipeline.keep_candidates(self.candidates.is_some());
+        {
+            let _progress = Progress::spinner("culling");
+            pipeline.step(&start, &end)?;
+        }
+
+        let mut files = OutputFiles::default();
+        let topology = pipeline.topology();
+        if let Some(path) = &self.pairs {
+            files.add(path.clone(), |out| {
+                contacts_csv(topology, pipeline.contacts(), out)
+            })?;
+        }
+        if let Some(path) = &self.candidates {
+            let of = |kind| pipeline.candidates(kind);
+            files.add(path.clone(), |out| {
+                pairs_csv(
+                    topology,
+                    of(PairKind::VertexFace),
+                    of(PairKind::EdgeEdge),
+                    out,
+                )
+            })?;
+        }
+        files.publish()?;
+
+        let summary = StepSummary::new(self.pipeline, &pipeline);
+        if self.json {
+            output::print_json(&json::step(&summary))
+        } else {
+            output::print(&tables::step(&summary))
+        }
+    }
+}
+
+/// Positions in the format `S`.
+fn positions<S: Scalar>(positions: &[DVec3], file: &Path) -> Result<Vec<S::Vector>, Failure> {
+    let mut rounded = 0_usize;
+    let converted = positions.iter().enumerate().map(|(vertex, position)| {
+        let coordinates = position.to_array();
+        let narrow = coordinates.map(S::from_f64);
+        for axis in 0..3 {
+            if !narrow[axis].is_finite() {
+                return Err(format!(
+                    "{}: the {} coordinate of vertex {vertex} is {:e}, too large for {}; use --scalar f64",
+                    file.display(),
+                    ["x", "y", "z"][axis],
+                    coordinates[axis],
+                    S::NAME,
+                )
+                .into());
+            }
+            rounded += usize::from(narrow[axis].to_f64() != coordinates[axis]);
+        }
+        Ok(S::Vector::from(narrow))
+    });
+    let converted = converted.collect::<Result<Vec<_>, Failure>>()?;
+    if rounded > 0 {
+        output::say(format_args!(
+            "{}: {} rounded to {}",
+            file.display(),
+            output::coordinates_were(rounded),
+            S::NAME
+        ));
+    }
+    Ok(converted)
+}

@@ -1,0 +1,52 @@
+//! Arguments that several subcommands share.
+
+use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
+use selvedge::pipeline::Preset;
+
+/// More threads than any machine has cores; each needs buffers of its own.
+const MAX_THREADS: i64 = 1024;
+
+/// A sleeve of 13 million triangles: what a large machine's memory takes.
+const MAX_REFINEMENT: i64 = 10_000;
+
+/// The format that positions are computed in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ScalarChoice {
+    /// 32-bit floating point; positions are rounded.
+    F32,
+    /// 64-bit floating point.
+    F64,
+}
+
+/// `--threads`.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct Threads {
+    /// How many threads to use; 0 for one on each core
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1,
+        value_parser = clap::value_parser!(u16).range(0..=MAX_THREADS)
+    )]
+    threads: u16,
+}
+
+impl Threads {
+    /// At least one.
+    pub(crate) fn get(self) -> usize {
+        match self.threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            threads => threads.into(),
+        }
+    }
+}
+
+/// A method by its name; lists the known ones when it is not one of them.
+pub(crate) fn preset_parser() -> impl TypedValueParser<Value = Preset> {
+    PossibleValuesParser::new(Preset::ALL.map(Preset::name)).try_map(|name| name.parse::<Preset>())
+}
+
+/// How many times the sleeve's 1,345 triangles.
+pub(crate) fn refinement_parser() -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=MAX_REFINEMENT)
+}

@@ -1,0 +1,82 @@
+//! A progress bar on standard error, when that is a terminal and the work lasts longer than a second.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{IsTerminal, stderr};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+const DELAY: Duration = Duration::from_secs(1);
+const INTERVAL: Duration = Duration::from_millis(100);
+const LENGTH: u64 = 1000;
+
+/// Shown from a thread of its own, so that it also moves while one long call runs. Gone when dropped.
+pub(crate) struct Progress {
+    done: Arc<AtomicU64>,
+    thread: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl Progress {
+    /// Work whose share done is told by [`set`](Self::set).
+    pub(crate) fn bar(message: &'static str) -> Self {
+        Self::start(message, "{msg} {wide_bar} {percent} %, {eta} left")
+    }
+
+    /// Work of unknown length.
+    pub(crate) fn spinner(message: &'static str) -> Self {
+        Self::start(message, "{spinner} {msg}, {elapsed}")
+    }
+
+    fn start(message: &'static str, template: &'static str) -> Self {
+        let done = Arc::new(AtomicU64::new(0));
+        let thread = stderr().is_terminal().then(|| {
+            let (stop, stopped) = channel::<()>();
+            let done = Arc::clone(&done);
+            let show = move || {
+                if stopped.recv_timeout(DELAY) != Err(RecvTimeoutError::Timeout) {
+                    return;
+                }
+                let style = ProgressStyle::with_template(template)
+                    .unwrap_or_else(|_| ProgressStyle::default_bar());
+                let bar = ProgressBar::new(LENGTH)
+                    .with_style(style)
+                    .with_message(message)
+                    .with_elapsed(DELAY)
+                    .with_position(done.load(Ordering::Relaxed));
+                // What was done before the bar appeared must not count as done at once.
+                bar.reset_eta();
+                loop {
+                    bar.set_position(done.load(Ordering::Relaxed));
+                    bar.tick();
+                    if stopped.recv_timeout(INTERVAL) != Err(RecvTimeoutError::Timeout) {
+                        break;
+                    }
+                }
+                bar.finish_and_clear();
+            };
+            let thread = std::thread::Builder::new().spawn(show).ok()?;
+            Some((stop, thread))
+        });
+        Self {
+            done,
+            thread: thread.flatten(),
+        }
+    }
+
+    /// `share` of the work is done, from 0 to 1.
+    pub(crate) fn set(&self, share: f64) {
+        self.done
+            .store((share * LENGTH as f64) as u64, Ordering::Relaxed);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some((stop, thread)) = self.thread.take() {
+            drop(stop);
+            let _ = thread.join();
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! What `--json` prints: names are lower case with underscores, values lower case with hyphens, times are seconds
+//! unless the name says nanoseconds.
+
+use super::distributed;
+use super::findings::findings;
+use super::n_log_n_ratios;
+use super::paper::paper_row;
+use super::step::StepSummary;
+use crate::pipeline::{PairCounts, Preset, Stage, StepReport};
+#[cfg(feature = "files")]
+use crate::study::QueryResult;
+use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
+use serde_json::{Value, json};
+
+/// One step: `selvedge cull`.
+#[must_use]
+pub fn step(summary: &StepSummary) -> Value {
+    let contacts = summary.report.contacts();
+    json!({
+        "pipeline": summary.preset.name(),
+        "scalar": summary.scalar,
+        "vertices": summary.vertices,
+        "edges": summary.edges,
+        "triangles": summary.triangles,
+        "threads": summary.threads,
+        "stages": step_stages(&summary.report),
+        "contacts": {
+            "vertex_face": contacts.vertex_face,
+            "edge_edge": contacts.edge_edge,
+            "earliest": summary.earliest,
+        },
+        "seconds": summary.report.seconds,
+    })
+}
+
+fn step_stages(report: &StepReport) -> Vec<Value> {
+    let mut stages = vec![json!({
+        "stage": Stage::BroadPhase.name(),
+        "triangle_pairs": report.triangle_pairs,
+        "seconds": report.broad_phase_seconds,
+    })];
+    stages.extend(report.stages.iter().map(|stage| {
+        let PairCounts {
+            vertex_face,
+            edge_edge,
+        } = stage.survivors;
+        json!({
+            "stage": stage.stage.name(),
+            "vertex_face": vertex_face,
+            "edge_edge": edge_edge,
+            "seconds": stage.seconds,
+        })
+    }));
+    stages
+}
+
+/// Every method on the same steps: `selvedge compare`.
+#[must_use]
+pub fn comparison(comparison: &Comparison) -> Value {
+    json!({
+        "scene": comparison.name,
+        "vertices": comparison.vertices,
+        "edges": comparison.edges,
+        "triangles": comparison.triangles,
+        "steps": comparison.steps,
+        "threads": comparison.threads,
+        "rounds": comparison.rounds,
+        "rows": comparison.rows.iter().map(comparison_row).collect::<Vec<_>>(),
+        "findings": findings(comparison)
+            .iter()
+            .map(|finding| json!({"text": finding.text, "as_expected": finding.as_expected}))
+            .collect::<Vec<_>>(),
+    })
+}
+
+fn comparison_row(row: &ComparisonRow) -> Value {
+    let kind = |pick: fn(&MeanCounts) -> f64| {
+        json!({
+            "distributed": pick(&distributed(row)),
+            "after_boxes": pick(&row.after_boxes),
+            "after_filter": pick(&row.candidates),
+            "contacts": pick(&row.contacts),
+        })
+    };
+    json!({
+        "pipeline": row.preset.name(),
+        "reconstructed": row.preset.is_reconstructed(),
+        "vertex_face": kind(|counts| counts.vertex_face),
+        "edge_edge": kind(|counts| counts.edge_edge),
+        // Nothing decides exactly yet which pairs truly touch.
+        "missed": Value::Null,
+        "frames_per_second": row.frames_per_second,
+        "stages": comparison_stages(row),
+        "paper": paper_row(row.preset).map(|paper| json!({
+            "row": paper.label,
+            "vertex_face": paper.vertex_face,
+            "edge_edge": paper.edge_edge,
+            "frames_per_second": paper.frames_per_second,
+        })),
+    })
+}
+
+fn comparison_stages(row: &ComparisonRow) -> Vec<Value> {
+    let mut stages = vec![json!({
+        "stage": Stage::BroadPhase.name(),
+        "triangle_pairs": row.triangle_pairs,
+        "seconds": row.broad_phase_seconds,
+    })];
+    stages.extend(row.stages.iter().map(|stage| {
+        json!({
+            "stage": stage.stage.name(),
+            "vertex_face": stage.survivors.vertex_face,
+            "edge_edge": stage.survivors.edge_edge,
+            "seconds": stage.seconds,
+        })
+    }));
+    stages
+}
+
+/// What each method said of queries: `selvedge queries`.
+#[cfg(feature = "files")]
+#[must_use]
+pub fn queries(scalar: &str, results: &[QueryResult]) -> Value {
+    let methods = results.iter().map(|result| {
+        let time = result.nanoseconds;
+        json!({
+            "method": result.method.name(),
+            "kind": result.kind.name(),
+            "certified": result.method.is_certified(),
+            "queries": result.queries,
+            "positives": result.positives,
+            "truth_positives": result.truth.map(|truth| truth.positives),
+            "false_positives": result.truth.map(|truth| truth.false_positives),
+            "false_negatives": result.truth.map(|truth| truth.false_negatives),
+            "nanoseconds": {
+                "mean": time.mean,
+                "median": time.median,
+                "p99": time.p99,
+                "max": time.max,
+            },
+        })
+    });
+    json!({"scalar": scalar, "methods": methods.collect::<Vec<_>>()})
+}
+
+/// Cost against size: `selvedge scaling`.
+#[must_use]
+pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value {
+    let ratios = n_log_n_ratios(points);
+    let sizes = points.iter().zip(ratios).map(|(point, ratio)| {
+        let candidates = point.step.candidates();
+        json!({
+            "triangles": point.triangles,
+            "triangle_pairs": point.step.triangle_pairs,
+            "candidates": {
+                "vertex_face": candidates.vertex_face,
+                "edge_edge": candidates.edge_edge,
+            },
+            "setup_seconds": point.setup_seconds,
+            "first_step_seconds": point.first_step_seconds,
+            "seconds": point.step.seconds,
+            "seconds_over_n_log_n": ratio,
+            "stages": step_stages(&point.step),
+        })
+    });
+    json!({
+        "pipeline": preset.name(),
+        "threads": threads,
+        "sizes": sizes.collect::<Vec<_>>(),
+    })
+}

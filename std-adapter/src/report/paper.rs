@@ -1,0 +1,37 @@
+//! Table 1 of Lv, He, Mi, as printed.
+
+use crate::pipeline::Preset;
+
+/// One row of the paper's Table 1, measured on its authors' mesh (693 vertices, 1,345 triangles) and machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PaperRow {
+    /// What the paper calls the method.
+    pub label: &'static str,
+    /// *Qty. of candidate VF primitive pair*.
+    pub vertex_face: u32,
+    /// *Qty. of candidate EE primitive pair*.
+    pub edge_edge: u32,
+    /// *Frame rate*, of the whole simulation, in frames a second.
+    pub frames_per_second: f64,
+}
+
+/// The paper's row for a method, if it has one.
+///
+/// The paper does not say which of the works of 2010 and 2011 by two authors named Tang its row *2011 Tang* stands for;
+/// here it is beside [`Preset::Tang2010`], whose filter is the one that the paper builds on.
+#[must_use]
+pub const fn paper_row(preset: Preset) -> Option<PaperRow> {
+    let (label, vertex_face, edge_edge, frames_per_second) = match preset {
+        Preset::Basic => ("Basic", 1122, 2056, 12.70),
+        Preset::Curtis2008 => ("2008 Curtis", 74, 475, 32.0),
+        Preset::Tang2010 => ("2011 Tang", 44, 338, 37.54),
+        Preset::Lv2014 => ("Ours", 31, 137, 34.22),
+        _ => return None,
+    };
+    Some(PaperRow {
+        label,
+        vertex_face,
+        edge_edge,
+        frames_per_second,
+    })
+}

@@ -1,0 +1,174 @@
+use super::table;
+use crate::pipeline::Stage;
+use crate::report::number::{grouped, mean, rate};
+use crate::report::paper::paper_row;
+use crate::report::{distributed, findings};
+use crate::study::{Comparison, ComparisonRow, MeanCounts};
+
+/// Every method on the same steps: the paper's Table 1 with its own numbers beside ours, each stage's survivors, the
+/// time of each stage, and what the numbers say.
+#[must_use]
+pub fn comparison(comparison: &Comparison) -> String {
+    let s = |count: usize| if count == 1 { "" } else { "s" };
+    let mut text = format!(
+        "{}: {} vertices, {} edges, {} triangles\n{} step{}, {} thread{}, the fastest of {} round{}; f64\n",
+        comparison.name,
+        grouped(comparison.vertices as u64),
+        grouped(comparison.edges as u64),
+        grouped(comparison.triangles as u64),
+        comparison.steps,
+        s(comparison.steps),
+        comparison.threads,
+        s(comparison.threads),
+        comparison.rounds,
+        s(comparison.rounds),
+    );
+    text += "\nTable 1. Candidate pairs a step and steps a second, beside the paper's\n\n";
+    text += &table_1(comparison);
+    text += "\nVertex–face pairs a step, after each stage\n\n";
+    text += &survivors(comparison, |counts| counts.vertex_face);
+    text += "\nEdge–edge pairs a step, after each stage\n\n";
+    text += &survivors(comparison, |counts| counts.edge_edge);
+    text += "\nMilliseconds a step, by stage";
+    text += if comparison.threads > 1 {
+        " (after the broad phase: summed over threads)\n\n"
+    } else {
+        "\n\n"
+    };
+    text += &times(comparison);
+    text += &notes(comparison);
+    text
+}
+
+fn name(row: &ComparisonRow) -> String {
+    let mark = if row.preset.is_reconstructed() {
+        "*"
+    } else {
+        ""
+    };
+    format!("{}{mark}", row.preset)
+}
+
+fn table_1(comparison: &Comparison) -> String {
+    let rows = comparison.rows.iter().map(|row| {
+        let paper = paper_row(row.preset);
+        let printed = |text: Option<String>| text.unwrap_or_default();
+        [
+            name(row),
+            mean(row.candidates.vertex_face),
+            mean(row.candidates.edge_edge),
+            rate(row.frames_per_second),
+            printed(paper.map(|paper| grouped(paper.vertex_face.into()))),
+            printed(paper.map(|paper| grouped(paper.edge_edge.into()))),
+            printed(paper.map(|paper| format!("{:.2}", paper.frames_per_second))),
+        ]
+    });
+    let header = [
+        "method",
+        "VF",
+        "EE",
+        "steps/s",
+        "paper:\nVF",
+        "paper:\nEE",
+        "paper:\nframes/s",
+    ];
+    table(header, rows)
+}
+
+fn survivors(comparison: &Comparison, kind: fn(&MeanCounts) -> f64) -> String {
+    let header = ["method", "distributed", "boxes", "filter", "contacts"];
+    let rows = comparison.rows.iter().map(|row| {
+        [
+            name(row),
+            mean(kind(&distributed(row))),
+            mean(kind(&row.after_boxes)),
+            mean(kind(&row.candidates)),
+            mean(kind(&row.contacts)),
+        ]
+    });
+    table(header, rows)
+}
+
+fn times(comparison: &Comparison) -> String {
+    let header = [
+        "method",
+        "broad\nphase",
+        "distri-\nbution",
+        "boxes",
+        "relative\nboxes",
+        "filter",
+        "elemen-\ntary",
+        "step",
+    ];
+    let rows = comparison.rows.iter().map(|row| {
+        let of = |wanted: &[Stage]| {
+            let stage = row
+                .stages
+                .iter()
+                .find(|stage| wanted.contains(&stage.stage));
+            stage.map_or_else(String::new, |stage| milliseconds(stage.seconds))
+        };
+        [
+            name(row),
+            milliseconds(row.broad_phase_seconds),
+            of(&[Stage::Distribution]),
+            of(&[Stage::Boxes]),
+            of(&[Stage::RelativeBoxes]),
+            of(&[Stage::Subspace, Stage::NonCoplanarity]),
+            of(&[Stage::Elementary]),
+            milliseconds(1.0 / row.frames_per_second),
+        ]
+    });
+    table(header, rows)
+}
+
+fn milliseconds(seconds: f64) -> String {
+    let digits = match seconds {
+        s if s >= 0.1 => 0,
+        s if s >= 0.01 => 1,
+        s if s >= 0.001 => 2,
+        _ => 3,
+    };
+    format!("{:.digits$}", seconds * 1e3)
+}
+
+fn notes(comparison: &Comparison) -> String {
+    let mut text = String::from("\n");
+    if comparison
+        .rows
+        .iter()
+        .any(|row| row.preset.is_reconstructed())
+    {
+        text += "* reconstructed: the original could not be read; no reproduction is claimed.\n";
+    }
+    text += "Steps a second are culling and elementary tests; the paper's frames a second are\nof its whole simulation, on its own mesh and machine.\n";
+    let findings = findings(comparison);
+    if !findings.is_empty() {
+        text +=
+            "\nWhat the numbers say (! marks what goes against the paper or our own promise)\n\n";
+    }
+    for finding in findings {
+        let mark = if finding.as_expected { ' ' } else { '!' };
+        text += &wrapped(&finding.text, mark);
+    }
+    text
+}
+
+/// A paragraph of lines of at most 80 columns, `mark` before the first.
+fn wrapped(text: &str, mark: char) -> String {
+    let mut lines = format!("{mark} ");
+    let mut column = 2;
+    for (index, word) in text.split(' ').enumerate() {
+        let length = word.chars().count();
+        if index > 0 && column + 1 + length > 80 {
+            lines += "\n  ";
+            column = 2;
+        } else if index > 0 {
+            lines.push(' ');
+            column += 1;
+        }
+        lines += word;
+        column += length;
+    }
+    lines + "\n"
+}

@@ -1,0 +1,35 @@
+//! Tables as text, made to be read in a terminal of 80 columns.
+
+mod comparison;
+#[cfg(feature = "files")]
+mod queries;
+mod scaling;
+mod step;
+
+pub use comparison::comparison;
+#[cfg(feature = "files")]
+pub use queries::queries;
+pub use scaling::scaling;
+pub use step::step;
+
+use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
+
+/// A table with a line under its header; the first column to the left, numbers to the right.
+fn table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
+    let mut table = Table::new();
+    let line = LineStyle::none().fill('─').junction('─');
+    table.load_style(TableStyle::new().header_separator(line));
+    table.set_header(header);
+    for row in rows {
+        table.add_row(row);
+    }
+    for (index, column) in table.column_iter_mut().enumerate() {
+        if index > 0 {
+            column.set_cell_alignment(CellAlignment::Right);
+            column.set_padding((1, 0));
+        } else {
+            column.set_padding((0, 0));
+        }
+    }
+    table.trim_fmt() + "\n"
+}

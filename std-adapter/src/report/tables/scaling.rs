@@ -1,0 +1,43 @@
+use super::table;
+use crate::pipeline::Preset;
+use crate::report::n_log_n_ratios;
+use crate::report::number::{grouped, time};
+use crate::study::ScalingPoint;
+
+/// Cost against size.
+#[must_use]
+pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> String {
+    let header = [
+        "triangles",
+        "triangle\npairs",
+        "candi-\ndates",
+        "set-up",
+        "first\nstep",
+        "step",
+        "ns a\ntriangle",
+        "over\nn log n",
+    ];
+    let rows = points
+        .iter()
+        .zip(n_log_n_ratios(points))
+        .map(|(point, ratio)| {
+            [
+                grouped(point.triangles as u64),
+                grouped(point.step.triangle_pairs),
+                grouped(point.step.candidates().total()),
+                time(point.setup_seconds),
+                time(point.first_step_seconds),
+                time(point.step.seconds),
+                format!("{:.0}", point.step.seconds * 1e9 / point.triangles as f64),
+                format!("{ratio:.2}"),
+            ]
+        });
+    let s = if threads == 1 { "" } else { "s" };
+    format!(
+        "{preset} on one late step of the arm scene, {threads} thread{s}\n\n{}\n\
+         over n log n: the step's time over n log n, relative to the first size.\n\
+         The finer the sleeve, the shorter the step, so that vertices move as many edge\n\
+         lengths a step at every size.\n",
+        table(header, rows)
+    )
+}

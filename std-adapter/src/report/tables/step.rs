@@ -1,0 +1,70 @@
+use super::table;
+use crate::pipeline::{CullingTest, ElementaryTest, Stage};
+use crate::report::StepSummary;
+use crate::report::number::{grouped, time};
+
+/// One step: what each stage left over and how long it took.
+#[must_use]
+pub fn step(summary: &StepSummary) -> String {
+    let report = &summary.report;
+    let broad_phase = [
+        Stage::BroadPhase.to_string(),
+        grouped(report.triangle_pairs),
+        String::new(),
+        String::new(),
+        time(report.broad_phase_seconds),
+    ];
+    let stages = report.stages.iter().map(|stage| {
+        [
+            stage.stage.to_string(),
+            String::new(),
+            grouped(stage.survivors.vertex_face),
+            grouped(stage.survivors.edge_edge),
+            time(stage.seconds),
+        ]
+    });
+    let whole = [
+        "whole step".to_owned(),
+        String::new(),
+        String::new(),
+        String::new(),
+        time(report.seconds),
+    ];
+    let header = ["stage", "triangle pairs", "VF pairs", "EE pairs", "time"];
+    let rows = [broad_phase].into_iter().chain(stages).chain([whole]);
+    let contacts = report.contacts();
+    let first = summary
+        .earliest
+        .map_or_else(String::new, |time| format!(", the first at t = {time:.6}"));
+    let s = if summary.threads == 1 { "" } else { "s" };
+    let sums = if summary.threads == 1 {
+        ""
+    } else {
+        "Times after the broad phase are summed over threads.\n"
+    };
+    format!(
+        "{} vertices, {} edges, {} triangles\n{} in {} on {} thread{s}\n\n{}\n{sums}\
+         Contacts: {} vertex–face and {} edge–edge{first}.\n{}",
+        grouped(summary.vertices as u64),
+        grouped(summary.edges as u64),
+        grouped(summary.triangles as u64),
+        summary.preset,
+        summary.scalar,
+        summary.threads,
+        table(header, rows),
+        grouped(contacts.vertex_face),
+        grouped(contacts.edge_edge),
+        promise(summary),
+    )
+}
+
+/// What the counts are worth.
+fn promise(summary: &StepSummary) -> &'static str {
+    let stages = summary.preset.stages();
+    let ElementaryTest::Cubic = stages.elementary;
+    if stages.tests.iter().copied().all(CullingTest::is_certified) {
+        "The plain cubic elementary test can miss contacts; the stages before it cannot.\n"
+    } else {
+        "The plain filter and the plain cubic elementary test can both miss contacts.\n"
+    }
+}

@@ -1,0 +1,218 @@
+//! `selvedge cull`.
+
+use crate::support::{Workplace, keys, moved_by};
+use selvedge::pipeline::Preset;
+use serde_json::{Value, json};
+
+const CULL: [&str; 3] = ["cull", "start.obj", "end.obj"];
+
+fn with<'a>(options: &[&'a str]) -> Vec<&'a str> {
+    [&CULL[..], options].concat()
+}
+
+fn stage<'a>(document: &'a Value, name: &str) -> &'a Value {
+    let stages = document["stages"].as_array().unwrap();
+    stages.iter().find(|stage| stage["stage"] == name).unwrap()
+}
+
+#[test]
+fn json_has_the_mesh_the_stages_and_the_contacts() {
+    let document = Workplace::with_step().json(&with(&["--json"]));
+    assert_eq!(document["pipeline"], "selvedge");
+    assert_eq!(
+        [
+            &document["vertices"],
+            &document["edges"],
+            &document["triangles"],
+            &document["threads"]
+        ],
+        [6, 6, 2, 1]
+    );
+    let stages = document["stages"].as_array().unwrap();
+    for (index, stage) in stages.iter().enumerate() {
+        let counts: &[&str] = match index {
+            0 => &["stage", "triangle_pairs", "seconds"],
+            _ => &["stage", "vertex_face", "edge_edge", "seconds"],
+        };
+        assert_eq!(keys(stage), counts);
+        assert!(stage["seconds"].as_f64().unwrap() >= 0.0);
+    }
+    assert_eq!(stage(&document, "broad-phase")["triangle_pairs"], 1);
+    assert_eq!(stage(&document, "distribution")["vertex_face"], 6);
+    assert_eq!(stage(&document, "distribution")["edge_edge"], 9);
+    // The corners of the small triangle fall from 1, 1.1 and 1.2 by 4 each.
+    assert_eq!(
+        document["contacts"],
+        json!({"vertex_face": 3, "edge_edge": 0, "earliest": 0.25})
+    );
+    assert!(document["seconds"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn stages_are_those_of_the_preset() {
+    let place = Workplace::with_step();
+    for preset in Preset::ALL {
+        let document = place.json(&with(&["--json", "--pipeline", preset.name()]));
+        let names: Vec<_> = document["stages"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|stage| stage["stage"].as_str().unwrap().to_owned())
+            .collect();
+        let mut expected = vec!["broad-phase".to_owned(), "distribution".to_owned()];
+        expected.extend(
+            preset
+                .stages()
+                .tests
+                .iter()
+                .map(|test| test.stage().to_string()),
+        );
+        expected.push("elementary".to_owned());
+        assert_eq!(names, expected);
+        assert_eq!(document["pipeline"], preset.name());
+        assert_eq!(document["contacts"]["vertex_face"], 3, "{preset}");
+    }
+}
+
+#[test]
+fn earliest_is_null_without_contact() {
+    let place = Workplace::with_step();
+    place.write("end.obj", moved_by(-0.5));
+    let document = place.json(&with(&["--json"]));
+    assert_eq!(
+        document["contacts"],
+        json!({"vertex_face": 0, "edge_edge": 0, "earliest": null})
+    );
+}
+
+#[test]
+fn contacts_are_written_with_their_vertices_and_times() {
+    let place = Workplace::with_step();
+    place.stdout(&with(&["--pairs", "out.csv"]));
+    let text = place.read("out.csv");
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("kind,i0,i1,i2,i3,time"));
+    for (line, (vertex, time)) in lines.zip([(3, 0.25), (4, 0.275), (5, 0.3)]) {
+        let (pair, found) = line.rsplit_once(',').unwrap();
+        assert_eq!(pair, format!("vertex-face,{vertex},0,1,2"));
+        assert!(
+            (found.parse::<f64>().unwrap() - time).abs() < 1e-12,
+            "{line}"
+        );
+    }
+    assert_eq!(text.lines().count(), 4);
+}
+
+#[test]
+fn candidates_hold_every_pair_before_the_elementary_test() {
+    let place = Workplace::with_step();
+    let all = with(&[
+        "--json",
+        "--pipeline",
+        "curtis_2008",
+        "--candidates",
+        "out.csv",
+    ]);
+    place.stdout(&all);
+    let text = place.read("out.csv");
+    let mut lines: Vec<_> = text.lines().collect();
+    assert_eq!(lines.remove(0), "kind,i0,i1,i2,i3");
+    let count = |kind: &str| lines.iter().filter(|line| line.starts_with(kind)).count();
+    assert_eq!((count("vertex-face,"), count("edge-edge,")), (6, 9));
+    assert!(lines.contains(&"vertex-face,0,3,4,5"));
+    lines.sort_unstable();
+    lines.dedup();
+    assert_eq!(lines.len(), 15);
+}
+
+#[test]
+fn counts_do_not_depend_on_the_number_of_threads() {
+    let place = Workplace::new();
+    place.stdout(&["arm", "--frames", "55,56"]);
+    let run = |threads: &str| {
+        let arguments = [
+            "cull",
+            "arm-55.ply",
+            "arm-56.ply",
+            "--json",
+            "--threads",
+            threads,
+        ];
+        let document = place.json(&[&arguments[..], &["--pairs", "pairs.csv"]].concat());
+        (document["contacts"].clone(), place.read("pairs.csv"))
+    };
+    let one = run("1");
+    assert!(one.0["edge_edge"].as_u64().unwrap() > 0);
+    assert_eq!(run("3"), one);
+    assert_eq!(run("0"), one);
+}
+
+#[test]
+fn single_precision_says_what_it_rounds() {
+    let place = Workplace::with_step();
+    let output = place.run(&with(&["--json", "--scalar", "f32"]));
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(document["scalar"], "f32");
+    assert_eq!(document["contacts"]["vertex_face"], 3);
+    let notes = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        notes.contains("start.obj: 2 coordinates were rounded"),
+        "{notes}"
+    );
+}
+
+#[test]
+fn what_is_unusual_about_the_mesh_is_said_on_standard_error() {
+    let place = Workplace::with_step();
+    for name in ["start.obj", "end.obj"] {
+        let text = place.read(name);
+        place.write(
+            name,
+            format!("{text}v 9 9 9\nf 1 2 3\nf 1 1 2\nf 4 5 6 7\n"),
+        );
+    }
+    let output = place.run(&with(&["--json"]));
+    let notes = String::from_utf8(output.stderr).unwrap();
+    for part in [
+        "2 duplicate triangles",
+        "1 degenerate triangle",
+        "1 polygon",
+    ] {
+        assert!(notes.contains(part), "{notes}");
+    }
+    assert!(serde_json::from_slice::<Value>(&output.stdout).is_ok());
+}
+
+#[test]
+fn the_table_has_every_stage_and_the_contacts() {
+    let text = Workplace::with_step().stdout(&CULL);
+    for part in [
+        "broad-phase",
+        "distribution",
+        "boxes",
+        "non-coplanarity",
+        "elementary",
+    ] {
+        assert!(text.contains(part), "{text}");
+    }
+    assert!(
+        text.contains("3 vertex–face and 0 edge–edge, the first at t = 0.250000"),
+        "{text}"
+    );
+}
+
+#[test]
+fn the_table_says_whether_culling_is_certified() {
+    let place = Workplace::with_step();
+    assert!(place.stdout(&CULL).contains("the stages before it cannot"));
+    let plain = place.stdout(&with(&["--pipeline", "lv_2014"]));
+    assert!(plain.contains("can both miss contacts"), "{plain}");
+}
+
+#[test]
+fn an_older_output_file_is_replaced() {
+    let place = Workplace::with_step();
+    place.write("out.csv", "old");
+    place.stdout(&with(&["--pairs", "out.csv"]));
+    assert!(place.read("out.csv").starts_with("kind,"));
+}

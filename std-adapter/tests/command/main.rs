@@ -1,0 +1,8 @@
+//! The `selvedge` command as its users meet it: the real program, real files, exit status and all.
+
+mod bad_input;
+mod compare;
+mod cull;
+mod queries;
+mod support;
+mod terminal;

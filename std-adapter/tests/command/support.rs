@@ -1,0 +1,136 @@
+//! A folder to work in, and the program.
+
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+/// A small triangle one unit above a large one.
+pub(crate) const ABOVE: &str = "\
+v -5 -5 0
+v 5 -5 0
+v 0 5 0
+v 0 0 1
+v 1 0 1.1
+v 0 1 1.2
+f 1 2 3
+f 4 5 6
+";
+
+/// The same, the small triangle moved by `z`.
+pub(crate) fn moved_by(z: f64) -> String {
+    let mut lines: Vec<String> = ABOVE.lines().map(str::to_owned).collect();
+    for (line, height) in lines[3..6].iter_mut().zip([1.0, 1.1, 1.2]) {
+        let (place, _) = line.rsplit_once(' ').unwrap();
+        *line = format!("{place} {}", height + z);
+    }
+    lines.join("\n") + "\n"
+}
+
+/// A folder of its own for each test, and the program run in it.
+pub(crate) struct Workplace {
+    folder: TempDir,
+}
+
+impl Workplace {
+    pub(crate) fn new() -> Self {
+        Self {
+            folder: tempfile::tempdir().unwrap(),
+        }
+    }
+
+    /// With `start.obj` and `end.obj`: the small triangle falls through the large one.
+    pub(crate) fn with_step() -> Self {
+        let place = Self::new();
+        place.write("start.obj", ABOVE);
+        place.write("end.obj", moved_by(-4.0));
+        place
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, content).unwrap();
+    }
+
+    pub(crate) fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    /// Every file and folder, by its path from here.
+    pub(crate) fn listing(&self) -> Vec<String> {
+        fn visit(folder: &Path, root: &Path, found: &mut Vec<String>) {
+            for entry in fs::read_dir(folder).unwrap() {
+                let path = entry.unwrap().path();
+                let name = path.strip_prefix(root).unwrap();
+                found.push(name.to_str().unwrap().to_owned());
+                if path.is_dir() {
+                    visit(&path, root, found);
+                }
+            }
+        }
+        let mut found = Vec::new();
+        visit(self.folder.path(), self.folder.path(), &mut found);
+        found.sort();
+        found
+    }
+
+    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_selvedge"));
+        command.current_dir(self.folder.path()).args(arguments);
+        command
+    }
+
+    pub(crate) fn run(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().unwrap()
+    }
+
+    /// What a run that must succeed prints on standard output.
+    #[track_caller]
+    pub(crate) fn stdout(&self, arguments: &[&str]) -> String {
+        let output = self.run(arguments);
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        String::from_utf8(output.stdout).unwrap()
+    }
+
+    /// The one document that a run with `--json` prints.
+    #[track_caller]
+    pub(crate) fn json(&self, arguments: &[&str]) -> Value {
+        serde_json::from_str(&self.stdout(arguments)).unwrap()
+    }
+
+    /// The error message, without the notes before it, of a run that must be refused with `status`, print nothing and
+    /// leave no file behind.
+    #[track_caller]
+    pub(crate) fn refusal(&self, status: i32, arguments: &[&str]) -> String {
+        let before = self.listing();
+        let output = self.run(arguments);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(status), "{text}");
+        assert!(output.stdout.is_empty());
+        assert!(!text.contains("panicked"), "{text}");
+        assert_eq!(self.listing(), before, "files were left behind");
+        let start = text.find("error: ").expect("no error message");
+        text[start..].to_owned()
+    }
+}
+
+/// The keys of a JSON object, in order.
+#[track_caller]
+pub(crate) fn keys(value: &Value) -> Vec<&str> {
+    value
+        .as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect()
+}

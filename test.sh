@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Runs every test of the project: all crates, their documentation's examples, and the kept inputs of the fuzz targets.
+# Needs Rust (rustup), a C compiler and make. `cargo run --release`, the main job, needs Rust alone.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+# The fuzz targets are a workspace of their own; one build folder lets them use what the others have built.
+export CARGO_TARGET_DIR="${CARGO_TARGET_DIR:-$PWD/target}"
+export CARGO_TERM_COLOR=never
+
+say() { printf '\n== %s\n' "$*"; }
+give_up() {
+    printf 'test.sh: %s\n' "$*" >&2
+    exit 1
+}
+is_there() { command -v "$1" >/dev/null 2>&1; }
+
+# GMP, on which the exact oracle counts, is built from source, and its build needs m4.
+install_m4() {
+    local manager command
+    for manager in apt-get dnf pacman apk zypper brew; do
+        is_there "$manager" || continue
+        case $manager in
+        apt-get) command="apt-get install -y m4" ;;
+        dnf) command="dnf install -y m4" ;;
+        pacman) command="pacman -S --noconfirm m4" ;;
+        apk) command="apk add m4" ;;
+        zypper) command="zypper --non-interactive install m4" ;;
+        brew) command="brew install m4" ;;
+        esac
+        if [ "$manager" != brew ] && [ "$(id -u)" -ne 0 ]; then
+            { is_there sudo && sudo -n true 2>/dev/null; } ||
+                give_up "m4 is missing; install it (sudo $command) and start again"
+            command="sudo -n $command"
+        fi
+        say "m4 is missing: $command"
+        # shellcheck disable=SC2086 # words on purpose
+        if ! $command </dev/null; then
+            # A fresh machine has no package lists yet.
+            if [ "$manager" = apt-get ]; then
+                ${command%install*} update </dev/null && $command </dev/null ||
+                    give_up "m4 could not be installed; install it and start again"
+            else
+                give_up "m4 could not be installed; install it and start again"
+            fi
+        fi
+        # Homebrew keeps it out of the way of the system's own.
+        [ "$manager" != brew ] || PATH="$(brew --prefix m4)/bin:$PATH"
+        return
+    done
+    give_up "m4 is missing, and there is no package manager that we know; install it and start again"
+}
+
+is_there cargo || give_up "Rust is missing; install it from https://rustup.rs and start again"
+{ is_there cc || is_there gcc || is_there clang; } || give_up "a C compiler is missing; install one and start again"
+is_there make || give_up "make is missing; install it and start again"
+is_there m4 || install_m4
+
+say "core: selvedge-core"
+cargo test --package selvedge-core
+say "adapter: selvedge"
+cargo test --package selvedge
+say "exact oracle and properties: selvedge-verification"
+cargo test --package selvedge-verification
+say "kept inputs of the fuzz targets: selvedge-fuzz"
+cargo test --manifest-path fuzz/Cargo.toml
+
+say "all tests passed in $SECONDS s"

@@ -1,0 +1,173 @@
+//! A primitive pair as plain numbers, which prints as the Rust that makes it.
+
+use super::Format;
+use crate::oracle::{Kind, Pair};
+use selvedge_core::coplanarity::MovingTetrahedron;
+use selvedge_core::{EdgeEdge, Motion, PrimitivePair, VertexFace};
+use std::fmt;
+
+/// Four moving points: a vertex and a face's three, or the two ends of one edge and those of the other.
+///
+/// `{:?}` prints the [`VertexFace`] or [`EdgeEdge`] as Rust to paste into a regression test; decimal numbers read back
+/// as the same bits.
+#[derive(Clone, Copy, PartialEq)]
+pub struct PairCase<S> {
+    /// What the points are.
+    pub kind: Kind,
+    /// Positions at times 0 and 1 of each point.
+    pub points: [[[S; 3]; 2]; 4],
+}
+
+impl<S: Format> PairCase<S> {
+    /// From the two positions of each point.
+    #[must_use]
+    pub const fn new(kind: Kind, points: [[[S; 3]; 2]; 4]) -> Self {
+        Self { kind, points }
+    }
+
+    /// The points' motions, in their order.
+    #[must_use]
+    pub fn motions(&self) -> [Motion<S>; 4] {
+        self.points.map(|[start, end]| Motion {
+            start: start.into(),
+            end: end.into(),
+        })
+    }
+
+    /// As a vertex and a face, whatever the kind.
+    #[must_use]
+    pub fn vertex_face(&self) -> VertexFace<S> {
+        let [vertex, a, b, c] = self.motions();
+        VertexFace {
+            vertex,
+            face: [a, b, c],
+        }
+    }
+
+    /// As two edges, whatever the kind.
+    #[must_use]
+    pub fn edge_edge(&self) -> EdgeEdge<S> {
+        let [a, b, c, d] = self.motions();
+        EdgeEdge {
+            first: [a, b],
+            second: [c, d],
+        }
+    }
+
+    /// The differences that the coplanarity kernels work on.
+    #[must_use]
+    pub fn tetrahedron(&self) -> MovingTetrahedron<S> {
+        match self.kind {
+            Kind::VertexFace => self.vertex_face().tetrahedron(),
+            Kind::EdgeEdge => self.edge_edge().tetrahedron(),
+        }
+    }
+
+    /// The same question for the exact oracle.
+    #[must_use]
+    pub fn question(&self) -> Pair {
+        let at = |end: usize| self.points.map(|point| point[end].map(S::to_f64));
+        Pair {
+            kind: self.kind,
+            start: at(0),
+            end: at(1),
+        }
+    }
+
+    /// Neither NaN nor infinite, all 24.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.coordinates().all(S::is_finite)
+    }
+
+    /// All 24.
+    pub fn coordinates(&self) -> impl Iterator<Item = S> {
+        self.points.into_iter().flatten().flatten()
+    }
+
+    /// The points in another order.
+    #[must_use]
+    pub fn reordered(&self, order: [usize; 4]) -> Self {
+        Self::new(self.kind, order.map(|point| self.points[point]))
+    }
+
+    /// Start and end exchanged.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        Self::new(self.kind, self.points.map(|[start, end]| [end, start]))
+    }
+
+    /// The coordinates in another order.
+    #[must_use]
+    pub fn with_axes(&self, axes: [usize; 3]) -> Self {
+        self.with_positions(|position| axes.map(|axis| position[axis]))
+    }
+
+    /// Each coordinate changed on its own.
+    #[must_use]
+    pub fn map(&self, change: impl Fn(S) -> S) -> Self {
+        self.with_positions(|position| position.map(&change))
+    }
+
+    /// Each of the eight positions changed on its own.
+    #[must_use]
+    pub fn with_positions(&self, change: impl Fn([S; 3]) -> [S; 3]) -> Self {
+        Self::new(self.kind, self.points.map(|ends| ends.map(&change)))
+    }
+}
+
+impl PairCase<f32> {
+    /// The same numbers as `f64`.
+    #[must_use]
+    pub fn widened(&self) -> PairCase<f64> {
+        let points = self
+            .points
+            .map(|ends| ends.map(|position| position.map(f64::from)));
+        PairCase::new(self.kind, points)
+    }
+}
+
+impl<S: Format> fmt::Debug for PairCase<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let motion = |k: usize| {
+            let [start, end] = self.points[k].map(|position| {
+                let [x, y, z] = position.map(written::<S>);
+                format!("[{x}, {y}, {z}]")
+            });
+            format!("Motion::from(({start}, {end})),")
+        };
+        let name = S::NAME;
+        match self.kind {
+            Kind::VertexFace => {
+                writeln!(f, "VertexFace::<{name}> {{")?;
+                writeln!(f, "    vertex: {}", motion(0))?;
+                writeln!(f, "    face: [")?;
+                (1..4).try_for_each(|k| writeln!(f, "        {}", motion(k)))?;
+                writeln!(f, "    ],")?;
+            }
+            Kind::EdgeEdge => {
+                writeln!(f, "EdgeEdge::<{name}> {{")?;
+                for (edge, k) in [("first", 0), ("second", 2)] {
+                    writeln!(f, "    {edge}: [")?;
+                    writeln!(f, "        {}", motion(k))?;
+                    writeln!(f, "        {}", motion(k + 1))?;
+                    writeln!(f, "    ],")?;
+                }
+            }
+        }
+        write!(f, "}}")
+    }
+}
+
+/// As Rust. The shortest decimal that reads back as the same number.
+fn written<S: Format>(number: S) -> String {
+    if S::is_finite(number) {
+        format!("{number:?}")
+    } else if number > S::ZERO {
+        format!("{}::INFINITY", S::NAME)
+    } else if number < S::ZERO {
+        format!("{}::NEG_INFINITY", S::NAME)
+    } else {
+        format!("{}::NAN", S::NAME)
+    }
+}

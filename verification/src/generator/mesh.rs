@@ -1,0 +1,148 @@
+//! Small meshes in motion, of the kinds that files hold and nobody wants.
+
+use super::numbers::{exponent, finite, fraction};
+use super::pairs::{complexity, simpler_number};
+use super::{Choices, Format, Simplify};
+use selvedge::mesh::Topology;
+use std::fmt;
+
+/// Triangles over 4 to 12 vertices: any three indices, so that degenerate triangles (v, v, w), duplicates, edges with many
+/// triangles and isolated vertices are common.
+#[derive(Clone, PartialEq)]
+pub struct MeshCase<S> {
+    /// The three vertices of each triangle.
+    pub triangles: Vec<[u32; 3]>,
+    /// The positions of each vertex at times 0 and 1.
+    pub positions: Vec<[[S; 3]; 2]>,
+}
+
+impl<S: Format> MeshCase<S> {
+    /// A mesh from any bytes.
+    #[must_use]
+    pub fn from_bytes(bytes: &[u8]) -> Self {
+        Self::choose(&mut Choices::new(bytes))
+    }
+
+    /// Chooses a mesh.
+    #[must_use]
+    pub fn choose(choices: &mut Choices<'_>) -> Self {
+        let vertices = 4 + choices.below(9);
+        let positions = positions(vertices as usize, choices);
+        // Fewer vertices in use than there are: isolated ones.
+        let used = vertices - choices.pick(&[0, 0, 1, 2]).min(vertices - 3);
+        let triangles = if choices.once_in(3) {
+            // A strip: every inner edge has two triangles.
+            (2..used).map(|k| [k - 2, k - 1, k]).collect()
+        } else {
+            let count = choices.pick(&[3, 1, 2, 8, 16, 40]);
+            (0..count)
+                .map(|_| std::array::from_fn(|_| choices.below(used)))
+                .collect()
+        };
+        Self {
+            triangles,
+            positions,
+        }
+    }
+
+    /// The topology.
+    ///
+    /// # Panics
+    /// Never: there is a triangle, and its vertices exist.
+    #[must_use]
+    pub fn topology(&self) -> Topology {
+        Topology::new(self.positions.len(), self.triangles.clone()).expect("indices are in range")
+    }
+
+    /// Positions at time 0 (for `end` 0) or 1.
+    #[must_use]
+    pub fn frame(&self, end: usize) -> Vec<S::Vector> {
+        self.positions.iter().map(|ends| ends[end].into()).collect()
+    }
+
+    /// The same mesh somewhere else, every sum rounded.
+    #[must_use]
+    pub fn moved_by(&self, offset: [S; 3]) -> Self {
+        let moved = |position: [S; 3]| std::array::from_fn(|axis| position[axis] + offset[axis]);
+        Self {
+            triangles: self.triangles.clone(),
+            positions: self.positions.iter().map(|ends| ends.map(moved)).collect(),
+        }
+    }
+}
+
+fn positions<S: Format>(vertices: usize, choices: &mut Choices<'_>) -> Vec<[[S; 3]; 2]> {
+    let place = choices.below(8);
+    let motion = choices.below(5);
+    let common: [S; 3] = std::array::from_fn(|_| S::exact(choices.within(4), -1));
+    let scale = exponent::<S>(choices);
+    let mut positions = Vec::with_capacity(vertices);
+    for _ in 0..vertices {
+        let start: [S; 3] = match place {
+            // Many coordinates in common.
+            0..=2 => std::array::from_fn(|_| S::exact(choices.within(3), 0)),
+            // All in one plane.
+            3 => [
+                S::exact(choices.within(5), 0),
+                S::exact(choices.within(5), 0),
+                S::ZERO,
+            ],
+            4 | 5 => std::array::from_fn(|_| fraction(choices)),
+            // The same, at another scale.
+            6 => std::array::from_fn(|_| S::exact(choices.within(9), scale)),
+            _ => std::array::from_fn(|_| finite(choices)),
+        };
+        let end: [S; 3] = std::array::from_fn(|axis| match motion {
+            0 => start[axis] + common[axis],
+            1 => start[axis] + S::exact(choices.within(2), 0),
+            2 => start[axis] + S::exact(1, -12) * fraction::<S>(choices),
+            3 => start[axis].nudged(choices.within(2)),
+            _ => start[(axis + 1) % 3],
+        });
+        positions.push([start, end.map(S::made_finite)]);
+    }
+    positions
+}
+
+impl<S: Format> Simplify for MeshCase<S> {
+    fn attempts(&self) -> usize {
+        self.triangles.len() + 4 * 6 * self.positions.len()
+    }
+
+    fn simpler(&self, attempt: usize) -> Option<Self> {
+        let mut simpler = self.clone();
+        match attempt.checked_sub(self.triangles.len()) {
+            None => {
+                if self.triangles.len() == 1 {
+                    return None;
+                }
+                simpler.triangles.remove(attempt);
+            }
+            Some(attempt) => {
+                let (vertex, end, axis) = (attempt / 24, attempt / 12 % 2, attempt / 4 % 3);
+                let number = &mut simpler.positions[vertex][end][axis];
+                *number = simpler_number(*number, attempt % 4);
+            }
+        }
+        (simpler.complexity() < self.complexity()).then_some(simpler)
+    }
+}
+
+impl<S: Format> MeshCase<S> {
+    fn complexity(&self) -> u64 {
+        let numbers = self.positions.iter().flatten().flatten();
+        numbers.map(|&number| complexity(number)).sum::<u64>() + self.triangles.len() as u64
+    }
+}
+
+impl<S: Format> fmt::Debug for MeshCase<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "MeshCase::<{}> {{", S::NAME)?;
+        writeln!(f, "    triangles: vec!{:?},", self.triangles)?;
+        writeln!(f, "    positions: vec![")?;
+        for [start, end] in &self.positions {
+            writeln!(f, "        [{start:?}, {end:?}],")?;
+        }
+        write!(f, "    ],\n}}")
+    }
+}

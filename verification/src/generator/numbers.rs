@@ -1,0 +1,192 @@
+//! Single coordinates, biased to where floating-point code goes wrong.
+
+use super::Choices;
+use selvedge_core::Scalar;
+
+/// What the generator must know of a number format.
+pub trait Format: Scalar {
+    /// Significant bits, the leading one included.
+    const PRECISION: u32;
+    /// Two to this power is the smallest positive number.
+    const MIN_EXPONENT: i32;
+    /// Two to this power is the first that overflows.
+    const MAX_EXPONENT: i32;
+    /// The largest finite number.
+    const LARGEST: Self;
+    /// Not a number.
+    const NAN: Self;
+
+    /// The number with these bits (the low ones, for `f32`).
+    fn from_word(bits: u64) -> Self;
+    /// The next larger number.
+    #[must_use]
+    fn up(self) -> Self;
+    /// The next smaller number.
+    #[must_use]
+    fn down(self) -> Self;
+
+    /// `mantissa` · 2^`exponent`, exactly.
+    ///
+    /// # Panics
+    /// If the format has no such number.
+    #[must_use]
+    fn exact(mantissa: i64, exponent: i32) -> Self {
+        assert!(
+            mantissa.unsigned_abs() < 1 << Self::PRECISION
+                && exponent >= Self::MIN_EXPONENT
+                && exponent + Self::PRECISION.cast_signed() <= Self::MAX_EXPONENT,
+            "{mantissa} · 2^{exponent} is no {}",
+            Self::NAME
+        );
+        // Two steps, because 2^-1074 alone is subnormal; the first product is far from underflow.
+        let half = exponent / 2;
+        Self::from_f64(mantissa as f64 * power_of_two(half) * power_of_two(exponent - half))
+    }
+
+    /// `steps` numbers further up, or down; stops at the largest finite one.
+    #[must_use]
+    fn nudged(self, steps: i64) -> Self {
+        let mut number = self;
+        for _ in 0..steps.abs() {
+            let next = if steps > 0 {
+                number.up()
+            } else {
+                number.down()
+            };
+            if !Scalar::is_finite(next) {
+                break;
+            }
+            number = next;
+        }
+        number
+    }
+
+    /// The number itself if it is finite, else the largest of its sign, or 0 for NaN.
+    #[must_use]
+    fn made_finite(self) -> Self {
+        if Scalar::is_finite(self) {
+            self
+        } else if self > Self::ZERO {
+            Self::LARGEST
+        } else if self < Self::ZERO {
+            -Self::LARGEST
+        } else {
+            Self::ZERO
+        }
+    }
+}
+
+/// 2^`exponent`, for a normal result.
+fn power_of_two(exponent: i32) -> f64 {
+    assert!(
+        (-1022..1024).contains(&exponent),
+        "2^{exponent} is not normal"
+    );
+    f64::from_bits(u64::from((exponent + 1023).cast_unsigned()) << 52)
+}
+
+impl Format for f32 {
+    const PRECISION: u32 = 24;
+    const MIN_EXPONENT: i32 = -149;
+    const MAX_EXPONENT: i32 = 128;
+    const LARGEST: Self = Self::MAX;
+    const NAN: Self = Self::NAN;
+
+    fn from_word(bits: u64) -> Self {
+        Self::from_bits(bits as u32)
+    }
+
+    fn up(self) -> Self {
+        self.next_up()
+    }
+
+    fn down(self) -> Self {
+        self.next_down()
+    }
+}
+
+impl Format for f64 {
+    const PRECISION: u32 = 53;
+    const MIN_EXPONENT: i32 = -1074;
+    const MAX_EXPONENT: i32 = 1024;
+    const LARGEST: Self = Self::MAX;
+    const NAN: Self = Self::NAN;
+
+    fn from_word(bits: u64) -> Self {
+        Self::from_bits(bits)
+    }
+
+    fn up(self) -> Self {
+        self.next_up()
+    }
+
+    fn down(self) -> Self {
+        self.next_down()
+    }
+}
+
+/// A power of two by which whole numbers are scaled: most often none, else to where numbers, or products of three of
+/// them, underflow or overflow.
+pub(super) fn exponent<S: Format>(choices: &mut Choices<'_>) -> i32 {
+    let highest = S::MAX_EXPONENT - S::PRECISION.cast_signed();
+    let near = choices.within(12) as i32;
+    let exponent = match choices.below(16) {
+        0..=7 => 0,
+        8 => near,
+        9 => S::MIN_EXPONENT,
+        10 => S::MIN_EXPONENT + near.abs(),
+        11 | 12 => S::MIN_EXPONENT / 3 + near,
+        13 => S::MAX_EXPONENT / 3 - S::PRECISION.cast_signed() + 4 * near,
+        14 => highest,
+        _ => (choices.word() % (S::MAX_EXPONENT - S::MIN_EXPONENT) as u64) as i32 + S::MIN_EXPONENT,
+    };
+    exponent.clamp(S::MIN_EXPONENT, highest)
+}
+
+/// A whole number of at most `bits` bits and a sign.
+pub(super) fn whole(choices: &mut Choices<'_>, bits: u32) -> i64 {
+    if bits <= 6 {
+        return choices.within((1 << bits) - 1);
+    }
+    let magnitude = (choices.word() >> (64 - bits)).cast_signed();
+    if choices.once_in(2) {
+        -magnitude
+    } else {
+        magnitude
+    }
+}
+
+/// Between −1 and 1, all bits random.
+pub(super) fn fraction<S: Format>(choices: &mut Choices<'_>) -> S {
+    let bits = S::PRECISION - 1;
+    S::exact(whole(choices, bits), -bits.cast_signed())
+}
+
+/// Any finite number: zero, small whole ones, fractions, powers of two and their neighbours, the smallest and the largest
+/// there are, any bits.
+pub(super) fn finite<S: Format>(choices: &mut Choices<'_>) -> S {
+    match choices.below(8) {
+        0 => S::ZERO,
+        1 => S::exact(choices.within(4), 0),
+        2 => S::exact(choices.within(4), choices.within(8) as i32),
+        3 => fraction(choices),
+        4 => S::exact(choices.within(3), exponent::<S>(choices)).nudged(choices.within(2)),
+        5 => S::exact(choices.within(20), S::MIN_EXPONENT),
+        6 => S::exact(
+            whole(choices, S::PRECISION),
+            S::MAX_EXPONENT - S::PRECISION.cast_signed(),
+        ),
+        _ => S::from_word(choices.word()).made_finite(),
+    }
+}
+
+/// NaN, an infinity, or a number so large that sums and products overflow.
+pub(super) fn extraordinary<S: Format>(choices: &mut Choices<'_>) -> S {
+    match choices.below(5) {
+        0 => S::NAN,
+        1 => S::INFINITY,
+        2 => -S::INFINITY,
+        3 => S::LARGEST,
+        _ => -S::LARGEST,
+    }
+}

@@ -1,0 +1,150 @@
+//! Primitive pairs in motion that come within a distance of each other.
+
+use super::algebraic::AlgebraicTime;
+use super::geometry::{AtRest, EDGES, Point, Ring, Signs, cross, dot, subtract};
+use super::motion::{Kind, Motion, Pair};
+use super::polynomial::Polynomial;
+use rug::Rational;
+
+/// Is the distance of the closed vertex and face, or of the two closed edges, `separation` or less at
+/// some time in [0, 1]?
+///
+/// With a separation of zero this is the question of [`collides`](super::collides), answered another
+/// way.
+///
+/// # Panics
+/// If a coordinate or the separation is NaN or infinite, or the separation is negative.
+#[must_use]
+pub fn within(pair: &Pair, separation: f64) -> bool {
+    assert!(
+        separation >= 0.0,
+        "the separation must not be negative, but is {separation}"
+    );
+    let (motion, separation) = Motion::with_separation(pair, separation);
+    if motion.apart_along_an_axis(pair.kind, &separation) {
+        return false;
+    }
+    let squared = separation.square();
+    let start = motion.at(&Rational::from(0));
+    if features(pair.kind, &start, &squared)
+        .iter()
+        .any(|f| f.is_near(&mut AtRest))
+    {
+        return true;
+    }
+    // The distance is continuous and more than the separation at first. When it has come down to the
+    // separation, the features that hold the closest points are at exactly that distance, so their
+    // `excess` is zero and the closest points are within them. If the excess is zero at all times,
+    // the closest points have just come within them: one of `inside` has become zero.
+    let constant = Polynomial::new(vec![squared]);
+    features(pair.kind, &motion.trajectories(), &constant)
+        .iter()
+        .any(|feature| {
+            let events = match feature.excess.is_zero() {
+                false => std::slice::from_ref(&feature.excess),
+                true => feature.inside.as_slice(),
+            };
+            let events = events.iter().filter(|event| !event.is_zero());
+            events
+                .flat_map(AlgebraicTime::roots)
+                .any(|mut time| feature.is_near(&mut time))
+        })
+}
+
+/// A point, line or plane of one side against one of the other. They are near if the closest points
+/// of their hulls are unique, within the two features, and within the separation.
+struct FeaturePair<R> {
+    /// Has the sign of the distance of the hulls minus the separation.
+    excess: R,
+    /// The closest points are within the features if none of these is negative.
+    inside: Vec<R>,
+    /// Positive if the hulls are what they should be (a line has two points, …), otherwise zero.
+    extent: Option<R>,
+}
+
+impl<R> FeaturePair<R> {
+    fn is_near(&self, signs: &mut impl Signs<R>) -> bool {
+        self.extent
+            .as_ref()
+            .is_none_or(|extent| signs.sign(extent).is_gt())
+            && signs.sign(&self.excess).is_le()
+            && self.inside.iter().all(|value| signs.sign(value).is_ge())
+    }
+}
+
+/// All pairs of features: two closed sets of their kind are within the separation exactly if one of
+/// these is near.
+fn features<R: Ring>(kind: Kind, points: &[Point<R>; 4], squared: &R) -> Vec<FeaturePair<R>> {
+    let [a, b, c, d] = points;
+    let point_point = |x: &Point<R>, y: &Point<R>| {
+        let between = subtract(x, y);
+        let excess = dot(&between, &between).difference(squared);
+        FeaturePair {
+            excess,
+            inside: Vec::new(),
+            extent: None,
+        }
+    };
+    let point_line = |x: &Point<R>, p: &Point<R>, q: &Point<R>| {
+        let (along, from_p) = (subtract(q, p), subtract(x, p));
+        let area = cross(&along, &from_p);
+        let extent = dot(&along, &along);
+        FeaturePair {
+            // Area = length · height.
+            excess: dot(&area, &area).difference(&squared.product(&extent)),
+            inside: vec![dot(&along, &from_p), dot(&along, &subtract(q, x))],
+            extent: Some(extent),
+        }
+    };
+    // Two lines or a plane and a point: `normal` is perpendicular to both, `between` joins them.
+    let across = |normal: &Point<R>, between: &Point<R>, inside: &dyn Fn(&R) -> Vec<R>| {
+        let extent = dot(normal, normal);
+        let height = dot(normal, between);
+        let excess = height
+            .product(&height)
+            .difference(&squared.product(&extent));
+        FeaturePair {
+            excess,
+            inside: inside(&extent),
+            extent: Some(extent),
+        }
+    };
+    let mut features = Vec::new();
+    match kind {
+        Kind::VertexFace => {
+            let face = [b, c, d];
+            for [i, j] in EDGES {
+                features.push(point_point(a, face[i]));
+                features.push(point_line(a, face[i], face[j]));
+            }
+            let normal = cross(&subtract(c, b), &subtract(d, b));
+            features.push(across(&normal, &subtract(a, b), &|_| {
+                let inward = EDGES.map(|[i, j]| cross(&normal, &subtract(face[j], face[i])));
+                let height = |i: usize| dot(&inward[i], &subtract(a, face[i]));
+                vec![height(0), height(1), height(2)]
+            }));
+        }
+        Kind::EdgeEdge => {
+            for (x, y) in [(a, c), (a, d), (b, c), (b, d)] {
+                features.push(point_point(x, y));
+            }
+            for (x, p, q) in [(a, c, d), (b, c, d), (c, a, b), (d, a, b)] {
+                features.push(point_line(x, p, q));
+            }
+            let (along_first, along_second) = (subtract(b, a), subtract(d, c));
+            let (normal, between) = (cross(&along_first, &along_second), subtract(c, a));
+            features.push(across(&normal, &between, &|extent| {
+                // The closest points are at these parts of the edges, times `extent`.
+                let first = dot(&normal, &cross(&between, &along_second));
+                let second = dot(&normal, &cross(&between, &along_first));
+                vec![
+                    extent.difference(&first),
+                    extent.difference(&second),
+                    first,
+                    second,
+                ]
+            }));
+        }
+    }
+    features
+}

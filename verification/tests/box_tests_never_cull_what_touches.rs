@@ -1,0 +1,372 @@
+//! Box tests never cull a pair that touches, cull what they say they cull, and keep what is not finite.
+
+use proptest::prelude::*;
+use rug::Rational;
+use selvedge::pipeline::CullingTest::{
+    self, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, SweptBoxes,
+};
+use selvedge_core::Motion;
+use selvedge_core::boxes::{Aabb, segment};
+use selvedge_verification::culling::{certified, verdict};
+use selvedge_verification::generator::{
+    Format, Moment, PairCase, check, extraordinary_pairs, from_choices, pairs, pairs_of_any_kind,
+    touching_pairs,
+};
+use selvedge_verification::oracle::{Kind, collides};
+
+/// Needs no oracle: the pair touches by construction.
+fn nothing_certified_culls_a_pair_built_to_touch<S: Format>(
+    moment: Moment<S>,
+) -> Result<(), TestCaseError> {
+    let pair = moment.pair();
+    for test in certified() {
+        prop_assert!(!verdict(test, &pair).is_culled(), "{test:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn nothing_certified_culls_a_pair_built_to_touch_f64() {
+    check(
+        150_000,
+        touching_pairs::<f64>(),
+        nothing_certified_culls_a_pair_built_to_touch,
+    );
+}
+
+#[test]
+fn nothing_certified_culls_a_pair_built_to_touch_f32() {
+    check(
+        150_000,
+        touching_pairs::<f32>(),
+        nothing_certified_culls_a_pair_built_to_touch,
+    );
+}
+
+fn nothing_certified_culls_what_collides<S: Format>(
+    pair: PairCase<S>,
+) -> Result<(), TestCaseError> {
+    let culling: Vec<CullingTest> = certified()
+        .filter(|&test| verdict(test, &pair).is_culled())
+        .collect();
+    if !culling.is_empty() {
+        prop_assert!(
+            collides(&pair.question()).is_none(),
+            "culled by {culling:?}"
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn nothing_certified_culls_what_collides_f64() {
+    check(
+        60_000,
+        pairs_of_any_kind::<f64>(),
+        nothing_certified_culls_what_collides,
+    );
+}
+
+#[test]
+fn nothing_certified_culls_what_collides_f32() {
+    check(
+        60_000,
+        pairs_of_any_kind::<f32>(),
+        nothing_certified_culls_what_collides,
+    );
+}
+
+fn nothing_certified_culls_what_is_not_finite<S: Format>(
+    pair: PairCase<S>,
+) -> Result<(), TestCaseError> {
+    if pair.is_finite() {
+        return nothing_certified_culls_what_collides(pair);
+    }
+    for test in certified() {
+        prop_assert!(!verdict(test, &pair).is_culled(), "{test:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn nothing_certified_culls_nan_or_infinity_f64() {
+    check(
+        40_000,
+        extraordinary_pairs::<f64>(),
+        nothing_certified_culls_what_is_not_finite,
+    );
+}
+
+#[test]
+fn nothing_certified_culls_nan_or_infinity_f32() {
+    check(
+        40_000,
+        extraordinary_pairs::<f32>(),
+        nothing_certified_culls_what_is_not_finite,
+    );
+}
+
+/// From loose to strong.
+fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(
+    pair: PairCase<S>,
+) -> Result<(), TestCaseError> {
+    let culls = |test| verdict(test, &pair).is_culled();
+    for (weak, strong) in [
+        (SweptBoxes, RelativeBoxes),
+        (RelativeBoxes, RelativeBoxesNine),
+        (SweptBoxes, StoredDop18),
+        (StoredDop18, RelativeBoxesNine),
+        (SweptBoxes, SegmentBox),
+    ] {
+        prop_assert!(
+            !culls(weak) || culls(strong),
+            "{weak:?} culls, {strong:?} does not"
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn stronger_tests_cull_what_weaker_ones_cull_f64() {
+    check(
+        100_000,
+        pairs_of_any_kind::<f64>(),
+        stronger_tests_cull_what_weaker_ones_cull,
+    );
+}
+
+#[test]
+fn stronger_tests_cull_what_weaker_ones_cull_f32() {
+    check(
+        100_000,
+        pairs_of_any_kind::<f32>(),
+        stronger_tests_cull_what_weaker_ones_cull,
+    );
+}
+
+type RationalPoint = [Rational; 3];
+
+fn rational<S: Format>(position: [S; 3]) -> RationalPoint {
+    position.map(|x| Rational::from_f64(x.to_f64()).expect("finite"))
+}
+
+/// Whether `direction` · x strictly separates the two sets, in the same order at both ends. From the definition.
+fn keeps_order<S: Format>(pair: &PairCase<S>, direction: [i32; 3]) -> bool {
+    let first = if pair.kind == Kind::VertexFace { 1 } else { 2 };
+    let heights = pair.points.map(|ends| {
+        ends.map(|position| {
+            let terms = rational(position).into_iter().zip(direction);
+            terms.map(|(x, d)| x * d).sum::<Rational>()
+        })
+    });
+    let (one, other) = heights.split_at(first);
+    let below = |low: &[[Rational; 2]], high: &[[Rational; 2]]| {
+        low.iter()
+            .all(|low| high.iter().all(|high| low[0] < high[0] && low[1] < high[1]))
+    };
+    below(one, other) || below(other, one)
+}
+
+const AXES: [[i32; 3]; 3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+const DIAGONALS: [[i32; 3]; 6] = [
+    [1, 1, 0],
+    [1, -1, 0],
+    [1, 0, 1],
+    [1, 0, -1],
+    [0, 1, 1],
+    [0, 1, -1],
+];
+
+fn relative_boxes_are_what_they_say<S: Format>(pair: PairCase<S>) -> Result<(), TestCaseError> {
+    let on_an_axis = AXES.iter().any(|&axis| keeps_order(&pair, axis));
+    prop_assert_eq!(verdict(RelativeBoxes, &pair).is_culled(), on_an_axis);
+    if verdict(RelativeBoxesNine, &pair).is_culled() {
+        prop_assert!(
+            on_an_axis
+                || DIAGONALS
+                    .iter()
+                    .any(|&diagonal| keeps_order(&pair, diagonal))
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn relative_boxes_cull_exactly_on_axes_and_soundly_on_diagonals_f64() {
+    check(
+        15_000,
+        pairs_of_any_kind::<f64>(),
+        relative_boxes_are_what_they_say,
+    );
+}
+
+#[test]
+fn relative_boxes_cull_exactly_on_axes_and_soundly_on_diagonals_f32() {
+    check(
+        15_000,
+        pairs_of_any_kind::<f32>(),
+        relative_boxes_are_what_they_say,
+    );
+}
+
+/// Small whole numbers: sums do not round, so the diagonals are exact, too.
+#[test]
+fn relative_boxes_are_exact_on_all_nine_directions_where_sums_are() {
+    let small = from_choices(|choices| {
+        let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
+        let limit = choices.pick(&[2, 5, 100]);
+        let points = std::array::from_fn(|_| {
+            std::array::from_fn(|_| std::array::from_fn(|_| choices.within(limit) as f64))
+        });
+        PairCase::<f64>::new(kind, points)
+    });
+    check(10_000, small, |pair| {
+        let separated = AXES
+            .iter()
+            .chain(&DIAGONALS)
+            .any(|&direction| keeps_order(&pair, direction));
+        prop_assert_eq!(verdict(RelativeBoxesNine, &pair).is_culled(), separated);
+        Ok(())
+    });
+}
+
+/// Whether the closed segment meets the closed box: the part of it within each slab, in exact arithmetic.
+fn segment_meets_box(ends: &[RationalPoint; 2], [lower, upper]: &[RationalPoint; 2]) -> bool {
+    let (mut enter, mut leave) = (Rational::from(0), Rational::from(1));
+    for axis in 0..3 {
+        let start = &ends[0][axis];
+        let along = Rational::from(&ends[1][axis] - start);
+        if along.is_zero() {
+            if *start < lower[axis] || *start > upper[axis] {
+                return false;
+            }
+            continue;
+        }
+        let mut times =
+            [&lower[axis], &upper[axis]].map(|bound| Rational::from(bound - start) / &along);
+        times.sort();
+        let [first, last] = times;
+        enter = enter.max(first);
+        leave = leave.min(last);
+    }
+    enter <= leave
+}
+
+fn swept_bounds<S: Format>(pair: &PairCase<S>) -> [RationalPoint; 2] {
+    let all = || pair.points[1..].iter().flatten().copied().map(rational);
+    [
+        std::array::from_fn(|axis| all().map(|x| x[axis].clone()).min().expect("six")),
+        std::array::from_fn(|axis| all().map(|x| x[axis].clone()).max().expect("six")),
+    ]
+}
+
+fn a_path_that_meets_the_box_is_kept<S: Format>(pair: PairCase<S>) -> Result<(), TestCaseError> {
+    if verdict(SegmentBox, &pair).is_culled() {
+        prop_assert!(!segment_meets_box(
+            &pair.points[0].map(rational),
+            &swept_bounds(&pair)
+        ));
+    }
+    Ok(())
+}
+
+#[test]
+fn a_path_that_meets_the_swept_box_is_kept_f64() {
+    check(
+        100_000,
+        pairs::<f64>(Kind::VertexFace),
+        a_path_that_meets_the_box_is_kept,
+    );
+}
+
+#[test]
+fn a_path_that_meets_the_swept_box_is_kept_f32() {
+    check(
+        100_000,
+        pairs::<f32>(Kind::VertexFace),
+        a_path_that_meets_the_box_is_kept,
+    );
+}
+
+/// A path through a chosen point of a chosen edge, corner or face of the box: touches it by construction, and rounding is
+/// free to move every product.
+fn a_path_through_the_border_of_the_box_is_kept<S: Format>(
+    (corner, size, place, direction, times): ([i16; 3], [u8; 3], [u8; 3], [i16; 3], [u8; 2]),
+) -> Result<(), TestCaseError> {
+    let number = |whole: i64| S::exact(whole, -3);
+    let [corner, direction] = [corner, direction].map(|x| x.map(i64::from));
+    // Up to 4 / 4 of the way along each side.
+    let through: [i64; 3] = std::array::from_fn(|axis| {
+        4 * corner[axis] + i64::from(size[axis]) * i64::from(place[axis] % 5)
+    });
+    let path: [[S; 3]; 2] = [-i64::from(times[0]), i64::from(times[1])]
+        .map(|time| std::array::from_fn(|axis| number(through[axis] + time * direction[axis])));
+    let target = Aabb {
+        lower: corner.map(|x| number(4 * x)),
+        upper: std::array::from_fn(|axis| number(4 * corner[axis] + 4 * i64::from(size[axis]))),
+    };
+    let motion = Motion {
+        start: path[0].into(),
+        end: path[1].into(),
+    };
+    prop_assert!(!segment::misses(&motion, &target));
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 64 * ProptestConfig::default().cases,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn a_path_through_the_border_of_the_box_is_kept_f64(case in any::<([i16; 3], [u8; 3], [u8; 3], [i16; 3], [u8; 2])>()) {
+        a_path_through_the_border_of_the_box_is_kept::<f64>(case)?;
+    }
+
+    /// 24 bits hold all of the numbers: 18 for the corner, 23 for the path.
+    #[test]
+    fn a_path_through_the_border_of_the_box_is_kept_f32(case in any::<([i16; 3], [u8; 3], [u8; 3], [i16; 3], [u8; 2])>()) {
+        a_path_through_the_border_of_the_box_is_kept::<f32>(case)?;
+    }
+}
+
+/// Numbers up to 8 on a grid of 2⁻¹⁰. If the path misses the box made larger by 2⁻⁷ on all sides, then on a cross axis of the
+/// box itself s > 2⁻⁷(|d_j| + |d_k|), while the error bound is at most 4u·32(|d_j| + |d_k|) + η: far less, as long as d is not
+/// zero, and then a box axis separates.
+fn a_path_clearly_past_the_box_is_culled<S: Format>() {
+    let paths = from_choices(|choices| {
+        let points = std::array::from_fn(|_| {
+            std::array::from_fn(|_| {
+                std::array::from_fn(|_| {
+                    let whole = (choices.word() % 16_385) as i64 - 8192;
+                    S::exact(whole, -10)
+                })
+            })
+        });
+        PairCase::<S>::new(Kind::VertexFace, points)
+    });
+    let culled = std::cell::Cell::new(0);
+    check(10_000, paths, |pair| {
+        let [lower, upper] = swept_bounds(&pair);
+        let margin = Rational::from((1, 128));
+        let larger = [lower.map(|x| x - &margin), upper.map(|x| x + &margin)];
+        if !segment_meets_box(&pair.points[0].map(rational), &larger) {
+            prop_assert!(verdict(SegmentBox, &pair).is_culled());
+            culled.set(culled.get() + u32::from(!verdict(SweptBoxes, &pair).is_culled()));
+        }
+        Ok(())
+    });
+    assert!(culled.get() > 10, "cross axes must matter: {culled:?}");
+}
+
+#[test]
+fn a_path_clearly_past_the_box_is_culled_f64() {
+    a_path_clearly_past_the_box_is_culled::<f64>();
+}
+
+#[test]
+fn a_path_clearly_past_the_box_is_culled_f32() {
+    a_path_clearly_past_the_box_is_culled::<f32>();
+}

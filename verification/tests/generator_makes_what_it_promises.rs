@@ -1,0 +1,182 @@
+//! The generator of the other tests' inputs: exact where it says so, and never dull.
+
+use proptest::prelude::*;
+use selvedge::pipeline::CullingTest::CertifiedNonCoplanarity;
+use selvedge_verification::culling::verdict;
+use selvedge_verification::generator::{
+    Choices, Format, Meeting, MeshCase, Moment, PairCase, Simplify, check, coplanar_pairs,
+    from_choices, meshes, pairs_of_any_kind, touching_pairs,
+};
+use selvedge_verification::oracle::{Kind, collides, coplanar, touches_at};
+use std::cell::Cell;
+
+fn touches_when_it_says<S: Format>(moment: Moment<S>) -> Result<(), TestCaseError> {
+    prop_assert!(touches_at(&moment.pair().question(), &moment.time()));
+    Ok(())
+}
+
+#[test]
+fn a_touching_pair_touches_at_its_time_f64() {
+    check(4000, touching_pairs::<f64>(), touches_when_it_says);
+}
+
+#[test]
+fn a_touching_pair_touches_at_its_time_f32() {
+    check(4000, touching_pairs::<f32>(), touches_when_it_says);
+}
+
+fn is_coplanar<S: Format>(moment: Moment<S>) -> Result<(), TestCaseError> {
+    let pair = moment.pair().question();
+    prop_assert!(coplanar(&pair.start, &pair.end));
+    Ok(())
+}
+
+#[test]
+fn a_coplanar_pair_is_coplanar_f64() {
+    check(4000, coplanar_pairs::<f64>(), is_coplanar);
+}
+
+#[test]
+fn a_coplanar_pair_is_coplanar_f32() {
+    check(4000, coplanar_pairs::<f32>(), is_coplanar);
+}
+
+#[test]
+fn any_bytes_make_a_pair_of_finite_coordinates() {
+    let bytes = prop::collection::vec(any::<u8>(), 0..700);
+    proptest!(|(bytes in bytes)| {
+        for kind in [Kind::VertexFace, Kind::EdgeEdge] {
+            prop_assert!(PairCase::<f32>::from_bytes(kind, &bytes).is_finite());
+            prop_assert!(PairCase::<f64>::from_bytes(kind, &bytes).is_finite());
+        }
+        prop_assert!(!MeshCase::<f64>::from_bytes(&bytes).triangles.is_empty());
+    });
+}
+
+/// A share of `cases` pairs of either kind in parts of a thousand.
+fn share<S: Format>(cases: u32, of: impl Fn(&PairCase<S>) -> bool) -> u32 {
+    let (all, found) = (Cell::new(0), Cell::new(0));
+    check(cases, pairs_of_any_kind::<S>(), |pair| {
+        all.set(all.get() + 1);
+        found.set(found.get() + u32::from(of(&pair)));
+        Ok(())
+    });
+    1000 * found.get() / all.get()
+}
+
+#[test]
+fn pairs_are_culled_coplanar_and_colliding_often_enough_f64() {
+    assert!(
+        share::<f64>(3000, |pair| verdict(CertifiedNonCoplanarity, pair)
+            .is_culled())
+            > 30
+    );
+    assert!(share::<f64>(3000, |pair| collides(&pair.question()).is_some()) > 200);
+}
+
+#[test]
+fn pairs_are_culled_coplanar_and_colliding_often_enough_f32() {
+    assert!(
+        share::<f32>(3000, |pair| verdict(CertifiedNonCoplanarity, pair)
+            .is_culled())
+            > 30
+    );
+    assert!(share::<f32>(3000, |pair| collides(&pair.question()).is_some()) > 200);
+}
+
+#[test]
+fn meshes_are_degenerate_non_manifold_and_incomplete_often_enough() {
+    let counts = Cell::new([0; 4]);
+    check(1000, meshes::<f64>(), |mesh| {
+        let statistics = mesh.topology().statistics();
+        let found = [
+            statistics.degenerate_triangles,
+            statistics.duplicate_triangles,
+            statistics.non_manifold_edges,
+            statistics.isolated_vertices,
+        ];
+        let mut sums = counts.get();
+        for (sum, found) in sums.iter_mut().zip(found) {
+            *sum += u32::from(found > 0);
+        }
+        counts.set(sums);
+        Ok(())
+    });
+    assert!(
+        counts.get().into_iter().all(|count| count > 50),
+        "{counts:?}"
+    );
+}
+
+/// Follows every success of an attempt to simplify, as proptest does.
+fn simplest<T: Simplify>(mut case: T, fails: impl Fn(&T) -> bool) -> T {
+    'again: loop {
+        for attempt in 0..case.attempts() {
+            if let Some(simpler) = case.simpler(attempt).filter(&fails) {
+                case = simpler;
+                continue 'again;
+            }
+        }
+        return case;
+    }
+}
+
+#[test]
+fn shrinking_ends_in_a_pair_of_small_numbers() {
+    let culled = |pair: &PairCase<f64>| verdict(CertifiedNonCoplanarity, pair).is_culled();
+    let mut culled_pairs = 0;
+    let mut state = 1_u64;
+    for _ in 0..2000 {
+        let bytes: [u8; Choices::ENOUGH] = std::array::from_fn(|_| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 56) as u8
+        });
+        let pair = PairCase::from_bytes(Kind::EdgeEdge, &bytes);
+        if culled(&pair) {
+            culled_pairs += 1;
+            let simplest = simplest(pair, culled);
+            let small = |x: f64| x == x.round() && x.abs() <= 4.0;
+            let count = simplest.coordinates().filter(|&x| small(x)).count();
+            assert!(count >= 20, "{simplest:?}");
+        }
+    }
+    assert!(culled_pairs > 20, "{culled_pairs} are too few to tell");
+}
+
+#[test]
+fn shrinking_a_meeting_keeps_it() {
+    let strategy =
+        from_choices(|choices| Moment::<f32>::choose(Kind::VertexFace, Meeting::Touching, choices));
+    check(300, strategy, |moment| {
+        for attempt in 0..moment.attempts() {
+            if let Some(simpler) = moment.simpler(attempt) {
+                prop_assert!(touches_at(&simpler.pair().question(), &simpler.time()));
+            }
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn a_case_prints_as_the_rust_that_makes_it() {
+    let points = [
+        [[0.1, 0.0, -0.0], [5e-324, 1.0, f64::INFINITY]],
+        [[0.0; 3], [0.0; 3]],
+        [[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
+        [[0.0, 1.0, 0.0], [0.0, 1e300, f64::NAN]],
+    ];
+    let text = format!("{:?}", PairCase::new(Kind::VertexFace, points));
+    assert_eq!(
+        text,
+        "VertexFace::<f64> {
+    vertex: Motion::from(([0.1, 0.0, -0.0], [5e-324, 1.0, f64::INFINITY])),
+    face: [
+        Motion::from(([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])),
+        Motion::from(([1.0, 0.0, 0.0], [1.0, 0.0, 0.0])),
+        Motion::from(([0.0, 1.0, 0.0], [0.0, 1e300, f64::NAN])),
+    ],
+}"
+    );
+}

@@ -1,0 +1,246 @@
+//! Contact and separation of primitive pairs in motion, against clipping and against stepping.
+
+mod support;
+
+use proptest::prelude::*;
+use rug::Rational;
+use selvedge_verification::oracle::{Kind, Pair, collides, touches_at, within};
+use support::distance::{SLACK, advance, distance};
+use support::{at, common_part};
+
+fn kind() -> impl Strategy<Value = Kind> {
+    prop_oneof![Just(Kind::VertexFace), Just(Kind::EdgeEdge)]
+}
+
+fn pair_of(coordinate: impl Strategy<Value = f64> + Clone) -> impl Strategy<Value = Pair> {
+    let positions = || prop::array::uniform4(prop::array::uniform3(coordinate.clone()));
+    (kind(), positions(), positions()).prop_map(|(kind, start, end)| Pair { kind, start, end })
+}
+
+/// Few values: every degeneracy is common.
+fn grid_pair() -> impl Strategy<Value = Pair> {
+    pair_of((-1..=1).prop_map(f64::from).boxed())
+}
+
+/// The same in a plane: the points are coplanar throughout.
+fn flat_pair() -> impl Strategy<Value = Pair> {
+    (pair_of((-2..=2).prop_map(f64::from).boxed()), 0..3_usize).prop_map(|(mut pair, axis)| {
+        pair.start
+            .iter_mut()
+            .chain(&mut pair.end)
+            .for_each(|p| p[axis] = 1.0);
+        pair
+    })
+}
+
+/// On a line, so that every triangle and every pair of edges is degenerate.
+fn straight_pair() -> impl Strategy<Value = Pair> {
+    pair_of((-3..=3).prop_map(f64::from).boxed()).prop_map(|mut pair| {
+        let on_line = |p: &mut [f64; 3]| *p = [p[0], 1.0 - p[0], 2.0 * p[0]];
+        pair.start.iter_mut().chain(&mut pair.end).for_each(on_line);
+        pair
+    })
+}
+
+/// Grid values, some of them an ulp off, tiny or huge.
+fn rough_pair() -> impl Strategy<Value = Pair> {
+    let whole = (-2..=2).prop_map(f64::from);
+    let coordinate = prop_oneof![
+        6 => whole.clone(),
+        1 => whole.clone().prop_map(f64::next_up),
+        1 => whole.prop_map(f64::next_down),
+        2 => -2.0..2.0,
+        1 => (-2.0..2.0).prop_map(|x: f64| x * 1e-310),
+        1 => (-2.0..2.0).prop_map(|x: f64| x * 1e300),
+    ];
+    pair_of(coordinate.boxed())
+}
+
+fn any_pair() -> impl Strategy<Value = Pair> {
+    prop_oneof![3 => grid_pair(), 1 => flat_pair(), 1 => straight_pair(), 2 => rough_pair()]
+}
+
+/// Contact at a rational time, found by construction instead of signs.
+fn touches_by_clipping(pair: &Pair, t: &Rational) -> bool {
+    let points: Vec<_> = (0..4).map(|i| at(pair.start[i], pair.end[i], t)).collect();
+    let (first, second) = points.split_at(match pair.kind {
+        Kind::VertexFace => 1,
+        Kind::EdgeEdge => 2,
+    });
+    !common_part(first, second).is_empty()
+}
+
+/// All times of the step with a denominator of at most 8.
+fn sample_times() -> Vec<Rational> {
+    let mut times: Vec<_> = (1..=8)
+        .flat_map(|q| (0..=q).map(move |p| Rational::from((p, q))))
+        .collect();
+    times.sort();
+    times.dedup();
+    times
+}
+
+/// The sampled contacts are found, none of them before the reported time, and what is reported is one.
+fn check_against_clipping(pair: &Pair) -> Result<(), TestCaseError> {
+    let earliest = collides(pair);
+    for t in sample_times() {
+        let touches = touches_by_clipping(pair, &t);
+        prop_assert_eq!(touches_at(pair, &t), touches, "static test at t = {}", t);
+        if touches {
+            let found = earliest
+                .as_ref()
+                .is_some_and(|time| time.cmp_rational(&t).is_le());
+            prop_assert!(
+                found,
+                "contact at t = {} missed, reported {:?}",
+                t,
+                earliest
+            );
+        }
+    }
+    if let Some(t) = earliest.as_ref().and_then(|time| time.as_rational()) {
+        prop_assert!(
+            touches_by_clipping(pair, t),
+            "no contact at the reported t = {}",
+            t
+        );
+    }
+    Ok(())
+}
+
+/// The earliest time is where stepping ends.
+fn check_against_stepping(pair: &Pair) -> Result<(), TestCaseError> {
+    let stepped = advance(pair, 0.0);
+    match collides(pair) {
+        None => prop_assert_eq!(stepped, None, "stepping finds a contact"),
+        Some(mut time) => {
+            let t = time.to_f64_down();
+            prop_assert!(distance(pair, t) < 1e-12, "no contact at t = {}", t);
+            // The slack is met earlier than contact; earlier by its cube root in the
+            // slowest approach there is, that of a triple root.
+            let before = stepped.map(|s| t - s);
+            prop_assert!(
+                before.is_some_and(|b| (-1e-12..5e-3).contains(&b)),
+                "{:?}",
+                before
+            );
+            time.refine(100);
+            let [low, high] = time.interval();
+            prop_assert!(time.cmp_rational(&low).is_ge() && time.cmp_rational(&high).is_le());
+            prop_assert!(high - low <= Rational::from(1) >> 100);
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2_000))]
+
+    #[test]
+    fn contacts_on_a_grid_are_those_of_clipping(pair in grid_pair()) {
+        check_against_clipping(&pair)?;
+    }
+
+    #[test]
+    fn contacts_in_a_plane_are_those_of_clipping(pair in flat_pair()) {
+        check_against_clipping(&pair)?;
+    }
+
+    #[test]
+    fn contacts_on_a_line_are_those_of_clipping(pair in straight_pair()) {
+        check_against_clipping(&pair)?;
+    }
+
+    #[test]
+    fn contacts_of_rough_numbers_are_those_of_clipping(pair in rough_pair()) {
+        check_against_clipping(&pair)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2_000))]
+
+    #[test]
+    fn earliest_contact_on_a_grid_is_where_stepping_ends(pair in grid_pair()) {
+        check_against_stepping(&pair)?;
+    }
+
+    #[test]
+    fn earliest_contact_in_a_plane_is_where_stepping_ends(pair in flat_pair()) {
+        check_against_stepping(&pair)?;
+    }
+
+    #[test]
+    fn earliest_contact_on_a_line_is_where_stepping_ends(pair in straight_pair()) {
+        check_against_stepping(&pair)?;
+    }
+
+    #[test]
+    fn within_is_where_stepping_ends(
+        pair in prop_oneof![grid_pair(), flat_pair(), straight_pair()],
+        separation in 0.01..1.5,
+    ) {
+        if advance(&pair, separation).is_none() {
+            prop_assert!(!within(&pair, separation));
+        } else if advance(&pair, separation - 2.0 * SLACK).is_some() {
+            prop_assert!(within(&pair, separation));
+        }
+    }
+
+    #[test]
+    fn within_nothing_is_contact(pair in any_pair()) {
+        prop_assert_eq!(within(&pair, 0.0), collides(&pair).is_some());
+    }
+
+    #[test]
+    fn within_does_not_lose_pairs_as_the_separation_grows(
+        pair in any_pair(), small in 0.0..2.0, more in 0.0..1.0,
+    ) {
+        prop_assert!(!within(&pair, small) || within(&pair, small + more));
+    }
+
+    #[test]
+    fn earliest_contact_does_not_depend_on_how_the_pair_is_written(
+        pair in any_pair(), order in 0..6_usize, swap in any::<bool>(), axes in Just([0, 1, 2]).prop_shuffle(),
+        mirror in prop::array::uniform3(any::<bool>()),
+    ) {
+        let written = match pair.kind {
+            Kind::VertexFace => [
+                [0, 1, 2, 3], [0, 2, 3, 1], [0, 3, 1, 2], [0, 1, 3, 2], [0, 2, 1, 3], [0, 3, 2, 1],
+            ][order],
+            Kind::EdgeEdge => {
+                let [a, b] = [[0, 1], [1, 0]][order % 2];
+                let [c, d] = [[2, 3], [3, 2]][order / 2 % 2];
+                if swap { [c, d, a, b] } else { [a, b, c, d] }
+            }
+        };
+        let rewrite = |points: &[[f64; 3]; 4]| written.map(|i| {
+            let turned = axes.map(|axis| points[i][axis]);
+            std::array::from_fn(|axis| if mirror[axis] { -turned[axis] } else { turned[axis] })
+        });
+        let other = Pair { kind: pair.kind, start: rewrite(&pair.start), end: rewrite(&pair.end) };
+        prop_assert_eq!(collides(&pair), collides(&other));
+    }
+
+    #[test]
+    fn earliest_contact_does_not_depend_on_the_unit_of_length(pair in grid_pair(), power in -1074..1023) {
+        // In two factors, for neither of them is subnormal.
+        let unit = 2_f64.powi(power / 2) * 2_f64.powi(power - power / 2);
+        let scale = |points: &[[f64; 3]; 4]| points.map(|p| p.map(|x| x * unit));
+        let other = Pair { kind: pair.kind, start: scale(&pair.start), end: scale(&pair.end) };
+        prop_assert_eq!(collides(&pair), collides(&other));
+    }
+
+    #[test]
+    fn contact_does_not_depend_on_the_direction_of_time(pair in any_pair()) {
+        let back = Pair { kind: pair.kind, start: pair.end, end: pair.start };
+        let (forth, back) = (collides(&pair), collides(&back));
+        prop_assert_eq!(forth.is_some(), back.is_some());
+        if let (Some(first), Some(last)) = (forth, back) {
+            // The first contact backwards is the last one forwards.
+            let [low, _] = first.interval();
+            let [from_end, _] = last.interval();
+            prop_assert!(low + from_end <= 1);
+        }
+    }
+}
