@@ -1,6 +1,7 @@
 //! Finds which vertex–face and edge–edge pairs of a deforming triangle mesh can collide during a time step.
 
 pub mod broad_phase;
+pub mod dispatch;
 #[cfg(feature = "files")]
 mod excerpt;
 pub mod mesh;

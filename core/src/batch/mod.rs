@@ -36,8 +36,9 @@ use crate::filter;
 use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape};
+use crate::scalar::Scalar;
 use fearless_simd::{Simd, dispatch};
-pub use simd::BatchScalar;
+pub(crate) use simd::BatchScalar;
 
 /// How many pairs go side by side.
 pub const LANES: usize = 16;
@@ -77,7 +78,7 @@ impl Test {
 
 /// Which of `pairs` `test` culls, sixteen to a mask. Masks past the last pair are not touched; pairs past the last mask
 /// are not looked at.
-pub fn culled<S: BatchScalar, P: PrimitivePair<S>>(
+pub fn culled<S: Scalar, P: PrimitivePair<S>>(
     level: Level,
     test: Test,
     pairs: &[P],
@@ -97,7 +98,7 @@ pub fn culled<S: BatchScalar, P: PrimitivePair<S>>(
 ///
 /// The four indices of a pair are those of its vertices: vertex, face; or first edge, second edge. Pairs that follow
 /// one another should name rows that are close in memory.
-pub fn culled_from_rows<S: BatchScalar, P: PairShape>(
+pub fn culled_from_rows<S: Scalar, P: PairShape>(
     level: Level,
     test: Test,
     rows: &[VertexRow<S>],
@@ -108,7 +109,7 @@ pub fn culled_from_rows<S: BatchScalar, P: PairShape>(
 }
 
 #[inline(always)]
-fn culled_from_rows_with<S: BatchScalar, P: PairShape, V: Simd>(
+fn culled_from_rows_with<S: Scalar, P: PairShape, V: Simd>(
     simd: V,
     test: Test,
     rows: &[VertexRow<S>],

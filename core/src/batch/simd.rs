@@ -3,14 +3,13 @@
 use super::{LANES, Mask, Test, VertexRow};
 use crate::lanes::Lanes;
 use crate::points::{PairPoints, PairShape};
-use crate::scalar::Scalar;
 use crate::vector::Vector;
 use fearless_simd::{
     ExtractToken, Simd, SimdBase, SimdCombine, SimdFrom, SimdMask, f32x8, f32x16, f64x8,
 };
 
-/// `f32` or `f64`, with its vectors.
-pub trait BatchScalar: Scalar {
+/// What [`Scalar`](crate::Scalar) needs to go sixteen at a time.
+pub trait BatchScalar: Copy {
     /// Runs `test` on sixteen pairs.
     #[doc(hidden)]
     fn sixteen<V: Simd, P: PairShape>(
