@@ -4,8 +4,10 @@
 //! |---|---|
 //! | [`oracle`] | exact answers, from the definitions alone |
 //! | [`generator`] | inputs, biased to what breaks floating-point geometry; for property tests and fuzz targets |
+//! | [`minifloat`] | a number format of a few bits, in which every input of a grid can be tried |
 //! | [`culling`] | core's culling tests by name, one pair at a time |
 
 pub mod culling;
 pub mod generator;
+pub mod minifloat;
 pub mod oracle;

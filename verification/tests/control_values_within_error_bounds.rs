@@ -255,14 +255,14 @@ fn compared<S: Format>(pair: &PairCase<S>) -> Result<Option<Compared>, TestCaseE
 /// Each monomial passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂). Products that underflow lose η₀ each: two for
 /// a component of n, four for one of h; once more through the last six additions at most.
 fn control_values_are_off_by_no_more_than_their_roundings<S: Format>(
-    pair: PairCase<S>,
+    pair: &PairCase<S>,
 ) -> Result<(), TestCaseError> {
     let Some(Compared {
         computed,
         exact,
         largest_p,
         ..
-    }) = compared(&pair)?
+    }) = compared(pair)?
     else {
         return Ok(());
     };
@@ -304,14 +304,14 @@ fn control_values_are_off_by_no_more_than_their_roundings_f32() {
 
 /// The promise that the filter stands on, for each of the four alone.
 fn a_control_value_beyond_its_bound_has_the_exact_sign<S: Format>(
-    pair: PairCase<S>,
+    pair: &PairCase<S>,
 ) -> Result<(), TestCaseError> {
     let Some(Compared {
         computed,
         bounds,
         exact,
         ..
-    }) = compared(&pair)?
+    }) = compared(pair)?
     else {
         return Ok(());
     };
@@ -346,19 +346,21 @@ fn a_control_value_beyond_its_bound_has_the_exact_sign_f32() {
     );
 }
 
-/// Eᵢ = Cᵢ·P̂ᵢ + (p_max + 1)·η with C = 8u, 10u and η = 32·η₀, but for the bound's own 13 roundings at most and what its
+/// Eᵢ = Cᵢ·P̂ᵢ + (p_max + 1)·η with C = 8u, 10u, but for the bound's own 13 roundings at most and what its
 /// products lose by underflow, which is less than an eighth of the last term.
-fn error_bounds_are_the_documented_ones<S: Format>(pair: PairCase<S>) -> Result<(), TestCaseError> {
+fn error_bounds_are_the_documented_ones<S: Format>(
+    pair: &PairCase<S>,
+) -> Result<(), TestCaseError> {
     let Some(Compared {
         bounds,
         exact,
         largest_p,
         ..
-    }) = compared(&pair)?
+    }) = compared(pair)?
     else {
         return Ok(());
     };
-    let eta = lost_by_underflow::<S>() * 32_u32;
+    let eta = rational(S::UNDERFLOW);
     let slack = relative_error::<S>(13) + 1_u32;
     for (k, (bound, exact)) in bounds.iter().zip(&exact).enumerate() {
         let count = if k == 0 || k == 3 { 8_u32 } else { 10 };

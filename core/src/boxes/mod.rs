@@ -83,7 +83,7 @@ use crate::verdict::Verdict;
 
 /// Culls `pair` if the swept boxes of its two sets do not overlap. Exact; boxes that touch overlap.
 ///
-/// NaN and infinite coordinates keep the pair.
+/// NaN and infinite coordinates keep the pair, and so do coordinates so large that their sum overflows.
 #[inline(always)]
 pub fn swept_boxes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
     Verdict::culled_if(have_disjoint_swept_boxes::<P::Shape, S>(&pair.points()))

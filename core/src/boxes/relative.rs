@@ -15,7 +15,7 @@ use crate::verdict::Verdict;
 
 /// Culls `pair` if one coordinate axis keeps its two sets apart, in the same order, throughout the step.
 ///
-/// Exact. NaN and infinite coordinates keep the pair.
+/// Exact. NaN and infinite coordinates keep the pair, and so do coordinates so large that their sum overflows.
 ///
 /// ```
 /// use selvedge_core::{boxes::{relative, swept_boxes}, glam::DVec3, Motion, Verdict, VertexFace};

@@ -43,7 +43,11 @@ pub(super) fn round(numerator: &[u8], denominator: &[u8]) -> Result<Rounded, Rat
             let (value, exact) = RBig::from_parts_signed(num, den)
                 .to_f64()
                 .value_with_exact();
-            Rounded { value, exact }
+            // A negative ratio that underflows would become -0.
+            Rounded {
+                value: value + 0.0,
+                exact,
+            }
         }
     })
 }
@@ -189,6 +193,16 @@ mod tests {
                 Err(RatioError::DenominatorNotAnInteger),
                 "{text:?}"
             );
+        }
+    }
+
+    #[test]
+    fn zero_is_positive_even_where_a_negative_ratio_underflows() {
+        let tiny = format!("1{}", "0".repeat(400));
+        for (numerator, denominator) in [("-1", tiny.as_str()), ("0", "-1"), ("-0", &tiny)] {
+            let zero = round(numerator.as_bytes(), denominator.as_bytes()).unwrap();
+            assert_eq!(zero.value.to_bits(), 0);
+            assert_eq!(zero.exact, numerator != "-1");
         }
     }
 

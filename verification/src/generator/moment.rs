@@ -191,7 +191,9 @@ impl<S: Format> Simplify for Moment<S> {
             20..32 => simpler.velocity[(attempt - 20) / 3][(attempt - 20) % 3] /= 2,
             _ => simpler.offset[attempt - 32] /= 2,
         }
-        (simpler.complexity() < self.complexity()).then_some(simpler)
+        // Another time or velocity may take a position that was just within the format out of it.
+        let fits = simpler.largest() < 1 << S::PRECISION;
+        (fits && simpler.complexity() < self.complexity()).then_some(simpler)
     }
 }
 

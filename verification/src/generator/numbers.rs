@@ -125,6 +125,11 @@ impl Format for f64 {
     }
 }
 
+/// The power of two below the number's magnitude; far below for zero.
+pub(super) fn binary_exponent<S: Format>(number: S) -> i32 {
+    (number.to_f64().to_bits() >> 52 & 0x7ff) as i32 - 1023
+}
+
 /// A power of two by which whole numbers are scaled: most often none, else to where numbers, or products of three of
 /// them, underflow or overflow.
 pub(super) fn exponent<S: Format>(choices: &mut Choices<'_>) -> i32 {
@@ -135,7 +140,9 @@ pub(super) fn exponent<S: Format>(choices: &mut Choices<'_>) -> i32 {
         8 => near,
         9 => S::MIN_EXPONENT,
         10 => S::MIN_EXPONENT + near.abs(),
-        11 | 12 => S::MIN_EXPONENT / 3 + near,
+        11 => S::MIN_EXPONENT / 3 + near,
+        // Where the filter's underflow term matters.
+        12 => binary_exponent(S::UNDERFLOW) / 3 + near,
         13 => S::MAX_EXPONENT / 3 - S::PRECISION.cast_signed() + 4 * near,
         14 => highest,
         _ => (choices.word() % (S::MAX_EXPONENT - S::MIN_EXPONENT) as u64) as i32 + S::MIN_EXPONENT,

@@ -1,6 +1,6 @@
 //! Primitive pairs of every shape that is known to be hard.
 
-use super::numbers::{exponent, extraordinary, finite, fraction};
+use super::numbers::{binary_exponent, exponent, extraordinary, finite, fraction};
 use super::strategy::Simplify;
 use super::{Choices, Format, Meeting, Moment, PairCase};
 use crate::oracle::Kind;
@@ -350,9 +350,4 @@ pub(super) fn complexity<S: Format>(number: S) -> u64 {
     }
     let exponent = i64::from(binary_exponent(number));
     2 + 16 * u64::from(significant_bits(value)) + exponent.unsigned_abs() + u64::from(value < 0.0)
-}
-
-/// The power of two below the number's magnitude; far below for zero.
-fn binary_exponent<S: Format>(number: S) -> i32 {
-    (number.to_f64().to_bits() >> 52 & 0x7ff) as i32 - 1023
 }

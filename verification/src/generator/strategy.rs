@@ -114,9 +114,9 @@ impl<T: Simplify> ValueTree for Simplification<T> {
 pub fn check<T: Simplify>(
     cases: u32,
     strategy: impl Strategy<Value = T>,
-    property: impl Fn(T) -> TestCaseResult,
+    property: impl Fn(&T) -> TestCaseResult,
 ) {
-    match TestRunner::new(settings(cases)).run(&strategy, property) {
+    match TestRunner::new(settings(cases)).run(&strategy, |case| property(&case)) {
         Ok(()) => {}
         Err(TestError::Fail(reason, case)) => {
             panic!("{reason}\nThe simplest case found:\n{case:?}")

@@ -11,7 +11,7 @@ use crate::study::{Comparison, ComparisonRow, MeanCounts};
 pub fn comparison(comparison: &Comparison) -> String {
     let s = |count: usize| if count == 1 { "" } else { "s" };
     let mut text = format!(
-        "{}: {} vertices, {} edges, {} triangles\n{} step{}, {} thread{}, the fastest of {} round{}; f64\n",
+        "{}\n{} vertices, {} edges, {} triangles\n{} step{}, {} thread{}, the fastest of {} round{}; f64\n",
         comparison.name,
         grouped(comparison.vertices as u64),
         grouped(comparison.edges as u64),

@@ -1,0 +1,248 @@
+//! A binary floating-point format of a few bits, so that all inputs of a grid can be tried, not a sample.
+//!
+//! Core's kernels are generic over [`Lanes`]: the source that runs on `f32` and `f64` runs on this unchanged.
+
+use selvedge_core::{Lanes, Rounding};
+use std::fmt;
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// One sign bit, `E` exponent bits, `F` fraction bits, as IEEE 754 would have it: subnormal numbers, infinities, NaN,
+/// rounding to nearest, ties to even.
+///
+/// An operation is computed in `f64`, where it is exact (a product has 2F + 2 bits; a sum spans at most 2^E + F bits, both below
+/// 53), and rounded once.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+pub struct Minifloat<const E: u32, const F: u32>(f64);
+
+impl<const E: u32, const F: u32> Minifloat<E, F> {
+    /// Two to this power is the smallest positive number.
+    pub const MIN_EXPONENT: i32 = Self::LOWEST_NORMAL - F.cast_signed();
+    const LOWEST_NORMAL: i32 = 2 - (1 << (E - 1));
+    const HIGHEST_NORMAL: i32 = (1 << (E - 1)) - 1;
+    const FITS: () = assert!(
+        E >= 2 && E <= 5 && F >= 1 && F <= 10,
+        "operations must be exact in f64"
+    );
+
+    /// The number nearest to `value`; of two the one whose last bit is 0. Infinite from half a step above the largest on.
+    #[must_use]
+    pub fn nearest(value: f64) -> Self {
+        let () = Self::FITS;
+        if !value.is_finite() {
+            return Self(value);
+        }
+        // `value` is zero or normal in f64.
+        let exponent = ((value.to_bits() >> 52 & 0x7ff) as i32 - 1023).max(Self::LOWEST_NORMAL);
+        // The sum's last bit is worth 2^(exponent − F), a step of this format: f64's own rounding does the rest.
+        let shift = 1.5 * power_of_two(exponent - F.cast_signed() + 52);
+        let rounded = (value + shift) - shift;
+        if rounded.abs() < power_of_two(Self::HIGHEST_NORMAL + 1) {
+            // Keeps the sign of zero.
+            Self(rounded.copysign(value))
+        } else {
+            Self(f64::INFINITY.copysign(value))
+        }
+    }
+
+    /// The same number, exactly.
+    #[must_use]
+    pub const fn value(self) -> f64 {
+        self.0
+    }
+
+    /// The number as a multiple of the smallest positive one.
+    ///
+    /// # Panics
+    /// If it is NaN or infinite.
+    #[must_use]
+    pub fn units(self) -> i64 {
+        assert!(self.0.is_finite(), "{self:?} is no multiple of anything");
+        (self.0 * power_of_two(-Self::MIN_EXPONENT)) as i64
+    }
+
+    /// Every finite number, in order, zero once.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        let mut all = Vec::new();
+        for exponent in Self::LOWEST_NORMAL..=Self::HIGHEST_NORMAL {
+            let step = power_of_two(exponent - F.cast_signed());
+            let first = if exponent == Self::LOWEST_NORMAL {
+                0
+            } else {
+                1 << F
+            };
+            all.extend((first..2 << F).map(|mantissa| Self(f64::from(mantissa) * step)));
+        }
+        let negative = all[1..].iter().rev().map(|&number| -number);
+        let all: Vec<Self> = negative.chain(all.iter().copied()).collect();
+        all
+    }
+}
+
+/// 2^`exponent`, for exponents near 0.
+fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(u64::from((1023 + exponent).cast_unsigned()) << 52)
+}
+
+impl<const E: u32, const F: u32> Add for Minifloat<E, F> {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self::nearest(self.0 + other.0)
+    }
+}
+
+impl<const E: u32, const F: u32> Sub for Minifloat<E, F> {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self::nearest(self.0 - other.0)
+    }
+}
+
+impl<const E: u32, const F: u32> Mul for Minifloat<E, F> {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        Self::nearest(self.0 * other.0)
+    }
+}
+
+impl<const E: u32, const F: u32> Neg for Minifloat<E, F> {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl<const E: u32, const F: u32> Rounding for Minifloat<E, F> {
+    const UNIT_ROUNDOFF: Self = Self(1.0 / (2 << F) as f64);
+    /// 32 times half of the smallest subnormal: the least that the derivation allows. (`f32` and `f64` have a larger one.)
+    const UNDERFLOW: Self = {
+        let smallest = 1.0 / (1_u64 << -Self::MIN_EXPONENT) as f64;
+        Self(16.0 * smallest)
+    };
+    const ONE: Self = Self(1.0);
+    const INFINITY: Self = Self(f64::INFINITY);
+
+    /// Rounded up where the format has too few bits for it.
+    fn small(count: u8) -> Self {
+        let nearest = Self::nearest(count.into());
+        if nearest.0 < f64::from(count) {
+            let exponent = (nearest.0.to_bits() >> 52) as i32 - 1023;
+            Self(nearest.0 + power_of_two(exponent - F.cast_signed()))
+        } else {
+            nearest
+        }
+    }
+}
+
+impl<const E: u32, const F: u32> Lanes for Minifloat<E, F> {
+    type Scalar = Self;
+    type Mask = bool;
+
+    fn splat(self, value: Self) -> Self {
+        value
+    }
+
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+
+    fn larger(self, other: Self) -> Self {
+        if self.0 > other.0 { self } else { other }
+    }
+
+    fn smaller(self, other: Self) -> Self {
+        if self.0 < other.0 { self } else { other }
+    }
+
+    fn greater(self, other: Self) -> bool {
+        self.0 > other.0
+    }
+}
+
+impl<const E: u32, const F: u32> fmt::Debug for Minifloat<E, F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.0, f)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cmp::Ordering;
+
+    type Small = Minifloat<4, 3>;
+
+    #[test]
+    fn there_are_as_many_numbers_as_codes() {
+        // 2⁸ codes without 2 · 2³ for infinity and NaN, and one zero.
+        let all = Small::all();
+        assert_eq!(all.len(), 256 - 16 - 1);
+        assert!(all.is_sorted_by(|a, b| a.value() < b.value()));
+        assert_eq!((all[0].value(), all[238].value()), (-240.0, 240.0));
+        assert_eq!(all[120].value(), 1.0 / 512.0);
+    }
+
+    /// By definition: the closest of all, the even one of two that are equally close.
+    #[test]
+    fn sums_and_products_of_all_numbers_are_rounded_to_nearest_even() {
+        let all = Small::all();
+        let closest = |exact: f64| {
+            let after = all.partition_point(|number| number.value() < exact);
+            if after == all.len() || after == 0 {
+                // 248 is halfway from 240 to the next, 256, which is even.
+                return if exact.abs() < 248.0 {
+                    240.0_f64.copysign(exact)
+                } else {
+                    f64::INFINITY.copysign(exact)
+                };
+            }
+            let (low, high) = (all[after - 1], all[after]);
+            match (exact - low.value()).total_cmp(&(high.value() - exact)) {
+                Ordering::Less => low.value(),
+                Ordering::Greater => high.value(),
+                // Numbers are even and odd in turn, and zero, in the middle, is even.
+                Ordering::Equal if (after - 1).abs_diff(all.len() / 2) % 2 == 0 => low.value(),
+                Ordering::Equal => high.value(),
+            }
+        };
+        for &a in &all {
+            for &b in &all {
+                for (computed, exact) in [
+                    (a + b, a.value() + b.value()),
+                    (a - b, a.value() - b.value()),
+                    (a * b, a.value() * b.value()),
+                ] {
+                    assert_eq!(computed.value(), closest(exact), "{a:?} and {b:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn infinity_and_nan_go_on() {
+        let infinite = Small::nearest(f64::INFINITY);
+        assert_eq!((infinite + Small::ONE).value(), f64::INFINITY);
+        assert!((infinite - infinite).value().is_nan());
+        assert!((infinite * Small::nearest(0.0)).value().is_nan());
+        assert!(!(infinite - infinite).greater(Small::ONE));
+        assert!(!Small::ONE.greater(infinite - infinite));
+    }
+
+    #[test]
+    fn constants_are_those_of_the_format() {
+        assert_eq!(Small::UNIT_ROUNDOFF.value(), 1.0 / 16.0);
+        assert_eq!(Small::UNDERFLOW.value(), 32.0 * (1.0 / 1024.0));
+        assert_eq!(
+            (Small::small(8).value(), Small::small(10).value()),
+            (8.0, 10.0)
+        );
+        assert_eq!(Minifloat::<4, 1>::small(10).value(), 12.0);
+        for number in Small::all() {
+            assert_eq!(number.units() as f64 / 512.0, number.value());
+        }
+    }
+}

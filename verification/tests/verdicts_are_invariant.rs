@@ -1,0 +1,211 @@
+//! Verdicts do not depend on how a pair is written down, as far as that is true.
+//!
+//! Rounding depends on the order of operations, so most rearrangements change the last bits, and with them the verdict of
+//! a pair that is a rounding error away from coplanar. What is the same bit for bit, by construction:
+//!
+//! | change | non-coplanarity | segment–box | relative boxes, DOPs, swept boxes |
+//! |---|---|---|---|
+//! | time reversed | same: k₀ and k₃, 3k₁ and 3k₂ trade places | sound only | same |
+//! | an axis mirrored | same: every value changes sign, exactly | same | same |
+//! | x and y exchanged | same: every value changes sign, exactly | same | same |
+//! | axes permuted otherwise | sound only: the dot product sums in another order | same | same |
+//! | face: second and third vertex exchanged | same: B and C trade places, n and h change sign | same | same |
+//! | face: vertices permuted otherwise | sound only: another point is the base | same | same |
+//! | first edge's ends exchanged | same: B and C trade places | (swept boxes) | same |
+//! | second edge's ends, or the edges, exchanged | sound only: another point is the base | (swept boxes) | same |
+//! | scaled by a power of two, far from underflow and overflow | same: the underflow term vanishes in rounding | same | same |
+//! | translated, all sums exact | same: differences are | same, if the box is | same on axes; on diagonals sums round |
+//!
+//! Swept boxes and relative boxes also keep a pair when the sum of its coordinates overflows, and that depends on the
+//! order: for them the table is about pairs whose sums are finite.
+//!
+//! *Sound only*: the verdict may change, but never to a wrong one. The properties of the other files, whose pairs come
+//! in every arrangement, check that; here it is checked for pairs that are coplanar by construction.
+//!
+//! The *plain* filter is not symmetric in time, since it computes from velocities; nothing is promised for it.
+
+use proptest::prelude::*;
+use selvedge::pipeline::CullingTest::{
+    self, CertifiedNonCoplanarity, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18,
+    SweptBoxes,
+};
+use selvedge_core::Verdict;
+use selvedge_verification::culling::verdict;
+use selvedge_verification::generator::{
+    Choices, Format, PairCase, check, from_choices, pairs, pairs_of_any_kind,
+};
+use selvedge_verification::oracle::Kind;
+
+const EXACT_BOXES: [CullingTest; 4] = [SweptBoxes, StoredDop18, RelativeBoxes, RelativeBoxesNine];
+
+fn all_but<const N: usize>(missing: [CullingTest; N]) -> impl Iterator<Item = CullingTest> {
+    let all = EXACT_BOXES
+        .into_iter()
+        .chain([SegmentBox, CertifiedNonCoplanarity]);
+    all.filter(move |test| !missing.contains(test))
+}
+
+fn same<S: Format>(
+    tests: impl Iterator<Item = CullingTest>,
+    pair: &PairCase<S>,
+    changed: &PairCase<S>,
+) -> Result<(), TestCaseError> {
+    for test in tests.filter(|&test| test == CertifiedNonCoplanarity || pair.sums_are_finite()) {
+        let (before, after): (Verdict, Verdict) = (verdict(test, pair), verdict(test, changed));
+        prop_assert_eq!(before, after, "{:?}, changed to {:?}", test, changed);
+    }
+    Ok(())
+}
+
+fn mirrored<S: Format>(pair: &PairCase<S>, axis: usize) -> PairCase<S> {
+    pair.with_positions(|mut position| {
+        position[axis] = -position[axis];
+        position
+    })
+}
+
+/// A property of pairs of format `S`, and a test for each format.
+macro_rules! property {
+    ($name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
+        mod $name {
+            use super::*;
+
+            fn property<S: Format>($pair: &PairCase<S>) -> Result<(), TestCaseError> {
+                $property
+            }
+
+            #[test]
+            fn f64() {
+                check($cases, $strategy, property::<f64>);
+            }
+
+            #[test]
+            fn f32() {
+                check($cases, $strategy, property::<f32>);
+            }
+        }
+    };
+}
+
+property!(
+    reversing_time_changes_no_verdict_but_the_segment_box_test,
+    30_000,
+    pairs_of_any_kind(),
+    |pair| same(all_but([SegmentBox]), pair, &pair.reversed())
+);
+
+property!(
+    mirroring_an_axis_changes_no_verdict,
+    30_000,
+    pairs_of_any_kind(),
+    |pair| (0..3).try_for_each(|axis| same(all_but([]), pair, &mirrored(pair, axis)))
+);
+
+property!(
+    exchanging_x_and_y_changes_no_verdict,
+    30_000,
+    pairs_of_any_kind(),
+    |pair| same(all_but([]), pair, &pair.with_axes([1, 0, 2]))
+);
+
+property!(
+    permuting_axes_changes_no_verdict_of_a_box_test,
+    30_000,
+    pairs_of_any_kind(),
+    |pair| [[1, 2, 0], [2, 0, 1], [2, 1, 0], [0, 2, 1]]
+        .into_iter()
+        .try_for_each(|axes| same(
+            all_but([CertifiedNonCoplanarity]),
+            pair,
+            &pair.with_axes(axes)
+        ))
+);
+
+property!(
+    exchanging_the_faces_second_and_third_vertex_changes_no_verdict,
+    30_000,
+    pairs(Kind::VertexFace),
+    |pair| same(all_but([]), pair, &pair.reordered([0, 1, 3, 2]))
+);
+
+property!(
+    permuting_the_faces_vertices_changes_no_verdict_of_a_box_test,
+    30_000,
+    pairs(Kind::VertexFace),
+    |pair| [[0, 2, 3, 1], [0, 3, 1, 2], [0, 2, 1, 3], [0, 3, 2, 1]]
+        .into_iter()
+        .try_for_each(|order| same(
+            all_but([CertifiedNonCoplanarity]),
+            pair,
+            &pair.reordered(order)
+        ))
+);
+
+property!(
+    exchanging_the_first_edges_ends_changes_no_verdict,
+    30_000,
+    pairs(Kind::EdgeEdge),
+    |pair| same(all_but([]), pair, &pair.reordered([1, 0, 2, 3]))
+);
+
+property!(
+    exchanging_the_edges_or_the_seconds_ends_changes_no_verdict_of_a_box_test,
+    30_000,
+    pairs(Kind::EdgeEdge),
+    |pair| [[2, 3, 0, 1], [0, 1, 3, 2], [3, 2, 1, 0]]
+        .into_iter()
+        .try_for_each(|order| same(
+            all_but([CertifiedNonCoplanarity]),
+            pair,
+            &pair.reordered(order)
+        ))
+);
+
+/// Multiples of 2⁻¹⁰ up to 16 in magnitude. A permanent of them is zero (and so is the value then, and its sign certain to
+/// nobody) or at least 2⁻³⁰. With u = 2⁻²⁴ the bound is then at least 2⁻⁵¹, of which the last bit is worth 2⁻⁷⁴, and
+/// (p_max + 1)·η ≤ 2⁻¹¹³ vanishes in it. Scaled by 2¹² more so; by 2⁻¹² the last bit is worth 2⁻¹¹⁰, and p_max + 1 < 2 makes the
+/// other term less than 2⁻¹¹⁸. The segment test's products are larger.
+fn on_a_grid<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
+    // A few values only, or any: what is nearly coplanar matters.
+    let limit = choices.pick(&[2, 64, 16_384]);
+    let points = std::array::from_fn(|_| {
+        std::array::from_fn(|_| {
+            std::array::from_fn(|_| {
+                let whole = (choices.word() % (2 * limit + 1)) as i64 - limit as i64;
+                S::exact(whole, -10)
+            })
+        })
+    });
+    PairCase::new(kind, points)
+}
+
+fn grids<S: Format>() -> impl Strategy<Value = PairCase<S>> {
+    from_choices(|choices| {
+        let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
+        on_a_grid(kind, choices)
+    })
+}
+
+property!(
+    scaling_by_a_power_of_two_changes_no_verdict,
+    30_000,
+    grids(),
+    |pair| [-12, -1, 1, 12].into_iter().try_for_each(|exponent| {
+        let factor = S::exact(1, exponent);
+        same(all_but([]), pair, &pair.map(|x| x * factor))
+    })
+);
+
+// Whole multiples of 2⁻¹⁰ below 2⁵ stay exact when moved by multiples of 2⁻¹⁰ up to 2⁸, and so do sums of two of them.
+property!(
+    an_exact_translation_changes_no_verdict,
+    30_000,
+    grids(),
+    |pair| {
+        let by = [1 << 18, -102_528, 2].map(|whole| S::exact(whole, -10));
+        let moved = pair.with_positions(|x| std::array::from_fn(|axis| x[axis] + by[axis]));
+        let back = moved.with_positions(|x| std::array::from_fn(|axis| x[axis] - by[axis]));
+        prop_assert_eq!(back, *pair);
+        same(all_but([]), pair, &moved)
+    }
+);
