@@ -18,32 +18,26 @@
 //! VF and EE share one kernel because the volume does not depend on which of the four points is the base.
 //!
 //! # Rounding
-//! Let ε be the largest relative error of one operation: u, the unit roundoff, to nearest; 2u in any other rounding
-//! direction. Let P̂ᵢ be the expression of kᵢ in the same order with magnitudes for components and additions for
-//! subtractions (its *permanent*). A monomial of k₀ or k₃ passes through 3 differences, a product, a subtraction, a
-//! product and 2 additions: 8 roundings. One of 3k₁ or 3k₂ passes through one addition more in h and one more at the
-//! end: 10. The last of them does not count for the sign: rounding is monotone in every direction, so a computed
-//! kᵢ = fl(x) above the floating-point number Eᵢ proves x > Eᵢ. That leaves 7ε and 9ε, at most 14u and 18u, and 2u for
-//! all that is of second order: the powers of 1 + ε, and P̂ᵢ and Eᵢ being rounded as well. Hence
+//! u is the unit roundoff. Let P̂ᵢ be the expression of kᵢ in the same order with magnitudes for components and
+//! additions for subtractions (its *permanent*). A monomial of k₀ or k₃ passes through 3 differences, a product,
+//! a subtraction, a product and 2 additions: 8 roundings. One of 3k₁ or 3k₂ passes through one addition more in h
+//! and one more at the end: 10. Computing P̂ itself loses as many; that second-order part is covered because
+//! rounding is monotone: the last addition of kᵢ cannot cross a floating-point number, which leaves 7 and 9 that
+//! count. Hence
 //!
 //! ```text
-//!  kᵢ (computed) > Eᵢ  proves  kᵢ > 0,      Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η,
-//!  C₀ = C₃ = 16u,   C₁ = C₂ = 20u (for 3k₁, 3k₂)
+//!  |kᵢ(computed) − kᵢ| ≤ Eᵢ = Cᵢ·P̂ᵢ + (p_max + 1)·η,    C₀ = C₃ = 8u,   C₁ = C₂ = 10u (for 3k₁, 3k₂)
 //! ```
 //!
-//! and the same for −kᵢ. To nearest alone 8u and 10u would do; on real scenes the difference is not one pair in a million.
+//! in the sense that a computed kᵢ > Eᵢ proves kᵢ > 0.
 //!
-//! **Underflow.** M is the largest component of B, C and P at both ends, λ the smallest normal number. With subnormal
-//! inputs and results flushed to zero, a difference loses at most 3λ (two inputs and the result), a product of two
-//! differences 3λ·2M + λ, a component of n₀ twice that and λ, one of h twice *that* and λ; a term of P₀·h then loses
-//! 3λ·4M² + M·(24M + 7)λ + λ, and all of 3k₁ not more than (162M² + 30M + 11)λ ≤ 162(1 + M)²λ. (Without flushing it is
-//! less by 2⁻⁵² or 2⁻²³.) The permanents lose as much, which Cᵢ shrinks to nothing, and the sums in Eᵢ a few λ.
-//! η ≥ 512λ ([`Rounding::UNDERFLOW`]) covers all of it.
+//! **Underflow.** Additions and subtractions are exact when their result is subnormal. Each product loses at most
+//! half of the smallest subnormal, η₀ = 2⁻¹⁰⁷⁵ (`f64`) or 2⁻¹⁵⁰ (`f32`); with p_max the largest component of P₀ and
+//! P₁ the sum is at most (6·p_max + 3)·η₀ for k₀ and (18·p_max + 6)·η₀ for 3k₁. 32·(p_max + 1)·η₀ covers it and the
+//! rounding of E; η ([`Rounding::UNDERFLOW`]) is larger, for speed.
 //!
-//! **Overflow and NaN.** P̂ᵢ is at least as large as every intermediate result, so a NaN or an infinity makes Eᵢ infinite
-//! or NaN, and the ordered comparisons that decide are false. Where a thread rounds towards zero, what overflows becomes
-//! the largest finite number instead: therefore nothing is decided unless M ≤ 2⁴⁰ (`f32`) or 2³³⁹ (`f64`), which leaves
-//! 24·M³, more than any result, in range ([`Rounding::LARGEST_EDGE`]).
+//! **Overflow and NaN.** P̂ is at least as large as every intermediate result, so whatever overflows makes Eᵢ infinite
+//! or NaN, and the ordered comparisons that decide are false.
 
 use crate::lanes::{Lanes, Rounding};
 use crate::vector::Vector;
@@ -63,15 +57,6 @@ pub struct MovingTetrahedron<L> {
 /// and changes no sign).
 #[derive(Clone, Copy, Debug)]
 pub struct ControlValues<L>(pub [L; 4]);
-
-/// How far rounding can have moved the [`ControlValues`].
-#[derive(Clone, Copy, Debug)]
-pub struct ErrorBounds<L> {
-    /// E₀, E₁, E₂, E₃ of the module's documentation, for k₀, 3k₁, 3k₂, k₃.
-    pub bounds: [L; 4],
-    /// M, the largest component of an edge. The bounds hold where it is at most [`Rounding::LARGEST_EDGE`].
-    pub largest_edge: L,
-}
 
 impl<L: Lanes> MovingTetrahedron<L> {
     /// Differences of the four points a, b, c, p at the start and at the end; each is rounded once.
@@ -102,10 +87,10 @@ impl<L: Lanes> MovingTetrahedron<L> {
     }
 
     /// Eᵢ of the module's documentation: a computed control value above Eᵢ (below −Eᵢ) proves that the exact one is
-    /// positive (negative), in every floating-point environment.
+    /// positive (negative). Infinite or NaN on overflow.
     #[inline(always)]
     #[must_use]
-    pub fn error_bounds(&self) -> ErrorBounds<L> {
+    pub fn error_bounds(&self) -> [L; 4] {
         let ([b0, b1], [c0, c1], [p0, p1]) = (self.b, self.c, self.p);
         let (b0, b1, c0, c1) = (b0.abs(), b1.abs(), c0.abs(), c1.abs());
         let (p0, p1) = (p0.abs(), p1.abs());
@@ -114,40 +99,31 @@ impl<L: Lanes> MovingTetrahedron<L> {
 
         let one = p0.x.splat(L::Scalar::ONE);
         let roundoff = p0.x.splat(L::Scalar::UNIT_ROUNDOFF);
-        let outer = roundoff * p0.x.splat(L::Scalar::small(16));
-        let inner = roundoff * p0.x.splat(L::Scalar::small(20));
-        let largest_edge = p0
-            .larger(p1)
-            .larger(b0.larger(b1))
-            .larger(c0.larger(c1))
-            .largest();
-        let underflow =
-            (largest_edge + one) * (largest_edge + one) * p0.x.splat(L::Scalar::UNDERFLOW);
-        ErrorBounds {
-            bounds: [
-                outer * p0.dot(n0) + underflow,
-                inner * (p0.dot(h) + p1.dot(n0)) + underflow,
-                inner * (p1.dot(h) + p0.dot(n1)) + underflow,
-                outer * p1.dot(n1) + underflow,
-            ],
-            largest_edge,
-        }
+        let outer = roundoff * p0.x.splat(L::Scalar::small(8));
+        let inner = roundoff * p0.x.splat(L::Scalar::small(10));
+        let p_max = p0.larger(p1).largest();
+        let underflow = (p_max + one) * p0.x.splat(L::Scalar::UNDERFLOW);
+        [
+            outer * p0.dot(n0) + underflow,
+            inner * (p0.dot(h) + p1.dot(n0)) + underflow,
+            inner * (p1.dot(h) + p0.dot(n1)) + underflow,
+            outer * p1.dot(n1) + underflow,
+        ]
     }
 }
 
 impl<L: Lanes> ControlValues<L> {
-    /// All four certainly positive, or all four certainly negative. False with NaN.
+    /// All four above `bounds`, or all four below their negatives. False with NaN.
     #[inline(always)]
     #[must_use]
-    pub fn one_sign_beyond(&self, errors: &ErrorBounds<L>) -> L::Mask {
+    pub fn one_sign_beyond(&self, bounds: [L; 4]) -> L::Mask {
         let [k0, k1, k2, k3] = self.0;
-        let [e0, e1, e2, e3] = errors.bounds;
-        let limit = k0.splat(L::Scalar::LARGEST_EDGE);
+        let [e0, e1, e2, e3] = bounds;
         // Eight ordered comparisons rather than a smallest and a largest value: a comparison is false on NaN,
         // while the vector minimum of most machines drops it.
         let above = (k0.greater(e0) & k1.greater(e1)) & (k2.greater(e2) & k3.greater(e3));
         let below =
             ((-e0).greater(k0) & (-e1).greater(k1)) & ((-e2).greater(k2) & (-e3).greater(k3));
-        (above | below) & limit.greater(errors.largest_edge)
+        above | below
     }
 }

@@ -8,30 +8,23 @@ use core::ops::{Add, BitAnd, BitOr, Mul, Neg, Sub};
 
 /// The constants of a binary floating-point format that rounding-error bounds are made of.
 ///
-/// The bounds made of them hold for IEEE 754 arithmetic in **every floating-point environment** that a thread can be in:
-/// any rounding direction, with or without flush-to-zero and denormals-are-zero.
+/// The bounds assume IEEE 754 arithmetic that rounds to nearest, with subnormal numbers.
 pub trait Rounding: Copy {
     /// The unit roundoff u: a rounded result differs from the exact one by at most u times its magnitude,
-    /// unless it is subnormal. 2⁻²⁴ for `f32`, 2⁻⁵³ for `f64`. (Twice that where a thread rounds in another direction
-    /// than to nearest.)
+    /// unless it is subnormal. 2⁻²⁴ for `f32`, 2⁻⁵³ for `f64`.
     const UNIT_ROUNDOFF: Self;
-    /// η, a unit for what underflow can add to an error: 2⁻¹¹⁷ for `f32`, 2⁻¹⁰⁰⁰ for `f64`; at least 512 times λ, the
-    /// smallest normal number (2⁻¹²⁶ and 2⁻¹⁰²²).
+    /// A bound η of what underflow can add to an error, as derived in [`coplanarity`](crate::coplanarity): 2⁻¹¹⁹ for
+    /// `f32`, 2⁻¹⁰⁰⁰ for `f64`.
     ///
-    /// Why so large: a thread may flush subnormal results and inputs to zero (FTZ, DAZ), and then an operation can be off by
-    /// λ, not by half of the smallest subnormal. And η must be a normal number: many processors take a hundred cycles for a
-    /// product with a subnormal operand, which made the certified filter four times slower.
+    /// 32·η₀ would do, η₀ = 2⁻¹⁵⁰ or 2⁻¹⁰⁷⁵ being half of the smallest subnormal number. But many processors take a hundred
+    /// cycles for a product with a subnormal operand, and that made the certified filter four times slower. A normal
+    /// number costs culls only where volumes are that small: features of a few 10⁻¹² (`f32`) units of length.
     const UNDERFLOW: Self;
-    /// The gap η/u by which sums of two coordinates must differ: 2⁻⁹³ for `f32`, 2⁻⁹⁴⁷ for `f64`; derived
-    /// [there](crate::boxes#why-sums-may-round).
-    const SUM_GAP: Self;
-    /// Edges with no component of this size or more make a volume that does not overflow: 2⁴⁰ for `f32`, 2³³⁹ for `f64`.
-    const LARGEST_EDGE: Self;
     /// One.
     const ONE: Self;
     /// Positive infinity.
     const INFINITY: Self;
-    /// A small whole number, exactly. The kernels ask for no more than 20.
+    /// A small whole number, exactly. The kernels ask for no more than 10.
     fn small(count: u8) -> Self;
 }
 
@@ -67,12 +60,10 @@ pub trait Lanes:
 }
 
 macro_rules! one_lane {
-    ($scalar:ty, $roundoff:expr, $underflow:expr, $largest:expr) => {
+    ($scalar:ty, $roundoff:expr, $underflow:expr) => {
         impl Rounding for $scalar {
             const UNIT_ROUNDOFF: Self = $roundoff;
             const UNDERFLOW: Self = $underflow;
-            const SUM_GAP: Self = $underflow / $roundoff;
-            const LARGEST_EDGE: Self = $largest;
             const ONE: Self = 1.0;
             const INFINITY: Self = <$scalar>::INFINITY;
 
@@ -115,18 +106,8 @@ macro_rules! one_lane {
 }
 
 // The exponent field, biased by 127 or 1023, makes a power of two.
-one_lane!(
-    f32,
-    f32::EPSILON / 2.0,
-    f32::from_bits((127 - 117) << 23),
-    f32::from_bits((127 + 40) << 23)
-);
-one_lane!(
-    f64,
-    f64::EPSILON / 2.0,
-    f64::from_bits((1023 - 1000) << 52),
-    f64::from_bits((1023 + 339) << 52)
-);
+one_lane!(f32, f32::EPSILON / 2.0, f32::from_bits((127 - 119) << 23));
+one_lane!(f64, f64::EPSILON / 2.0, f64::from_bits((1023 - 1000) << 52));
 
 #[cfg(test)]
 mod tests {
@@ -135,11 +116,7 @@ mod tests {
     #[test]
     fn constants_are_the_documented_powers_of_two() {
         assert_eq!(f64::from(f32::UNIT_ROUNDOFF), libm::exp2(-24.0));
-        assert_eq!(f64::from(f32::UNDERFLOW), libm::exp2(-117.0));
-        assert_eq!(f64::from(f32::SUM_GAP), libm::exp2(-93.0));
-        assert_eq!(f64::SUM_GAP, libm::exp2(-947.0));
-        assert_eq!(f64::from(f32::LARGEST_EDGE), libm::exp2(40.0));
-        assert_eq!(f64::LARGEST_EDGE, libm::exp2(339.0));
+        assert_eq!(f64::from(f32::UNDERFLOW), libm::exp2(-119.0));
         assert_eq!(f64::UNIT_ROUNDOFF, libm::exp2(-53.0));
         assert_eq!(f64::UNDERFLOW, libm::exp2(-1000.0));
     }

@@ -59,10 +59,8 @@ impl<S: Scalar> Dop18<S> {
     pub fn overlaps(&self, other: &Self) -> bool {
         let mut apart = false;
         for direction in 0..9 {
-            // The first three are coordinates, the others sums.
-            let gap = if direction < 3 { S::ZERO } else { S::SUM_GAP };
-            apart |= self.lower[direction] > other.upper[direction] + gap;
-            apart |= other.lower[direction] > self.upper[direction] + gap;
+            apart |= self.lower[direction] > other.upper[direction];
+            apart |= other.lower[direction] > self.upper[direction];
         }
         !apart
     }

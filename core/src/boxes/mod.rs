@@ -8,18 +8,10 @@
 //! | [`relative`] | 3 or 9 directions, both ends of the step apart: the two sets in the same order | exact |
 //!
 //! # Why sums may round
-//! Rounding is monotone, in every direction: x ≤ y implies fl(x) ≤ fl(y). So fl(a) > fl(b) *proves* a > b, although
-//! fl(a) = fl(b) says nothing. Tests along the diagonals ±x±y compare sums of two coordinates, each rounded once, and
-//! need no error bound. A sum of three would be rounded twice, and the argument would not hold.
-//!
-//! One case remains. Where a thread takes subnormal *inputs* for zero (DAZ), a sum is off by what it leaves out, less than λ
-//! a term, λ the smallest normal number. (Comparisons of single coordinates stay sound: taking subnormals for zero is
-//! monotone.) Sums are therefore compared with a gap, fl(a) > fl(fl(b) + g), g = η/u
-//! ([`Rounding::SUM_GAP`](crate::Rounding::SUM_GAP)). Let a term be subnormal. If |b| ≤ g/8u, the gap survives the
-//! roundings by half, and g/2 > 4λ. Else neighbouring numbers of b's size are at least g/8 apart; the sum with the subnormal
-//! term is computed as its other term, one of these numbers; and whether the other sum is such a number too, or of two
-//! normal terms, what differs from a number of that grid by less than λ without being equal to it would need a term
-//! whose own last place is finer than u·g/16 = η/16 > 4λ and that is smaller than λ: subnormal, and left out.
+//! Rounding is monotone: x ≤ y implies fl(x) ≤ fl(y). So fl(a) > fl(b) *proves* a > b, although fl(a) = fl(b) says
+//! nothing. Tests along the diagonals ±x±y compare sums of two coordinates, each rounded once, and need no error
+//! bound. A sum of three would be rounded twice, and the argument would not hold. (It needs subnormal numbers
+//! to be kept: where a thread flushes its *inputs* to zero the diagonals are not certified.)
 //!
 //! Box tests see motion as linear: a coordinate, or a sum of coordinates, lies between its values at both ends.
 

@@ -10,17 +10,12 @@
 //! projection. Its least value is min(L_j·d_k, U_j·d_k) − max(L_k·d_j, U_k·d_j), its largest has min and max exchanged,
 //! L = lower − p, U = upper − p. (The midpoint form of the textbooks cancels; this one has orientation's small error.)
 //!
-//! *Rounding*, in any direction: an operation is off by a factor 1 + δ, |δ| ≤ ε ≤ 2u. A product T of two rounded
-//! differences is computed as T̂ = T(1 + θ), |θ| ≤ (1 + ε)³ − 1, so |T − T̂| ≤ ((1 − ε)⁻³ − 1)·|T̂| ≤ 6.1u·|T̂|. The least
-//! of two products and the greatest of two move by no more than the larger of theirs, and rounding the last subtraction
-//! cannot carry it across the bound, a floating-point number. So s > 0 follows from fl(s) > E if E ≥ 6.1u·Ŝ, Ŝ = Σ|T̂|
-//! over the four products; E = fl(8u·Ŝ + …) is at least 8(1 − 2u)⁴u·Ŝ.
-//! *Underflow*, with subnormal inputs and results flushed to zero, λ the smallest normal number: a difference loses at
-//! most 3λ, a product (3M + 3M + 1)λ, M the largest difference. E has (1 + M)·η, η ≥ 512λ, for two of them and its own
-//! roundings.
-//! Infinite or NaN products make the bound infinite or NaN, and the comparison false; where a thread rounds towards zero,
-//! overflow gives the largest finite number instead, and nothing is decided unless M is below
-//! [`Rounding::LARGEST_EDGE`].
+//! *Rounding.* A product T of two rounded differences is computed as T̂ = T(1 + θ), |θ| ≤ (1 + u)³ − 1, so
+//! |T − T̂| ≤ ((1 − u)⁻³ − 1)·|T̂| ≤ 3.1u·|T̂|, plus η₀ if it underflows (differences are exact then). The least of
+//! two products and the greatest of two move by no more than the larger of theirs, and the last subtraction is rounded
+//! once more, so s > 0 follows from fl(s) > (1 + u)(3.1u·Ŝ + 2η₀), Ŝ = Σ|T̂| over the four products. The test asks for
+//! fl(s) > fl(4u·Ŝ + η): at least 4(1 − u)⁴u·Ŝ + 31η₀(1 − u), η ≥ 32·η₀, which is more.
+//! Infinite or NaN products make the bound infinite or NaN, and the comparison false.
 //!
 //! Strict inequalities: what touches is kept, and d = 0 gives 0 > η, which is false.
 
@@ -72,13 +67,10 @@ fn separates<S: Scalar>(
     let (left_a, left_b) = (lower_j * d_k, upper_j * d_k);
     let (right_a, right_b) = (lower_k * d_j, upper_k * d_j);
     let least = left_a.smaller(left_b) - right_a.larger(right_b);
-    let greatest = left_a.larger(left_b) - right_a.smaller(right_b);
+    let largest = left_a.larger(left_b) - right_a.smaller(right_b);
     let sizes = (left_a.abs() + left_b.abs()) + (right_a.abs() + right_b.abs());
-    let largest = (lower_j.abs().larger(upper_j.abs()).larger(d_j.abs()))
-        .larger(lower_k.abs().larger(upper_k.abs()).larger(d_k.abs()));
-    let bound =
-        S::small(8) * S::UNIT_ROUNDOFF * sizes + (S::ONE + largest) * <S as Rounding>::UNDERFLOW;
-    (least > bound || -greatest > bound) && largest < <S as Rounding>::LARGEST_EDGE
+    let bound = S::small(4) * S::UNIT_ROUNDOFF * sizes + <S as Rounding>::UNDERFLOW;
+    least > bound || -largest > bound
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::verdict::Verdict;
 
 /// Culls `pair` if its four points are certainly not coplanar at any time in [0, 1].
 ///
-/// Certified in every floating-point environment. NaN, infinities and overflow keep the pair; so do zero-length edges and
+/// Certified under rounding to nearest. NaN, infinities and overflow keep the pair; so do zero-length edges and
 /// zero-area triangles, whose volume is zero.
 ///
 /// ```
@@ -35,5 +35,5 @@ pub fn non_coplanarity<S: Scalar>(pair: &impl PrimitivePair<S>) -> Verdict {
 pub fn is_never_coplanar<L: Lanes>(tetrahedron: &MovingTetrahedron<L>) -> L::Mask {
     tetrahedron
         .control_values()
-        .one_sign_beyond(&tetrahedron.error_bounds())
+        .one_sign_beyond(tetrahedron.error_bounds())
 }
