@@ -70,8 +70,9 @@ const BATCH: usize = 2048;
 
 /// A method, set up for one mesh; [`step`](Self::step) runs it on one time step after another.
 ///
-/// Contacts and counts are the same, in the same order, for any number of threads. After the first step nothing is
-/// allocated unless a step has more pairs than any before (with several threads rayon may still allocate for its queues).
+/// Contacts and counts are the same, in the same order, for any number of threads. Buffers grow with some room to spare and
+/// never shrink: after the first step nothing is allocated unless some part of the mesh has more pairs than ever. (With
+/// several threads rayon may still allocate for its queues.)
 #[derive(Debug)]
 pub struct Pipeline<S: Scalar> {
     topology: Topology,

@@ -34,7 +34,7 @@ impl<S: Format> MeshCase<S> {
             // A strip: every inner edge has two triangles.
             (2..used).map(|k| [k - 2, k - 1, k]).collect()
         } else {
-            let count = choices.pick(&[3, 1, 2, 8, 16, 40]);
+            let count = choices.pick(&[3, 1, 2, 8, 16, 40, 80]);
             (0..count)
                 .map(|_| std::array::from_fn(|_| choices.below(used)))
                 .collect()

@@ -1,0 +1,62 @@
+//! After the first step, a step allocates nothing.
+
+use selvedge::glam::DVec3;
+use selvedge::mesh::sleeve;
+use selvedge::pipeline::{Pipeline, Preset};
+use selvedge::scene::ArmScene;
+
+/// Allocations in each step, on the thread that calls.
+fn allocations(pipeline: &mut Pipeline<f64>, frames: &[Vec<DVec3>]) -> Vec<u64> {
+    let mut step = |start: &[DVec3], end: &[DVec3]| {
+        allocation_counter::measure(|| {
+            let report = pipeline.step(start, end);
+            report.expect("finite positions, one for each vertex");
+        })
+        .count_total
+    };
+    frames
+        .windows(2)
+        .map(|pair| step(&pair[0], &pair[1]))
+        .collect()
+}
+
+#[test]
+fn a_sleeve_in_waves_allocates_in_its_first_step_only() {
+    let mesh = sleeve(1).expect("a refinement in range");
+    let wave = |frame: usize| -> Vec<DVec3> {
+        let phase = frame as f64 * 0.1;
+        let displaced =
+            |&position: &DVec3| position * (1.0 + 0.02 * (phase + 20.0 * position.x).sin());
+        mesh.positions.iter().map(displaced).collect()
+    };
+    let frames: Vec<_> = (0..100).map(wave).collect();
+    for preset in Preset::ALL {
+        let topology = mesh.topology().expect("a sleeve");
+        let mut pipeline = Pipeline::new(topology, preset.stages(), 1).expect("one thread");
+        let counted = allocations(&mut pipeline, &frames);
+        assert!(counted[0] > 0, "{preset}: the counter counts");
+        assert_eq!(counted[1..], vec![0; frames.len() - 2], "{preset}");
+    }
+}
+
+/// From where folds begin to meet to the end of the bend, again and again. When the broad phase builds its groups anew, a group's
+/// list may have to grow once more: seldom, and not for ever.
+#[test]
+fn the_arm_bent_again_and_again_hardly_allocates_after_the_first_time() {
+    let scene = ArmScene::new(1).expect("a refinement in range");
+    let frames: Vec<_> = (40..=ArmScene::STEPS)
+        .map(|frame| scene.frame(frame))
+        .collect();
+    for preset in Preset::ALL {
+        let topology = scene.topology().clone();
+        let mut pipeline = Pipeline::new(topology, preset.stages(), 1).expect("one thread");
+        pipeline.keep_candidates(true);
+        let mut round = || allocations(&mut pipeline, &frames).iter().sum::<u64>();
+        let first = round();
+        let later: u64 = (0..8).map(|_| round()).sum();
+        assert!(
+            20 * later <= first,
+            "{preset}: {first} allocations in the first round, {later} in eight more"
+        );
+    }
+}

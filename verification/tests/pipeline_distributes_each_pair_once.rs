@@ -1,0 +1,400 @@
+//! The pipeline against the definition, over small meshes of every unpleasant kind: no pair is lost, none is met twice, and
+//! every preset ends with the pairs that its own tests leave.
+
+use proptest::prelude::*;
+use selvedge::PairKind::{self, EdgeEdge, VertexFace};
+use selvedge::mesh::Topology;
+use selvedge::pipeline::{ElementaryTest, PairCounts, Pipeline, Preset, Redundancy, Stage, Stages};
+use selvedge::scene::ArmScene;
+use selvedge_core::elementary::cubic;
+use selvedge_verification::culling::verdict;
+use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
+use selvedge_verification::oracle::{Kind, collides};
+use std::collections::BTreeSet;
+
+const KINDS: [PairKind; 2] = [VertexFace, EdgeEdge];
+
+/// A pair of a mesh; the two edges of an edge–edge pair in ascending order.
+type MeshPair = (PairKind, [u32; 2]);
+
+fn in_order(kind: PairKind, [a, b]: [u32; 2]) -> MeshPair {
+    match kind {
+        VertexFace => (kind, [a, b]),
+        EdgeEdge => (kind, [a.min(b), a.max(b)]),
+    }
+}
+
+/// The four points of a pair.
+fn points<S: Format>(
+    mesh: &MeshCase<S>,
+    topology: &Topology,
+    (kind, pair): MeshPair,
+) -> PairCase<S> {
+    let of_pair = kind.vertices(pair, topology);
+    let kind = match kind {
+        VertexFace => Kind::VertexFace,
+        EdgeEdge => Kind::EdgeEdge,
+    };
+    PairCase::new(kind, of_pair.map(|vertex| mesh.positions[vertex as usize]))
+}
+
+/// Every vertex–face and edge–edge pair of the mesh that has no vertex in common, by definition. Vertices without a triangle
+/// are not part of the surface.
+fn all_pairs(topology: &Topology) -> Vec<MeshPair> {
+    let mut pairs = Vec::new();
+    for vertex in 0..topology.vertex_count() as u32 {
+        let has_triangle = topology.triangles().iter().any(|t| t.contains(&vertex));
+        for (face, triangle) in (0..).zip(topology.triangles()) {
+            if has_triangle && !triangle.contains(&vertex) {
+                pairs.push((VertexFace, [vertex, face]));
+            }
+        }
+    }
+    for (second, b) in (0..).zip(topology.edges()) {
+        for (first, a) in (0..second).zip(topology.edges()) {
+            if !a.iter().any(|end| b.contains(end)) {
+                pairs.push((EdgeEdge, [first, second]));
+            }
+        }
+    }
+    pairs
+}
+
+/// Whether the closed boxes that the two primitives sweep have a point in common, by definition.
+fn swept_boxes_overlap<S: Format>(pair: &PairCase<S>) -> bool {
+    let (one, other) = pair.points.split_at(match pair.kind {
+        Kind::VertexFace => 1,
+        Kind::EdgeEdge => 2,
+    });
+    (0..3).all(|axis| {
+        let apart = |low: &[[[S; 3]; 2]], high: &[[[S; 3]; 2]]| {
+            let all = |points: &[[[S; 3]; 2]]| -> Vec<S> {
+                points.iter().flatten().map(|x| x[axis]).collect()
+            };
+            all(low)
+                .iter()
+                .all(|low| all(high).iter().all(|high| low < high))
+        };
+        !apart(one, other) && !apart(other, one)
+    })
+}
+
+/// What a pipeline passes to the elementary test, in its order, and its report.
+struct Run<S: Format> {
+    pipeline: Pipeline<S>,
+}
+
+impl<S: Format> Run<S> {
+    fn new(mesh: &MeshCase<S>, stages: Stages, threads: usize) -> Self {
+        let mut pipeline = Pipeline::new(mesh.topology(), stages, threads).expect("threads");
+        pipeline.keep_candidates(true);
+        let mut run = Self { pipeline };
+        run.step(mesh);
+        run
+    }
+
+    fn step(&mut self, mesh: &MeshCase<S>) {
+        let step = self.pipeline.step(&mesh.frame(0), &mesh.frame(1));
+        step.expect("finite positions, one for each vertex");
+    }
+
+    fn candidates(&self) -> Vec<MeshPair> {
+        let of_kind = |kind| {
+            let pairs = self.pipeline.candidates(kind).iter();
+            pairs.map(move |&pair| (kind, pair))
+        };
+        KINDS.into_iter().flat_map(of_kind).collect()
+    }
+
+    /// Everything but the times.
+    fn result(&self) -> impl PartialEq + std::fmt::Debug + use<S> {
+        let report = self.pipeline.report();
+        let survivors: Vec<(Stage, PairCounts)> = report
+            .stages
+            .iter()
+            .map(|stage| (stage.stage, stage.survivors))
+            .collect();
+        let contacts = self.pipeline.contacts().to_vec();
+        (
+            report.triangle_pairs,
+            survivors,
+            self.candidates(),
+            contacts,
+        )
+    }
+}
+
+fn distributed<S: Format>(mesh: &MeshCase<S>, redundancy: Redundancy) -> Vec<MeshPair> {
+    let stages = Stages {
+        redundancy,
+        tests: &[],
+        elementary: ElementaryTest::Cubic,
+    };
+    Run::new(mesh, stages, 1).candidates()
+}
+
+fn as_set(pairs: &[MeshPair]) -> BTreeSet<MeshPair> {
+    pairs
+        .iter()
+        .map(|&(kind, pair)| in_order(kind, pair))
+        .collect()
+}
+
+fn every_overlapping_pair_is_distributed_exactly_once<S: Format>(
+    mesh: &MeshCase<S>,
+) -> Result<(), TestCaseError> {
+    let topology = mesh.topology();
+    let all = all_pairs(&topology);
+    let overlapping: BTreeSet<MeshPair> = all
+        .iter()
+        .copied()
+        .filter(|&pair| swept_boxes_overlap(&points(mesh, &topology, pair)))
+        .collect();
+    let all = as_set(&all);
+    let [in_full, once, represented] = [
+        Redundancy::Kept,
+        Redundancy::HashSets,
+        Redundancy::RepresentativeTriangles,
+    ]
+    .map(|redundancy| (distributed(mesh, redundancy), redundancy));
+    for (pairs, redundancy) in [&in_full, &once, &represented] {
+        let set = as_set(pairs);
+        prop_assert!(
+            set.is_superset(&overlapping),
+            "{:?} loses {:?}",
+            redundancy,
+            overlapping.difference(&set).next()
+        );
+        prop_assert!(
+            set.is_subset(&all),
+            "{:?}: {:?}",
+            redundancy,
+            set.difference(&all).next()
+        );
+        if *redundancy != Redundancy::Kept {
+            prop_assert_eq!(set.len(), pairs.len(), "{:?} repeats a pair", redundancy);
+        }
+    }
+    // Hash sets drop duplicates and nothing else; representatives also pairs whose representatives are apart.
+    let [in_full, once, represented] =
+        [in_full, once, represented].map(|(pairs, _)| as_set(&pairs));
+    prop_assert_eq!(&in_full, &once);
+    prop_assert!(represented.is_subset(&once));
+    Ok(())
+}
+
+#[test]
+fn every_overlapping_pair_is_distributed_exactly_once_f64() {
+    check(
+        1500,
+        meshes::<f64>(),
+        every_overlapping_pair_is_distributed_exactly_once,
+    );
+}
+
+#[test]
+fn every_overlapping_pair_is_distributed_exactly_once_f32() {
+    check(
+        1500,
+        meshes::<f32>(),
+        every_overlapping_pair_is_distributed_exactly_once,
+    );
+}
+
+/// Ten million units from the origin, where the broad phase's `f32` has steps of 1.
+#[test]
+fn every_overlapping_pair_is_distributed_exactly_once_far_from_the_origin() {
+    check(800, meshes::<f64>(), |mesh| {
+        let far = mesh.moved_by([1e7, -1e7, 1e7]);
+        every_overlapping_pair_is_distributed_exactly_once(&far)
+    });
+    check(300, meshes::<f32>(), |mesh| {
+        let far = mesh.moved_by([1e7, -1e7, 1e7]);
+        every_overlapping_pair_is_distributed_exactly_once(&far)
+    });
+}
+
+fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(
+    mesh: &MeshCase<S>,
+) -> Result<(), TestCaseError> {
+    let topology = mesh.topology();
+    for preset in Preset::ALL {
+        let stages = preset.stages();
+        let mut left = distributed(mesh, stages.redundancy);
+        let run = Run::new(mesh, stages, 1);
+        let report = run.pipeline.report();
+        let counts = |left: &[MeshPair]| {
+            let of_kind = |wanted| left.iter().filter(|(kind, _)| *kind == wanted).count() as u64;
+            PairCounts {
+                vertex_face: of_kind(VertexFace),
+                edge_edge: of_kind(EdgeEdge),
+            }
+        };
+        prop_assert_eq!(report.survivors(Stage::Distribution), Some(counts(&left)));
+        for &test in stages.tests {
+            left.retain(|&pair| !verdict(test, &points(mesh, &topology, pair)).is_culled());
+            let found = report.survivors(test.stage());
+            prop_assert_eq!(found, Some(counts(&left)), "{} after {:?}", preset, test);
+        }
+        prop_assert_eq!(report.candidates(), counts(&left));
+        let mut candidates = run.candidates();
+        prop_assert_eq!(&candidates, &left, "{}", preset);
+
+        let time = |&pair: &MeshPair| {
+            let pair = points(mesh, &topology, pair);
+            match pair.kind {
+                Kind::VertexFace => cubic::vertex_face(&pair.vertex_face()),
+                Kind::EdgeEdge => cubic::edge_edge(&pair.edge_edge()),
+            }
+        };
+        candidates.retain(|pair| time(pair).is_some());
+        let contacts = run.pipeline.contacts().iter();
+        let found: BTreeSet<MeshPair> = contacts
+            .map(|contact| in_order(contact.kind, contact.pair))
+            .collect();
+        prop_assert_eq!(found, as_set(&candidates), "{}", preset);
+        for contact in run.pipeline.contacts() {
+            prop_assert_eq!(Some(contact.time), time(&(contact.kind, contact.pair)));
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn every_preset_ends_with_what_its_own_tests_leave_f64() {
+    check(
+        300,
+        meshes::<f64>(),
+        every_preset_ends_with_what_its_own_tests_leave,
+    );
+}
+
+#[test]
+fn every_preset_ends_with_what_its_own_tests_leave_f32() {
+    check(
+        300,
+        meshes::<f32>(),
+        every_preset_ends_with_what_its_own_tests_leave,
+    );
+}
+
+/// From the mesh to the candidates, against the exact oracle.
+fn no_certified_preset_loses_a_pair_that_collides<S: Format>(
+    mesh: &MeshCase<S>,
+) -> Result<(), TestCaseError> {
+    let topology = mesh.topology();
+    let colliding: Vec<MeshPair> = all_pairs(&topology)
+        .into_iter()
+        .filter(|&pair| collides(&points(mesh, &topology, pair).question()).is_some())
+        .collect();
+    let is_certified =
+        |preset: &Preset| preset.stages().tests.iter().all(|test| test.is_certified());
+    for preset in Preset::ALL.into_iter().filter(is_certified) {
+        let candidates = as_set(&Run::new(mesh, preset.stages(), 1).candidates());
+        for pair in &colliding {
+            prop_assert!(candidates.contains(pair), "{} loses {:?}", preset, pair);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn no_certified_preset_loses_a_pair_that_collides_f64() {
+    check(
+        150,
+        meshes::<f64>(),
+        no_certified_preset_loses_a_pair_that_collides,
+    );
+}
+
+#[test]
+fn no_certified_preset_loses_a_pair_that_collides_f32() {
+    check(
+        150,
+        meshes::<f32>(),
+        no_certified_preset_loses_a_pair_that_collides,
+    );
+}
+
+#[test]
+fn no_certified_preset_loses_a_pair_that_collides_far_from_the_origin() {
+    check(100, meshes::<f64>(), |mesh| {
+        no_certified_preset_loses_a_pair_that_collides(&mesh.moved_by([1e7, -1e7, 1e7]))
+    });
+}
+
+fn threads_change_nothing<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
+    for preset in Preset::ALL {
+        let one = Run::new(mesh, preset.stages(), 1);
+        for threads in [2, 3] {
+            let several = Run::new(mesh, preset.stages(), threads);
+            prop_assert!(
+                several.result() == one.result(),
+                "{} on {} threads",
+                preset,
+                threads
+            );
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn threads_change_nothing_f64() {
+    check(40, meshes::<f64>(), threads_change_nothing);
+}
+
+#[test]
+fn threads_change_nothing_f32() {
+    check(40, meshes::<f32>(), threads_change_nothing);
+}
+
+/// Large enough for many batches, and for the broad phase to split its work.
+#[test]
+fn threads_change_nothing_on_a_late_step_of_the_arm() {
+    let scene = ArmScene::new(4).expect("a refinement in range");
+    let [start, end] = [57, 58].map(|frame| scene.frame(frame));
+    let position = |frame: &[selvedge::glam::DVec3], vertex: usize| frame[vertex].to_array();
+    let mesh = MeshCase::<f64> {
+        triangles: scene.topology().triangles().to_vec(),
+        positions: (0..start.len())
+            .map(|vertex| [position(&start, vertex), position(&end, vertex)])
+            .collect(),
+    };
+    for preset in Preset::ALL {
+        let one = Run::new(&mesh, preset.stages(), 1);
+        assert!(
+            one.pipeline.report().triangle_pairs > 10 * 2048,
+            "several batches"
+        );
+        assert!(!one.pipeline.contacts().is_empty());
+        for threads in [2, 3] {
+            let several = Run::new(&mesh, preset.stages(), threads);
+            assert!(
+                several.result() == one.result(),
+                "{preset} on {threads} threads"
+            );
+        }
+    }
+}
+
+/// Buffers are reused: nothing of a step may be left in the next.
+#[test]
+fn an_earlier_step_changes_nothing() {
+    check(100, meshes::<f64>(), |mesh| {
+        let elsewhere = MeshCase {
+            triangles: mesh.triangles.clone(),
+            positions: mesh.positions.iter().rev().copied().collect(),
+        };
+        for preset in Preset::ALL {
+            let mut used = Run::new(&elsewhere, preset.stages(), 1);
+            used.step(mesh);
+            prop_assert!(
+                used.result() == Run::new(mesh, preset.stages(), 1).result(),
+                "{}",
+                preset
+            );
+        }
+        Ok(())
+    });
+}
