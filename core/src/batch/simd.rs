@@ -4,9 +4,7 @@ use super::{LANES, Mask, Test, VertexRow};
 use crate::lanes::Lanes;
 use crate::points::{PairPoints, PairShape};
 use crate::vector::Vector;
-use fearless_simd::{
-    ExtractToken, Simd, SimdBase, SimdCombine, SimdFrom, SimdMask, f32x8, f32x16, f64x8,
-};
+use fearless_simd::{ExtractToken, Simd, SimdBase, SimdCombine, SimdMask, f32x8, f32x16, f64x8};
 
 /// What [`Scalar`](crate::Scalar) needs to go sixteen at a time.
 pub trait BatchScalar: Copy {
@@ -80,14 +78,25 @@ impl BatchScalar for f32 {
         test: Test,
         pairs: &[[&VertexRow<f32>; 4]; LANES],
     ) -> Mask {
-        let mut columns = [[f32x16::simd_from(simd, 0.0); 8]; 4];
-        for point in 0..4 {
-            let low = transposed(load_rows!(f32x8, simd, pairs, 0, point));
-            let high = transposed(load_rows!(f32x8, simd, pairs, 8, point));
-            for column in 0..8 {
-                columns[point][column] = low[column].combine(high[column]);
-            }
+        macro_rules! columns {
+            ($point:expr) => {{
+                let low = transposed(load_rows!(f32x8, simd, pairs, 0, $point));
+                let high = transposed(load_rows!(f32x8, simd, pairs, 8, $point));
+                let [a, b, c, d, e, f, g, h] = low;
+                let [i, j, k, l, m, n, o, p] = high;
+                [
+                    a.combine(i),
+                    b.combine(j),
+                    c.combine(k),
+                    d.combine(l),
+                    e.combine(m),
+                    f.combine(n),
+                    g.combine(o),
+                    h.combine(p),
+                ]
+            }};
         }
+        let columns = [columns!(0), columns!(1), columns!(2), columns!(3)];
         test.on::<P, f32x16<V>>(&points(columns)).to_bitmask() as Mask
     }
 }
@@ -99,16 +108,18 @@ impl BatchScalar for f64 {
         test: Test,
         pairs: &[[&VertexRow<f64>; 4]; LANES],
     ) -> Mask {
-        let mut mask = 0;
-        for first in [0, 8] {
-            let mut columns = [[f64x8::simd_from(simd, 0.0); 8]; 4];
-            for point in 0..4 {
-                columns[point] = transposed(load_rows!(f64x8, simd, pairs, first, point));
-            }
-            let culled = test.on::<P, f64x8<V>>(&points(columns)).to_bitmask() as Mask;
-            mask |= culled << first;
+        macro_rules! eight {
+            ($first:expr) => {{
+                let columns = [
+                    transposed(load_rows!(f64x8, simd, pairs, $first, 0)),
+                    transposed(load_rows!(f64x8, simd, pairs, $first, 1)),
+                    transposed(load_rows!(f64x8, simd, pairs, $first, 2)),
+                    transposed(load_rows!(f64x8, simd, pairs, $first, 3)),
+                ];
+                test.on::<P, f64x8<V>>(&points(columns)).to_bitmask() as Mask
+            }};
         }
-        mask
+        eight!(0) | eight!(8) << 8
     }
 }
 
