@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use selvedge::dispatch::available_levels;
 use selvedge::pipeline::{CullingTest, Pipeline, Preset};
 use selvedge_core::batch::{LANES, Mask, Test, VertexRow, culled, culled_from_rows};
-use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
+use selvedge_core::points::Shape;
 use selvedge_core::{EdgeEdge, VertexFace};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, meshes};
@@ -56,12 +56,12 @@ fn verdicts_agree<S: Format>(kind: Kind) {
                     Kind::VertexFace => {
                         let pairs: Vec<VertexFace<S>> = pairs.iter().map(PairCase::vertex_face).collect();
                         culled(level, test, &pairs, &mut masks);
-                        culled_from_rows::<S, VertexAndFace>(level, test, &rows, &indices, &mut from_rows);
+                        culled_from_rows(level, Shape::VertexFace, test, &rows, &indices, &mut from_rows);
                     }
                     Kind::EdgeEdge => {
                         let pairs: Vec<EdgeEdge<S>> = pairs.iter().map(PairCase::edge_edge).collect();
                         culled(level, test, &pairs, &mut masks);
-                        culled_from_rows::<S, EdgeAndEdge>(level, test, &rows, &indices, &mut from_rows);
+                        culled_from_rows(level, Shape::EdgeEdge, test, &rows, &indices, &mut from_rows);
                     }
                 }
                 prop_assert_eq!(&masks, &from_rows, "{} {:?}", name, test);
@@ -104,7 +104,7 @@ fn an_index_that_names_no_vertex_keeps_its_pair_and_no_other() {
         for (test, _) in &TESTS[..3] {
             let mut masks = [0];
             let indices = [[0, 1, 1, 1], [0, 1, 1, 2]];
-            culled_from_rows::<f64, VertexAndFace>(level, *test, &rows, &indices, &mut masks);
+            culled_from_rows(level, Shape::VertexFace, *test, &rows, &indices, &mut masks);
             assert_eq!(masks, [0b01], "{name} {test:?}");
         }
     }

@@ -35,9 +35,8 @@ use crate::boxes;
 use crate::filter;
 use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape};
+use crate::points::{PairPoints, PairShape, Shape};
 use crate::scalar::Scalar;
-use fearless_simd::{Simd, dispatch};
 pub(crate) use simd::BatchScalar;
 
 /// How many pairs go side by side.
@@ -90,7 +89,7 @@ pub fn culled<S: Scalar, P: PrimitivePair<S>>(
             *row = pair.motions().map(VertexRow::new);
         }
         let sixteen = rows.each_ref().map(<[_; 4]>::each_ref);
-        *mask = dispatch!(level, simd => S::sixteen::<_, P::Shape>(simd, test, &sixteen));
+        *mask = S::sixteen(level, P::Shape::SHAPE, test, &sixteen);
     }
 }
 
@@ -98,19 +97,9 @@ pub fn culled<S: Scalar, P: PrimitivePair<S>>(
 ///
 /// The four indices of a pair are those of its vertices: vertex, face; or first edge, second edge. Pairs that follow
 /// one another should name rows that are close in memory.
-pub fn culled_from_rows<S: Scalar, P: PairShape>(
+pub fn culled_from_rows<S: Scalar>(
     level: Level,
-    test: Test,
-    rows: &[VertexRow<S>],
-    indices: &[[u32; 4]],
-    masks: &mut [Mask],
-) {
-    dispatch!(level, simd => culled_from_rows_with::<S, P, _>(simd, test, rows, indices, masks));
-}
-
-#[inline(always)]
-fn culled_from_rows_with<S: Scalar, P: PairShape, V: Simd>(
-    simd: V,
+    shape: Shape,
     test: Test,
     rows: &[VertexRow<S>],
     indices: &[[u32; 4]],
@@ -124,6 +113,6 @@ fn culled_from_rows_with<S: Scalar, P: PairShape, V: Simd>(
                 *row = rows.get(index as usize).unwrap_or(&unknown);
             }
         }
-        *mask = S::sixteen::<_, P>(simd, test, &sixteen);
+        *mask = S::sixteen(level, shape, test, &sixteen);
     }
 }

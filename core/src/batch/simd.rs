@@ -1,21 +1,25 @@
 //! `f32` and `f64` vectors as [`Lanes`], and how rows become lanes.
 
-use super::{LANES, Mask, Test, VertexRow};
+use super::{LANES, Level, Mask, Test, VertexRow};
 use crate::lanes::Lanes;
-use crate::points::{PairPoints, PairShape};
+use crate::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
 use crate::vector::Vector;
-use fearless_simd::{ExtractToken, Simd, SimdBase, SimdCombine, SimdMask, f32x8, f32x16, f64x8};
+use fearless_simd::{
+    ExtractToken, Simd, SimdBase, SimdCombine, SimdMask, dispatch, f32x8, f32x16, f64x8,
+};
 
 /// What [`Scalar`](crate::Scalar) needs to go sixteen at a time.
+///
+/// The method is not generic, so that its many kernels (for each instruction set, test and shape) are compiled once, in
+/// this crate, and not in every crate that calls it.
 pub trait BatchScalar: Copy {
-    /// Runs `test` on sixteen pairs.
+    /// Which of sixteen pairs `test` culls.
     #[doc(hidden)]
-    fn sixteen<V: Simd, P: PairShape>(
-        simd: V,
-        test: Test,
-        pairs: &[[&VertexRow<Self>; 4]; LANES],
-    ) -> Mask;
+    fn sixteen(level: Level, shape: Shape, test: Test, pairs: &Sixteen<'_, Self>) -> Mask;
 }
+
+/// The rows of sixteen pairs' four points.
+pub(crate) type Sixteen<'a, S> = [[&'a VertexRow<S>; 4]; LANES];
 
 macro_rules! lanes {
     ($vector:ident, $scalar:ty) => {
@@ -54,7 +58,7 @@ macro_rules! lanes {
 /// The rows of one point of eight pairs.
 macro_rules! load_rows {
     ($vector:ident, $simd:expr, $pairs:expr, $first:expr, $point:expr) => {{
-        let pairs: &[[&VertexRow<_>; 4]; LANES] = $pairs;
+        let pairs: &Sixteen<'_, _> = $pairs;
         [
             $vector::load_array_ref($simd, &pairs[$first][$point].0),
             $vector::load_array_ref($simd, &pairs[$first + 1][$point].0),
@@ -72,55 +76,62 @@ lanes!(f32x16, f32);
 lanes!(f64x8, f64);
 
 impl BatchScalar for f32 {
-    #[inline(always)]
-    fn sixteen<V: Simd, P: PairShape>(
-        simd: V,
-        test: Test,
-        pairs: &[[&VertexRow<f32>; 4]; LANES],
-    ) -> Mask {
-        macro_rules! columns {
-            ($point:expr) => {{
-                let low = transposed(load_rows!(f32x8, simd, pairs, 0, $point));
-                let high = transposed(load_rows!(f32x8, simd, pairs, 8, $point));
-                let [a, b, c, d, e, f, g, h] = low;
-                let [i, j, k, l, m, n, o, p] = high;
-                [
-                    a.combine(i),
-                    b.combine(j),
-                    c.combine(k),
-                    d.combine(l),
-                    e.combine(m),
-                    f.combine(n),
-                    g.combine(o),
-                    h.combine(p),
-                ]
-            }};
-        }
-        let columns = [columns!(0), columns!(1), columns!(2), columns!(3)];
-        test.on::<P, f32x16<V>>(&points(columns)).to_bitmask() as Mask
+    fn sixteen(level: Level, shape: Shape, test: Test, pairs: &Sixteen<'_, f32>) -> Mask {
+        dispatch!(level, simd => match shape {
+            Shape::VertexFace => sixteen_f32::<_, VertexAndFace>(simd, test, pairs),
+            Shape::EdgeEdge => sixteen_f32::<_, EdgeAndEdge>(simd, test, pairs),
+        })
     }
 }
 
 impl BatchScalar for f64 {
-    #[inline(always)]
-    fn sixteen<V: Simd, P: PairShape>(
-        simd: V,
-        test: Test,
-        pairs: &[[&VertexRow<f64>; 4]; LANES],
-    ) -> Mask {
-        macro_rules! eight {
-            ($first:expr) => {{
-                let columns = [
-                    transposed(load_rows!(f64x8, simd, pairs, $first, 0)),
-                    transposed(load_rows!(f64x8, simd, pairs, $first, 1)),
-                    transposed(load_rows!(f64x8, simd, pairs, $first, 2)),
-                    transposed(load_rows!(f64x8, simd, pairs, $first, 3)),
-                ];
-                test.on::<P, f64x8<V>>(&points(columns)).to_bitmask() as Mask
-            }};
-        }
-        eight!(0) | eight!(8) << 8
+    fn sixteen(level: Level, shape: Shape, test: Test, pairs: &Sixteen<'_, f64>) -> Mask {
+        dispatch!(level, simd => match shape {
+            Shape::VertexFace => sixteen_f64::<_, VertexAndFace>(simd, test, pairs),
+            Shape::EdgeEdge => sixteen_f64::<_, EdgeAndEdge>(simd, test, pairs),
+        })
     }
+}
+
+#[inline(always)]
+fn sixteen_f32<V: Simd, P: PairShape>(simd: V, test: Test, pairs: &Sixteen<'_, f32>) -> Mask {
+    macro_rules! columns {
+        ($point:expr) => {{
+            let low = transposed(load_rows!(f32x8, simd, pairs, 0, $point));
+            let high = transposed(load_rows!(f32x8, simd, pairs, 8, $point));
+            let [a, b, c, d, e, f, g, h] = low;
+            let [i, j, k, l, m, n, o, p] = high;
+            [
+                a.combine(i),
+                b.combine(j),
+                c.combine(k),
+                d.combine(l),
+                e.combine(m),
+                f.combine(n),
+                g.combine(o),
+                h.combine(p),
+            ]
+        }};
+    }
+    let columns = [columns!(0), columns!(1), columns!(2), columns!(3)];
+    test.on::<P, f32x16<V>>(&points(columns)).to_bitmask() as Mask
+}
+
+/// Eight pairs at a time: what an AVX-512 register holds.
+#[inline(always)]
+fn sixteen_f64<V: Simd, P: PairShape>(simd: V, test: Test, pairs: &Sixteen<'_, f64>) -> Mask {
+    macro_rules! eight {
+        ($first:expr) => {{
+            let columns = [
+                transposed(load_rows!(f64x8, simd, pairs, $first, 0)),
+                transposed(load_rows!(f64x8, simd, pairs, $first, 1)),
+                transposed(load_rows!(f64x8, simd, pairs, $first, 2)),
+                transposed(load_rows!(f64x8, simd, pairs, $first, 3)),
+            ];
+            test.on::<P, f64x8<V>>(&points(columns)).to_bitmask() as Mask
+        }};
+    }
+    eight!(0) | eight!(8) << 8
 }
 
 /// The four points from the transposed rows of each.

@@ -11,7 +11,7 @@ use arrayvec::ArrayVec;
 use selvedge_core::batch::{LANES, Level, Mask, Test, culled_from_rows};
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
-use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
+use selvedge_core::points::Shape;
 use selvedge_core::{EdgeEdge, Scalar, Verdict, VertexFace, boxes, elementary, filter};
 use std::time::Instant;
 
@@ -158,14 +158,16 @@ impl<S: Scalar> Batch<S> {
                 .extend(pairs.iter().map(|&pair| kind.vertices(pair, topology)));
             self.masks.clear();
             self.masks.resize(pairs.len().div_ceil(LANES), 0);
-            let culled = match kind {
-                PairKind::VertexFace => culled_from_rows::<S, VertexAndFace>,
-                PairKind::EdgeEdge => culled_from_rows::<S, EdgeAndEdge>,
+            let shape = match kind {
+                PairKind::VertexFace => Shape::VertexFace,
+                PairKind::EdgeEdge => Shape::EdgeEdge,
             };
-            culled(
+            let rows = step.mesh.rows;
+            culled_from_rows(
                 step.level,
+                shape,
                 test,
-                step.mesh.rows,
+                rows,
                 &self.indices,
                 &mut self.masks,
             );
