@@ -9,8 +9,8 @@ use selvedge_core::Motion;
 use selvedge_core::boxes::{Aabb, segment};
 use selvedge_verification::culling::{certified, verdict};
 use selvedge_verification::generator::{
-    Format, Moment, PairCase, check, extraordinary_pairs, from_choices, pairs, pairs_of_any_kind,
-    touching_pairs,
+    Format, Moment, PairCase, check, extraordinary_pairs, from_choices, grazes_of_a_box, pairs,
+    pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides};
 
@@ -286,12 +286,75 @@ fn a_path_that_meets_the_swept_box_is_kept_f64() {
 }
 
 #[test]
+fn a_path_that_grazes_the_swept_box_is_kept_f64() {
+    check(
+        100_000,
+        grazes_of_a_box::<f64>(),
+        a_path_that_meets_the_box_is_kept,
+    );
+}
+
+#[test]
+fn a_path_that_grazes_the_swept_box_is_kept_f32() {
+    check(
+        100_000,
+        grazes_of_a_box::<f32>(),
+        a_path_that_meets_the_box_is_kept,
+    );
+}
+
+#[test]
 fn a_path_that_meets_the_swept_box_is_kept_f32() {
     check(
         100_000,
         pairs::<f32>(Kind::VertexFace),
         a_path_that_meets_the_box_is_kept,
     );
+}
+
+/// Found by search with the test's underflow term removed, which culls both: their cross products are subnormal, and a rounded
+/// difference carries one over a rounding boundary.
+#[test]
+fn a_tiny_path_that_meets_the_box_is_kept_by_the_underflow_term_alone() {
+    let resting = |position: [f32; 3]| [position; 2];
+    let in_f32 = PairCase::<f32>::new(
+        Kind::VertexFace,
+        [
+            [
+                [5.916_622_6e-21, 0.0, -3.142_964_8e-21],
+                [-1.068_372_4e-20, 0.0, 7.093_878e-21],
+            ],
+            resting([6.405_503e-23, 0.0, 4.661_052e-22]),
+            resting([2.710_505_4e-20, 0.0, 6.352_747e-22]),
+            resting([6.405_503e-23, 0.0, 4.661_052e-22]),
+        ],
+    );
+    let resting = |position: [f64; 3]| [position; 2];
+    let in_f64 = PairCase::<f64>::new(
+        Kind::VertexFace,
+        [
+            [
+                [0.0, -5.879_625_518_037_162e-158, 8.139_709_717_471_553e-156],
+                [0.0, 2.663_308_704_314_631e-155, -2.418_029_249_419_207e-155],
+            ],
+            resting([0.0, 1.065_801_979_138_294e-155, 0.0]),
+            resting([0.0, 7.458_340_731_200_207e-155, 0.0]),
+            [
+                [0.0, 1.065_801_979_138_294e-155, 0.0],
+                [0.0, 1.065_801_979_138_294e-155, -4.836_801_323_569_613e-156],
+            ],
+        ],
+    );
+    assert!(segment_meets_box(
+        &in_f32.points[0].map(rational),
+        &swept_bounds(&in_f32)
+    ));
+    assert!(segment_meets_box(
+        &in_f64.points[0].map(rational),
+        &swept_bounds(&in_f64)
+    ));
+    assert!(!verdict(SegmentBox, &in_f32).is_culled());
+    assert!(!verdict(SegmentBox, &in_f64).is_culled());
 }
 
 /// A corner of the box, its size, where the path goes through it, the path's direction, how far it goes either way.

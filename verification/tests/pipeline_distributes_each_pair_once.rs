@@ -10,6 +10,7 @@ use selvedge_core::elementary::cubic;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
 use selvedge_verification::oracle::{Kind, collides};
+use std::cell::Cell;
 use std::collections::BTreeSet;
 
 const KINDS: [PairKind; 2] = [VertexFace, EdgeEdge];
@@ -212,6 +213,42 @@ fn every_overlapping_pair_is_distributed_exactly_once_far_from_the_origin() {
         let far = mesh.moved_by([1e7, -1e7, 1e7]);
         every_overlapping_pair_is_distributed_exactly_once(&far)
     });
+}
+
+/// One triangle names a vertex twice; it has two vertices and one edge, and each pair with the other triangle's is met once.
+#[test]
+fn a_degenerate_triangle_has_each_of_its_features_once() {
+    let mesh = MeshCase::<f64> {
+        triangles: vec![[0, 0, 1], [2, 3, 4]],
+        positions: vec![[[0.0; 3]; 2]; 5],
+    };
+    for redundancy in [
+        Redundancy::Kept,
+        Redundancy::HashSets,
+        Redundancy::RepresentativeTriangles,
+    ] {
+        let pairs = distributed(&mesh, redundancy);
+        let faces = pairs.iter().filter(|(kind, _)| *kind == VertexFace);
+        assert_eq!((faces.count(), pairs.len()), (5, 8), "{redundancy:?}");
+    }
+}
+
+/// The broad phase is as precise far from the origin as near it: it does not keep more pairs there.
+#[test]
+fn an_exact_translation_leaves_the_same_candidates() {
+    let compared = Cell::new(0);
+    check(1000, meshes::<f64>(), |mesh| {
+        let far = mesh.moved_by([1e7, -1e7, 1e7]);
+        if far.moved_by([-1e7, 1e7, -1e7]) == *mesh {
+            compared.set(compared.get() + 1);
+            let [near, far] = [mesh, &far].map(|mesh| Run::new(mesh, Preset::Selvedge.stages(), 1));
+            let triangle_pairs = |run: &Run<f64>| run.pipeline.report().triangle_pairs;
+            prop_assert_eq!(triangle_pairs(&near), triangle_pairs(&far));
+            prop_assert_eq!(near.candidates(), far.candidates());
+        }
+        Ok(())
+    });
+    assert!(compared.get() > 100);
 }
 
 fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(

@@ -51,6 +51,11 @@ pub fn coplanar_pairs<S: Format>() -> impl Strategy<Value = Moment<S>> + Clone {
     from_choices(|choices| Moment::choose(any_kind(choices), Meeting::Coplanar, choices))
 }
 
+/// Vertices whose paths pass an edge of the face's box as closely as can be.
+pub fn grazes_of_a_box<S: Format>() -> impl Strategy<Value = PairCase<S>> + Clone {
+    from_choices(PairCase::choose_graze_of_a_box)
+}
+
 /// Small meshes in motion.
 pub fn meshes<S: Format>() -> impl Strategy<Value = MeshCase<S>> + Clone {
     from_choices(MeshCase::choose)

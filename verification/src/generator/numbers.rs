@@ -130,8 +130,8 @@ pub(super) fn binary_exponent<S: Format>(number: S) -> i32 {
     (number.to_f64().to_bits() >> 52 & 0x7ff) as i32 - 1023
 }
 
-/// A power of two by which whole numbers are scaled: most often none, else to where numbers, or products of three of
-/// them, underflow or overflow.
+/// A power of two by which whole numbers are scaled: most often none, else to where numbers, or products of two or three
+/// of them, underflow or overflow.
 pub(super) fn exponent<S: Format>(choices: &mut Choices<'_>) -> i32 {
     let highest = S::MAX_EXPONENT - S::PRECISION.cast_signed();
     let near = choices.within(12) as i32;
@@ -140,7 +140,7 @@ pub(super) fn exponent<S: Format>(choices: &mut Choices<'_>) -> i32 {
         8 => near,
         9 => S::MIN_EXPONENT,
         10 => S::MIN_EXPONENT + near.abs(),
-        11 => S::MIN_EXPONENT / 3 + near,
+        11 => S::MIN_EXPONENT / if near % 2 == 0 { 2 } else { 3 } + near,
         // Where the filter's underflow term matters.
         12 => binary_exponent(S::UNDERFLOW) / 3 + near,
         13 => S::MAX_EXPONENT / 3 - S::PRECISION.cast_signed() + 4 * near,

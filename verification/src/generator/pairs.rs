@@ -43,6 +43,41 @@ impl<S: Format> PairCase<S> {
         case
     }
 
+    /// Chooses a vertex whose path passes an edge of the box that a face at rest spans, within a few units in the last place on
+    /// either side.
+    #[must_use]
+    pub fn choose_graze_of_a_box(choices: &mut Choices<'_>) -> Self {
+        // Start and end of different sizes, so that differences round.
+        let start: [S; 3] = std::array::from_fn(|_| {
+            S::exact(1, -choices.pick(&[0, 1, 4, 7])) * fraction::<S>(choices)
+        });
+        let end: [S; 3] = std::array::from_fn(|_| fraction(choices));
+        let part = fraction::<S>(choices).abs();
+        let passed: [S; 3] = std::array::from_fn(|axis| {
+            let position = start[axis] + part * (end[axis] - start[axis]);
+            let steps = choices.pick(&[2, 30]);
+            position.nudged(choices.within(steps))
+        });
+        // The edge is parallel to one axis; along the others the box begins there and lies on either side.
+        let edge_axis = choices.below(3) as usize;
+        let (far, thin) = (S::exact(2, 0), S::exact(1, -6));
+        let mut corners = [passed; 2];
+        for axis in 0..3 {
+            if axis == edge_axis {
+                (corners[0][axis], corners[1][axis]) = (-far, far);
+            } else {
+                corners[1][axis] = passed[axis] + choices.pick(&[thin, -thin, far, -far]);
+            }
+        }
+        // Often where products are subnormal, but have some bits left.
+        let products_underflow = S::MIN_EXPONENT / 2 + choices.below(S::PRECISION / 2) as i32;
+        let any = exponent::<S>(choices);
+        let factor = S::exact(1, choices.pick(&[0, products_underflow, any]));
+        let [one, other] = corners.map(|corner| [corner; 2]);
+        Self::new(Kind::VertexFace, [[start, end], one, other, one])
+            .map(|x| (x * factor).made_finite())
+    }
+
     /// Chooses a pair with extraordinary coordinates.
     #[must_use]
     pub fn choose_any(kind: Kind, choices: &mut Choices<'_>) -> Self {
