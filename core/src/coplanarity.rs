@@ -91,18 +91,18 @@ impl<L: Lanes> MovingTetrahedron<L> {
     #[inline(always)]
     #[must_use]
     pub fn error_bounds(&self) -> [L; 4] {
-        let magnitudes = |[start, end]: [Vector<L>; 2]| [start.abs(), end.abs()];
-        let ([b0, b1], [c0, c1], [p0, p1]) =
-            (magnitudes(self.b), magnitudes(self.c), magnitudes(self.p));
+        let ([b0, b1], [c0, c1], [p0, p1]) = (self.b, self.c, self.p);
+        let (b0, b1, c0, c1) = (b0.abs(), b1.abs(), c0.abs(), c1.abs());
+        let (p0, p1) = (p0.abs(), p1.abs());
         let (n0, n1) = (b0.cross_permanent(c0), b1.cross_permanent(c1));
         let h = b0.cross_permanent(c1) + b1.cross_permanent(c0);
 
-        let constant = |value| p0.x.splat(value);
-        let roundoffs =
-            |count| constant(L::Scalar::UNIT_ROUNDOFF) * constant(L::Scalar::small(count));
-        let (outer, inner) = (roundoffs(8), roundoffs(10));
+        let one = p0.x.splat(L::Scalar::ONE);
+        let roundoff = p0.x.splat(L::Scalar::UNIT_ROUNDOFF);
+        let outer = roundoff * p0.x.splat(L::Scalar::small(8));
+        let inner = roundoff * p0.x.splat(L::Scalar::small(10));
         let p_max = p0.larger(p1).largest();
-        let underflow = (p_max + constant(L::Scalar::ONE)) * constant(L::Scalar::UNDERFLOW);
+        let underflow = (p_max + one) * p0.x.splat(L::Scalar::UNDERFLOW);
         [
             outer * p0.dot(n0) + underflow,
             inner * (p0.dot(h) + p1.dot(n0)) + underflow,

@@ -18,7 +18,8 @@
 //!
 //! # What is promised
 //! * Every function marked *certified* or *exact* covers its own rounding: it never culls a pair that
-//!   touches at some time in [0, 1], whatever the input, under IEEE 754 arithmetic that rounds to nearest.
+//!   touches at some time in [0, 1], whatever the input, under IEEE 754 arithmetic that rounds to nearest and keeps
+//!   subnormal numbers (no flush-to-zero).
 //! * NaN, infinite or overflowing input is always kept.
 //! * No allocation, no `unsafe`, no panic, no dependence on `std`.
 //! * The published baselines ([`filter::plain`], [`elementary::cubic`]) promise nothing of the kind and say so.
@@ -29,6 +30,7 @@
 //! | [`motion`] | the two primitive pairs, in [`glam`] types | |
 //! | [`coplanarity`] | the signed volume of four moving points, as a cubic in Bernstein form, and its rounding error | proven bound |
 //! | [`filter`] | culls pairs that are never coplanar | certified, or plain as in the paper |
+//! | [`batch`] | the tests of `boxes` and `filter` on sixteen pairs side by side, alone or from a mesh | the same verdicts, bit for bit |
 //! | [`boxes`] | swept boxes, segment against box, relative boxes, 18-DOPs | exact or certified |
 //! | [`features`], [`distribution`] | representative features of a triangle; a candidate triangle pair to its primitive pairs | each pair once |
 //! | [`elementary`] | time of impact | plain cubic (baseline) |
@@ -43,6 +45,7 @@
 
 pub use glam;
 
+pub mod batch;
 pub mod boxes;
 pub mod coplanarity;
 pub mod distribution;

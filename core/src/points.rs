@@ -15,8 +15,20 @@ pub struct PairPoints<L> {
     pub end: [Vector<L>; 4],
 }
 
-/// Which of four points belong together: [`VertexAndFace`] or [`EdgeAndEdge`].
+/// Which of four points belong together, as a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Shape {
+    /// One point against three.
+    VertexFace,
+    /// Two points against two.
+    EdgeEdge,
+}
+
+/// Which of four points belong together, as a type: [`VertexAndFace`] or [`EdgeAndEdge`].
 pub trait PairShape {
+    /// The same as a value.
+    const SHAPE: Shape;
+
     /// The smallest and largest value over each set's points, given one value for each point. NaN may be dropped.
     fn ranges<L: Lanes>(values: [L; 4]) -> [[L; 2]; 2];
 
@@ -33,6 +45,8 @@ pub enum VertexAndFace {}
 pub enum EdgeAndEdge {}
 
 impl PairShape for VertexAndFace {
+    const SHAPE: Shape = Shape::VertexFace;
+
     #[inline(always)]
     fn ranges<L: Lanes>([vertex, a, b, c]: [L; 4]) -> [[L; 2]; 2] {
         [
@@ -49,6 +63,8 @@ impl PairShape for VertexAndFace {
 }
 
 impl PairShape for EdgeAndEdge {
+    const SHAPE: Shape = Shape::EdgeEdge;
+
     #[inline(always)]
     fn ranges<L: Lanes>([u, v, k, l]: [L; 4]) -> [[L; 2]; 2] {
         [[u.smaller(v), u.larger(v)], [k.smaller(l), k.larger(l)]]

@@ -1,5 +1,6 @@
 //! `f32` and `f64`, the two number formats that positions come in.
 
+use crate::batch::BatchScalar;
 use crate::lanes::{Lanes, Rounding};
 use core::fmt::{Debug, Display};
 use core::ops::Div;
@@ -16,6 +17,7 @@ mod sealed {
 pub trait Scalar:
     Lanes<Scalar = Self, Mask = bool>
     + Rounding
+    + BatchScalar
     + Div<Output = Self>
     + PartialOrd
     + Debug

@@ -1,6 +1,24 @@
 //! Finds which vertex–face and edge–edge pairs of a deforming triangle mesh can collide during a time step.
+//!
+//! The tests themselves, one pair at a time and without `std`, are [`selvedge_core`](crate::core). This crate adds all that
+//! needs memory, files, threads or a clock:
+//!
+//! | module | what it is |
+//! |---|---|
+//! | [`mesh`] | triangle meshes and their topology, OBJ and PLY files, the paper's sleeve at any size |
+//! | [`broad_phase`] | candidate triangle pairs: which swept boxes overlap |
+//! | [`pipeline`] | **start here**: two frames in, candidates and contacts out; every published method as a choice of stages |
+//! | [`dispatch`] | the instruction set of the batched kernels |
+//! | [`scene`] | the built-in motion: a sleeve on a bending arm |
+//! | [`study`] | experiments: methods compared, cost against size, benchmark queries; data only |
+//! | `queries` | primitive-pair queries of the public benchmark, read exactly (feature `files`) |
+//! | `report` | tables, CSV, JSON, plots, pictures (feature `report`) |
+//!
+//! `default-features = false` leaves a small library for a game engine: meshes in memory, broad phase, pipelines.
+//! The feature `cli` (default) brings the `selvedge` command, and with it `files` and `report`.
 
 pub mod broad_phase;
+pub mod dispatch;
 #[cfg(feature = "files")]
 mod excerpt;
 pub mod mesh;

@@ -5,6 +5,7 @@
 #![no_std]
 
 use core::panic::PanicInfo;
+use selvedge_core::batch::{self, Level, Test};
 use selvedge_core::boxes::{Aabb, Dop18, relative, segment, swept_boxes};
 use selvedge_core::distribution::distribute;
 use selvedge_core::{
@@ -24,12 +25,37 @@ fn bit(index: u32, verdict: Verdict) -> u32 {
     u32::from(verdict.is_culled()) << index
 }
 
+/// The batched tests, each at the bit of its one-pair twin, on the instruction set that every machine of this kind has.
+fn batched<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
+    let test = |index: u32, test: Test| {
+        let mut mask = [0];
+        batch::culled(
+            Level::baseline(),
+            test,
+            core::slice::from_ref(pair),
+            &mut mask,
+        );
+        u32::from(mask[0]) << index
+    };
+    test(0, Test::SweptBoxes)
+        | test(1, Test::RelativeBoxes)
+        | test(2, Test::RelativeBoxesNine)
+        | test(4, Test::CertifiedNonCoplanarity)
+}
+
 fn verdicts<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
     bit(0, swept_boxes(pair))
         | bit(1, relative::three_axes(pair))
         | bit(2, relative::nine_directions(pair))
         | bit(3, filter::plain::non_coplanarity(pair))
         | bit(4, filter::certified::non_coplanarity(pair))
+}
+
+/// Nine answers and a tenth: that the batched ones are the same.
+fn with_batches<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
+    let verdicts = verdicts(pair);
+    let differ = (verdicts & 0b1_0111) != batched(pair);
+    verdicts | u32::from(differ) << 9
 }
 
 /// One bit for each test that culls, another where the elementary test finds no contact.
@@ -51,14 +77,14 @@ fn all_tests<S: Scalar>(points: &Points<S>) -> [u32; 2] {
     let apart = |one: bool, other: bool| u32::from(!one) << 5 | u32::from(!other) << 6;
     let missed = |contact: Option<S>| u32::from(contact.is_none()) << 8;
     [
-        verdicts(&vertex_face)
+        with_batches(&vertex_face)
             | apart(
                 Aabb::swept(&[a]).overlaps(&Aabb::swept(&[b, c, d])),
                 dops[0].overlaps(&dops[1].merged(&dops[2]).merged(&dops[3])),
             )
             | bit(7, segment::vertex_face(&vertex_face))
             | missed(elementary::cubic::vertex_face(&vertex_face)),
-        verdicts(&edge_edge)
+        with_batches(&edge_edge)
             | apart(
                 Aabb::swept(&[a, b]).overlaps(&Aabb::swept(&[c, d])),
                 dops[0].merged(&dops[1]).overlaps(&dops[2].merged(&dops[3])),

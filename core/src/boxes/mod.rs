@@ -15,6 +15,50 @@
 //!
 //! Box tests see motion as linear: a coordinate, or a sum of coordinates, lies between its values at both ends.
 
+/// Whether a test of the four points' values at the start and at the end holds along one of the axes.
+///
+/// A macro, as are others in kernels: closures and `array::map` are functions of their own, which the compiler
+/// will not always inline into code for a wider instruction set; then every operation becomes a call.
+macro_rules! along_axes {
+    ($points:expr, $test:expr) => {
+        $test(
+            values!($points.start, |p| p.x),
+            values!($points.end, |p| p.x),
+        ) | $test(
+            values!($points.start, |p| p.y),
+            values!($points.end, |p| p.y),
+        ) | $test(
+            values!($points.start, |p| p.z),
+            values!($points.end, |p| p.z),
+        )
+    };
+}
+
+/// One value for each of four points.
+macro_rules! values {
+    ($points:expr, |$p:ident| $value:expr) => {{
+        let [a, b, c, d] = $points;
+        [
+            {
+                let $p = a;
+                $value
+            },
+            {
+                let $p = b;
+                $value
+            },
+            {
+                let $p = c;
+                $value
+            },
+            {
+                let $p = d;
+                $value
+            },
+        ]
+    }};
+}
+
 mod aabb;
 mod dop;
 pub mod relative;
@@ -41,29 +85,21 @@ pub fn swept_boxes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
 #[inline(always)]
 #[must_use]
 pub fn have_disjoint_swept_boxes<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
-    let apart = |start: [L; 4], end: [L; 4]| {
-        let ([first, second], [first_at_end, second_at_end]) = (P::ranges(start), P::ranges(end));
-        let swept = |[low, high]: [L; 2], [low_at_end, high_at_end]: [L; 2]| {
-            [low.smaller(low_at_end), high.larger(high_at_end)]
-        };
-        let [low, high] = swept(first, first_at_end);
-        let [other_low, other_high] = swept(second, second_at_end);
-        low.greater(other_high) | other_low.greater(high)
-    };
     // The ranges drop NaN, hence the last condition.
-    along_axes(points, apart) & points.is_finite()
+    along_axes!(points, are_disjoint_intervals::<P, L>) & points.is_finite()
 }
 
-/// Whether `apart`, given the four points' coordinates at the start and at the end, holds along one of the axes.
+/// Whether the intervals that the two sets' values sweep are disjoint.
 #[inline(always)]
-fn along_axes<L: Lanes>(
-    points: &PairPoints<L>,
-    apart: impl Fn([L; 4], [L; 4]) -> L::Mask,
-) -> L::Mask {
-    let PairPoints { start, end } = points;
-    apart(start.map(|p| p.x), end.map(|p| p.x))
-        | apart(start.map(|p| p.y), end.map(|p| p.y))
-        | apart(start.map(|p| p.z), end.map(|p| p.z))
+fn are_disjoint_intervals<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> L::Mask {
+    let [[low_0, high_0], [other_low_0, other_high_0]] = P::ranges(start);
+    let [[low_1, high_1], [other_low_1, other_high_1]] = P::ranges(end);
+    low_0
+        .smaller(low_1)
+        .greater(other_high_0.larger(other_high_1))
+        | other_low_0
+            .smaller(other_low_1)
+            .greater(high_0.larger(high_1))
 }
 
 /// The nine directions of an 18-DOP, as values of one point: x, y, z, x±y, x±z, y±z. The sums round to nearest.

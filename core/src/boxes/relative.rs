@@ -7,12 +7,10 @@
 //! axis-aligned boxes cull and more, because it knows that the two move together, which swept boxes forget. The same test
 //! is the reading that we give to the subspace filters of Tang, Li and Wang 2010 and 2011 (*reconstructed*).
 
-use super::along_axes;
 use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
-use crate::vector::Vector;
 use crate::verdict::Verdict;
 
 /// Culls `pair` if one coordinate axis keeps its two sets apart, in the same order, throughout the step.
@@ -48,20 +46,25 @@ pub fn nine_directions<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
 #[must_use]
 pub fn are_apart_along_three_axes<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
     // The ranges drop NaN, hence the last condition.
-    along_axes(points, keep_order::<P, L>) & points.is_finite()
+    along_axes!(points, keep_order::<P, L>) & points.is_finite()
 }
 
 /// The decision of [`nine_directions`] on any number of lanes.
 #[inline(always)]
 #[must_use]
 pub fn are_apart_along_nine_directions<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
-    let PairPoints { start, end } = points;
-    let along =
-        |project: fn(Vector<L>) -> L| keep_order::<P, L>(start.map(project), end.map(project));
-    let diagonals = (along(|p| p.x + p.y) | along(|p| p.x - p.y))
-        | (along(|p| p.x + p.z) | along(|p| p.x - p.z))
-        | (along(|p| p.y + p.z) | along(|p| p.y - p.z));
-    (along_axes(points, keep_order::<P, L>) | diagonals) & points.is_finite()
+    macro_rules! along {
+        ($p:ident => $value:expr) => {
+            keep_order::<P, L>(
+                values!(points.start, |$p| $value),
+                values!(points.end, |$p| $value),
+            )
+        };
+    }
+    let diagonals = (along!(p => p.x + p.y) | along!(p => p.x - p.y))
+        | (along!(p => p.x + p.z) | along!(p => p.x - p.z))
+        | (along!(p => p.y + p.z) | along!(p => p.y - p.z));
+    (along_axes!(points, keep_order::<P, L>) | diagonals) & points.is_finite()
 }
 
 /// Whether one set's values are all above the other's at the start, and at the end too.

@@ -14,6 +14,13 @@
 //! each triangle's partners come out sorted, and only the triangles' runs are left to be put in a row
 //! (`output`).
 //!
+//! # Why not a library's hierarchy
+//!
+//! Measured against parry3d 0.31 (`cargo bench --bench broad_phase`), one thread, refit and all pairs of a cloth of 92,230
+//! triangles with 4.5 million pairs: 41 to 46 ms here, in order; 62 to 66 ms there, in tree order, and 175 ms more to sort
+//! them. On tubes of 1.3 thousand to 1.3 million triangles both are level before sorting. parry3d's traversal also makes a new
+//! vector each time, and the pipeline promises to allocate nothing after its first step.
+//!
 //! Nothing depends on the number of threads but the time. After the first step nothing is allocated,
 //! unless some buffer needs half as much again as in any step before.
 //!
@@ -44,7 +51,8 @@ use traversal::Traversal;
 
 /// The box that a triangle sweeps during the step, in the caller's length unit.
 ///
-/// The caller rounds it outwards when the positions have more digits than `f32`.
+/// Where positions have more digits than `f32` the caller rounds outwards, or maps all coordinates of an axis by one
+/// function that never exchanges two of them: boxes that overlap must still do so.
 ///
 /// Two boxes overlap unless, along some axis, the lower bound of one is greater than the upper bound of
 /// the other. A bound that is not a number is greater than nothing, so it separates nothing; infinite

@@ -8,14 +8,17 @@ use super::report::PairCounts;
 use super::stored::{BoundingVolume, Stored};
 use crate::PairKind;
 use arrayvec::ArrayVec;
+use selvedge_core::batch::{LANES, Level, Mask, Test, culled_from_rows};
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
+use selvedge_core::points::Shape;
 use selvedge_core::{EdgeEdge, Scalar, Verdict, VertexFace, boxes, elementary, filter};
 use std::time::Instant;
 
 /// What every batch of a step reads.
 #[derive(Clone, Copy)]
 pub(super) struct StepInput<'a, S: Scalar> {
+    pub(super) level: Level,
     pub(super) mesh: MovingMesh<'a, S>,
     pub(super) boxes: &'a Stored<Aabb<S>>,
     pub(super) dops: &'a Stored<Dop18<S>>,
@@ -31,6 +34,9 @@ pub(super) struct Batch<S> {
     pub(super) vertex_face: Vec<[u32; 2]>,
     pub(super) edge_edge: Vec<[u32; 2]>,
     pub(super) contacts: Vec<Contact<S>>,
+    /// The vertices of each pair, and what a batched test says of them.
+    indices: Vec<[u32; 4]>,
+    masks: Vec<Mask>,
     /// Distribution, each culling test, the elementary test.
     pub(super) tallies: ArrayVec<Tally, 8>,
 }
@@ -42,6 +48,8 @@ impl<S: Scalar> Batch<S> {
             vertex_face: Vec::with_capacity(6 * triangle_pairs),
             edge_edge: Vec::with_capacity(9 * triangle_pairs),
             contacts: Vec::with_capacity(15 * triangle_pairs),
+            indices: Vec::with_capacity(9 * triangle_pairs),
+            masks: Vec::with_capacity((9 * triangle_pairs).div_ceil(LANES)),
             tallies: ArrayVec::new(),
         }
     }
@@ -108,14 +116,16 @@ impl<S: Scalar> Batch<S> {
             CullingTest::SegmentBox => {
                 self.keep(step, boxes::segment::vertex_face, boxes::swept_boxes);
             }
-            CullingTest::RelativeBoxes | CullingTest::SubspaceThree => {
+            CullingTest::RelativeBoxes => self.keep_by_lanes(step, Test::RelativeBoxes),
+            CullingTest::RelativeBoxesNine => self.keep_by_lanes(step, Test::RelativeBoxesNine),
+            CullingTest::SubspaceThree => {
                 self.keep(
                     step,
                     boxes::relative::three_axes,
                     boxes::relative::three_axes,
                 );
             }
-            CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => {
+            CullingTest::SubspaceNine => {
                 self.keep(
                     step,
                     boxes::relative::nine_directions,
@@ -130,12 +140,45 @@ impl<S: Scalar> Batch<S> {
                 );
             }
             CullingTest::CertifiedNonCoplanarity => {
-                self.keep(
-                    step,
-                    filter::certified::non_coplanarity,
-                    filter::certified::non_coplanarity,
-                );
+                self.keep_by_lanes(step, Test::CertifiedNonCoplanarity);
             }
+        }
+    }
+
+    /// Drops what `test` culls, sixteen pairs at a time.
+    fn keep_by_lanes(&mut self, step: &StepInput<'_, S>, test: Test) {
+        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+            let pairs = match kind {
+                PairKind::VertexFace => &mut self.vertex_face,
+                PairKind::EdgeEdge => &mut self.edge_edge,
+            };
+            let topology = step.mesh.topology;
+            self.indices.clear();
+            self.indices
+                .extend(pairs.iter().map(|&pair| kind.vertices(pair, topology)));
+            self.masks.clear();
+            self.masks.resize(pairs.len().div_ceil(LANES), 0);
+            let shape = match kind {
+                PairKind::VertexFace => Shape::VertexFace,
+                PairKind::EdgeEdge => Shape::EdgeEdge,
+            };
+            let rows = step.mesh.rows;
+            culled_from_rows(
+                step.level,
+                shape,
+                test,
+                rows,
+                &self.indices,
+                &mut self.masks,
+            );
+
+            let masks = &self.masks;
+            let mut index = 0;
+            keep_where(pairs, |_| {
+                let culled = masks[index / LANES] >> (index % LANES) & 1;
+                index += 1;
+                culled == 0
+            });
         }
     }
 

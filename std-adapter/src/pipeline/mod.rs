@@ -16,7 +16,8 @@
 //! ```
 //!
 //! A published method is a [`Preset`]: a choice of stages ([`Stages`]), never another loop. All presets run the
-//! same code, on the same broad phase, so their times compare.
+//! same code, on the same broad phase, so their times compare. Two tests that only our own preset uses, relative boxes and
+//! the certified filter, go sixteen pairs at a time ([`selvedge_core::batch`]); the published ones go one by one.
 //!
 //! ```
 //! use selvedge::{glam::DVec3, mesh::Topology, pipeline::{Pipeline, Preset}};
@@ -52,11 +53,13 @@ pub use report::{PairCounts, StageReport, StepReport};
 
 use crate::PairKind;
 use crate::broad_phase::{BroadPhase, SweptBox};
+use crate::dispatch::{Level, best_level};
 use crate::mesh::Topology;
 use crate::parallel;
 use batch::{Batch, StepInput};
 use pairs::MovingMesh;
 use rustc_hash::FxHashSet;
+use selvedge_core::batch::VertexRow;
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::{Motion, Scalar};
 use std::time::Instant;
@@ -85,7 +88,8 @@ pub struct Pipeline<S: Scalar> {
 #[derive(Debug)]
 struct Buffers<S: Scalar> {
     keep_candidates: bool,
-    motions: Vec<Motion<S>>,
+    level: Level,
+    rows: Vec<VertexRow<S>>,
     swept: Vec<SweptBox>,
     broad_phase: BroadPhase,
     triangle_pairs: Vec<[u32; 2]>,
@@ -168,7 +172,8 @@ impl<S: Scalar> Pipeline<S> {
         Ok(Self {
             buffers: Buffers {
                 keep_candidates: false,
-                motions: Vec::with_capacity(topology.vertex_count()),
+                level: best_level(),
+                rows: Vec::with_capacity(topology.vertex_count()),
                 swept: Vec::with_capacity(topology.triangles().len()),
                 broad_phase: BroadPhase::new(),
                 triangle_pairs: Vec::new(),
@@ -190,6 +195,11 @@ impl<S: Scalar> Pipeline<S> {
     /// Whether the pairs that reach the elementary test are kept for [`candidates`](Self::candidates). Off at first.
     pub const fn keep_candidates(&mut self, keep: bool) {
         self.buffers.keep_candidates = keep;
+    }
+
+    /// Forces the instruction set of the batched kernels; the best that the machine has is the default. Changes no result.
+    pub const fn set_level(&mut self, level: Level) {
+        self.buffers.level = level;
     }
 
     /// Runs the step from `start` to `end`, one position for each vertex, in any length unit.
@@ -264,16 +274,15 @@ impl<S: Scalar> Buffers<S> {
         report: &mut StepReport,
     ) {
         let begin = Instant::now();
-        self.motions.clear();
-        self.motions.extend(
-            start
-                .iter()
-                .zip(end)
-                .map(|(&start, &end)| Motion::new(start, end)),
-        );
+        self.rows.clear();
+        let moving = start
+            .iter()
+            .zip(end)
+            .map(|(&start, &end)| Motion::new(start, end));
+        self.rows.extend(moving.map(VertexRow::new));
         let mesh = MovingMesh {
             topology,
-            motions: &self.motions,
+            rows: &self.rows,
         };
         self.boxes.refit_vertices_and_faces(mesh);
         swept::map_boxes(&mut self.swept, self.boxes.faces());
@@ -311,7 +320,7 @@ impl<S: Scalar> Buffers<S> {
 
         let mesh = MovingMesh {
             topology,
-            motions: &self.motions,
+            rows: &self.rows,
         };
         // What only some methods keep is refitted in the stage that uses it.
         for (test, report) in stages.tests.iter().zip(&mut report.stages[1..]) {
@@ -327,6 +336,7 @@ impl<S: Scalar> Buffers<S> {
             report.seconds += begin.elapsed().as_secs_f64();
         }
         let step = StepInput {
+            level: self.level,
             mesh,
             boxes: &self.boxes,
             dops: &self.dops,

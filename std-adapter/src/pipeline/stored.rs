@@ -71,7 +71,7 @@ impl<V> Stored<V> {
     where
         V: BoundingVolume<S>,
     {
-        fill(&mut self.vertices, mesh.motions, V::swept);
+        fill(&mut self.vertices, mesh.rows, |row| V::swept(&row.motion()));
         let vertices = &self.vertices;
         fill(&mut self.faces, mesh.topology.triangles(), |triangle| {
             let [a, b, c] = triangle.map(|vertex| vertices[vertex as usize]);

@@ -1,0 +1,32 @@
+use crate::motion::Motion;
+use crate::scalar::Scalar;
+
+/// A vertex's start and end in one row, `x₀ y₀ z₀ 0 x₁ y₁ z₁ 0`: one load, or two, fetches all of it.
+///
+/// Keep one for each vertex of a mesh, in the order of its vertices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub struct VertexRow<S>(pub(super) [S; 8]);
+
+impl<S: Scalar> VertexRow<S> {
+    /// The row of a moving vertex.
+    #[inline(always)]
+    pub fn new(motion: Motion<S>) -> Self {
+        let [[x, y, z], [u, v, w]] = [motion.start, motion.end].map(Into::into);
+        Self([x, y, z, S::ZERO, u, v, w, S::ZERO])
+    }
+
+    /// The moving vertex of the row.
+    #[inline(always)]
+    #[must_use]
+    pub fn motion(&self) -> Motion<S> {
+        let [x, y, z, _, u, v, w, _] = self.0;
+        Motion::new(S::Vector::from([x, y, z]), S::Vector::from([u, v, w]))
+    }
+
+    /// Stands in for a vertex that does not exist: not a number, so that every test keeps the pair.
+    #[inline(always)]
+    pub(super) fn unknown() -> Self {
+        Self([S::INFINITY * S::ZERO; 8])
+    }
+}
