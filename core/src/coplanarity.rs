@@ -21,15 +21,16 @@
 //! u is the unit roundoff. Let P̂ᵢ be the expression of kᵢ in the same order with magnitudes for components and
 //! additions for subtractions (its *permanent*). A monomial of k₀ or k₃ passes through 3 differences, a product,
 //! a subtraction, a product and 2 additions: 8 roundings. One of 3k₁ or 3k₂ passes through one addition more in h
-//! and one more at the end: 10. Computing P̂ itself loses as many; that second-order part is covered because
-//! rounding is monotone: the last addition of kᵢ cannot cross a floating-point number, which leaves 7 and 9 that
-//! count. Hence
+//! and one more at the end: 10. The last of them does not count for the sign: rounding is monotone, so a computed
+//! kᵢ = fl(x) above Eᵢ, a floating-point number, proves x > Eᵢ. That leaves 7 and 9, and one u for all that is of
+//! second order, the powers of 1 + u and what P̂ᵢ and Eᵢ lose by being rounded as well:
+//! 8u(1 − u)⁹ ≥ (1 + u)⁷ − 1 and 10u(1 − u)¹² ≥ (1 + u)⁹ − 1 hold for u ≤ 2⁻⁸. Hence
 //!
 //! ```text
-//!  |kᵢ(computed) − kᵢ| ≤ Eᵢ = Cᵢ·P̂ᵢ + (p_max + 1)·η,    C₀ = C₃ = 8u,   C₁ = C₂ = 10u (for 3k₁, 3k₂)
+//!  kᵢ (computed) > Eᵢ proves kᵢ > 0,   Eᵢ = Cᵢ·P̂ᵢ + (p_max + 1)·η,   C₀ = C₃ = 8u,   C₁ = C₂ = 10u (for 3k₁, 3k₂)
 //! ```
 //!
-//! in the sense that a computed kᵢ > Eᵢ proves kᵢ > 0.
+//! and the same below −Eᵢ.
 //!
 //! **Underflow.** Additions and subtractions are exact when their result is subnormal. Each product loses at most
 //! half of the smallest subnormal, η₀ = 2⁻¹⁰⁷⁵ (`f64`) or 2⁻¹⁵⁰ (`f32`); with p_max the largest component of P₀ and
