@@ -239,7 +239,15 @@ fn an_exact_translation_leaves_the_same_candidates() {
     let compared = Cell::new(0);
     check(1000, meshes::<f64>(), |mesh| {
         let far = mesh.moved_by([1e7, -1e7, 1e7]);
-        if far.moved_by([-1e7, 1e7, -1e7]) == *mesh {
+        // Of small numbers only: 1e300 would come back too, but without having moved. Within half of the distance the way
+        // back is exact (Sterbenz), so that who comes back has lost nothing.
+        let small = mesh
+            .positions
+            .iter()
+            .flatten()
+            .flatten()
+            .all(|x| x.abs() < 5e6);
+        if small && far.moved_by([-1e7, 1e7, -1e7]) == *mesh {
             compared.set(compared.get() + 1);
             let [near, far] = [mesh, &far].map(|mesh| Run::new(mesh, Preset::Selvedge.stages(), 1));
             let triangle_pairs = |run: &Run<f64>| run.pipeline.report().triangle_pairs;
