@@ -35,7 +35,16 @@ pub trait Scalar:
     const NAME: &'static str;
     /// Zero.
     const ZERO: Self;
+    /// Stored bits of the significand, the leading one not counted: 23 or 52.
+    const FRACTION_BITS: u32;
+    /// Bits of the exponent field: 8 or 11.
+    const EXPONENT_BITS: u32;
 
+    /// The number's IEEE 754 encoding; `f32` in the low half.
+    ///
+    /// Not an operation in floating point: denormals-are-zero does not change it, as it does change
+    /// [`to_f64`](Self::to_f64).
+    fn encoding(self) -> u64;
     /// The nearest number of this format; infinite if `value` is out of range.
     fn from_f64(value: f64) -> Self;
     /// The same number as `f64`, exactly.
@@ -56,7 +65,7 @@ pub trait Position:
 }
 
 macro_rules! scalar {
-    ($scalar:ident, $vector:ty, $sqrt:path) => {
+    ($scalar:ident, $vector:ty, $exponent_bits:literal, $sqrt:path) => {
         impl Position for $vector {
             type Scalar = $scalar;
         }
@@ -65,6 +74,13 @@ macro_rules! scalar {
             type Vector = $vector;
             const NAME: &'static str = stringify!($scalar);
             const ZERO: Self = 0.0;
+            const FRACTION_BITS: u32 = <$scalar>::MANTISSA_DIGITS - 1;
+            const EXPONENT_BITS: u32 = $exponent_bits;
+
+            #[inline(always)]
+            fn encoding(self) -> u64 {
+                self.to_bits().into()
+            }
 
             #[inline(always)]
             #[allow(
@@ -93,5 +109,5 @@ macro_rules! scalar {
     };
 }
 
-scalar!(f32, glam::Vec3, libm::sqrtf);
-scalar!(f64, glam::DVec3, libm::sqrt);
+scalar!(f32, glam::Vec3, 8, libm::sqrtf);
+scalar!(f64, glam::DVec3, 11, libm::sqrt);
