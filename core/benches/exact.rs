@@ -5,10 +5,10 @@ mod pairs;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use pairs::{COUNT, all_sizes, barely_above, cloth, nearly_coplanar};
+use selvedge_core::Scalar;
 use selvedge_core::exact::{UNKNOWN, control_value_signs, is_never_coplanar, is_never_within};
 use selvedge_core::filter::certified;
 use selvedge_core::points::{PairPoints, VertexAndFace};
-use selvedge_core::Scalar;
 use std::hint::black_box;
 
 /// How many pairs of `pairs` the tests cull, measured by the pair.

@@ -1,12 +1,14 @@
 //! Pairs to measure with: the same ones on every machine.
 
+#![allow(dead_code, reason = "each bench uses a part")]
+
 use selvedge_core::coplanarity::MovingTetrahedron;
 use selvedge_core::filter::certified::is_never_coplanar;
 use selvedge_core::points::{PairPoints, PairShape, VertexAndFace};
 use selvedge_core::{Scalar, Vector};
 
 /// How many pairs a set has: enough that branches are not learnt by heart, few enough to stay in cache.
-pub const COUNT: usize = 1024;
+pub(crate) const COUNT: usize = 1024;
 
 /// Uniform numbers by `SplitMix64`.
 struct Random(u64);
@@ -41,7 +43,7 @@ fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 /// Features of a centimetre, somewhere in a cube of two metres, that move by up to a centimetre.
-pub fn cloth<S: Scalar>() -> Vec<PairPoints<S>> {
+pub(crate) fn cloth<S: Scalar>() -> Vec<PairPoints<S>> {
     let mut random = Random(1);
     let mut pair = || {
         let place = random.position(1.0);
@@ -53,7 +55,7 @@ pub fn cloth<S: Scalar>() -> Vec<PairPoints<S>> {
 }
 
 /// All eight positions within rounding of one tilted plane.
-pub fn nearly_coplanar<S: Scalar>() -> Vec<PairPoints<S>> {
+pub(crate) fn nearly_coplanar<S: Scalar>() -> Vec<PairPoints<S>> {
     let mut random = Random(2);
     let pairs = std::iter::repeat_with(|| near_a_plane(&mut random, 0.0));
     pairs.filter(is_undecided).take(COUNT).collect()
@@ -61,7 +63,7 @@ pub fn nearly_coplanar<S: Scalar>() -> Vec<PairPoints<S>> {
 
 /// The vertex lies a few units in the last place above the plane of the face: too little for floating point, but all four
 /// control values have one sign, so that all four have to be computed.
-pub fn barely_above<S: Scalar>() -> Vec<PairPoints<S>> {
+pub(crate) fn barely_above<S: Scalar>() -> Vec<PairPoints<S>> {
     let mut random = Random(3);
     let height = 4.0 * S::UNIT_ROUNDOFF.to_f64();
     let pairs = std::iter::repeat_with(|| near_a_plane(&mut random, height));
@@ -95,7 +97,7 @@ fn is_undecided<S: Scalar>(pair: &PairPoints<S>) -> bool {
 }
 
 /// Coordinates of every size there is: each exponent as likely as the others.
-pub fn all_sizes<S: Scalar>() -> Vec<PairPoints<S>> {
+pub(crate) fn all_sizes<S: Scalar>() -> Vec<PairPoints<S>> {
     let mut random = Random(4);
     let largest = (1 << (S::EXPONENT_BITS - 1)) - 1;
     let mut coordinate = || {

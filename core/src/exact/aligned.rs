@@ -141,7 +141,8 @@ impl AlignedPair {
             Axis::new([a.y, b.y, c.y, d.y, e.y, f.y, g.y, h.y])?,
             Axis::new([a.z, b.z, c.z, d.z, e.z, f.z, g.z, h.z])?,
         ];
-        let unit = |axis: &Axis| axis.unit.min(1 << S::EXPONENT_BITS).cast_signed();
+        // Any unit will do where all is zero.
+        let unit = |axis: &Axis| i32::try_from(axis.unit).unwrap_or(0);
         let [x, y, z] = &axes;
         Some(Self {
             shape: P::SHAPE,

@@ -146,3 +146,96 @@ fn subtract<'a>(from: impl Iterator<Item = &'a mut u64>, other: &[u64], mask: u6
         (*word, borrow) = (whole, first | second);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Integer, Leading};
+    use core::cmp::Ordering;
+
+    /// Where carries and signs go wrong.
+    const NUMBERS: [i128; 13] = [
+        0,
+        1,
+        -1,
+        2,
+        -2,
+        u64::MAX as i128,
+        -(u64::MAX as i128),
+        1 << 64,
+        -(1 << 64),
+        i64::MIN as i128,
+        i128::MAX,
+        i128::MIN,
+        0x0123_4567_89ab_cdef_fedc_ba98_7654_3210,
+    ];
+
+    fn integer(number: i128) -> Integer<2> {
+        Integer([number as u64, (number >> 64) as u64])
+    }
+
+    fn shifted<const N: usize>(significand: i64, shift: u32) -> Integer<N> {
+        Integer::shifted(significand, shift)
+    }
+
+    #[test]
+    fn sums_differences_and_signs_are_those_of_the_built_in_type() {
+        for (a, b) in NUMBERS.iter().flat_map(|&a| NUMBERS.map(|b| (a, b))) {
+            let (x, y) = (integer(a), integer(b));
+            assert_eq!(x.plus(&y), integer(a.wrapping_add(b)), "{a} + {b}");
+            assert_eq!(x.minus(&y), integer(a.wrapping_sub(b)), "{a} - {b}");
+            assert_eq!(x.sign(), a.cmp(&0), "{a}");
+        }
+    }
+
+    #[test]
+    fn products_are_those_of_the_built_in_type() {
+        for (a, b) in NUMBERS.iter().flat_map(|&a| NUMBERS.map(|b| (a, b))) {
+            let product: Integer<4> = integer(a).times(&integer(b));
+            let Integer([low, high, ..]) = product;
+            assert_eq!(
+                Integer([low, high]),
+                integer(a.wrapping_mul(b)),
+                "{a} · {b}"
+            );
+            // All of it for smaller numbers: below.
+            let sign = a.signum() * b.signum();
+            assert_eq!(product.sign(), sign.cmp(&0), "{a} · {b}");
+        }
+        // (2⁶⁴ − 1)·2¹⁰⁰ times −2¹²⁶, word by word.
+        let a: Integer<3> = shifted::<3>(1, 164).minus(&shifted(1, 100));
+        let product: Integer<5> = a.times(&shifted::<2>(-1, 126));
+        assert_eq!(product, shifted::<5>(1, 226).minus(&shifted(1, 290)));
+    }
+
+    #[test]
+    fn wide_products_of_shifted_numbers_are_shifted_products() {
+        for (a, b) in [(3, 5), (-3, 5), (3, -5), (-3, -5), (i64::MAX, i64::MIN)] {
+            for (i, j) in [(0, 0), (1, 63), (64, 65), (190, 120)] {
+                let product: Integer<9> = shifted::<4>(a, i).times(&shifted::<5>(b, j));
+                let Integer([low, high]) = integer(i128::from(a) * i128::from(b));
+                let mut expected = Integer([0; 9]);
+                for (word, part) in [(0, low & 0xffff_ffff), (32, low >> 32)] {
+                    expected = expected.plus(&shifted(part.cast_signed(), i + j + word));
+                }
+                expected = expected.plus(&shifted(high.cast_signed(), i + j + 64));
+                assert_eq!(product, expected, "{a} · 2^{i} times {b} · 2^{j}");
+            }
+        }
+    }
+
+    #[test]
+    fn leading_words_are_those_of_the_magnitude() {
+        let leading = |words, followed_by, is_cut| Leading {
+            words,
+            followed_by,
+            is_cut,
+        };
+        assert_eq!(shifted::<4>(0, 0).leading(), leading(0, 0, false));
+        assert_eq!(shifted::<4>(-7, 0).leading(), leading(7, 0, false));
+        assert_eq!(shifted::<4>(-7, 64).leading(), leading(7 << 64, 0, false));
+        let long = shifted::<4>(-7, 192).minus(&shifted(1, 0));
+        assert_eq!(long.leading(), leading(7 << 64, 128, true));
+        assert_eq!(shifted::<4>(7, 192).leading(), leading(7 << 64, 128, false));
+        assert_eq!(shifted::<4>(1, 0).sign(), Ordering::Greater);
+    }
+}

@@ -103,3 +103,65 @@ impl Magnitude {
         (self.exponent, self.significand) > (other.exponent, other.significand)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Bound, Magnitude};
+
+    fn exact(significand: u64, exponent: i32) -> Magnitude {
+        Magnitude::exact(significand, exponent)
+    }
+
+    #[test]
+    fn a_number_has_one_form() {
+        assert_eq!(exact(6, -1), exact(3, 0));
+        assert_eq!(exact(0, 5), Magnitude::ZERO);
+    }
+
+    #[test]
+    fn products_are_rounded_to_the_side_asked_for() {
+        let m = u64::MAX;
+        // (2⁶⁴ − 1)² = (2⁶⁴ − 2)·2⁶⁴ + 1.
+        assert_eq!(exact(m, 3).squared(Bound::Lower), exact(m - 1, 70));
+        assert_eq!(exact(m, 3).squared(Bound::Upper), exact(m, 70));
+        // (2⁶⁴ − 1)·(2³² + 1) = 2⁹⁶ + 2⁶⁴ − 2³² − 1 = (2⁶³ + 2³¹ − 1)·2³³ + …
+        let other = exact((1 << 32) + 1, 0);
+        let below = (1 << 63) + (1 << 31) - 1;
+        assert_eq!(exact(m, 0).times(other, Bound::Lower), exact(below, 33));
+        assert_eq!(exact(m, 0).times(other, Bound::Upper), exact(below + 1, 33));
+        for bound in [Bound::Lower, Bound::Upper] {
+            assert_eq!(exact(3, 0).times(exact(5, 1), bound), exact(15, 1));
+            assert_eq!(exact(3, 0).times(Magnitude::ZERO, bound), Magnitude::ZERO);
+        }
+    }
+
+    #[test]
+    fn sums_are_rounded_up() {
+        let m = u64::MAX;
+        let both_orders = |a: Magnitude, b: Magnitude, sum| {
+            assert_eq!(a.plus(b), sum);
+            assert_eq!(b.plus(a), sum);
+        };
+        both_orders(exact(3, 0), exact(5, 1), exact(13, 0));
+        both_orders(exact(3, 0), Magnitude::ZERO, exact(3, 0));
+        both_orders(Magnitude::ZERO, Magnitude::ZERO, Magnitude::ZERO);
+        // 2⁶⁴ − 1 and anything more is 2⁶⁴.
+        for exponent in [0, -1, -62, -63, -64, -127, -128, -129, i32::MIN / 2] {
+            both_orders(exact(m, 0), exact(1, exponent), exact(1, 64));
+        }
+        // 2⁶⁴ + 2⁶³ and anything up to 2 more.
+        for exponent in [1, 0, -63, -64, -5000] {
+            both_orders(exact(3, 63), exact(1, exponent), exact((3 << 62) + 1, 1));
+        }
+    }
+
+    #[test]
+    fn comparison_goes_by_value() {
+        assert!(exact(3, 0).exceeds(exact(5, -1)));
+        assert!(!exact(5, -1).exceeds(exact(3, 0)));
+        assert!(!exact(3, 0).exceeds(exact(6, -1)));
+        assert!(exact(1, -9000).exceeds(Magnitude::ZERO));
+        assert!(!Magnitude::ZERO.exceeds(exact(1, -9000)));
+        assert!(!Magnitude::ZERO.exceeds(Magnitude::ZERO));
+    }
+}
