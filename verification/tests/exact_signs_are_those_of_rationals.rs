@@ -2,8 +2,9 @@
 
 use proptest::prelude::*;
 use rug::{Float, Rational};
+use selvedge::pipeline::CullingTest;
 use selvedge_core::exact::{
-    KnownSigns, UNKNOWN, control_value_signs, is_never_coplanar, is_never_within,
+    KnownSigns, UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within,
 };
 use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
 use selvedge_core::{PrimitivePair, Scalar};
@@ -204,7 +205,7 @@ fn at_the_limit_of_a_width<S: Format>(choices: &mut Choices<'_>) -> PairCase<S> 
 
 property!(
     nothing_overflows_at_the_limit_of_a_width,
-    20_000,
+    5_000,
     from_choices(at_the_limit_of_a_width),
     |pair| {
         prop_assert_eq!(signs(pair), Some(InRationals::new(pair).signs()));
@@ -259,14 +260,29 @@ property!(
 );
 
 property!(
+    signs_that_rounding_cannot_change_are_the_exact_ones,
+    100_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let tetrahedron = pair.tetrahedron();
+        let known = certain_signs(&tetrahedron.control_values(), tetrahedron.error_bounds());
+        let signs = signs(pair).expect("finite");
+        for i in 0..4 {
+            prop_assert!(known[i].is_none_or(|sign| sign == signs[i]), "{:?}", known);
+        }
+        let all_known = [[Some(Greater); 4], [Some(Less); 4]].contains(&known);
+        let certified = verdict(CullingTest::CertifiedNonCoplanarity, pair);
+        prop_assert_eq!(all_known, certified.is_culled());
+        Ok(())
+    }
+);
+
+property!(
     culls_whatever_the_certified_filter_culls,
     100_000,
     pairs_of_any_kind(),
     |pair| {
-        let certified = verdict(
-            selvedge::pipeline::CullingTest::CertifiedNonCoplanarity,
-            pair,
-        );
+        let certified = verdict(CullingTest::CertifiedNonCoplanarity, pair);
         prop_assert!(!certified.is_culled() || never_coplanar(pair, UNKNOWN));
         Ok(())
     }
@@ -471,11 +487,7 @@ fn decides_the_largest_spread_there_is<S: Format>() {
         assert_eq!(signs(&pair), Some([sign; 4]), "{pair:?}");
         let along_x = pair.with_axes([2, 0, 1]);
         assert_eq!(signs(&along_x), Some([sign; 4]), "{along_x:?}");
-        assert_eq!(
-            never_within(&pair, S::ZERO.up(), UNKNOWN),
-            false,
-            "{pair:?}"
-        );
+        assert!(!never_within(&pair, S::ZERO.up(), UNKNOWN), "{pair:?}");
     }
 }
 
@@ -487,4 +499,74 @@ fn decides_the_largest_spread_there_is_f32() {
 #[test]
 fn decides_the_largest_spread_there_is_f64() {
     decides_the_largest_spread_there_is::<f64>();
+}
+
+/// The compiled code under other settings of the processor's control register for floating point.
+#[cfg(target_arch = "x86_64")]
+mod in_every_floating_point_environment {
+    use super::*;
+    use std::arch::asm;
+    use std::hint::black_box;
+
+    const FLUSH_TO_ZERO: u32 = 1 << 15;
+    const DENORMALS_ARE_ZERO: u32 = 1 << 6;
+    const ROUNDING: u32 = 13;
+
+    /// The two answers: signs, and whether the pair is never within `separation`.
+    #[inline(never)]
+    fn answers<S: Format>(
+        pair: &PairCase<S>,
+        separation: S,
+        control: u32,
+    ) -> (Option<[Ordering; 4]>, bool) {
+        let mut before = 0_u32;
+        // SAFETY: the control and status register is put back before any other floating-point code of this thread runs; what
+        // runs in between is what is tested, and moves of numbers at most.
+        unsafe {
+            asm!("stmxcsr [{}]", in(reg) &raw mut before, options(nostack));
+            let changed = before | control;
+            asm!("ldmxcsr [{}]", in(reg) &raw const changed, options(nostack));
+        }
+        let answers = black_box((
+            signs(black_box(pair)),
+            never_within(black_box(pair), black_box(separation), UNKNOWN),
+        ));
+        // SAFETY: as above.
+        unsafe {
+            asm!("ldmxcsr [{}]", in(reg) &raw const before, options(nostack));
+        }
+        answers
+    }
+
+    /// That the register does what the test means it to do.
+    #[test]
+    fn the_control_register_is_set() {
+        let pair = PairCase::<f64>::new(Kind::VertexFace, [[[0.0; 3]; 2]; 4]);
+        let mut control = 0_u32;
+        // SAFETY: as above; the one operation in between is in assembly.
+        let product = unsafe {
+            let mut before = 0_u32;
+            asm!("stmxcsr [{}]", in(reg) &raw mut before, options(nostack));
+            let changed = before | FLUSH_TO_ZERO;
+            asm!("ldmxcsr [{}]", in(reg) &raw const changed, options(nostack));
+            asm!("stmxcsr [{}]", in(reg) &raw mut control, options(nostack));
+            let mut product = f64::MIN_POSITIVE;
+            asm!("mulsd {}, {}", inout(xmm_reg) product, in(xmm_reg) 0.5);
+            asm!("ldmxcsr [{}]", in(reg) &raw const before, options(nostack));
+            product
+        };
+        assert_ne!(control & FLUSH_TO_ZERO, 0);
+        assert_eq!(product.to_bits(), 0);
+        assert_eq!(answers(&pair, 0.0, 0), (Some([Equal; 4]), false));
+    }
+
+    property!(answers_are_the_same, 20_000, pairs_of_any_kind(), |pair| {
+        let [[x, ..], _] = pair.points[1];
+        let expected = answers(pair, x.abs(), 0);
+        for rounding in 0..4 {
+            let control = rounding << ROUNDING | FLUSH_TO_ZERO | DENORMALS_ARE_ZERO;
+            prop_assert_eq!(answers(pair, x.abs(), control), expected, "{}", rounding);
+        }
+        Ok(())
+    });
 }

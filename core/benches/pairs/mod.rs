@@ -4,7 +4,7 @@
 
 use selvedge_core::coplanarity::MovingTetrahedron;
 use selvedge_core::filter::certified::is_never_coplanar;
-use selvedge_core::points::{PairPoints, PairShape, VertexAndFace};
+use selvedge_core::points::{PairPoints, VertexAndFace};
 use selvedge_core::{Scalar, Vector};
 
 /// How many pairs a set has: enough that branches are not learnt by heart, few enough to stay in cache.

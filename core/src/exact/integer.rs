@@ -25,6 +25,10 @@ impl<const N: usize> Integer<N> {
     #[inline(always)]
     pub(super) fn shifted(significand: i64, shift: u32) -> Self {
         let (first, within) = ((shift / 64) as usize, shift % 64);
+        if N == 1 {
+            // The same, with less to do.
+            return Self([(significand << within).cast_unsigned(); N]);
+        }
         let wide = i128::from(significand) << within;
         let (low, high) = (wide as u64, (wide >> 64) as u64);
         let sign = (significand >> 63) as u64;
@@ -65,17 +69,39 @@ impl<const N: usize> Integer<N> {
     /// The exact product.
     #[inline(always)]
     pub(super) fn times<const M: usize, const R: usize>(&self, other: &Integer<M>) -> Integer<R> {
+        // In line is faster for a few words; for many it would only be more code.
+        if N <= 2 {
+            self.product(other)
+        } else {
+            self.product_out_of_line(other)
+        }
+    }
+
+    #[inline(never)]
+    fn product_out_of_line<const M: usize, const R: usize>(
+        &self,
+        other: &Integer<M>,
+    ) -> Integer<R> {
+        self.product(other)
+    }
+
+    #[inline(always)]
+    fn product<const M: usize, const R: usize>(&self, other: &Integer<M>) -> Integer<R> {
         const { assert!(R == N + M, "a product has the words of both factors") };
         let mut product = [0; R];
         for (i, &x) in self.0.iter().enumerate() {
-            let mut row = product.iter_mut().skip(i);
+            // All of these words exist, since R = N + M; so nothing is lost by the default.
+            let (row, above) = product
+                .get_mut(i..)
+                .and_then(|words| words.split_at_mut_checked(M))
+                .unwrap_or_default();
             let mut carry = 0;
-            for (&y, word) in other.0.iter().zip(row.by_ref()) {
+            for (&y, word) in other.0.iter().zip(row) {
                 // (2⁶⁴ − 1)² + 2·(2⁶⁴ − 1) = 2¹²⁸ − 1.
                 let sum = u128::from(x) * u128::from(y) + u128::from(*word) + u128::from(carry);
                 (*word, carry) = (sum as u64, (sum >> 64) as u64);
             }
-            if let Some(word) = row.next() {
+            if let Some(word) = above.first_mut() {
                 *word = carry;
             }
         }

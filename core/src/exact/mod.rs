@@ -54,6 +54,7 @@ mod integer;
 mod kernel;
 mod magnitude;
 
+use crate::coplanarity::ControlValues;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use aligned::{AlignedPair, Units};
@@ -68,6 +69,43 @@ pub type KnownSigns = [Option<Ordering>; 4];
 
 /// Nothing is known.
 pub const UNKNOWN: KnownSigns = [None; 4];
+
+/// The signs that rounded control values prove: of those beyond `bounds`, their
+/// [`error_bounds`](crate::coplanarity::MovingTetrahedron::error_bounds).
+///
+/// ```
+/// use selvedge_core::{exact, glam::DVec3, points::VertexAndFace, Motion, PrimitivePair, VertexFace};
+/// // A vertex that rests 2⁻⁶⁰ above the face at first: floating point sees only where it goes.
+/// let height = DVec3::new(0.0, 0.0, 1.0 / (1_u64 << 60) as f64);
+/// let pair = VertexFace {
+///     vertex: Motion::new(height, height + DVec3::Z),
+///     face: [DVec3::new(-1.0, -1.0, -0.1), DVec3::new(1.0, 0.0, 0.1), DVec3::new(0.0, 1.0, 0.0)].map(Motion::resting),
+/// };
+/// let tetrahedron = pair.tetrahedron();
+/// let known = exact::certain_signs(&tetrahedron.control_values(), tetrahedron.error_bounds());
+/// assert_eq!(known.map(|sign| sign.is_some()), [false, true, true, true]);
+/// assert!(exact::is_never_coplanar::<VertexAndFace, _>(&pair.points(), known));
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn certain_signs<S: Scalar>(values: &ControlValues<S>, bounds: [S; 4]) -> KnownSigns {
+    let ([k0, k1, k2, k3], [e0, e1, e2, e3]) = (values.0, bounds);
+    let certain = |value: S, bound: S| {
+        if value > bound {
+            Some(Ordering::Greater)
+        } else if value < -bound {
+            Some(Ordering::Less)
+        } else {
+            None
+        }
+    };
+    [
+        certain(k0, e0),
+        certain(k1, e1),
+        certain(k2, e2),
+        certain(k3, e3),
+    ]
+}
 
 /// How the control values k₀, 3k₁, 3k₂, k₃ of the pair's signed volume compare with zero.
 ///
