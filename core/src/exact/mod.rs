@@ -114,7 +114,7 @@ pub fn certain_signs<S: Scalar>(values: &ControlValues<S>, bounds: [S; 4]) -> Kn
 /// ```
 /// use core::cmp::Ordering::{Equal, Greater, Less};
 /// use selvedge_core::{exact, glam::DVec3, Motion, PrimitivePair, VertexFace};
-/// // A vertex that falls through a triangle, at half of its speed at first.
+/// // A vertex that starts 1e-300 above a triangle and falls by 1e300.
 /// let pair = VertexFace {
 ///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1e-300), DVec3::new(0.2, 0.2, -1e300)),
 ///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
