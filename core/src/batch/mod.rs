@@ -3,8 +3,8 @@
 //! A test here is the one-pair test, from the same source, on vectors of lanes. Its verdicts are **the same, bit for
 //! bit**, for every instruction set: each operation rounds on its own, and nothing is fused or reassociated.
 //!
-//! Pairs come either from a mesh, as indices into [`VertexRow`]s ([`culled_from_rows`]), or one by one
-//! ([`culled`]). Any number of pairs will do, at any address. The answer is one [`Mask`] for every sixteen pairs: a set bit
+//! Pairs come from a mesh, as indices into [`VertexRow`]s ([`culled_from_rows`]), or one by one ([`culled`]), or side by
+//! side as [`Tile`]s ([`culled_from_tiles`]). Any number of pairs will do, at any address. The answer is one [`Mask`] for every sixteen pairs: a set bit
 //! says that the pair is culled.
 //!
 //! The caller names the instruction set by a [`Level`]; `selvedge` detects the best one at run time.
@@ -27,17 +27,20 @@
 
 mod rows;
 mod simd;
+mod tile;
 
 pub use fearless_simd::Level;
 pub use rows::VertexRow;
+pub use tile::Tile;
 
 use crate::boxes;
-use crate::filter;
+use crate::filter::Filter;
+use crate::filter::certified::{Bound, Decision};
 use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape, Shape};
+use crate::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
 use crate::scalar::Scalar;
-pub(crate) use simd::BatchScalar;
+pub(crate) use simd::{BatchScalar, Sixteen};
 
 /// How many pairs go side by side.
 pub const LANES: usize = 16;
@@ -45,33 +48,115 @@ pub const LANES: usize = 16;
 /// One bit for each of sixteen pairs, the first pair's lowest. Bits past the last pair are zero.
 pub type Mask = u16;
 
-/// A culling test that runs on batches. See [`boxes`] and [`filter`].
+/// A culling test that runs on batches. See [`boxes`] and [`filter`](crate::filter).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Test {
     /// [`boxes::swept_boxes`].
     SweptBoxes,
+    /// [`boxes::segment::vertex_face`]; for EE, [`boxes::swept_boxes`].
+    SegmentBox,
     /// [`boxes::relative::three_axes`].
     RelativeBoxes,
     /// [`boxes::relative::nine_directions`].
     RelativeBoxesNine,
-    /// [`filter::certified::non_coplanarity`].
+    /// [`boxes::direction::normal`].
+    NormalDirection,
+    /// [`non_coplanarity`](crate::filter::certified::non_coplanarity).
     CertifiedNonCoplanarity,
 }
 
 impl Test {
     #[inline(always)]
+    fn kernel<S>(self) -> Kernel<S> {
+        let boxes = match self {
+            Self::SweptBoxes => BoxTest::Swept,
+            Self::SegmentBox => BoxTest::Segment,
+            Self::RelativeBoxes => BoxTest::ThreeAxes,
+            Self::RelativeBoxesNine => BoxTest::NineDirections,
+            Self::NormalDirection => BoxTest::Normal,
+            Self::CertifiedNonCoplanarity => return Kernel::Bounded(Bound::Permanent, None),
+        };
+        Kernel::Boxes(boxes)
+    }
+}
+
+/// What the instruction sets have code for.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub enum Kernel<S> {
+    /// Tests of points.
+    Boxes(BoxTest),
+    /// Control values and their bound, with a separation if there is one.
+    Bounded(Bound, Option<S>),
+}
+
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub enum BoxTest {
+    Swept,
+    Segment,
+    ThreeAxes,
+    NineDirections,
+    Normal,
+}
+
+impl BoxTest {
+    #[inline(always)]
     fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask {
         match self {
-            Self::SweptBoxes => boxes::have_disjoint_swept_boxes::<P, L>(points),
-            Self::RelativeBoxes => boxes::relative::are_apart_along_three_axes::<P, L>(points),
-            Self::RelativeBoxesNine => {
+            Self::Segment if matches!(P::SHAPE, Shape::VertexFace) => {
+                boxes::segment::misses_face(points)
+            }
+            Self::Swept | Self::Segment => boxes::have_disjoint_swept_boxes::<P, L>(points),
+            Self::ThreeAxes => boxes::relative::are_apart_along_three_axes::<P, L>(points),
+            Self::NineDirections => {
                 boxes::relative::are_apart_along_nine_directions::<P, L>(points)
             }
-            Self::CertifiedNonCoplanarity => {
-                filter::certified::is_never_coplanar(&points.tetrahedron::<P>())
+            Self::Normal => boxes::direction::are_apart_along_normal::<P, L>(points),
+        }
+    }
+}
+
+/// What can be asked of a batch: a [`Test`], or a [`Filter`] of any tier and separation.
+pub trait BatchTest<S: Scalar>: Copy + sealed::Sealed {
+    /// Which of sixteen pairs of this shape it culls.
+    #[doc(hidden)]
+    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Mask;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Test {}
+    impl<S> Sealed for super::Filter<S> {}
+}
+
+impl<S: Scalar> BatchTest<S> for Test {
+    #[inline(always)]
+    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Mask {
+        S::sixteen(level, P::SHAPE, self.kernel(), pairs).culled
+    }
+}
+
+impl<S: Scalar> BatchTest<S> for Filter<S> {
+    /// Side by side as far as the tier's bound goes, then one by one.
+    #[inline(always)]
+    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Mask {
+        let kernel = Kernel::Bounded(self.tier().bound(), self.positive_separation());
+        let Decision {
+            mut culled,
+            opposite,
+        } = S::sixteen(level, P::SHAPE, kernel, pairs);
+        if self.tier().looks_again() {
+            for lane in 0..LANES {
+                let bit = 1 << lane;
+                let is_opposite = opposite & bit != 0;
+                if culled & bit == 0 && self.culls_kept::<P>(&points(pairs, lane), is_opposite) {
+                    culled |= bit;
+                }
             }
         }
+        culled
     }
 }
 
@@ -79,17 +164,32 @@ impl Test {
 /// are not looked at.
 pub fn culled<S: Scalar, P: PrimitivePair<S>>(
     level: Level,
-    test: Test,
+    test: impl BatchTest<S>,
     pairs: &[P],
     masks: &mut [Mask],
 ) {
     for (pairs, mask) in pairs.chunks(LANES).zip(masks) {
-        let mut rows = [[VertexRow::unknown(); 4]; LANES];
-        for (row, pair) in rows.iter_mut().zip(pairs) {
-            *row = pair.motions().map(VertexRow::new);
+        let mut tile = Tile::unknown();
+        for (lane, pair) in pairs.iter().enumerate() {
+            tile.set(lane, pair.motions());
         }
-        let sixteen = rows.each_ref().map(<[_; 4]>::each_ref);
-        *mask = S::sixteen(level, P::Shape::SHAPE, test, &sixteen);
+        *mask = test.sixteen::<P::Shape>(level, Sixteen::Tile(&tile));
+    }
+}
+
+/// Which pairs of `tiles` `test` culls, a mask for each tile: the fastest form, for pairs that lie side by side already.
+pub fn culled_from_tiles<S: Scalar>(
+    level: Level,
+    shape: Shape,
+    test: impl BatchTest<S>,
+    tiles: &[Tile<S>],
+    masks: &mut [Mask],
+) {
+    for (tile, mask) in tiles.iter().zip(masks) {
+        *mask = match shape {
+            Shape::VertexFace => test.sixteen::<VertexAndFace>(level, Sixteen::Tile(tile)),
+            Shape::EdgeEdge => test.sixteen::<EdgeAndEdge>(level, Sixteen::Tile(tile)),
+        };
     }
 }
 
@@ -100,7 +200,7 @@ pub fn culled<S: Scalar, P: PrimitivePair<S>>(
 pub fn culled_from_rows<S: Scalar>(
     level: Level,
     shape: Shape,
-    test: Test,
+    test: impl BatchTest<S>,
     rows: &[VertexRow<S>],
     indices: &[[u32; 4]],
     masks: &mut [Mask],
@@ -113,6 +213,26 @@ pub fn culled_from_rows<S: Scalar>(
                 *row = rows.get(index as usize).unwrap_or(&unknown);
             }
         }
-        *mask = S::sixteen(level, shape, test, &sixteen);
+        let sixteen = Sixteen::Rows(&sixteen);
+        *mask = match shape {
+            Shape::VertexFace => test.sixteen::<VertexAndFace>(level, sixteen),
+            Shape::EdgeEdge => test.sixteen::<EdgeAndEdge>(level, sixteen),
+        };
+    }
+}
+
+/// The four points of one pair.
+#[inline(always)]
+fn points<S: Scalar>(pairs: Sixteen<'_, S>, lane: usize) -> PairPoints<S> {
+    let [[a, e], [b, f], [c, g], [d, h]] = match pairs {
+        Sixteen::Rows(rows) => match rows.get(lane) {
+            Some(rows) => rows.map(VertexRow::positions),
+            None => [VertexRow::unknown().positions(); 4],
+        },
+        Sixteen::Tile(tile) => tile.positions(lane),
+    };
+    PairPoints {
+        start: [a, b, c, d],
+        end: [e, f, g, h],
     }
 }
