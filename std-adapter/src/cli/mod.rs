@@ -1,5 +1,6 @@
 //! The `selvedge` command: reads arguments and files, runs a study, prints and writes what it found.
 
+mod accuracy;
 mod arm;
 mod compare;
 mod cull;
@@ -44,6 +45,7 @@ enum Command {
     Compare(compare::Compare),
     Queries(queries::Queries),
     Scaling(scaling::Scaling),
+    Accuracy(accuracy::Accuracy),
     Arm(arm::Arm),
 }
 
@@ -56,6 +58,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Compare(compare)) => compare.run(),
         Some(Command::Queries(queries)) => queries.run(),
         Some(Command::Scaling(scaling)) => scaling.run(),
+        Some(Command::Accuracy(accuracy)) => accuracy.run(),
         Some(Command::Arm(arm)) => arm.run(),
     };
     match result {

@@ -9,6 +9,8 @@ use super::step::StepSummary;
 use crate::pipeline::{PairCounts, Preset, Stage, StepReport};
 #[cfg(feature = "files")]
 use crate::study::QueryResult;
+#[cfg(feature = "accuracy")]
+use crate::study::{Accuracy, AccuracySet};
 use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
 use serde_json::{Value, json};
 
@@ -168,4 +170,57 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value
         "threads": threads,
         "sizes": sizes.collect::<Vec<_>>(),
     })
+}
+
+/// What accuracy costs in time: `selvedge accuracy`. One row for each set, format, filter and backend.
+#[cfg(feature = "accuracy")]
+#[must_use]
+pub fn accuracy(accuracy: &Accuracy) -> Value {
+    let options = accuracy.options;
+    let sets = accuracy.sets.iter().map(|set| {
+        json!({
+            "set": set.name,
+            "scalar": set.scalar,
+            "vertex_face": set.vertex_face,
+            "edge_edge": set.edge_edge,
+            "drawn_from": set.drawn_from,
+            "timed": set.timed,
+            "cullable": set.cullable,
+        })
+    });
+    json!({
+        "seed": options.seed,
+        "repeat": options.repeat,
+        "separation": options.separation,
+        "sets": sets.collect::<Vec<_>>(),
+        "rows": accuracy.sets.iter().flat_map(accuracy_rows).collect::<Vec<_>>(),
+    })
+}
+
+#[cfg(feature = "accuracy")]
+fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
+    let share = |count: usize, of: usize| count as f64 / of as f64;
+    let mut rows = Vec::new();
+    for row in &set.rows {
+        for &time in &row.times {
+            let is_best = row.best_time() == Some(time);
+            let proves_the_same = row.false_culls().is_some();
+            rows.push(json!({
+                "set": set.name,
+                "tier": row.filter.name(),
+                "certified": row.filter.is_certified(),
+                "scalar": set.scalar,
+                "backend": time.backend,
+                "nanoseconds_per_pair": time.nanoseconds,
+                "nanoseconds_per_pair_in_first_cache": row.in_first_cache.filter(|_| is_best),
+                "over_uncertified": set.over_uncertified(time),
+                "culled_fraction": share(row.culled, set.pairs()),
+                "cullable_fraction": share(set.cullable, set.pairs()),
+                "kept_of_cullable_fraction": share(row.kept_cullable, set.cullable),
+                "false_culls": row.false_culls(),
+                "culled_beyond_exact": (!proves_the_same).then_some(row.culled_beyond_exact),
+            }));
+        }
+    }
+    rows
 }

@@ -1,6 +1,8 @@
 //! What studies found, as tables, CSV, JSON, plots and pictures. Everything is returned as text or bytes, or written
 //! to what the caller hands over; nothing here opens a file. The same data gives the same bytes, on every machine.
 
+#[cfg(feature = "accuracy")]
+mod accuracy_svg;
 mod csv;
 mod figure;
 mod findings;
@@ -13,6 +15,8 @@ mod table_svg;
 pub mod tables;
 
 pub use self::csv::{comparison_csv, contacts_csv, pairs_csv};
+#[cfg(feature = "accuracy")]
+pub use accuracy_svg::accuracy_svg;
 pub use figure::{FIGURE_SIZE, FigureError, FigurePairs, figure_3};
 pub use findings::{Finding, findings};
 pub use paper::{PaperRow, paper_row};

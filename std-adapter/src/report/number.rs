@@ -37,6 +37,16 @@ pub(super) fn rate(number: f64) -> String {
     }
 }
 
+/// A share as a percentage: `85.2 %`; a dash if it is not a number.
+#[cfg(feature = "accuracy")]
+pub(super) fn percent(part: usize, whole: usize, decimals: usize) -> String {
+    if whole == 0 {
+        return "–".to_owned();
+    }
+    let share = 100.0 * part as f64 / whole as f64;
+    format!("{share:.decimals$}\u{a0}%")
+}
+
 /// A time in the unit that fits it, with three figures: `12.3 ms`.
 pub(super) fn time(seconds: f64) -> String {
     let (number, unit) = match seconds {
@@ -71,6 +81,13 @@ mod tests {
             [0.0, 31.0, 31.25, 99.96, 1122.4, f64::NAN].map(mean),
             ["0", "31", "31.2", "100", "1,122", "–"]
         );
+    }
+
+    #[cfg(feature = "accuracy")]
+    #[test]
+    fn a_share_of_nothing_is_a_dash() {
+        assert_eq!(percent(2, 3, 1), "66.7\u{a0}%");
+        assert_eq!(percent(0, 0, 1), "–");
     }
 
     #[test]

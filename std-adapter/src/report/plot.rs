@@ -207,7 +207,7 @@ fn draw_labels(root: &Drawing<'_>, mut labels: Vec<((i32, i32), String, &Curve)>
 }
 
 /// Positions in ascending order, at least `spacing` apart, near the wanted ones (also ascending), the last not beyond `end`.
-fn spread(wanted: &[i32], spacing: i32, end: i32) -> Vec<i32> {
+pub(super) fn spread(wanted: &[i32], spacing: i32, end: i32) -> Vec<i32> {
     let mut places: Vec<i32> = Vec::with_capacity(wanted.len());
     for &place in wanted {
         places.push(

@@ -8,7 +8,8 @@ use svg::node::element::{Group, Line, Rectangle, Text};
 use svg::{Document, Node};
 
 // Lengths in pixels, at the picture's own size.
-const FONT: &str = "system-ui, -apple-system, 'Segoe UI', 'Helvetica Neue', Arial, sans-serif";
+pub(super) const FONT: &str =
+    "system-ui, -apple-system, 'Segoe UI', 'Helvetica Neue', Arial, sans-serif";
 const FONT_SIZE: f64 = 13.0;
 /// What a letter or digit takes at most on average, in the widest of the fonts above.
 const LETTER: f64 = 7.9;
@@ -26,10 +27,10 @@ const BAR_HEIGHT: f64 = 12.0;
 /// From a row's middle down to the baseline of its text.
 const BASELINE: f64 = 4.5;
 
-const PAPER_WHITE: &str = "#fdfdfc";
-const INK: &str = "#1f2328";
-const FAINT_INK: &str = "#656d76";
-const RULE: &str = "#d0d7de";
+pub(super) const PAPER_WHITE: &str = "#fdfdfc";
+pub(super) const INK: &str = "#1f2328";
+pub(super) const FAINT_INK: &str = "#656d76";
+pub(super) const RULE: &str = "#d0d7de";
 const HIGHLIGHT: &str = "#ddeeff";
 const BAR: &str = "#9aa7b4";
 const BAR_HIGHLIGHT: &str = "#0b63ce";
@@ -112,7 +113,7 @@ fn text_width(text: &str) -> f64 {
     text.chars().count() as f64 * LETTER
 }
 
-fn prose_width(text: &str, size: f64) -> f64 {
+pub(super) fn prose_width(text: &str, size: f64) -> f64 {
     text.chars().count() as f64 * PROSE_LETTER * size
 }
 

@@ -1,5 +1,7 @@
 //! Experiments: they run pipelines and return data. Nothing here prints or writes a file; `report` does.
 
+#[cfg(feature = "accuracy")]
+mod accuracy;
 mod arm;
 mod candidates;
 mod comparison;
@@ -8,6 +10,11 @@ mod frames;
 mod queries;
 mod scaling;
 
+#[cfg(feature = "accuracy")]
+pub use accuracy::{
+    Accuracy, AccuracyOptions, AccuracyRow, AccuracySet, BackendTime, BackendsDisagree,
+    MeasuredFilter, PairSet, measure_accuracy,
+};
 pub use arm::ArmFrames;
 pub use candidates::{StepCandidates, busiest_step, step_candidates};
 pub use comparison::{Comparison, ComparisonRow, MeanCounts, MeanStage, compare};

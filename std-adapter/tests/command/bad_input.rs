@@ -209,6 +209,25 @@ fn two_outputs_in_one_file_are_refused() {
 }
 
 #[test]
+fn a_plot_that_cannot_be_written_is_refused_before_the_work() {
+    let place = Workplace::with_step();
+    for (arguments, parts) in [
+        (&["--svg", "gone/plot.svg"][..], &["gone/plot.svg"][..]),
+        (
+            &["--json=gone/rows.json", "--svg", "a.svg"],
+            &["gone/rows.json"],
+        ),
+        (&["--json=same", "--svg", "same"], &["same file"]),
+        (&["gone.obj", "end.obj", "--svg", "a.svg"], &["gone.obj"]),
+    ] {
+        assert_says(
+            &place.refusal(1, &[&["accuracy"], arguments].concat()),
+            parts,
+        );
+    }
+}
+
+#[test]
 fn one_bad_output_of_two_leaves_neither() {
     let arguments = [
         "cull",
@@ -264,6 +283,12 @@ fn a_frame_too_few_or_a_number_out_of_range_is_refused() {
         &["--threads", "1000000"],
         &["--refinement", "0"],
         &["arm", "--frames", "61"],
+        &["accuracy", "start.obj"],
+        &["accuracy", "--pairs", "0"],
+        &["accuracy", "--repeat", "0"],
+        &["accuracy", "--separation=-1"],
+        &["accuracy", "--separation", "nan"],
+        &["accuracy", "--separation", "1e39"],
         &["cull", "start.obj", "end.obj", "--scalar", "f16"],
         &["simulat"],
     ] {

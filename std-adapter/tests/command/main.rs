@@ -1,5 +1,6 @@
 //! The `selvedge` command as its users meet it: the real program, real files, exit status and all.
 
+mod accuracy;
 mod bad_input;
 mod compare;
 mod cull;

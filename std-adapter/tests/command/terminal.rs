@@ -19,6 +19,7 @@ fn every_table_fits_80_columns() {
         &["compare", "--steps", "1", "--rounds", "1"],
         &["queries", "q-vf.csv"],
         &["scaling", "--sizes", "1,4"],
+        &["accuracy", "--pairs", "2000", "--repeat", "1"],
     ] {
         let text = place.stdout(arguments);
         assert_eq!(wide_lines(&text), [""; 0], "{arguments:?}");
@@ -67,12 +68,13 @@ fn help_names_every_subcommand_and_the_exit_status() {
         "compare",
         "queries",
         "scaling",
+        "accuracy",
         "arm",
         "Exit status: 0 done",
     ] {
         assert!(text.contains(part), "{part}");
     }
-    for command in ["cull", "compare", "queries", "scaling", "arm"] {
+    for command in ["cull", "compare", "queries", "scaling", "accuracy", "arm"] {
         let text = Workplace::new().stdout(&[command, "--help"]);
         assert!(text.contains("Example"), "{command}");
         assert!(

@@ -1,21 +1,25 @@
 //! Tables as text, made to be read in a terminal of 80 columns.
 
+#[cfg(feature = "accuracy")]
+mod accuracy;
 mod comparison;
 #[cfg(feature = "files")]
 mod queries;
 mod scaling;
 mod step;
 
+#[cfg(feature = "accuracy")]
+pub use accuracy::accuracy;
 pub use comparison::comparison;
 #[cfg(feature = "files")]
 pub use queries::queries;
 pub use scaling::scaling;
 pub use step::step;
 
-use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
+use comfy_table::{CellAlignment, LineStyle, Row, Table, TableStyle};
 
 /// A table with a line under its header; the first column to the left, numbers to the right.
-fn table<const N: usize>(header: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
+fn table<R: Into<Row>>(header: impl Into<Row>, rows: impl IntoIterator<Item = R>) -> String {
     let mut table = Table::new();
     let line = LineStyle::none().fill('─').junction('─');
     table.load_style(TableStyle::new().header_separator(line));

@@ -1,0 +1,164 @@
+use super::table;
+use crate::report::number::{grouped, percent};
+use crate::study::{Accuracy, AccuracyRow, AccuracySet};
+
+/// What accuracy costs in time: a table for each set of pairs and format.
+#[must_use]
+pub fn accuracy(accuracy: &Accuracy) -> String {
+    let options = accuracy.options;
+    let separation = match options.separation {
+        0.0 => String::new(),
+        separation => format!(", separation {separation}"),
+    };
+    let s = if options.repeat == 1 { "" } else { "s" };
+    let mut text = format!(
+        "What accuracy costs in time: one thread, the fastest of {} run{s}, seed {}{separation}\n\n",
+        options.repeat, options.seed,
+    );
+    for set in &accuracy.sets {
+        text += &heading(set);
+        text += &body(set);
+        text += "\n";
+    }
+    text + NOTES
+}
+
+const NOTES: &str = "\
+culls: per cent of all pairs. keeps: of 100,000 pairs that exact arithmetic culls.
+false: pairs culled although exact arithmetic has no proof; +: per cent of all pairs
+that are coplanar at some time, but do not touch (checked in `verification/` only).
+Then nanoseconds a pair, gathered by index from rows of vertices in a core's cache,
+one at a time, or sixteen side by side on each instruction set. in L1: from tiles in
+the first cache, on the best one. cost: the best one's time over `uncertified`'s.
+! not certified: unsafe to rely on, culls colliding pairs now and then
+";
+
+fn heading(set: &AccuracySet) -> String {
+    let drawn = if set.pairs() < set.drawn_from {
+        format!(" of {}", grouped(set.drawn_from as u64))
+    } else {
+        String::new()
+    };
+    let timed = if set.timed < set.pairs() {
+        format!(", {} of them timed", grouped(set.timed as u64))
+    } else {
+        String::new()
+    };
+    format!(
+        "{}, {}\n{} pairs{drawn} ({} VF, {} EE){timed}\nexact arithmetic culls {}\n\n",
+        set.name,
+        set.scalar,
+        grouped(set.pairs() as u64),
+        grouped(set.vertex_face as u64),
+        grouped(set.edge_edge as u64),
+        percent(set.cullable, set.pairs(), 2),
+    )
+}
+
+fn body(set: &AccuracySet) -> String {
+    // The row with the most backends names them all.
+    let times = set.rows.iter().map(|row| &row.times);
+    let backends: Vec<&str> = times
+        .max_by_key(|times| times.len())
+        .into_iter()
+        .flatten()
+        .map(|time| time.backend)
+        .collect();
+    let mut header: Vec<String> = ["filter", "culls", "keeps", "false"]
+        .map(str::to_owned)
+        .into();
+    header.extend(backends.iter().map(|backend| in_two_lines(backend)));
+    header.extend(["in\nL1", "cost"].map(str::to_owned));
+    let rows = set.rows.iter().map(|row| cells(set, row, &backends));
+    table(header, rows)
+}
+
+/// `sse4.2` and `avx512` would make wide columns of short numbers.
+fn in_two_lines(backend: &str) -> String {
+    match backend.find(|letter: char| letter.is_ascii_digit()) {
+        Some(digit) if backend.len() > 4 => format!("{}\n{}", &backend[..digit], &backend[digit..]),
+        _ => backend.to_owned(),
+    }
+}
+
+fn cells(set: &AccuracySet, row: &AccuracyRow, backends: &[&str]) -> Vec<String> {
+    let mark = if row.filter.is_certified() { "" } else { "!" };
+    let share = |count: usize| 100.0 * count as f64 / set.pairs() as f64;
+    let mut cells = vec![
+        format!("{}{mark}", row.filter),
+        dash_or(share(row.culled), |share| format!("{share:.2}")),
+        per_100_000(row.kept_cullable, set.cullable),
+        match row.false_culls() {
+            Some(false_culls) => grouped(false_culls as u64),
+            None => dash_or(share(row.culled_beyond_exact), |share| {
+                format!("+{share:.2}")
+            }),
+        },
+    ];
+    let time = |time: Option<f64>| time.map_or_else(String::new, nanoseconds);
+    cells.extend(backends.iter().map(|backend| time(row.time(backend))));
+    cells.push(time(row.in_first_cache));
+    let cost = row.best_time().and_then(|time| set.over_uncertified(time));
+    cells.push(cost.map_or_else(String::new, |cost| three_figures(cost)));
+    cells
+}
+
+/// Never 0 for a count above zero.
+fn per_100_000(part: usize, whole: usize) -> String {
+    let rate = 1e5 * part as f64 / whole as f64;
+    match rate {
+        _ if whole == 0 => "–".to_owned(),
+        _ if part == 0 => "0".to_owned(),
+        rate if rate < 0.1 => "< 0.1".to_owned(),
+        rate if rate < 9.95 => format!("{rate:.1}"),
+        rate => grouped(rate.round() as u64),
+    }
+}
+
+/// At most four letters.
+fn nanoseconds(time: f64) -> String {
+    dash_or(time, |time| match time {
+        time if time < 9999.5 => three_figures(time),
+        time => format!("{:.0}µs", time / 1e3),
+    })
+}
+
+fn three_figures(number: f64) -> String {
+    dash_or(number, |number| match number {
+        number if number < 9.995 => format!("{number:.2}"),
+        number if number < 99.95 => format!("{number:.1}"),
+        number => format!("{number:.0}"),
+    })
+}
+
+fn dash_or(number: f64, text: impl Fn(f64) -> String) -> String {
+    if number.is_finite() {
+        text(number)
+    } else {
+        "–".to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kept_pair_never_reads_as_none() {
+        let rates = [(0, 7), (1, 10_000_000), (1, 200_000), (3, 1000), (9, 9)];
+        assert_eq!(
+            rates.map(|(part, whole)| per_100_000(part, whole)),
+            ["0", "< 0.1", "0.5", "300", "100,000"]
+        );
+        assert_eq!(per_100_000(0, 0), "–");
+    }
+
+    #[test]
+    fn times_have_three_figures() {
+        let times = [0.754, 12.34, 123.4, 9999.4, 9999.6, f64::NAN];
+        assert_eq!(
+            times.map(nanoseconds),
+            ["0.75", "12.3", "123", "9999", "10µs", "–"]
+        );
+    }
+}

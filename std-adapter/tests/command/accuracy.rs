@@ -1,0 +1,157 @@
+//! `selvedge accuracy`.
+
+use crate::support::{Workplace, keys};
+use serde_json::Value;
+
+/// Small enough for a test.
+const SHORT: [&str; 5] = ["accuracy", "--pairs", "1500", "--repeat", "1"];
+
+fn rows(document: &Value) -> &Vec<Value> {
+    document["rows"].as_array().unwrap()
+}
+
+fn at(row: &Value, name: &str) -> f64 {
+    row[name]
+        .as_f64()
+        .unwrap_or_else(|| panic!("{name}: {row}"))
+}
+
+#[test]
+fn json_has_every_filter_on_every_set_and_backend() {
+    let document = Workplace::new().json(&[&SHORT[..], &["--json"]].concat());
+    let levels = selvedge::dispatch::available_levels();
+    let sets = document["sets"].as_array().unwrap();
+    assert_eq!(sets.len(), 6);
+    // Ten tiers for f32, nine for f64, on each level and one at a time; and the paper's filter.
+    let expected = 3 * (10 + 9) * (1 + levels.len()) + 6;
+    assert_eq!(rows(&document).len(), expected);
+    for row in rows(&document) {
+        assert!(at(row, "nanoseconds_per_pair") > 0.0);
+        let [culled, cullable, kept] = [
+            "culled_fraction",
+            "cullable_fraction",
+            "kept_of_cullable_fraction",
+        ]
+        .map(|name| at(row, name));
+        for share in [culled, cullable, kept] {
+            assert!((0.0..=1.0).contains(&share), "{row}");
+        }
+        let tier = row["tier"].as_str().unwrap();
+        if tier.starts_with("subdivided") {
+            assert!(row["false_culls"].is_null() && row["culled_beyond_exact"].is_u64());
+        } else if row["certified"] == true {
+            assert_eq!(row["false_culls"], 0, "{row}");
+        }
+        if tier == "exact" {
+            assert_eq!((culled, kept), (cullable, 0.0));
+        }
+        if tier == "uncertified" {
+            assert_eq!(at(row, "over_uncertified"), 1.0);
+        }
+    }
+}
+
+#[test]
+fn filters_without_proof_are_marked_and_caught() {
+    let place = Workplace::new();
+    let text = place.stdout(&SHORT);
+    assert!(
+        text.contains("paper!") && text.contains("uncertified!"),
+        "{text}"
+    );
+    assert!(!text.contains("permanent!") && text.contains("! not certified"));
+    let document = place.json(&[&SHORT[..], &["--json"]].concat());
+    for tier in ["paper", "uncertified"] {
+        for scalar in ["f32", "f64"] {
+            let mut found = rows(&document).iter().filter(|row| {
+                row["set"] == "Nearly coplanar pairs"
+                    && row["tier"] == tier
+                    && row["scalar"] == scalar
+            });
+            assert!(
+                at(found.next().unwrap(), "false_culls") > 0.0,
+                "{tier}, {scalar}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_seed_gives_the_same_counts_again() {
+    let place = Workplace::new();
+    let counts = |seed: &str| {
+        let document = place.json(&[&SHORT[..], &["--json", "--seed", seed]].concat());
+        let counts = rows(&document).iter();
+        counts
+            .map(|row| [&row["culled_fraction"], &row["false_culls"]].map(Value::to_string))
+            .collect::<Vec<_>>()
+    };
+    let first = counts("5");
+    assert_eq!(first, counts("5"));
+    assert_ne!(first, counts("6"));
+}
+
+#[test]
+fn a_step_between_two_meshes_is_a_set_of_its_own() {
+    let place = Workplace::with_step();
+    let document = place.json(&[&SHORT[..], &["start.obj", "end.obj", "--json"]].concat());
+    let sets = document["sets"].as_array().unwrap();
+    assert_eq!(sets.len(), 8);
+    assert_eq!(sets[2]["set"], "start to end");
+    // All 15 pairs of two triangles.
+    assert_eq!(
+        (&sets[2]["vertex_face"], &sets[2]["edge_edge"]),
+        (&6.into(), &9.into())
+    );
+    assert_eq!(sets[2]["drawn_from"], 15);
+}
+
+#[test]
+fn a_mesh_without_candidates_has_no_times() {
+    let place = Workplace::with_step();
+    let document = place.json(&[&SHORT[..], &["start.obj", "start.obj", "--json"]].concat());
+    let empty = rows(&document)
+        .iter()
+        .filter(|row| row["set"] == "start to start");
+    for row in empty {
+        assert!(row["nanoseconds_per_pair"].is_null(), "{row}");
+    }
+    let text = place.stdout(&[&SHORT[..], &["start.obj", "start.obj", "--svg", "a.svg"]].concat());
+    assert!(text.contains("start to start, f32\n0 pairs"), "{text}");
+    assert!(!text.contains("NaN") && !place.read("a.svg").contains("NaN"));
+}
+
+#[test]
+fn a_separation_culls_less() {
+    let place = Workplace::new();
+    let culled = |separation: &str| {
+        let arguments = ["--json", "--separation", separation];
+        let document = place.json(&[&SHORT[..], &arguments].concat());
+        let mut exact = rows(&document).iter().filter(|row| row["tier"] == "exact");
+        at(exact.next().unwrap(), "culled_fraction")
+    };
+    assert!(culled("0") > culled("0.01") && culled("0.01") > culled("0.1"));
+    assert_eq!(culled("1000"), 0.0);
+}
+
+#[test]
+fn files_are_written_and_the_table_printed() {
+    let place = Workplace::new();
+    let text = place.stdout(&[&SHORT[..], &["--json=rows.json", "--svg", "plot.svg"]].concat());
+    assert!(text.contains("What accuracy costs in time"));
+    assert_eq!(place.listing(), ["plot.svg", "rows.json"]);
+    let document: Value = serde_json::from_str(&place.read("rows.json")).unwrap();
+    assert_eq!(
+        keys(&document),
+        ["seed", "repeat", "separation", "sets", "rows"]
+    );
+    let plot = place.read("plot.svg");
+    for label in [
+        "Arm scene, f32",
+        "Nearly coplanar pairs, f64",
+        "permanent",
+        "as computed",
+    ] {
+        assert!(plot.contains(label), "{label}");
+    }
+}
