@@ -20,6 +20,8 @@ const LEFT: f64 = 72.0;
 const TOP: f64 = 66.0;
 const LABEL_X: f64 = LEFT + PLOT_WIDTH + 24.0;
 const LABEL_SPACING: f64 = 18.0;
+/// Marks nearer to each other than this touch.
+const TOUCHING: f64 = 10.0;
 const SMALL: f64 = 12.5;
 /// The strip of filters without proof: below the plot, as high as two labels.
 const STRIP_GAP: f64 = 12.0;
@@ -146,15 +148,20 @@ impl<'a> Panel<'a> {
 
     fn draw_marks(&self, group: &mut Group, axis: &TimeAxis) {
         // Labels leave a crowded line downwards in the upper half, upwards in the lower one. Of several marks on a line the
-        // rightmost has the nearest label, so that leaders do not cross.
+        // rightmost has the nearest label, so that leaders do not cross. Marks that touch are on a line.
+        let line_of = |mark: &Mark| (mark.y / TOUCHING).round() as i32;
         let mut proven: Vec<&Mark> = self.proven.iter().collect();
         proven.sort_by(|a, b| {
             let by_time = a.nanoseconds.total_cmp(&b.nanoseconds);
-            let is_low = a.y > TOP + ShareAxis::HEIGHT / 2.0;
-            a.y.total_cmp(&b.y)
+            let is_low = f64::from(line_of(a)) * TOUCHING > TOP + ShareAxis::HEIGHT / 2.0;
+            line_of(a)
+                .cmp(&line_of(b))
                 .then(if is_low { by_time } else { by_time.reverse() })
         });
-        let wanted: Vec<i32> = proven.iter().map(|mark| mark.y.round() as i32).collect();
+        let wanted: Vec<i32> = proven
+            .iter()
+            .map(|mark| line_of(mark) * TOUCHING as i32)
+            .collect();
         let lowest = (TOP + ShareAxis::HEIGHT) as i32;
         let places = spread(&wanted, LABEL_SPACING as i32, lowest);
         let in_strip = self.unsafe_marks.iter().map(|mark| (mark, mark.y));

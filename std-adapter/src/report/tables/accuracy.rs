@@ -24,12 +24,13 @@ pub fn accuracy(accuracy: &Accuracy) -> String {
 }
 
 const NOTES: &str = "\
-culls: per cent of all pairs. keeps: of 100,000 pairs that exact arithmetic culls.
-false: pairs culled although exact arithmetic has no proof; +: per cent of all pairs
-that are coplanar at some time, but do not touch (checked in `verification/` only).
-Then nanoseconds a pair, gathered by index from rows of vertices in a core's cache,
-one at a time, or sixteen side by side on each instruction set. in L1: from tiles in
-the first cache, on the best one. cost: the best one's time over `uncertified`'s.
+culls: per cent of all pairs. keeps: of 100,000 that exact arithmetic culls.
+false: pairs culled although exact arithmetic has no proof; +: per cent of all
+pairs that are coplanar at some time, but do not touch (that is checked in
+`verification/` only). Then nanoseconds a pair, gathered by index from rows of
+vertices in a core's cache: one at a time, then sixteen side by side on each
+instruction set; in L1: from tiles in the first cache, on the best one.
+cost: the best one's time (paper: one at a time) over that of `uncertified`.
 ! not certified: unsafe to rely on, culls colliding pairs now and then
 ";
 

@@ -277,7 +277,7 @@ mod tests {
     fn certified_filters_cull_nothing_that_exact_arithmetic_does_not() {
         for separation in [0.0, 1e-3] {
             for set in measured(separation).sets {
-                assert!(set.cullable > 0, "{}", set.name);
+                assert!(set.cullable > 0 || separation > 0.0, "{}", set.name);
                 for row in &set.rows {
                     assert_eq!(
                         row.culled + row.kept_cullable,
