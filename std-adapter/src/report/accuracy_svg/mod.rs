@@ -68,8 +68,8 @@ fn draw_head(picture: &mut Group, accuracy: &Accuracy) {
         .set("font-size", TITLE_SIZE)
         .set("font-weight", "bold");
     picture.append(title);
-    let backends = accuracy.sets.iter().filter_map(best_backend);
-    let lanes = backends.last().unwrap_or("no");
+    let mut backends = accuracy.sets.iter().filter_map(best_backend);
+    let lanes = backends.next_back().unwrap_or("no");
     let separation = match accuracy.options.separation {
         0.0 => String::new(),
         separation => format!(", separation {separation}"),

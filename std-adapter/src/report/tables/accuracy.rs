@@ -100,7 +100,7 @@ fn cells(set: &AccuracySet, row: &AccuracyRow, backends: &[&str]) -> Vec<String>
     cells.extend(backends.iter().map(|backend| time(row.time(backend))));
     cells.push(time(row.in_first_cache));
     let cost = row.best_time().and_then(|time| set.over_uncertified(time));
-    cells.push(cost.map_or_else(String::new, |cost| three_figures(cost)));
+    cells.push(cost.map_or_else(String::new, three_figures));
     cells
 }
 
