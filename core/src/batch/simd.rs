@@ -7,8 +7,7 @@ use crate::lanes::Lanes;
 use crate::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
 use crate::vector::Vector;
 use fearless_simd::{
-    ExtractToken, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, dispatch, f32x8,
-    f32x16, f64x8,
+    ExtractToken, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f32x8, f32x16, f64x8,
 };
 
 /// What [`Scalar`](crate::Scalar) needs to go sixteen at a time.
@@ -270,6 +269,32 @@ macro_rules! kernel {
 kernel!(f32, sixteen_f32, f32x8, f32x16);
 kernel!(f64, eight_f64, f64x8, f64x8);
 
+/// Runs `$op` with a token `$simd` for `$level`.
+///
+/// On x86 without code of its own for SSE4.2, which has next to nothing over SSE2 for these kernels: that would take half as long
+/// again to compile.
+macro_rules! vectorized {
+    ($level:expr, $simd:ident => $op:expr) => {{
+        #[cfg(all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse2"))]
+        {
+            let level: Level = $level;
+            if let Some($simd) = level.as_avx512() {
+                $simd.vectorize(#[inline(always)] || $op)
+            } else if let Some($simd) = level.as_avx2() {
+                $simd.vectorize(#[inline(always)] || $op)
+            } else {
+                // Every level has SSE2 here.
+                let $simd = level.as_sse2()?;
+                $simd.vectorize(#[inline(always)] || $op)
+            }
+        }
+        #[cfg(not(all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse2")))]
+        {
+            fearless_simd::dispatch!($level, $simd => $op)
+        }
+    }};
+}
+
 impl BatchScalar for f32 {
     fn sixteen(
         level: Level,
@@ -277,7 +302,7 @@ impl BatchScalar for f32 {
         kernel: Kernel<f32>,
         pairs: Sixteen<'_, f32>,
     ) -> Option<Decision<Mask>> {
-        dispatch!(level, simd => match shape {
+        vectorized!(level, simd => match shape {
             Shape::VertexFace => sixteen_f32::<_, VertexAndFace>(simd, kernel, pairs, 0),
             Shape::EdgeEdge => sixteen_f32::<_, EdgeAndEdge>(simd, kernel, pairs, 0),
         })
@@ -291,7 +316,7 @@ impl BatchScalar for f64 {
         kernel: Kernel<f64>,
         pairs: Sixteen<'_, f64>,
     ) -> Option<Decision<Mask>> {
-        dispatch!(level, simd => match shape {
+        vectorized!(level, simd => match shape {
             Shape::VertexFace => sixteen_f64::<_, VertexAndFace>(simd, kernel, pairs),
             Shape::EdgeEdge => sixteen_f64::<_, EdgeAndEdge>(simd, kernel, pairs),
         })
