@@ -1,0 +1,267 @@
+//! Measures the certified time of impact on the public data sets, for both number formats and several tolerances.
+//!
+//! `cargo run --release -p selvedge-verification --example time_of_impact -- queries FILE.csv…`
+//! `cargo run --release -p selvedge-verification --example time_of_impact -- scene START.ply END.ply PAIRS.json TRUTH.json…`
+//!
+//! Answers that differ from the truth of the files are settled by the oracle, on the pair as it is in the format. Prints, for each
+//! kind of pair: false negatives (exit status 1 if there is one), false positives, nanoseconds, rounds, and why advancing
+//! stopped where it found something.
+
+use selvedge::PairKind;
+use selvedge::queries::read as read_queries;
+use selvedge_core::elementary::advance::{
+    Impact, Limits, ROUNDS, Reason, Work, time_of_impact, time_of_impact_and_work,
+};
+use selvedge_core::{EdgeEdge, PrimitivePair, VertexFace};
+use selvedge_verification::generator::{Format, PairCase};
+use selvedge_verification::oracle::{Kind, collides};
+use std::hint::black_box;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+type Result<T> = std::result::Result<T, String>;
+
+const TOLERANCES: [f64; 3] = [1e-6, 1e-9, 1e-12];
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let misses = match arguments.as_slice() {
+        ["queries", files @ ..] if !files.is_empty() => queries(files),
+        ["scene", start, end, lists @ ..] if !lists.is_empty() && lists.len() % 2 == 0 => {
+            scene(start, end, lists)
+        }
+        _ => {
+            eprintln!(
+                "usage: time_of_impact queries FILE.csv… | scene START.ply END.ply PAIRS.json TRUTH.json…"
+            );
+            return ExitCode::from(2);
+        }
+    };
+    match misses {
+        Ok(0) => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::FAILURE,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Pairs of one kind, and whether they collide.
+struct Set {
+    name: String,
+    kind: Kind,
+    points: Vec<[[[f64; 3]; 2]; 4]>,
+    truth: Vec<bool>,
+}
+
+fn queries(files: &[&str]) -> Result<usize> {
+    let mut sets: Vec<Set> = Vec::new();
+    for file in files {
+        let path = Path::new(file);
+        let queries = read_queries(path, None).map_err(|error| error.to_string())?;
+        let kind = match queries.kind {
+            PairKind::VertexFace => Kind::VertexFace,
+            PairKind::EdgeEdge => Kind::EdgeEdge,
+        };
+        let folder = path.ancestors().nth(2).and_then(Path::file_name);
+        let is_unit = folder.is_some_and(|name| name.to_string_lossy().starts_with("unit"));
+        let name = if is_unit { "unit" } else { "erleben" };
+        let index = sets
+            .iter()
+            .position(|set| set.kind == kind && set.name == name)
+            .unwrap_or_else(|| {
+                sets.push(Set {
+                    name: name.into(),
+                    kind,
+                    points: Vec::new(),
+                    truth: Vec::new(),
+                });
+                sets.len() - 1
+            });
+        let set = &mut sets[index];
+        for query in &queries.queries {
+            let points = |k: usize| [query.start[k].to_array(), query.end[k].to_array()];
+            set.points.push([0, 1, 2, 3].map(points));
+            set.truth.push(
+                query
+                    .collides
+                    .ok_or_else(|| format!("{file}: a query without truth"))?,
+            );
+        }
+    }
+    Ok(sets.iter().map(measure_all).sum())
+}
+
+fn scene(start: &str, end: &str, lists: &[&str]) -> Result<usize> {
+    let mesh = |path: &str| {
+        let file = selvedge::mesh::read(Path::new(path)).map_err(|error| error.to_string())?;
+        Ok::<_, String>(file.mesh)
+    };
+    let (start, end) = (mesh(start)?, mesh(end)?);
+    let corners = [[0, 1], [1, 2], [2, 0]];
+    let triangles = start.triangles.iter();
+    let mut edges: Vec<[u32; 2]> = triangles
+        .flat_map(|t| corners.map(|[i, j]| [t[i].min(t[j]), t[i].max(t[j])]))
+        .collect();
+    edges.sort_unstable_by_key(|&[smaller, larger]| (larger, smaller));
+    edges.dedup();
+    let edges_from = start.positions.len();
+    let faces_from = edges_from + edges.len();
+    let mut misses = 0;
+    for [pairs, truth] in lists.as_chunks::<2>().0 {
+        let ids: Vec<[usize; 2]> = json(pairs)?;
+        let truth: Vec<bool> = json(truth)?;
+        let kind = if ids.iter().any(|ids| ids[0] < edges_from) {
+            Kind::VertexFace
+        } else {
+            Kind::EdgeEdge
+        };
+        let points = ids.iter().map(|&[first, second]| {
+            let vertices = match kind {
+                Kind::VertexFace => {
+                    let [a, b, c] = start.triangles[second - faces_from];
+                    [u32::try_from(first).expect("an index"), a, b, c]
+                }
+                Kind::EdgeEdge => {
+                    let [a, b] = edges[first - edges_from];
+                    let [c, d] = edges[second - edges_from];
+                    [a, b, c, d]
+                }
+            };
+            vertices.map(|v| [&start, &end].map(|mesh| mesh.positions[v as usize].to_array()))
+        });
+        let set = Set {
+            name: (*pairs).into(),
+            kind,
+            points: points.collect(),
+            truth,
+        };
+        misses += measure_all(&set);
+    }
+    Ok(misses)
+}
+
+fn json<T: serde::de::DeserializeOwned>(path: &str) -> Result<T> {
+    let text = std::fs::read(path).map_err(|error| format!("{path}: {error}"))?;
+    serde_json::from_slice(&text).map_err(|error| format!("{path}: {error}"))
+}
+
+fn measure_all(set: &Set) -> usize {
+    println!(
+        "{} {:?}: {} pairs, {} collide",
+        set.name,
+        set.kind,
+        set.points.len(),
+        set.truth.iter().filter(|&&collides| collides).count()
+    );
+    println!(
+        "          δ      pos  FN   FP  mean ns  worst µs  calls%  rounds: mean  max  2-3 4-7 8-15 16-31 32-63 64 | within tolerance, within error, other | steps, turns max"
+    );
+    measure_format::<f64>(set) + measure_format::<f32>(set)
+}
+
+fn measure_format<S: Format>(set: &Set) -> usize {
+    let cases: Vec<PairCase<S>> = set
+        .points
+        .iter()
+        .map(|points| PairCase::new(set.kind, points.map(|p| p.map(|x| x.map(S::from_f64)))))
+        .collect();
+    match set.kind {
+        Kind::VertexFace => measure::<S, VertexFace<S>>(set, &cases, PairCase::vertex_face),
+        Kind::EdgeEdge => measure::<S, EdgeEdge<S>>(set, &cases, PairCase::edge_edge),
+    }
+}
+
+fn measure<S: Format, P: PrimitivePair<S>>(
+    set: &Set,
+    cases: &[PairCase<S>],
+    to_pair: impl Fn(&PairCase<S>) -> P,
+) -> usize {
+    let pairs: Vec<P> = cases.iter().map(to_pair).collect();
+    let separation: f64 = std::env::var("SEPARATION").map_or(0.0, |s| s.parse().expect("a number"));
+    let mut all_misses = 0;
+    for tolerance in TOLERANCES {
+        let limits = Limits {
+            tolerance: S::from_f64(tolerance),
+            separation: S::from_f64(separation),
+        };
+        let mut nanoseconds = f64::INFINITY;
+        for _ in 0..3 {
+            let begin = Instant::now();
+            for pair in &pairs {
+                let _ = black_box(time_of_impact(black_box(pair), &limits));
+            }
+            let elapsed = begin.elapsed().as_secs_f64() * 1e9 / pairs.len() as f64;
+            nanoseconds = nanoseconds.min(elapsed);
+        }
+        let (mut positives, mut misses, mut false_positives) = (0, 0, 0);
+        let mut histogram = [0_usize; ROUNDS as usize + 1];
+        let mut reasons = [0; 3];
+        let mut worst = 0.0_f64;
+        let mut most = Work::default();
+        for ((pair, case), &truth) in pairs.iter().zip(cases).zip(&set.truth) {
+            let begin = Instant::now();
+            let (impact, work) = black_box(time_of_impact_and_work(pair, &limits));
+            let mut took = begin.elapsed().as_secs_f64();
+            if took > worst {
+                // Unless it was interrupted.
+                for _ in 0..5 {
+                    let begin = Instant::now();
+                    let _ = black_box(time_of_impact_and_work(pair, &limits));
+                    took = took.min(begin.elapsed().as_secs_f64());
+                }
+                worst = worst.max(took);
+            }
+            histogram[work.rounds as usize] += 1;
+            most.volume_steps = most.volume_steps.max(work.volume_steps);
+            most.turns = most.turns.max(work.turns);
+            let positive = impact != Impact::Never;
+            positives += usize::from(positive);
+            if let Impact::Possible { reason, .. } = impact {
+                reasons[match reason {
+                    Reason::WithinTolerance => 0,
+                    Reason::WithinError => 1,
+                    _ => 2,
+                }] += 1;
+            }
+            if positive != truth && separation == 0.0 {
+                let exact = collides(&case.question()).is_some();
+                misses += usize::from(exact && !positive);
+                false_positives += usize::from(positive && !exact);
+                if exact && !positive {
+                    println!("missed: {case:?}");
+                }
+            }
+            if work.rounds == ROUNDS && std::env::var_os("SLOW").is_some() {
+                println!("{work:?} {impact:?} {case:?}");
+            }
+        }
+        let called: usize = histogram[1..].iter().sum();
+        let rounds: usize = histogram.iter().enumerate().map(|(k, n)| k * n).sum();
+        let between = |from: usize, to: usize| histogram[from..=to].iter().sum::<usize>();
+        let max = histogram.iter().rposition(|&n| n > 0).unwrap_or(0);
+        println!(
+            "{} {tolerance:7.0e} {positives:8} {misses:3} {false_positives:4} {nanoseconds:8.1} {:9.2} {:7.2} {:8.2} {max:10}  {} {} {} {} {} {} | {} {} {} | {} {}",
+            S::NAME,
+            worst * 1e6,
+            called as f64 * 100.0 / pairs.len() as f64,
+            rounds as f64 / called.max(1) as f64,
+            between(2, 3),
+            between(4, 7),
+            between(8, 15),
+            between(16, 31),
+            between(32, 63),
+            histogram[ROUNDS as usize],
+            reasons[0],
+            reasons[1],
+            reasons[2],
+            most.volume_steps,
+            most.turns,
+        );
+        all_misses += misses;
+    }
+    all_misses
+}
