@@ -8,6 +8,7 @@
 //! stopped where it found something.
 
 use selvedge::PairKind;
+use selvedge::pipeline::{CullingTest, ElementaryTest, Pipeline, Redundancy, Stages};
 use selvedge::queries::read as read_queries;
 use selvedge_core::elementary::advance::{
     Impact, Limits, ROUNDS, Reason, Work, time_of_impact, time_of_impact_and_work,
@@ -15,6 +16,7 @@ use selvedge_core::elementary::advance::{
 use selvedge_core::{EdgeEdge, PrimitivePair, VertexFace};
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::{Kind, collides};
+use std::collections::HashSet;
 use std::hint::black_box;
 use std::path::Path;
 use std::process::ExitCode;
@@ -95,53 +97,85 @@ fn queries(files: &[&str]) -> Result<usize> {
     Ok(sets.iter().map(measure_all).sum())
 }
 
+/// All pairs whose swept boxes overlap; those of the lists that are true collide.
 fn scene(start: &str, end: &str, lists: &[&str]) -> Result<usize> {
-    let mesh = |path: &str| {
-        let file = selvedge::mesh::read(Path::new(path)).map_err(|error| error.to_string())?;
-        Ok::<_, String>(file.mesh)
-    };
-    let (start, end) = (mesh(start)?, mesh(end)?);
-    let corners = [[0, 1], [1, 2], [2, 0]];
-    let triangles = start.triangles.iter();
-    let mut edges: Vec<[u32; 2]> = triangles
-        .flat_map(|t| corners.map(|[i, j]| [t[i].min(t[j]), t[i].max(t[j])]))
-        .collect();
+    let step = selvedge::mesh::read_step(Path::new(start), Path::new(end))
+        .map_err(|error| error.to_string())?;
+    let (start, end) = (&step.start, &step.end);
+    let edges_from = start.len();
+    let mut edges = step.topology.edges().to_vec();
+    for [a, b] in &mut edges {
+        (*a, *b) = ((*a).min(*b), (*a).max(*b));
+    }
     edges.sort_unstable_by_key(|&[smaller, larger]| (larger, smaller));
-    edges.dedup();
-    let edges_from = start.positions.len();
     let faces_from = edges_from + edges.len();
-    let mut misses = 0;
+    let mut colliding: [HashSet<[u32; 4]>; 2] = Default::default();
     for [pairs, truth] in lists.as_chunks::<2>().0 {
         let ids: Vec<[usize; 2]> = json(pairs)?;
         let truth: Vec<bool> = json(truth)?;
-        let kind = if ids.iter().any(|ids| ids[0] < edges_from) {
-            Kind::VertexFace
-        } else {
-            Kind::EdgeEdge
-        };
-        let points = ids.iter().map(|&[first, second]| {
-            let vertices = match kind {
-                Kind::VertexFace => {
-                    let [a, b, c] = start.triangles[second - faces_from];
-                    [u32::try_from(first).expect("an index"), a, b, c]
-                }
-                Kind::EdgeEdge => {
-                    let [a, b] = edges[first - edges_from];
-                    let [c, d] = edges[second - edges_from];
-                    [a, b, c, d]
-                }
-            };
-            vertices.map(|v| [&start, &end].map(|mesh| mesh.positions[v as usize].to_array()))
-        });
+        for (&[first, second], _) in ids.iter().zip(truth).filter(|(_, truth)| *truth) {
+            if first < edges_from {
+                let [a, b, c] = step.topology.triangles()[second - faces_from];
+                let vertex = u32::try_from(first).expect("an index");
+                colliding[0].insert(sorted([vertex, a, b, c], Kind::VertexFace));
+            } else {
+                let [a, b] = edges[first - edges_from];
+                let [c, d] = edges[second - edges_from];
+                colliding[1].insert(sorted([a, b, c, d], Kind::EdgeEdge));
+            }
+        }
+    }
+    let stages = Stages {
+        redundancy: Redundancy::RepresentativeTriangles,
+        tests: &[CullingTest::StoredSweptBoxes],
+        elementary: ElementaryTest::Cubic,
+    };
+    let mut pipeline = Pipeline::<f64>::new(step.topology.clone(), stages, 1)
+        .map_err(|error| error.to_string())?;
+    pipeline.keep_candidates(true);
+    pipeline
+        .step(start, end)
+        .map_err(|error| error.to_string())?;
+    let mut misses = 0;
+    for (kind, pair_kind, colliding) in [
+        (Kind::VertexFace, PairKind::VertexFace, &colliding[0]),
+        (Kind::EdgeEdge, PairKind::EdgeEdge, &colliding[1]),
+    ] {
+        let candidates = pipeline.candidates(pair_kind).iter();
+        let vertices: Vec<[u32; 4]> = candidates
+            .map(|&pair| pair_kind.vertices(pair, &step.topology))
+            .collect();
+        let points = vertices
+            .iter()
+            .map(|vertices| vertices.map(|v| [start, end].map(|at| at[v as usize].to_array())));
+        let truth = vertices
+            .iter()
+            .map(|&vertices| colliding.contains(&sorted(vertices, kind)));
         let set = Set {
-            name: (*pairs).into(),
+            name: "scene".into(),
             kind,
             points: points.collect(),
-            truth,
+            truth: truth.collect(),
         };
         misses += measure_all(&set);
     }
     Ok(misses)
+}
+
+/// The same pair always in the same order.
+fn sorted([a, b, c, d]: [u32; 4], kind: Kind) -> [u32; 4] {
+    match kind {
+        Kind::VertexFace => {
+            let mut face = [b, c, d];
+            face.sort_unstable();
+            [a, face[0], face[1], face[2]]
+        }
+        Kind::EdgeEdge => {
+            let mut edges = [[a.min(b), a.max(b)], [c.min(d), c.max(d)]];
+            edges.sort_unstable();
+            [edges[0][0], edges[0][1], edges[1][0], edges[1][1]]
+        }
+    }
 }
 
 fn json<T: serde::de::DeserializeOwned>(path: &str) -> Result<T> {
