@@ -2,8 +2,10 @@
 //!
 //! `cargo run --release -p selvedge-verification --example time_of_impact -- queries FILE.csv…`
 //! `cargo run --release -p selvedge-verification --example time_of_impact -- scene START.ply END.ply PAIRS.json TRUTH.json…`
+//! `cargo run --release -p selvedge-verification --example time_of_impact -- stress COUNT`
 //!
-//! Answers that differ from the truth of the files are settled by the oracle, on the pair as it is in the format. Prints, for each
+//! The stress set is made of pairs that graze, slide and spin: all four points stay near a plane, at heights of 1 down to 1e-9, and
+//! cross one another within it. Answers that differ from the truth of the files are settled by the oracle, on the pair as it is in the format. Prints, for each
 //! kind of pair: false negatives (exit status 1 if there is one), false positives, nanoseconds, rounds, and why advancing
 //! stopped where it found something.
 
@@ -30,13 +32,17 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let misses = match arguments.as_slice() {
+        ["stress", count] => count
+            .parse()
+            .map(stress)
+            .map_err(|error| format!("{count}: {error}")),
         ["queries", files @ ..] if !files.is_empty() => queries(files),
         ["scene", start, end, lists @ ..] if !lists.is_empty() && lists.len() % 2 == 0 => {
             scene(start, end, lists)
         }
         _ => {
             eprintln!(
-                "usage: time_of_impact queries FILE.csv… | scene START.ply END.ply PAIRS.json TRUTH.json…"
+                "usage: time_of_impact queries FILE.csv… | scene START.ply END.ply PAIRS.json TRUTH.json… | stress COUNT"
             );
             return ExitCode::from(2);
         }
@@ -175,6 +181,95 @@ fn sorted([a, b, c, d]: [u32; 4], kind: Kind) -> [u32; 4] {
             edges.sort_unstable();
             [edges[0][0], edges[0][1], edges[1][0], edges[1][1]]
         }
+    }
+}
+
+/// Pairs of either kind that stay near a plane, each way of moving equally often. The oracle says which collide.
+fn stress(count: usize) -> usize {
+    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let mut misses = 0;
+    for kind in [Kind::VertexFace, Kind::EdgeEdge] {
+        let points: Vec<_> = (0..count).map(|_| random.flat_pair(kind)).collect();
+        let truth = points.iter().map(|points| {
+            let pair = PairCase::new(kind, *points).question();
+            collides(&pair).is_some()
+        });
+        let set = Set {
+            name: "stress".into(),
+            kind,
+            truth: truth.collect(),
+            points,
+        };
+        misses += measure_all(&set);
+    }
+    misses
+}
+
+/// Marsaglia's xorshift: numbers that look random, the same each time.
+struct Random(u64);
+
+impl Random {
+    /// In [0, 1).
+    fn number(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// In [-1, 1).
+    fn signed(&mut self) -> f64 {
+        2.0 * self.number() - 1.0
+    }
+
+    /// Of a size that is 1e-9 as likely as 1.
+    fn of_any_size(&mut self) -> f64 {
+        self.signed() * 10_f64.powf(-9.0 * self.number())
+    }
+
+    fn flat_pair(&mut self, kind: Kind) -> [[[f64; 3]; 2]; 4] {
+        let first = match kind {
+            Kind::VertexFace => 1,
+            Kind::EdgeEdge => 2,
+        };
+        // The second set is this far below the first, and moves so much in the plane and across it.
+        let gap = self.of_any_size().abs();
+        let across = gap
+            * if self.number() < 0.3 {
+                1.0
+            } else {
+                self.of_any_size().abs()
+            };
+        let within = if self.number() < 0.5 {
+            1.0
+        } else {
+            self.of_any_size().abs()
+        };
+        let spins = self.number() < 0.3;
+        let axes = [self.direction(), self.direction(), self.direction()];
+        let mut points = [[[0.0; 3]; 2]; 4];
+        for (index, point) in points.iter_mut().enumerate() {
+            let height = if index < first { gap } else { 0.0 };
+            let start = [
+                self.signed(),
+                self.signed(),
+                height + 0.1 * across * self.signed(),
+            ];
+            let turn = if spins { -1.0 } else { 1.0 };
+            let end = [
+                turn * start[0] + within * self.signed(),
+                turn * start[1] + within * self.signed(),
+                height + across * self.signed(),
+            ];
+            *point = [start, end].map(|local| {
+                std::array::from_fn(|axis| (0..3).map(|k| local[k] * axes[k][axis]).sum::<f64>())
+            });
+        }
+        points
+    }
+
+    fn direction(&mut self) -> [f64; 3] {
+        std::array::from_fn(|_| self.signed())
     }
 }
 

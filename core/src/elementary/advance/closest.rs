@@ -8,11 +8,13 @@ use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// Where on the hull the closest point was found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Feature {
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Feature<S> {
     Corner,
-    Side,
-    Interior,
+    /// On a side, and along which.
+    Side(Vector<S>),
+    /// Inside, and two sides.
+    Interior([Vector<S>; 2]),
 }
 
 /// The closest point and where it was found.
@@ -20,7 +22,50 @@ pub(super) enum Feature {
 pub(super) struct Closest<S> {
     pub(super) point: Vector<S>,
     pub(super) squared_distance: S,
-    pub(super) feature: Feature,
+    pub(super) feature: Feature<S>,
+}
+
+impl<S: Scalar> Closest<S> {
+    #[inline(always)]
+    pub(super) const fn is_interior(&self) -> bool {
+        matches!(self.feature, Feature::Interior(_))
+    }
+
+    /// A direction in which all of the hull is beyond the closest point, which is `extent` away at most.
+    ///
+    /// The closest point itself will do, unless it is so near that its error, a few u times the extent h, tilts it against
+    /// the side or the face that it is on: by uh/d, where d/h is all that there is room for. So where d² is below
+    /// 2⁶uh² it is made perpendicular to the side, or replaced by the face's normal.
+    #[inline(always)]
+    pub(super) fn direction(&self, extent: S) -> Vector<S> {
+        let tilted = S::from_f64(64.0) * S::UNIT_ROUNDOFF * (extent * extent);
+        if self.squared_distance < tilted {
+            self.upright()
+        } else {
+            self.point
+        }
+    }
+
+    #[cold]
+    fn upright(&self) -> Vector<S> {
+        match self.feature {
+            Feature::Corner => self.point,
+            Feature::Side(side) => {
+                let along = self.point.dot(side) / side.dot(side);
+                self.point - side.scaled(along)
+            }
+            Feature::Interior([side, other]) => {
+                let normal = side.cross(other);
+                // Its size does not matter, but it should not be so small that products underflow.
+                let normal = normal.scaled(S::ONE / normal.abs().largest());
+                if normal.dot(self.point) < S::ZERO {
+                    normal.scaled(-S::ONE)
+                } else {
+                    normal
+                }
+            }
+        }
+    }
 }
 
 /// In the triangle of three corners, or the parallelogram whose first three of four corners are given, opposite to each
@@ -40,7 +85,7 @@ pub(super) fn closest<S: Scalar, const N: usize>(corners: &[Vector<S>; N]) -> Cl
 }
 
 #[inline(always)]
-fn at<S: Scalar>(point: Vector<S>, feature: Feature) -> Closest<S> {
+fn at<S: Scalar>(point: Vector<S>, feature: Feature<S>) -> Closest<S> {
     Closest {
         point,
         squared_distance: point.dot(point),
@@ -63,7 +108,7 @@ fn in_triangle<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S
     let area_c = ab_a * ac_b - ab_b * ac_a;
     if area_c <= zero && ab_a >= zero && ab_b <= zero {
         let weight = ab_a / (ab_a - ab_b);
-        return at(a - to_a_from_b.scaled(weight), Feature::Side);
+        return at(a - to_a_from_b.scaled(weight), Feature::Side(to_a_from_b));
     }
     let (ab_c, ac_c) = (to_a_from_b.dot(c), to_a_from_c.dot(c));
     if ac_c >= zero && ab_c <= ac_c {
@@ -72,17 +117,17 @@ fn in_triangle<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S
     let area_b = ab_c * ac_a - ab_a * ac_c;
     if area_b <= zero && ac_a >= zero && ac_c <= zero {
         let weight = ac_a / (ac_a - ac_c);
-        return at(a - to_a_from_c.scaled(weight), Feature::Side);
+        return at(a - to_a_from_c.scaled(weight), Feature::Side(to_a_from_c));
     }
     let area_a = ab_b * ac_c - ab_c * ac_b;
     let (from_b, from_c) = (ac_b - ab_b, ab_c - ac_c);
     if area_a <= zero && from_b >= zero && from_c >= zero {
         let weight = from_b / (from_b + from_c);
-        return at(b - (b - c).scaled(weight), Feature::Side);
+        return at(b - (b - c).scaled(weight), Feature::Side(b - c));
     }
     let scale = S::ONE / ((area_a + area_b) + area_c);
     let inwards = to_a_from_b.scaled(area_b * scale) + to_a_from_c.scaled(area_c * scale);
-    at(a - inwards, Feature::Interior)
+    at(a - inwards, Feature::Interior([to_a_from_b, to_a_from_c]))
 }
 
 /// Corners a, a + (b − a)·t + (c − a)·s for s and t of 0 and 1: the two edges' parameters.
@@ -104,9 +149,10 @@ fn in_parallelogram<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Clos
         }
     };
     let feature = |s_is_end: bool, t_is_end: bool| match (s_is_end, t_is_end) {
-        (false, false) => Feature::Interior,
+        (false, false) => Feature::Interior([first, second]),
+        (false, true) => Feature::Side(first),
+        (true, false) => Feature::Side(second),
         (true, true) => Feature::Corner,
-        _ => Feature::Side,
     };
     let across = first.dot(second);
     let scale = first_squared * second_squared - across * across;

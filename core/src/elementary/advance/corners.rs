@@ -86,8 +86,12 @@ impl<S: Scalar, const N: usize> Corners<S, N> {
     #[inline(always)]
     pub(super) fn at(&self, time: S) -> [Vector<S>; N] {
         let rest = S::ONE - time;
-        self.ends
-            .map(|[start, end]| start.scaled(rest) + end.scaled(time))
+        // A loop, because `array::map` with a closure is not always inlined.
+        let mut positions = [Vector::new(S::ZERO, S::ZERO, S::ZERO); N];
+        for (position, [start, end]) in positions.iter_mut().zip(&self.ends) {
+            *position = start.scaled(rest) + end.scaled(time);
+        }
+        positions
     }
 
     /// 20u·Σ|w_k|M_k + η: a product of `w` with a corner at any time, as computed, that is larger than this proves that the

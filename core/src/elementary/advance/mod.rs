@@ -67,7 +67,7 @@ use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape, Shape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
-use closest::{Closest, Feature, closest};
+use closest::{Closest, closest};
 use corners::{Corners, largest_extent};
 use directions::{Apart, are_apart_turning};
 use volume::SignedVolume;
@@ -215,6 +215,8 @@ struct Snapshot<S, const N: usize> {
     time: S,
     positions: [Vector<S>; N],
     closest: Closest<S>,
+    /// Away from the origin: in it the hull is beyond the closest point.
+    direction: Vector<S>,
 }
 
 impl<S: Scalar, const N: usize> Snapshot<S, N> {
@@ -226,16 +228,15 @@ impl<S: Scalar, const N: usize> Snapshot<S, N> {
             time,
             positions,
             closest,
+            direction: closest.direction(corners.extent.largest()),
         }
     }
 
-    /// The closest point's direction, of unit length but for rounding.
+    /// The direction, of unit length but for rounding.
     #[inline(always)]
     fn unit(&self) -> Vector<S> {
-        let closest = &self.closest;
-        closest
-            .point
-            .scaled(S::ONE / closest.squared_distance.sqrt())
+        let direction = self.direction;
+        direction.scaled(S::ONE / direction.dot(direction).sqrt())
     }
 }
 
@@ -254,12 +255,12 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
             if now.closest.squared_distance <= near_squared {
                 return possible(&now, Reason::WithinTolerance);
             }
-            let mut until = match self.apart_along(&now, now.closest.point) {
+            let mut until = match self.apart_along(&now) {
                 Apart::ToTheEnd => return Impact::Never,
                 Apart::Until(until) if until > now.time => until,
                 _ => return possible(&now, Reason::WithinError),
             };
-            if self.work.rounds > 1 && now.closest.feature == Feature::Interior {
+            if self.work.rounds > 1 && now.closest.is_interior() {
                 let steps = &mut self.work.volume_steps;
                 match self.volume.apart_from(now.time, steps) {
                     Apart::ToTheEnd => return Impact::Never,
@@ -281,8 +282,9 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
     }
 
     #[inline(always)]
-    fn apart_along(&self, now: &Snapshot<S, N>, w: Vector<S>) -> Apart<S> {
-        let direction = self.corners.direction(w, self.limits.separation);
+    fn apart_along(&self, now: &Snapshot<S, N>) -> Apart<S> {
+        let separation = self.limits.separation;
+        let direction = self.corners.direction(now.direction, separation);
         self.corners.apart_along(&direction, &now.positions)
     }
 

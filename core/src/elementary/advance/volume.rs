@@ -167,7 +167,8 @@ impl<S: Scalar> Normal<S> {
         let b = b0.scaled(rest) + b1.scaled(time);
         let c = c0.scaled(rest) + c1.scaled(time);
         let middle = (b.cross(c1) + b1.cross(c)).scaled(S::from_f64(0.5));
-        [b.cross(c), middle, b1.cross(c1)].map(|normal| normal.dot(normal).sqrt())
+        let length = |normal: Vector<S>| normal.dot(normal).sqrt();
+        [length(b.cross(c)), length(middle), length(b1.cross(c1))]
     }
 }
 
