@@ -12,9 +12,8 @@
 use selvedge::PairKind;
 use selvedge::pipeline::{CullingTest, ElementaryTest, Pipeline, Redundancy, Stages};
 use selvedge::queries::read as read_queries;
-use selvedge_core::elementary::advance::{
-    Impact, Limits, ROUNDS, Reason, Work, time_of_impact, time_of_impact_and_work,
-};
+use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact, time_of_impact_and_work};
+use selvedge_core::elementary::{Impact, Limits, Reason};
 use selvedge_core::{EdgeEdge, PrimitivePair, VertexFace};
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::{Kind, collides};

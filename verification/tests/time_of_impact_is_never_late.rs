@@ -4,9 +4,8 @@
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge_core::Scalar;
-use selvedge_core::elementary::advance::{
-    Impact, Limits, ROUNDS, Reason, Work, time_of_impact_and_work,
-};
+use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact_and_work};
+use selvedge_core::elementary::{Impact, Limits, Reason};
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs,
     from_choices, touching_pairs,

@@ -3,9 +3,9 @@
 //! If the products of a direction w with all corners are larger than s·|w| at some time, the hull of the corners is farther
 //! than s from the origin then. Each product with a *constant* w is linear in time; with a w that moves linearly itself it is
 //! quadratic. A direction's [`bar`](Direction::bar) is T + s·|w|, T being the
-//! [error of a product](super::corners): what a computed product must exceed to prove all this.
+//! [error of a product](crate::elementary::corners): what a computed product must exceed to prove all this.
 
-use super::corners::{Corners, less_roundoffs, more_roundoffs, of_format};
+use crate::elementary::corners::{Corners, less_roundoffs, more_roundoffs, of_format};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 

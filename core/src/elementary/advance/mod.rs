@@ -5,7 +5,7 @@
 //! than the first time at which they are that close.
 //!
 //! ```
-//! use selvedge_core::elementary::advance::{Impact, Limits, Reason, time_of_impact};
+//! use selvedge_core::elementary::{Impact, Limits, Reason, advance::time_of_impact};
 //! use selvedge_core::{glam::DVec3, Motion, VertexFace};
 //!
 //! // A vertex that falls from 1 to −1 onto a resting triangle, held 0.25 apart.
@@ -24,7 +24,7 @@
 //!
 //! # The method
 //! From time t, and starting at 0, go on to a later one up to which the pair is *proven* to be apart, until it is within δ + s, or
-//! the proof reaches the end of the step. Three proofs are tried, all on the pair's [corners](corners) alone, so there is no
+//! the proof reaches the end of the step. Three proofs are tried, all on the pair's [corners](super::corners) alone, so there is no
 //! case for parallel edges, faces without area, coplanar motion:
 //! * a [separating direction](directions) from the closest points, held constant;
 //! * from the second round on, where the closest points are inside the face or both edges, the [signed volume](volume): the points
@@ -57,76 +57,22 @@
     reason = "a comparison is false with NaN, which must then take the side that proves nothing"
 )]
 
-mod closest;
-mod corners;
 mod directions;
 mod volume;
 
+use super::closest::{Closest, closest};
+use super::corners::{Corners, largest_extent};
+use super::{Impact, Limits, Reason};
 use crate::boxes::relative;
 use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape, Shape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
-use closest::{Closest, closest};
-use corners::{Corners, largest_extent};
 use directions::{Apart, are_apart_turning};
 use volume::SignedVolume;
 
 /// The largest number of rounds.
 pub const ROUNDS: u32 = 64;
-
-/// What distance counts as contact, and how tight the answer is to be.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits<S> {
-    /// δ, in units of length: the sets are taken to be in contact when they are that much more than `separation` apart. With
-    /// zero, or less than the error of rounding, the answer is as tight as can be proven.
-    pub tolerance: S,
-    /// s, in units of length: the distance that the sets are to keep. Zero: they are not to touch. If it is negative or NaN
-    /// nothing is excluded.
-    pub separation: S,
-}
-
-/// When two moving sets may be closer than they should.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[must_use = "what is not excluded has to be dealt with"]
-pub enum Impact<S> {
-    /// Certainly never: at all times in [0, 1] they are farther apart than the separation.
-    Never,
-    /// It is not excluded from `time` on. Certainly never before.
-    Possible {
-        /// In [0, 1]; no later than the first time, if there is one, at which they are within the separation.
-        time: S,
-        /// Why no later time is proven.
-        reason: Reason,
-    },
-}
-
-/// Why advancing stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Reason {
-    /// The sets are within the tolerance of the separation, at the time returned.
-    WithinTolerance,
-    /// The sets are so close that rounding errors hide whether they are apart.
-    WithinError,
-    /// All [`ROUNDS`] are used up.
-    OutOfRounds,
-    /// Coordinates differ too much, or the separation is too large, for products to be sure not to overflow.
-    OutOfRange,
-    /// A coordinate is NaN or infinite (or their sum is), or the separation is NaN or negative.
-    NotFinite,
-}
-
-impl<S: Scalar> Impact<S> {
-    /// The time from which on contact is not excluded; `None` if it is excluded throughout.
-    #[inline]
-    #[must_use]
-    pub fn time(&self) -> Option<S> {
-        match *self {
-            Self::Never => None,
-            Self::Possible { time, .. } => Some(time),
-        }
-    }
-}
 
 /// How much was done for one answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

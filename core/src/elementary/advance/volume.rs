@@ -6,7 +6,7 @@
 //! control points, raised to the third degree.
 //!
 //! # Rounding
-//! ε as for the [corners](super::corners), S₃ the permanent of the three rows M M M. A monomial of a control value passes
+//! ε as for the [corners](crate::elementary::corners), S₃ the permanent of the three rows M M M. A monomial of a control value passes
 //! through at most 12 roundings: 3 differences, product, difference, sum of two vectors, product, two additions, one
 //! addition more, and a third (rounded itself) in the middle ones. Blossoming to [t, 1] adds 9 (three times 1 − t,
 //! product, sum), subtracting the bound 1, looking ahead 9: 31εS₃ ≤ 62uS₃ in any direction. **E = 64u·Ŝ₃ + η(1 + M)²**, M here the
@@ -22,9 +22,9 @@
 //! vector, and its length through a handful, which a factor 1 + 64u covers. A length of which the squares
 //! underflow, with less than 2⁻⁶² (2⁻⁵¹⁰), is covered by adding that.
 
-use super::corners::{Corners, less_roundoffs, more_roundoffs, of_format};
 use super::directions::Apart;
 use crate::coplanarity::MovingTetrahedron;
+use crate::elementary::corners::{Corners, less_roundoffs, more_roundoffs, of_format};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 

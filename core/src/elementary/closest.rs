@@ -140,12 +140,14 @@ fn in_parallelogram<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Clos
     let place = |s: S, t: S, feature| at((a + first.scaled(s)) - second.scaled(t), feature);
     // The quotient if it lies in [0, 1], else the nearer end; and whether it is an end. NaN becomes an end.
     let clamped = |numerator: S, denominator: S| {
-        if !(numerator > zero) {
-            (zero, true)
-        } else if !(numerator < denominator) {
-            (one, true)
+        if numerator > zero {
+            if numerator < denominator {
+                (numerator / denominator, false)
+            } else {
+                (one, true)
+            }
         } else {
-            (numerator / denominator, false)
+            (zero, true)
         }
     };
     let feature = |s_is_end: bool, t_is_end: bool| match (s_is_end, t_is_end) {
