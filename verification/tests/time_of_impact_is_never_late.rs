@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use rug::Rational;
 use selvedge_core::Scalar;
 use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact_and_work};
-use selvedge_core::elementary::{Impact, Limits, Reason};
+use selvedge_core::elementary::{Impact, Limits, Reason, tight_inclusion};
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs,
     from_choices, touching_pairs,
@@ -298,4 +298,30 @@ property!(
     50_000,
     extraordinary_pairs,
     |pair| { excludes_nothing_that_is_not_finite(pair) }
+);
+
+/// The bisection of Wang et al., as a baseline, with a tolerance that keeps its work small.
+fn bisection_is_not_late<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+    let pair = moment.pair();
+    let limits = Limits {
+        tolerance: size(&pair) * S::exact(1, -3),
+        separation: S::ZERO,
+    };
+    let impact = match pair.kind {
+        Kind::VertexFace => tight_inclusion::time_of_impact(&pair.vertex_face(), &limits),
+        Kind::EdgeEdge => tight_inclusion::time_of_impact(&pair.edge_edge(), &limits),
+    };
+    let found = impact.time().map(|time| time.to_f64());
+    prop_assert!(
+        found.is_some_and(|found| found <= moment.time()),
+        "{impact:?}"
+    );
+    Ok(())
+}
+
+property!(
+    bisection_finds_every_pair_that_touches,
+    20_000,
+    touching_pairs,
+    |moment| bisection_is_not_late(moment)
 );

@@ -1,5 +1,6 @@
 //! The question and the answer of a time of impact.
 
+use super::corners::of_format;
 use crate::scalar::Scalar;
 
 /// What distance counts as contact, and how tight the answer is to be.
@@ -11,6 +12,18 @@ pub struct Limits<S> {
     /// s, in units of length: the distance that the sets are to keep. Zero: they are not to touch. If it is negative or NaN
     /// nothing is excluded.
     pub separation: S,
+}
+
+impl<S: Scalar> Default for Limits<S> {
+    /// Contact itself, with a tolerance of 2⁻³⁰ (`f64`, about 1e-9) or 2⁻²⁰ (`f32`, about 1e-6): for positions in metres, a
+    /// nanometre or a micrometre. A finer tolerance costs hardly more.
+    #[inline]
+    fn default() -> Self {
+        Self {
+            tolerance: of_format(-20, -30),
+            separation: S::ZERO,
+        }
+    }
 }
 
 /// When two moving sets may be closer than they should.

@@ -58,6 +58,8 @@
 )]
 
 mod directions;
+#[cfg(test)]
+mod tests;
 mod volume;
 
 use super::closest::{Closest, closest};
