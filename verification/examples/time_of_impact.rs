@@ -12,6 +12,7 @@
 use selvedge::PairKind;
 use selvedge::pipeline::{CullingTest, ElementaryTest, Pipeline, Redundancy, Stages};
 use selvedge::queries::read as read_queries;
+use selvedge_core::elementary::advance::confirm::certain_contact;
 use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact, time_of_impact_and_work};
 use selvedge_core::elementary::{Impact, Limits, Reason};
 use selvedge_core::{EdgeEdge, PrimitivePair, VertexFace};
@@ -286,7 +287,7 @@ fn measure_all(set: &Set) -> usize {
         set.truth.iter().filter(|&&collides| collides).count()
     );
     println!(
-        "          δ      pos  FN   FP  mean ns  worst µs  calls%  rounds: mean  max  2-3 4-7 8-15 16-31 32-63 64 | within tolerance, within error, other | steps, turns max"
+        "          δ      pos  FN   FP  mean ns  worst µs  calls%  rounds: mean  max  2-3 4-7 8-15 16-31 32-63 64 | within tolerance, within error, other | steps, turns max | confirmed, against the file's truth"
     );
     measure_format::<f64>(set) + measure_format::<f32>(set)
 }
@@ -326,6 +327,7 @@ fn measure<S: Format, P: PrimitivePair<S>>(
             nanoseconds = nanoseconds.min(elapsed);
         }
         let (mut positives, mut misses, mut false_positives) = (0, 0, 0);
+        let (mut confirmed, mut confirmed_wrongly) = (0, 0);
         let mut histogram = [0_usize; ROUNDS as usize + 1];
         let mut reasons = [0; 3];
         let mut worst = 0.0_f64;
@@ -355,6 +357,11 @@ fn measure<S: Format, P: PrimitivePair<S>>(
                     _ => 2,
                 }] += 1;
             }
+            if let (Some(time), true) = (impact.time(), separation == 0.0) {
+                let interval = certain_contact(pair, time);
+                confirmed += usize::from(interval.is_some());
+                confirmed_wrongly += usize::from(interval.is_some() && !truth);
+            }
             if positive != truth && separation == 0.0 {
                 let exact = collides(&case.question()).is_some();
                 misses += usize::from(exact && !positive);
@@ -372,7 +379,7 @@ fn measure<S: Format, P: PrimitivePair<S>>(
         let between = |from: usize, to: usize| histogram[from..=to].iter().sum::<usize>();
         let max = histogram.iter().rposition(|&n| n > 0).unwrap_or(0);
         println!(
-            "{} {tolerance:7.0e} {positives:8} {misses:3} {false_positives:4} {nanoseconds:8.1} {:9.2} {:7.2} {:8.2} {max:10}  {} {} {} {} {} {} | {} {} {} | {} {}",
+            "{} {tolerance:7.0e} {positives:8} {misses:3} {false_positives:4} {nanoseconds:8.1} {:9.2} {:7.2} {:8.2} {max:10}  {} {} {} {} {} {} | {} {} {} | {} {} | {confirmed} {confirmed_wrongly}",
             S::NAME,
             worst * 1e6,
             called as f64 * 100.0 / pairs.len() as f64,

@@ -4,13 +4,15 @@
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge_core::Scalar;
+use selvedge_core::elementary::advance::confirm::certain_contact;
 use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact_and_work};
 use selvedge_core::elementary::{Impact, Limits, Reason, tight_inclusion};
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs,
-    from_choices, touching_pairs,
+    from_choices, pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides, first_within, within, within_at};
+use std::cell::Cell;
 
 /// A pair, and lengths on its own scale.
 #[derive(Clone, Debug)]
@@ -299,6 +301,49 @@ property!(
     extraordinary_pairs,
     |pair| { excludes_nothing_that_is_not_finite(pair) }
 );
+
+/// How many contacts were confirmed.
+type Confirmed = Cell<u32>;
+
+fn confirms_only_contacts<S: Format>(
+    pair: &PairCase<S>,
+    confirmed: &Confirmed,
+) -> Result<(), TestCaseError> {
+    let (impact, _) = answer(pair, size(pair) * S::exact(1, -20), S::ZERO);
+    let times = [impact.time(), Some(S::exact(1, -1)), Some(S::ZERO)];
+    for near in times.into_iter().flatten() {
+        let interval = match pair.kind {
+            Kind::VertexFace => certain_contact(&pair.vertex_face(), near),
+            Kind::EdgeEdge => certain_contact(&pair.edge_edge(), near),
+        };
+        let Some([from, to]) = interval else { continue };
+        confirmed.set(confirmed.get() + 1);
+        let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
+        let Some(first) = collides(&pair.question()) else {
+            return Err(TestCaseError::fail("confirmed what never touches"));
+        };
+        prop_assert!(first.cmp_rational(&exact(to)).is_le(), "[{from}, {to}]");
+    }
+    Ok(())
+}
+
+fn confirms_many<S: Format>(pairs: impl Strategy<Value = PairCase<S>>, at_least: u32) {
+    let confirmed = Confirmed::default();
+    check(60_000, pairs, |pair| {
+        confirms_only_contacts(pair, &confirmed)
+    });
+    assert!(confirmed.get() > at_least, "only {}", confirmed.get());
+}
+
+#[test]
+fn confirms_contacts_and_nothing_else_f64() {
+    confirms_many(pairs_of_any_kind::<f64>(), 1000);
+}
+
+#[test]
+fn confirms_contacts_and_nothing_else_f32() {
+    confirms_many(pairs_of_any_kind::<f32>(), 1000);
+}
 
 /// The bisection of Wang et al., as a baseline, with a tolerance that keeps its work small.
 fn bisection_is_not_late<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {

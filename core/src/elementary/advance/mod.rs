@@ -57,6 +57,7 @@
     reason = "a comparison is false with NaN, which must then take the side that proves nothing"
 )]
 
+pub mod confirm;
 mod directions;
 #[cfg(test)]
 mod tests;

@@ -92,6 +92,23 @@ impl<S: Scalar> SignedVolume<S> {
         margins.is_some_and(|[_, b1, b2, b3]| b1 > S::ZERO && b2 > S::ZERO && b3 > S::ZERO)
     }
 
+    /// Whether its values at two times certainly have opposite signs. (Needs a separation of zero.)
+    #[inline(always)]
+    pub(super) fn has_opposite_signs_at(&self, from: S, to: S) -> bool {
+        let (before, after, error) = (self.at(from), self.at(to), self.error);
+        (before > error && -after > error) || (-before > error && after > error)
+    }
+
+    /// De Casteljau's rule: 9 roundings after the 12 of a control value.
+    #[inline(always)]
+    fn at(&self, time: S) -> S {
+        let [k0, k1, k2, k3] = self.values;
+        let rest = S::ONE - time;
+        let mix = |a: S, b: S| rest * a + time * b;
+        let (a0, a1, a2) = (mix(k0, k1), mix(k1, k2), mix(k2, k3));
+        mix(mix(a0, a1), mix(a1, a2))
+    }
+
     /// Until when the volume proves, from `time` on, that the pair is apart.
     ///
     /// The part of the cubic from there to the end, less its bounds, lies above the lower hull of its control polygon, whose
