@@ -329,7 +329,7 @@ fn confirms_only_contacts<S: Format>(
 
 fn confirms_many<S: Format>(pairs: impl Strategy<Value = PairCase<S>>, at_least: u32) {
     let confirmed = Confirmed::default();
-    check(60_000, pairs, |pair| {
+    check(20_000, pairs, |pair| {
         confirms_only_contacts(pair, &confirmed)
     });
     assert!(confirmed.get() > at_least, "only {}", confirmed.get());
