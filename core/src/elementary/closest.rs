@@ -7,14 +7,15 @@
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
-/// Where on the hull the closest point was found.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Feature<S> {
+/// Where on the hull the closest point was found. The first three corners are a, b, c.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Feature {
     Corner,
-    /// On a side, and along which.
-    Side(Vector<S>),
-    /// Inside, and two sides.
-    Interior([Vector<S>; 2]),
+    /// On a side, which is parallel to the one between a and b, a and c, or b and c.
+    SideAb,
+    SideAc,
+    SideBc,
+    Interior,
 }
 
 /// The closest point and where it was found.
@@ -22,40 +23,42 @@ pub(super) enum Feature<S> {
 pub(super) struct Closest<S> {
     pub(super) point: Vector<S>,
     pub(super) squared_distance: S,
-    pub(super) feature: Feature<S>,
+    pub(super) feature: Feature,
 }
 
 impl<S: Scalar> Closest<S> {
-    #[inline(always)]
-    pub(super) const fn is_interior(&self) -> bool {
-        matches!(self.feature, Feature::Interior(_))
-    }
-
-    /// A direction in which all of the hull is beyond the closest point, which is `extent` away at most.
+    /// A direction in which all of the hull, which has its corners at `positions`, is beyond the closest point. `extent` is
+    /// their largest coordinate.
     ///
     /// The closest point itself will do, unless it is so near that its error, a few u times the extent h, tilts it against
     /// the side or the face that it is on: by uh/d, where d/h is all that there is room for. So where d² is below
     /// 2⁶uh² it is made perpendicular to the side, or replaced by the face's normal.
     #[inline(always)]
-    pub(super) fn direction(&self, extent: S) -> Vector<S> {
-        let tilted = S::from_f64(64.0) * S::UNIT_ROUNDOFF * (extent * extent);
-        if self.squared_distance < tilted {
-            self.upright()
-        } else {
-            self.point
+    pub(super) fn direction<const N: usize>(
+        &self,
+        positions: &[Vector<S>; N],
+        extent: S,
+    ) -> Vector<S> {
+        let tilted = S::small(64) * S::UNIT_ROUNDOFF * (extent * extent);
+        match positions.as_slice() {
+            &[a, b, c, ..] if self.squared_distance < tilted => self.upright(a, b, c),
+            _ => self.point,
         }
     }
 
     #[cold]
-    fn upright(&self) -> Vector<S> {
+    fn upright(&self, a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Vector<S> {
+        let perpendicular_to = |side: Vector<S>| {
+            let along = self.point.dot(side) / side.dot(side);
+            self.point - side.scaled(along)
+        };
         match self.feature {
             Feature::Corner => self.point,
-            Feature::Side(side) => {
-                let along = self.point.dot(side) / side.dot(side);
-                self.point - side.scaled(along)
-            }
-            Feature::Interior([side, other]) => {
-                let normal = side.cross(other);
+            Feature::SideAb => perpendicular_to(b - a),
+            Feature::SideAc => perpendicular_to(c - a),
+            Feature::SideBc => perpendicular_to(c - b),
+            Feature::Interior => {
+                let normal = (b - a).cross(c - a);
                 // Its size does not matter, but it should not be so small that products underflow.
                 let normal = normal.scaled(S::ONE / normal.abs().largest());
                 if normal.dot(self.point) < S::ZERO {
@@ -85,7 +88,7 @@ pub(super) fn closest<S: Scalar, const N: usize>(corners: &[Vector<S>; N]) -> Cl
 }
 
 #[inline(always)]
-fn at<S: Scalar>(point: Vector<S>, feature: Feature<S>) -> Closest<S> {
+fn at<S: Scalar>(point: Vector<S>, feature: Feature) -> Closest<S> {
     Closest {
         point,
         squared_distance: point.dot(point),
@@ -108,7 +111,7 @@ fn in_triangle<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S
     let area_c = ab_a * ac_b - ab_b * ac_a;
     if area_c <= zero && ab_a >= zero && ab_b <= zero {
         let weight = ab_a / (ab_a - ab_b);
-        return at(a - to_a_from_b.scaled(weight), Feature::Side(to_a_from_b));
+        return at(a - to_a_from_b.scaled(weight), Feature::SideAb);
     }
     let (ab_c, ac_c) = (to_a_from_b.dot(c), to_a_from_c.dot(c));
     if ac_c >= zero && ab_c <= ac_c {
@@ -117,17 +120,17 @@ fn in_triangle<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S
     let area_b = ab_c * ac_a - ab_a * ac_c;
     if area_b <= zero && ac_a >= zero && ac_c <= zero {
         let weight = ac_a / (ac_a - ac_c);
-        return at(a - to_a_from_c.scaled(weight), Feature::Side(to_a_from_c));
+        return at(a - to_a_from_c.scaled(weight), Feature::SideAc);
     }
     let area_a = ab_b * ac_c - ab_c * ac_b;
     let (from_b, from_c) = (ac_b - ab_b, ab_c - ac_c);
     if area_a <= zero && from_b >= zero && from_c >= zero {
         let weight = from_b / (from_b + from_c);
-        return at(b - (b - c).scaled(weight), Feature::Side(b - c));
+        return at(b - (b - c).scaled(weight), Feature::SideBc);
     }
     let scale = S::ONE / ((area_a + area_b) + area_c);
     let inwards = to_a_from_b.scaled(area_b * scale) + to_a_from_c.scaled(area_c * scale);
-    at(a - inwards, Feature::Interior([to_a_from_b, to_a_from_c]))
+    at(a - inwards, Feature::Interior)
 }
 
 /// Corners a, a + (b − a)·t + (c − a)·s for s and t of 0 and 1: the two edges' parameters.
@@ -151,9 +154,9 @@ fn in_parallelogram<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Clos
         }
     };
     let feature = |s_is_end: bool, t_is_end: bool| match (s_is_end, t_is_end) {
-        (false, false) => Feature::Interior([first, second]),
-        (false, true) => Feature::Side(first),
-        (true, false) => Feature::Side(second),
+        (false, false) => Feature::Interior,
+        (false, true) => Feature::SideAc,
+        (true, false) => Feature::SideAb,
         (true, true) => Feature::Corner,
     };
     let across = first.dot(second);

@@ -63,7 +63,7 @@ mod directions;
 mod tests;
 mod volume;
 
-use super::closest::{Closest, closest};
+use super::closest::{Closest, Feature, closest};
 use super::corners::{Corners, largest_extent};
 use super::{Impact, Limits, Reason};
 use crate::boxes::relative;
@@ -177,7 +177,7 @@ impl<S: Scalar, const N: usize> Snapshot<S, N> {
             time,
             positions,
             closest,
-            direction: closest.direction(corners.extent.largest()),
+            direction: closest.direction(&positions, corners.extent.largest()),
         }
     }
 
@@ -209,7 +209,7 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
                 Apart::Until(until) if until > now.time => until,
                 _ => return possible(&now, Reason::WithinError),
             };
-            if self.work.rounds > 1 && now.closest.is_interior() {
+            if self.work.rounds > 1 && now.closest.feature == Feature::Interior {
                 let steps = &mut self.work.volume_steps;
                 match self.volume.apart_from(now.time, steps) {
                     Apart::ToTheEnd => return Impact::Never,
@@ -219,10 +219,9 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
             }
             let mut next = Snapshot::new(self.corners, until);
             if self.work.rounds > 3 && next.closest.squared_distance > near_squared {
-                match self.turn_on(&now, &next) {
-                    Some(later) if later.time >= S::ONE => return Impact::Never,
-                    Some(later) => next = later,
-                    None => {}
+                self.turn_on(&now, &mut next);
+                if next.time >= S::ONE {
+                    return Impact::Never;
                 }
             }
             now = next;
@@ -237,9 +236,10 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
         self.corners.apart_along(&direction, &now.positions)
     }
 
-    /// Later than `next`, to which one round has led from `now`, if a turning direction proves it: nine tenths of the way
-    /// to where the last round's approach predicts contact, or less.
-    fn turn_on(&mut self, now: &Snapshot<S, N>, next: &Snapshot<S, N>) -> Option<Snapshot<S, N>> {
+    /// Moves on from `next`, to which one round has led from `now`, as far as a turning direction proves: nine tenths of the
+    /// way to where the last round's approach predicts contact, or less, or not at all.
+    #[inline(never)]
+    fn turn_on(&mut self, now: &Snapshot<S, N>, next: &mut Snapshot<S, N>) {
         let separation = self.limits.separation;
         let gap = |at: &Snapshot<S, N>| at.closest.squared_distance.sqrt() - separation;
         let (gap_now, gap_next) = (gap(now), gap(next));
@@ -252,17 +252,17 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
         let before = self.corners.direction(next.unit(), separation);
         for widest in [32, 4, 4] {
             if !(goal > next.time) {
-                return None;
+                return;
             }
             self.work.turns += 1;
             let later = Snapshot::new(self.corners, goal);
             let after = self.corners.direction(later.unit(), separation);
             if are_apart_turning(&before, &next.positions, &after, &later.positions) {
-                return Some(later);
+                *next = later;
+                return;
             }
             let quarter = next.time + (goal - next.time) * S::from_f64(0.25);
             goal = quarter.smaller(next.time + S::small(widest) * step);
         }
-        None
     }
 }
