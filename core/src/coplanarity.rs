@@ -18,29 +18,51 @@
 //! VF and EE share one kernel because the volume does not depend on which of the four points is the base.
 //!
 //! # Rounding
-//! u is the unit roundoff. Let P̂ᵢ be the expression of kᵢ in the same order with magnitudes for components and
-//! additions for subtractions (its *permanent*). A monomial of k₀ or k₃ passes through 3 differences, a product,
-//! a subtraction, a product and 2 additions: 8 roundings. One of 3k₁ or 3k₂ passes through one addition more in h
-//! and one more at the end: 10. The last of them does not count for the sign: rounding is monotone, so a computed
-//! kᵢ = fl(x) above Eᵢ, a floating-point number, proves x > Eᵢ. That leaves 7 and 9, and one u for all that is of
-//! second order, the powers of 1 + u and what P̂ᵢ and Eᵢ lose by being rounded as well:
-//! 8u(1 − u)⁹ ≥ (1 + u)⁷ − 1 and 10u(1 − u)¹² ≥ (1 + u)⁹ − 1 hold for u ≤ 2⁻⁸. Hence
+//! u is the unit roundoff. An operation rounds by at most 2u times its result (u to nearest, but any direction is
+//! allowed). Let P̂ᵢ be the expression of kᵢ in the same order with magnitudes for components and additions for
+//! subtractions (its *permanent*). A monomial of k₀ or k₃ passes through 3 differences, a product, a subtraction, a
+//! product and 2 additions: 8 roundings. One of 3k₁ or 3k₂ passes through one addition more in h and one more at the end:
+//! 10. The last of them does not count for the sign: rounding is monotone, so a computed kᵢ = fl(x) above Eᵢ, a
+//! floating-point number, proves x > Eᵢ. That leaves 7 and 9 roundings of 2u, and 2u for all that is of second order, the
+//! powers of 1 + 2u and what P̂ᵢ and Eᵢ lose by being rounded as well: 16u(1 − 2u)¹⁰ ≥ (1 + 2u)⁷ − 1 holds for u ≤ 2⁻⁸,
+//! 20u(1 − 2u)¹³ ≥ (1 + 2u)⁹ − 1 for u ≤ 2⁻⁹. Hence
 //!
 //! ```text
-//!  kᵢ (computed) > Eᵢ proves kᵢ > 0,   Eᵢ = Cᵢ·P̂ᵢ + (p_max + 1)·η,   C₀ = C₃ = 8u,   C₁ = C₂ = 10u (for 3k₁, 3k₂)
+//!  kᵢ (computed) > Eᵢ proves kᵢ > 0,   Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η,   C₀ = C₃ = 16u,   C₁ = C₂ = 20u (for 3k₁, 3k₂)
 //! ```
 //!
-//! and the same below −Eᵢ.
+//! and the same below −Eᵢ, M being the largest magnitude of a component of B, C and P.
 //!
-//! **Underflow.** Additions and subtractions are exact when their result is subnormal. Each product loses at most
-//! half of the smallest subnormal, η₀ = 2⁻¹⁰⁷⁵ (`f64`) or 2⁻¹⁵⁰ (`f32`); with p_max the largest component of P₀ and
-//! P₁ the sum is at most (6·p_max + 3)·η₀ for k₀ and (18·p_max + 6)·η₀ for 3k₁. 32·(p_max + 1)·η₀ covers it and the
-//! rounding of E; η ([`Rounding::UNDERFLOW`]) is larger, for speed.
+//! **Without the permanent.** Each monomial is at most Mx·My·Mz, the product of the largest magnitudes along each axis
+//! ([`largest_by_axis`](MovingTetrahedron::largest_by_axis)), or the product of the largest components of B, C and P
+//! ([`largest_by_edge`](MovingTetrahedron::largest_by_edge)). With 6 monomials in k₀ and 18 in 3k₁, Cᵢ·P̂ᵢ may be replaced
+//! by 96u or 384u times the product: 96u(1 − 2u)⁵ ≥ 6((1 + 2u)⁷ − 1)/(1 − 2u)³ and
+//! 384u(1 − 2u)⁵ ≥ 18((1 + 2u)⁹ − 1)/(1 − 2u)³ hold for u ≤ 2⁻¹⁰. (The quotients: the product is one of computed
+//! differences, and the error's monomials are those of exact ones.)
 //!
-//! **Overflow and NaN.** P̂ is at least as large as every intermediate result, so whatever overflows makes Eᵢ infinite
-//! or NaN, and the ordered comparisons that decide are false.
+//! **Underflow.** Let λ be the smallest normal number. Where a thread flushes subnormal numbers to zero, an operation
+//! loses at most λ, and operands below λ vanish; a difference then is off by 3λ at most (two operands and the result),
+//! which the two other factors of each of 18 monomials multiply: 162·M²·λ. Products and sums in n and h lose 30·M·λ, those of
+//! the dot products 11·λ. Together no more than 162·(1 + M)²·λ in 3k₁, and less in the others. η
+//! ([`Rounding::UNDERFLOW`]) is at least 512·λ: the rest covers second order and what the bound itself loses.
+//! Where subnormal numbers are kept, sums are exact when their result is subnormal and products lose far less.
+//!
+//! **Overflow and NaN.** Only pairs with M < [`Rounding::LARGEST_EDGE`] are culled: no intermediate result overflows.
+//! A NaN makes a control value NaN, and the ordered comparisons that decide are false.
+//!
+//! # Distance
+//! |K(t)| is the distance of p from the plane of a, b, c times |n(t)|, n = B × C; it is also, for edges (b, c) and (a, p), the
+//! distance of their lines times |n(t)|, n = (C − B) × P. In Bernstein form n has the control points n₀, h/2, n₁ (built from the
+//! two factors), and lies in their hull: |n(t)| ≤ N, the largest of their lengths. If all kᵢ > s·N, or all below −s·N, the
+//! pair stays farther apart than s throughout.
+//!
+//! The computed length is turned into a bound of N: a component of C − B, rounded twice from rounded differences, is off by
+//! at most 8u·M (for VF a factor is off by less), one of n₀ by 2·(8u + 4u + 8u)·M² = 40u·M², one of h/2 by as much and
+//! 8u·M² for one sum more; 64u·M² with second order, times √3 < 2 for the vector: 128u·M². Squares that underflow lose less than
+//! η together, which is added under the root; 1 + 32u covers the dozen roundings from there to the comparison.
 
 use crate::lanes::{Lanes, Rounding};
+use crate::points::Shape;
 use crate::vector::Vector;
 
 /// A moving tetrahedron a b c p, as its three edges from a, each at the start and at the end of the step.
@@ -76,9 +98,8 @@ impl<L: Lanes> MovingTetrahedron<L> {
     #[inline(always)]
     #[must_use]
     pub fn control_values(&self) -> ControlValues<L> {
-        let ([b0, b1], [c0, c1], [p0, p1]) = (self.b, self.c, self.p);
-        let (n0, n1) = (b0.cross(c0), b1.cross(c1));
-        let h = b0.cross(c1) + b1.cross(c0);
+        let [p0, p1] = self.p;
+        let [n0, h, n1] = products(self.b, self.c);
         ControlValues([
             p0.dot(n0),
             p0.dot(h) + p1.dot(n0),
@@ -87,8 +108,35 @@ impl<L: Lanes> MovingTetrahedron<L> {
         ])
     }
 
-    /// Eᵢ of the module's documentation: a computed control value above Eᵢ (below −Eᵢ) proves that the exact one is
-    /// positive (negative). Infinite or NaN on overflow.
+    /// The largest magnitude along each axis, over the six differences. NaN may be dropped.
+    #[inline(always)]
+    #[must_use]
+    pub fn largest_by_axis(&self) -> Vector<L> {
+        let [b, c, p] = self.largest_of_edges();
+        b.larger(c).larger(p)
+    }
+
+    /// The largest component of B, of C and of P at both ends, as the components of a vector. NaN may be dropped.
+    #[inline(always)]
+    #[must_use]
+    pub fn largest_by_edge(&self) -> Vector<L> {
+        let [b, c, p] = self.largest_of_edges();
+        Vector::new(b.largest(), c.largest(), p.largest())
+    }
+
+    #[inline(always)]
+    fn largest_of_edges(&self) -> [Vector<L>; 3] {
+        let ([b0, b1], [c0, c1], [p0, p1]) = (self.b, self.c, self.p);
+        [
+            b0.abs().larger(b1.abs()),
+            c0.abs().larger(c1.abs()),
+            p0.abs().larger(p1.abs()),
+        ]
+    }
+
+    /// Eᵢ of the module's documentation, by the permanent: a computed control value above Eᵢ (below −Eᵢ) proves that the
+    /// exact one is positive (negative), provided that [`largest_by_axis`](Self::largest_by_axis) is
+    /// [in range](is_in_range).
     #[inline(always)]
     #[must_use]
     pub fn error_bounds(&self) -> [L; 4] {
@@ -98,12 +146,10 @@ impl<L: Lanes> MovingTetrahedron<L> {
         let (n0, n1) = (b0.cross_permanent(c0), b1.cross_permanent(c1));
         let h = b0.cross_permanent(c1) + b1.cross_permanent(c0);
 
-        let one = p0.x.splat(L::Scalar::ONE);
         let roundoff = p0.x.splat(L::Scalar::UNIT_ROUNDOFF);
-        let outer = roundoff * p0.x.splat(L::Scalar::small(8));
-        let inner = roundoff * p0.x.splat(L::Scalar::small(10));
-        let p_max = p0.larger(p1).largest();
-        let underflow = (p_max + one) * p0.x.splat(L::Scalar::UNDERFLOW);
+        let outer = roundoff * p0.x.splat(L::Scalar::small(16));
+        let inner = roundoff * p0.x.splat(L::Scalar::small(20));
+        let underflow = underflow(self.largest_by_axis().largest());
         [
             outer * p0.dot(n0) + underflow,
             inner * (p0.dot(h) + p1.dot(n0)) + underflow,
@@ -111,6 +157,61 @@ impl<L: Lanes> MovingTetrahedron<L> {
             outer * p1.dot(n1) + underflow,
         ]
     }
+
+    /// A bound N of the length of the normal throughout the step, rounding included: of the plane through a, b, c for VF,
+    /// of the directions b–c and a–p for EE. See [Distance](self#distance). Needs
+    /// [`largest_by_axis`](Self::largest_by_axis) to be [in range](is_in_range).
+    #[inline(always)]
+    #[must_use]
+    pub fn largest_normal(&self, shape: Shape) -> L {
+        let ([b0, b1], [c0, c1]) = (self.b, self.c);
+        let [n0, h, n1] = match shape {
+            Shape::VertexFace => products(self.b, self.c),
+            Shape::EdgeEdge => products([c0 - b0, c1 - b1], self.p),
+        };
+        let largest = self.largest_by_axis().largest();
+        let constant = |value| largest.splat(value);
+        let half = constant(L::Scalar::HALF);
+        let squared = n0
+            .dot(n0)
+            .larger(half * (half * h.dot(h)))
+            .larger(n1.dot(n1));
+        let roundoff = constant(L::Scalar::UNIT_ROUNDOFF);
+        let length = (squared + constant(L::Scalar::UNDERFLOW)).sqrt();
+        let slack = constant(L::Scalar::ONE) + constant(L::Scalar::small(32)) * roundoff;
+        let rounding = constant(L::Scalar::small(128)) * roundoff;
+        (length + rounding * (largest * largest)) * slack
+    }
+}
+
+/// E of the module's documentation without the permanent, for k₀ and k₃; four times as much for 3k₁ and 3k₂. `largest`
+/// is [`MovingTetrahedron::largest_by_axis`] or [`MovingTetrahedron::largest_by_edge`].
+#[inline(always)]
+#[must_use]
+pub fn error_bound_by_magnitudes<L: Lanes>(largest: Vector<L>) -> L {
+    let constant = L::Scalar::small(96);
+    let roundoff = largest.x.splat(L::Scalar::UNIT_ROUNDOFF) * largest.x.splat(constant);
+    roundoff * (largest.x * largest.y * largest.z) + underflow(largest.largest())
+}
+
+/// Whether the largest magnitude `largest` is below [`Rounding::LARGEST_EDGE`], so that nothing overflows.
+#[inline(always)]
+#[must_use]
+pub fn is_in_range<L: Lanes>(largest: L) -> L::Mask {
+    largest.splat(L::Scalar::LARGEST_EDGE).greater(largest)
+}
+
+/// (1 + M)²·η.
+#[inline(always)]
+fn underflow<L: Lanes>(largest: L) -> L {
+    let more = largest + largest.splat(L::Scalar::ONE);
+    more * more * more.splat(L::Scalar::UNDERFLOW)
+}
+
+/// The control points n₀, h, n₁ of the cross product of two moving vectors (the middle one doubled).
+#[inline(always)]
+fn products<L: Lanes>([b0, b1]: [Vector<L>; 2], [c0, c1]: [Vector<L>; 2]) -> [Vector<L>; 3] {
+    [b0.cross(c0), b0.cross(c1) + b1.cross(c0), b1.cross(c1)]
 }
 
 impl<L: Lanes> ControlValues<L> {

@@ -4,27 +4,46 @@
 //! holds several numbers it serves as many pairs, one per lane, and comparisons yield a mask instead of a
 //! `bool`. Verification instantiates the same source with tiny number formats and tries every input.
 
-use core::ops::{Add, BitAnd, BitOr, Mul, Neg, Sub};
+use core::ops::{Add, BitAnd, BitOr, BitXor, Mul, Neg, Sub};
 
 /// The constants of a binary floating-point format that rounding-error bounds are made of.
 ///
-/// The bounds assume IEEE 754 arithmetic that rounds to nearest, with subnormal numbers.
+/// # Floating-point environments
+/// The bounds that use these constants hold in every environment that a thread can be in: rounding to nearest or in any
+/// direction, subnormal numbers kept or flushed to zero, as results or as operands. In symbols: an operation's result
+/// differs from the exact one by at most 2u times its magnitude (u to nearest), plus λ, the smallest normal number, where
+/// subnormal numbers are flushed; and an operand below λ may count as zero. One set of constants serves all: doubling
+/// them for directed rounding costs neither time nor, on real scenes, culls.
 pub trait Rounding: Copy {
-    /// The unit roundoff u: a rounded result differs from the exact one by at most u times its magnitude,
-    /// unless it is subnormal. 2⁻²⁴ for `f32`, 2⁻⁵³ for `f64`.
+    /// The unit roundoff u: a result rounded to nearest differs from the exact one by at most u times its magnitude,
+    /// in any other direction by at most 2u times, unless it is subnormal. 2⁻²⁴ for `f32`, 2⁻⁵³ for `f64`.
     const UNIT_ROUNDOFF: Self;
-    /// A bound η of what underflow can add to an error, as derived in [`coplanarity`](crate::coplanarity): 2⁻¹¹⁹ for
+    /// A bound η of what underflow can add to an error, as derived in [`coplanarity`](crate::coplanarity): 2⁻¹¹⁷ for
     /// `f32`, 2⁻¹⁰⁰⁰ for `f64`.
     ///
-    /// 32·η₀ would do, η₀ = 2⁻¹⁵⁰ or 2⁻¹⁰⁷⁵ being half of the smallest subnormal number. But many processors take a hundred
-    /// cycles for a product with a subnormal operand, and that made the certified filter four times slower. A normal
-    /// number costs culls only where volumes are that small: features of a few 10⁻¹² (`f32`) units of length.
+    /// It is at least 512·λ, λ = 2⁻¹²⁶ or 2⁻¹⁰²² being the smallest normal number, so that it covers threads that flush
+    /// subnormal numbers to zero. It must be normal itself: many processors take a hundred cycles for a product
+    /// with a subnormal operand, and that made the certified filter four times slower. It costs culls only where volumes
+    /// are that small: features of a few 10⁻¹² (`f32`) units of length.
     const UNDERFLOW: Self;
+    /// Pairs with a difference of two points' coordinates from here on are kept: 2³⁰ for `f32`, 2²⁵⁰ for `f64`.
+    ///
+    /// Below it no intermediate result of the filters overflows: volumes stay below 18·2⁹⁰ (2⁷⁵⁰), squares of normals
+    /// below 3·(4·2⁶⁰)² (2⁵⁰⁰). To nearest overflow is infinite, and every test keeps what is not finite; but rounding
+    /// towards zero stops at the largest finite number, which nothing would notice.
+    const LARGEST_EDGE: Self;
+    /// What one sum of two coordinates must exceed another by, so that flushed operands do not matter: η/u, 2⁻⁹³ for
+    /// `f32`, 2⁻⁹⁴⁷ for `f64`. See [`boxes`](crate::boxes#why-sums-may-round).
+    const SUM_GAP: Self;
+    /// Zero.
+    const ZERO: Self;
     /// One.
     const ONE: Self;
+    /// One half.
+    const HALF: Self;
     /// Positive infinity.
     const INFINITY: Self;
-    /// A small whole number, exactly. The kernels ask for no more than 10.
+    /// A small whole number, exactly.
     fn small(count: u8) -> Self;
 }
 
@@ -38,12 +57,21 @@ pub trait Lanes:
     /// The number format of each lane.
     type Scalar: Rounding;
     /// One truth value per lane: `bool`, or a mask.
-    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask>;
+    type Mask: Copy
+        + BitAnd<Output = Self::Mask>
+        + BitOr<Output = Self::Mask>
+        + BitXor<Output = Self::Mask>;
 
     /// The same value in each lane. It takes `self` (and ignores its value) because a vector type may need a
     /// witness that the machine has its instructions.
     #[must_use]
     fn splat(self, value: Self::Scalar) -> Self;
+    /// Whether any lane of a mask is true.
+    #[must_use]
+    fn any(mask: Self::Mask) -> bool;
+    /// The square root of each lane, rounded once.
+    #[must_use]
+    fn sqrt(self) -> Self;
     /// The magnitude of each lane.
     #[must_use]
     fn abs(self) -> Self;
@@ -60,11 +88,15 @@ pub trait Lanes:
 }
 
 macro_rules! one_lane {
-    ($scalar:ty, $roundoff:expr, $underflow:expr) => {
+    ($scalar:ty, $sqrt:path, $roundoff:expr, $underflow:expr, $largest_edge:expr, $sum_gap:expr) => {
         impl Rounding for $scalar {
             const UNIT_ROUNDOFF: Self = $roundoff;
             const UNDERFLOW: Self = $underflow;
+            const LARGEST_EDGE: Self = $largest_edge;
+            const SUM_GAP: Self = $sum_gap;
+            const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
+            const HALF: Self = 0.5;
             const INFINITY: Self = <$scalar>::INFINITY;
 
             #[inline(always)]
@@ -80,6 +112,16 @@ macro_rules! one_lane {
             #[inline(always)]
             fn splat(self, value: Self) -> Self {
                 value
+            }
+
+            #[inline(always)]
+            fn any(mask: bool) -> bool {
+                mask
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $sqrt(self)
             }
 
             #[inline(always)]
@@ -105,9 +147,32 @@ macro_rules! one_lane {
     };
 }
 
-// The exponent field, biased by 127 or 1023, makes a power of two.
-one_lane!(f32, f32::EPSILON / 2.0, f32::from_bits((127 - 119) << 23));
-one_lane!(f64, f64::EPSILON / 2.0, f64::from_bits((1023 - 1000) << 52));
+/// A power of two, whose exponent field is biased by 127.
+const fn power_of_two_f32(exponent: i32) -> f32 {
+    f32::from_bits(((127 + exponent) as u32) << 23)
+}
+
+/// A power of two, whose exponent field is biased by 1023.
+const fn power_of_two_f64(exponent: i64) -> f64 {
+    f64::from_bits(((1023 + exponent) as u64) << 52)
+}
+
+one_lane!(
+    f32,
+    libm::sqrtf,
+    f32::EPSILON / 2.0,
+    power_of_two_f32(-117),
+    power_of_two_f32(30),
+    power_of_two_f32(-93)
+);
+one_lane!(
+    f64,
+    libm::sqrt,
+    f64::EPSILON / 2.0,
+    power_of_two_f64(-1000),
+    power_of_two_f64(250),
+    power_of_two_f64(-947)
+);
 
 #[cfg(test)]
 mod tests {
@@ -116,8 +181,18 @@ mod tests {
     #[test]
     fn constants_are_the_documented_powers_of_two() {
         assert_eq!(f64::from(f32::UNIT_ROUNDOFF), libm::exp2(-24.0));
-        assert_eq!(f64::from(f32::UNDERFLOW), libm::exp2(-119.0));
+        assert_eq!(f64::from(f32::UNDERFLOW), libm::exp2(-117.0));
+        assert_eq!(f64::from(f32::LARGEST_EDGE), libm::exp2(30.0));
+        assert_eq!(f32::SUM_GAP * f32::UNIT_ROUNDOFF, f32::UNDERFLOW);
         assert_eq!(f64::UNIT_ROUNDOFF, libm::exp2(-53.0));
         assert_eq!(f64::UNDERFLOW, libm::exp2(-1000.0));
+        assert_eq!(f64::LARGEST_EDGE, libm::exp2(250.0));
+        assert_eq!(f64::SUM_GAP * f64::UNIT_ROUNDOFF, f64::UNDERFLOW);
+    }
+
+    #[test]
+    fn underflow_covers_512_of_the_smallest_normal_number() {
+        assert!(f32::UNDERFLOW >= 512.0 * f32::MIN_POSITIVE);
+        assert!(f64::UNDERFLOW >= 512.0 * f64::MIN_POSITIVE);
     }
 }

@@ -29,6 +29,7 @@
 //! |---|---|---|
 //! | [`motion`] | the two primitive pairs, in [`glam`] types | |
 //! | [`coplanarity`] | the signed volume of four moving points, as a cubic in Bernstein form, and its rounding error | proven bound |
+//! | [`exact`] | the signs of that cubic's control values, and how they compare with a separation, in whole numbers | exact |
 //! | [`filter`] | culls pairs that are never coplanar | certified, or plain as in the paper |
 //! | [`batch`] | the tests of `boxes` and `filter` on sixteen pairs side by side, alone or from a mesh | the same verdicts, bit for bit |
 //! | [`boxes`] | swept boxes, segment against box, relative boxes, 18-DOPs | exact or certified |
@@ -50,6 +51,7 @@ pub mod boxes;
 pub mod coplanarity;
 pub mod distribution;
 pub mod elementary;
+pub mod exact;
 pub mod features;
 pub mod filter;
 pub mod lanes;

@@ -34,6 +34,10 @@ pub trait PairShape {
 
     /// The points in the roles a, b, c, p of the signed volume ([`coplanarity`](crate::coplanarity)).
     fn volume_points<T>(points: [T; 4]) -> [T; 4];
+
+    /// The differences of a point of one set and a point of the other: three for VF (the first twice), four for EE. The
+    /// sets touch exactly when 0 lies in their convex hull.
+    fn corners<L: Lanes>(points: [Vector<L>; 4]) -> [Vector<L>; 4];
 }
 
 /// One point against three.
@@ -60,6 +64,11 @@ impl PairShape for VertexAndFace {
     fn volume_points<T>([vertex, a, b, c]: [T; 4]) -> [T; 4] {
         [a, b, c, vertex]
     }
+
+    #[inline(always)]
+    fn corners<L: Lanes>([vertex, a, b, c]: [Vector<L>; 4]) -> [Vector<L>; 4] {
+        [vertex - a, vertex - a, vertex - b, vertex - c]
+    }
 }
 
 impl PairShape for EdgeAndEdge {
@@ -74,6 +83,11 @@ impl PairShape for EdgeAndEdge {
     #[inline(always)]
     fn volume_points<T>([u, v, k, l]: [T; 4]) -> [T; 4] {
         [k, u, v, l]
+    }
+
+    #[inline(always)]
+    fn corners<L: Lanes>([u, v, k, l]: [Vector<L>; 4]) -> [Vector<L>; 4] {
+        [u - k, u - l, v - k, v - l]
     }
 }
 

@@ -33,18 +33,21 @@ pub trait Scalar:
 
     /// `"f32"` or `"f64"`.
     const NAME: &'static str;
-    /// Zero.
-    const ZERO: Self;
+    /// Stored bits of the significand, the leading one not counted: 23 or 52.
+    const FRACTION_BITS: u32;
+    /// Bits of the exponent field: 8 or 11.
+    const EXPONENT_BITS: u32;
 
+    /// The number's IEEE 754 encoding; `f32` in the low half.
+    ///
+    /// Not an operation in floating point: denormals-are-zero does not change it.
+    fn encoding(self) -> u64;
     /// The nearest number of this format; infinite if `value` is out of range.
     fn from_f64(value: f64) -> Self;
-    /// The same number as `f64`, exactly.
+    /// The same number as `f64`, exactly, even where a thread treats subnormal operands as zero.
     fn to_f64(self) -> f64;
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
-    /// The correctly rounded square root.
-    #[must_use]
-    fn sqrt(self) -> Self;
 }
 
 /// [`glam::Vec3`] or [`glam::DVec3`]: a position, from which its [`Scalar`] can be inferred. Sealed with it.
@@ -56,7 +59,7 @@ pub trait Position:
 }
 
 macro_rules! scalar {
-    ($scalar:ident, $vector:ty, $sqrt:path) => {
+    ($scalar:ident, $vector:ty, $exponent_bits:literal, $to_f64:path) => {
         impl Position for $vector {
             type Scalar = $scalar;
         }
@@ -64,7 +67,13 @@ macro_rules! scalar {
         impl Scalar for $scalar {
             type Vector = $vector;
             const NAME: &'static str = stringify!($scalar);
-            const ZERO: Self = 0.0;
+            const FRACTION_BITS: u32 = <$scalar>::MANTISSA_DIGITS - 1;
+            const EXPONENT_BITS: u32 = $exponent_bits;
+
+            #[inline(always)]
+            fn encoding(self) -> u64 {
+                self.to_bits().into()
+            }
 
             #[inline(always)]
             #[allow(
@@ -77,21 +86,57 @@ macro_rules! scalar {
 
             #[inline(always)]
             fn to_f64(self) -> f64 {
-                self.into()
+                $to_f64(self)
             }
 
             #[inline(always)]
             fn is_finite(self) -> bool {
                 <$scalar>::is_finite(self)
             }
-
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                $sqrt(self)
-            }
         }
     };
 }
 
-scalar!(f32, glam::Vec3, libm::sqrtf);
-scalar!(f64, glam::DVec3, libm::sqrt);
+scalar!(f32, glam::Vec3, 8, widened);
+scalar!(f64, glam::DVec3, 11, core::convert::identity);
+
+/// A subnormal number goes by way of its digits, since a thread may take it for zero in arithmetic.
+#[inline(always)]
+fn widened(value: f32) -> f64 {
+    const SMALLEST_SUBNORMAL: f64 = f64::from_bits((1023 - 149) << 52);
+    let magnitude = value.to_bits() & 0x7fff_ffff;
+    if magnitude < 1 << 23 {
+        let digits = f64::from(magnitude) * SMALLEST_SUBNORMAL;
+        if value.is_sign_negative() {
+            -digits
+        } else {
+            digits
+        }
+    } else {
+        value.into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Scalar;
+
+    #[test]
+    fn widening_is_exact() {
+        for bits in [
+            0,
+            1,
+            2,
+            0x007f_ffff,
+            0x0080_0000,
+            0x3f80_0001,
+            0x7f7f_ffff,
+            0x7f80_0000,
+        ] {
+            for value in [f32::from_bits(bits), -f32::from_bits(bits)] {
+                assert_eq!(value.to_f64().to_bits(), f64::from(value).to_bits());
+            }
+        }
+        assert!(f32::NAN.to_f64().is_nan());
+    }
+}

@@ -71,6 +71,17 @@ impl<L: Lanes> Vector<L> {
         )
     }
 
+    /// The smaller of two vectors, component by component. NaN may be dropped: see [`Lanes::larger`].
+    #[inline(always)]
+    #[must_use]
+    pub fn smaller(self, other: Self) -> Self {
+        Self::new(
+            self.x.smaller(other.x),
+            self.y.smaller(other.y),
+            self.z.smaller(other.z),
+        )
+    }
+
     /// The largest component. NaN may be dropped: see [`Lanes::larger`].
     #[inline(always)]
     #[must_use]

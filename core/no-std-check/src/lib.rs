@@ -1,16 +1,17 @@
-//! A program's use of `selvedge-core` where there is no std: every culling test, distribution and elementary test, for
-//! both number formats. `check.sh` links it into a C program and looks for the machinery of panics.
+//! A program's use of `selvedge-core` where there is no std: every culling test, exact signs, distribution and elementary
+//! test, for both number formats. `check.sh` links it into a C program and looks for the machinery of panics.
 //!
 //! It would not compile if anything below it used std, which brings a panic handler of its own.
 #![no_std]
 
+use core::cmp::Ordering;
 use core::panic::PanicInfo;
 use selvedge_core::batch::{self, Level, Test};
 use selvedge_core::boxes::{Aabb, Dop18, relative, segment, swept_boxes};
 use selvedge_core::distribution::distribute;
 use selvedge_core::{
     EdgeEdge, FeatureTriangle, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary,
-    filter,
+    exact, filter,
 };
 
 #[panic_handler]
@@ -43,6 +44,22 @@ fn batched<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
         | test(4, Test::CertifiedNonCoplanarity)
 }
 
+/// Exact signs: one for all, more than half a unit apart, all positive.
+fn exactly<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> u32 {
+    let points = pair.points();
+    let tetrahedron = pair.tetrahedron();
+    let known = exact::certain_signs(&tetrahedron.control_values(), tetrahedron.error_bounds());
+    let half = S::from_f64(0.5);
+    let signs = exact::control_value_signs::<P::Shape, S>(&points);
+    u32::from(exact::is_never_coplanar::<P::Shape, S>(&points, known))
+        | u32::from(exact::is_never_within::<P::Shape, S>(
+            &points,
+            half,
+            exact::UNKNOWN,
+        )) << 1
+        | u32::from(signs == Some([Ordering::Greater; 4])) << 2
+}
+
 fn verdicts<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
     bit(0, swept_boxes(pair))
         | bit(1, relative::three_axes(pair))
@@ -51,11 +68,11 @@ fn verdicts<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
         | bit(4, filter::certified::non_coplanarity(pair))
 }
 
-/// Nine answers and a tenth: that the batched ones are the same.
+/// These answers, whether the batched ones differ, and the exact ones.
 fn with_batches<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
     let verdicts = verdicts(pair);
     let differ = (verdicts & 0b1_0111) != batched(pair);
-    verdicts | u32::from(differ) << 9
+    verdicts | u32::from(differ) << 9 | exactly(pair) << 10
 }
 
 /// An eleventh: that the certified time of impact, its confirmation, or one of the two baselines for it disagrees with `touches`.

@@ -3,8 +3,8 @@
 //! A test here is the one-pair test, from the same source, on vectors of lanes. Its verdicts are **the same, bit for
 //! bit**, for every instruction set: each operation rounds on its own, and nothing is fused or reassociated.
 //!
-//! Pairs come either from a mesh, as indices into [`VertexRow`]s ([`culled_from_rows`]), or one by one
-//! ([`culled`]). Any number of pairs will do, at any address. The answer is one [`Mask`] for every sixteen pairs: a set bit
+//! Pairs come from a mesh, as indices into [`VertexRow`]s ([`culled_from_rows`]), or one by one ([`culled`]), or side by
+//! side as [`Tile`]s ([`culled_from_tiles`]). Any number of pairs will do, at any address. The answer is one [`Mask`] for every sixteen pairs: a set bit
 //! says that the pair is culled.
 //!
 //! The caller names the instruction set by a [`Level`]; `selvedge` detects the best one at run time.
@@ -27,17 +27,20 @@
 
 mod rows;
 mod simd;
+mod tile;
 
 pub use fearless_simd::Level;
 pub use rows::VertexRow;
+pub use tile::Tile;
 
 use crate::boxes;
-use crate::filter;
+use crate::filter::certified::{Bound, Decision};
+use crate::filter::{Filter, plain};
 use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape, Shape};
+use crate::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
 use crate::scalar::Scalar;
-pub(crate) use simd::BatchScalar;
+pub(crate) use simd::{BatchScalar, Sixteen};
 
 /// How many pairs go side by side.
 pub const LANES: usize = 16;
@@ -45,33 +48,120 @@ pub const LANES: usize = 16;
 /// One bit for each of sixteen pairs, the first pair's lowest. Bits past the last pair are zero.
 pub type Mask = u16;
 
-/// A culling test that runs on batches. See [`boxes`] and [`filter`].
+/// A culling test that runs on batches. See [`boxes`] and [`filter`](crate::filter).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Test {
     /// [`boxes::swept_boxes`].
     SweptBoxes,
+    /// [`boxes::segment::vertex_face`]; for EE, [`boxes::swept_boxes`].
+    SegmentBox,
     /// [`boxes::relative::three_axes`].
     RelativeBoxes,
     /// [`boxes::relative::nine_directions`].
     RelativeBoxesNine,
-    /// [`filter::certified::non_coplanarity`].
+    /// [`boxes::direction::normal`].
+    NormalDirection,
+    /// [`plain::non_coplanarity`], the paper's. **Not certified.**
+    PlainNonCoplanarity,
+    /// [`non_coplanarity`](crate::filter::certified::non_coplanarity).
     CertifiedNonCoplanarity,
 }
 
 impl Test {
     #[inline(always)]
+    fn kernel<S>(self) -> Kernel<S> {
+        let test = match self {
+            Self::SweptBoxes => PointTest::Swept,
+            Self::SegmentBox => PointTest::Segment,
+            Self::RelativeBoxes => PointTest::ThreeAxes,
+            Self::RelativeBoxesNine => PointTest::NineDirections,
+            Self::NormalDirection => PointTest::Normal,
+            Self::PlainNonCoplanarity => PointTest::Plain,
+            Self::CertifiedNonCoplanarity => return Kernel::Bounded(Bound::Permanent, None),
+        };
+        Kernel::Points(test)
+    }
+}
+
+/// What the instruction sets have code for.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub enum Kernel<S> {
+    /// Tests of points.
+    Points(PointTest),
+    /// Control values and their bound, with a separation if there is one.
+    Bounded(Bound, Option<S>),
+}
+
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub enum PointTest {
+    Swept,
+    Segment,
+    ThreeAxes,
+    NineDirections,
+    Normal,
+    Plain,
+}
+
+impl PointTest {
+    #[inline(always)]
     fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask {
         match self {
-            Self::SweptBoxes => boxes::have_disjoint_swept_boxes::<P, L>(points),
-            Self::RelativeBoxes => boxes::relative::are_apart_along_three_axes::<P, L>(points),
-            Self::RelativeBoxesNine => {
+            Self::Segment if matches!(P::SHAPE, Shape::VertexFace) => {
+                boxes::segment::misses_face(points)
+            }
+            Self::Swept | Self::Segment => boxes::have_disjoint_swept_boxes::<P, L>(points),
+            Self::ThreeAxes => boxes::relative::are_apart_along_three_axes::<P, L>(points),
+            Self::NineDirections => {
                 boxes::relative::are_apart_along_nine_directions::<P, L>(points)
             }
-            Self::CertifiedNonCoplanarity => {
-                filter::certified::is_never_coplanar(&points.tetrahedron::<P>())
+            Self::Normal => boxes::direction::are_apart_along_normal::<P, L>(points),
+            Self::Plain => plain::has_one_sign::<P, L>(points),
+        }
+    }
+}
+
+/// What can be asked of a batch: a [`Test`], or a [`Filter`] of any tier and separation.
+pub trait BatchTest<S: Scalar>: Copy + sealed::Sealed {
+    /// Which of sixteen pairs of this shape it culls. `None` if an index is not in the rows.
+    #[doc(hidden)]
+    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask>;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Test {}
+    impl<S> Sealed for super::Filter<S> {}
+}
+
+impl<S: Scalar> BatchTest<S> for Test {
+    #[inline(always)]
+    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask> {
+        Some(S::sixteen(level, P::SHAPE, self.kernel(), pairs)?.culled)
+    }
+}
+
+impl<S: Scalar> BatchTest<S> for Filter<S> {
+    /// Side by side as far as the tier's bound goes, then one by one.
+    #[inline(always)]
+    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask> {
+        let kernel = Kernel::Bounded(self.tier().bound(), self.positive_separation());
+        let Decision {
+            mut culled,
+            opposite,
+        } = S::sixteen(level, P::SHAPE, kernel, pairs)?;
+        if self.tier().looks_again() {
+            for lane in 0..LANES {
+                let bit = 1 << lane;
+                let is_opposite = opposite & bit != 0;
+                if culled & bit == 0 && self.culls_kept::<P>(&points(pairs, lane), is_opposite) {
+                    culled |= bit;
+                }
             }
         }
+        Some(culled)
     }
 }
 
@@ -79,17 +169,32 @@ impl Test {
 /// are not looked at.
 pub fn culled<S: Scalar, P: PrimitivePair<S>>(
     level: Level,
-    test: Test,
+    test: impl BatchTest<S>,
     pairs: &[P],
     masks: &mut [Mask],
 ) {
     for (pairs, mask) in pairs.chunks(LANES).zip(masks) {
-        let mut rows = [[VertexRow::unknown(); 4]; LANES];
-        for (row, pair) in rows.iter_mut().zip(pairs) {
-            *row = pair.motions().map(VertexRow::new);
+        let mut tile = Tile::unknown();
+        for (lane, pair) in pairs.iter().enumerate() {
+            tile.set(lane, pair.motions());
         }
-        let sixteen = rows.each_ref().map(<[_; 4]>::each_ref);
-        *mask = S::sixteen(level, P::Shape::SHAPE, test, &sixteen);
+        *mask = of_tile::<S, P::Shape>(level, test, &tile);
+    }
+}
+
+/// Which pairs of `tiles` `test` culls, a mask for each tile: the fastest form, for pairs that lie side by side already.
+pub fn culled_from_tiles<S: Scalar>(
+    level: Level,
+    shape: Shape,
+    test: impl BatchTest<S>,
+    tiles: &[Tile<S>],
+    masks: &mut [Mask],
+) {
+    for (tile, mask) in tiles.iter().zip(masks) {
+        *mask = match shape {
+            Shape::VertexFace => of_tile::<S, VertexAndFace>(level, test, tile),
+            Shape::EdgeEdge => of_tile::<S, EdgeAndEdge>(level, test, tile),
+        };
     }
 }
 
@@ -100,19 +205,69 @@ pub fn culled<S: Scalar, P: PrimitivePair<S>>(
 pub fn culled_from_rows<S: Scalar>(
     level: Level,
     shape: Shape,
-    test: Test,
+    test: impl BatchTest<S>,
     rows: &[VertexRow<S>],
     indices: &[[u32; 4]],
     masks: &mut [Mask],
 ) {
-    let unknown = VertexRow::unknown();
-    for (indices, mask) in indices.chunks(LANES).zip(masks) {
-        let mut sixteen = [[&unknown; 4]; LANES];
-        for (pair, indices) in sixteen.iter_mut().zip(indices) {
-            for (row, &index) in pair.iter_mut().zip(indices) {
-                *row = rows.get(index as usize).unwrap_or(&unknown);
-            }
+    match shape {
+        Shape::VertexFace => {
+            of_mesh::<S, VertexAndFace>(level, test, rows, indices, masks);
         }
-        *mask = S::sixteen(level, shape, test, &sixteen);
+        Shape::EdgeEdge => of_mesh::<S, EdgeAndEdge>(level, test, rows, indices, masks),
+    }
+}
+
+#[inline(always)]
+fn of_mesh<S: Scalar, P: PairShape>(
+    level: Level,
+    test: impl BatchTest<S>,
+    rows: &[VertexRow<S>],
+    indices: &[[u32; 4]],
+    masks: &mut [Mask],
+) {
+    for (indices, mask) in indices.chunks(LANES).zip(masks) {
+        let whole = indices
+            .first_chunk()
+            .and_then(|indices| test.sixteen::<P>(level, Sixteen::Mesh { rows, indices }));
+        *mask = match whole {
+            Some(mask) => mask,
+            None => of_tile::<S, P>(level, test, &gathered(rows, indices)),
+        };
+    }
+}
+
+/// Fewer than sixteen pairs, or some whose indices are not in `rows`.
+#[cold]
+fn gathered<S: Scalar>(rows: &[VertexRow<S>], indices: &[[u32; 4]]) -> Tile<S> {
+    let mut tile = Tile::unknown();
+    let unknown = VertexRow::unknown();
+    for (lane, indices) in indices.iter().enumerate() {
+        let row = |index: u32| rows.get(index as usize).unwrap_or(&unknown).motion();
+        tile.set(lane, indices.map(row));
+    }
+    tile
+}
+
+#[inline(always)]
+fn of_tile<S: Scalar, P: PairShape>(level: Level, test: impl BatchTest<S>, tile: &Tile<S>) -> Mask {
+    // A tile has no indices that could be wrong.
+    test.sixteen::<P>(level, Sixteen::Tile(tile)).unwrap_or(0)
+}
+
+/// The four points of one pair; not a number if there is no such pair.
+#[inline(always)]
+fn points<S: Scalar>(pairs: Sixteen<'_, S>, lane: usize) -> PairPoints<S> {
+    let [[a, e], [b, f], [c, g], [d, h]] = match pairs {
+        Sixteen::Tile(tile) => tile.positions(lane),
+        Sixteen::Mesh { rows, indices } => {
+            let unknown = VertexRow::unknown();
+            let indices = indices.get(lane).copied().unwrap_or([u32::MAX; 4]);
+            indices.map(|index| rows.get(index as usize).unwrap_or(&unknown).positions())
+        }
+    };
+    PairPoints {
+        start: [a, b, c, d],
+        end: [e, f, g, h],
     }
 }

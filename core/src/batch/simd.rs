@@ -1,11 +1,14 @@
-//! `f32` and `f64` vectors as [`Lanes`], and how rows become lanes.
+//! `f32` and `f64` vectors as [`Lanes`], and how rows and tiles become lanes.
 
-use super::{LANES, Level, Mask, Test, VertexRow};
+use super::{Kernel, LANES, Level, Mask, Tile, VertexRow};
+use crate::coplanarity::MovingTetrahedron;
+use crate::filter::certified::{Decision, decide};
 use crate::lanes::Lanes;
 use crate::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
 use crate::vector::Vector;
 use fearless_simd::{
-    ExtractToken, Simd, SimdBase, SimdCombine, SimdMask, dispatch, f32x8, f32x16, f64x8,
+    ExtractToken, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, dispatch, f32x8,
+    f32x16, f64x8,
 };
 
 /// What [`Scalar`](crate::Scalar) needs to go sixteen at a time.
@@ -13,13 +16,27 @@ use fearless_simd::{
 /// The method is not generic, so that its many kernels (for each instruction set, test and shape) are compiled once, in
 /// this crate, and not in every crate that calls it.
 pub trait BatchScalar: Copy {
-    /// Which of sixteen pairs `test` culls.
+    /// What `kernel` says of sixteen pairs. `None` if an index is not in the rows.
     #[doc(hidden)]
-    fn sixteen(level: Level, shape: Shape, test: Test, pairs: &Sixteen<'_, Self>) -> Mask;
+    fn sixteen(
+        level: Level,
+        shape: Shape,
+        kernel: Kernel<Self>,
+        pairs: Sixteen<'_, Self>,
+    ) -> Option<Decision<Mask>>;
 }
 
-/// The rows of sixteen pairs' four points.
-pub(crate) type Sixteen<'a, S> = [[&'a VertexRow<S>; 4]; LANES];
+/// Sixteen pairs' four points.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub enum Sixteen<'a, S> {
+    /// Indices of rows.
+    Mesh {
+        rows: &'a [VertexRow<S>],
+        indices: &'a [[u32; 4]; LANES],
+    },
+    Tile(&'a Tile<S>),
+}
 
 macro_rules! lanes {
     ($vector:ident, $scalar:ty) => {
@@ -30,6 +47,16 @@ macro_rules! lanes {
             #[inline(always)]
             fn splat(self, value: $scalar) -> Self {
                 <Self as SimdBase<V>>::splat(self.token(), value)
+            }
+
+            #[inline(always)]
+            fn any(mask: Self::Mask) -> bool {
+                mask.any_true()
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                SimdFloat::sqrt(self)
             }
 
             #[inline(always)]
@@ -55,112 +82,238 @@ macro_rules! lanes {
     };
 }
 
-/// The rows of one point of eight pairs.
-macro_rules! load_rows {
-    ($vector:ident, $simd:expr, $pairs:expr, $first:expr, $point:expr) => {{
-        let pairs: &Sixteen<'_, _> = $pairs;
-        [
-            $vector::load_array_ref($simd, &pairs[$first][$point].0),
-            $vector::load_array_ref($simd, &pairs[$first + 1][$point].0),
-            $vector::load_array_ref($simd, &pairs[$first + 2][$point].0),
-            $vector::load_array_ref($simd, &pairs[$first + 3][$point].0),
-            $vector::load_array_ref($simd, &pairs[$first + 4][$point].0),
-            $vector::load_array_ref($simd, &pairs[$first + 5][$point].0),
-            $vector::load_array_ref($simd, &pairs[$first + 6][$point].0),
-            $vector::load_array_ref($simd, &pairs[$first + 7][$point].0),
-        ]
-    }};
-}
-
 lanes!(f32x16, f32);
 lanes!(f64x8, f64);
 
+/// Start and end of one point, or of one edge, of sixteen `f32` pairs, or of eight `f64` pairs from `$first` on. `$row` is
+/// such a row of the pair whose indices are `$pair`.
+///
+/// `f32`: a vector holds the rows of pairs k and k + 8, and after transposition two columns of eight pairs.
+macro_rules! columns {
+    (f32, $indices:expr, $first:expr, |$pair:ident| $row:expr) => {{
+        macro_rules! rows {
+            ($index:expr) => {{
+                let low = {
+                    let $pair = &$indices[$first + $index];
+                    $row
+                };
+                let $pair = &$indices[$first + $index + 8];
+                low.combine($row)
+            }};
+        }
+        let [xy, z, uv, w, xy_8, z_8, uv_8, w_8] = transposed([
+            rows!(0),
+            rows!(1),
+            rows!(2),
+            rows!(3),
+            rows!(4),
+            rows!(5),
+            rows!(6),
+            rows!(7),
+        ]);
+        let ((x, y), (x_8, y_8)) = (xy.split(), xy_8.split());
+        let ((u, v), (u_8, v_8)) = (uv.split(), uv_8.split());
+        let (z, w) = (z.split().0, w.split().0);
+        let (z_8, w_8) = (z_8.split().0, w_8.split().0);
+        [
+            Vector::new(x.combine(x_8), y.combine(y_8), z.combine(z_8)),
+            Vector::new(u.combine(u_8), v.combine(v_8), w.combine(w_8)),
+        ]
+    }};
+    (f64, $indices:expr, $first:expr, |$pair:ident| $row:expr) => {{
+        macro_rules! row {
+            ($index:expr) => {{
+                let $pair = &$indices[$first + $index];
+                $row
+            }};
+        }
+        // The fourth column and the last are padding.
+        let [x, y, z, _, u, v, w, _] = transposed([
+            row!(0),
+            row!(1),
+            row!(2),
+            row!(3),
+            row!(4),
+            row!(5),
+            row!(6),
+            row!(7),
+        ]);
+        [Vector::new(x, y, z), Vector::new(u, v, w)]
+    }};
+}
+
+/// One coordinate of a tile's pairs, from lane `$first` on.
+macro_rules! coordinate {
+    (f32, $simd:expr, $numbers:expr, $first:expr) => {
+        f32x16::load_array_ref($simd, $numbers)
+    };
+    (f64, $simd:expr, $numbers:expr, $first:expr) => {{
+        let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = *$numbers;
+        f64x8::load_array(
+            $simd,
+            if $first == 0 {
+                [a, b, c, d, e, f, g, h]
+            } else {
+                [i, j, k, l, m, n, o, p]
+            },
+        )
+    }};
+}
+
+/// The kernel of one format: `$lanes` holds as many pairs as it looks at in one go, from the pair `$first` on.
+macro_rules! kernel {
+    ($scalar:ident, $name:ident, $row:ident, $lanes:ident) => {
+        #[inline(always)]
+        fn $name<V: Simd, P: PairShape>(
+            simd: V,
+            kernel: Kernel<$scalar>,
+            pairs: Sixteen<'_, $scalar>,
+            first: usize,
+        ) -> Option<Decision<Mask>> {
+            macro_rules! point_of_tile {
+                ($point:expr) => {{
+                    let [[x, y, z], [u, v, w]] = $point;
+                    [
+                        Vector::new(
+                            coordinate!($scalar, simd, x, first),
+                            coordinate!($scalar, simd, y, first),
+                            coordinate!($scalar, simd, z, first),
+                        ),
+                        Vector::new(
+                            coordinate!($scalar, simd, u, first),
+                            coordinate!($scalar, simd, v, first),
+                            coordinate!($scalar, simd, w, first),
+                        ),
+                    ]
+                }};
+            }
+            macro_rules! points_of_tile {
+                ($tile:expr) => {{
+                    let [a, b, c, d] = &$tile.0;
+                    let (a, b) = (point_of_tile!(a), point_of_tile!(b));
+                    let (c, d) = (point_of_tile!(c), point_of_tile!(d));
+                    PairPoints {
+                        start: [a[0], b[0], c[0], d[0]],
+                        end: [a[1], b[1], c[1], d[1]],
+                    }
+                }};
+            }
+            macro_rules! row_of {
+                ($rows:expr, $index:expr) => {
+                    $row::load_array_ref(simd, &$rows.get($index as usize)?.0)
+                };
+            }
+            macro_rules! point_of_rows {
+                ($rows:expr, $indices:expr, $point:expr) => {
+                    columns!($scalar, $indices, first, |pair| row_of!(
+                        $rows,
+                        pair[$point]
+                    ))
+                };
+            }
+            // Rows are subtracted before they are transposed: three edges to transpose instead of four points, and start and
+            // end in one subtraction.
+            macro_rules! edge_of_rows {
+                ($rows:expr, $indices:expr, $point:expr) => {
+                    columns!($scalar, $indices, first, |pair| {
+                        let points = P::volume_points(*pair);
+                        row_of!($rows, points[$point]) - row_of!($rows, points[0])
+                    })
+                };
+            }
+            match kernel {
+                Kernel::Points(test) => {
+                    let points: PairPoints<$lanes<V>> = match pairs {
+                        Sixteen::Tile(tile) => points_of_tile!(tile),
+                        Sixteen::Mesh { rows, indices } => {
+                            let a = point_of_rows!(rows, indices, 0);
+                            let b = point_of_rows!(rows, indices, 1);
+                            let c = point_of_rows!(rows, indices, 2);
+                            let d = point_of_rows!(rows, indices, 3);
+                            PairPoints {
+                                start: [a[0], b[0], c[0], d[0]],
+                                end: [a[1], b[1], c[1], d[1]],
+                            }
+                        }
+                    };
+                    Some(Decision {
+                        culled: test.on::<P, _>(&points).to_bitmask() as Mask,
+                        opposite: 0,
+                    })
+                }
+                Kernel::Bounded(bound, separation) => {
+                    let tetrahedron: MovingTetrahedron<$lanes<V>> = match pairs {
+                        Sixteen::Tile(tile) => points_of_tile!(tile).tetrahedron::<P>(),
+                        Sixteen::Mesh { rows, indices } => MovingTetrahedron {
+                            b: edge_of_rows!(rows, indices, 1),
+                            c: edge_of_rows!(rows, indices, 2),
+                            p: edge_of_rows!(rows, indices, 3),
+                        },
+                    };
+                    let separation = match separation {
+                        Some(separation) => {
+                            Some(<$lanes<V> as SimdBase<V>>::splat(simd, separation))
+                        }
+                        None => None,
+                    };
+                    let decision = decide::<P, _>(bound, &tetrahedron, separation);
+                    Some(Decision {
+                        culled: decision.culled.to_bitmask() as Mask,
+                        opposite: decision.opposite.to_bitmask() as Mask,
+                    })
+                }
+            }
+        }
+    };
+}
+
+kernel!(f32, sixteen_f32, f32x8, f32x16);
+kernel!(f64, eight_f64, f64x8, f64x8);
+
 impl BatchScalar for f32 {
-    fn sixteen(level: Level, shape: Shape, test: Test, pairs: &Sixteen<'_, f32>) -> Mask {
+    fn sixteen(
+        level: Level,
+        shape: Shape,
+        kernel: Kernel<f32>,
+        pairs: Sixteen<'_, f32>,
+    ) -> Option<Decision<Mask>> {
         dispatch!(level, simd => match shape {
-            Shape::VertexFace => sixteen_f32::<_, VertexAndFace>(simd, test, pairs),
-            Shape::EdgeEdge => sixteen_f32::<_, EdgeAndEdge>(simd, test, pairs),
+            Shape::VertexFace => sixteen_f32::<_, VertexAndFace>(simd, kernel, pairs, 0),
+            Shape::EdgeEdge => sixteen_f32::<_, EdgeAndEdge>(simd, kernel, pairs, 0),
         })
     }
 }
 
 impl BatchScalar for f64 {
-    fn sixteen(level: Level, shape: Shape, test: Test, pairs: &Sixteen<'_, f64>) -> Mask {
+    fn sixteen(
+        level: Level,
+        shape: Shape,
+        kernel: Kernel<f64>,
+        pairs: Sixteen<'_, f64>,
+    ) -> Option<Decision<Mask>> {
         dispatch!(level, simd => match shape {
-            Shape::VertexFace => sixteen_f64::<_, VertexAndFace>(simd, test, pairs),
-            Shape::EdgeEdge => sixteen_f64::<_, EdgeAndEdge>(simd, test, pairs),
+            Shape::VertexFace => sixteen_f64::<_, VertexAndFace>(simd, kernel, pairs),
+            Shape::EdgeEdge => sixteen_f64::<_, EdgeAndEdge>(simd, kernel, pairs),
         })
     }
 }
 
-#[inline(always)]
-fn sixteen_f32<V: Simd, P: PairShape>(simd: V, test: Test, pairs: &Sixteen<'_, f32>) -> Mask {
-    macro_rules! columns {
-        ($point:expr) => {{
-            let low = transposed(load_rows!(f32x8, simd, pairs, 0, $point));
-            let high = transposed(load_rows!(f32x8, simd, pairs, 8, $point));
-            let [a, b, c, d, e, f, g, h] = low;
-            let [i, j, k, l, m, n, o, p] = high;
-            [
-                a.combine(i),
-                b.combine(j),
-                c.combine(k),
-                d.combine(l),
-                e.combine(m),
-                f.combine(n),
-                g.combine(o),
-                h.combine(p),
-            ]
-        }};
-    }
-    let columns = [columns!(0), columns!(1), columns!(2), columns!(3)];
-    test.on::<P, f32x16<V>>(&points(columns)).to_bitmask() as Mask
-}
-
 /// Eight pairs at a time: what an AVX-512 register holds.
 #[inline(always)]
-fn sixteen_f64<V: Simd, P: PairShape>(simd: V, test: Test, pairs: &Sixteen<'_, f64>) -> Mask {
-    macro_rules! eight {
-        ($first:expr) => {{
-            let columns = [
-                transposed(load_rows!(f64x8, simd, pairs, $first, 0)),
-                transposed(load_rows!(f64x8, simd, pairs, $first, 1)),
-                transposed(load_rows!(f64x8, simd, pairs, $first, 2)),
-                transposed(load_rows!(f64x8, simd, pairs, $first, 3)),
-            ];
-            test.on::<P, f64x8<V>>(&points(columns)).to_bitmask() as Mask
-        }};
-    }
-    eight!(0) | eight!(8) << 8
+fn sixteen_f64<V: Simd, P: PairShape>(
+    simd: V,
+    kernel: Kernel<f64>,
+    pairs: Sixteen<'_, f64>,
+) -> Option<Decision<Mask>> {
+    let low = eight_f64::<V, P>(simd, kernel, pairs, 0)?;
+    let high = eight_f64::<V, P>(simd, kernel, pairs, 8)?;
+    Some(Decision {
+        culled: low.culled | high.culled << 8,
+        opposite: low.opposite | high.opposite << 8,
+    })
 }
 
-/// The four points from the transposed rows of each.
-#[inline(always)]
-fn points<L: Lanes>(columns: [[L; 8]; 4]) -> PairPoints<L> {
-    let [
-        [ax, ay, az, _, au, av, aw, _],
-        [bx, by, bz, _, bu, bv, bw, _],
-        c,
-        d,
-    ] = columns;
-    let ([cx, cy, cz, _, cu, cv, cw, _], [dx, dy, dz, _, du, dv, dw, _]) = (c, d);
-    PairPoints {
-        start: [
-            Vector::new(ax, ay, az),
-            Vector::new(bx, by, bz),
-            Vector::new(cx, cy, cz),
-            Vector::new(dx, dy, dz),
-        ],
-        end: [
-            Vector::new(au, av, aw),
-            Vector::new(bu, bv, bw),
-            Vector::new(cu, cv, cw),
-            Vector::new(du, dv, dw),
-        ],
-    }
-}
-
-/// Transposes eight rows of eight by three rounds of interleaving row k with row k + 4:
+/// Transposes eight rows by three rounds of interleaving row k with row k + 4:
 ///
 /// ```text
 /// rows        a0 a1 … a7, b0 b1 … b7, …, h0 h1 … h7
@@ -168,6 +321,8 @@ fn points<L: Lanes>(columns: [[L; 8]; 4]) -> PairPoints<L> {
 /// 2 rounds    a0 c0 e0 g0 a1 c1 e1 g1     (rows a, c, e, g)
 /// 3 rounds    a0 b0 c0 d0 e0 f0 g0 h0     column 0
 /// ```
+///
+/// Of rows of sixteen each result holds two columns, 0 and 1 the first.
 #[inline(always)]
 fn transposed<V: Simd, T: SimdBase<V>>(mut rows: [T; 8]) -> [T; 8] {
     for _ in 0..3 {

@@ -59,8 +59,15 @@ impl<S: Scalar> Dop18<S> {
     pub fn overlaps(&self, other: &Self) -> bool {
         let mut apart = false;
         for direction in 0..9 {
-            apart |= self.lower[direction] > other.upper[direction];
-            apart |= other.lower[direction] > self.upper[direction];
+            let (own, others) = (self.upper[direction], other.upper[direction]);
+            // The first three are coordinates, the others sums.
+            let (own, others) = if direction < 3 {
+                (own, others)
+            } else {
+                (own + S::SUM_GAP, others + S::SUM_GAP)
+            };
+            apart |= self.lower[direction] > others;
+            apart |= other.lower[direction] > own;
         }
         !apart
     }

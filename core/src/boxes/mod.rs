@@ -6,12 +6,21 @@
 //! | [`segment`] | the vertex's path against the face's swept box (the paper's VF test) | certified bound |
 //! | [`Dop18`] | swept boxes along 9 directions (Hutter, Fuhrmann 2007) | exact: rounding is monotone |
 //! | [`relative`] | 3 or 9 directions, both ends of the step apart: the two sets in the same order | exact |
+//! | [`direction`] | the same along any direction, by default the pair's own normal | certified bound |
 //!
 //! # Why sums may round
-//! Rounding is monotone: x ≤ y implies fl(x) ≤ fl(y). So fl(a) > fl(b) *proves* a > b, although fl(a) = fl(b) says
-//! nothing. Tests along the diagonals ±x±y compare sums of two coordinates, each rounded once, and need no error
-//! bound. A sum of three would be rounded twice, and the argument would not hold. (It needs subnormal numbers
-//! to be kept: where a thread flushes its *inputs* to zero the diagonals are not certified.)
+//! Rounding is monotone, in any direction: x ≤ y implies fl(x) ≤ fl(y). So fl(a) > fl(b) *proves* a > b, although
+//! fl(a) = fl(b) says nothing. Tests along the diagonals ±x±y compare sums of two coordinates, each rounded once, and need no
+//! error bound. A sum of three would be rounded twice, and the argument would not hold.
+//!
+//! Flushing *results* below λ, the smallest normal number, to zero is monotone as well; flushing *operands* is so for a
+//! comparison of coordinates, but not for a sum: λ/2 + λ/2 would become 0. Hence one sum must exceed the other plus
+//! g = [`Rounding::SUM_GAP`](crate::Rounding::SUM_GAP), far above λ and absorbed by whatever is above g/u, which is
+//! anything but dust. Why that suffices, with A = fl(a + b) > fl(Z + g), Z = fl(c + d), when operands are flushed:
+//! * |Z| ≤ g/16u: then A ≥ Z + g/2, and roundings and flushed operands make up less than g/2.
+//! * |Z| > g/16u: A and Z are floating-point numbers, A > Z. At most one operand of a sum of that size is flushed, and the
+//!   sum of the others, as real numbers, is in the same strict order. They are multiples of a step far above λ, or differ
+//!   by one normal operand: by λ at least, which is more than what was flushed.
 //!
 //! Box tests see motion as linear: a coordinate, or a sum of coordinates, lies between its values at both ends.
 
@@ -60,6 +69,7 @@ macro_rules! values {
 }
 
 mod aabb;
+pub mod direction;
 mod dop;
 pub mod relative;
 pub mod segment;
@@ -102,7 +112,7 @@ fn are_disjoint_intervals<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) ->
             .greater(high_0.larger(high_1))
 }
 
-/// The nine directions of an 18-DOP, as values of one point: x, y, z, x±y, x±z, y±z. The sums round to nearest.
+/// The nine directions of an 18-DOP, as values of one point: x, y, z, x±y, x±z, y±z. The sums are rounded.
 #[inline(always)]
 fn along_nine_directions<S: Scalar>([x, y, z]: [S; 3]) -> [S; 9] {
     [x, y, z, x + y, x - y, x + z, x - z, y + z, y - z]

@@ -7,7 +7,7 @@
 //! axis-aligned boxes cull and more, because it knows that the two move together, which swept boxes forget. The same test
 //! is the reading that we give to the subspace filters of Tang, Li and Wang 2010 and 2011 (*reconstructed*).
 
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
@@ -55,7 +55,7 @@ pub fn are_apart_along_three_axes<P: PairShape, L: Lanes>(points: &PairPoints<L>
 pub fn are_apart_along_nine_directions<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
     macro_rules! along {
         ($p:ident => $value:expr) => {
-            keep_order::<P, L>(
+            keep_order_of_sums::<P, L>(
                 values!(points.start, |$p| $value),
                 values!(points.end, |$p| $value),
             )
@@ -74,4 +74,14 @@ fn keep_order<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> L::Mask {
     let [[low_1, high_1], [other_low_1, other_high_1]] = P::ranges(end);
     (low_0.greater(other_high_0) & low_1.greater(other_high_1))
         | (other_low_0.greater(high_0) & other_low_1.greater(high_1))
+}
+
+/// The same for sums of two coordinates, one set's above the other's by [`Rounding::SUM_GAP`].
+#[inline(always)]
+fn keep_order_of_sums<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> L::Mask {
+    let [[low_0, high_0], [other_low_0, other_high_0]] = P::ranges(start);
+    let [[low_1, high_1], [other_low_1, other_high_1]] = P::ranges(end);
+    let gap = low_0.splat(L::Scalar::SUM_GAP);
+    (low_0.greater(other_high_0 + gap) & low_1.greater(other_high_1 + gap))
+        | (other_low_0.greater(high_0 + gap) & other_low_1.greater(high_1 + gap))
 }

@@ -10,19 +10,21 @@
 //! projection. Its least value is min(L_j·d_k, U_j·d_k) − max(L_k·d_j, U_k·d_j), its largest has min and max exchanged,
 //! L = lower − p, U = upper − p. (The midpoint form of the textbooks cancels; this one has orientation's small error.)
 //!
-//! *Rounding.* A product T of two rounded differences is computed as T̂ = T(1 + θ), |θ| ≤ (1 + u)³ − 1, so
-//! |T − T̂| ≤ ((1 − u)⁻³ − 1)·|T̂| ≤ 3.1u·|T̂|, plus η₀ if it underflows (differences are exact then). The least of
-//! two products and the greatest of two move by no more than the larger of theirs, and the last subtraction is rounded
-//! once more, so s > 0 follows from fl(s) > (1 + u)(3.1u·Ŝ + 2η₀), Ŝ = Σ|T̂| over the four products. The test asks for
-//! fl(s) > fl(4u·Ŝ + η): at least 4(1 − u)⁴u·Ŝ + 31η₀(1 − u), η ≥ 32·η₀, which is more.
-//! Infinite or NaN products make the bound infinite or NaN, and the comparison false.
+//! *Rounding* (any direction: 2u an operation). A product T of two rounded differences is computed as T̂ = T(1 + θ), so
+//! |T − T̂| ≤ ((1 − 2u)⁻³ − 1)·|T̂| ≤ 6.1u·|T̂|. The least of two products and the greatest of two move by no more than
+//! the larger of theirs, and the last subtraction is monotone. So s > 0 follows from fl(s) > 6.1u·Ŝ + underflow,
+//! Ŝ = Σ|T̂| over the four products. The test asks for fl(s) > fl(8u·Ŝ + (1 + M)·η), M the largest magnitude of a difference:
+//! at least 8u(1 − 2u)⁵·Ŝ. Where subnormal numbers are flushed a difference is off by 3λ at most, a product by (6M + 1)·λ, and
+//! s by (12M + 3)·λ; η ≥ 512·λ. Only M < [`Rounding::LARGEST_EDGE`] culls, so that nothing overflows.
 //!
 //! Strict inequalities: what touches is kept, and d = 0 gives 0 > η, which is false.
 
 use super::Aabb;
-use crate::lanes::Rounding;
-use crate::motion::{Motion, VertexFace};
+use crate::lanes::{Lanes, Rounding};
+use crate::motion::{Motion, PrimitivePair, VertexFace};
+use crate::points::PairPoints;
 use crate::scalar::Scalar;
+use crate::vector::Vector;
 use crate::verdict::Verdict;
 
 /// Culls `pair` if the vertex's path misses the axis-aligned box that the face sweeps (the paper, stage 1; *disengaging
@@ -31,46 +33,71 @@ use crate::verdict::Verdict;
 /// Certified: never culls if the path and the box share a point. NaN, infinities and overflow keep the pair.
 #[inline]
 pub fn vertex_face<S: Scalar>(pair: &VertexFace<S>) -> Verdict {
-    Verdict::culled_if(misses(&pair.vertex, &Aabb::swept(&pair.face)))
+    Verdict::culled_if(misses_face(&pair.points()))
+}
+
+/// The decision of [`vertex_face`] on any number of lanes.
+#[inline(always)]
+#[must_use]
+pub fn misses_face<L: Lanes>(points: &PairPoints<L>) -> L::Mask {
+    let ([p, a0, b0, c0], [q, a1, b1, c1]) = (points.start, points.end);
+    let lower = a0
+        .smaller(b0)
+        .smaller(c0)
+        .smaller(a1.smaller(b1).smaller(c1));
+    let upper = a0.larger(b0).larger(c0).larger(a1.larger(b1).larger(c1));
+    // The smallest and largest values drop NaN; and the cross axis of two coordinates does not see the third.
+    path_misses([p, q], [lower, upper]) & points.is_finite()
 }
 
 /// Whether the path of `vertex` certainly misses `target`. False if a coordinate of the path is NaN or infinite.
 #[inline]
 #[must_use]
 pub fn misses<S: Scalar>(vertex: &Motion<S>, target: &Aabb<S>) -> bool {
-    // The cross axis of two coordinates does not see the third.
-    if !vertex.is_finite() {
-        return false;
-    }
-    if !Aabb::swept(&[*vertex]).overlaps(target) {
-        return true;
-    }
-    let [start, end] = vertex.ends();
-    let relative = |axis: usize| {
-        (
-            target.lower[axis] - start[axis],
-            target.upper[axis] - start[axis],
-            end[axis] - start[axis],
-        )
-    };
-    let [x, y, z] = [relative(0), relative(1), relative(2)];
-    // No shortcut between the three: they are cheap, and a branch is not.
-    separates(y, z) | separates(z, x) | separates(x, y)
+    let path = vertex.ends().map(Vector::from);
+    path_misses(path, [target.lower.into(), target.upper.into()]) & vertex.is_finite()
 }
 
-/// One cross axis: (lower − p, upper − p, d) along its two coordinates.
+/// Whether one of the six axes separates the segment from the box. NaN may be dropped.
 #[inline(always)]
-fn separates<S: Scalar>(
-    (lower_j, upper_j, d_j): (S, S, S),
-    (lower_k, upper_k, d_k): (S, S, S),
-) -> bool {
+fn path_misses<L: Lanes>([start, end]: [Vector<L>; 2], [lower, upper]: [Vector<L>; 2]) -> L::Mask {
+    let by_axis = apart(start.x, end.x, lower.x, upper.x)
+        | apart(start.y, end.y, lower.y, upper.y)
+        | apart(start.z, end.z, lower.z, upper.z);
+    let (lower, upper, along) = (lower - start, upper - start, end - start);
+    // No shortcut between the three: they are cheap, and a branch is not.
+    by_axis
+        | separates([lower.y, upper.y, along.y], [lower.z, upper.z, along.z])
+        | separates([lower.z, upper.z, along.z], [lower.x, upper.x, along.x])
+        | separates([lower.x, upper.x, along.x], [lower.y, upper.y, along.y])
+}
+
+/// A box axis: the path from `from` to `to` against the interval.
+#[inline(always)]
+fn apart<L: Lanes>(from: L, to: L, low: L, high: L) -> L::Mask {
+    low.greater(from.larger(to)) | from.smaller(to).greater(high)
+}
+
+/// One cross axis: lower − p, upper − p, d along its two coordinates.
+#[inline(always)]
+fn separates<L: Lanes>(
+    [lower_j, upper_j, d_j]: [L; 3],
+    [lower_k, upper_k, d_k]: [L; 3],
+) -> L::Mask {
     let (left_a, left_b) = (lower_j * d_k, upper_j * d_k);
     let (right_a, right_b) = (lower_k * d_j, upper_k * d_j);
     let least = left_a.smaller(left_b) - right_a.larger(right_b);
     let largest = left_a.larger(left_b) - right_a.smaller(right_b);
     let sizes = (left_a.abs() + left_b.abs()) + (right_a.abs() + right_b.abs());
-    let bound = S::small(4) * S::UNIT_ROUNDOFF * sizes + <S as Rounding>::UNDERFLOW;
-    least > bound || -largest > bound
+
+    let reach = lower_j.abs().larger(upper_j.abs()).larger(d_j.abs());
+    let reach = reach.larger(lower_k.abs().larger(upper_k.abs()).larger(d_k.abs()));
+    let constant = |value| reach.splat(value);
+    let roundoff = constant(L::Scalar::small(8)) * constant(L::Scalar::UNIT_ROUNDOFF);
+    let underflow = (reach + constant(L::Scalar::ONE)) * constant(L::Scalar::UNDERFLOW);
+    let bound = roundoff * sizes + underflow;
+    (least.greater(bound) | (-bound).greater(largest))
+        & constant(L::Scalar::LARGEST_EDGE).greater(reach)
 }
 
 #[cfg(test)]

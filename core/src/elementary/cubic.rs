@@ -113,7 +113,7 @@ impl<S: Scalar> Cubic<S> {
         // The derivative / 3 is d₀(1−t)² + 2d₁(1−t)t + d₂t² = a·t² − 2b·t + d₀.
         let (d0, d1, d2) = (k1 - k0, k2 - k1, k3 - k2);
         let (a, b) = (d0 - d1 - d1 + d2, d0 - d1);
-        let root = Scalar::sqrt(b * b - a * d0);
+        let root = (b * b - a * d0).sqrt();
         let sum = if b > S::ZERO { b + root } else { b - root };
         let (first, second) = (sum / a, d0 / sum);
         if first < second {

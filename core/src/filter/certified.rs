@@ -1,19 +1,42 @@
 //! The certified non-coplanarity filter: a culled pair is never coplanar in [0, 1], rounding included.
 //!
-//! The four control values of the signed volume must each exceed the bound that
-//! [`coplanarity`](crate::coplanarity) derives for its rounding, all with the same sign. The converse does not
-//! hold: a kept pair may never be coplanar either.
+//! The four control values of the signed volume must each exceed a bound of their rounding error
+//! ([`coplanarity`](crate::coplanarity) derives three of them), all with the same sign. The converse does not hold: a kept
+//! pair may never be coplanar either. With a separation s > 0 they must exceed the bound and s times the normal's length.
+//!
+//! The bound by the permanent is the sharpest, and takes as long as the control values themselves. But it is wanted
+//! only for values that have one sign and do not clear the cheap bound by magnitudes, which is hardly ever: so the
+//! cheap bound is asked first.
 
-use crate::coplanarity::MovingTetrahedron;
-use crate::lanes::Lanes;
+use crate::coplanarity::{
+    ControlValues, MovingTetrahedron, error_bound_by_magnitudes, is_in_range,
+};
+use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
+use crate::points::PairShape;
 use crate::scalar::Scalar;
+use crate::vector::Vector;
 use crate::verdict::Verdict;
 
-/// Culls `pair` if its four points are certainly not coplanar at any time in [0, 1].
+/// How the rounding error of the control values is bounded, the cheapest and loosest first. See
+/// [`coplanarity`](crate::coplanarity#rounding).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Bound {
+    /// Zero: the signs are taken as computed. **Not certified**: it can cull a colliding pair.
+    Uncertified,
+    /// From the largest components of the tetrahedron's three edges.
+    MagnitudesByEdge,
+    /// From the largest components along each axis.
+    MagnitudesByAxis,
+    /// From the permanent of each control value, where [`MagnitudesByAxis`](Self::MagnitudesByAxis) does not decide.
+    Permanent,
+}
+
+/// Culls `pair` if its four points are certainly not coplanar at any time in [0, 1]. The bound is the
+/// [`Permanent`](Bound::Permanent).
 ///
-/// Certified under rounding to nearest. NaN, infinities and overflow keep the pair; so do zero-length edges and
-/// zero-area triangles, whose volume is zero.
+/// Certified in every floating-point environment ([`Rounding`]). NaN, infinities and overflow keep the pair; so do
+/// zero-length edges and zero-area triangles, whose volume is zero.
 ///
 /// ```
 /// use selvedge_core::{filter::certified::non_coplanarity, glam::Vec3, EdgeEdge, Motion, Verdict};
@@ -25,15 +48,118 @@ use crate::verdict::Verdict;
 /// ```
 #[inline(always)]
 pub fn non_coplanarity<S: Scalar>(pair: &impl PrimitivePair<S>) -> Verdict {
-    Verdict::culled_if(is_never_coplanar(&pair.tetrahedron()))
+    Verdict::culled_if(is_never_coplanar(Bound::Permanent, &pair.tetrahedron()))
 }
 
-/// The same decision on a tetrahedron of any number of lanes: true proves that the lane's points are never
-/// coplanar in [0, 1].
+/// The decision on a tetrahedron of any number of lanes: true proves that the lane's points are never coplanar in [0, 1]
+/// (unless `bound` is [`Bound::Uncertified`]).
 #[inline(always)]
 #[must_use]
-pub fn is_never_coplanar<L: Lanes>(tetrahedron: &MovingTetrahedron<L>) -> L::Mask {
-    tetrahedron
-        .control_values()
-        .one_sign_beyond(tetrahedron.error_bounds())
+pub fn is_never_coplanar<L: Lanes>(bound: Bound, tetrahedron: &MovingTetrahedron<L>) -> L::Mask {
+    decide_beyond(bound, tetrahedron, None).culled
+}
+
+/// What control values and their error bounds tell of a lane's pair. If neither, they leave it undecided.
+#[derive(Clone, Copy, Debug)]
+pub struct Decision<M> {
+    /// All beyond their bounds, with one sign.
+    pub culled: M,
+    /// Two of them beyond their bounds with opposite signs: no sharper bound can cull. Only with [`Bound::Permanent`].
+    pub opposite: M,
+}
+
+/// The decision with a separation s on any number of lanes: `culled` proves that at no time in [0, 1] the vertex is within s
+/// of the face's plane, or the line of one edge within s of the other's (unless `bound` is [`Bound::Uncertified`]).
+///
+/// The separation must be positive and finite; `None` is zero, and then the shape of the pair does not matter.
+#[inline(always)]
+#[must_use]
+pub fn decide<P: PairShape, L: Lanes>(
+    bound: Bound,
+    tetrahedron: &MovingTetrahedron<L>,
+    separation: Option<L>,
+) -> Decision<L::Mask> {
+    let clearance = match separation {
+        Some(separation) => Some(separation * tetrahedron.largest_normal(P::SHAPE)),
+        None => None,
+    };
+    decide_beyond(bound, tetrahedron, clearance)
+}
+
+/// Whether the control values all exceed their error bounds and the clearance, with one sign.
+#[inline(always)]
+fn decide_beyond<L: Lanes>(
+    bound: Bound,
+    tetrahedron: &MovingTetrahedron<L>,
+    clearance: Option<L>,
+) -> Decision<L::Mask> {
+    let values = tetrahedron.control_values();
+    let zero = tetrahedron.p[0].x.splat(L::Scalar::ZERO);
+    let culled = match bound {
+        Bound::Uncertified => values.one_sign_beyond(with_clearance([zero; 4], clearance)),
+        Bound::MagnitudesByEdge => by_magnitudes(&values, tetrahedron.largest_by_edge(), clearance),
+        Bound::MagnitudesByAxis => by_magnitudes(&values, tetrahedron.largest_by_axis(), clearance),
+        Bound::Permanent => return by_permanent(tetrahedron, &values, clearance),
+    };
+    Decision {
+        culled,
+        opposite: zero.greater(zero),
+    }
+}
+
+#[inline(always)]
+fn by_magnitudes<L: Lanes>(
+    values: &ControlValues<L>,
+    largest: Vector<L>,
+    clearance: Option<L>,
+) -> L::Mask {
+    let outer = error_bound_by_magnitudes(largest);
+    let inner = outer * outer.splat(L::Scalar::small(4));
+    let bounds = with_clearance([outer, inner, inner, outer], clearance);
+    values.one_sign_beyond(bounds) & is_in_range(largest.largest())
+}
+
+#[inline(always)]
+fn by_permanent<L: Lanes>(
+    tetrahedron: &MovingTetrahedron<L>,
+    values: &ControlValues<L>,
+    clearance: Option<L>,
+) -> Decision<L::Mask> {
+    let largest = tetrahedron.largest_by_axis();
+    let in_range = is_in_range(largest.largest());
+
+    // One bound, the largest of the four, so that the least and the greatest value tell all. They drop NaN on most
+    // machines, but a sum does not: the bound becomes NaN, too, and what is compared with it does not exceed it.
+    let [k0, k1, k2, k3] = values.0;
+    let sum = (k0 + k1) + (k2 + k3);
+    let inner = error_bound_by_magnitudes(largest) * largest.x.splat(L::Scalar::small(4));
+    let inner = inner + (sum - sum);
+    let [_, bound, ..] = with_clearance([inner; 4], clearance);
+    let least = k0.smaller(k1).smaller(k2.smaller(k3));
+    let greatest = k0.larger(k1).larger(k2.larger(k3));
+    // The smallest magnitude if all have one sign, else not positive; and the other way round.
+    let of_one_sign = least.larger(-greatest);
+    let of_both_signs = greatest.smaller(-least);
+    let decided = of_one_sign.greater(bound) & in_range;
+    let opposite = of_both_signs.greater(inner) & in_range;
+
+    let zero = largest.x.splat(L::Scalar::ZERO);
+    let of_one_sign = of_one_sign.greater(zero) & in_range;
+    let culled = if L::any(of_one_sign ^ decided) {
+        let bounds = with_clearance(tetrahedron.error_bounds(), clearance);
+        decided | (values.one_sign_beyond(bounds) & in_range)
+    } else {
+        decided
+    };
+    Decision { culled, opposite }
+}
+
+/// The middle control values are tripled, and so is what they must clear.
+#[inline(always)]
+fn with_clearance<L: Lanes>([e0, e1, e2, e3]: [L; 4], clearance: Option<L>) -> [L; 4] {
+    let Some(outer) = clearance else {
+        return [e0, e1, e2, e3];
+    };
+    let inner = outer * outer.splat(L::Scalar::small(3));
+    [e0 + outer, e1 + inner, e2 + inner, e3 + outer]
 }

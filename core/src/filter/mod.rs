@@ -1,9 +1,22 @@
 //! Filters that cull a pair because its four points are never coplanar during the step.
 //!
-//! | filter | rounding | source |
+//! [`Filter`] is the choice: how sure, how sharp, and how far apart the pair must stay.
+//!
+//! | tier | rounding | what it culls |
 //! |---|---|---|
-//! | [`certified`] | covered: never culls a pair that is coplanar at some t in [0, 1] | `coplanarity`'s bound |
 //! | [`plain`] | ignored: culls a colliding pair now and then | the paper, equations 1 to 14, as printed |
+//! | [`Tier::Uncertified`] | ignored as well | control values of one sign, as computed |
+//! | [`Tier::MagnitudesByEdge`], [`Tier::MagnitudesByAxis`] | covered by cheap bounds | those that clear the bound |
+//! | [`Tier::Permanent`] | covered by the sharpest bound | almost all that [`Tier::Exact`] does |
+//! | [`Tier::Widened`] | covered: `f32`, and `f64` where that does not decide | more near coplanarity, for `f32` positions |
+//! | [`Tier::Exact`] | none: integer arithmetic | all whose exact control values have one sign |
+//! | [`Tier::Subdivided`] | covered | pairs whose step falls into parts that are each free of contact |
 
 pub mod certified;
 pub mod plain;
+mod subdivided;
+mod tier;
+mod widened;
+
+pub use subdivided::Depth;
+pub use tier::{Filter, Tier};

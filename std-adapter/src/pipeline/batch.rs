@@ -13,7 +13,7 @@ use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
 use selvedge_core::elementary::{Limits, advance::time_of_impact};
 use selvedge_core::points::Shape;
-use selvedge_core::{EdgeEdge, Scalar, Verdict, VertexFace, boxes, elementary, filter};
+use selvedge_core::{Scalar, elementary};
 use std::time::Instant;
 
 /// What every batch of a step reads.
@@ -111,35 +111,17 @@ impl<S: Scalar> Batch<S> {
 
     fn cull_by(&mut self, test: CullingTest, step: &StepInput<'_, S>) {
         match test {
-            CullingTest::SweptBoxes => self.keep(step, boxes::swept_boxes, boxes::swept_boxes),
             CullingTest::StoredSweptBoxes => self.keep_overlapping(step.boxes),
             CullingTest::StoredDop18 => self.keep_overlapping(step.dops),
-            CullingTest::SegmentBox => {
-                self.keep(step, boxes::segment::vertex_face, boxes::swept_boxes);
+            CullingTest::SweptBoxes => self.keep_by_lanes(step, Test::SweptBoxes),
+            CullingTest::SegmentBox => self.keep_by_lanes(step, Test::SegmentBox),
+            CullingTest::RelativeBoxes | CullingTest::SubspaceThree => {
+                self.keep_by_lanes(step, Test::RelativeBoxes);
             }
-            CullingTest::RelativeBoxes => self.keep_by_lanes(step, Test::RelativeBoxes),
-            CullingTest::RelativeBoxesNine => self.keep_by_lanes(step, Test::RelativeBoxesNine),
-            CullingTest::SubspaceThree => {
-                self.keep(
-                    step,
-                    boxes::relative::three_axes,
-                    boxes::relative::three_axes,
-                );
+            CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => {
+                self.keep_by_lanes(step, Test::RelativeBoxesNine);
             }
-            CullingTest::SubspaceNine => {
-                self.keep(
-                    step,
-                    boxes::relative::nine_directions,
-                    boxes::relative::nine_directions,
-                );
-            }
-            CullingTest::PlainNonCoplanarity => {
-                self.keep(
-                    step,
-                    filter::plain::non_coplanarity,
-                    filter::plain::non_coplanarity,
-                );
-            }
+            CullingTest::PlainNonCoplanarity => self.keep_by_lanes(step, Test::PlainNonCoplanarity),
             CullingTest::CertifiedNonCoplanarity => {
                 self.keep_by_lanes(step, Test::CertifiedNonCoplanarity);
             }
@@ -181,22 +163,6 @@ impl<S: Scalar> Batch<S> {
                 culled == 0
             });
         }
-    }
-
-    /// Drops what the two tests cull.
-    fn keep(
-        &mut self,
-        step: &StepInput<'_, S>,
-        vertex_face: impl Fn(&VertexFace<S>) -> Verdict,
-        edge_edge: impl Fn(&EdgeEdge<S>) -> Verdict,
-    ) {
-        let mesh = step.mesh;
-        keep_where(&mut self.vertex_face, |pair| {
-            !vertex_face(&mesh.vertex_face(pair)).is_culled()
-        });
-        keep_where(&mut self.edge_edge, |pair| {
-            !edge_edge(&mesh.edge_edge(pair)).is_culled()
-        });
     }
 
     /// Drops the pairs whose stored volumes do not overlap.

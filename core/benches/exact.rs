@@ -1,0 +1,56 @@
+//! What exact signs cost, a pair: where most pairs can be culled, where floating point decides nothing, and with the widest
+//! numbers.
+
+mod pairs;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use pairs::{COUNT, all_sizes, barely_above, cloth, nearly_coplanar};
+use selvedge_core::Scalar;
+use selvedge_core::exact::{UNKNOWN, control_value_signs, is_never_coplanar, is_never_within};
+use selvedge_core::filter::certified;
+use selvedge_core::points::{PairPoints, VertexAndFace};
+use std::hint::black_box;
+
+/// How many pairs of `pairs` the tests cull, measured by the pair.
+fn measure<S: Scalar>(criterion: &mut Criterion, set: &str, pairs: &[PairPoints<S>]) {
+    let mut group = criterion.benchmark_group(format!("{set}/{}", S::NAME));
+    group.throughput(Throughput::Elements(COUNT as u64));
+    let mut bench = |name: &str, culls: &dyn Fn(&[PairPoints<S>]) -> usize| {
+        group.bench_function(name, |bencher| bencher.iter(|| culls(black_box(pairs))));
+    };
+    macro_rules! count {
+        (|$pair:ident| $culls:expr) => {
+            &|pairs| pairs.iter().filter(|$pair| $culls).count()
+        };
+    }
+    bench(
+        "certified",
+        count!(|pair| certified::is_never_coplanar(
+            certified::Bound::Permanent,
+            &pair.tetrahedron::<VertexAndFace>()
+        )),
+    );
+    bench(
+        "one_sign",
+        count!(|pair| is_never_coplanar::<VertexAndFace, S>(pair, UNKNOWN)),
+    );
+    bench(
+        "all_signs",
+        count!(|pair| control_value_signs::<VertexAndFace, S>(pair).is_some()),
+    );
+    let separation = S::UNIT_ROUNDOFF;
+    bench(
+        "separation",
+        count!(|pair| is_never_within::<VertexAndFace, S>(pair, separation, UNKNOWN)),
+    );
+}
+
+fn sets<S: Scalar>(criterion: &mut Criterion) {
+    measure::<S>(criterion, "cloth", &cloth());
+    measure::<S>(criterion, "nearly_coplanar", &nearly_coplanar());
+    measure::<S>(criterion, "barely_above", &barely_above());
+    measure::<S>(criterion, "all_sizes", &all_sizes());
+}
+
+criterion_group!(benches, sets::<f32>, sets::<f64>);
+criterion_main!(benches);

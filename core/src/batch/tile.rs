@@ -1,0 +1,61 @@
+use super::LANES;
+use crate::motion::Motion;
+use crate::scalar::Scalar;
+use crate::vector::Vector;
+
+/// Sixteen pairs side by side: for each of the four points, at the start and at the end, three coordinates of sixteen pairs.
+///
+/// It takes four times the memory of indices, so it pays where pairs are tested more than once, or come like this.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct Tile<S>(pub(super) [[[[S; LANES]; 3]; 2]; 4]);
+
+impl<S: Scalar> Tile<S> {
+    /// Sixteen pairs that are not known: not a number, so that every test keeps them.
+    #[must_use]
+    pub fn unknown() -> Self {
+        Self([[[[S::INFINITY * S::ZERO; LANES]; 3]; 2]; 4])
+    }
+
+    /// Puts a pair's four points (vertex, face; or first, second edge) in lane `lane`. Does nothing from lane
+    /// [`LANES`] on.
+    ///
+    /// ```
+    /// use selvedge_core::batch::{culled_from_tiles, Level, Test, Tile};
+    /// use selvedge_core::{glam::Vec3, points::Shape, Motion, PrimitivePair, VertexFace};
+    /// let above = VertexFace {
+    ///     vertex: Motion::resting(Vec3::Z),
+    ///     face: [Vec3::ZERO, Vec3::X, Vec3::Y].map(Motion::resting),
+    /// };
+    /// let mut tile = Tile::unknown();
+    /// tile.set(3, above.motions());
+    /// let mut masks = [0];
+    /// culled_from_tiles(Level::baseline(), Shape::VertexFace, Test::SweptBoxes, &[tile], &mut masks);
+    /// assert_eq!(masks, [0b1000]);
+    /// ```
+    #[inline]
+    pub fn set(&mut self, lane: usize, points: [Motion<S>; 4]) {
+        for (coordinates, motion) in self.0.iter_mut().zip(points) {
+            for (coordinates, position) in coordinates.iter_mut().zip(motion.ends()) {
+                for (numbers, number) in coordinates.iter_mut().zip(position) {
+                    if let Some(place) = numbers.get_mut(lane) {
+                        *place = number;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The four points of a lane, at the start and at the end; not a number from lane [`LANES`] on.
+    #[inline]
+    pub(super) fn positions(&self, lane: usize) -> [[Vector<S>; 2]; 4] {
+        let number = |numbers: &[S; LANES]| match numbers.get(lane) {
+            Some(&number) => number,
+            None => S::INFINITY * S::ZERO,
+        };
+        self.0.each_ref().map(|ends| {
+            ends.each_ref()
+                .map(|position| position.each_ref().map(number).into())
+        })
+    }
+}

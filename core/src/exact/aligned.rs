@@ -1,0 +1,195 @@
+//! The 24 coordinates of a pair as whole numbers, axis by axis.
+
+use super::integer::Integer;
+use super::magnitude::Magnitude;
+use crate::points::{PairPoints, PairShape, Shape};
+use crate::scalar::Scalar;
+
+/// An odd number, or zero, times a power of two.
+#[derive(Clone, Copy, Debug)]
+struct Term {
+    significand: i64,
+    /// Biased by [`bias`]; [`u32::MAX`] with zero.
+    exponent: u32,
+}
+
+/// What a biased exponent is more than the true one, so that it is never negative: the smallest subnormal has 1.
+const fn bias<S: Scalar>() -> i32 {
+    // 127 + 23 or 1023 + 52.
+    ((1 << (S::EXPONENT_BITS - 1)) - 1 + S::FRACTION_BITS) as i32
+}
+
+/// A number taken apart.
+struct Parts {
+    term: Term,
+    /// All bits of the number are below this biased power of two.
+    top: u32,
+    is_finite: bool,
+}
+
+/// By its encoding alone, so that no control register changes it.
+#[inline(always)]
+fn take_apart<S: Scalar>(number: S) -> Parts {
+    let encoding = number.encoding();
+    let largest_field = (1 << S::EXPONENT_BITS) - 1;
+    let field = (encoding >> S::FRACTION_BITS) as u32 & largest_field;
+    let is_negative = encoding >> (S::FRACTION_BITS + S::EXPONENT_BITS) != 0;
+    // Subnormal numbers have the exponent of the smallest normal ones and no leading one.
+    let is_normal = field != 0;
+    let exponent = field.max(1);
+    let fraction = encoding & ((1 << S::FRACTION_BITS) - 1);
+    let magnitude = fraction | u64::from(is_normal) << S::FRACTION_BITS;
+
+    let zeros = magnitude.trailing_zeros();
+    let odd = magnitude.wrapping_shr(zeros).cast_signed();
+    Parts {
+        term: Term {
+            significand: if is_negative { -odd } else { odd },
+            exponent: if magnitude == 0 {
+                u32::MAX
+            } else {
+                exponent + zeros
+            },
+        },
+        top: exponent + S::FRACTION_BITS + 1,
+        is_finite: field != largest_field,
+    }
+}
+
+/// A length as it is; `None` if it is negative, infinite or NaN.
+pub(super) fn length<S: Scalar>(number: S) -> Option<Magnitude> {
+    let Parts {
+        term, is_finite, ..
+    } = take_apart(number);
+    let significand = u64::try_from(term.significand).ok()?;
+    if !is_finite {
+        return None;
+    }
+    if significand == 0 {
+        return Some(Magnitude::ZERO);
+    }
+    Some(Magnitude::exact(
+        significand,
+        term.exponent.cast_signed() - bias::<S>(),
+    ))
+}
+
+/// The eight coordinates along one axis: those at the start, then those at the end.
+#[derive(Clone, Copy, Debug)]
+struct Axis {
+    terms: [Term; 8],
+    /// The smallest exponent of them all, biased.
+    unit: u32,
+    /// All coordinates are whole numbers of this many bits, times 2^`unit`.
+    bits: u32,
+}
+
+impl Axis {
+    /// `None` if a coordinate is not finite.
+    #[inline(always)]
+    fn new<S: Scalar>(coordinates: [S; 8]) -> Option<Self> {
+        let parts = coordinates.map(take_apart);
+        let mut is_finite = true;
+        let (mut unit, mut top) = (u32::MAX, 0);
+        for part in &parts {
+            is_finite &= part.is_finite;
+            unit = unit.min(part.term.exponent);
+            top = top.max(part.top);
+        }
+        is_finite.then_some(Self {
+            terms: parts.map(|part| part.term),
+            unit,
+            bits: top.saturating_sub(unit),
+        })
+    }
+
+    #[inline(always)]
+    fn integers<const N: usize>(&self) -> [Integer<N>; 8] {
+        self.terms
+            .map(|term| Integer::shifted(term.significand, term.exponent - self.unit))
+    }
+}
+
+/// The axes' units, as powers of two.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Units(pub(super) [i32; 3]);
+
+/// A pair's coordinates as whole numbers, each axis in its own unit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AlignedPair {
+    shape: Shape,
+    axes: [Axis; 3],
+    pub(super) units: Units,
+}
+
+/// The vectors b, c, p of [`kernel`](super::kernel) at one end of the step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Edges<const N: usize> {
+    pub(super) b: [Integer<N>; 3],
+    pub(super) c: [Integer<N>; 3],
+    pub(super) p: [Integer<N>; 3],
+}
+
+impl AlignedPair {
+    /// `None` if a coordinate is not finite.
+    #[inline(always)]
+    pub(super) fn new<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<Self> {
+        let [a, b, c, d] = points.start;
+        let [e, f, g, h] = points.end;
+        let axes = [
+            Axis::new([a.x, b.x, c.x, d.x, e.x, f.x, g.x, h.x])?,
+            Axis::new([a.y, b.y, c.y, d.y, e.y, f.y, g.y, h.y])?,
+            Axis::new([a.z, b.z, c.z, d.z, e.z, f.z, g.z, h.z])?,
+        ];
+        // Any unit will do where all is zero.
+        let unit = |axis: &Axis| i32::try_from(axis.unit).unwrap_or(0);
+        let [x, y, z] = &axes;
+        Some(Self {
+            shape: P::SHAPE,
+            units: Units([x, y, z].map(|axis| unit(axis) - bias::<S>())),
+            axes,
+        })
+    }
+
+    /// The largest number of bits that a coordinate has.
+    #[inline(always)]
+    pub(super) fn bits(&self) -> u32 {
+        let [x, y, z] = &self.axes;
+        x.bits.max(y.bits).max(z.bits)
+    }
+
+    /// At the start and at the end.
+    #[inline(always)]
+    pub(super) fn edges<const N: usize>(&self) -> [Edges<N>; 2] {
+        let [x, y, z] = &self.axes;
+        let (x, y, z) = (x.integers(), y.integers(), z.integers());
+        let edges = |[x, y, z]: [[Integer<N>; 3]; 3]| Edges {
+            b: [x[0], y[0], z[0]],
+            c: [x[1], y[1], z[1]],
+            p: [x[2], y[2], z[2]],
+        };
+        let ends = |[a, b, c, d, e, f, g, h]: [Integer<N>; 8]| {
+            [
+                self.differences([a, b, c, d]),
+                self.differences([e, f, g, h]),
+            ]
+        };
+        let ([x0, x1], [y0, y1], [z0, z1]) = (ends(x), ends(y), ends(z));
+        [edges([x0, y0, z0]), edges([x1, y1, z1])]
+    }
+
+    /// b, c, p along one axis.
+    #[inline(always)]
+    fn differences<const N: usize>(&self, points: [Integer<N>; 4]) -> [Integer<N>; 3] {
+        match self.shape {
+            Shape::VertexFace => {
+                let [vertex, a, b, c] = points;
+                [b.minus(&a), c.minus(&a), vertex.minus(&a)]
+            }
+            Shape::EdgeEdge => {
+                let [u, v, k, l] = points;
+                [v.minus(&u), l.minus(&k), u.minus(&k)]
+            }
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! One choice for all non-coplanarity filters.
+
+use super::certified::{Bound, decide};
+use super::subdivided::{self, Depth};
+use super::widened;
+use crate::coplanarity::is_in_range;
+use crate::exact;
+use crate::lanes::Rounding;
+use crate::motion::PrimitivePair;
+use crate::points::{PairPoints, PairShape};
+use crate::scalar::Scalar;
+use crate::verdict::Verdict;
+
+/// How sure and how sharp a non-coplanarity filter is.
+///
+/// What accuracy costs in time, measured, is in the README (`selvedge accuracy`). In short: take
+/// [`Permanent`](Self::Permanent); take [`Exact`](Self::Exact) where every last pair counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Tier {
+    /// Signs as computed. **Unsafe to rely on**: rounding makes it cull a colliding pair now and then.
+    Uncertified,
+    /// Certified by the largest components of the tetrahedron's edges.
+    MagnitudesByEdge,
+    /// Certified by the largest components along each axis.
+    MagnitudesByAxis,
+    /// Certified by the permanent of each control value.
+    #[default]
+    Permanent,
+    /// [`Permanent`](Self::Permanent) in the pair's own format, then in `f64` where that does not decide. For `f64`
+    /// positions the same as `Permanent`.
+    Widened,
+    /// [`Permanent`](Self::Permanent), then in parts of the step. Culls pairs that never *touch*, although they may be
+    /// coplanar at some time.
+    Subdivided(Depth),
+    /// By the exact signs of the control values: [`Permanent`](Self::Permanent) first, integers where that does not decide.
+    Exact,
+}
+
+impl Tier {
+    /// Every tier, in the order of the accuracy that one may expect.
+    pub const ALL: [Self; 10] = [
+        Self::Uncertified,
+        Self::MagnitudesByEdge,
+        Self::MagnitudesByAxis,
+        Self::Permanent,
+        Self::Widened,
+        Self::Exact,
+        Self::Subdivided(Depth::One),
+        Self::Subdivided(Depth::Two),
+        Self::Subdivided(Depth::Three),
+        Self::Subdivided(Depth::Four),
+    ];
+
+    /// Whether a pair that it culls is proven to be free of contact. False only for
+    /// [`Uncertified`](Self::Uncertified).
+    #[must_use]
+    pub const fn is_certified(self) -> bool {
+        !matches!(self, Self::Uncertified)
+    }
+
+    /// Whether it looks again at what its bound keeps.
+    pub(crate) const fn looks_again(self) -> bool {
+        matches!(self, Self::Widened | Self::Subdivided(_) | Self::Exact)
+    }
+
+    /// The part of the tier that looks at several pairs side by side.
+    pub(crate) const fn bound(self) -> Bound {
+        match self {
+            Self::Uncertified => Bound::Uncertified,
+            Self::MagnitudesByEdge => Bound::MagnitudesByEdge,
+            Self::MagnitudesByAxis => Bound::MagnitudesByAxis,
+            Self::Permanent | Self::Widened | Self::Subdivided(_) | Self::Exact => Bound::Permanent,
+        }
+    }
+}
+
+/// A non-coplanarity filter: its [`Tier`], and the separation that pairs must keep.
+///
+/// Certified (unless the tier is [`Tier::Uncertified`]) in every floating-point environment
+/// ([`Rounding`](crate::Rounding)): a pair that it culls is, at no time in [0, 1], coplanar, or within the separation.
+/// ([`Tier::Subdivided`]: does not touch, or come within the separation.) NaN, infinities and coordinates whose
+/// differences exceed [`LARGEST_EDGE`](crate::Rounding::LARGEST_EDGE) keep the pair, except that [`Tier::Exact`] knows no
+/// such limit.
+///
+/// ```
+/// use selvedge_core::filter::{Filter, Tier};
+/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+///
+/// // A vertex that sinks from 0.3 to 0.1 above a triangle.
+/// let pair = VertexFace {
+///     vertex: Motion::new(DVec3::new(0.2, 0.2, 0.3), DVec3::new(0.2, 0.2, 0.1)),
+///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// };
+/// let filter = Filter::new(Tier::Permanent);
+/// assert!(filter.verdict(&pair).is_culled());
+/// assert!(filter.with_separation(0.09).unwrap().verdict(&pair).is_culled());
+/// assert!(!filter.with_separation(0.11).unwrap().verdict(&pair).is_culled());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Filter<S> {
+    tier: Tier,
+    separation: S,
+}
+
+impl<S: Scalar> Filter<S> {
+    /// A filter of this tier that culls pairs that never touch: separation zero.
+    #[must_use]
+    pub const fn new(tier: Tier) -> Self {
+        Self {
+            tier,
+            separation: S::ZERO,
+        }
+    }
+
+    /// The same filter for pairs that must stay farther apart than `separation`, in the unit of the positions. `None` if
+    /// it is negative, infinite or NaN.
+    #[must_use]
+    pub fn with_separation(self, separation: S) -> Option<Self> {
+        (separation >= S::ZERO && separation.is_finite()).then_some(Self {
+            tier: self.tier,
+            separation,
+        })
+    }
+
+    /// How sure and how sharp it is.
+    #[must_use]
+    pub const fn tier(&self) -> Tier {
+        self.tier
+    }
+
+    /// What pairs must stay farther apart than to be culled. Zero: they must not touch.
+    #[must_use]
+    pub const fn separation(&self) -> S {
+        self.separation
+    }
+
+    /// The separation, or `None` if there is none.
+    #[inline(always)]
+    pub(crate) fn positive_separation(&self) -> Option<S> {
+        (self.separation > S::ZERO).then_some(self.separation)
+    }
+
+    /// Culls `pair`, or keeps it.
+    #[inline]
+    pub fn verdict<P: PrimitivePair<S>>(&self, pair: &P) -> Verdict {
+        let points = pair.points();
+        let decision = decide::<P::Shape, S>(
+            self.tier.bound(),
+            &points.tetrahedron::<P::Shape>(),
+            self.positive_separation(),
+        );
+        Verdict::culled_if(
+            decision.culled || self.culls_kept::<P::Shape>(&points, decision.opposite),
+        )
+    }
+
+    /// What the tier does with one pair that its [`Bound`] keeps, two of whose control values certainly have opposite
+    /// signs, or not.
+    #[inline]
+    pub(crate) fn culls_kept<P: PairShape>(&self, points: &PairPoints<S>, opposite: bool) -> bool {
+        match self.tier {
+            Tier::Uncertified
+            | Tier::MagnitudesByEdge
+            | Tier::MagnitudesByAxis
+            | Tier::Permanent => false,
+            Tier::Widened => {
+                !opposite
+                    && S::UNIT_ROUNDOFF.to_f64() > f64::UNIT_ROUNDOFF
+                    && widened::culls::<P, S>(points, self.positive_separation())
+            }
+            Tier::Subdivided(depth) => {
+                subdivided::never_touches::<P, S>(points, self.separation, depth)
+            }
+            Tier::Exact => !opposite && self.culls_exactly::<P>(points),
+        }
+    }
+
+    /// By the exact signs, of which those that rounding leaves certain are not computed again.
+    fn culls_exactly<P: PairShape>(&self, points: &PairPoints<S>) -> bool {
+        if self.separation > S::ZERO {
+            return exact::is_never_within::<P, S>(points, self.separation, exact::UNKNOWN);
+        }
+        let tetrahedron = points.tetrahedron::<P>();
+        let known = if is_in_range(tetrahedron.largest_by_axis().largest()) {
+            exact::certain_signs(&tetrahedron.control_values(), tetrahedron.error_bounds())
+        } else {
+            exact::UNKNOWN
+        };
+        exact::is_never_coplanar::<P, S>(points, known)
+    }
+}

@@ -1,0 +1,572 @@
+//! `selvedge_core::exact` says what rational arithmetic says, for every finite pair.
+
+use proptest::prelude::*;
+use rug::{Float, Rational};
+use selvedge::pipeline::CullingTest;
+use selvedge_core::exact::{
+    KnownSigns, UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within,
+};
+use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
+use selvedge_core::{PrimitivePair, Scalar};
+use selvedge_verification::culling::verdict;
+use selvedge_verification::generator::{
+    Choices, Format, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices,
+    pairs_of_any_kind,
+};
+use selvedge_verification::oracle::{Kind, coplanar, within};
+use std::cmp::Ordering::{self, Equal, Greater, Less};
+
+fn signs<S: Format>(pair: &PairCase<S>) -> Option<[Ordering; 4]> {
+    match pair.kind {
+        Kind::VertexFace => control_value_signs::<VertexAndFace, S>(&pair.vertex_face().points()),
+        Kind::EdgeEdge => control_value_signs::<EdgeAndEdge, S>(&pair.edge_edge().points()),
+    }
+}
+
+fn never_coplanar<S: Format>(pair: &PairCase<S>, known: KnownSigns) -> bool {
+    match pair.kind {
+        Kind::VertexFace => {
+            is_never_coplanar::<VertexAndFace, S>(&pair.vertex_face().points(), known)
+        }
+        Kind::EdgeEdge => is_never_coplanar::<EdgeAndEdge, S>(&pair.edge_edge().points(), known),
+    }
+}
+
+fn never_within<S: Format>(pair: &PairCase<S>, separation: S, known: KnownSigns) -> bool {
+    match pair.kind {
+        Kind::VertexFace => {
+            is_never_within::<VertexAndFace, S>(&pair.vertex_face().points(), separation, known)
+        }
+        Kind::EdgeEdge => {
+            is_never_within::<EdgeAndEdge, S>(&pair.edge_edge().points(), separation, known)
+        }
+    }
+}
+
+type Point = [Rational; 3];
+
+fn rational<S: Scalar>(x: S) -> Rational {
+    Rational::from_f64(x.to_f64()).expect("finite")
+}
+
+fn minus(a: &Point, b: &Point) -> Point {
+    std::array::from_fn(|axis| Rational::from(&a[axis] - &b[axis]))
+}
+
+fn cross(a: &Point, b: &Point) -> Point {
+    let minor = |i: usize, j: usize| Rational::from(&a[i] * &b[j]) - Rational::from(&a[j] * &b[i]);
+    [minor(1, 2), minor(2, 0), minor(0, 1)]
+}
+
+fn dot(a: &Point, b: &Point) -> Rational {
+    a.iter().zip(b).map(|(x, y)| Rational::from(x * y)).sum()
+}
+
+/// The volume's control values, the middle ones tripled, and the normals that go with them; by interpolation, not by
+/// the formula of `selvedge-core`.
+struct InRationals {
+    values: [Rational; 4],
+    squared_normals: [Rational; 4],
+}
+
+impl InRationals {
+    fn new<S: Format>(pair: &PairCase<S>) -> Self {
+        let points = pair.points.map(|ends| ends.map(|x| x.map(rational)));
+        let at = |numerator: i32, denominator: i32| -> [Point; 4] {
+            let t = Rational::from((numerator, denominator));
+            std::array::from_fn(|point| {
+                std::array::from_fn(|axis| {
+                    let [start, end] = &points[point];
+                    Rational::from(&end[axis] - &start[axis]) * &t + &start[axis]
+                })
+            })
+        };
+        let volume = |[a, b, c, d]: [Point; 4]| match pair.kind {
+            Kind::VertexFace => dot(&minus(&a, &b), &cross(&minus(&c, &b), &minus(&d, &b))),
+            // a, b, c, p are the points k, u, v, l.
+            Kind::EdgeEdge => dot(&minus(&d, &c), &cross(&minus(&a, &c), &minus(&b, &c))),
+        };
+        let normal = |[a, b, c, d]: [Point; 4]| match pair.kind {
+            Kind::VertexFace => cross(&minus(&c, &b), &minus(&d, &b)),
+            Kind::EdgeEdge => cross(&minus(&b, &a), &minus(&d, &c)),
+        };
+
+        let [v0, v1, v2, v3] = [0, 1, 2, 3].map(|third| volume(at(third, 3)));
+        let combined = |factors: [i32; 4]| -> Rational {
+            let terms = [&v0, &v1, &v2, &v3].into_iter().zip(factors);
+            terms.map(|(v, f)| Rational::from(v * f)).sum::<Rational>() / 2
+        };
+        let inner = [combined([-5, 18, -9, 2]), combined([2, -9, 18, -5])];
+        let [inner_1, inner_2] = inner;
+
+        let [n0, middle, n1] = [0, 1, 2].map(|half| normal(at(half, 2)));
+        // n(½) = (n₀ + h + n₁)/4.
+        let four = Rational::from(4);
+        let h = minus(&minus(&middle.map(|x| x * &four), &n0), &n1);
+        let plus = |a: &Point, b: &Point| -> Point {
+            std::array::from_fn(|axis| Rational::from(&a[axis] + &b[axis]))
+        };
+        let normals = [n0.clone(), plus(&n0, &h), plus(&h, &n1), n1];
+        Self {
+            values: [v0, inner_1, inner_2, v3],
+            squared_normals: normals.map(|n| dot(&n, &n)),
+        }
+    }
+
+    fn signs(&self) -> [Ordering; 4] {
+        [0, 1, 2, 3].map(|i| self.values[i].cmp0())
+    }
+
+    fn have_one_sign(&self) -> bool {
+        [[Greater; 4], [Less; 4]].contains(&self.signs())
+    }
+
+    /// Whether the control value exceeds `separation` times the normal.
+    fn is_beyond(&self, i: usize, separation: &Rational) -> bool {
+        let bound = separation.clone().square() * &self.squared_normals[i];
+        self.values[i].clone().square() > bound
+    }
+
+    fn are_beyond(&self, separation: &Rational) -> bool {
+        self.have_one_sign() && (0..4).all(|i| self.is_beyond(i, separation))
+    }
+
+    /// The largest separation that the control values exceed, rounded to `S`, saturating; 0 if they do not have one sign.
+    fn critical_separation<S: Format>(&self) -> S {
+        if !self.have_one_sign() {
+            return S::ZERO;
+        }
+        // All normals are different from zero, since the values are.
+        let squares = (0..4).map(|i| self.values[i].clone().square() / &self.squared_normals[i]);
+        let smallest = squares.min().expect("four");
+        let root = Float::with_val(200, smallest).sqrt();
+        S::from_f64(root.to_f64()).made_finite()
+    }
+}
+
+/// A property of pairs of format `S`, and a test for each format.
+macro_rules! property {
+    ($name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
+        mod $name {
+            use super::*;
+
+            fn holds<S: Format>($pair: &PairCase<S>) -> Result<(), TestCaseError> {
+                $property
+            }
+
+            #[test]
+            fn f32() {
+                check($cases, $strategy, holds::<f32>);
+            }
+
+            #[test]
+            fn f64() {
+                check($cases, $strategy, holds::<f64>);
+            }
+        }
+    };
+}
+
+property!(
+    signs_are_those_of_rationals,
+    20_000,
+    pairs_of_any_kind(),
+    |pair| {
+        prop_assert_eq!(signs(pair), Some(InRationals::new(pair).signs()));
+        Ok(())
+    }
+);
+
+/// Coordinates as large and as small as a width of whole numbers holds, and a little larger, so that the next one is used:
+/// most of them ±(2^bits − 2^k) or ±1, times a power of two.
+fn at_the_limit_of_a_width<S: Format>(choices: &mut Choices<'_>) -> PairCase<S> {
+    let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
+    let limits = choices
+        .pick(&[61, 125, 317, 2098])
+        .min(S::MAX_EXPONENT - S::MIN_EXPONENT);
+    let bits = (limits + choices.within(2) as i32).min(S::MAX_EXPONENT - S::MIN_EXPONENT);
+    let unit = S::MIN_EXPONENT;
+    let top = unit + bits - S::PRECISION.cast_signed();
+    let points = std::array::from_fn(|_| {
+        std::array::from_fn(|_| {
+            std::array::from_fn(|_| {
+                let sign = choices.pick(&[1, -1]);
+                match choices.below(8) {
+                    0 => S::exact(sign, unit),
+                    1 => S::ZERO,
+                    2 => S::exact(sign << (S::PRECISION - 1), top),
+                    _ => S::exact(sign * ((1 << S::PRECISION) - 1), top),
+                }
+            })
+        })
+    });
+    PairCase::new(kind, points)
+}
+
+property!(
+    nothing_overflows_at_the_limit_of_a_width,
+    5_000,
+    from_choices(at_the_limit_of_a_width),
+    |pair| {
+        prop_assert_eq!(signs(pair), Some(InRationals::new(pair).signs()));
+        Ok(())
+    }
+);
+
+property!(
+    never_coplanar_means_one_sign_whatever_is_known_before,
+    20_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let signs = signs(pair).expect("finite");
+        let one_sign = [[Greater; 4], [Less; 4]].contains(&signs);
+        for subset in 0..16 {
+            let known = [0, 1, 2, 3].map(|i| (subset >> i & 1 == 1).then_some(signs[i]));
+            prop_assert_eq!(never_coplanar(pair, known), one_sign, "{:?}", known);
+            prop_assert_eq!(never_within(pair, S::ZERO, known), one_sign);
+            prop_assert_eq!(never_within(pair, -S::ZERO, known), one_sign);
+        }
+        Ok(())
+    }
+);
+
+property!(
+    what_is_known_is_not_asked_again,
+    5_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let signs = signs(pair).expect("finite");
+        for i in 0..4 {
+            for claimed in [Less, Equal, Greater] {
+                let mut known = [Some(claimed); 4];
+                known[i] = None;
+                let expected = claimed.is_ne() && signs[i] == claimed;
+                prop_assert_eq!(never_coplanar(pair, known), expected, "{:?}", known);
+            }
+        }
+        Ok(())
+    }
+);
+
+property!(
+    never_culls_what_the_oracle_calls_coplanar,
+    20_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let question = pair.question();
+        prop_assert!(!never_coplanar(pair, UNKNOWN) || !coplanar(&question.start, &question.end));
+        Ok(())
+    }
+);
+
+property!(
+    signs_that_rounding_cannot_change_are_the_exact_ones,
+    100_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let tetrahedron = pair.tetrahedron();
+        let known = certain_signs(&tetrahedron.control_values(), tetrahedron.error_bounds());
+        let signs = signs(pair).expect("finite");
+        for i in 0..4 {
+            prop_assert!(known[i].is_none_or(|sign| sign == signs[i]), "{:?}", known);
+        }
+        let all_known = [[Some(Greater); 4], [Some(Less); 4]].contains(&known);
+        let certified = verdict(CullingTest::CertifiedNonCoplanarity, pair);
+        prop_assert_eq!(all_known, certified.is_culled());
+        Ok(())
+    }
+);
+
+property!(
+    culls_whatever_the_certified_filter_culls,
+    100_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let certified = verdict(CullingTest::CertifiedNonCoplanarity, pair);
+        prop_assert!(!certified.is_culled() || never_coplanar(pair, UNKNOWN));
+        Ok(())
+    }
+);
+
+fn never_culls_what_is_coplanar_by_construction<S: Format>() {
+    check(20_000, coplanar_pairs::<S>(), |moment| {
+        prop_assert!(!never_coplanar(&moment.pair(), UNKNOWN));
+        Ok(())
+    });
+}
+
+#[test]
+fn never_culls_what_is_coplanar_by_construction_f32() {
+    never_culls_what_is_coplanar_by_construction::<f32>();
+}
+
+#[test]
+fn never_culls_what_is_coplanar_by_construction_f64() {
+    never_culls_what_is_coplanar_by_construction::<f64>();
+}
+
+property!(
+    what_is_not_finite_has_no_signs_and_is_kept,
+    20_000,
+    extraordinary_pairs(),
+    |pair| {
+        prop_assert_eq!(signs(pair).is_some(), pair.is_finite());
+        if !pair.is_finite() {
+            prop_assert!(!never_coplanar(pair, UNKNOWN));
+            prop_assert!(!never_within(pair, S::ZERO, UNKNOWN));
+            prop_assert!(!never_coplanar(
+                pair,
+                [None, Some(Less), Some(Less), Some(Less)]
+            ));
+        }
+        Ok(())
+    }
+);
+
+fn reversed(signs: [Ordering; 4]) -> [Ordering; 4] {
+    signs.map(Ordering::reverse)
+}
+
+property!(
+    mirroring_an_axis_or_exchanging_two_axes_reverses_the_signs,
+    20_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let opposite = signs(pair).map(reversed);
+        for axis in 0..3 {
+            let mirrored = pair.with_positions(|mut position| {
+                position[axis] = -position[axis];
+                position
+            });
+            prop_assert_eq!(signs(&mirrored), opposite);
+        }
+        for axes in [[1, 0, 2], [0, 2, 1], [2, 1, 0]] {
+            prop_assert_eq!(signs(&pair.with_axes(axes)), opposite);
+        }
+        Ok(())
+    }
+);
+
+property!(
+    exchanging_two_points_reverses_the_signs_whichever_is_the_base,
+    20_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let opposite = signs(pair).map(reversed);
+        for order in [
+            [1, 0, 2, 3],
+            [2, 1, 0, 3],
+            [3, 1, 2, 0],
+            [0, 2, 1, 3],
+            [0, 3, 2, 1],
+            [0, 1, 3, 2],
+        ] {
+            prop_assert_eq!(signs(&pair.reordered(order)), opposite, "{:?}", order);
+        }
+        Ok(())
+    }
+);
+
+property!(
+    reversing_time_reverses_the_order_of_the_signs,
+    20_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let mut backwards = signs(&pair.reversed());
+        if let Some(signs) = &mut backwards {
+            signs.reverse();
+        }
+        prop_assert_eq!(signs(pair), backwards);
+        Ok(())
+    }
+);
+
+#[test]
+fn the_same_numbers_in_f64_have_the_same_signs() {
+    check(100_000, pairs_of_any_kind::<f32>(), |pair| {
+        prop_assert_eq!(signs(pair), signs(&pair.widened()));
+        Ok(())
+    });
+}
+
+/// Separations where the answer changes, and others of every size.
+fn separations<S: Format>(pair: &PairCase<S>, exact: &InRationals) -> Vec<S> {
+    let critical = exact.critical_separation::<S>();
+    let mut separations = vec![S::ZERO.up(), S::LARGEST];
+    separations.extend([-2, -1, 0, 1, 2].map(|steps| critical.nudged(steps).abs()));
+    let [[x, y, _], _] = pair.points[1];
+    separations.extend([x.abs(), y.abs()]);
+    separations
+}
+
+property!(
+    never_within_is_right_to_a_relative_2_to_the_minus_60,
+    10_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let exact = InRationals::new(pair);
+        let slack = Rational::from(1) + (Rational::from(1) >> 60);
+        for separation in separations(pair, &exact) {
+            let culled = never_within(pair, separation, UNKNOWN);
+            let length = rational(separation);
+            prop_assert!(!culled || exact.are_beyond(&length), "{separation:?}");
+            let certainly = exact.are_beyond(&(length * &slack));
+            prop_assert!(culled || !certainly, "{separation:?}");
+        }
+        Ok(())
+    }
+);
+
+property!(
+    never_culls_what_the_oracle_calls_within,
+    2_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let exact = InRationals::new(pair);
+        for separation in separations(pair, &exact) {
+            if never_within(pair, separation, UNKNOWN) {
+                prop_assert!(
+                    !within(&pair.question(), separation.to_f64()),
+                    "{separation:?}"
+                );
+            }
+        }
+        Ok(())
+    }
+);
+
+property!(
+    a_separation_that_is_no_length_keeps_the_pair,
+    5_000,
+    pairs_of_any_kind(),
+    |pair| {
+        for separation in [
+            S::NAN,
+            -S::NAN,
+            S::INFINITY,
+            -S::INFINITY,
+            -S::ONE,
+            -S::ZERO.up(),
+        ] {
+            prop_assert!(!never_within(pair, separation, UNKNOWN), "{separation:?}");
+        }
+        Ok(())
+    }
+);
+
+/// A high power of two is 1 in a unit whose exponent no number of the format has as its own.
+#[test]
+fn the_unit_of_large_powers_of_two_is_their_own() {
+    let large = f64::exact(1 << 40, 960);
+    let corners = [[0.0; 3], [large, 0.0, 0.0], [0.0, large / 2.0, 0.0]];
+    let [a, b, c] = corners.map(|corner| [corner; 2]);
+    let pair = PairCase::new(Kind::VertexFace, [[[0.0, 0.0, 1.0]; 2], a, b, c]);
+    assert!(never_within(&pair, 1.0.down(), UNKNOWN));
+    assert!(!never_within(&pair, 1.0, UNKNOWN));
+    // The same where each axis has another unit.
+    let pair = pair.with_axes([2, 0, 1]);
+    assert!(never_within(&pair, 1.0.down(), UNKNOWN));
+    assert!(!never_within(&pair, 1.0, UNKNOWN));
+}
+
+/// A vertex at the smallest height there is above a face of the largest size there is: 2,098 and 277 bits along each axis.
+fn decides_the_largest_spread_there_is<S: Format>() {
+    let (small, large) = (S::ZERO.up(), S::LARGEST);
+    let corner = |x: S, y: S| [[x, y, -small]; 2];
+    for (height, sign) in [(S::ZERO, Greater), (-small, Equal), (-small.up(), Less)] {
+        let vertex = [[small, small, height]; 2];
+        let pair = PairCase::new(
+            Kind::VertexFace,
+            [
+                vertex,
+                corner(-large, -large),
+                corner(large, -large),
+                corner(small, large),
+            ],
+        );
+        assert_eq!(signs(&pair), Some([sign; 4]), "{pair:?}");
+        let along_x = pair.with_axes([2, 0, 1]);
+        assert_eq!(signs(&along_x), Some([sign; 4]), "{along_x:?}");
+        assert!(!never_within(&pair, S::ZERO.up(), UNKNOWN), "{pair:?}");
+    }
+}
+
+#[test]
+fn decides_the_largest_spread_there_is_f32() {
+    decides_the_largest_spread_there_is::<f32>();
+}
+
+#[test]
+fn decides_the_largest_spread_there_is_f64() {
+    decides_the_largest_spread_there_is::<f64>();
+}
+
+/// The compiled code under other settings of the processor's control register for floating point.
+#[cfg(target_arch = "x86_64")]
+mod in_every_floating_point_environment {
+    use super::*;
+    use std::arch::asm;
+    use std::hint::black_box;
+
+    const FLUSH_TO_ZERO: u32 = 1 << 15;
+    const DENORMALS_ARE_ZERO: u32 = 1 << 6;
+    const ROUNDING: u32 = 13;
+
+    /// The two answers: signs, and whether the pair is never within `separation`.
+    #[inline(never)]
+    fn answers<S: Format>(
+        pair: &PairCase<S>,
+        separation: S,
+        control: u32,
+    ) -> (Option<[Ordering; 4]>, bool) {
+        let mut before = 0_u32;
+        // SAFETY: the control and status register is put back before any other floating-point code of this thread runs; what
+        // runs in between is what is tested, and moves of numbers at most.
+        unsafe {
+            asm!("stmxcsr [{}]", in(reg) &raw mut before, options(nostack));
+            let changed = before | control;
+            asm!("ldmxcsr [{}]", in(reg) &raw const changed, options(nostack));
+        }
+        let answers = black_box((
+            signs(black_box(pair)),
+            never_within(black_box(pair), black_box(separation), UNKNOWN),
+        ));
+        // SAFETY: as above.
+        unsafe {
+            asm!("ldmxcsr [{}]", in(reg) &raw const before, options(nostack));
+        }
+        answers
+    }
+
+    /// That the register does what the test means it to do.
+    #[test]
+    fn the_control_register_is_set() {
+        let pair = PairCase::<f64>::new(Kind::VertexFace, [[[0.0; 3]; 2]; 4]);
+        let mut control = 0_u32;
+        // SAFETY: as above; the one operation in between is in assembly.
+        let product = unsafe {
+            let mut before = 0_u32;
+            asm!("stmxcsr [{}]", in(reg) &raw mut before, options(nostack));
+            let changed = before | FLUSH_TO_ZERO;
+            asm!("ldmxcsr [{}]", in(reg) &raw const changed, options(nostack));
+            asm!("stmxcsr [{}]", in(reg) &raw mut control, options(nostack));
+            let mut product = f64::MIN_POSITIVE;
+            asm!("mulsd {}, {}", inout(xmm_reg) product, in(xmm_reg) 0.5);
+            asm!("ldmxcsr [{}]", in(reg) &raw const before, options(nostack));
+            product
+        };
+        assert_ne!(control & FLUSH_TO_ZERO, 0);
+        assert_eq!(product.to_bits(), 0);
+        assert_eq!(answers(&pair, 0.0, 0), (Some([Equal; 4]), false));
+    }
+
+    property!(answers_are_the_same, 20_000, pairs_of_any_kind(), |pair| {
+        let [[x, ..], _] = pair.points[1];
+        let expected = answers(pair, x.abs(), 0);
+        for rounding in 0..4 {
+            let control = rounding << ROUNDING | FLUSH_TO_ZERO | DENORMALS_ARE_ZERO;
+            prop_assert_eq!(answers(pair, x.abs(), control), expected, "{}", rounding);
+        }
+        Ok(())
+    });
+}
