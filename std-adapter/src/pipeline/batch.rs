@@ -13,7 +13,7 @@ use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
 use selvedge_core::elementary::{Limits, advance::time_of_impact};
 use selvedge_core::points::Shape;
-use selvedge_core::{Scalar, elementary};
+use selvedge_core::{EdgeEdge, Scalar, VertexFace, elementary};
 use std::time::Instant;
 
 /// What every batch of a step reads.
