@@ -327,22 +327,25 @@ fn confirms_only_contacts<S: Format>(
     Ok(())
 }
 
-fn confirms_many<S: Format>(pairs: impl Strategy<Value = PairCase<S>>, at_least: u32) {
-    let confirmed = Confirmed::default();
-    check(20_000, pairs, |pair| {
+fn confirms_many<S: Format>() {
+    let (asked, confirmed) = (Cell::new(0), Confirmed::default());
+    check(20_000, pairs_of_any_kind::<S>(), |pair| {
+        asked.set(asked.get() + 1);
         confirms_only_contacts(pair, &confirmed)
     });
-    assert!(confirmed.get() > at_least, "only {}", confirmed.get());
+    // Three in a hundred, as a rule.
+    let (confirmed, asked) = (confirmed.get(), asked.get());
+    assert!(confirmed > asked / 100, "{confirmed} of {asked}");
 }
 
 #[test]
 fn confirms_contacts_and_nothing_else_f64() {
-    confirms_many(pairs_of_any_kind::<f64>(), 1000);
+    confirms_many::<f64>();
 }
 
 #[test]
 fn confirms_contacts_and_nothing_else_f32() {
-    confirms_many(pairs_of_any_kind::<f32>(), 1000);
+    confirms_many::<f32>();
 }
 
 /// The bisection of Wang et al., as a baseline, with a tolerance that keeps its work small.

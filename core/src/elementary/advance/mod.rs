@@ -24,10 +24,10 @@
 //!
 //! # The method
 //! From time t, and starting at 0, go on to a later one up to which the pair is *proven* to be apart, until it is within δ + s, or
-//! the proof reaches the end of the step. Three proofs are tried, all on the pair's [corners](super::corners) alone, so there is no
+//! the proof reaches the end of the step. Three proofs are tried, all on the pair's corners (`corners.rs`) alone, so there is no
 //! case for parallel edges, faces without area, coplanar motion:
-//! * a [separating direction](directions) from the closest points, held constant;
-//! * from the second round on, where the closest points are inside the face or both edges, the [signed volume](volume): the points
+//! * a separating direction (`directions.rs`) from the closest points, held constant;
+//! * from the second round on, where the closest points are inside the face or both edges, the signed volume (`volume.rs`): the points
 //!   are not coplanar;
 //! * from the fourth round on a direction that turns: where sets slide past one another, what a constant direction proves shrinks
 //!   with their distance, and a turning one's does not.
