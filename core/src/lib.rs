@@ -36,7 +36,7 @@
 //! | [`batch`] | the tests of `boxes` and `filter` on sixteen pairs side by side, alone or from a mesh | the same verdicts, bit for bit |
 //! | [`boxes`] | swept boxes, segment against box, relative boxes, 18-DOPs | exact or certified |
 //! | [`features`], [`distribution`] | representative features of a triangle; a candidate triangle pair to its primitive pairs | each pair once |
-//! | [`elementary`] | time of impact | plain cubic (baseline) |
+//! | [`elementary`] | time of impact, and proof of contact | certified; published baselines beside it |
 //!
 //! # Words
 //! The paper that this work starts from (Lv, He, Mi: *Improved Method in Lower Tailoring of Self-collision
