@@ -25,7 +25,10 @@ fn measure<S: Scalar>(criterion: &mut Criterion, set: &str, pairs: &[PairPoints<
     }
     bench(
         "certified",
-        count!(|pair| certified::is_never_coplanar(&pair.tetrahedron::<VertexAndFace>())),
+        count!(|pair| certified::is_never_coplanar(
+            certified::Bound::Permanent,
+            &pair.tetrahedron::<VertexAndFace>()
+        )),
     );
     bench(
         "one_sign",

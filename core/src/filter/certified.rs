@@ -137,11 +137,14 @@ fn by_permanent<L: Lanes>(
     let [_, bound, ..] = with_clearance([inner; 4], clearance);
     let least = k0.smaller(k1).smaller(k2.smaller(k3));
     let greatest = k0.larger(k1).larger(k2.larger(k3));
-    let decided = (least.greater(bound) | (-bound).greater(greatest)) & in_range;
-    let opposite = (greatest.greater(inner) & (-inner).greater(least)) & in_range;
+    // The smallest magnitude if all have one sign, else not positive; and the other way round.
+    let of_one_sign = least.larger(-greatest);
+    let of_both_signs = greatest.smaller(-least);
+    let decided = of_one_sign.greater(bound) & in_range;
+    let opposite = of_both_signs.greater(inner) & in_range;
 
     let zero = largest.x.splat(L::Scalar::ZERO);
-    let of_one_sign = (least.greater(zero) | zero.greater(greatest)) & in_range;
+    let of_one_sign = of_one_sign.greater(zero) & in_range;
     let culled = if L::any(of_one_sign ^ decided) {
         let bounds = with_clearance(tetrahedron.error_bounds(), clearance);
         decided | (values.one_sign_beyond(bounds) & in_range)
