@@ -21,8 +21,8 @@ Examples:
   selvedge accuracy frame-92.ply frame-93.ply --svg accuracy.svg
   selvedge accuracy --pairs 5000 --repeat 1 --json
 
-Times are only as quiet as the machine. In each format, a filter is compared with
-exact arithmetic on the coordinates that it is given, rounded to that format.")]
+Times are only as quiet as the machine. In each format, a filter is compared
+with exact arithmetic on the coordinates that it is given, rounded to it.")]
 pub(crate) struct Accuracy {
     /// The mesh at the start of a step to take pairs from as well
     #[arg(requires = "end")]

@@ -46,7 +46,7 @@ impl Kind {
             Self::OneAtATime => "certified, one by one",
             Self::Exact => "exact",
             Self::Subdivided => "certified, in parts of the step (+: culled beyond exact signs)",
-            Self::Uncertified => "unsafe (the paper's: one by one)",
+            Self::Uncertified => "unsafe: culls without proof",
         }
     }
 

@@ -24,7 +24,7 @@ const HEAD_HEIGHT: f64 = 124.0;
 /// Accuracy against time, as an SVG picture with its own light background: a panel for each set of pairs and format.
 ///
 /// To the right, time per pair (logarithmic, the same in all panels): sixteen pairs side by side on the best instruction
-/// set, except where a name says otherwise. Up, the share of the pairs that exact arithmetic culls which a filter culls as
+/// set, except where the name says otherwise. Up, the share of the pairs that exact arithmetic culls which a filter culls as
 /// well: each line is ten times closer to all. Filters without a proof have no place on that axis; they stand in a strip
 /// of their own, with the number of pairs that they cull without proof.
 #[must_use]
@@ -76,7 +76,7 @@ fn draw_head(picture: &mut Group, accuracy: &Accuracy) {
     };
     let explanation = format!(
         "Up: culls more of what exact arithmetic culls. Left: faster. Pairs are gathered from a mesh by one thread, \
-         sixteen side by side ({lanes}){separation}. False: culled without proof."
+         sixteen side by side ({lanes}){separation}."
     );
     picture.append(text(MARGIN, 62.0, &explanation).set("fill", FAINT_INK));
     let mut x = MARGIN + 6.0;

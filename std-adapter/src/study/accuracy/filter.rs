@@ -4,7 +4,7 @@ use std::fmt;
 /// A non-coplanarity filter whose accuracy and time are measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MeasuredFilter {
-    /// [`selvedge_core::filter::plain`], as printed in the paper; one pair at a time only. **Not certified.**
+    /// [`selvedge_core::filter::plain`], as printed in the paper. **Not certified.**
     Paper,
     /// [`selvedge_core::filter::Filter`] of this tier.
     Tier(Tier),

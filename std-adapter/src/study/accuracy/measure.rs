@@ -2,8 +2,10 @@
 
 use super::{AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, MeasuredFilter, PairSet};
 use crate::dispatch::{Level, available_levels};
-use selvedge_core::batch::{LANES, Mask, Tile, VertexRow, culled_from_rows, culled_from_tiles};
-use selvedge_core::filter::{Filter, plain};
+use selvedge_core::batch::{
+    LANES, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles,
+};
+use selvedge_core::filter::{Filter, Tier, plain};
 use selvedge_core::points::{EdgeAndEdge, PairShape, Shape, VertexAndFace};
 use selvedge_core::{EdgeEdge, Motion, PrimitivePair, Scalar, Verdict, VertexFace, exact};
 use std::hint::black_box;
@@ -178,19 +180,18 @@ enum Backend {
 impl<S: Scalar> Measurement<S> {
     /// Nothing for a filter that would repeat another's row, or does not know separations.
     fn new(filter: MeasuredFilter, separation: S) -> Option<Self> {
-        use selvedge_core::filter::Tier;
-        let levels = available_levels();
-        let levels = match filter {
-            MeasuredFilter::Paper if separation > S::ZERO => return None,
-            MeasuredFilter::Paper => &[],
-            MeasuredFilter::Tier(Tier::Widened) if S::FRACTION_BITS == f64::MANTISSA_DIGITS - 1 => {
-                return None;
-            }
-            MeasuredFilter::Tier(_) => &levels[..],
+        let is_widest = S::FRACTION_BITS == f64::MANTISSA_DIGITS - 1;
+        let is_left_out = match filter {
+            MeasuredFilter::Paper => separation > S::ZERO,
+            MeasuredFilter::Tier(tier) => tier == Tier::Widened && is_widest,
         };
+        if is_left_out {
+            return None;
+        }
+        let levels = available_levels();
         let levels = levels
-            .iter()
-            .map(|&(name, level)| Backend::Lanes(name, level));
+            .into_iter()
+            .map(|(name, level)| Backend::Lanes(name, level));
         let backends = std::iter::once(Backend::OneAtATime).chain(levels);
         Some(Self {
             filter,
@@ -232,21 +233,7 @@ impl<S: Scalar> Measurement<S> {
                     one_at_a_time(filter, separation, pairs, black_box(&mut masks));
                 }
                 Backend::Lanes(_, level) => {
-                    in_lanes(filter, separation, |filter| {
-                        let Pairs {
-                            shape,
-                            rows,
-                            indices,
-                        } = *pairs;
-                        culled_from_rows(
-                            level,
-                            shape,
-                            filter,
-                            rows,
-                            indices,
-                            black_box(&mut masks),
-                        );
-                    });
+                    from_rows(filter, separation, level, pairs, black_box(&mut masks));
                 }
             });
             if masks != expected {
@@ -256,11 +243,10 @@ impl<S: Scalar> Measurement<S> {
         if let Some(&(Backend::Lanes(name, level), _)) = self.backends.last() {
             self.tiled += TILED.min(pairs.indices.len());
             let seconds = fastest(repeat, || {
-                in_lanes(filter, separation, |filter| {
-                    for _ in 0..TILED_PASSES {
-                        culled_from_tiles(level, pairs.shape, filter, black_box(tiles), &mut masks);
-                    }
-                });
+                for _ in 0..TILED_PASSES {
+                    let tiles = black_box(tiles);
+                    from_tiles(filter, separation, level, pairs.shape, tiles, &mut masks);
+                }
             });
             self.tiled_seconds += seconds / TILED_PASSES as f64;
             if masks != expected {
@@ -308,23 +294,72 @@ fn one_at_a_time<S: Scalar>(
     }
     match filter {
         MeasuredFilter::Paper => pairs.one_by_one(paper, paper, masks),
-        MeasuredFilter::Tier(_) => in_lanes(filter, separation, |filter| {
+        MeasuredFilter::Tier(tier) => {
+            let filter = with_separation(tier, separation);
             pairs.one_by_one(
                 |pair| filter.verdict(pair) == Verdict::Culled,
                 |pair| filter.verdict(pair) == Verdict::Culled,
                 masks,
             );
-        }),
+        }
     }
 }
 
-/// Calls `run` with the filter of a tier. The paper's has none, and is not run.
-fn in_lanes<S: Scalar>(filter: MeasuredFilter, separation: S, run: impl FnOnce(Filter<S>)) {
-    if let MeasuredFilter::Tier(tier) = filter
-        && let Some(filter) = Filter::new(tier).with_separation(separation)
-    {
-        run(filter);
+/// Verdicts on pairs that are gathered sixteen at a time.
+fn from_rows<S: Scalar>(
+    filter: MeasuredFilter,
+    separation: S,
+    level: Level,
+    pairs: &Pairs<'_, S>,
+    masks: &mut [Mask],
+) {
+    let Pairs {
+        shape,
+        rows,
+        indices,
+    } = *pairs;
+    match filter {
+        MeasuredFilter::Paper => {
+            culled_from_rows(
+                level,
+                shape,
+                Test::PlainNonCoplanarity,
+                rows,
+                indices,
+                masks,
+            );
+        }
+        MeasuredFilter::Tier(tier) => {
+            let filter = with_separation(tier, separation);
+            culled_from_rows(level, shape, filter, rows, indices, masks);
+        }
     }
+}
+
+/// Verdicts on pairs that lie side by side.
+fn from_tiles<S: Scalar>(
+    filter: MeasuredFilter,
+    separation: S,
+    level: Level,
+    shape: Shape,
+    tiles: &[Tile<S>],
+    masks: &mut [Mask],
+) {
+    match filter {
+        MeasuredFilter::Paper => {
+            culled_from_tiles(level, shape, Test::PlainNonCoplanarity, tiles, masks);
+        }
+        MeasuredFilter::Tier(tier) => {
+            let filter = with_separation(tier, separation);
+            culled_from_tiles(level, shape, filter, tiles, masks);
+        }
+    }
+}
+
+/// Without the separation if it is none; see [`AccuracyOptions`](super::AccuracyOptions).
+fn with_separation<S: Scalar>(tier: Tier, separation: S) -> Filter<S> {
+    let filter = Filter::new(tier);
+    filter.with_separation(separation).unwrap_or(filter)
 }
 
 /// The seconds of the fastest of `repeat` runs.

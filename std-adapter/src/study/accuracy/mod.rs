@@ -91,7 +91,7 @@ pub struct AccuracyRow {
     pub kept_cullable: usize,
     /// Pairs that it culls although exact arithmetic does not.
     pub culled_beyond_exact: usize,
-    /// One pair at a time first, then each instruction set, the plainest first. The paper's filter has no lanes.
+    /// One pair at a time first, then each instruction set, the plainest first.
     pub times: Vec<BackendTime>,
     /// Nanoseconds a pair for tiles in the first cache, on the best instruction set.
     pub in_first_cache: Option<f64>,
@@ -141,7 +141,7 @@ impl AccuracyRow {
             .then_some(self.culled_beyond_exact)
     }
 
-    /// The best instruction set's time; one pair at a time where there is no other.
+    /// The best instruction set's time.
     #[must_use]
     pub fn best_time(&self) -> Option<BackendTime> {
         self.times.last().copied()
@@ -330,11 +330,7 @@ mod tests {
             let rows = if set.scalar == "f32" { 11 } else { 10 };
             assert_eq!(set.rows.len(), rows);
             for row in &set.rows {
-                let backends = match row.filter {
-                    MeasuredFilter::Paper => 1,
-                    MeasuredFilter::Tier(_) => 1 + levels,
-                };
-                assert_eq!(row.times.len(), backends);
+                assert_eq!(row.times.len(), 1 + levels);
                 assert!(row.times.iter().all(|time| time.nanoseconds > 0.0));
             }
             let uncertified = row(&set, Tier::Uncertified).times[0];
