@@ -18,13 +18,7 @@ fn set(scalar: &'static str, cullable: usize, kept: usize) -> AccuracySet {
                 backend,
                 nanoseconds,
             })
-            .into_iter()
-            .take(if filter == MeasuredFilter::Paper {
-                1
-            } else {
-                2
-            })
-            .collect(),
+            .to_vec(),
         in_first_cache: None,
     });
     AccuracySet {
