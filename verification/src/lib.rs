@@ -5,8 +5,10 @@
 //! | [`oracle`] | exact answers, from the definitions alone |
 //! | [`generator`] | inputs, biased to what breaks floating-point geometry; for property tests and fuzz targets |
 //! | [`minifloat`] | a number format of a few bits, in which every input of a grid can be tried |
+//! | [`altered`] | core's kernels with other constants in their error bounds |
 //! | [`culling`] | core's culling tests by name, one pair at a time |
 
+pub mod altered;
 pub mod culling;
 pub mod generator;
 pub mod minifloat;

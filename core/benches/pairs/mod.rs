@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each bench uses a part")]
 
 use selvedge_core::coplanarity::MovingTetrahedron;
-use selvedge_core::filter::certified::is_never_coplanar;
+use selvedge_core::filter::certified::{Bound, is_never_coplanar};
 use selvedge_core::points::{PairPoints, VertexAndFace};
 use selvedge_core::{Scalar, Vector};
 
@@ -93,7 +93,7 @@ fn near_a_plane<S: Scalar>(random: &mut Random, height: f64) -> PairPoints<S> {
 
 fn is_undecided<S: Scalar>(pair: &PairPoints<S>) -> bool {
     let tetrahedron: MovingTetrahedron<S> = pair.tetrahedron::<VertexAndFace>();
-    !is_never_coplanar(&tetrahedron)
+    !is_never_coplanar(Bound::Permanent, &tetrahedron)
 }
 
 /// Coordinates of every size there is: each exponent as likely as the others.
