@@ -116,7 +116,19 @@ macro_rules! columns {
         ]
     }};
     (f64, $pairs:expr, $first:expr, |$pair:ident| $row:expr) => {{
-        let [a, b, c, _, d, e, f, _] = columns_of_eight!($pairs, $first, |$pair| $row);
+        // An index from `$first` on would be checked, and could panic.
+        let half = if $first == 0 {
+            $pairs.first_chunk::<8>()
+        } else {
+            $pairs.last_chunk::<8>()
+        };
+        let Some(half) = half else {
+            return Decision {
+                culled: 0,
+                opposite: 0,
+            };
+        };
+        let [a, b, c, _, d, e, f, _] = columns_of_eight!(half, 0, |$pair| $row);
         [Vector::new(a, b, c), Vector::new(d, e, f)]
     }};
 }
