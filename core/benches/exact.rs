@@ -7,7 +7,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use pairs::{COUNT, all_sizes, barely_above, cloth, nearly_coplanar};
 use selvedge_core::Scalar;
 use selvedge_core::exact::{UNKNOWN, control_value_signs, is_never_coplanar, is_never_within};
-use selvedge_core::filter::certified::{self, Bound};
+use selvedge_core::filter::certified;
 use selvedge_core::points::{PairPoints, VertexAndFace};
 use std::hint::black_box;
 
@@ -26,7 +26,7 @@ fn measure<S: Scalar>(criterion: &mut Criterion, set: &str, pairs: &[PairPoints<
     bench(
         "certified",
         count!(|pair| certified::is_never_coplanar(
-            Bound::Permanent,
+            certified::Bound::Permanent,
             &pair.tetrahedron::<VertexAndFace>()
         )),
     );

@@ -139,7 +139,11 @@ impl<S: Scalar> Bench<'_, S> {
 
 fn bench<S: Scalar>(criterion: &mut Criterion) {
     // 32 pairs in 2 tiles are 6 kB in f64; 2 · 708² vertices are a million.
-    for (place, place_name, side) in [(Place::Cache, "cache", 5), (Place::Mesh, "gathered", 708)] {
+    for (place, place_name, side) in [
+        (Place::Cache, "cache", 5),
+        (Place::Mesh, "rows in cache", 9),
+        (Place::Mesh, "gathered", 708),
+    ] {
         let sheets = Sheets::<S>::new(side);
         let mut group = criterion.benchmark_group(format!("{place_name}/{}", S::NAME));
         group
@@ -175,6 +179,7 @@ fn bench<S: Scalar>(criterion: &mut Criterion) {
             ("relative boxes, three axes", Test::RelativeBoxes),
             ("relative boxes, nine directions", Test::RelativeBoxesNine),
             ("normal direction", Test::NormalDirection),
+            ("the paper's filter", Test::PlainNonCoplanarity),
         ] {
             bench.batched(name, test);
         }

@@ -49,7 +49,7 @@ pub trait Rounding: Copy {
 
 /// One or more numbers of the same format, with arithmetic lane by lane.
 ///
-/// Every operation rounds to nearest, on its own: no fused multiply-add, no reassociation. That is what makes
+/// Every operation rounds on its own: no fused multiply-add, no reassociation. That is what makes
 /// verdicts the same for every number of lanes.
 pub trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn underflow_covers_512_of_the_smallest_normal_number() {
-        assert!(f32::UNDERFLOW >= 512.0 * f32::MIN_POSITIVE);
-        assert!(f64::UNDERFLOW >= 512.0 * f64::MIN_POSITIVE);
+        const { assert!(f32::UNDERFLOW >= 512.0 * f32::MIN_POSITIVE) };
+        const { assert!(f64::UNDERFLOW >= 512.0 * f64::MIN_POSITIVE) };
     }
 }

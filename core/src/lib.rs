@@ -18,8 +18,10 @@
 //!
 //! # What is promised
 //! * Every function marked *certified* or *exact* covers its own rounding: it never culls a pair that
-//!   touches at some time in [0, 1], whatever the input, under IEEE 754 arithmetic that rounds to nearest and keeps
-//!   subnormal numbers (no flush-to-zero).
+//!   touches at some time in [0, 1], whatever the input.
+//! * That holds in every floating-point environment of IEEE 754 arithmetic that a thread may have switched to: any
+//!   rounding direction, flush-to-zero, denormals-are-zero ([`Rounding`] says how). Verdicts may differ from one
+//!   environment to another; none of them is wrong.
 //! * NaN, infinite or overflowing input is always kept.
 //! * No allocation, no `unsafe`, no panic, no dependence on `std`.
 //! * The published baselines ([`filter::plain`], [`elementary::cubic`]) promise nothing of the kind and say so.
@@ -30,11 +32,11 @@
 //! | [`motion`] | the two primitive pairs, in [`glam`] types | |
 //! | [`coplanarity`] | the signed volume of four moving points, as a cubic in Bernstein form, and its rounding error | proven bound |
 //! | [`exact`] | the signs of that cubic's control values, and how they compare with a separation, in whole numbers | exact |
-//! | [`filter`] | culls pairs that are never coplanar | certified, or plain as in the paper |
+//! | [`filter`] | culls pairs that are never coplanar, or never within a separation: a [`Filter`](filter::Filter) of some [`Tier`](filter::Tier) | certified, exact, or plain as in the paper |
 //! | [`batch`] | the tests of `boxes` and `filter` on sixteen pairs side by side, alone or from a mesh | the same verdicts, bit for bit |
 //! | [`boxes`] | swept boxes, segment against box, relative boxes, 18-DOPs | exact or certified |
 //! | [`features`], [`distribution`] | representative features of a triangle; a candidate triangle pair to its primitive pairs | each pair once |
-//! | [`elementary`] | time of impact | plain cubic (baseline) |
+//! | [`elementary`] | time of impact, and proof of contact | certified; published baselines beside it |
 //!
 //! # Words
 //! The paper that this work starts from (Lv, He, Mi: *Improved Method in Lower Tailoring of Self-collision

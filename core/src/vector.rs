@@ -4,7 +4,7 @@ use crate::lanes::Lanes;
 use core::ops::{Add, Sub};
 
 /// Three components, each one number or one lane per pair. Every operation rounds each of its additions,
-/// subtractions and products to nearest, in the order written here: error bounds rely on it.
+/// subtractions and products on its own, in the order written here: error bounds rely on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vector<L> {
     /// First component.

@@ -2,7 +2,7 @@
 
 pub use selvedge_core::batch::Level;
 
-/// The widest instruction set that this machine has and the kernels know: SSE2, SSE4.2, AVX2 or AVX-512 on x86, NEON on
+/// The widest instruction set that this machine has and the kernels know: SSE2, AVX2 or AVX-512 on x86, NEON on
 /// 64-bit Arm, else a plain loop. Detected once. All of them give the same verdicts, bit for bit.
 #[must_use]
 pub fn best_level() -> Level {
@@ -18,7 +18,6 @@ pub fn available_levels() -> Vec<(&'static str, Level)> {
     {
         use fearless_simd::Simd;
         levels.extend(best.as_sse2().map(|token| ("sse2", token.level())));
-        levels.extend(best.as_sse4_2().map(|token| ("sse4.2", token.level())));
         levels.extend(best.as_avx2().map(|token| ("avx2", token.level())));
         levels.extend(best.as_avx512().map(|token| ("avx512", token.level())));
     }

@@ -5,7 +5,7 @@
 //! # Who judges
 //! A cull without separation is proven right by the exact signs of the control values
 //! ([`control_value_signs`], itself checked against rationals in the tests), or for subdivided tiers by relative boxes; one
-//! with a separation by [`is_never_within`]. What that does not prove, the [`oracle`](crate::oracle) decides, and of what
+//! with a separation by [`is_never_within`]. What that does not prove, the [`oracle`] decides, and of what
 //! it does prove the oracle confirms every 10,000th. A cull is false if the pair is coplanar, is within the separation, or, for
 //! subdivided tiers, touches.
 
@@ -275,6 +275,7 @@ struct Judged<'a, S: Format, P> {
     pair: P,
     separation: S,
     has_one_sign: OnceCell<bool>,
+    is_beyond: OnceCell<bool>,
     coplanar: OnceCell<bool>,
     touching: OnceCell<bool>,
     within: OnceCell<bool>,
@@ -287,6 +288,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judged<'a, S, P> {
             pair,
             separation,
             has_one_sign: OnceCell::new(),
+            is_beyond: OnceCell::new(),
             coplanar: OnceCell::new(),
             touching: OnceCell::new(),
             within: OnceCell::new(),
@@ -333,9 +335,9 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judged<'a, S, P> {
     /// Whether the exact parts of core prove the cull right.
     fn is_proven(&self, rule: Rule) -> bool {
         match rule {
-            Rule::Tier(_, true) => {
+            Rule::Tier(_, true) => *self.is_beyond.get_or_init(|| {
                 is_never_within::<P::Shape, S>(&self.pair.points(), self.separation, UNKNOWN)
-            }
+            }),
             Rule::Tier(Tier::Subdivided(_), false) => {
                 self.has_one_sign() || relative::nine_directions(&self.pair).is_culled()
             }

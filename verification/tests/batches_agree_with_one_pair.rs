@@ -131,7 +131,7 @@ impl<S: Format> Batch<S> {
                     test,
                     form
                 );
-                if count % LANES != 0 {
+                if !count.is_multiple_of(LANES) {
                     prop_assert_eq!(
                         masks[count / LANES] >> (count % LANES),
                         0,

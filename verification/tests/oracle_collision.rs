@@ -4,7 +4,9 @@ mod support;
 
 use proptest::prelude::*;
 use rug::Rational;
-use selvedge_verification::oracle::{Kind, Pair, collides, touches_at, within};
+use selvedge_verification::oracle::{
+    Kind, Pair, collides, first_within, touches_at, within, within_at,
+};
 use support::distance::{SLACK, advance, distance};
 use support::{at, common_part};
 
@@ -190,6 +192,34 @@ proptest! {
     #[test]
     fn within_nothing_is_contact(pair in any_pair()) {
         prop_assert_eq!(within(&pair, 0.0), collides(&pair).is_some());
+    }
+
+    #[test]
+    fn the_first_time_within_nothing_is_that_of_contact(
+        pair in prop_oneof![grid_pair(), flat_pair(), straight_pair()],
+    ) {
+        prop_assert_eq!(first_within(&pair, 0.0), collides(&pair));
+    }
+
+    #[test]
+    fn the_first_time_within_is_where_the_distance_comes_down(
+        pair in prop_oneof![grid_pair(), flat_pair(), straight_pair()],
+        separation in (0..=12).prop_map(|k| f64::from(k) / 4.0),
+    ) {
+        let first = first_within(&pair, separation);
+        prop_assert_eq!(first.is_some(), within(&pair, separation));
+        let Some(first) = first else { return Ok(()) };
+        if let Some(time) = first.as_rational() {
+            prop_assert!(within_at(&pair, time, separation));
+        }
+        // Not before: at three times, the last as close as can be.
+        let just_before = first.to_f64_down().next_down();
+        for time in [just_before, 0.75 * just_before, 0.0] {
+            if time >= 0.0 && first.cmp_f64(time).is_gt() {
+                let time = Rational::from_f64(time).expect("finite");
+                prop_assert!(!within_at(&pair, &time, separation));
+            }
+        }
     }
 
     #[test]

@@ -6,7 +6,8 @@ use selvedge::PairKind::{self, EdgeEdge, VertexFace};
 use selvedge::mesh::Topology;
 use selvedge::pipeline::{ElementaryTest, PairCounts, Pipeline, Preset, Redundancy, Stage, Stages};
 use selvedge::scene::ArmScene;
-use selvedge_core::elementary::cubic;
+use selvedge_core::elementary::advance::time_of_impact;
+use selvedge_core::elementary::{Limits, cubic};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
 use selvedge_verification::oracle::{Kind, collides};
@@ -287,9 +288,18 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(
 
         let time = |&pair: &MeshPair| {
             let pair = points(mesh, &topology, pair);
-            match pair.kind {
-                Kind::VertexFace => cubic::vertex_face(&pair.vertex_face()),
-                Kind::EdgeEdge => cubic::edge_edge(&pair.edge_edge()),
+            let limits = Limits::default();
+            match (stages.elementary, pair.kind) {
+                (ElementaryTest::Cubic, Kind::VertexFace) => {
+                    cubic::vertex_face(&pair.vertex_face())
+                }
+                (ElementaryTest::Cubic, Kind::EdgeEdge) => cubic::edge_edge(&pair.edge_edge()),
+                (ElementaryTest::TimeOfImpact, Kind::VertexFace) => {
+                    time_of_impact(&pair.vertex_face(), &limits).time()
+                }
+                (ElementaryTest::TimeOfImpact, Kind::EdgeEdge) => {
+                    time_of_impact(&pair.edge_edge(), &limits).time()
+                }
             }
         };
         candidates.retain(|pair| time(pair).is_some());

@@ -124,6 +124,22 @@ fn with_batches<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
     verdicts | u32::from(differ) << 9 | exactly(pair) << 10 | tiers(pair) << 13
 }
 
+/// An eleventh: that the certified time of impact, its confirmation, or one of the two baselines for it disagrees with `touches`.
+fn times_differ<S: Scalar>(pair: &impl PrimitivePair<S>, touches: bool) -> u32 {
+    use elementary::{Limits, additive, advance, tight_inclusion};
+    let limits = Limits::default();
+    let time = advance::time_of_impact(pair, &limits).time();
+    let confirmed = time.and_then(|time| advance::confirm::certain_contact(pair, time));
+    let agree = time.is_some() == touches
+        && confirmed.is_some() == touches
+        && tight_inclusion::time_of_impact(pair, &limits)
+            .time()
+            .is_some()
+            == touches
+        && additive::time_of_impact(pair, S::ZERO).time().is_some() == touches;
+    u32::from(!agree) << 10
+}
+
 /// One bit for each test that culls, another where the elementary test finds no contact.
 fn all_tests<S: Scalar>(points: &Points<S>) -> [u32; 2] {
     let motions = points.map(|[start, end]| Motion::<S> {
@@ -149,13 +165,21 @@ fn all_tests<S: Scalar>(points: &Points<S>) -> [u32; 2] {
                 dops[0].overlaps(&dops[1].merged(&dops[2]).merged(&dops[3])),
             )
             | bit(7, segment::vertex_face(&vertex_face))
-            | missed(elementary::cubic::vertex_face(&vertex_face)),
+            | missed(elementary::cubic::vertex_face(&vertex_face))
+            | times_differ(
+                &vertex_face,
+                elementary::cubic::vertex_face(&vertex_face).is_some(),
+            ),
         with_batches(&edge_edge)
             | apart(
                 Aabb::swept(&[a, b]).overlaps(&Aabb::swept(&[c, d])),
                 dops[0].merged(&dops[1]).overlaps(&dops[2].merged(&dops[3])),
             )
-            | missed(elementary::cubic::edge_edge(&edge_edge)),
+            | missed(elementary::cubic::edge_edge(&edge_edge))
+            | times_differ(
+                &edge_edge,
+                elementary::cubic::edge_edge(&edge_edge).is_some(),
+            ),
     ]
 }
 

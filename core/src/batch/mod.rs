@@ -34,8 +34,8 @@ pub use rows::VertexRow;
 pub use tile::Tile;
 
 use crate::boxes;
-use crate::filter::Filter;
 use crate::filter::certified::{Bound, Decision};
+use crate::filter::{Filter, plain};
 use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
 use crate::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
@@ -62,6 +62,8 @@ pub enum Test {
     RelativeBoxesNine,
     /// [`boxes::direction::normal`].
     NormalDirection,
+    /// [`plain::non_coplanarity`], the paper's. **Not certified.**
+    PlainNonCoplanarity,
     /// [`non_coplanarity`](crate::filter::certified::non_coplanarity).
     CertifiedNonCoplanarity,
 }
@@ -69,15 +71,16 @@ pub enum Test {
 impl Test {
     #[inline(always)]
     fn kernel<S>(self) -> Kernel<S> {
-        let boxes = match self {
-            Self::SweptBoxes => BoxTest::Swept,
-            Self::SegmentBox => BoxTest::Segment,
-            Self::RelativeBoxes => BoxTest::ThreeAxes,
-            Self::RelativeBoxesNine => BoxTest::NineDirections,
-            Self::NormalDirection => BoxTest::Normal,
+        let test = match self {
+            Self::SweptBoxes => PointTest::Swept,
+            Self::SegmentBox => PointTest::Segment,
+            Self::RelativeBoxes => PointTest::ThreeAxes,
+            Self::RelativeBoxesNine => PointTest::NineDirections,
+            Self::NormalDirection => PointTest::Normal,
+            Self::PlainNonCoplanarity => PointTest::Plain,
             Self::CertifiedNonCoplanarity => return Kernel::Bounded(Bound::Permanent, None),
         };
-        Kernel::Boxes(boxes)
+        Kernel::Points(test)
     }
 }
 
@@ -86,22 +89,23 @@ impl Test {
 #[derive(Clone, Copy, Debug)]
 pub enum Kernel<S> {
     /// Tests of points.
-    Boxes(BoxTest),
+    Points(PointTest),
     /// Control values and their bound, with a separation if there is one.
     Bounded(Bound, Option<S>),
 }
 
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
-pub enum BoxTest {
+pub enum PointTest {
     Swept,
     Segment,
     ThreeAxes,
     NineDirections,
     Normal,
+    Plain,
 }
 
-impl BoxTest {
+impl PointTest {
     #[inline(always)]
     fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask {
         match self {
@@ -114,15 +118,16 @@ impl BoxTest {
                 boxes::relative::are_apart_along_nine_directions::<P, L>(points)
             }
             Self::Normal => boxes::direction::are_apart_along_normal::<P, L>(points),
+            Self::Plain => plain::has_one_sign::<P, L>(points),
         }
     }
 }
 
 /// What can be asked of a batch: a [`Test`], or a [`Filter`] of any tier and separation.
 pub trait BatchTest<S: Scalar>: Copy + sealed::Sealed {
-    /// Which of sixteen pairs of this shape it culls.
+    /// Which of sixteen pairs of this shape it culls. `None` if an index is not in the rows.
     #[doc(hidden)]
-    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Mask;
+    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask>;
 }
 
 mod sealed {
@@ -133,20 +138,20 @@ mod sealed {
 
 impl<S: Scalar> BatchTest<S> for Test {
     #[inline(always)]
-    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Mask {
-        S::sixteen(level, P::SHAPE, self.kernel(), pairs).culled
+    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask> {
+        Some(S::sixteen(level, P::SHAPE, self.kernel(), pairs)?.culled)
     }
 }
 
 impl<S: Scalar> BatchTest<S> for Filter<S> {
     /// Side by side as far as the tier's bound goes, then one by one.
     #[inline(always)]
-    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Mask {
+    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask> {
         let kernel = Kernel::Bounded(self.tier().bound(), self.positive_separation());
         let Decision {
             mut culled,
             opposite,
-        } = S::sixteen(level, P::SHAPE, kernel, pairs);
+        } = S::sixteen(level, P::SHAPE, kernel, pairs)?;
         if self.tier().looks_again() {
             for lane in 0..LANES {
                 let bit = 1 << lane;
@@ -156,7 +161,7 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
                 }
             }
         }
-        culled
+        Some(culled)
     }
 }
 
@@ -173,7 +178,7 @@ pub fn culled<S: Scalar, P: PrimitivePair<S>>(
         for (lane, pair) in pairs.iter().enumerate() {
             tile.set(lane, pair.motions());
         }
-        *mask = test.sixteen::<P::Shape>(level, Sixteen::Tile(&tile));
+        *mask = of_tile::<S, P::Shape>(level, test, &tile);
     }
 }
 
@@ -187,8 +192,8 @@ pub fn culled_from_tiles<S: Scalar>(
 ) {
     for (tile, mask) in tiles.iter().zip(masks) {
         *mask = match shape {
-            Shape::VertexFace => test.sixteen::<VertexAndFace>(level, Sixteen::Tile(tile)),
-            Shape::EdgeEdge => test.sixteen::<EdgeAndEdge>(level, Sixteen::Tile(tile)),
+            Shape::VertexFace => of_tile::<S, VertexAndFace>(level, test, tile),
+            Shape::EdgeEdge => of_tile::<S, EdgeAndEdge>(level, test, tile),
         };
     }
 }
@@ -205,31 +210,61 @@ pub fn culled_from_rows<S: Scalar>(
     indices: &[[u32; 4]],
     masks: &mut [Mask],
 ) {
-    let unknown = VertexRow::unknown();
-    for (indices, mask) in indices.chunks(LANES).zip(masks) {
-        let mut sixteen = [[&unknown; 4]; LANES];
-        for (pair, indices) in sixteen.iter_mut().zip(indices) {
-            for (row, &index) in pair.iter_mut().zip(indices) {
-                *row = rows.get(index as usize).unwrap_or(&unknown);
-            }
+    match shape {
+        Shape::VertexFace => {
+            of_mesh::<S, VertexAndFace>(level, test, rows, indices, masks);
         }
-        let sixteen = Sixteen::Rows(&sixteen);
-        *mask = match shape {
-            Shape::VertexFace => test.sixteen::<VertexAndFace>(level, sixteen),
-            Shape::EdgeEdge => test.sixteen::<EdgeAndEdge>(level, sixteen),
+        Shape::EdgeEdge => of_mesh::<S, EdgeAndEdge>(level, test, rows, indices, masks),
+    }
+}
+
+#[inline(always)]
+fn of_mesh<S: Scalar, P: PairShape>(
+    level: Level,
+    test: impl BatchTest<S>,
+    rows: &[VertexRow<S>],
+    indices: &[[u32; 4]],
+    masks: &mut [Mask],
+) {
+    for (indices, mask) in indices.chunks(LANES).zip(masks) {
+        let whole = indices
+            .first_chunk()
+            .and_then(|indices| test.sixteen::<P>(level, Sixteen::Mesh { rows, indices }));
+        *mask = match whole {
+            Some(mask) => mask,
+            None => of_tile::<S, P>(level, test, &gathered(rows, indices)),
         };
     }
 }
 
-/// The four points of one pair.
+/// Fewer than sixteen pairs, or some whose indices are not in `rows`.
+#[cold]
+fn gathered<S: Scalar>(rows: &[VertexRow<S>], indices: &[[u32; 4]]) -> Tile<S> {
+    let mut tile = Tile::unknown();
+    let unknown = VertexRow::unknown();
+    for (lane, indices) in indices.iter().enumerate() {
+        let row = |index: u32| rows.get(index as usize).unwrap_or(&unknown).motion();
+        tile.set(lane, indices.map(row));
+    }
+    tile
+}
+
+#[inline(always)]
+fn of_tile<S: Scalar, P: PairShape>(level: Level, test: impl BatchTest<S>, tile: &Tile<S>) -> Mask {
+    // A tile has no indices that could be wrong.
+    test.sixteen::<P>(level, Sixteen::Tile(tile)).unwrap_or(0)
+}
+
+/// The four points of one pair; not a number if there is no such pair.
 #[inline(always)]
 fn points<S: Scalar>(pairs: Sixteen<'_, S>, lane: usize) -> PairPoints<S> {
     let [[a, e], [b, f], [c, g], [d, h]] = match pairs {
-        Sixteen::Rows(rows) => match rows.get(lane) {
-            Some(rows) => rows.map(VertexRow::positions),
-            None => [VertexRow::unknown().positions(); 4],
-        },
         Sixteen::Tile(tile) => tile.positions(lane),
+        Sixteen::Mesh { rows, indices } => {
+            let unknown = VertexRow::unknown();
+            let indices = indices.get(lane).copied().unwrap_or([u32::MAX; 4]);
+            indices.map(|index| rows.get(index as usize).unwrap_or(&unknown).positions())
+        }
     };
     PairPoints {
         start: [a, b, c, d],

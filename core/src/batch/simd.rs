@@ -7,7 +7,7 @@ use crate::lanes::Lanes;
 use crate::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
 use crate::vector::Vector;
 use fearless_simd::{
-    ExtractToken, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, dispatch, f32x8, f32x16, f64x8,
+    ExtractToken, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f32x8, f32x16, f64x8,
 };
 
 /// What [`Scalar`](crate::Scalar) needs to go sixteen at a time.
@@ -15,26 +15,27 @@ use fearless_simd::{
 /// The method is not generic, so that its many kernels (for each instruction set, test and shape) are compiled once, in
 /// this crate, and not in every crate that calls it.
 pub trait BatchScalar: Copy {
-    /// What `kernel` says of sixteen pairs.
+    /// What `kernel` says of sixteen pairs. `None` if an index is not in the rows.
     #[doc(hidden)]
     fn sixteen(
         level: Level,
         shape: Shape,
         kernel: Kernel<Self>,
         pairs: Sixteen<'_, Self>,
-    ) -> Decision<Mask>;
+    ) -> Option<Decision<Mask>>;
 }
 
 /// Sixteen pairs' four points.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub enum Sixteen<'a, S> {
-    Rows(&'a Rows<'a, S>),
+    /// Indices of rows.
+    Mesh {
+        rows: &'a [VertexRow<S>],
+        indices: &'a [[u32; 4]; LANES],
+    },
     Tile(&'a Tile<S>),
 }
-
-/// The rows of sixteen pairs' four points.
-pub(crate) type Rows<'a, S> = [[&'a VertexRow<S>; 4]; LANES];
 
 macro_rules! lanes {
     ($vector:ident, $scalar:ty) => {
@@ -83,16 +84,50 @@ macro_rules! lanes {
 lanes!(f32x16, f32);
 lanes!(f64x8, f64);
 
-/// `$row` of eight pairs, transposed: eight numbers of one kind in each vector.
-macro_rules! columns_of_eight {
-    ($pairs:expr, $first:expr, |$pair:ident| $row:expr) => {{
+/// Start and end of one point, or of one edge, of sixteen `f32` pairs, or of eight `f64` pairs from `$first` on. `$row` is
+/// such a row of the pair whose indices are `$pair`.
+///
+/// `f32`: a vector holds the rows of pairs k and k + 8, and after transposition two columns of eight pairs.
+macro_rules! columns {
+    (f32, $indices:expr, $first:expr, |$pair:ident| $row:expr) => {{
+        macro_rules! rows {
+            ($index:expr) => {{
+                let low = {
+                    let $pair = &$indices[$first + $index];
+                    $row
+                };
+                let $pair = &$indices[$first + $index + 8];
+                low.combine($row)
+            }};
+        }
+        let [xy, z, uv, w, xy_8, z_8, uv_8, w_8] = transposed([
+            rows!(0),
+            rows!(1),
+            rows!(2),
+            rows!(3),
+            rows!(4),
+            rows!(5),
+            rows!(6),
+            rows!(7),
+        ]);
+        let ((x, y), (x_8, y_8)) = (xy.split(), xy_8.split());
+        let ((u, v), (u_8, v_8)) = (uv.split(), uv_8.split());
+        let (z, w) = (z.split().0, w.split().0);
+        let (z_8, w_8) = (z_8.split().0, w_8.split().0);
+        [
+            Vector::new(x.combine(x_8), y.combine(y_8), z.combine(z_8)),
+            Vector::new(u.combine(u_8), v.combine(v_8), w.combine(w_8)),
+        ]
+    }};
+    (f64, $indices:expr, $first:expr, |$pair:ident| $row:expr) => {{
         macro_rules! row {
             ($index:expr) => {{
-                let $pair = &$pairs[$first + $index];
+                let $pair = &$indices[$first + $index];
                 $row
             }};
         }
-        transposed([
+        // The fourth column and the last are padding.
+        let [x, y, z, _, u, v, w, _] = transposed([
             row!(0),
             row!(1),
             row!(2),
@@ -101,35 +136,8 @@ macro_rules! columns_of_eight {
             row!(5),
             row!(6),
             row!(7),
-        ])
-    }};
-}
-
-/// The same of sixteen `f32` pairs, or of eight `f64` pairs from `$first` on. The fourth and the last column are padding.
-macro_rules! columns {
-    (f32, $pairs:expr, $first:expr, |$pair:ident| $row:expr) => {{
-        let [a, b, c, _, d, e, f, _] = columns_of_eight!($pairs, $first, |$pair| $row);
-        let [g, h, i, _, j, k, l, _] = columns_of_eight!($pairs, $first + 8, |$pair| $row);
-        [
-            Vector::new(a.combine(g), b.combine(h), c.combine(i)),
-            Vector::new(d.combine(j), e.combine(k), f.combine(l)),
-        ]
-    }};
-    (f64, $pairs:expr, $first:expr, |$pair:ident| $row:expr) => {{
-        // An index from `$first` on would be checked, and could panic.
-        let half = if $first == 0 {
-            $pairs.first_chunk::<8>()
-        } else {
-            $pairs.last_chunk::<8>()
-        };
-        let Some(half) = half else {
-            return Decision {
-                culled: 0,
-                opposite: 0,
-            };
-        };
-        let [a, b, c, _, d, e, f, _] = columns_of_eight!(half, 0, |$pair| $row);
-        [Vector::new(a, b, c), Vector::new(d, e, f)]
+        ]);
+        [Vector::new(x, y, z), Vector::new(u, v, w)]
     }};
 }
 
@@ -160,7 +168,7 @@ macro_rules! kernel {
             kernel: Kernel<$scalar>,
             pairs: Sixteen<'_, $scalar>,
             first: usize,
-        ) -> Decision<Mask> {
+        ) -> Option<Decision<Mask>> {
             macro_rules! point_of_tile {
                 ($point:expr) => {{
                     let [[x, y, z], [u, v, w]] = $point;
@@ -189,50 +197,56 @@ macro_rules! kernel {
                     }
                 }};
             }
+            macro_rules! row_of {
+                ($rows:expr, $index:expr) => {
+                    $row::load_array_ref(simd, &$rows.get($index as usize)?.0)
+                };
+            }
             macro_rules! point_of_rows {
-                ($rows:expr, $point:expr) => {
-                    columns!($scalar, $rows, first, |pair| $row::load_array_ref(
-                        simd,
-                        &pair[$point].0
+                ($rows:expr, $indices:expr, $point:expr) => {
+                    columns!($scalar, $indices, first, |pair| row_of!(
+                        $rows,
+                        pair[$point]
                     ))
                 };
             }
             // Rows are subtracted before they are transposed: three edges to transpose instead of four points, and start and
             // end in one subtraction.
             macro_rules! edge_of_rows {
-                ($rows:expr, $point:expr) => {
-                    columns!($scalar, $rows, first, |pair| {
-                        let points = P::volume_points([0, 1, 2, 3]);
-                        $row::load_array_ref(simd, &pair[points[$point]].0)
-                            - $row::load_array_ref(simd, &pair[points[0]].0)
+                ($rows:expr, $indices:expr, $point:expr) => {
+                    columns!($scalar, $indices, first, |pair| {
+                        let points = P::volume_points(*pair);
+                        row_of!($rows, points[$point]) - row_of!($rows, points[0])
                     })
                 };
             }
             match kernel {
-                Kernel::Boxes(test) => {
+                Kernel::Points(test) => {
                     let points: PairPoints<$lanes<V>> = match pairs {
                         Sixteen::Tile(tile) => points_of_tile!(tile),
-                        Sixteen::Rows(rows) => {
-                            let (a, b) = (point_of_rows!(rows, 0), point_of_rows!(rows, 1));
-                            let (c, d) = (point_of_rows!(rows, 2), point_of_rows!(rows, 3));
+                        Sixteen::Mesh { rows, indices } => {
+                            let a = point_of_rows!(rows, indices, 0);
+                            let b = point_of_rows!(rows, indices, 1);
+                            let c = point_of_rows!(rows, indices, 2);
+                            let d = point_of_rows!(rows, indices, 3);
                             PairPoints {
                                 start: [a[0], b[0], c[0], d[0]],
                                 end: [a[1], b[1], c[1], d[1]],
                             }
                         }
                     };
-                    Decision {
+                    Some(Decision {
                         culled: test.on::<P, _>(&points).to_bitmask() as Mask,
                         opposite: 0,
-                    }
+                    })
                 }
                 Kernel::Bounded(bound, separation) => {
                     let tetrahedron: MovingTetrahedron<$lanes<V>> = match pairs {
                         Sixteen::Tile(tile) => points_of_tile!(tile).tetrahedron::<P>(),
-                        Sixteen::Rows(rows) => MovingTetrahedron {
-                            b: edge_of_rows!(rows, 1),
-                            c: edge_of_rows!(rows, 2),
-                            p: edge_of_rows!(rows, 3),
+                        Sixteen::Mesh { rows, indices } => MovingTetrahedron {
+                            b: edge_of_rows!(rows, indices, 1),
+                            c: edge_of_rows!(rows, indices, 2),
+                            p: edge_of_rows!(rows, indices, 3),
                         },
                     };
                     let separation = match separation {
@@ -242,10 +256,10 @@ macro_rules! kernel {
                         None => None,
                     };
                     let decision = decide::<P, _>(bound, &tetrahedron, separation);
-                    Decision {
+                    Some(Decision {
                         culled: decision.culled.to_bitmask() as Mask,
                         opposite: decision.opposite.to_bitmask() as Mask,
-                    }
+                    })
                 }
             }
         }
@@ -255,14 +269,40 @@ macro_rules! kernel {
 kernel!(f32, sixteen_f32, f32x8, f32x16);
 kernel!(f64, eight_f64, f64x8, f64x8);
 
+/// Runs `$op` with a token `$simd` for `$level`.
+///
+/// On x86 without code of its own for SSE4.2, which has next to nothing over SSE2 for these kernels: that would take half as long
+/// again to compile.
+macro_rules! vectorized {
+    ($level:expr, $simd:ident => $op:expr) => {{
+        #[cfg(all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse2"))]
+        {
+            let level: Level = $level;
+            if let Some($simd) = level.as_avx512() {
+                $simd.vectorize(#[inline(always)] || $op)
+            } else if let Some($simd) = level.as_avx2() {
+                $simd.vectorize(#[inline(always)] || $op)
+            } else {
+                // Every level has SSE2 here.
+                let $simd = level.as_sse2()?;
+                $simd.vectorize(#[inline(always)] || $op)
+            }
+        }
+        #[cfg(not(all(any(target_arch = "x86", target_arch = "x86_64"), target_feature = "sse2")))]
+        {
+            fearless_simd::dispatch!($level, $simd => $op)
+        }
+    }};
+}
+
 impl BatchScalar for f32 {
     fn sixteen(
         level: Level,
         shape: Shape,
         kernel: Kernel<f32>,
         pairs: Sixteen<'_, f32>,
-    ) -> Decision<Mask> {
-        dispatch!(level, simd => match shape {
+    ) -> Option<Decision<Mask>> {
+        vectorized!(level, simd => match shape {
             Shape::VertexFace => sixteen_f32::<_, VertexAndFace>(simd, kernel, pairs, 0),
             Shape::EdgeEdge => sixteen_f32::<_, EdgeAndEdge>(simd, kernel, pairs, 0),
         })
@@ -275,8 +315,8 @@ impl BatchScalar for f64 {
         shape: Shape,
         kernel: Kernel<f64>,
         pairs: Sixteen<'_, f64>,
-    ) -> Decision<Mask> {
-        dispatch!(level, simd => match shape {
+    ) -> Option<Decision<Mask>> {
+        vectorized!(level, simd => match shape {
             Shape::VertexFace => sixteen_f64::<_, VertexAndFace>(simd, kernel, pairs),
             Shape::EdgeEdge => sixteen_f64::<_, EdgeAndEdge>(simd, kernel, pairs),
         })
@@ -289,21 +329,16 @@ fn sixteen_f64<V: Simd, P: PairShape>(
     simd: V,
     kernel: Kernel<f64>,
     pairs: Sixteen<'_, f64>,
-) -> Decision<Mask> {
-    let mut both = Decision {
-        culled: 0,
-        opposite: 0,
-    };
-    // A loop, lest the code be there twice.
-    for first in [0, 8] {
-        let eight = eight_f64::<V, P>(simd, kernel, pairs, first);
-        both.culled |= eight.culled << first;
-        both.opposite |= eight.opposite << first;
-    }
-    both
+) -> Option<Decision<Mask>> {
+    let low = eight_f64::<V, P>(simd, kernel, pairs, 0)?;
+    let high = eight_f64::<V, P>(simd, kernel, pairs, 8)?;
+    Some(Decision {
+        culled: low.culled | high.culled << 8,
+        opposite: low.opposite | high.opposite << 8,
+    })
 }
 
-/// Transposes eight rows of eight by three rounds of interleaving row k with row k + 4:
+/// Transposes eight rows by three rounds of interleaving row k with row k + 4:
 ///
 /// ```text
 /// rows        a0 a1 … a7, b0 b1 … b7, …, h0 h1 … h7
@@ -311,6 +346,8 @@ fn sixteen_f64<V: Simd, P: PairShape>(
 /// 2 rounds    a0 c0 e0 g0 a1 c1 e1 g1     (rows a, c, e, g)
 /// 3 rounds    a0 b0 c0 d0 e0 f0 g0 h0     column 0
 /// ```
+///
+/// Of rows of sixteen each result holds two columns, 0 and 1 the first.
 #[inline(always)]
 fn transposed<V: Simd, T: SimdBase<V>>(mut rows: [T; 8]) -> [T; 8] {
     for _ in 0..3 {

@@ -79,6 +79,10 @@ pub fn decide<P: PairShape, L: Lanes>(
     tetrahedron: &MovingTetrahedron<L>,
     separation: Option<L>,
 ) -> Decision<L::Mask> {
+    #[allow(
+        clippy::manual_map,
+        reason = "a closure is not always inlined into code for a wider instruction set"
+    )]
     let clearance = match separation {
         Some(separation) => Some(separation * tetrahedron.largest_normal(P::SHAPE)),
         None => None,
@@ -133,15 +137,19 @@ fn by_permanent<L: Lanes>(
     let [k0, k1, k2, k3] = values.0;
     let sum = (k0 + k1) + (k2 + k3);
     let inner = error_bound_by_magnitudes(largest) * largest.x.splat(L::Scalar::small(4));
+    #[allow(clippy::eq_op, reason = "infinity minus infinity is no number")]
     let inner = inner + (sum - sum);
     let [_, bound, ..] = with_clearance([inner; 4], clearance);
     let least = k0.smaller(k1).smaller(k2.smaller(k3));
     let greatest = k0.larger(k1).larger(k2.larger(k3));
-    let decided = (least.greater(bound) | (-bound).greater(greatest)) & in_range;
-    let opposite = (greatest.greater(inner) & (-inner).greater(least)) & in_range;
+    // The smallest magnitude if all have one sign, else not positive; and the other way round.
+    let of_one_sign = least.larger(-greatest);
+    let of_both_signs = greatest.smaller(-least);
+    let decided = of_one_sign.greater(bound) & in_range;
+    let opposite = of_both_signs.greater(inner) & in_range;
 
     let zero = largest.x.splat(L::Scalar::ZERO);
-    let of_one_sign = (least.greater(zero) | zero.greater(greatest)) & in_range;
+    let of_one_sign = of_one_sign.greater(zero) & in_range;
     let culled = if L::any(of_one_sign ^ decided) {
         let bounds = with_clearance(tetrahedron.error_bounds(), clearance);
         decided | (values.one_sign_beyond(bounds) & in_range)

@@ -5,8 +5,10 @@
 //! n̂ = (n₀ + n₁ − (v_b − v_a)×(v_c − v_a)) / 2, and the signs of A, B, 2C + F and 2D + E are taken as computed.
 //! Prefer [`certified`](super::certified).
 
+use crate::coplanarity::ControlValues;
+use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
-use crate::points::PairShape;
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::verdict::Verdict;
 
@@ -15,11 +17,18 @@ use crate::verdict::Verdict;
 /// One deviation from the paper: where a value overflows the pair is kept.
 #[inline(always)]
 pub fn non_coplanarity<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    let points = pair.points();
-    let [a0, b0, c0, p0] = P::Shape::volume_points(points.start);
-    let [a1, b1, c1, p1] = P::Shape::volume_points(points.end);
-    let half = S::from_f64(0.5);
-    let two = S::small(2);
+    Verdict::culled_if(has_one_sign::<P::Shape, S>(&pair.points()))
+}
+
+/// The same decision on any number of lanes.
+#[inline(always)]
+#[must_use]
+pub fn has_one_sign<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
+    let [a0, b0, c0, p0] = P::volume_points(points.start);
+    let [a1, b1, c1, p1] = P::volume_points(points.end);
+    let constant = |value| a0.x.splat(value);
+    let half = constant(L::Scalar::HALF);
+    let two = constant(L::Scalar::small(2));
 
     let n0 = (b0 - a0).cross(c0 - a0); // (12)
     let n1 = (b1 - a1).cross(c1 - a1); // (13)
@@ -30,9 +39,10 @@ pub fn non_coplanarity<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
     let (a, b) = (p0.dot(n0), p1.dot(n1)); // (1)
     let (c, d) = (p0.dot(middle), p1.dot(middle)); // (2)
     let (e, f) = (p0.dot(n1), p1.dot(n0)); // (3)
-    let values = [a, b, two * c + f, two * d + e];
+    let (c, d) = (two * c + f, two * d + e);
 
-    let positive = values.iter().all(|&value| value > S::ZERO);
-    let negative = values.iter().all(|&value| value < S::ZERO);
-    Verdict::culled_if((positive || negative) && values.iter().all(|value| value.is_finite()))
+    // A sum is not finite if a term is not. (Nor is it where only the sum overflows.)
+    let sum = (a.abs() + b.abs()) + (c.abs() + d.abs());
+    let finite = constant(L::Scalar::INFINITY).greater(sum);
+    ControlValues([a, c, d, b]).one_sign_beyond([constant(L::Scalar::ZERO); 4]) & finite
 }

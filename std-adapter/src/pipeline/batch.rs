@@ -11,8 +11,9 @@ use arrayvec::ArrayVec;
 use selvedge_core::batch::{LANES, Level, Mask, Test, culled_from_rows};
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
+use selvedge_core::elementary::{Limits, advance::time_of_impact};
 use selvedge_core::points::Shape;
-use selvedge_core::{EdgeEdge, Scalar, Verdict, VertexFace, boxes, elementary, filter};
+use selvedge_core::{EdgeEdge, Scalar, VertexFace, elementary};
 use std::time::Instant;
 
 /// What every batch of a step reads.
@@ -110,35 +111,17 @@ impl<S: Scalar> Batch<S> {
 
     fn cull_by(&mut self, test: CullingTest, step: &StepInput<'_, S>) {
         match test {
-            CullingTest::SweptBoxes => self.keep(step, boxes::swept_boxes, boxes::swept_boxes),
             CullingTest::StoredSweptBoxes => self.keep_overlapping(step.boxes),
             CullingTest::StoredDop18 => self.keep_overlapping(step.dops),
-            CullingTest::SegmentBox => {
-                self.keep(step, boxes::segment::vertex_face, boxes::swept_boxes);
+            CullingTest::SweptBoxes => self.keep_by_lanes(step, Test::SweptBoxes),
+            CullingTest::SegmentBox => self.keep_by_lanes(step, Test::SegmentBox),
+            CullingTest::RelativeBoxes | CullingTest::SubspaceThree => {
+                self.keep_by_lanes(step, Test::RelativeBoxes);
             }
-            CullingTest::RelativeBoxes => self.keep_by_lanes(step, Test::RelativeBoxes),
-            CullingTest::RelativeBoxesNine => self.keep_by_lanes(step, Test::RelativeBoxesNine),
-            CullingTest::SubspaceThree => {
-                self.keep(
-                    step,
-                    boxes::relative::three_axes,
-                    boxes::relative::three_axes,
-                );
+            CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => {
+                self.keep_by_lanes(step, Test::RelativeBoxesNine);
             }
-            CullingTest::SubspaceNine => {
-                self.keep(
-                    step,
-                    boxes::relative::nine_directions,
-                    boxes::relative::nine_directions,
-                );
-            }
-            CullingTest::PlainNonCoplanarity => {
-                self.keep(
-                    step,
-                    filter::plain::non_coplanarity,
-                    filter::plain::non_coplanarity,
-                );
-            }
+            CullingTest::PlainNonCoplanarity => self.keep_by_lanes(step, Test::PlainNonCoplanarity),
             CullingTest::CertifiedNonCoplanarity => {
                 self.keep_by_lanes(step, Test::CertifiedNonCoplanarity);
             }
@@ -182,22 +165,6 @@ impl<S: Scalar> Batch<S> {
         }
     }
 
-    /// Drops what the two tests cull.
-    fn keep(
-        &mut self,
-        step: &StepInput<'_, S>,
-        vertex_face: impl Fn(&VertexFace<S>) -> Verdict,
-        edge_edge: impl Fn(&EdgeEdge<S>) -> Verdict,
-    ) {
-        let mesh = step.mesh;
-        keep_where(&mut self.vertex_face, |pair| {
-            !vertex_face(&mesh.vertex_face(pair)).is_culled()
-        });
-        keep_where(&mut self.edge_edge, |pair| {
-            !edge_edge(&mesh.edge_edge(pair)).is_culled()
-        });
-    }
-
     /// Drops the pairs whose stored volumes do not overlap.
     fn keep_overlapping(&mut self, stored: &Stored<impl BoundingVolume<S>>) {
         keep_where(&mut self.vertex_face, |pair| {
@@ -208,21 +175,42 @@ impl<S: Scalar> Batch<S> {
 
     /// The elementary test of what is left: fills `contacts`, vertex–face first.
     pub(super) fn find_contacts(&mut self, step: &StepInput<'_, S>) {
+        let limits = Limits::default();
+        match step.stages.elementary {
+            ElementaryTest::Cubic => self.find_contacts_by(
+                step,
+                elementary::cubic::vertex_face,
+                elementary::cubic::edge_edge,
+            ),
+            ElementaryTest::TimeOfImpact => self.find_contacts_by(
+                step,
+                |pair| time_of_impact(pair, &limits).time(),
+                |pair| time_of_impact(pair, &limits).time(),
+            ),
+        }
+    }
+
+    /// The same with the elementary test given, for each kind: the time, if there is contact.
+    fn find_contacts_by(
+        &mut self,
+        step: &StepInput<'_, S>,
+        vertex_face: impl Fn(&VertexFace<S>) -> Option<S>,
+        edge_edge: impl Fn(&EdgeEdge<S>) -> Option<S>,
+    ) {
         let begin = Instant::now();
         let mesh = step.mesh;
-        let ElementaryTest::Cubic = step.stages.elementary;
         let contact = |kind, pair| move |time| Contact { kind, pair, time };
-        let vertex_face = self.vertex_face.iter().filter_map(|&pair| {
-            let time = elementary::cubic::vertex_face(&mesh.vertex_face(pair));
+        let found = self.vertex_face.iter().filter_map(|&pair| {
+            let time = vertex_face(&mesh.vertex_face(pair));
             time.map(contact(PairKind::VertexFace, pair))
         });
-        self.contacts.extend(vertex_face);
+        self.contacts.extend(found);
         let found_vertex_face = self.contacts.len() as u64;
-        let edge_edge = self.edge_edge.iter().filter_map(|&pair| {
-            let time = elementary::cubic::edge_edge(&mesh.edge_edge(pair));
+        let found = self.edge_edge.iter().filter_map(|&pair| {
+            let time = edge_edge(&mesh.edge_edge(pair));
             time.map(contact(PairKind::EdgeEdge, pair))
         });
-        self.contacts.extend(edge_edge);
+        self.contacts.extend(found);
         let found = PairCounts {
             vertex_face: found_vertex_face,
             edge_edge: self.contacts.len() as u64 - found_vertex_face,

@@ -34,7 +34,8 @@
 //! let mut pipeline = Pipeline::<f64>::new(topology, Preset::Selvedge.stages(), 1)?;
 //! let report = pipeline.step(&start, &end)?;
 //! assert_eq!((report.triangle_pairs, report.contacts().vertex_face), (1, 3));
-//! assert_eq!(pipeline.contacts()[0].time, 0.25);
+//! let time = pipeline.contacts()[0].time;
+//! assert!(time <= 0.25 && time > 0.25 - 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

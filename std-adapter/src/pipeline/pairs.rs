@@ -12,7 +12,8 @@ pub struct Contact<S> {
     pub kind: PairKind,
     /// The vertex and the face, or the two edges, as numbered by the [`Topology`].
     pub pair: [u32; 2],
-    /// When, in [0, 1] of the step.
+    /// When, in [0, 1] of the step. With the certified time of impact not after the exact time, and hardly before
+    /// it; with the plain cubic as computed.
     pub time: S,
 }
 

@@ -115,6 +115,17 @@ impl CullingTest {
 pub enum ElementaryTest {
     /// [`selvedge_core::elementary::cubic`]: plain, misses contacts.
     Cubic,
+    /// [`selvedge_core::elementary::advance`], with the default tolerance: certified; a contact's time is not after the exact
+    /// one, and a pair that comes within the tolerance, or too close to tell, counts as a contact.
+    TimeOfImpact,
+}
+
+impl ElementaryTest {
+    /// Whether it never misses a contact, rounding included.
+    #[must_use]
+    pub const fn is_certified(self) -> bool {
+        matches!(self, Self::TimeOfImpact)
+    }
 }
 
 /// A method as a choice for each stage after the broad phase.
@@ -220,10 +231,14 @@ impl Preset {
                 ],
             ),
         };
+        let elementary = match self {
+            Self::Selvedge => ElementaryTest::TimeOfImpact,
+            _ => ElementaryTest::Cubic,
+        };
         Stages {
             redundancy,
             tests,
-            elementary: ElementaryTest::Cubic,
+            elementary,
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::PairKind;
 use crate::pipeline::{CullingTest, Preset, Stages};
 use crate::queries::Query;
 use selvedge_core::boxes::{self, Dop18};
+use selvedge_core::elementary::{Impact, Limits, advance::time_of_impact};
 use selvedge_core::{
     EdgeEdge, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary, filter,
 };
@@ -21,8 +22,10 @@ use std::time::{Duration, Instant};
 /// A test of one primitive pair, by its name on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum QueryMethod {
-    /// The culling tests of [`Preset::Selvedge`], one after the other.
+    /// All stages of [`Preset::Selvedge`] from its culling tests on: they, then the certified time of impact.
     Selvedge,
+    /// [`elementary::advance`] alone, the certified time of impact with its default tolerance.
+    TimeOfImpact,
     /// [`CullingTest::CertifiedNonCoplanarity`] alone.
     NonCoplanarity,
     /// [`CullingTest::PlainNonCoplanarity`] alone, as printed in the paper. **Not certified.**
@@ -39,12 +42,17 @@ pub enum QueryMethod {
     Dop18,
     /// [`elementary::cubic`], Provot's test. **Not certified**: it misses contacts.
     Cubic,
+    /// [`elementary::tight_inclusion`], the bisection of Wang et al. 2021, with their default tolerance of 1e-6.
+    TightInclusion,
+    /// [`elementary::additive`], Li et al. 2021. **Not certified.**
+    Additive,
 }
 
 impl QueryMethod {
     /// Every method, ours first.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 12] = [
         Self::Selvedge,
+        Self::TimeOfImpact,
         Self::NonCoplanarity,
         Self::NonCoplanarityPlain,
         Self::RelativeBoxes,
@@ -53,6 +61,8 @@ impl QueryMethod {
         Self::SegmentBox,
         Self::Dop18,
         Self::Cubic,
+        Self::TightInclusion,
+        Self::Additive,
     ];
 
     /// The name on the command line and in reports.
@@ -60,6 +70,7 @@ impl QueryMethod {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Selvedge => "selvedge",
+            Self::TimeOfImpact => "time_of_impact",
             Self::NonCoplanarity => "non_coplanarity",
             Self::NonCoplanarityPlain => "non_coplanarity_plain",
             Self::RelativeBoxes => "relative_boxes",
@@ -68,6 +79,8 @@ impl QueryMethod {
             Self::SegmentBox => "segment_box",
             Self::Dop18 => "dop_18",
             Self::Cubic => "cubic",
+            Self::TightInclusion => "tight_inclusion",
+            Self::Additive => "additive",
         }
     }
 
@@ -75,8 +88,11 @@ impl QueryMethod {
     #[must_use]
     pub fn is_certified(self) -> bool {
         match self {
-            Self::NonCoplanarityPlain | Self::Cubic => false,
-            Self::Selvedge => SELVEDGE.tests.iter().all(|test| test.is_certified()),
+            Self::NonCoplanarityPlain | Self::Cubic | Self::Additive => false,
+            Self::Selvedge => {
+                SELVEDGE.elementary.is_certified()
+                    && SELVEDGE.tests.iter().all(|test| test.is_certified())
+            }
             _ => true,
         }
     }
@@ -102,7 +118,7 @@ impl FromStr for QueryMethod {
         let known = Self::ALL.into_iter().find(|method| method.name() == name);
         known.ok_or_else(|| UnknownMethod {
             problem: match name {
-                "exact" | "tight_inclusion" | "additive" | "bernstein_sign" => {
+                "exact" | "bernstein_sign" => {
                     format!("the method `{name}` is planned, but not there yet")
                 }
                 _ => format!("there is no method `{name}`"),
@@ -182,7 +198,15 @@ fn measure<S: Scalar, P: QueryPair<S>>(
     // One loop for each method, compiled for it alone.
     match method {
         QueryMethod::Selvedge => {
-            run.with(|pair: &P| SELVEDGE.tests.iter().all(|&test| keeps(test, pair)))
+            let limits = Limits::default();
+            run.with(|pair: &P| {
+                SELVEDGE.tests.iter().all(|&test| keeps(test, pair))
+                    && time_of_impact(pair, &limits) != Impact::Never
+            })
+        }
+        QueryMethod::TimeOfImpact => {
+            let limits = Limits::default();
+            run.with(|pair: &P| time_of_impact(pair, &limits) != Impact::Never)
         }
         QueryMethod::NonCoplanarity => {
             run.with(|pair: &P| keeps(Test::CertifiedNonCoplanarity, pair))
@@ -196,6 +220,17 @@ fn measure<S: Scalar, P: QueryPair<S>>(
         QueryMethod::SegmentBox => run.with(|pair: &P| keeps(Test::SegmentBox, pair)),
         QueryMethod::Dop18 => run.with(|pair: &P| keeps(Test::StoredDop18, pair)),
         QueryMethod::Cubic => run.with(|pair: &P| pair.cubic().is_some()),
+        QueryMethod::TightInclusion => {
+            let limits = Limits {
+                tolerance: S::from_f64(1e-6),
+                separation: S::ZERO,
+            };
+            run.with(|pair: &P| {
+                elementary::tight_inclusion::time_of_impact(pair, &limits) != Impact::Never
+            })
+        }
+        QueryMethod::Additive => run
+            .with(|pair: &P| elementary::additive::time_of_impact(pair, S::ZERO) != Impact::Never),
     }
 }
 

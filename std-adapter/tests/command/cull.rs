@@ -41,10 +41,12 @@ fn json_has_the_mesh_the_stages_and_the_contacts() {
     assert_eq!(stage(&document, "distribution")["vertex_face"], 6);
     assert_eq!(stage(&document, "distribution")["edge_edge"], 9);
     // The corners of the small triangle fall from 1, 1.1 and 1.2 by 4 each.
-    assert_eq!(
-        document["contacts"],
-        json!({"vertex_face": 3, "edge_edge": 0, "earliest": 0.25})
-    );
+    let contacts = &document["contacts"];
+    assert_eq!(keys(contacts), ["vertex_face", "edge_edge", "earliest"]);
+    assert_eq!(contacts["vertex_face"], 3);
+    assert_eq!(contacts["edge_edge"], 0);
+    let earliest = contacts["earliest"].as_f64().unwrap();
+    assert!(earliest <= 0.25 && earliest > 0.25 - 1e-9, "{earliest}");
     assert!(document["seconds"].as_f64().unwrap() > 0.0);
 }
 
@@ -96,7 +98,7 @@ fn contacts_are_written_with_their_vertices_and_times() {
         let (pair, found) = line.rsplit_once(',').unwrap();
         assert_eq!(pair, format!("vertex-face,{vertex},0,1,2"));
         assert!(
-            (found.parse::<f64>().unwrap() - time).abs() < 1e-12,
+            (found.parse::<f64>().unwrap() - time).abs() < 1e-9,
             "{line}"
         );
     }
@@ -204,7 +206,7 @@ fn the_table_has_every_stage_and_the_contacts() {
 #[test]
 fn the_table_says_whether_culling_is_certified() {
     let place = Workplace::with_step();
-    assert!(place.stdout(&CULL).contains("the stages before it cannot"));
+    assert!(place.stdout(&CULL).contains("every stage is certified"));
     let plain = place.stdout(&with(&["--pipeline", "lv_2014"]));
     assert!(plain.contains("can both miss contacts"), "{plain}");
 }

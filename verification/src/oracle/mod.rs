@@ -9,7 +9,8 @@
 //! |---|---|
 //! | are four moving points coplanar at some time in \[0, 1\]? | [`coplanar`] |
 //! | does a primitive pair collide, and when first? | [`collides`] |
-//! | does it come within a distance? | [`within`] |
+//! | does it come within a distance, and when first? | [`within`], [`first_within`] |
+//! | is it within a distance at some time? | [`within_at`] |
 //! | do two triangles at rest intersect? | [`triangles_intersect`] |
 //! | which triangles of a mesh intersect? | [`mesh_self_intersections`] |
 //!
@@ -31,4 +32,4 @@ pub use collision::{collides, coplanar, touches_at};
 pub use mesh::{mesh_self_intersections, triangles_intersect};
 pub use motion::{Kind, Pair};
 pub use polynomial::Polynomial;
-pub use separation::within;
+pub use separation::{first_within, within, within_at};

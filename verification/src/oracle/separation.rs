@@ -4,7 +4,7 @@ use super::algebraic::AlgebraicTime;
 use super::geometry::{AtRest, EDGES, Point, Ring, Signs, cross, dot, subtract};
 use super::motion::{Kind, Motion, Pair};
 use super::polynomial::Polynomial;
-use rug::Rational;
+use rug::{Integer, Rational};
 
 /// Is the distance of the closed vertex and face, or of the two closed edges, `separation` or less at
 /// some time in [0, 1]?
@@ -16,39 +16,107 @@ use rug::Rational;
 /// If a coordinate or the separation is NaN or infinite, or the separation is negative.
 #[must_use]
 pub fn within(pair: &Pair, separation: f64) -> bool {
-    assert!(
-        separation >= 0.0,
-        "the separation must not be negative, but is {separation}"
-    );
-    let (motion, separation) = Motion::with_separation(pair, separation);
-    if motion.apart_along_an_axis(pair.kind, &separation) {
-        return false;
+    let question = Question::new(pair, separation);
+    question.cannot_be_ruled_out()
+        && (question.is_near_at(&Rational::from(0))
+            || question.find_approach(|feature, mut time| feature.is_near(&mut time)))
+}
+
+/// The earliest time in [0, 1] at which the distance is `separation` or less; `None` if it never is.
+///
+/// Where coordinates and separation differ in size by hundreds of powers of ten this can take minutes: the times to be
+/// compared are then next to equal. [`within`] does not compare times.
+///
+/// # Panics
+/// As [`within`].
+#[must_use]
+pub fn first_within(pair: &Pair, separation: f64) -> Option<AlgebraicTime> {
+    let question = Question::new(pair, separation);
+    if !question.cannot_be_ruled_out() {
+        return None;
     }
-    let squared = separation.square();
-    let start = motion.at(&Rational::from(0));
-    if features(pair.kind, &start, &squared)
-        .iter()
-        .any(|f| f.is_near(&mut AtRest))
-    {
-        return true;
+    let start = Rational::from(0);
+    if question.is_near_at(&start) {
+        return Some(AlgebraicTime::rational(start));
     }
-    // The distance is continuous and more than the separation at first. When it has come down to the
-    // separation, the features that hold the closest points are at exactly that distance, so their
-    // `excess` is zero and the closest points are within them. If the excess is zero at all times,
-    // the closest points have just come within them: one of `inside` has become zero.
-    let constant = Polynomial::new(vec![squared]);
-    features(pair.kind, &motion.trajectories(), &constant)
-        .iter()
-        .any(|feature| {
-            let events = match feature.excess.is_zero() {
-                false => std::slice::from_ref(&feature.excess),
-                true => feature.inside.as_slice(),
-            };
-            let events = events.iter().filter(|event| !event.is_zero());
-            events
-                .flat_map(AlgebraicTime::roots)
-                .any(|mut time| feature.is_near(&mut time))
-        })
+    let mut earliest: Option<AlgebraicTime> = None;
+    question.find_approach(|feature, mut time| {
+        let earlier = earliest.as_ref().is_none_or(|known| time < *known);
+        if earlier && feature.is_near(&mut time) {
+            earliest = Some(time);
+        }
+        false
+    });
+    earliest
+}
+
+/// Is the distance `separation` or less at time `t`?
+///
+/// # Panics
+/// As [`within`].
+#[must_use]
+pub fn within_at(pair: &Pair, t: &Rational, separation: f64) -> bool {
+    Question::new(pair, separation).is_near_at(t)
+}
+
+/// A pair and a distance, at a common scale.
+struct Question {
+    kind: Kind,
+    motion: Motion,
+    separation: Integer,
+}
+
+impl Question {
+    fn new(pair: &Pair, separation: f64) -> Self {
+        assert!(
+            separation >= 0.0,
+            "the separation must not be negative, but is {separation}"
+        );
+        let (motion, separation) = Motion::with_separation(pair, separation);
+        let kind = pair.kind;
+        Self {
+            kind,
+            motion,
+            separation,
+        }
+    }
+
+    fn cannot_be_ruled_out(&self) -> bool {
+        !self.motion.apart_along_an_axis(self.kind, &self.separation)
+    }
+
+    fn is_near_at(&self, t: &Rational) -> bool {
+        // The positions are those at `t` times its denominator.
+        let squared = Integer::from(&self.separation * t.denom()).square();
+        features(self.kind, &self.motion.at(t), &squared)
+            .iter()
+            .any(|feature| feature.is_near(&mut AtRest))
+    }
+
+    /// Whether `accept` agrees with one of the times at which the distance, more than the separation at first, may have come down
+    /// to it; each is a root, and given with the features concerned.
+    fn find_approach(
+        &self,
+        mut accept: impl FnMut(&FeaturePair<Polynomial>, AlgebraicTime) -> bool,
+    ) -> bool {
+        // The distance is continuous and more than the separation at first. When it has come down to the
+        // separation, the features that hold the closest points are at exactly that distance, so their
+        // `excess` is zero and the closest points are within them. If the excess is zero at all times,
+        // the closest points have just come within them: one of `inside` has become zero.
+        let constant = Polynomial::new(vec![self.separation.clone().square()]);
+        features(self.kind, &self.motion.trajectories(), &constant)
+            .iter()
+            .any(|feature| {
+                let events = match feature.excess.is_zero() {
+                    false => std::slice::from_ref(&feature.excess),
+                    true => feature.inside.as_slice(),
+                };
+                let events = events.iter().filter(|event| !event.is_zero());
+                events
+                    .flat_map(AlgebraicTime::roots)
+                    .any(|time| accept(feature, time))
+            })
+    }
 }
 
 /// A point, line or plane of one side against one of the other. They are near if the closest points

@@ -61,10 +61,19 @@ pub fn step(summary: &StepSummary) -> String {
 /// What the counts are worth.
 fn promise(summary: &StepSummary) -> &'static str {
     let stages = summary.preset.stages();
-    let ElementaryTest::Cubic = stages.elementary;
-    if stages.tests.iter().copied().all(CullingTest::is_certified) {
-        "The plain cubic elementary test can miss contacts; the stages before it cannot.\n"
-    } else {
-        "The plain filter and the plain cubic elementary test can both miss contacts.\n"
+    let tests_are_certified = stages.tests.iter().copied().all(CullingTest::is_certified);
+    match (tests_are_certified, stages.elementary) {
+        (true, ElementaryTest::TimeOfImpact) => {
+            "No contact is missed, and no time is too late: every stage is certified.\n"
+        }
+        (true, ElementaryTest::Cubic) => {
+            "The plain cubic elementary test can miss contacts; the stages before it cannot.\n"
+        }
+        (false, ElementaryTest::TimeOfImpact) => {
+            "The plain filter can miss contacts; the elementary test cannot.\n"
+        }
+        (false, ElementaryTest::Cubic) => {
+            "The plain filter and the plain cubic elementary test can both miss contacts.\n"
+        }
     }
 }

@@ -1,0 +1,103 @@
+//! Additive continuous collision detection (Li, Kaufman, Jiang: Codimensional Incremental Potential Contact, 2021). **Not
+//! certified**: rounding is ignored. A baseline.
+//!
+//! No point of one set comes nearer to the other faster than the two sets' largest speeds together, the motion that they have
+//! in common taken out. So the distance, less the separation, divided by that speed is a time that can be skipped; it is
+//! skipped nine tenths at a time, again and again, until a tenth of the first gap is left.
+//!
+//! * The tolerance is that tenth: a pair whose gap shrinks to a tenth and grows again is a false alarm, and there are many.
+//! * Distances are computed in plain floating point, without an error bound: at the scale of rounding a time may be too late.
+//! * The number of rounds is in inverse proportion to the first gap. The original does not limit it; here it is
+//!   [`ROUNDS`], after which the time reached is returned.
+//!
+//! Written from the description. Positions are computed anew from the time in each round, not added up.
+
+use super::closest::closest;
+use super::corners::Corners;
+use super::{Impact, Reason};
+use crate::motion::PrimitivePair;
+use crate::points::{PairPoints, PairShape, Shape};
+use crate::scalar::Scalar;
+use crate::vector::Vector;
+
+/// The largest number of rounds.
+pub const ROUNDS: u32 = 100_000;
+
+/// From when on the pair may be within a tenth of its first gap beyond `separation` (in units of length). May be wrong by
+/// rounding: see the module.
+///
+/// NaN and infinite coordinates exclude nothing.
+///
+/// ```
+/// use selvedge_core::elementary::{Impact, additive::time_of_impact};
+/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+/// let pair = VertexFace {
+///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)),
+///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// };
+/// let time = time_of_impact(&pair, 0.0).time().unwrap();
+/// assert!(0.45 < time && time < 0.5);
+/// ```
+#[inline]
+pub fn time_of_impact<S: Scalar, P: PrimitivePair<S>>(pair: &P, separation: S) -> Impact<S> {
+    let points = pair.points();
+    match P::Shape::SHAPE {
+        Shape::VertexFace => advance(&points, &Corners::of_vertex_face(&points), 1, separation),
+        Shape::EdgeEdge => advance(&points, &Corners::of_edge_edge(&points), 2, separation),
+    }
+}
+
+#[inline(always)]
+fn advance<S: Scalar, const N: usize>(
+    points: &PairPoints<S>,
+    corners: &Corners<S, N>,
+    first_set: usize,
+    separation: S,
+) -> Impact<S> {
+    let possible = |time, reason| Impact::Possible { time, reason };
+    if !(points.is_finite() && separation >= S::ZERO) {
+        return possible(S::ZERO, Reason::NotFinite);
+    }
+    let speed = approach_speed(points, first_set);
+    let gap_at = |time: S| closest(&corners.at(time)).squared_distance.sqrt() - separation;
+    let mut gap = gap_at(S::ZERO);
+    let enough = gap * S::from_f64(0.1);
+    let mut time = S::ZERO;
+    for _ in 0..ROUNDS {
+        if gap <= enough {
+            return possible(time, Reason::WithinTolerance);
+        }
+        let later = time + S::from_f64(0.9) * gap / speed;
+        if later > S::ONE {
+            return Impact::Never;
+        }
+        if later > time {
+            time = later;
+            gap = gap_at(time);
+        } else {
+            return possible(time, Reason::WithinError);
+        }
+    }
+    possible(time, Reason::OutOfRounds)
+}
+
+/// The largest speed of a point of the first set and that of one of the second, together, without their mean motion.
+#[inline(always)]
+fn approach_speed<S: Scalar>(points: &PairPoints<S>, first_set: usize) -> S {
+    let ([a0, b0, c0, d0], [a1, b1, c1, d1]) = (points.start, points.end);
+    let motions = [a1 - a0, b1 - b0, c1 - c0, d1 - d0];
+    let [a, b, c, d] = motions;
+    let mean = ((a + b) + (c + d)).scaled(S::from_f64(0.25));
+    let squared_speed = |motion: &Vector<S>| {
+        let own = *motion - mean;
+        own.dot(own)
+    };
+    let mut fastest = [S::ZERO; 2];
+    for (index, motion) in motions.iter().enumerate() {
+        let [first, second] = &mut fastest;
+        let fastest = if index < first_set { first } else { second };
+        *fastest = squared_speed(motion).larger(*fastest);
+    }
+    let [first, second] = fastest;
+    first.sqrt() + second.sqrt()
+}

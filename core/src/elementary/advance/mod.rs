@@ -1,0 +1,268 @@
+//! The certified time of impact: advancing by separating directions.
+//!
+//! [`time_of_impact`] asks from when on two moving sets may be within a distance s of each other (s = 0: touch), up to a
+//! tolerance δ in length units. It never misses: [`Impact::Never`] is a proof, and the time of [`Impact::Possible`] is no later
+//! than the first time at which they are that close.
+//!
+//! ```
+//! use selvedge_core::elementary::{Impact, Limits, Reason, advance::time_of_impact};
+//! use selvedge_core::{glam::DVec3, Motion, VertexFace};
+//!
+//! // A vertex that falls from 1 to −1 onto a resting triangle, held 0.25 apart.
+//! let pair = VertexFace {
+//!     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)),
+//!     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+//! };
+//! let limits = Limits { tolerance: 1e-9, separation: 0.25 };
+//! match time_of_impact(&pair, &limits) {
+//!     Impact::Possible { time, reason: Reason::WithinTolerance } => {
+//!         assert!(time <= 0.375 && time > 0.375 - 1e-9);
+//!     }
+//!     other => panic!("{other:?}"),
+//! }
+//! ```
+//!
+//! # The method
+//! From time t, and starting at 0, go on to a later one up to which the pair is *proven* to be apart, until it is within δ + s, or
+//! the proof reaches the end of the step. Three proofs are tried, all on the pair's corners (`corners.rs`) alone, so there is no
+//! case for parallel edges, faces without area, coplanar motion:
+//! * a separating direction (`directions.rs`) from the closest points, held constant;
+//! * from the second round on, where the closest points are inside the face or both edges, the signed volume (`volume.rs`): the points
+//!   are not coplanar;
+//! * from the fourth round on a direction that turns: where sets slide past one another, what a constant direction proves shrinks
+//!   with their distance, and a turning one's does not.
+//!
+//! How far to go, and along which direction, is heuristic and in plain floating point. Only the proofs count, and each of them
+//! covers its rounding: see the modules of the three.
+//!
+//! Before all this come the [relative boxes](crate::boxes::relative), exact, and the volume's proof for the whole step.
+//!
+//! # What is promised
+//! * **In every floating-point environment**: whatever direction the thread rounds in, and whether or not it flushes subnormal
+//!   numbers to zero. (Not with excess precision or fused operations, which Rust does not use.)
+//! * **A bounded amount of work**, whatever the input: at most [`ROUNDS`] rounds, [`Work`] says of how many steps each.
+//!   Degenerate pairs do not loop.
+//! * **Tight**, where the reason is [`Reason::WithinTolerance`]: at the time returned the exact distance is at most
+//!   δ + s + 64u(δ + s + M_x + M_y + M_z) + 2⁻⁶⁰ (`f64`: 2⁻⁵⁰⁰), M being the largest difference between points of the two sets along
+//!   each axis. The other reasons say nothing of the distance.
+//! * **No answer from bad input**: NaN, infinite or too large differences (above 2²⁹, `f64` 2²⁵⁰) exclude nothing.
+//!
+//! # Where the answer is loose
+//! Where the sets' distance comes down to the error of a product, about 20u times the size of the corners, nothing can be proven
+//! any more: the answer is that time, [`Reason::WithinError`], though they may touch much later or never. Sets that rest on each
+//! other to the last digit do so from the start.
+
+#![expect(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "a comparison is false with NaN, which must then take the side that proves nothing"
+)]
+
+pub mod confirm;
+mod directions;
+#[cfg(test)]
+mod tests;
+mod volume;
+
+use super::closest::{Closest, Feature, closest};
+use super::corners::{Corners, largest_extent};
+use super::{Impact, Limits, Reason};
+use crate::boxes::relative;
+use crate::motion::PrimitivePair;
+use crate::points::{PairPoints, PairShape, Shape};
+use crate::scalar::Scalar;
+use crate::vector::Vector;
+use directions::{Apart, are_apart_turning};
+use volume::SignedVolume;
+
+/// The largest number of rounds.
+pub const ROUNDS: u32 = 64;
+
+/// How much was done for one answer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Rounds of advancing: at most [`ROUNDS`]. Zero where relative boxes or the volume decide.
+    pub rounds: u32,
+    /// Steps of clipping the signed volume: at most 1 before the first round, and 8 in each.
+    pub volume_steps: u32,
+    /// Attempts with a turning direction: at most 3 in each round.
+    pub turns: u32,
+}
+
+/// From when on the pair may be within the separation. Certified: see the [module](self).
+#[inline]
+pub fn time_of_impact<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<S>) -> Impact<S> {
+    time_of_impact_and_work(pair, limits).0
+}
+
+/// [`time_of_impact`], and how much work it was.
+#[inline]
+pub fn time_of_impact_and_work<S: Scalar, P: PrimitivePair<S>>(
+    pair: &P,
+    limits: &Limits<S>,
+) -> (Impact<S>, Work) {
+    if limits.separation <= S::ZERO && relative::three_axes(pair).is_culled() {
+        if limits.separation < S::ZERO {
+            return not_excluded(S::ZERO, Reason::NotFinite, Work::default());
+        }
+        return (Impact::Never, Work::default());
+    }
+    let points = pair.points();
+    match P::Shape::SHAPE {
+        Shape::VertexFace => decide(&points, &Corners::of_vertex_face(&points), limits),
+        Shape::EdgeEdge => decide(&points, &Corners::of_edge_edge(&points), limits),
+    }
+}
+
+#[inline(always)]
+const fn not_excluded<S: Scalar>(time: S, reason: Reason, work: Work) -> (Impact<S>, Work) {
+    (Impact::Possible { time, reason }, work)
+}
+
+/// Everything after the relative boxes.
+#[inline(always)]
+fn decide<S: Scalar, const N: usize>(
+    points: &PairPoints<S>,
+    corners: &Corners<S, N>,
+    limits: &Limits<S>,
+) -> (Impact<S>, Work) {
+    let mut work = Work::default();
+    if !(points.is_finite() && limits.separation >= S::ZERO) {
+        return not_excluded(S::ZERO, Reason::NotFinite, work);
+    }
+    if !(corners.are_in_range() && limits.separation <= largest_extent()) {
+        return not_excluded(S::ZERO, Reason::OutOfRange, work);
+    }
+    if limits.separation > S::ZERO && corners.are_beyond_along_an_axis(limits.separation) {
+        return (Impact::Never, work);
+    }
+    let volume = SignedVolume::new(corners, limits.separation);
+    work.volume_steps += 1;
+    if volume.proves_apart_throughout() {
+        return (Impact::Never, work);
+    }
+    let impact = Advance {
+        corners,
+        volume: &volume,
+        limits,
+        work: &mut work,
+    }
+    .run();
+    (impact, work)
+}
+
+/// One pair on its way.
+struct Advance<'a, S, const N: usize> {
+    corners: &'a Corners<S, N>,
+    volume: &'a SignedVolume<S>,
+    limits: &'a Limits<S>,
+    work: &'a mut Work,
+}
+
+/// The pair at one time, up to which it is proven to be apart.
+#[derive(Clone, Copy)]
+struct Snapshot<S, const N: usize> {
+    time: S,
+    positions: [Vector<S>; N],
+    closest: Closest<S>,
+    /// Away from the origin: in it the hull is beyond the closest point.
+    direction: Vector<S>,
+}
+
+impl<S: Scalar, const N: usize> Snapshot<S, N> {
+    #[inline(always)]
+    fn new(corners: &Corners<S, N>, time: S) -> Self {
+        let positions = corners.at(time);
+        let closest = closest(&positions);
+        Self {
+            time,
+            positions,
+            closest,
+            direction: closest.direction(&positions, corners.extent.largest()),
+        }
+    }
+
+    /// The direction, of unit length but for rounding.
+    #[inline(always)]
+    fn unit(&self) -> Vector<S> {
+        let direction = self.direction;
+        direction.scaled(S::ONE / direction.dot(direction).sqrt())
+    }
+}
+
+impl<S: Scalar, const N: usize> Advance<'_, S, N> {
+    #[inline(always)]
+    fn run(&mut self) -> Impact<S> {
+        let near = self.limits.tolerance + self.limits.separation;
+        let near_squared = near * near;
+        let mut now = Snapshot::new(self.corners, S::ZERO);
+        let possible = |now: &Snapshot<S, N>, reason| Impact::Possible {
+            time: now.time,
+            reason,
+        };
+        while self.work.rounds < ROUNDS {
+            self.work.rounds += 1;
+            if now.closest.squared_distance <= near_squared {
+                return possible(&now, Reason::WithinTolerance);
+            }
+            let mut until = match self.apart_along(&now) {
+                Apart::ToTheEnd => return Impact::Never,
+                Apart::Until(until) if until > now.time => until,
+                _ => return possible(&now, Reason::WithinError),
+            };
+            if self.work.rounds > 1 && now.closest.feature == Feature::Interior {
+                let steps = &mut self.work.volume_steps;
+                match self.volume.apart_from(now.time, steps) {
+                    Apart::ToTheEnd => return Impact::Never,
+                    Apart::Until(later) if later > until => until = later,
+                    _ => {}
+                }
+            }
+            let mut next = Snapshot::new(self.corners, until);
+            if self.work.rounds > 3 && next.closest.squared_distance > near_squared {
+                self.turn_on(&now, &mut next);
+                if next.time >= S::ONE {
+                    return Impact::Never;
+                }
+            }
+            now = next;
+        }
+        possible(&now, Reason::OutOfRounds)
+    }
+
+    #[inline(always)]
+    fn apart_along(&self, now: &Snapshot<S, N>) -> Apart<S> {
+        let separation = self.limits.separation;
+        let direction = self.corners.direction(now.direction, separation);
+        self.corners.apart_along(&direction, &now.positions)
+    }
+
+    /// Moves on from `next`, to which one round has led from `now`, as far as a turning direction proves: nine tenths of the
+    /// way to where the last round's approach predicts contact, or less, or not at all.
+    #[inline(never)]
+    fn turn_on(&mut self, now: &Snapshot<S, N>, next: &mut Snapshot<S, N>) {
+        let separation = self.limits.separation;
+        let gap = |at: &Snapshot<S, N>| at.closest.squared_distance.sqrt() - separation;
+        let (gap_now, gap_next) = (gap(now), gap(next));
+        let step = next.time - now.time;
+        let mut goal = S::ONE;
+        if gap_next < gap_now {
+            let contact = step * gap_next / (gap_now - gap_next);
+            goal = (next.time + contact * S::from_f64(0.9)).smaller(S::ONE);
+        }
+        let before = self.corners.direction(next.unit(), separation);
+        for widest in [32, 4, 4] {
+            if !(goal > next.time) {
+                return;
+            }
+            self.work.turns += 1;
+            let later = Snapshot::new(self.corners, goal);
+            let after = self.corners.direction(later.unit(), separation);
+            if are_apart_turning(&before, &next.positions, &after, &later.positions) {
+                *next = later;
+                return;
+            }
+            let quarter = next.time + (goal - next.time) * S::from_f64(0.25);
+            goal = quarter.smaller(next.time + S::small(widest) * step);
+        }
+    }
+}

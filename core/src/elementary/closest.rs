@@ -1,0 +1,178 @@
+//! The point of the corners' hull that is closest to the origin, in plain floating point.
+//!
+//! No certificate relies on how well this is done: they hold for any direction. What is promised is only that the vector is,
+//! but for a few roundings, a point of the hull, so that its length is no less than the distance: each weight lies in [0, 1]
+//! by the comparisons that precede it. The method is Ericson's (Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9).
+
+use crate::scalar::Scalar;
+use crate::vector::Vector;
+
+/// Where on the hull the closest point was found. The first three corners are a, b, c.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Feature {
+    Corner,
+    /// On a side, which is parallel to the one between a and b, a and c, or b and c.
+    SideAb,
+    SideAc,
+    SideBc,
+    Interior,
+}
+
+/// The closest point and where it was found.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Closest<S> {
+    pub(super) point: Vector<S>,
+    pub(super) squared_distance: S,
+    pub(super) feature: Feature,
+}
+
+impl<S: Scalar> Closest<S> {
+    /// A direction in which all of the hull, which has its corners at `positions`, is beyond the closest point. `extent` is
+    /// their largest coordinate.
+    ///
+    /// The closest point itself will do, unless it is so near that its error, a few u times the extent h, tilts it against
+    /// the side or the face that it is on: by uh/d, where d/h is all that there is room for. So where d² is below
+    /// 2⁶uh² it is made perpendicular to the side, or replaced by the face's normal.
+    #[inline(always)]
+    pub(super) fn direction<const N: usize>(
+        &self,
+        positions: &[Vector<S>; N],
+        extent: S,
+    ) -> Vector<S> {
+        let tilted = S::small(64) * S::UNIT_ROUNDOFF * (extent * extent);
+        match positions.as_slice() {
+            &[a, b, c, ..] if self.squared_distance < tilted => self.upright(a, b, c),
+            _ => self.point,
+        }
+    }
+
+    #[cold]
+    fn upright(&self, a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Vector<S> {
+        let perpendicular_to = |side: Vector<S>| {
+            let along = self.point.dot(side) / side.dot(side);
+            self.point - side.scaled(along)
+        };
+        match self.feature {
+            Feature::Corner => self.point,
+            Feature::SideAb => perpendicular_to(b - a),
+            Feature::SideAc => perpendicular_to(c - a),
+            Feature::SideBc => perpendicular_to(c - b),
+            Feature::Interior => {
+                let normal = (b - a).cross(c - a);
+                // Its size does not matter, but it should not be so small that products underflow.
+                let normal = normal.scaled(S::ONE / normal.abs().largest());
+                if normal.dot(self.point) < S::ZERO {
+                    normal.scaled(-S::ONE)
+                } else {
+                    normal
+                }
+            }
+        }
+    }
+}
+
+/// In the triangle of three corners, or the parallelogram whose first three of four corners are given, opposite to each
+/// other the last two.
+#[inline(always)]
+pub(super) fn closest<S: Scalar, const N: usize>(corners: &[Vector<S>; N]) -> Closest<S> {
+    let &[a, b, c, ..] = corners.as_slice() else {
+        // There are three at least.
+        let nothing = Vector::new(S::ZERO, S::ZERO, S::ZERO);
+        return at(nothing, Feature::Corner);
+    };
+    if N == 3 {
+        in_triangle(a, b, c)
+    } else {
+        in_parallelogram(a, b, c)
+    }
+}
+
+#[inline(always)]
+fn at<S: Scalar>(point: Vector<S>, feature: Feature) -> Closest<S> {
+    Closest {
+        point,
+        squared_distance: point.dot(point),
+        feature,
+    }
+}
+
+#[inline(always)]
+fn in_triangle<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S> {
+    let zero = S::ZERO;
+    let (to_a_from_b, to_a_from_c) = (a - b, a - c);
+    let (ab_a, ac_a) = (to_a_from_b.dot(a), to_a_from_c.dot(a));
+    if ab_a <= zero && ac_a <= zero {
+        return at(a, Feature::Corner);
+    }
+    let (ab_b, ac_b) = (to_a_from_b.dot(b), to_a_from_c.dot(b));
+    if ab_b >= zero && ac_b <= ab_b {
+        return at(b, Feature::Corner);
+    }
+    let area_c = ab_a * ac_b - ab_b * ac_a;
+    if area_c <= zero && ab_a >= zero && ab_b <= zero {
+        let weight = ab_a / (ab_a - ab_b);
+        return at(a - to_a_from_b.scaled(weight), Feature::SideAb);
+    }
+    let (ab_c, ac_c) = (to_a_from_b.dot(c), to_a_from_c.dot(c));
+    if ac_c >= zero && ab_c <= ac_c {
+        return at(c, Feature::Corner);
+    }
+    let area_b = ab_c * ac_a - ab_a * ac_c;
+    if area_b <= zero && ac_a >= zero && ac_c <= zero {
+        let weight = ac_a / (ac_a - ac_c);
+        return at(a - to_a_from_c.scaled(weight), Feature::SideAc);
+    }
+    let area_a = ab_b * ac_c - ab_c * ac_b;
+    let (from_b, from_c) = (ac_b - ab_b, ab_c - ac_c);
+    if area_a <= zero && from_b >= zero && from_c >= zero {
+        let weight = from_b / (from_b + from_c);
+        return at(b - (b - c).scaled(weight), Feature::SideBc);
+    }
+    let scale = S::ONE / ((area_a + area_b) + area_c);
+    let inwards = to_a_from_b.scaled(area_b * scale) + to_a_from_c.scaled(area_c * scale);
+    at(a - inwards, Feature::Interior)
+}
+
+/// Corners a, a + (b − a)·t + (c − a)·s for s and t of 0 and 1: the two edges' parameters.
+#[inline(always)]
+fn in_parallelogram<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S> {
+    let (zero, one) = (S::ZERO, S::ONE);
+    let (first, second) = (c - a, a - b);
+    let (first_squared, second_squared) = (first.dot(first), second.dot(second));
+    let (along_first, along_second) = (first.dot(a), second.dot(a));
+    let place = |s: S, t: S, feature| at((a + first.scaled(s)) - second.scaled(t), feature);
+    // The quotient if it lies in [0, 1], else the nearer end; and whether it is an end. NaN becomes an end.
+    let clamped = |numerator: S, denominator: S| {
+        if numerator > zero {
+            if numerator < denominator {
+                (numerator / denominator, false)
+            } else {
+                (one, true)
+            }
+        } else {
+            (zero, true)
+        }
+    };
+    let feature = |s_is_end: bool, t_is_end: bool| match (s_is_end, t_is_end) {
+        (false, false) => Feature::Interior,
+        (false, true) => Feature::SideAc,
+        (true, false) => Feature::SideAb,
+        (true, true) => Feature::Corner,
+    };
+    let across = first.dot(second);
+    let scale = first_squared * second_squared - across * across;
+    let (s, s_is_end) = clamped(across * along_second - along_first * second_squared, scale);
+    let t_numerator = across * s + along_second;
+    let (t, t_is_end) = clamped(t_numerator, second_squared);
+    if !t_is_end {
+        return place(s, t, feature(s_is_end, false));
+    }
+    // The closest point of the first line to an end of the second edge.
+    let s_numerator = if t > zero {
+        across - along_first
+    } else {
+        -along_first
+    };
+    let (s, s_is_end) = clamped(s_numerator, first_squared);
+    place(s, t, feature(s_is_end, true))
+}

@@ -1,0 +1,375 @@
+//! The certified time of impact never misses, is never later than the exact time, is as tight as it says, and takes no
+//! more work than it says.
+
+use proptest::prelude::*;
+use rug::Rational;
+use selvedge_core::Scalar;
+use selvedge_core::elementary::advance::confirm::certain_contact;
+use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact_and_work};
+use selvedge_core::elementary::{Impact, Limits, Reason, tight_inclusion};
+use selvedge_verification::generator::{
+    Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs,
+    from_choices, pairs_of_any_kind, touching_pairs,
+};
+use selvedge_verification::oracle::{Kind, collides, first_within, within, within_at};
+use std::cell::Cell;
+
+/// A pair, and lengths on its own scale.
+#[derive(Clone, Debug)]
+struct Question<S: Format> {
+    pair: PairCase<S>,
+    tolerance: S,
+    separation: S,
+}
+
+impl<S: Format> Question<S> {
+    fn choose(choices: &mut Choices<'_>) -> Self {
+        let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
+        let pair = PairCase::choose(kind, choices);
+        Self {
+            tolerance: tolerance(&pair, choices),
+            separation: separation(&pair, choices),
+            pair,
+        }
+    }
+
+    /// Whether the sizes of all numbers are within 2¹⁰⁰ of one another, so that the oracle does not take minutes to tell when
+    /// the pair is first within the separation.
+    fn is_of_one_size(&self) -> bool {
+        let numbers = self.pair.coordinates().chain([self.separation]);
+        let sizes = numbers.map(|x| x.to_f64().abs()).filter(|&x| x > 0.0);
+        let (smallest, largest) = sizes.fold((f64::MAX, 0.0_f64), |(low, high), x| {
+            (low.min(x), high.max(x))
+        });
+        largest / smallest < 1e30
+    }
+
+    fn answer(&self) -> (Impact<S>, Work) {
+        answer(&self.pair, self.tolerance, self.separation)
+    }
+}
+
+impl<S: Format> Simplify for Question<S> {
+    fn attempts(&self) -> usize {
+        2 + self.pair.attempts()
+    }
+
+    fn simpler(&self, attempt: usize) -> Option<Self> {
+        let mut simpler = self.clone();
+        match attempt {
+            0 if self.tolerance != S::ZERO => simpler.tolerance = S::ZERO,
+            1 if self.separation != S::ZERO => simpler.separation = S::ZERO,
+            0 | 1 => return None,
+            _ => simpler.pair = self.pair.simpler(attempt - 2)?,
+        }
+        Some(simpler)
+    }
+}
+
+fn questions<S: Format>() -> impl Strategy<Value = Question<S>> + Clone {
+    from_choices(Question::choose)
+}
+
+fn answer<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S) -> (Impact<S>, Work) {
+    let limits = Limits {
+        tolerance,
+        separation,
+    };
+    match pair.kind {
+        Kind::VertexFace => time_of_impact_and_work(&pair.vertex_face(), &limits),
+        Kind::EdgeEdge => time_of_impact_and_work(&pair.edge_edge(), &limits),
+    }
+}
+
+/// The largest difference along an axis between points of the two sets, exactly.
+fn extents<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
+    let first = match pair.kind {
+        Kind::VertexFace => 1,
+        Kind::EdgeEdge => 2,
+    };
+    std::array::from_fn(|axis| {
+        let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
+        let mut largest = Rational::new();
+        for end in 0..2 {
+            for one in &pair.points[..first] {
+                for other in &pair.points[first..] {
+                    let difference = exact(one[end][axis]) - exact(other[end][axis]);
+                    largest = largest.max(difference.abs());
+                }
+            }
+        }
+        largest
+    })
+}
+
+fn size<S: Format>(pair: &PairCase<S>) -> S {
+    let [x, y, z] = extents(pair);
+    let largest = S::from_f64(x.max(y).max(z).to_f64());
+    if Scalar::is_finite(largest) {
+        largest
+    } else {
+        S::LARGEST
+    }
+}
+
+/// None, or anything from a rounding error of the pair's size to its size.
+fn tolerance<S: Format>(pair: &PairCase<S>, choices: &mut Choices<'_>) -> S {
+    let precision = S::PRECISION.cast_signed();
+    let exponent = choices.pick(&[0, 3, 7, 13, 20, precision, precision + 9]);
+    choices.pick(&[S::ZERO, S::ONE]) * size(pair) * S::exact(1, -exponent)
+}
+
+/// Half of the time none; else a part of the pair's size, or exactly how far two of its points are apart along an axis, which
+/// for simple pairs is how close they come.
+fn separation<S: Format>(pair: &PairCase<S>, choices: &mut Choices<'_>) -> S {
+    match choices.below(8) {
+        0..4 => S::ZERO,
+        4 | 5 => size(pair) * S::exact(1, -choices.pick(&[0, 1, 5, 10, 30])),
+        _ => {
+            let coordinate = |choices: &mut Choices<'_>, axis: usize| {
+                let (point, end) = (choices.below(4) as usize, choices.below(2) as usize);
+                pair.points[point][end][axis]
+            };
+            let axis = choices.below(3) as usize;
+            let distance = (coordinate(choices, axis) - coordinate(choices, axis)).abs();
+            if Scalar::is_finite(distance) {
+                distance
+            } else {
+                S::ZERO
+            }
+        }
+    }
+}
+
+macro_rules! property {
+    ($name:ident, $cases:expr, $strategy:ident, |$case:ident| $body:expr) => {
+        mod $name {
+            use super::*;
+
+            #[test]
+            fn f64() {
+                check($cases, $strategy::<f64>(), |$case| $body);
+            }
+
+            #[test]
+            fn f32() {
+                check($cases, $strategy::<f32>(), |$case| $body);
+            }
+        }
+    };
+}
+
+fn is_not_late<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+    let exact = question.pair.question();
+    let (impact, _) = question.answer();
+    let separation = question.separation.to_f64();
+    let first = if separation == 0.0 {
+        collides(&exact)
+    } else if !question.is_of_one_size() {
+        prop_assert!(impact != Impact::Never || !within(&exact, separation));
+        return Ok(());
+    } else {
+        first_within(&exact, separation)
+    };
+    let Some(first) = first else { return Ok(()) };
+    let Some(time) = impact.time() else {
+        return Err(TestCaseError::fail(format!("missed: within at {first:?}")));
+    };
+    prop_assert!((S::ZERO..=S::ONE).contains(&time), "{impact:?}");
+    prop_assert!(
+        first.cmp_f64(time.to_f64()).is_ge(),
+        "{impact:?} is later than {:e}",
+        first.to_f64_down()
+    );
+    Ok(())
+}
+
+property!(
+    is_never_later_than_the_exact_time,
+    30_000,
+    questions,
+    |question| { is_not_late(question) }
+);
+
+/// The time is known without the oracle.
+fn finds_what_touches<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+    let pair = moment.pair();
+    let time = moment.time();
+    for tolerance in [S::ZERO, size(&pair) * S::exact(1, -20)] {
+        let (impact, _) = answer(&pair, tolerance, S::ZERO);
+        let found = impact.time().map(|time| time.to_f64());
+        prop_assert!(found.is_some_and(|found| found <= time), "{impact:?}");
+    }
+    Ok(())
+}
+
+property!(
+    finds_every_pair_that_touches,
+    200_000,
+    touching_pairs,
+    |moment| { finds_what_touches(moment) }
+);
+
+/// Coplanar at some time: often a contact, often a near miss.
+fn is_not_late_when_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+    let pair = moment.pair();
+    is_not_late(&Question {
+        tolerance: size(&pair) * S::exact(1, -20),
+        separation: S::ZERO,
+        pair,
+    })
+}
+
+property!(
+    is_not_late_for_coplanar_pairs,
+    30_000,
+    coplanar_pairs,
+    |moment| is_not_late_when_coplanar(moment)
+);
+
+/// What the module's documentation says: δ + s + 64u(δ + s + M_x + M_y + M_z) + 2⁻⁶⁰ or 2⁻⁵⁰⁰.
+fn is_tight<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+    let Impact::Possible {
+        time,
+        reason: Reason::WithinTolerance,
+    } = question.answer().0
+    else {
+        return Ok(());
+    };
+    let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
+    let wanted = exact(question.tolerance) + exact(question.separation);
+    let [x, y, z] = extents(&question.pair);
+    let sum: Rational = wanted.clone() + x + y + z;
+    let rounding = sum * 64 * exact(S::UNIT_ROUNDOFF);
+    let vanishing = Rational::from(1) >> if S::NAME == "f32" { 60 } else { 500 };
+    // To a floating-point number, and not below.
+    let bound: Rational = wanted + rounding + vanishing;
+    let bound = bound.to_f64().next_up();
+    prop_assert!(
+        within_at(&question.pair.question(), &exact(time), bound),
+        "not within {bound:e} at {time}"
+    );
+    Ok(())
+}
+
+property!(
+    is_within_the_tolerance_when_it_says_so,
+    30_000,
+    questions,
+    |question| { is_tight(question) }
+);
+
+fn does_not_work_more_than_stated(work: Work) -> Result<(), TestCaseError> {
+    prop_assert!(work.rounds <= ROUNDS, "{work:?}");
+    prop_assert!(work.volume_steps <= 1 + 8 * work.rounds, "{work:?}");
+    prop_assert!(work.turns <= 3 * work.rounds, "{work:?}");
+    Ok(())
+}
+
+property!(
+    does_no_more_work_than_stated,
+    300_000,
+    questions,
+    |question| { does_not_work_more_than_stated(question.answer().1) }
+);
+
+/// A relative box may cull a pair of huge but finite numbers; nothing culls one that is not finite.
+fn excludes_nothing_that_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    for separation in [S::ZERO, S::ONE] {
+        let (impact, work) = answer(pair, S::exact(1, -20), separation);
+        does_not_work_more_than_stated(work)?;
+        if !pair.is_finite() {
+            let nothing = Impact::Possible {
+                time: S::ZERO,
+                reason: Reason::NotFinite,
+            };
+            prop_assert_eq!(impact, nothing);
+        } else if separation == S::ZERO {
+            is_not_late(&Question {
+                pair: *pair,
+                tolerance: S::ZERO,
+                separation,
+            })?;
+        }
+    }
+    Ok(())
+}
+
+property!(
+    excludes_nothing_from_bad_input,
+    50_000,
+    extraordinary_pairs,
+    |pair| { excludes_nothing_that_is_not_finite(pair) }
+);
+
+/// How many contacts were confirmed.
+type Confirmed = Cell<u32>;
+
+fn confirms_only_contacts<S: Format>(
+    pair: &PairCase<S>,
+    confirmed: &Confirmed,
+) -> Result<(), TestCaseError> {
+    let (impact, _) = answer(pair, size(pair) * S::exact(1, -20), S::ZERO);
+    let times = [impact.time(), Some(S::exact(1, -1)), Some(S::ZERO)];
+    for near in times.into_iter().flatten() {
+        let interval = match pair.kind {
+            Kind::VertexFace => certain_contact(&pair.vertex_face(), near),
+            Kind::EdgeEdge => certain_contact(&pair.edge_edge(), near),
+        };
+        let Some([from, to]) = interval else { continue };
+        confirmed.set(confirmed.get() + 1);
+        let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
+        let Some(first) = collides(&pair.question()) else {
+            return Err(TestCaseError::fail("confirmed what never touches"));
+        };
+        prop_assert!(first.cmp_rational(&exact(to)).is_le(), "[{from}, {to}]");
+    }
+    Ok(())
+}
+
+fn confirms_many<S: Format>() {
+    let (asked, confirmed) = (Cell::new(0), Confirmed::default());
+    check(20_000, pairs_of_any_kind::<S>(), |pair| {
+        asked.set(asked.get() + 1);
+        confirms_only_contacts(pair, &confirmed)
+    });
+    // Three in a hundred, as a rule.
+    let (confirmed, asked) = (confirmed.get(), asked.get());
+    assert!(confirmed > asked / 100, "{confirmed} of {asked}");
+}
+
+#[test]
+fn confirms_contacts_and_nothing_else_f64() {
+    confirms_many::<f64>();
+}
+
+#[test]
+fn confirms_contacts_and_nothing_else_f32() {
+    confirms_many::<f32>();
+}
+
+/// The bisection of Wang et al., as a baseline, with a tolerance that keeps its work small.
+fn bisection_is_not_late<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
+    let pair = moment.pair();
+    let limits = Limits {
+        tolerance: size(&pair) * S::exact(1, -3),
+        separation: S::ZERO,
+    };
+    let impact = match pair.kind {
+        Kind::VertexFace => tight_inclusion::time_of_impact(&pair.vertex_face(), &limits),
+        Kind::EdgeEdge => tight_inclusion::time_of_impact(&pair.edge_edge(), &limits),
+    };
+    let found = impact.time().map(|time| time.to_f64());
+    prop_assert!(
+        found.is_some_and(|found| found <= moment.time()),
+        "{impact:?}"
+    );
+    Ok(())
+}
+
+property!(
+    bisection_finds_every_pair_that_touches,
+    20_000,
+    touching_pairs,
+    |moment| bisection_is_not_late(moment)
+);
