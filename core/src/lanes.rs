@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn underflow_covers_512_of_the_smallest_normal_number() {
-        assert!(f32::UNDERFLOW >= 512.0 * f32::MIN_POSITIVE);
-        assert!(f64::UNDERFLOW >= 512.0 * f64::MIN_POSITIVE);
+        const { assert!(f32::UNDERFLOW >= 512.0 * f32::MIN_POSITIVE) };
+        const { assert!(f64::UNDERFLOW >= 512.0 * f64::MIN_POSITIVE) };
     }
 }

@@ -3,11 +3,15 @@
 //! | module | what it is |
 //! |---|---|
 //! | [`oracle`] | exact answers, from the definitions alone |
+//! | [`false_culls`] | a long run of every tier over random and adversarial pairs |
 //! | [`generator`] | inputs, biased to what breaks floating-point geometry; for property tests and fuzz targets |
 //! | [`minifloat`] | a number format of a few bits, in which every input of a grid can be tried |
+//! | [`altered`] | core's kernels with other constants in their error bounds |
 //! | [`culling`] | core's culling tests by name, one pair at a time |
 
+pub mod altered;
 pub mod culling;
+pub mod false_culls;
 pub mod generator;
 pub mod minifloat;
 pub mod oracle;

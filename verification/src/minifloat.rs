@@ -6,21 +6,34 @@ use selvedge_core::{Lanes, Rounding};
 use std::fmt;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// One sign bit, `E` exponent bits, `F` fraction bits, as IEEE 754 would have it: subnormal numbers, infinities, NaN,
-/// rounding to nearest, ties to even.
+/// Rounding to nearest, ties to even; subnormal numbers are kept.
+pub const TO_NEAREST: u32 = 0;
+/// Rounding towards negative infinity.
+pub const DOWNWARD: u32 = 1;
+/// Rounding towards positive infinity.
+pub const UPWARD: u32 = 2;
+/// Rounding towards zero.
+pub const TOWARDS_ZERO: u32 = 3;
+/// Added to a direction: subnormal results become zero, and subnormal operands count as zero.
+pub const FLUSHING: u32 = 4;
+
+/// One sign bit, `E` exponent bits, `F` fraction bits, as IEEE 754 would have it: subnormal numbers, infinities, NaN. It
+/// rounds, and treats subnormal numbers, as `ENVIRONMENT` says: one of the directions above, with or without [`FLUSHING`].
 ///
 /// An operation is computed in `f64`, where it is exact (a product has 2F + 2 bits; a sum spans at most 2^E + F bits, both below
 /// 53), and rounded once.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
-pub struct Minifloat<const E: u32, const F: u32>(f64);
+pub struct Minifloat<const E: u32, const F: u32, const ENVIRONMENT: u32 = TO_NEAREST>(f64);
 
-impl<const E: u32, const F: u32> Minifloat<E, F> {
+impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRONMENT> {
     /// Two to this power is the smallest positive number.
     pub const MIN_EXPONENT: i32 = Self::LOWEST_NORMAL - F.cast_signed();
     const LOWEST_NORMAL: i32 = 2 - (1 << (E - 1));
     const HIGHEST_NORMAL: i32 = (1 << (E - 1)) - 1;
+    const DIRECTION: u32 = ENVIRONMENT & 3;
+    const FLUSHES: bool = ENVIRONMENT & FLUSHING != 0;
     const FITS: () = assert!(
-        E >= 2 && E <= 5 && F >= 1 && F <= 10,
+        E >= 2 && E <= 5 && F >= 1 && F <= 10 && ENVIRONMENT < 8,
         "operations must be exact in f64"
     );
 
@@ -31,10 +44,8 @@ impl<const E: u32, const F: u32> Minifloat<E, F> {
         if !value.is_finite() {
             return Self(value);
         }
-        // `value` is zero or normal in f64.
-        let exponent = ((value.to_bits() >> 52 & 0x7ff) as i32 - 1023).max(Self::LOWEST_NORMAL);
-        // The sum's last bit is worth 2^(exponent − F), a step of this format: f64's own rounding does the rest.
-        let shift = 1.5 * power_of_two(exponent - F.cast_signed() + 52);
+        // The sum's last bit is worth a step of this format: f64's own rounding does the rest.
+        let shift = 1.5 * power_of_two(52) * Self::step(value);
         let rounded = (value + shift) - shift;
         if rounded.abs() < power_of_two(Self::HIGHEST_NORMAL + 1) {
             // Keeps the sign of zero.
@@ -42,6 +53,61 @@ impl<const E: u32, const F: u32> Minifloat<E, F> {
         } else {
             Self(f64::INFINITY.copysign(value))
         }
+    }
+
+    /// What an operation makes of the exact result `value`.
+    fn rounded(value: f64) -> Self {
+        let mut number = Self::nearest(value);
+        if Self::DIRECTION != TO_NEAREST && value.is_finite() {
+            let upwards = match Self::DIRECTION {
+                UPWARD => true,
+                DOWNWARD => false,
+                _ => value < 0.0,
+            };
+            let largest =
+                power_of_two(Self::HIGHEST_NORMAL) * (2.0 - power_of_two(-F.cast_signed()));
+            // From the nearest number, one step further where it lies on the wrong side.
+            if number.0.is_infinite() {
+                let goes_on = upwards == (value > 0.0);
+                number.0 = if goes_on {
+                    number.0
+                } else {
+                    largest.copysign(value)
+                };
+            } else if upwards && number.0 < value {
+                number = Self::nearest(number.0 + Self::step(value));
+            } else if !upwards && number.0 > value {
+                number = Self::nearest(number.0 - Self::step(value));
+            }
+        }
+        if Self::FLUSHES {
+            number.flushed()
+        } else {
+            number
+        }
+    }
+
+    /// As an operation sees it.
+    fn operand(self) -> f64 {
+        if Self::FLUSHES {
+            self.flushed().0
+        } else {
+            self.0
+        }
+    }
+
+    fn flushed(self) -> Self {
+        if self.0.abs() < power_of_two(Self::LOWEST_NORMAL) {
+            Self(0.0_f64.copysign(self.0))
+        } else {
+            self
+        }
+    }
+
+    /// The distance of neighbours at `value`'s exponent. `value` is zero or normal in f64.
+    fn step(value: f64) -> f64 {
+        let exponent = ((value.to_bits() >> 52 & 0x7ff) as i32 - 1023).max(Self::LOWEST_NORMAL);
+        power_of_two(exponent - F.cast_signed())
     }
 
     /// The same number, exactly.
@@ -84,31 +150,31 @@ fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(u64::from((1023 + exponent).cast_unsigned()) << 52)
 }
 
-impl<const E: u32, const F: u32> Add for Minifloat<E, F> {
+impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Add for Minifloat<E, F, ENVIRONMENT> {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
-        Self::nearest(self.0 + other.0)
+        Self::rounded(self.operand() + other.operand())
     }
 }
 
-impl<const E: u32, const F: u32> Sub for Minifloat<E, F> {
+impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Sub for Minifloat<E, F, ENVIRONMENT> {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        Self::nearest(self.0 - other.0)
+        Self::rounded(self.operand() - other.operand())
     }
 }
 
-impl<const E: u32, const F: u32> Mul for Minifloat<E, F> {
+impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Mul for Minifloat<E, F, ENVIRONMENT> {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
-        Self::nearest(self.0 * other.0)
+        Self::rounded(self.operand() * other.operand())
     }
 }
 
-impl<const E: u32, const F: u32> Neg for Minifloat<E, F> {
+impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Neg for Minifloat<E, F, ENVIRONMENT> {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -116,13 +182,26 @@ impl<const E: u32, const F: u32> Neg for Minifloat<E, F> {
     }
 }
 
-impl<const E: u32, const F: u32> Rounding for Minifloat<E, F> {
+impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Rounding for Minifloat<E, F, ENVIRONMENT> {
     const UNIT_ROUNDOFF: Self = Self(1.0 / (2 << F) as f64);
-    /// 32 times half of the smallest subnormal: the least that the derivation allows. (`f32` and `f64` have a larger one.)
-    const UNDERFLOW: Self = {
-        let smallest = 1.0 / (1_u64 << -Self::MIN_EXPONENT) as f64;
-        Self(16.0 * smallest)
+    /// What the derivation of `coplanarity` needs. 512·λ where subnormal numbers are flushed. Else only products lose, each a
+    /// smallest subnormal number e at most: 18·M + 6 times e in 3k₁, and (1 + M)²·32·e is more, by far enough for second order.
+    const UNDERFLOW: Self = if Self::FLUSHES {
+        Self(512.0 / (1_u64 << -Self::LOWEST_NORMAL) as f64)
+    } else {
+        Self(32.0 / (1_u64 << -Self::MIN_EXPONENT) as f64)
     };
+    /// To nearest overflow is infinite, which is kept without a limit. Else volumes must stay below the largest number:
+    /// 18·L³ < 2⁵·L³.
+    const LARGEST_EDGE: Self = if Self::DIRECTION == TO_NEAREST {
+        Self(f64::INFINITY)
+    } else {
+        assert!(Self::HIGHEST_NORMAL >= 4, "the smallest limit is 1");
+        Self((1_u64 << ((Self::HIGHEST_NORMAL - 4) / 3)) as f64)
+    };
+    const SUM_GAP: Self = Self(Self::UNDERFLOW.0 / Self::UNIT_ROUNDOFF.0);
+    const ZERO: Self = Self(0.0);
+    const HALF: Self = Self(0.5);
     const ONE: Self = Self(1.0);
     const INFINITY: Self = Self(f64::INFINITY);
 
@@ -138,7 +217,7 @@ impl<const E: u32, const F: u32> Rounding for Minifloat<E, F> {
     }
 }
 
-impl<const E: u32, const F: u32> Lanes for Minifloat<E, F> {
+impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Lanes for Minifloat<E, F, ENVIRONMENT> {
     type Scalar = Self;
     type Mask = bool;
 
@@ -146,24 +225,35 @@ impl<const E: u32, const F: u32> Lanes for Minifloat<E, F> {
         value
     }
 
+    fn any(mask: bool) -> bool {
+        mask
+    }
+
+    /// Rounded once: f64 has more than twice the bits, so that a root which is no number of this format does not become one.
+    fn sqrt(self) -> Self {
+        Self::rounded(self.operand().sqrt())
+    }
+
     fn abs(self) -> Self {
         Self(self.0.abs())
     }
 
     fn larger(self, other: Self) -> Self {
-        if self.0 > other.0 { self } else { other }
+        if self.greater(other) { self } else { other }
     }
 
     fn smaller(self, other: Self) -> Self {
-        if self.0 < other.0 { self } else { other }
+        if other.greater(self) { self } else { other }
     }
 
     fn greater(self, other: Self) -> bool {
-        self.0 > other.0
+        self.operand() > other.operand()
     }
 }
 
-impl<const E: u32, const F: u32> fmt::Debug for Minifloat<E, F> {
+impl<const E: u32, const F: u32, const ENVIRONMENT: u32> fmt::Debug
+    for Minifloat<E, F, ENVIRONMENT>
+{
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Debug::fmt(&self.0, f)
     }
@@ -222,6 +312,56 @@ mod tests {
         }
     }
 
+    /// By definition: the last number before, or the first one after.
+    fn rounds_in_its_direction<const ENVIRONMENT: u32>() {
+        type Directed<const ENVIRONMENT: u32> = Minifloat<4, 3, ENVIRONMENT>;
+        let flushes = ENVIRONMENT & FLUSHING != 0;
+        let flushed = |x: f64| {
+            if flushes && x.abs() < 1.0 / 64.0 {
+                0.0
+            } else {
+                x
+            }
+        };
+        let all = Directed::<ENVIRONMENT>::all();
+        let neighbour = |exact: f64| {
+            let upwards = match ENVIRONMENT & 3 {
+                UPWARD => true,
+                DOWNWARD => false,
+                _ => exact < 0.0,
+            };
+            let number = if upwards {
+                let after = all.partition_point(|number| number.value() < exact);
+                all.get(after)
+                    .map_or(f64::INFINITY, |number| number.value())
+            } else {
+                let after = all.partition_point(|number| number.value() <= exact);
+                let before = after.checked_sub(1).map(|before| all[before].value());
+                before.unwrap_or(f64::NEG_INFINITY)
+            };
+            flushed(number)
+        };
+        for &a in &all {
+            for &b in &all {
+                let (x, y) = (flushed(a.value()), flushed(b.value()));
+                for (computed, exact) in [(a + b, x + y), (a - b, x - y), (a * b, x * y)] {
+                    assert_eq!(computed.value(), neighbour(exact), "{a:?} and {b:?}");
+                }
+                assert_eq!(a.greater(b), x > y, "{a:?} and {b:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn sums_and_products_of_all_numbers_are_rounded_as_the_environment_says() {
+        rounds_in_its_direction::<DOWNWARD>();
+        rounds_in_its_direction::<UPWARD>();
+        rounds_in_its_direction::<TOWARDS_ZERO>();
+        rounds_in_its_direction::<{ DOWNWARD | FLUSHING }>();
+        rounds_in_its_direction::<{ UPWARD | FLUSHING }>();
+        rounds_in_its_direction::<{ TOWARDS_ZERO | FLUSHING }>();
+    }
+
     #[test]
     fn infinity_and_nan_go_on() {
         let infinite = Small::nearest(f64::INFINITY);
@@ -235,12 +375,20 @@ mod tests {
     #[test]
     fn constants_are_those_of_the_format() {
         assert_eq!(Small::UNIT_ROUNDOFF.value(), 1.0 / 16.0);
-        assert_eq!(Small::UNDERFLOW.value(), 32.0 * (1.0 / 1024.0));
+        assert_eq!(Small::UNDERFLOW.value(), 32.0 / 512.0);
+        assert_eq!(Small::LARGEST_EDGE.value(), f64::INFINITY);
+        type Flushing = Minifloat<5, 8, { TOWARDS_ZERO | FLUSHING }>;
+        assert_eq!(Flushing::UNDERFLOW.value(), 512.0 / 16_384.0);
+        assert_eq!(Flushing::LARGEST_EDGE.value(), 8.0);
         assert_eq!(
-            (Small::small(8).value(), Small::small(10).value()),
-            (8.0, 10.0)
+            Flushing::SUM_GAP * Flushing::UNIT_ROUNDOFF,
+            Flushing::UNDERFLOW
         );
-        assert_eq!(Minifloat::<4, 1>::small(10).value(), 12.0);
+        assert_eq!(
+            (Small::small(16).value(), Small::small(20).value()),
+            (16.0, 20.0)
+        );
+        assert_eq!(Minifloat::<4, 1>::small(20).value(), 24.0);
         for number in Small::all() {
             assert_eq!(number.units() as f64 / 512.0, number.value());
         }

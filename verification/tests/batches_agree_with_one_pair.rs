@@ -3,15 +3,20 @@
 use proptest::prelude::*;
 use selvedge::dispatch::available_levels;
 use selvedge::pipeline::{CullingTest, Pipeline, Preset};
-use selvedge_core::batch::{LANES, Mask, Test, VertexRow, culled, culled_from_rows};
+use selvedge_core::Verdict;
+use selvedge_core::batch::{
+    BatchTest, LANES, Mask, Test, Tile, VertexRow, culled, culled_from_rows, culled_from_tiles,
+};
+use selvedge_core::boxes::direction;
+use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::points::Shape;
-use selvedge_core::{EdgeEdge, VertexFace};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, meshes};
 use selvedge_verification::oracle::Kind;
 
-const TESTS: [(Test, CullingTest); 4] = [
+const TESTS: [(Test, CullingTest); 5] = [
     (Test::SweptBoxes, CullingTest::SweptBoxes),
+    (Test::SegmentBox, CullingTest::SegmentBox),
     (Test::RelativeBoxes, CullingTest::RelativeBoxes),
     (Test::RelativeBoxesNine, CullingTest::RelativeBoxesNine),
     (
@@ -19,6 +24,20 @@ const TESTS: [(Test, CullingTest); 4] = [
         CullingTest::CertifiedNonCoplanarity,
     ),
 ];
+
+fn direction_verdict<S: Format>(case: &PairCase<S>) -> Verdict {
+    match case.kind {
+        Kind::VertexFace => direction::normal(&case.vertex_face()),
+        Kind::EdgeEdge => direction::normal(&case.edge_edge()),
+    }
+}
+
+fn filter_verdict<S: Format>(filter: Filter<S>, case: &PairCase<S>) -> Verdict {
+    match case.kind {
+        Kind::VertexFace => filter.verdict(&case.vertex_face()),
+        Kind::EdgeEdge => filter.verdict(&case.edge_edge()),
+    }
+}
 
 /// Pairs of one kind, now and then with coordinates that are NaN, infinite or huge.
 fn some_pairs<S: Format>(kind: Kind) -> impl Strategy<Value = Vec<PairCase<S>>> {
@@ -38,39 +57,111 @@ fn bits(masks: &[Mask], count: usize) -> Vec<bool> {
         .collect()
 }
 
-fn verdicts_agree<S: Format>(kind: Kind) {
-    let config = ProptestConfig {
-        cases: 400,
-        ..ProptestConfig::default()
-    };
-    proptest!(config, |(pairs in some_pairs::<S>(kind))| {
-        let rows: Vec<_> = pairs.iter().flat_map(|pair| pair.motions().map(VertexRow::new)).collect();
-        let indices: Vec<[u32; 4]> = (0..pairs.len() as u32).map(|k| [0, 1, 2, 3].map(|point| 4 * k + point)).collect();
-        for (test, one_by_one) in TESTS {
-            let expected: Vec<_> = pairs.iter().map(|pair| verdict(one_by_one, pair).is_culled()).collect();
-            for (name, level) in available_levels() {
-                // One mask more than needed: it must be left alone.
-                let mut masks = vec![0xABCD; pairs.len().div_ceil(LANES) + 1];
-                let mut from_rows = masks.clone();
-                match kind {
-                    Kind::VertexFace => {
-                        let pairs: Vec<VertexFace<S>> = pairs.iter().map(PairCase::vertex_face).collect();
-                        culled(level, test, &pairs, &mut masks);
-                        culled_from_rows(level, Shape::VertexFace, test, &rows, &indices, &mut from_rows);
-                    }
-                    Kind::EdgeEdge => {
-                        let pairs: Vec<EdgeEdge<S>> = pairs.iter().map(PairCase::edge_edge).collect();
-                        culled(level, test, &pairs, &mut masks);
-                        culled_from_rows(level, Shape::EdgeEdge, test, &rows, &indices, &mut from_rows);
-                    }
+/// Some pairs, one by one, as rows and as tiles.
+struct Batch<S: Format> {
+    shape: Shape,
+    pairs: Vec<PairCase<S>>,
+    rows: Vec<VertexRow<S>>,
+    indices: Vec<[u32; 4]>,
+    tiles: Vec<Tile<S>>,
+}
+
+impl<S: Format> Batch<S> {
+    fn new(kind: Kind, pairs: &[PairCase<S>]) -> Self {
+        let rows = pairs.iter().flat_map(|pair| pair.motions());
+        let of_pair = |k: u32| [0, 1, 2, 3].map(|point| 4 * k + point);
+        let mut tiles = vec![Tile::unknown(); pairs.len().div_ceil(LANES)];
+        for (k, pair) in pairs.iter().enumerate() {
+            tiles[k / LANES].set(k % LANES, pair.motions());
+        }
+        Self {
+            shape: match kind {
+                Kind::VertexFace => Shape::VertexFace,
+                Kind::EdgeEdge => Shape::EdgeEdge,
+            },
+            pairs: pairs.to_vec(),
+            rows: rows.map(VertexRow::new).collect(),
+            indices: (0..pairs.len() as u32).map(of_pair).collect(),
+            tiles,
+        }
+    }
+
+    /// Whether `test` says of them together, on every instruction set and in every form, what `one_by_one` says of each.
+    fn agrees(
+        &self,
+        test: impl BatchTest<S> + std::fmt::Debug,
+        one_by_one: impl Fn(&PairCase<S>) -> Verdict,
+    ) -> Result<(), TestCaseError> {
+        let count = self.pairs.len();
+        let expected: Vec<_> = self
+            .pairs
+            .iter()
+            .map(|pair| one_by_one(pair).is_culled())
+            .collect();
+        for (name, level) in available_levels() {
+            // One mask more than needed: it must be left alone.
+            let untouched = vec![0xABCD; count.div_ceil(LANES) + 1];
+            let [mut one_by_one, mut rows, mut tiles] = [(); 3].map(|()| untouched.clone());
+            match self.shape {
+                Shape::VertexFace => {
+                    let pairs: Vec<_> = self.pairs.iter().map(PairCase::vertex_face).collect();
+                    culled(level, test, &pairs, &mut one_by_one);
                 }
-                prop_assert_eq!(&masks, &from_rows, "{} {:?}", name, test);
-                prop_assert_eq!(masks.last(), Some(&0xABCD));
-                prop_assert_eq!(bits(&masks, pairs.len()), &expected[..], "{} {:?}", name, test);
-                if pairs.len() % LANES != 0 {
-                    prop_assert_eq!(masks[pairs.len() / LANES] >> (pairs.len() % LANES), 0, "bits past the last pair");
+                Shape::EdgeEdge => {
+                    let pairs: Vec<_> = self.pairs.iter().map(PairCase::edge_edge).collect();
+                    culled(level, test, &pairs, &mut one_by_one);
                 }
             }
+            culled_from_rows(
+                level,
+                self.shape,
+                test,
+                &self.rows,
+                &self.indices,
+                &mut rows,
+            );
+            culled_from_tiles(level, self.shape, test, &self.tiles, &mut tiles);
+            for (form, masks) in [("list", one_by_one), ("rows", rows), ("tiles", tiles)] {
+                prop_assert_eq!(masks.last(), Some(&0xABCD), "{} {:?} {}", name, test, form);
+                prop_assert_eq!(
+                    bits(&masks, count),
+                    &expected[..],
+                    "{} {:?} {}",
+                    name,
+                    test,
+                    form
+                );
+                if !count.is_multiple_of(LANES) {
+                    prop_assert_eq!(
+                        masks[count / LANES] >> (count % LANES),
+                        0,
+                        "past the last pair"
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn verdicts_agree<S: Format>(kind: Kind) {
+    let config = ProptestConfig {
+        cases: 250,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    };
+    proptest!(config, |(pairs in some_pairs::<S>(kind), scale in 0..24_i32)| {
+        let batch = Batch::<S>::new(kind, &pairs);
+        for (test, one_by_one) in TESTS {
+            batch.agrees(test, |pair: &PairCase<S>| verdict(one_by_one, pair))?;
+        }
+        batch.agrees(Test::NormalDirection, direction_verdict)?;
+        for tier in Tier::ALL {
+            let filter = Filter::<S>::new(tier);
+            batch.agrees(filter, |pair: &PairCase<S>| filter_verdict(filter, pair))?;
+            let separation: S = S::exact(1, -scale);
+            let filter = filter.with_separation(separation).expect("a length");
+            batch.agrees(filter, |pair: &PairCase<S>| filter_verdict(filter, pair))?;
         }
     });
 }
@@ -101,7 +192,7 @@ fn an_index_that_names_no_vertex_keeps_its_pair_and_no_other() {
     let far = |z: f64| VertexRow::new(([0.0, 0.0, z], [0.0, 0.0, z]).into());
     let rows = [far(9.0), far(0.0)];
     for (name, level) in available_levels() {
-        for (test, _) in &TESTS[..3] {
+        for (test, _) in &TESTS[..4] {
             let mut masks = [0];
             let indices = [[0, 1, 1, 1], [0, 1, 1, 2]];
             culled_from_rows(level, Shape::VertexFace, *test, &rows, &indices, &mut masks);

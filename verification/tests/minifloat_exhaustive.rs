@@ -1,30 +1,31 @@
-//! The certified filter on numbers of 3 to 5 significant bits: every input of a grid, none left out.
+//! The certified filter on numbers of 4 to 9 significant bits, in every floating-point environment: every input of a grid, none
+//! left out.
 //!
 //! # What is proven for which precision
-//! The constants 8u and 10u cover the first-order terms of 7 and 9 roundings, and leave one u for all that is of higher
-//! order. By hand, for k₀: the exact value's monomials pass through at most 7 roundings that count, the computed permanent has lost
-//! at most 8, and adding the underflow term rounds once more, so that a sufficient condition is
-//! 8u(1 − u)⁹ ≥ (1 + u)⁷ − 1, true for u ≤ 2⁻⁷. For 3k₁: the product with 10u rounds as well, 10u(1 − u)¹² ≥ (1 + u)⁹ − 1, true for
-//! u ≤ 2⁻⁸. So **as they stand the constants are proven from 8 significant bits on**
-//! ([`the_constants_suffice_from_eight_significant_bits_on`]); `f32` has 24.
+//! The constants 16u and 20u cover 7 and 9 roundings of 2u each, as there are in any direction. That takes u ≤ 2⁻⁸ for k₀ and k₃,
+//! u ≤ 2⁻⁹ for 3k₁ and 3k₂; those by magnitudes, 96u and 384u, are proven for u ≤ 2⁻¹⁰. To nearest, where a rounding is u at most,
+//! 16u and 20u suffice from u ≤ 2⁻⁵ on. [`the_constants_suffice_for_the_precisions_that_are_documented`] recomputes it; `f32` has
+//! u = 2⁻²⁴. Hence 5 or 6 bits to nearest, and 9 bits in the other environments.
 //!
-//! Below that the proof fails but the filter does not: no input here has a wrong sign, and a search that climbs from random inputs in
-//! formats of 2 to 11 bits (20 s each) found no wrong-signed value above 0.375 of its bound. The tests assert how close the
-//! grids come, so that a constant cut to a fifth would be seen.
+//! No input here has a wrong sign. The tests assert how close the grids come, so that constants cut to a fraction would be seen.
 
+use rug::{Rational, ops::Pow};
 use selvedge_core::Vector;
 use selvedge_core::coplanarity::MovingTetrahedron;
-use selvedge_verification::minifloat::Minifloat;
+use selvedge_core::filter::certified::{Bound, is_never_coplanar};
+use selvedge_verification::minifloat::{
+    DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD,
+};
 
 /// A moving tetrahedron by the points a, b, c, p at times 0 and 1.
 type Points<T> = [[[T; 3]; 2]; 4];
 
 /// From the definition, in whole numbers: one of k₀, 3k₁, 3k₂, k₃ times a power of two.
-fn exact_control_value<const E: u32, const F: u32>(
-    points: &Points<Minifloat<E, F>>,
+fn exact_control_value<const E: u32, const F: u32, const ENVIRONMENT: u32>(
+    points: &Points<Minifloat<E, F, ENVIRONMENT>>,
     k: usize,
-) -> i64 {
-    let units = points.map(|ends| ends.map(|x| x.map(Minifloat::units)));
+) -> i128 {
+    let units = points.map(|ends| ends.map(|x| x.map(|x| i128::from(x.units()))));
     let from_a = |point: usize, end: usize| {
         [0, 1, 2].map(|axis| units[point][end][axis] - units[0][end][axis])
     };
@@ -43,9 +44,9 @@ fn exact_control_value<const E: u32, const F: u32>(
     }
 }
 
-fn tetrahedron<const E: u32, const F: u32>(
-    points: &Points<Minifloat<E, F>>,
-) -> MovingTetrahedron<Minifloat<E, F>> {
+fn tetrahedron<const E: u32, const F: u32, const ENVIRONMENT: u32>(
+    points: &Points<Minifloat<E, F, ENVIRONMENT>>,
+) -> MovingTetrahedron<Minifloat<E, F, ENVIRONMENT>> {
     let at = |end: usize| points.map(|ends| Vector::from(ends[end]));
     MovingTetrahedron::from_points(at(0), at(1))
 }
@@ -63,9 +64,9 @@ struct Seen {
 
 impl Seen {
     /// Looks at one input, and at the signs of its control values `which`.
-    fn look<const E: u32, const F: u32>(
+    fn look<const E: u32, const F: u32, const ENVIRONMENT: u32>(
         &mut self,
-        points: &Points<Minifloat<E, F>>,
+        points: &Points<Minifloat<E, F, ENVIRONMENT>>,
         which: impl IntoIterator<Item = usize>,
     ) {
         self.inputs += 1;
@@ -86,8 +87,15 @@ impl Seen {
                 }
             }
         }
-        // What `is_never_coplanar` does.
-        if values.one_sign_beyond(bounds) {
+        let bounds = [
+            Bound::Permanent,
+            Bound::MagnitudesByAxis,
+            Bound::MagnitudesByEdge,
+        ];
+        if bounds
+            .map(|bound| is_never_coplanar(bound, &tetrahedron))
+            .contains(&true)
+        {
             self.culled += 1;
             let signs = [0, 1, 2, 3].map(|k| exact_control_value(points, k).signum());
             assert!(signs == [1; 4] || signs == [-1; 4], "{points:?} is culled");
@@ -108,7 +116,9 @@ fn every<T: Copy, const N: usize>(values: &[T], mut visit: impl FnMut([T; N])) {
     }
 }
 
-fn numbers<const E: u32, const F: u32, const N: usize>(values: [f64; N]) -> [Minifloat<E, F>; N] {
+fn numbers<const E: u32, const F: u32, const ENVIRONMENT: u32, const N: usize>(
+    values: [f64; N],
+) -> [Minifloat<E, F, ENVIRONMENT>; N] {
     values.map(|value| {
         let number = Minifloat::nearest(value);
         assert_eq!(number.value(), value, "the format has this number");
@@ -117,7 +127,9 @@ fn numbers<const E: u32, const F: u32, const N: usize>(values: [f64; N]) -> [Min
 }
 
 /// k₀ of every tetrahedron at rest with all twelve coordinates on the grid.
-fn at_rest<const E: u32, const F: u32>(grid: &[Minifloat<E, F>]) -> Seen {
+fn at_rest<const E: u32, const F: u32, const ENVIRONMENT: u32>(
+    grid: &[Minifloat<E, F, ENVIRONMENT>],
+) -> Seen {
     let mut seen = Seen::default();
     every::<_, 12>(grid, |coordinates| {
         let points = std::array::from_fn(|point| {
@@ -130,33 +142,59 @@ fn at_rest<const E: u32, const F: u32>(grid: &[Minifloat<E, F>]) -> Seen {
 }
 
 #[test]
-fn nothing_is_certain_with_3_bits_since_the_bound_is_the_permanent_itself() {
-    let seen = at_rest::<4, 2>(&numbers([-1.75, -0.625, 1.25]));
+fn nothing_is_certain_with_4_bits_since_the_bound_is_the_permanent_itself() {
+    let seen = at_rest::<4, 3, TO_NEAREST>(&numbers([-1.75, -0.625, 1.25]));
     assert_eq!((seen.certain, seen.culled), (0, 0));
 }
 
 #[test]
-fn every_tetrahedron_on_a_grid_of_three_values_with_4_bits() {
-    let seen = at_rest::<4, 3>(&numbers([-1.375, -0.75, 0.5625]));
-    assert!(seen.certain > 0 && seen.worst > 0.2, "{seen:?}");
+fn every_tetrahedron_on_a_grid_of_three_values_with_5_bits() {
+    let seen = at_rest::<4, 4, TO_NEAREST>(&numbers([-0.71875, 1.8125, 1.875]));
+    assert!(seen.certain > 0 && seen.worst > 0.1, "{seen:?}");
 }
 
 #[test]
-fn every_tetrahedron_on_a_grid_of_three_values_with_5_bits() {
-    let seen = at_rest::<4, 4>(&numbers([-0.71875, 1.8125, 1.875]));
-    assert!(seen.certain > 0 && seen.worst > 0.2, "{seen:?}");
+fn every_tetrahedron_on_a_grid_of_three_values_with_6_bits() {
+    let seen = at_rest::<4, 5, TO_NEAREST>(&numbers([-1.406_25, -0.765_625, 0.578_125]));
+    assert!(seen.certain > 0 && seen.worst > 0.05, "{seen:?}");
 }
 
 /// Subnormal numbers: products underflow.
 #[test]
-fn every_tetrahedron_on_a_grid_of_tiny_values_with_4_bits() {
-    let seen = at_rest::<4, 3>(&numbers([-0.1875, 0.003_906_25, 0.156_25]));
-    assert!(seen.worst > 0.04, "{seen:?}");
+fn every_tetrahedron_on_a_grid_of_tiny_values_with_5_bits() {
+    let seen = at_rest::<4, 4, TO_NEAREST>(&numbers([-0.1875, 0.003_906_25, 0.156_25]));
+    assert!(seen.worst > 0.01, "{seen:?}");
+}
+
+/// `worst`: how close an input must come.
+fn every_tetrahedron_with_9_bits<const ENVIRONMENT: u32>(grid: [f64; 3], worst: f64) {
+    let seen = at_rest::<5, 8, ENVIRONMENT>(&numbers(grid));
+    assert!(seen.culled > 0 && seen.worst > worst, "{seen:?}");
+}
+
+#[test]
+fn every_tetrahedron_on_a_grid_of_three_values_with_9_bits_in_every_direction() {
+    let grid = [-1.363_281_25, 0.869_140_625, 1.925_781_25];
+    every_tetrahedron_with_9_bits::<DOWNWARD>(grid, 0.19);
+    every_tetrahedron_with_9_bits::<UPWARD>(grid, 0.18);
+    every_tetrahedron_with_9_bits::<TOWARDS_ZERO>(grid, 0.11);
+}
+
+/// About the smallest normal number, 2⁻¹⁴: differences and products are flushed.
+#[test]
+fn every_tetrahedron_on_a_grid_of_tiny_values_with_9_bits_where_they_are_flushed() {
+    let grid = [-1.0 / 16_384.0, 1.5 / 16_384.0, 1.0];
+    every_tetrahedron_with_9_bits::<{ TO_NEAREST | FLUSHING }>(grid, 0.001);
+    every_tetrahedron_with_9_bits::<{ DOWNWARD | FLUSHING }>(grid, 0.06);
+    every_tetrahedron_with_9_bits::<{ UPWARD | FLUSHING }>(grid, 0.001);
+    every_tetrahedron_with_9_bits::<{ TOWARDS_ZERO | FLUSHING }>(grid, 0.001);
 }
 
 /// The filter on every motion whose ends are among `ends`: k₀ and k₃ depend on one end each, so only ends whose own value is
 /// beyond its bound can be part of a culled one, and all pairs of those are tried.
-fn every_motion_between<const E: u32, const F: u32>(ends: &[[[Minifloat<E, F>; 3]; 4]]) -> Seen {
+fn every_motion_between<const E: u32, const F: u32, const ENVIRONMENT: u32>(
+    ends: &[[[Minifloat<E, F, ENVIRONMENT>; 3]; 4]],
+) -> Seen {
     let mut certain_ends = [Vec::new(), Vec::new()];
     for end in ends {
         let tetrahedron = tetrahedron(&end.map(|point| [point; 2]));
@@ -192,8 +230,8 @@ fn every_motion_around_a_point_at_rest_on_a_grid_of_three_values_with_5_bits() {
 }
 
 #[test]
-fn every_motion_of_four_points_on_grids_of_two_values_with_4_bits() {
-    type Number = Minifloat<4, 3>;
+fn every_motion_of_four_points_on_grids_of_two_values_with_5_bits() {
+    type Number = Minifloat<4, 4>;
     for grid in [
         [-1.875, 0.8125],
         [-1.125, 0.75],
@@ -216,8 +254,8 @@ fn every_motion_of_four_points_on_grids_of_two_values_with_4_bits() {
 
 /// The middle value of all 2¹⁸ motions, culled or not.
 #[test]
-fn every_middle_control_value_on_grids_of_two_values_with_4_bits() {
-    type Number = Minifloat<4, 3>;
+fn every_middle_control_value_on_grids_of_two_values_with_6_bits() {
+    type Number = Minifloat<4, 5>;
     let zero = Number::nearest(0.0);
     for grid in [[-1.125, 0.75], [-1.625, 0.5], [-1.375, 1.25]] {
         let grid: [Number; 2] = numbers(grid);
@@ -230,19 +268,38 @@ fn every_middle_control_value_on_grids_of_two_values_with_4_bits() {
                 .for_each(|(component, number)| *component = number);
             seen.look(&points, [1]);
         });
-        assert!(seen.certain > 0 && seen.worst > 0.05, "{seen:?}");
+        assert!(seen.certain > 0 && seen.worst > 0.01, "{seen:?}");
     }
 }
 
+/// (1 + x)^n.
+fn power(x: &Rational, n: u32) -> Rational {
+    (Rational::from(x) + 1_u32).pow(n)
+}
+
 #[test]
-fn the_constants_suffice_from_eight_significant_bits_on() {
-    // f64 is precise enough for a comparison that is not close.
-    let outer = |u: f64| 8.0 * u * (1.0 - u).powi(9) - ((1.0 + u).powi(7) - 1.0);
-    let inner = |u: f64| 10.0 * u * (1.0 - u).powi(12) - ((1.0 + u).powi(9) - 1.0);
-    for bits in 8..=53 {
-        let u = 0.5_f64.powi(bits);
-        assert!(outer(u) > 0.25 * u && inner(u) > 0.25 * u, "{bits} bits");
+fn the_constants_suffice_for_the_precisions_that_are_documented() {
+    // Whether `constant`·u, less `lost` roundings, covers `count` monomials of `roundings` roundings each, `per_rounding` the most
+    // that one rounding does, `more` of them in the computed magnitudes.
+    let covers =
+        |u: &Rational, per_rounding: u32, [constant, lost, count, roundings, more]: [u32; 5]| {
+            let rounding = Rational::from(u * per_rounding);
+            let down = Rational::from(-&rounding);
+            let needed = (power(&rounding, roundings) - 1_u32) * count / power(&down, more);
+            Rational::from(u * constant) * power(&down, lost) >= needed
+        };
+    let (outer, inner) = ([16, 10, 1, 7, 0], [20, 13, 1, 9, 0]);
+    let by_magnitudes = [[96, 5, 6, 7, 3], [384, 5, 18, 9, 3]];
+    for bits in 5..=53 {
+        let u = Rational::from(1) >> bits;
+        assert!(covers(&u, 1, outer) && covers(&u, 1, inner), "{bits}");
+        assert!(bits < 8 || covers(&u, 2, outer), "{bits}");
+        assert!(bits < 9 || covers(&u, 2, inner), "{bits}");
+        for constants in by_magnitudes {
+            assert!(bits < 10 || covers(&u, 2, constants), "{bits}");
+        }
     }
-    assert!(outer(0.5_f64.powi(7)) > 0.0 && outer(0.5_f64.powi(6)) < 0.0);
-    assert!(inner(0.5_f64.powi(7)) < 0.0);
+    let at = |bits: u32| Rational::from(1) >> bits;
+    assert!(!covers(&at(4), 1, outer));
+    assert!(!covers(&at(7), 2, outer) && !covers(&at(8), 2, inner));
 }

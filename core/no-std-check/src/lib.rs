@@ -6,9 +6,11 @@
 
 use core::cmp::Ordering;
 use core::panic::PanicInfo;
-use selvedge_core::batch::{self, Level, Test};
-use selvedge_core::boxes::{Aabb, Dop18, relative, segment, swept_boxes};
+use selvedge_core::batch::{self, BatchTest, Level, Mask, Test, Tile, VertexRow};
+use selvedge_core::boxes::{Aabb, Dop18, direction, relative, segment, swept_boxes};
 use selvedge_core::distribution::distribute;
+use selvedge_core::filter::{Filter, Tier};
+use selvedge_core::points::{PairShape, Shape};
 use selvedge_core::{
     EdgeEdge, FeatureTriangle, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary,
     exact, filter,
@@ -21,6 +23,53 @@ fn panic(_: &PanicInfo<'_>) -> ! {
 
 /// Positions at the start and at the end of the step of four points.
 type Points<S> = [[[S; 3]; 2]; 4];
+
+/// Whether every tier, with a separation and without, on its own and batched in every form, keeps the pair: 0; culls it: 1; or
+/// they do not agree: 2.
+fn tiers<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> u32 {
+    let mut masks = [0];
+    let mut answers = 0;
+    for tier in Tier::ALL {
+        let filter = Filter::<S>::new(tier);
+        let separated = filter.with_separation(S::from_f64(0.125)).unwrap_or(filter);
+        for filter in [filter, separated] {
+            answers |= 1 << u32::from(filter.verdict(pair).is_culled());
+            for mask in in_every_form(filter, pair, &mut masks) {
+                answers |= 1 << mask;
+            }
+        }
+    }
+    let normal = direction::normal(pair).is_culled();
+    answers |= 1 << u32::from(normal);
+    for mask in in_every_form(Test::NormalDirection, pair, &mut masks) {
+        answers |= 1 << mask;
+    }
+    match answers {
+        0b01 => 0,
+        0b10 => 1,
+        _ => 2,
+    }
+}
+
+/// One pair's mask as a list, a tile and rows.
+fn in_every_form<S: Scalar, P: PrimitivePair<S>>(
+    test: impl BatchTest<S>,
+    pair: &P,
+    masks: &mut [Mask; 1],
+) -> [Mask; 3] {
+    let (level, shape): (Level, Shape) = (Level::baseline(), P::Shape::SHAPE);
+    let mut tile = Tile::unknown();
+    tile.set(0, pair.motions());
+    let rows = pair.motions().map(VertexRow::new);
+    let mut answers = [0; 3];
+    batch::culled(level, test, core::slice::from_ref(pair), masks);
+    answers[0] = masks[0];
+    batch::culled_from_tiles(level, shape, test, &[tile], masks);
+    answers[1] = masks[0];
+    batch::culled_from_rows(level, shape, test, &rows, &[[0, 1, 2, 3]], masks);
+    answers[2] = masks[0];
+    answers
+}
 
 fn bit(index: u32, verdict: Verdict) -> u32 {
     u32::from(verdict.is_culled()) << index
@@ -72,7 +121,7 @@ fn verdicts<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
 fn with_batches<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
     let verdicts = verdicts(pair);
     let differ = (verdicts & 0b1_0111) != batched(pair);
-    verdicts | u32::from(differ) << 9 | exactly(pair) << 10
+    verdicts | u32::from(differ) << 9 | exactly(pair) << 10 | tiers(pair) << 13
 }
 
 /// An eleventh: that the certified time of impact, its confirmation, or one of the two baselines for it disagrees with `touches`.

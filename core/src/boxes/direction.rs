@@ -78,6 +78,7 @@ fn are_apart_along<L: Lanes>(
     let greatest = (a.larger(b).larger(c.larger(d))).larger(e.larger(f).larger(g.larger(h)));
     // Zero, or NaN if one of them is: smallest and largest values drop it.
     let sum = ((a + b) + (c + d)) + ((e + f) + (g + h));
+    #[allow(clippy::eq_op, reason = "infinity minus infinity is no number")]
     let bound = roundoff * sizes + underflow + (sum - sum);
     (least.greater(bound) | (-bound).greater(greatest))
         & coplanarity::is_in_range(largest.largest())

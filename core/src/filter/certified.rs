@@ -79,6 +79,10 @@ pub fn decide<P: PairShape, L: Lanes>(
     tetrahedron: &MovingTetrahedron<L>,
     separation: Option<L>,
 ) -> Decision<L::Mask> {
+    #[allow(
+        clippy::manual_map,
+        reason = "a closure is not always inlined into code for a wider instruction set"
+    )]
     let clearance = match separation {
         Some(separation) => Some(separation * tetrahedron.largest_normal(P::SHAPE)),
         None => None,
@@ -133,6 +137,7 @@ fn by_permanent<L: Lanes>(
     let [k0, k1, k2, k3] = values.0;
     let sum = (k0 + k1) + (k2 + k3);
     let inner = error_bound_by_magnitudes(largest) * largest.x.splat(L::Scalar::small(4));
+    #[allow(clippy::eq_op, reason = "infinity minus infinity is no number")]
     let inner = inner + (sum - sum);
     let [_, bound, ..] = with_clearance([inner; 4], clearance);
     let least = k0.smaller(k1).smaller(k2.smaller(k3));

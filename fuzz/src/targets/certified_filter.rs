@@ -1,7 +1,7 @@
 use super::pair::{self, Numbers};
 use selvedge::core::Verdict;
 use selvedge::core::coplanarity::MovingTetrahedron;
-use selvedge::core::filter::certified::{is_never_coplanar, non_coplanarity};
+use selvedge::core::filter::certified::{Bound, is_never_coplanar, non_coplanarity};
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::{Kind, coplanar};
 
@@ -34,14 +34,14 @@ fn verdict<S: Format>(case: &PairCase<S>) -> Verdict {
 }
 
 /// Coordinates below 2⁶: differences are below 2⁷ and all intermediate results below 2²⁷, exact in `f64`; and the error
-/// bound, below 10u·2²⁷ + 2⁷η, is less than the least control value, 1.
+/// bound, below 20u·2²⁷ + 2¹⁵η (384u·2²¹ + 2¹⁵η by magnitudes), is less than the least control value, 1.
 fn whole_numbers(points: &[[[i8; 3]; 2]; 4]) {
     let double = |position: [i8; 3]| position.map(f64::from);
     let case = PairCase::<f64>::new(Kind::VertexFace, points.map(|ends| ends.map(double)));
     let expected = one_sign(tripled_control_values(points));
     assert_eq!(verdict(&case).is_culled(), expected, "{case:?}");
     let tetrahedron: MovingTetrahedron<f64> = case.tetrahedron();
-    assert_eq!(is_never_coplanar(&tetrahedron), expected);
+    assert_eq!(is_never_coplanar(Bound::Permanent, &tetrahedron), expected);
 }
 
 fn one_sign(values: [i64; 4]) -> bool {

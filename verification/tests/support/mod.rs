@@ -1,4 +1,5 @@
-//! A second opinion on contact at rest: convex sets clipped by half-spaces in rational arithmetic.
+//! What several test files use; here, a second opinion on contact at rest: convex sets clipped by half-spaces in rational
+//! arithmetic.
 //!
 //! The oracle decides by signs and never constructs a point; this constructs every corner of the
 //! common part.
@@ -6,6 +7,8 @@
 #![allow(dead_code, reason = "each test file uses a part")]
 
 pub(crate) mod distance;
+pub(crate) mod environment;
+pub(crate) mod rationals;
 
 use rug::Rational;
 

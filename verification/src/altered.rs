@@ -1,0 +1,169 @@
+//! Core's kernels with other constants in their error bounds, to show what each constant is there for.
+//!
+//! The kernels are generic over [`Lanes`], so their source runs on [`Altered`] unchanged.
+
+use crate::generator::{Format, PairCase};
+use crate::oracle::Kind;
+use selvedge_core::boxes::{direction, relative, segment};
+use selvedge_core::filter::certified::{Bound, decide};
+use selvedge_core::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
+use selvedge_core::{Lanes, PrimitivePair, Rounding, Vector};
+use std::marker::PhantomData;
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// What the constants of [`Rounding`] are multiplied by.
+pub trait Factors {
+    /// Times the unit roundoff.
+    const UNIT_ROUNDOFF: f64 = 1.0;
+    /// Times η.
+    const UNDERFLOW: f64 = 1.0;
+    /// Times the largest edge.
+    const LARGEST_EDGE: f64 = 1.0;
+    /// Times the gap between sums.
+    const SUM_GAP: f64 = 1.0;
+}
+
+/// The same number, but with other constants.
+pub struct Altered<F, S>(S, PhantomData<F>);
+
+impl<F, S> Altered<F, S> {
+    const fn new(number: S) -> Self {
+        Self(number, PhantomData)
+    }
+}
+
+impl<F, S: Copy> Clone for Altered<F, S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<F, S: Copy> Copy for Altered<F, S> {}
+
+impl<F, S: Format> Add for Altered<F, S> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self::new(self.0 + other.0)
+    }
+}
+
+impl<F, S: Format> Sub for Altered<F, S> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.0 - other.0)
+    }
+}
+
+impl<F, S: Format> Mul for Altered<F, S> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self::new(self.0 * other.0)
+    }
+}
+
+impl<F, S: Format> Neg for Altered<F, S> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::new(-self.0)
+    }
+}
+
+/// As they are: a generic constant cannot be multiplied. [`Lanes::splat`] does it, through which all constants come.
+impl<F, S: Format> Rounding for Altered<F, S> {
+    const UNIT_ROUNDOFF: Self = Self::new(S::UNIT_ROUNDOFF);
+    const UNDERFLOW: Self = Self::new(S::UNDERFLOW);
+    const LARGEST_EDGE: Self = Self::new(S::LARGEST_EDGE);
+    const SUM_GAP: Self = Self::new(S::SUM_GAP);
+    const ZERO: Self = Self::new(S::ZERO);
+    const ONE: Self = Self::new(S::ONE);
+    const HALF: Self = Self::new(S::HALF);
+    const INFINITY: Self = Self::new(S::INFINITY);
+    fn small(count: u8) -> Self {
+        Self::new(S::small(count))
+    }
+}
+
+impl<F: Factors, S: Format> Lanes for Altered<F, S> {
+    type Scalar = Self;
+    type Mask = bool;
+    fn splat(self, Self(value, _): Self) -> Self {
+        let factor = if value == S::UNIT_ROUNDOFF {
+            F::UNIT_ROUNDOFF
+        } else if value == S::UNDERFLOW {
+            F::UNDERFLOW
+        } else if value == S::LARGEST_EDGE {
+            F::LARGEST_EDGE
+        } else if value == S::SUM_GAP {
+            F::SUM_GAP
+        } else {
+            return Self::new(value);
+        };
+        Self::new(value * S::from_f64(factor))
+    }
+    fn any(mask: bool) -> bool {
+        mask
+    }
+    fn sqrt(self) -> Self {
+        Self::new(self.0.sqrt())
+    }
+    fn abs(self) -> Self {
+        Self::new(self.0.abs())
+    }
+    fn larger(self, other: Self) -> Self {
+        Self::new(self.0.larger(other.0))
+    }
+    fn smaller(self, other: Self) -> Self {
+        Self::new(self.0.smaller(other.0))
+    }
+    fn greater(self, other: Self) -> bool {
+        self.0.greater(other.0)
+    }
+}
+
+/// A kernel whose bound has constants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kernel {
+    /// [`decide`] without a separation.
+    Bounded(Bound),
+    /// [`segment::misses_face`]; keeps EE.
+    Segment,
+    /// [`relative::are_apart_along_nine_directions`].
+    NineDirections,
+    /// [`direction::are_apart_along_normal`].
+    Normal,
+}
+
+impl Kernel {
+    /// All kernels that are certified.
+    pub const CERTIFIED: [Self; 6] = [
+        Self::Bounded(Bound::MagnitudesByEdge),
+        Self::Bounded(Bound::MagnitudesByAxis),
+        Self::Bounded(Bound::Permanent),
+        Self::Segment,
+        Self::NineDirections,
+        Self::Normal,
+    ];
+
+    /// Whether the kernel culls the pair, with its constants times `F`.
+    pub fn culls<F: Factors, S: Format>(self, pair: &PairCase<S>) -> bool {
+        match pair.kind {
+            Kind::VertexFace => self.on::<VertexAndFace, F, S>(&pair.vertex_face().points()),
+            Kind::EdgeEdge => self.on::<EdgeAndEdge, F, S>(&pair.edge_edge().points()),
+        }
+    }
+
+    fn on<P: PairShape, F: Factors, S: Format>(self, points: &PairPoints<S>) -> bool {
+        let number = Altered::<F, S>::new;
+        let altered = |v: Vector<S>| Vector::new(number(v.x), number(v.y), number(v.z));
+        let points = PairPoints {
+            start: points.start.map(altered),
+            end: points.end.map(altered),
+        };
+        match self {
+            Self::Bounded(bound) => decide::<P, _>(bound, &points.tetrahedron::<P>(), None).culled,
+            Self::Segment => P::SHAPE == Shape::VertexFace && segment::misses_face(&points),
+            Self::NineDirections => relative::are_apart_along_nine_directions::<P, _>(&points),
+            Self::Normal => direction::are_apart_along_normal::<P, _>(&points),
+        }
+    }
+}

@@ -1,0 +1,386 @@
+//! False culls counted over many pairs, random and adversarial, every cull checked exactly.
+//!
+//! Work comes in chunks, each with random numbers of its own, so that the result depends on neither threads nor interruptions.
+//!
+//! # Who judges
+//! A cull without separation is proven right by the exact signs of the control values
+//! ([`control_value_signs`], itself checked against rationals in the tests), or for subdivided tiers by relative boxes; one
+//! with a separation by [`is_never_within`]. What that does not prove, the [`oracle`] decides, and of what
+//! it does prove the oracle confirms every 10,000th. A cull is false if the pair is coplanar, is within the separation, or, for
+//! subdivided tiers, touches.
+
+use crate::generator::{Choices, Format, PairCase};
+use crate::oracle::{self, Kind};
+use proptest::prelude::Rng;
+use proptest::test_runner::{RngAlgorithm, TestRng};
+use selvedge_core::PrimitivePair;
+use selvedge_core::boxes::relative;
+use selvedge_core::exact::{UNKNOWN, control_value_signs, is_never_within};
+use selvedge_core::filter::{Filter, Tier, plain};
+use serde::{Deserialize, Serialize};
+use std::cell::OnceCell;
+use std::cmp::Ordering::{Greater, Less};
+use std::collections::BTreeSet;
+use std::fmt;
+use std::sync::Mutex;
+
+/// Every this many culls of a rule the oracle confirms one that is proven already.
+const SAMPLE: u64 = 10_000;
+
+/// What culls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// The paper's filter.
+    Plain,
+    /// A tier, without a separation or with one.
+    Tier(Tier, bool),
+}
+
+impl Rule {
+    /// Every rule, in the order of a [`Progress`]'s rows. (Of subdivided tiers with a separation the oracle would have to decide
+    /// too many: the property tests have them.)
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        let whole = |tier: &Tier| tier.is_certified() && !matches!(tier, Tier::Subdivided(_));
+        let separated = Tier::ALL.into_iter().filter(whole);
+        std::iter::once(Self::Plain)
+            .chain(Tier::ALL.map(|tier| Self::Tier(tier, false)))
+            .chain(separated.map(|tier| Self::Tier(tier, true)))
+            .collect()
+    }
+
+    /// Whether a false cull is an error.
+    #[must_use]
+    pub const fn is_certified(self) -> bool {
+        matches!(self, Self::Tier(tier, _) if tier.is_certified())
+    }
+}
+
+impl fmt::Display for Rule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Plain => f.pad("plain (the paper)"),
+            Self::Tier(tier, false) => f.pad(&format!("{tier:?}")),
+            Self::Tier(tier, true) => f.pad(&format!("{tier:?}, separation")),
+        }
+    }
+}
+
+/// What was seen of one rule on one number format.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Tally {
+    /// Pairs that it was asked about.
+    pub pairs: u64,
+    /// Those that it culled.
+    pub culled: u64,
+    /// Culls that the oracle decided or confirmed.
+    pub by_oracle: u64,
+    /// Culls of pairs that it must keep.
+    pub false_culls: u64,
+    /// Those of them that even touch.
+    pub touching: u64,
+    /// The first of them (preferably one that touches), as Rust, by chunk.
+    pub example: Option<Example>,
+}
+
+/// A false cull.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct Example {
+    /// Whether it merely is coplanar, or within the separation.
+    pub does_not_touch: bool,
+    /// The chunk.
+    pub chunk: u64,
+    /// The pair.
+    pub pair: String,
+}
+
+impl Tally {
+    fn add(&mut self, other: &Self) {
+        self.pairs += other.pairs;
+        self.culled += other.culled;
+        self.by_oracle += other.by_oracle;
+        self.false_culls += other.false_culls;
+        self.touching += other.touching;
+        let examples = self.example.iter().chain(&other.example);
+        self.example = examples.min().cloned();
+    }
+}
+
+/// How far a run has come.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Progress {
+    /// Where random numbers come from.
+    pub seed: u64,
+    /// Chunks for each of the two number formats.
+    pub chunks: u64,
+    /// Pairs a chunk.
+    pub pairs_per_chunk: u64,
+    /// Finished chunks: twice the number for `f32`, one more for `f64`.
+    pub done: BTreeSet<u64>,
+    /// A row for each of [`Rule::all`], for `f32` and for `f64`.
+    pub rows: [Vec<Tally>; 2],
+}
+
+impl Progress {
+    /// Nothing done yet. Whole chunks: at least `pairs` pairs for each format.
+    #[must_use]
+    pub fn new(seed: u64, pairs: u64, pairs_per_chunk: u64) -> Self {
+        let nothing = vec![Tally::default(); Rule::all().len()];
+        Self {
+            seed,
+            chunks: pairs.div_ceil(pairs_per_chunk),
+            pairs_per_chunk,
+            done: BTreeSet::new(),
+            rows: [nothing.clone(), nothing],
+        }
+    }
+
+    /// Whether all chunks are done.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        self.done.len() as u64 == 2 * self.chunks
+    }
+
+    /// False culls of rules that promise that there are none.
+    #[must_use]
+    pub fn broken_promises(&self) -> u64 {
+        let of = |rows: &Vec<Tally>| {
+            let certified = Rule::all().into_iter().zip(rows);
+            let certified = certified.filter(|(rule, _)| rule.is_certified());
+            certified.map(|(_, tally)| tally.false_culls).sum::<u64>()
+        };
+        self.rows.iter().map(of).sum()
+    }
+}
+
+impl fmt::Display for Progress {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "{:24} {:6} {:>12} {:>12} {:>10} {:>12} {:>10}",
+            "tier", "scalar", "pairs", "culled", "by oracle", "false culls", "touching"
+        )?;
+        for (rows, scalar) in self.rows.iter().zip(["f32", "f64"]) {
+            for (rule, tally) in Rule::all().into_iter().zip(rows) {
+                let Tally {
+                    pairs,
+                    culled,
+                    by_oracle,
+                    false_culls,
+                    touching,
+                    ..
+                } = tally;
+                writeln!(
+                    f,
+                    "{rule:24} {scalar:6} {pairs:12} {culled:12} {by_oracle:10} {false_culls:12} {touching:10}"
+                )?;
+            }
+        }
+        for (rows, scalar) in self.rows.iter().zip(["f32", "f64"]) {
+            for (rule, tally) in Rule::all().into_iter().zip(rows) {
+                if let Some(example) = &tally.example {
+                    writeln!(f, "\n{rule}, {scalar}, culls\n{}", example.pair)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Does what is left, on as many threads, until `stops` says so. `after_chunk` sees each state that may be kept, one at a time.
+///
+/// # Panics
+/// If a thread panics.
+pub fn run(
+    progress: Progress,
+    threads: usize,
+    after_chunk: impl Fn(&Progress) + Sync,
+    stops: impl Fn() -> bool + Sync,
+) -> Progress {
+    let Progress {
+        seed,
+        pairs_per_chunk,
+        ..
+    } = progress;
+    let all = 0..2 * progress.chunks;
+    let left: Vec<u64> = all.filter(|chunk| !progress.done.contains(chunk)).collect();
+    let left = Mutex::new(left.into_iter());
+    let progress = Mutex::new(progress);
+    let take = || left.lock().expect("no panic").next();
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while !stops() {
+                    let Some(chunk) = take() else {
+                        break;
+                    };
+                    let format = (chunk % 2) as usize;
+                    let tallies = if format == 0 {
+                        look_at_chunk::<f32>(seed, chunk, pairs_per_chunk)
+                    } else {
+                        look_at_chunk::<f64>(seed, chunk, pairs_per_chunk)
+                    };
+                    let mut progress = progress.lock().expect("no panic");
+                    for (row, tally) in progress.rows[format].iter_mut().zip(&tallies) {
+                        row.add(tally);
+                    }
+                    progress.done.insert(chunk);
+                    after_chunk(&progress);
+                }
+            });
+        }
+    });
+    progress.into_inner().expect("no panic")
+}
+
+fn look_at_chunk<S: Format>(seed: u64, chunk: u64, pairs: u64) -> Vec<Tally> {
+    let mut bytes = [0; 16];
+    bytes[..8].copy_from_slice(&seed.to_le_bytes());
+    // Never all zero, with which this generator would be stuck.
+    bytes[8..].copy_from_slice(&(chunk + 1).to_le_bytes());
+    let mut random = TestRng::from_seed(RngAlgorithm::XorShift, &bytes);
+    // Seeds that differ in a few bits begin alike.
+    let mut bytes = [0; Choices::ENOUGH];
+    random.fill_bytes(&mut bytes);
+
+    let rules = Rule::all();
+    let mut tallies = vec![Tally::default(); rules.len()];
+    for _ in 0..pairs {
+        random.fill_bytes(&mut bytes);
+        let mut choices = Choices::new(&bytes);
+        let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
+        let pair = match choices.below(16) {
+            0 => PairCase::<S>::choose_graze_of_a_box(&mut choices),
+            1 => PairCase::choose_any(kind, &mut choices),
+            _ => PairCase::choose(kind, &mut choices),
+        };
+        // Of the pair's own size, or smaller.
+        let [[x, ..], _] = pair.points[choices.below(4) as usize];
+        let separation = (x.abs() * S::exact(1, -(choices.below(32) as i32))).made_finite();
+        match pair.kind {
+            Kind::VertexFace => {
+                Judged::new(&pair, pair.vertex_face(), separation).by(&rules, &mut tallies, chunk);
+            }
+            Kind::EdgeEdge => {
+                Judged::new(&pair, pair.edge_edge(), separation).by(&rules, &mut tallies, chunk);
+            }
+        }
+    }
+    tallies
+}
+
+/// One pair, and what is known of it so far.
+struct Judged<'a, S: Format, P> {
+    case: &'a PairCase<S>,
+    pair: P,
+    separation: S,
+    has_one_sign: OnceCell<bool>,
+    is_beyond: OnceCell<bool>,
+    coplanar: OnceCell<bool>,
+    touching: OnceCell<bool>,
+    within: OnceCell<bool>,
+}
+
+impl<'a, S: Format, P: PrimitivePair<S>> Judged<'a, S, P> {
+    const fn new(case: &'a PairCase<S>, pair: P, separation: S) -> Self {
+        Self {
+            case,
+            pair,
+            separation,
+            has_one_sign: OnceCell::new(),
+            is_beyond: OnceCell::new(),
+            coplanar: OnceCell::new(),
+            touching: OnceCell::new(),
+            within: OnceCell::new(),
+        }
+    }
+
+    fn by(&self, rules: &[Rule], tallies: &mut [Tally], chunk: u64) {
+        for (&rule, tally) in rules.iter().zip(tallies) {
+            tally.pairs += 1;
+            if !self.is_culled_by(rule) {
+                continue;
+            }
+            tally.culled += 1;
+            if self.is_proven(rule) && tally.culled % SAMPLE != 1 {
+                continue;
+            }
+            tally.by_oracle += 1;
+            if self.must_be_kept(rule) {
+                tally.false_culls += 1;
+                let touches = self.touches();
+                tally.touching += u64::from(touches);
+                let found = Example {
+                    does_not_touch: !touches,
+                    chunk,
+                    pair: format!("{:?}", self.case),
+                };
+                tally.example = tally.example.take().into_iter().chain([found]).min();
+            }
+        }
+    }
+
+    fn is_culled_by(&self, rule: Rule) -> bool {
+        match rule {
+            Rule::Plain => plain::non_coplanarity(&self.pair),
+            Rule::Tier(tier, false) => Filter::new(tier).verdict(&self.pair),
+            Rule::Tier(tier, true) => {
+                let filter = Filter::new(tier).with_separation(self.separation);
+                filter.expect("a length").verdict(&self.pair)
+            }
+        }
+        .is_culled()
+    }
+
+    /// Whether the exact parts of core prove the cull right.
+    fn is_proven(&self, rule: Rule) -> bool {
+        match rule {
+            Rule::Tier(_, true) => *self.is_beyond.get_or_init(|| {
+                is_never_within::<P::Shape, S>(&self.pair.points(), self.separation, UNKNOWN)
+            }),
+            Rule::Tier(Tier::Subdivided(_), false) => {
+                self.has_one_sign() || relative::nine_directions(&self.pair).is_culled()
+            }
+            Rule::Plain | Rule::Tier(_, false) => self.has_one_sign(),
+        }
+    }
+
+    fn has_one_sign(&self) -> bool {
+        *self.has_one_sign.get_or_init(|| {
+            let signs = control_value_signs::<P::Shape, S>(&self.pair.points());
+            matches!(
+                signs,
+                Some([Less, Less, Less, Less] | [Greater, Greater, Greater, Greater])
+            )
+        })
+    }
+
+    fn must_be_kept(&self, rule: Rule) -> bool {
+        if !self.case.is_finite() {
+            return true;
+        }
+        match rule {
+            Rule::Tier(_, true) => *self
+                .within
+                .get_or_init(|| oracle::within(&self.case.question(), self.separation.to_f64())),
+            Rule::Tier(Tier::Subdivided(_), false) => self.touches(),
+            Rule::Plain | Rule::Tier(_, false) => self.is_coplanar(),
+        }
+    }
+
+    fn is_coplanar(&self) -> bool {
+        *self.coplanar.get_or_init(|| {
+            let question = self.case.question();
+            oracle::coplanar(&question.start, &question.end)
+        })
+    }
+
+    /// What touches is coplanar, which takes the oracle less time to tell.
+    fn touches(&self) -> bool {
+        *self.touching.get_or_init(|| {
+            self.case.is_finite()
+                && self.is_coplanar()
+                && oracle::collides(&self.case.question()).is_some()
+        })
+    }
+}

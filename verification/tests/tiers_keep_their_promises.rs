@@ -1,0 +1,386 @@
+//! What each tier promises, one pair at a time: whom it never culls, and which of two culls more.
+
+mod support;
+
+use proptest::prelude::*;
+use selvedge_core::boxes::direction;
+use selvedge_core::filter::{Depth, Filter, Tier};
+use selvedge_verification::generator::{
+    Format, PairCase, check, coplanar_pairs, extraordinary_pairs, grazes_of_a_box,
+    pairs_of_any_kind, touching_pairs,
+};
+use selvedge_verification::oracle::{Kind, collides, coplanar, within};
+use support::distance::distance;
+use support::rationals::{InRationals, separations};
+
+const DEPTHS: [Depth; 4] = [Depth::One, Depth::Two, Depth::Three, Depth::Four];
+
+fn certified() -> impl Iterator<Item = Tier> {
+    Tier::ALL.into_iter().filter(|tier| tier.is_certified())
+}
+
+fn filter_culls<S: Format>(filter: Filter<S>, pair: &PairCase<S>) -> bool {
+    match pair.kind {
+        Kind::VertexFace => filter.verdict(&pair.vertex_face()),
+        Kind::EdgeEdge => filter.verdict(&pair.edge_edge()),
+    }
+    .is_culled()
+}
+
+fn culls<S: Format>(tier: Tier, pair: &PairCase<S>) -> bool {
+    filter_culls(Filter::new(tier), pair)
+}
+
+fn culls_beyond<S: Format>(tier: Tier, separation: S, pair: &PairCase<S>) -> bool {
+    let filter = Filter::new(tier).with_separation(separation);
+    filter_culls(filter.expect("a length"), pair)
+}
+
+fn normal_culls<S: Format>(pair: &PairCase<S>) -> bool {
+    match pair.kind {
+        Kind::VertexFace => direction::normal(&pair.vertex_face()),
+        Kind::EdgeEdge => direction::normal(&pair.edge_edge()),
+    }
+    .is_culled()
+}
+
+const fn is_subdivided(tier: Tier) -> bool {
+    matches!(tier, Tier::Subdivided(_))
+}
+
+/// A property of pairs of format `S`, and a test for each format.
+macro_rules! property {
+    ($(#[$about:meta])* $name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
+        $(#[$about])*
+        mod $name {
+            use super::*;
+
+            fn holds<S: Format>($pair: &PairCase<S>) -> Result<(), TestCaseError> {
+                $property
+            }
+
+            #[test]
+            fn f32() {
+                check($cases, $strategy, holds::<f32>);
+            }
+
+            #[test]
+            fn f64() {
+                check($cases, $strategy, holds::<f64>);
+            }
+        }
+    };
+}
+
+/// Nothing certified may cull it: the oracle is asked once, and only if something does.
+fn nothing_culls_what_it_must_not<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let (all, culling): (Vec<_>, Vec<_>) = certified()
+        .filter(|&tier| culls(tier, pair))
+        .partition(|&tier| is_subdivided(tier));
+    let question = pair.question();
+    if !culling.is_empty() {
+        let coplanar = coplanar(&question.start, &question.end);
+        prop_assert!(!coplanar, "coplanar, culled by {culling:?}");
+    } else if !all.is_empty() || normal_culls(pair) {
+        prop_assert!(collides(&question).is_none(), "touches, culled by {all:?}");
+    }
+    Ok(())
+}
+
+property!(
+    nothing_certified_culls_what_the_oracle_calls_coplanar_or_touching,
+    60_000,
+    pairs_of_any_kind(),
+    |pair| nothing_culls_what_it_must_not(pair)
+);
+
+property!(
+    nothing_certified_culls_a_graze,
+    20_000,
+    grazes_of_a_box(),
+    |pair| nothing_culls_what_it_must_not(pair)
+);
+
+property!(
+    nothing_certified_culls_what_is_not_finite,
+    40_000,
+    extraordinary_pairs(),
+    |pair| {
+        if pair.is_finite() {
+            return nothing_culls_what_it_must_not(pair);
+        }
+        for tier in certified() {
+            prop_assert!(!culls(tier, pair), "{tier:?}");
+            prop_assert!(!culls_beyond(tier, S::ONE, pair), "{tier:?}");
+        }
+        prop_assert!(!normal_culls(pair));
+        Ok(())
+    }
+);
+
+fn nothing_certified_culls_what_is_built_to_touch<S: Format>() {
+    check(60_000, touching_pairs::<S>(), |moment| {
+        let pair = moment.pair();
+        for tier in certified() {
+            prop_assert!(!culls(tier, &pair), "{tier:?}");
+        }
+        prop_assert!(!normal_culls(&pair));
+        Ok(())
+    });
+}
+
+#[test]
+fn nothing_certified_culls_what_is_built_to_touch_f32() {
+    nothing_certified_culls_what_is_built_to_touch::<f32>();
+}
+
+#[test]
+fn nothing_certified_culls_what_is_built_to_touch_f64() {
+    nothing_certified_culls_what_is_built_to_touch::<f64>();
+}
+
+fn only_subdivided_culls_what_is_built_to_be_coplanar<S: Format>() {
+    check(60_000, coplanar_pairs::<S>(), |moment| {
+        let pair = moment.pair();
+        for tier in certified().filter(|&tier| !is_subdivided(tier)) {
+            prop_assert!(!culls(tier, &pair), "{tier:?}");
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn only_subdivided_culls_what_is_built_to_be_coplanar_f32() {
+    only_subdivided_culls_what_is_built_to_be_coplanar::<f32>();
+}
+
+#[test]
+fn only_subdivided_culls_what_is_built_to_be_coplanar_f64() {
+    only_subdivided_culls_what_is_built_to_be_coplanar::<f64>();
+}
+
+property!(
+    exact_culls_exactly_when_the_rational_control_values_have_one_sign,
+    20_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let one_sign = InRationals::new(pair).have_one_sign();
+        prop_assert_eq!(culls(Tier::Exact, pair), one_sign);
+        Ok(())
+    }
+);
+
+/// Whether the second culls whatever the first culls, for the separations given and for none.
+fn is_at_least_as_sharp<S: Format>(
+    pair: &PairCase<S>,
+    separations: &[S],
+    [tier, sharper]: [Tier; 2],
+) -> Result<(), TestCaseError> {
+    for &separation in [S::ZERO].iter().chain(separations) {
+        prop_assert!(
+            !culls_beyond(tier, separation, pair) || culls_beyond(sharper, separation, pair),
+            "{tier:?} culls, {sharper:?} does not, by {separation}"
+        );
+    }
+    Ok(())
+}
+
+/// Lengths of the pair's own size, large and small.
+fn lengths<S: Format>(pair: &PairCase<S>) -> Vec<S> {
+    let [[x, y, _], [z, ..]] = pair.points[1];
+    let [[x2, ..], _] = pair.points[2];
+    let fine = S::exact(1, -10);
+    vec![x.abs(), y.abs() * fine, (z - x2).abs().made_finite(), fine]
+}
+
+property!(
+    sharper_tiers_cull_whatever_others_cull,
+    100_000,
+    pairs_of_any_kind(),
+    |pair| {
+        use Tier::{Exact, MagnitudesByAxis, MagnitudesByEdge, Permanent, Subdivided, Widened};
+        let lengths = lengths(pair);
+        for pair_of_tiers in [
+            [MagnitudesByEdge, Exact],
+            [MagnitudesByAxis, Exact],
+            [Permanent, Widened],
+            [Widened, Exact],
+            [Permanent, Exact],
+            [Permanent, Subdivided(Depth::One)],
+        ] {
+            is_at_least_as_sharp(pair, &lengths, pair_of_tiers)?;
+        }
+        for depths in DEPTHS.windows(2) {
+            let tiers = [Subdivided(depths[0]), Subdivided(depths[1])];
+            is_at_least_as_sharp(pair, &lengths, tiers)?;
+        }
+        Ok(())
+    }
+);
+
+property!(
+    a_larger_separation_never_culls_more_and_none_is_zero,
+    50_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let mut lengths = lengths(pair);
+        lengths.extend([S::ZERO, -S::ZERO, S::ZERO.up(), S::LARGEST]);
+        lengths.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
+        for tier in Tier::ALL {
+            let culled: Vec<_> = lengths
+                .iter()
+                .map(|&length| culls_beyond(tier, length, pair))
+                .collect();
+            prop_assert!(culled.is_sorted_by(|a, b| a >= b), "{tier:?}: {culled:?}");
+            prop_assert_eq!(culls_beyond(tier, S::ZERO, pair), culls(tier, pair));
+            prop_assert_eq!(culls_beyond(tier, -S::ZERO, pair), culls(tier, pair));
+        }
+        Ok(())
+    }
+);
+
+property!(
+    /// The promise is about the plane of the face, and the lines of the edges, which come no farther apart than they themselves.
+    /// Separations are those at which the rational control values change their answer, where the tiers have to be on the safe side.
+    nothing_certified_culls_what_comes_within_the_separation,
+    3_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let exact = InRationals::new(pair);
+        for separation in separations(pair, &exact) {
+            let culling: Vec<_> = certified()
+                .filter(|&tier| culls_beyond(tier, separation, pair))
+                .collect();
+            if culling.is_empty() {
+                continue;
+            }
+            let within = within(&pair.question(), separation.to_f64());
+            prop_assert!(!within, "{culling:?} by {separation}");
+            for tier in culling {
+                prop_assert!(
+                    is_subdivided(tier) || exact.are_beyond(&support::rationals::rational(separation)),
+                    "{tier:?} by {separation}, nearer to the plane or the line"
+                );
+            }
+        }
+        Ok(())
+    }
+);
+
+/// A separation that is a hair more than the distance at some time, as floating point has it, so that the pair certainly comes
+/// within it, or a hair less.
+fn nothing_certified_culls_beyond_the_distance_at_a_time<S: Format>() {
+    let culled = std::cell::Cell::new(0);
+    check(20_000, pairs_of_any_kind::<S>(), |pair| {
+        if pair.coordinates().any(|x| x.abs() > S::exact(1 << 10, 0)) {
+            return Ok(());
+        }
+        let question = pair.question();
+        for part in 0..=8 {
+            let separation = S::from_f64(distance(&question, f64::from(part) / 8.0));
+            for separation in [separation.nudged(2), separation.nudged(-40).abs()] {
+                let culling: Vec<_> = certified()
+                    .filter(|&tier| culls_beyond(tier, separation, pair))
+                    .collect();
+                if !culling.is_empty() {
+                    culled.set(culled.get() + 1);
+                    let within = within(&question, separation.to_f64());
+                    prop_assert!(!within, "{culling:?} by {separation}");
+                }
+            }
+        }
+        Ok(())
+    });
+    assert!(culled.get() > 100, "{culled:?} culled: nothing was tested");
+}
+
+#[test]
+fn nothing_certified_culls_beyond_the_distance_at_a_time_f32() {
+    nothing_certified_culls_beyond_the_distance_at_a_time::<f32>();
+}
+
+#[test]
+fn nothing_certified_culls_beyond_the_distance_at_a_time_f64() {
+    nothing_certified_culls_beyond_the_distance_at_a_time::<f64>();
+}
+
+fn a_separation_that_is_no_length_is_refused<S: Format>() {
+    for tier in Tier::ALL {
+        for no_length in [
+            S::NAN,
+            -S::NAN,
+            S::INFINITY,
+            -S::INFINITY,
+            -S::ONE,
+            -S::ZERO.up(),
+        ] {
+            assert_eq!(Filter::new(tier).with_separation(no_length), None);
+        }
+        for length in [S::ZERO, S::ZERO.up(), S::ONE, S::LARGEST] {
+            let filter = Filter::new(tier).with_separation(length);
+            assert_eq!(filter.map(|filter| filter.separation()), Some(length));
+        }
+    }
+}
+
+#[test]
+fn a_separation_that_is_no_length_is_refused_f32() {
+    a_separation_that_is_no_length_is_refused::<f32>();
+}
+
+#[test]
+fn a_separation_that_is_no_length_is_refused_f64() {
+    a_separation_that_is_no_length_is_refused::<f64>();
+}
+
+/// What it costs not to care: the vertex rests on a corner of the face, and rounding takes all four control values, which are
+/// zero, for numbers of one sign.
+fn uncertified_culls_a_vertex_on_a_corner<S: Format>(pair: &PairCase<S>) {
+    assert!(pair.points[1..].contains(&pair.points[0]));
+    assert!(collides(&pair.question()).is_some());
+    assert!(culls(Tier::Uncertified, pair));
+    for tier in certified() {
+        assert!(!culls(tier, pair), "{tier:?}");
+    }
+}
+
+#[test]
+fn uncertified_culls_a_vertex_on_a_corner_of_the_face_f32() {
+    let resting = |position: [f32; 3]| [position; 2];
+    uncertified_culls_a_vertex_on_a_corner(&PairCase::new(
+        Kind::VertexFace,
+        [
+            resting([13_780.0, 54_168.0, 15_324.0]),
+            resting([-13_464.0, -53_076.0, 42_424.0]),
+            resting([33_896.0, 12_028.0, -40_416.0]),
+            resting([13_780.0, 54_168.0, 15_324.0]),
+        ],
+    ));
+}
+
+#[test]
+fn uncertified_culls_a_vertex_on_a_corner_of_the_face_f64() {
+    let resting = |position: [f64; 3]| [position; 2];
+    let corner = resting([
+        -7_172_806_750_584.0,
+        25_238_060_115_324.0,
+        -25_166_202_288_376.0,
+    ]);
+    uncertified_culls_a_vertex_on_a_corner(&PairCase::new(
+        Kind::VertexFace,
+        [
+            corner,
+            resting([
+                -3_263_883_216_216.0,
+                27_459_903_486_776.0,
+                19_004_056_350_876.0,
+            ]),
+            corner,
+            resting([
+                -5_332_277_524_980.0,
+                23_865_234_970_576.0,
+                25_235_061_558_840.0,
+            ]),
+        ],
+    ));
+}
