@@ -152,13 +152,13 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
             mut culled,
             opposite,
         } = S::sixteen(level, P::SHAPE, kernel, pairs)?;
-        if self.tier().looks_again() {
-            for lane in 0..LANES {
-                let bit = 1 << lane;
-                let is_opposite = opposite & bit != 0;
-                if culled & bit == 0 && self.culls_kept::<P>(&points(pairs, lane), is_opposite) {
-                    culled |= bit;
-                }
+        // One by one, of those that the tier has more to say of.
+        let mut open = self.tier().open(culled, opposite);
+        while open != 0 {
+            let lane = open.trailing_zeros();
+            open &= open - 1;
+            if self.culls_open::<P>(&points(pairs, lane as usize)) {
+                culled |= 1 << lane;
             }
         }
         Some(culled)

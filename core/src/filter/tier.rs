@@ -3,6 +3,7 @@
 use super::certified::{Bound, decide};
 use super::subdivided::{self, Depth};
 use super::widened;
+use crate::batch::Mask;
 use crate::coplanarity::is_in_range;
 use crate::exact;
 use crate::lanes::Rounding;
@@ -58,9 +59,18 @@ impl Tier {
         !matches!(self, Self::Uncertified)
     }
 
-    /// Whether it looks again at what its bound keeps.
-    pub(crate) const fn looks_again(self) -> bool {
-        matches!(self, Self::Widened | Self::Subdivided(_) | Self::Exact)
+    /// Which of the pairs that its bound has or has not culled it looks at again: none, those undecided, or all that are
+    /// kept.
+    #[inline(always)]
+    pub(crate) fn open(self, culled: Mask, opposite: Mask) -> Mask {
+        match self {
+            Self::Uncertified
+            | Self::MagnitudesByEdge
+            | Self::MagnitudesByAxis
+            | Self::Permanent => 0,
+            Self::Widened | Self::Exact => !(culled | opposite),
+            Self::Subdivided(_) => !culled,
+        }
     }
 
     /// The part of the tier that looks at several pairs side by side.
@@ -149,29 +159,27 @@ impl<S: Scalar> Filter<S> {
             &points.tetrahedron::<P::Shape>(),
             self.positive_separation(),
         );
-        Verdict::culled_if(
-            decision.culled || self.culls_kept::<P::Shape>(&points, decision.opposite),
-        )
+        let culled = Mask::from(decision.culled);
+        let is_open = self.tier.open(culled, Mask::from(decision.opposite)) & 1 != 0;
+        Verdict::culled_if(decision.culled || is_open && self.culls_open::<P::Shape>(&points))
     }
 
-    /// What the tier does with one pair that its [`Bound`] keeps, two of whose control values certainly have opposite
-    /// signs, or not.
-    #[inline]
-    pub(crate) fn culls_kept<P: PairShape>(&self, points: &PairPoints<S>, opposite: bool) -> bool {
+    /// What the tier does with one pair that is [open](Tier::open).
+    #[cold]
+    pub(crate) fn culls_open<P: PairShape>(&self, points: &PairPoints<S>) -> bool {
         match self.tier {
             Tier::Uncertified
             | Tier::MagnitudesByEdge
             | Tier::MagnitudesByAxis
             | Tier::Permanent => false,
             Tier::Widened => {
-                !opposite
-                    && S::UNIT_ROUNDOFF.to_f64() > f64::UNIT_ROUNDOFF
+                S::UNIT_ROUNDOFF.to_f64() > f64::UNIT_ROUNDOFF
                     && widened::culls::<P, S>(points, self.positive_separation())
             }
             Tier::Subdivided(depth) => {
                 subdivided::never_touches::<P, S>(points, self.separation, depth)
             }
-            Tier::Exact => !opposite && self.culls_exactly::<P>(points),
+            Tier::Exact => self.culls_exactly::<P>(points),
         }
     }
 
