@@ -187,23 +187,22 @@ const TINY_AND_TOUCHING: PairCase<f64> = PairCase::new(
 );
 
 #[test]
-fn without_the_underflow_term_a_tiny_touching_pair_would_be_culled() {
+fn without_the_underflow_term_a_tiny_touching_pair_would_be_culled_f64() {
     assert!(collides(&TINY_AND_TOUCHING.question()).is_some());
     assert!(culls_with::<NoUnderflowTerm, _>(&TINY_AND_TOUCHING));
     assert!(!culls(&TINY_AND_TOUCHING));
 }
 
 #[test]
-fn without_the_underflow_term_a_thin_touching_pair_would_be_culled() {
-    // An edge of the smallest subnormal's length.
-    let far = [1.5, -3.458_764_5e18, 0.0];
+fn without_the_underflow_term_a_tiny_touching_pair_would_be_culled_f32() {
+    let resting = |position: [f32; 3]| [position; 2];
     let pair = PairCase::<f32>::new(
-        Kind::EdgeEdge,
+        Kind::VertexFace,
         [
-            [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
-            [[1.0, 0.0, 0.0], far],
-            [[0.0, 0.0, 1e-45], [0.0, 0.0, 1e-45]],
-            [[0.0, -1.0, 0.0], far],
+            resting([-5.355_958_7e-16, 7.723_856_3e-16, -5.000_340_4e-16]),
+            resting([-1.994_932e-16, -3.001_071_6e-16, -1.091_141_1e-15]),
+            resting([-1.616_762_3e-15, 1.288_899_5e-15, -6.938_894e-18]),
+            resting([-1.752_070_7e-16, 6.002_143e-16, -6.643_991e-16]),
         ],
     );
     assert!(collides(&pair.question()).is_some());

@@ -232,12 +232,7 @@ fn every_motion_around_a_point_at_rest_on_a_grid_of_three_values_with_5_bits() {
 #[test]
 fn every_motion_of_four_points_on_grids_of_two_values_with_5_bits() {
     type Number = Minifloat<4, 4>;
-    for grid in [
-        [-1.875, 0.8125],
-        [-1.125, 0.75],
-        [0.625, 1.875],
-        [-0.5625, 1.0],
-    ] {
+    for grid in [[-1.875, 0.8125], [0.625, 1.875]] {
         let grid: [Number; 2] = numbers(grid);
         let mut ends = Vec::new();
         every::<_, 12>(&grid, |x| {

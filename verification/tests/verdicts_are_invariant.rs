@@ -162,9 +162,9 @@ property!(
 );
 
 /// Multiples of 2⁻¹⁰ up to 16 in magnitude. A permanent of them is zero (and so is the value then, and its sign certain to
-/// nobody) or at least 2⁻³⁰. With u = 2⁻²⁴ the bound is then at least 2⁻⁵¹, of which the last bit is worth 2⁻⁷⁴, and
-/// (p_max + 1)·η ≤ 2⁻¹¹³ vanishes in it. Scaled by 2¹² more so; by 2⁻¹² the last bit is worth 2⁻¹¹⁰, and p_max + 1 < 2 makes the
-/// other term less than 2⁻¹¹⁸. The segment test's products are larger.
+/// nobody) or at least 2⁻³⁰. With u = 2⁻²⁴ the bound is then at least 2⁻⁵⁰, of which the last bit is worth 2⁻⁷³, and
+/// (1 + M)²·η < 2⁻¹⁰⁶ vanishes in it. Scaled by 2¹² more so; by 2⁻¹² the last bit is worth 2⁻¹⁰⁹, and M < 1 makes the other term
+/// less than 2⁻¹¹⁵. The segment test's products are larger.
 fn on_a_grid<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
     // A few values only, or any: what is nearly coplanar matters.
     let limit = choices.pick(&[2, 64, 16_384]);
