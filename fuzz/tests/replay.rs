@@ -43,6 +43,11 @@ fn box_tests_keep_their_promises_on_the_kept_inputs() {
 }
 
 #[test]
+fn exact_verdict_keeps_its_promises_on_the_kept_inputs() {
+    replay("exact_verdict");
+}
+
+#[test]
 fn distribution_keeps_its_promises_on_the_kept_inputs() {
     replay("distribution");
 }

@@ -3,6 +3,7 @@
 mod box_tests;
 mod certified_filter;
 mod distribution;
+mod exact_verdict;
 mod meshes;
 mod message;
 mod pair;
@@ -11,6 +12,7 @@ mod query_csv;
 pub use box_tests::box_tests;
 pub use certified_filter::certified_filter;
 pub use distribution::distribution;
+pub use exact_verdict::exact_verdict;
 pub use meshes::{obj, ply};
 pub use query_csv::query_csv;
 
@@ -18,9 +20,10 @@ pub use query_csv::query_csv;
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every target there is.
-pub const ALL: [Target; 6] = [
+pub const ALL: [Target; 7] = [
     ("certified_filter", certified_filter),
     ("box_tests", box_tests),
+    ("exact_verdict", exact_verdict),
     ("distribution", distribution),
     ("obj", obj),
     ("ply", ply),
