@@ -227,11 +227,11 @@ impl Writer {
     /// Of a sum whose last step does not count.
     fn new(trace: &Trace, value: Traced) -> Self {
         let mut script = Self::default();
-        if let Traced::Step(last) = value {
-            if let Step::Sum(a, b) = trace.steps[last] {
-                script.add(trace, a);
-                script.add(trace, b);
-            }
+        if let Traced::Step(last) = value
+            && let Step::Sum(a, b) = trace.steps[last]
+        {
+            script.add(trace, a);
+            script.add(trace, b);
         }
         script
             .underflow_hypotheses
