@@ -91,8 +91,7 @@ fn comparison_row(row: &ComparisonRow) -> Value {
         "reconstructed": row.preset.is_reconstructed(),
         "vertex_face": kind(|counts| counts.vertex_face),
         "edge_edge": kind(|counts| counts.edge_edge),
-        // Nothing decides exactly yet which pairs truly touch.
-        "missed": Value::Null,
+        "missed": row.missed.vertex_face + row.missed.edge_edge,
         "frames_per_second": row.frames_per_second,
         "stages": comparison_stages(row),
         "paper": paper_row(row.preset).map(|paper| json!({
