@@ -730,7 +730,7 @@ fn answer(
             );
         }
         (Some(First::Irrational), Some(time)) => {
-            assert_eq!(time.as_rational(), None, "{name}, {placement}")
+            assert_eq!(time.as_rational(), None, "{name}, {placement}");
         }
         (_, contact) => panic!("{name}, {placement}: {contact:?}"),
     }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`oracle`] | exact answers, from the definitions alone |
 //! | [`false_culls`] | a long run of every tier over random and adversarial pairs |
+//! | [`exact_campaign`] | a billion pairs, every cull and every "never" checked by exact arithmetic |
 //! | [`generator`] | inputs, biased to what breaks floating-point geometry; for property tests and fuzz targets |
 //! | [`hard_cases`] | the hard cases of the literature, by name |
 //! | [`minifloat`] | a number format of a few bits, in which every input of a grid can be tried |
@@ -14,6 +15,7 @@
 
 pub mod altered;
 pub mod culling;
+pub mod exact_campaign;
 pub mod false_culls;
 pub mod generator;
 pub mod hard_cases;

@@ -56,8 +56,8 @@ fn exactly<S: Scalar>(case: &HardCase) -> Option<[Motion<S>; 4]> {
     let convert = |position: DVec3| {
         let converted = position.to_array().map(S::from_f64);
         let is_same = |(old, new): (f64, S)| old == new.to_f64() || old.is_nan();
-        let all = position.to_array().into_iter().zip(converted);
-        all.map(is_same).all(|same| same).then(|| converted.into())
+        let mut all = position.to_array().into_iter().zip(converted);
+        all.all(is_same).then(|| converted.into())
     };
     let mut points = case.motions().map(|motion| {
         Some(Motion {
