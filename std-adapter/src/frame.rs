@@ -1,5 +1,6 @@
 //! The two frames of a step, and what can be wrong with them.
 
+use crate::PairKind;
 use selvedge_core::Scalar;
 
 /// Why a step could not be run. Nothing has changed; another one can be.
@@ -9,7 +10,7 @@ pub enum StepError {
     /// A frame has too few or too many positions.
     #[error("the {frame} frame has {found} positions, but the mesh has {expected} vertices")]
     WrongLength {
-        /// `"start"` or `"end"`.
+        /// `"start"`, `"end"`, or `"moving"` for what is no frame but has one entry for each vertex as well.
         frame: &'static str,
         /// The length of the slice.
         found: usize,
@@ -27,6 +28,20 @@ pub enum StepError {
         vertex: usize,
         /// Its position.
         position: String,
+    },
+    /// A separation or a tolerance is negative, infinite or NaN.
+    #[error("{length} is no separation, and no tolerance: it must be a finite length, not negative")]
+    BadLimit {
+        /// What was given.
+        length: String,
+    },
+    /// A pair names a vertex, a face or an edge that the mesh does not have.
+    #[error("there is no {kind} pair {}, {} in this mesh", pair[0], pair[1])]
+    NoSuchPair {
+        /// Vertex–face or edge–edge.
+        kind: PairKind,
+        /// The first such pair.
+        pair: [u32; 2],
     },
 }
 

@@ -5,6 +5,44 @@
 
 use rayon::prelude::*;
 
+/// The threads could not be started.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot start {threads} threads: {source}")]
+pub struct ThreadError {
+    threads: usize,
+    source: rayon::ThreadPoolBuildError,
+}
+
+/// A pool of its own, or the calling thread.
+#[derive(Debug)]
+pub(crate) struct Threads(Option<rayon::ThreadPool>);
+
+impl Threads {
+    /// So many threads; 0: one for each core. With one thread no pool is made.
+    pub(crate) fn new(threads: usize) -> Result<Self, ThreadError> {
+        if threads == 1 {
+            return Ok(Self(None));
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.map_err(|source| ThreadError { threads, source })?;
+        Ok(Self(Some(pool)))
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.0
+            .as_ref()
+            .map_or(1, rayon::ThreadPool::current_num_threads)
+    }
+
+    /// Runs `action`, whose loops are then split between the threads.
+    pub(crate) fn run<T: Send>(&self, action: impl FnOnce() -> T + Send) -> T {
+        match &self.0 {
+            Some(pool) => pool.install(action),
+            None => action(),
+        }
+    }
+}
+
 /// Whether work should be split between threads.
 pub(crate) fn has_many_threads() -> bool {
     rayon::current_thread_index().is_some() && rayon::current_num_threads() > 1

@@ -10,7 +10,7 @@
 pub mod additive;
 pub mod advance;
 mod closest;
-mod corners;
+pub(crate) mod corners;
 pub mod cubic;
 mod impact;
 pub mod tight_inclusion;

@@ -39,7 +39,7 @@
 //! assert_eq!(pairs, [[0, 2]]);
 //! ```
 
-mod buffer;
+pub(crate) mod buffer;
 mod candidates;
 mod degradation;
 mod hierarchy;

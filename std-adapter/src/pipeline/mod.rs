@@ -48,17 +48,19 @@ mod stored;
 mod swept;
 
 pub use crate::frame::StepError;
+pub use crate::pair_kind::PairCounts;
+pub use crate::parallel::ThreadError;
+pub use crate::step::Contact;
 pub use assignment::FeatureAssignment;
-pub use pairs::Contact;
 pub use preset::{CullingTest, ElementaryTest, Preset, Redundancy, Stage, Stages, UnknownPreset};
-pub use report::{PairCounts, StageReport, StepReport};
+pub use report::{StageReport, StepReport};
 
 use crate::PairKind;
 use crate::broad_phase::{BroadPhase, SweptBox};
 use crate::dispatch::{Level, best_level};
 use crate::frame::check_frames;
 use crate::mesh::Topology;
-use crate::parallel;
+use crate::parallel::{self, Threads};
 use batch::{Batch, StepInput};
 use pairs::MovingMesh;
 use rustc_hash::FxHashSet;
@@ -82,7 +84,7 @@ pub struct Pipeline<S: Scalar> {
     topology: Topology,
     assignment: FeatureAssignment,
     stages: Stages,
-    pool: Option<rayon::ThreadPool>,
+    threads: Threads,
     buffers: Buffers<S>,
     report: StepReport,
 }
@@ -111,14 +113,6 @@ struct Distributed {
     edge_edge: FxHashSet<[u32; 2]>,
 }
 
-/// The threads of a [`Pipeline`] could not be started.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot start {threads} threads: {source}")]
-pub struct ThreadError {
-    threads: usize,
-    source: rayon::ThreadPoolBuildError,
-}
-
 impl<S: Scalar> Pipeline<S> {
     /// Prepares `stages` for a mesh, on `threads` threads (0: one for each core).
     ///
@@ -127,23 +121,16 @@ impl<S: Scalar> Pipeline<S> {
     /// # Errors
     /// If the operating system refuses the threads.
     pub fn new(topology: Topology, stages: Stages, threads: usize) -> Result<Self, ThreadError> {
-        let pool = match threads {
-            1 => None,
-            threads => Some(
-                rayon::ThreadPoolBuilder::new()
-                    .num_threads(threads)
-                    .build()
-                    .map_err(|source| ThreadError { threads, source })?,
-            ),
-        };
+        let threads = Threads::new(threads)?;
         let assignment = match stages.redundancy {
             Redundancy::RepresentativeTriangles => FeatureAssignment::representative(&topology),
             Redundancy::Kept | Redundancy::HashSets => FeatureAssignment::every_feature(&topology),
         };
         // A few batches for each thread, so that an unlucky one does not keep the others waiting.
-        let batches = pool
-            .as_ref()
-            .map_or(1, |pool| 4 * pool.current_num_threads());
+        let batches = match threads.count() {
+            1 => 1,
+            count => 4 * count,
+        };
         Ok(Self {
             buffers: Buffers {
                 keep_candidates: false,
@@ -163,7 +150,7 @@ impl<S: Scalar> Pipeline<S> {
             topology,
             assignment,
             stages,
-            pool,
+            threads,
         })
     }
 
@@ -191,15 +178,11 @@ impl<S: Scalar> Pipeline<S> {
             topology,
             assignment,
             stages,
-            pool,
+            threads,
             buffers,
             report,
         } = self;
-        let mut run = || buffers.step(topology, assignment, *stages, start, end, report);
-        match pool {
-            Some(pool) => pool.install(run),
-            None => run(),
-        }
+        threads.run(|| buffers.step(topology, assignment, *stages, start, end, report));
         Ok(report)
     }
 
@@ -230,9 +213,7 @@ impl<S: Scalar> Pipeline<S> {
     /// How many threads a step uses.
     #[must_use]
     pub fn threads(&self) -> usize {
-        self.pool
-            .as_ref()
-            .map_or(1, rayon::ThreadPool::current_num_threads)
+        self.threads.count()
     }
 }
 

@@ -1,32 +1,8 @@
 //! What a step counted and how long its stages took.
 
 use super::preset::Stage;
+use crate::pair_kind::PairCounts;
 use arrayvec::ArrayVec;
-use std::ops::AddAssign;
-
-/// How many pairs of each kind.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PairCounts {
-    /// Vertex–face pairs.
-    pub vertex_face: u64,
-    /// Edge–edge pairs.
-    pub edge_edge: u64,
-}
-
-impl PairCounts {
-    /// Both kinds together.
-    #[must_use]
-    pub const fn total(self) -> u64 {
-        self.vertex_face + self.edge_edge
-    }
-}
-
-impl AddAssign for PairCounts {
-    fn add_assign(&mut self, other: Self) {
-        self.vertex_face += other.vertex_face;
-        self.edge_edge += other.edge_edge;
-    }
-}
 
 /// One stage after the broad phase.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,0 +1,380 @@
+//! The stages joined, on the threads of whoever calls.
+
+use super::sweep::{Chunk, ChunkSink, Numbers, StepInput, Tally};
+use super::{Bound, Contact, Question, Wanted};
+use crate::PairKind;
+use crate::broad_phase::buffer::settle;
+use crate::broad_phase::moving::{CHUNK, Fit, Hierarchies, Scratch, Sink};
+use crate::dispatch::Level;
+use crate::frame::{StepError, check_frames};
+use crate::mesh::Topology;
+use crate::pair_kind::PairCounts;
+use crate::parallel;
+use selvedge_core::batch::VertexRow;
+use selvedge_core::elementary::Limits;
+use selvedge_core::{Motion, Scalar};
+use std::cmp::Ordering;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A part of the step from its start, in which contacts are looked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Probe {
+    /// Its end, in (0, 1].
+    until: f64,
+}
+
+impl Probe {
+    /// The whole step.
+    pub(crate) const WHOLE: Self = Self { until: 1.0 };
+}
+
+/// Where the earliest contact is looked for: what comes near in a short part of the step are few pairs, and most steps that have a
+/// contact at all have one early.
+pub(super) const PROBES: [Probe; 3] = [
+    Probe { until: 1.0 / 64.0 },
+    Probe { until: 1.0 / 8.0 },
+    Probe::WHOLE,
+];
+
+/// What a step counted, and its seconds. With several threads the seconds of stages are sums over them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepTally {
+    /// Pairs that moving boxes leave.
+    pub candidates: PairCounts,
+    /// Those that may become coplanar.
+    pub filtered: PairCounts,
+    /// Contacts.
+    pub contacts: PairCounts,
+    /// Boxes, refit or build, traversal.
+    pub broad_phase_seconds: f64,
+    /// The certified non-coplanarity filter.
+    pub filter_seconds: f64,
+    /// The time of impact.
+    pub elementary_seconds: f64,
+    /// The whole step by the clock on the wall.
+    pub seconds: f64,
+}
+
+/// See the [module](super).
+#[derive(Debug)]
+pub(crate) struct Engine<S: Scalar> {
+    hierarchies: Hierarchies<S>,
+    workers: Vec<Worker<S>>,
+    /// The motion of each vertex as the mesh numbers them, for pairs of the caller's.
+    rows: Vec<VertexRow<S>>,
+    tally: StepTally,
+}
+
+/// One share of the work.
+#[derive(Debug)]
+struct Worker<S> {
+    scratch: Scratch,
+    chunk: Chunk<S>,
+    kind: PairKind,
+    tests: u64,
+    seconds: f64,
+}
+
+impl<S: Scalar> Worker<S> {
+    fn new() -> Self {
+        Self {
+            scratch: Scratch::new(),
+            chunk: Chunk::new(),
+            kind: PairKind::VertexFace,
+            tests: 0,
+            seconds: 0.0,
+        }
+    }
+}
+
+impl<S: Scalar> Engine<S> {
+    pub(crate) fn new(topology: Arc<Topology>) -> Self {
+        Self {
+            hierarchies: Hierarchies::new(topology),
+            workers: Vec::new(),
+            rows: Vec::new(),
+            tally: StepTally::default(),
+        }
+    }
+
+    pub(crate) const fn set_level(&mut self, level: Level) {
+        self.hierarchies.set_level(level);
+    }
+
+    pub(crate) fn set_moving(&mut self, moving: Option<Vec<bool>>) {
+        self.hierarchies.set_moving(moving);
+    }
+
+    pub(crate) fn topology(&self) -> &Topology {
+        self.hierarchies.topology()
+    }
+
+    pub(crate) const fn tally(&self) -> &StepTally {
+        &self.tally
+    }
+
+    /// Finds the contacts of a step, or of a part of it.
+    pub(crate) fn run(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        question: &Question<S>,
+        probe: Probe,
+    ) -> Result<(), StepError> {
+        let begin = Instant::now();
+        let fit = Fit {
+            separation: question.limits.separation,
+            until: S::from_f64(probe.until),
+            is_swept: false,
+        };
+        self.hierarchies.update(start, end, &fit)?;
+        let update = begin.elapsed().as_secs_f64();
+
+        let hierarchies = &self.hierarchies;
+        self.workers
+            .resize_with(hierarchies.shares(), Worker::new);
+        let bound = Bound::new(probe.until);
+        let step = StepInput {
+            level: hierarchies.level(),
+            numbers: Numbers::Positions(hierarchies),
+            rows: hierarchies.rows(),
+            question: *question,
+            bound: &bound,
+        };
+        parallel::for_each(&mut self.workers, |index, worker| {
+            let begin = Instant::now();
+            let share = hierarchies.share(index);
+            worker.kind = share.kind;
+            worker.chunk.clear();
+            worker.tests = 0;
+            let has_enough = question.wanted == Wanted::Any && bound.is_lowered();
+            if !has_enough {
+                let mut sink = ChunkSink {
+                    chunk: &mut worker.chunk,
+                    step: &step,
+                    kind: share.kind,
+                };
+                let tests = hierarchies.visit(share, &mut worker.scratch, &mut sink);
+                if let Some(tests) = tests {
+                    worker.tests = tests;
+                    worker.chunk.finish(&step, share.kind);
+                }
+            }
+            worker.seconds = begin.elapsed().as_secs_f64();
+        });
+        self.count(begin, update);
+        let tests = self.workers.iter().map(|worker| worker.tests).sum();
+        let candidates = self.tally.candidates.total() as usize;
+        // A traversal that ended early, or of a part of the step, tells nothing of how good the hierarchies are.
+        if question.wanted == Wanted::All {
+            self.hierarchies.observe(tests, candidates);
+        }
+        Ok(())
+    }
+
+    /// Finds the contacts of pairs that the caller has: VF, EE.
+    pub(crate) fn run_on(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        question: &Question<S>,
+        pairs: [&[[u32; 2]]; 2],
+    ) -> Result<(), StepError> {
+        let begin = Instant::now();
+        let topology = self.hierarchies.topology();
+        check_frames::<S>(start, end, topology.vertex_count())?;
+        check_pairs(topology, pairs)?;
+        self.rows.clear();
+        let moving = start
+            .iter()
+            .zip(end)
+            .map(|(&start, &end)| Motion::new(start, end));
+        self.rows.extend(moving.map(VertexRow::new));
+
+        let shares = match parallel::threads() {
+            1 => 1,
+            threads => 8 * threads,
+        };
+        self.workers.resize_with(2 * shares, Worker::new);
+        let bound = Bound::new(1.0);
+        let step = StepInput {
+            level: self.hierarchies.level(),
+            numbers: Numbers::Mesh(topology),
+            rows: &self.rows,
+            question: *question,
+            bound: &bound,
+        };
+        parallel::for_each(&mut self.workers, |index, worker| {
+            let begin = Instant::now();
+            let (kind, index) = match index.checked_sub(shares) {
+                None => (PairKind::VertexFace, index),
+                Some(index) => (PairKind::EdgeEdge, index),
+            };
+            let pairs = pairs[kind as usize];
+            let place = |index: usize| pairs.len() * index / shares;
+            worker.kind = kind;
+            worker.chunk.clear();
+            for chunk in pairs[place(index)..place(index + 1)].chunks(CHUNK) {
+                worker.chunk.take(&step, kind, chunk);
+            }
+            worker.chunk.finish(&step, kind);
+            worker.seconds = begin.elapsed().as_secs_f64();
+        });
+        self.count(begin, 0.0);
+        Ok(())
+    }
+
+    /// The pairs that moving boxes leave.
+    pub(crate) fn candidates(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        limits: &Limits<S>,
+        vertex_face: &mut Vec<[u32; 2]>,
+        edge_edge: &mut Vec<[u32; 2]>,
+    ) -> Result<(), StepError> {
+        let begin = Instant::now();
+        let fit = Fit {
+            separation: limits.separation,
+            ..Fit::default()
+        };
+        self.hierarchies.update(start, end, &fit)?;
+        let hierarchies = &self.hierarchies;
+        self.workers
+            .resize_with(hierarchies.shares(), Worker::new);
+        parallel::for_each(&mut self.workers, |index, worker| {
+            let share = hierarchies.share(index);
+            worker.kind = share.kind;
+            worker.chunk.clear();
+            let mut sink = CandidateSink {
+                hierarchies,
+                kind: share.kind,
+                found: &mut worker.chunk.kept,
+            };
+            let tests = hierarchies.visit(share, &mut worker.scratch, &mut sink);
+            worker.tests = tests.unwrap_or(0);
+        });
+        self.collect_kept(vertex_face, edge_edge);
+        let tests = self.workers.iter().map(|worker| worker.tests).sum();
+        self.hierarchies
+            .observe(tests, vertex_face.len() + edge_edge.len());
+        let seconds = begin.elapsed().as_secs_f64();
+        self.tally = StepTally {
+            candidates: PairCounts {
+                vertex_face: vertex_face.len() as u64,
+                edge_edge: edge_edge.len() as u64,
+            },
+            broad_phase_seconds: seconds,
+            seconds,
+            ..StepTally::default()
+        };
+        Ok(())
+    }
+
+    /// Replaces both by the pairs that were kept for the caller in the last run.
+    pub(crate) fn collect_kept(
+        &mut self,
+        vertex_face: &mut Vec<[u32; 2]>,
+        edge_edge: &mut Vec<[u32; 2]>,
+    ) {
+        vertex_face.clear();
+        edge_edge.clear();
+        for worker in &mut self.workers {
+            match worker.kind {
+                PairKind::VertexFace => vertex_face.extend_from_slice(&worker.chunk.kept),
+                PairKind::EdgeEdge => edge_edge.extend_from_slice(&worker.chunk.kept),
+            }
+            settle(&mut worker.chunk.kept);
+        }
+        settle(vertex_face);
+        settle(edge_edge);
+    }
+
+    /// Replaces `contacts` by those of the last run.
+    pub(crate) fn collect_contacts(&mut self, contacts: &mut Vec<Contact<S>>) {
+        contacts.clear();
+        for worker in &mut self.workers {
+            contacts.extend_from_slice(&worker.chunk.contacts);
+            settle(&mut worker.chunk.contacts);
+        }
+        settle(contacts);
+    }
+
+    /// The earliest contact of the last run.
+    pub(super) fn earliest(&self) -> Option<Contact<S>> {
+        let contacts = self
+            .workers
+            .iter()
+            .flat_map(|worker| &worker.chunk.contacts);
+        contacts.copied().min_by(|a, b| {
+            let by_time = a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal);
+            by_time.then((a.kind, a.pair).cmp(&(b.kind, b.pair)))
+        })
+    }
+
+    fn count(&mut self, begin: Instant, update: f64) {
+        let mut tally = StepTally {
+            broad_phase_seconds: update,
+            ..StepTally::default()
+        };
+        for worker in &self.workers {
+            let Tally {
+                candidates,
+                filtered,
+                filter_time,
+                elementary_time,
+            } = worker.chunk.tally;
+            tally.candidates += candidates;
+            tally.filtered += filtered;
+            let contacts = worker.chunk.contacts.len() as u64;
+            match worker.kind {
+                PairKind::VertexFace => tally.contacts.vertex_face += contacts,
+                PairKind::EdgeEdge => tally.contacts.edge_edge += contacts,
+            }
+            let (filter, elementary) = (filter_time.as_secs_f64(), elementary_time.as_secs_f64());
+            tally.filter_seconds += filter;
+            tally.elementary_seconds += elementary;
+            tally.broad_phase_seconds += worker.seconds - filter - elementary;
+        }
+        tally.seconds = begin.elapsed().as_secs_f64();
+        self.tally = tally;
+    }
+}
+
+/// Every pair must be of the mesh.
+fn check_pairs(
+    topology: &Topology,
+    [vertex_face, edge_edge]: [&[[u32; 2]]; 2],
+) -> Result<(), StepError> {
+    let counts = [
+        topology.vertex_count(),
+        topology.triangles().len(),
+        topology.edges().len(),
+    ];
+    let [vertices, faces, edges] = counts;
+    let is_bad = |[first, second]: [u32; 2], [firsts, seconds]: [usize; 2]| {
+        first as usize >= firsts || second as usize >= seconds
+    };
+    let bad = |kind, pairs: &[[u32; 2]], counts| {
+        let pair = pairs.iter().copied().find(|&pair| is_bad(pair, counts));
+        pair.map_or(Ok(()), |pair| Err(StepError::NoSuchPair { kind, pair }))
+    };
+    bad(PairKind::VertexFace, vertex_face, [vertices, faces])?;
+    bad(PairKind::EdgeEdge, edge_edge, [edges, edges])
+}
+
+/// Keeps what a traversal finds.
+struct CandidateSink<'a, S: Scalar> {
+    hierarchies: &'a Hierarchies<S>,
+    kind: PairKind,
+    found: &'a mut Vec<[u32; 2]>,
+}
+
+impl<S: Scalar> Sink for CandidateSink<'_, S> {
+    fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
+        let in_mesh = |&pair| self.hierarchies.in_mesh(self.kind, pair);
+        self.found.extend(pairs.iter().map(in_mesh));
+        true
+    }
+}
