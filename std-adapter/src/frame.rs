@@ -30,7 +30,9 @@ pub enum StepError {
         position: String,
     },
     /// A separation or a tolerance is negative, infinite or NaN.
-    #[error("{length} is no separation, and no tolerance: it must be a finite length, not negative")]
+    #[error(
+        "{length} is no separation, and no tolerance: it must be a finite length, not negative"
+    )]
     BadLimit {
         /// What was given.
         length: String,

@@ -48,7 +48,8 @@ pub struct RoundQuestion<S> {
 }
 
 /// One round for each pair that `indices` name, from its time on. Times and rounds past the last pair are not touched; pairs past
-/// the last time or round are not looked at.
+/// the last time or round are not looked at. With a separation or a tolerance that is negative, NaN or too large (above 2²⁹,
+/// `f64` 2²⁵⁰) all pairs are stuck.
 ///
 /// Each pair must be proven to be apart from the start up to its time; zero will always do. Afterwards it is so up to the
 /// new one. The four indices are those of its vertices: vertex, face; or first edge, second edge.
@@ -83,8 +84,23 @@ pub fn advance_from_rows<S: Scalar>(
         },
         ..*question
     };
+    let Limits {
+        tolerance,
+        separation,
+    } = question.limits;
+    let is_length = |length: S| length >= S::ZERO && length <= largest_extent();
+    let is_good = is_length(tolerance) && is_length(separation);
     let pairs = indices.chunks(LANES).zip(times.chunks_mut(LANES));
     for ((indices, times), round) in pairs.zip(rounds) {
+        if !is_good {
+            *round = Round {
+                stuck: Mask::MAX
+                    .checked_shr((LANES - LANES.min(indices.len())) as u32)
+                    .unwrap_or(0),
+                ..Round::default()
+            };
+            continue;
+        }
         let whole = match (indices.first_chunk(), times.first_chunk_mut()) {
             (Some(indices), Some(times)) => S::round(level, shape, &question, rows, indices, times),
             _ => None,

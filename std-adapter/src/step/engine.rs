@@ -1,15 +1,16 @@
 //! The stages joined, on the threads of whoever calls.
 
 use super::sweep::{Chunk, ChunkSink, Numbers, StepInput, Tally};
-use super::{Bound, Contact, Question, Wanted};
+use super::{Bound, CandidateBoxes, Contact, Question, Wanted};
 use crate::PairKind;
 use crate::broad_phase::buffer::settle;
-use crate::broad_phase::moving::{CHUNK, Fit, Hierarchies, Scratch, Sink};
+use crate::broad_phase::moving::{CHUNK, Fit, MovingBroadPhase, Scratch};
 use crate::dispatch::Level;
 use crate::frame::{StepError, check_frames};
 use crate::mesh::Topology;
 use crate::pair_kind::PairCounts;
 use crate::parallel;
+use crate::pipeline::{Stage, StageReport, StepReport};
 use selvedge_core::batch::VertexRow;
 use selvedge_core::elementary::Limits;
 use selvedge_core::{Motion, Scalar};
@@ -29,13 +30,12 @@ impl Probe {
     pub(crate) const WHOLE: Self = Self { until: 1.0 };
 }
 
-/// Where the earliest contact is looked for: what comes near in a short part of the step are few pairs, and most steps that have a
-/// contact at all have one early.
-pub(super) const PROBES: [Probe; 3] = [
-    Probe { until: 1.0 / 64.0 },
-    Probe { until: 1.0 / 8.0 },
-    Probe::WHOLE,
-];
+/// Where the earliest contact is looked for: few pairs come near each other in a short part of the step.
+///
+/// Measured: on cloth-ball, with a contact at 7e-6 of the step, a probe of 1/128 to 1/16 takes 36 ms and one of 1/4 42, where
+/// the whole step takes three times as long; on cloth-funnel, with a contact at 0.045, the traversal is nearly all of the time and
+/// takes as long for any part, so that a second probe would double it.
+pub(super) const PROBES: [Probe; 2] = [Probe { until: 1.0 / 16.0 }, Probe::WHOLE];
 
 /// What a step counted, and its seconds. With several threads the seconds of stages are sums over them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,10 +56,32 @@ pub struct StepTally {
     pub seconds: f64,
 }
 
+impl StepTally {
+    /// The same as the stages of a method.
+    pub(crate) fn report(&self) -> StepReport {
+        let stage = |stage, survivors, seconds| StageReport {
+            stage,
+            survivors,
+            seconds,
+        };
+        let stages = [
+            stage(Stage::NonCoplanarity, self.filtered, self.filter_seconds),
+            stage(Stage::Elementary, self.contacts, self.elementary_seconds),
+        ];
+        StepReport {
+            triangle_pairs: 0,
+            broad_phase_pairs: Some(self.candidates),
+            broad_phase_seconds: self.broad_phase_seconds,
+            stages: stages.into_iter().collect(),
+            seconds: self.seconds,
+        }
+    }
+}
+
 /// See the [module](super).
 #[derive(Debug)]
 pub(crate) struct Engine<S: Scalar> {
-    hierarchies: Hierarchies<S>,
+    broad_phase: MovingBroadPhase<S>,
     workers: Vec<Worker<S>>,
     /// The motion of each vertex as the mesh numbers them, for pairs of the caller's.
     rows: Vec<VertexRow<S>>,
@@ -91,7 +113,7 @@ impl<S: Scalar> Worker<S> {
 impl<S: Scalar> Engine<S> {
     pub(crate) fn new(topology: Arc<Topology>) -> Self {
         Self {
-            hierarchies: Hierarchies::new(topology),
+            broad_phase: MovingBroadPhase::new(topology),
             workers: Vec::new(),
             rows: Vec::new(),
             tally: StepTally::default(),
@@ -99,23 +121,43 @@ impl<S: Scalar> Engine<S> {
     }
 
     pub(crate) const fn set_level(&mut self, level: Level) {
-        self.hierarchies.set_level(level);
+        self.broad_phase.set_level(level);
     }
 
     pub(crate) fn set_moving(&mut self, moving: Option<Vec<bool>>) {
-        self.hierarchies.set_moving(moving);
+        self.broad_phase.hierarchies.set_moving(moving);
     }
 
     pub(crate) fn topology(&self) -> &Topology {
-        self.hierarchies.topology()
+        self.broad_phase.hierarchies.topology()
     }
 
     pub(crate) const fn tally(&self) -> &StepTally {
         &self.tally
     }
 
+    /// What several runs took together.
+    pub(super) const fn set_seconds(&mut self, seconds: f64) {
+        self.tally.seconds = seconds;
+    }
+
+    /// Finds all contacts of a step, with the default limits.
+    pub(crate) fn run_all(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        keeps_filtered: bool,
+    ) -> Result<(), StepError> {
+        let question = Question {
+            limits: Limits::default(),
+            wanted: Wanted::All,
+            keeps_filtered,
+        };
+        self.run(start, end, &question, Probe::WHOLE)
+    }
+
     /// Finds the contacts of a step, or of a part of it.
-    pub(crate) fn run(
+    pub(super) fn run(
         &mut self,
         start: &[S::Vector],
         end: &[S::Vector],
@@ -128,12 +170,11 @@ impl<S: Scalar> Engine<S> {
             until: S::from_f64(probe.until),
             is_swept: false,
         };
-        self.hierarchies.update(start, end, &fit)?;
+        self.broad_phase.hierarchies.update(start, end, &fit)?;
         let update = begin.elapsed().as_secs_f64();
 
-        let hierarchies = &self.hierarchies;
-        self.workers
-            .resize_with(hierarchies.shares(), Worker::new);
+        let hierarchies = &self.broad_phase.hierarchies;
+        self.workers.resize_with(hierarchies.shares(), Worker::new);
         let bound = Bound::new(probe.until);
         let step = StepInput {
             level: hierarchies.level(),
@@ -168,7 +209,7 @@ impl<S: Scalar> Engine<S> {
         let candidates = self.tally.candidates.total() as usize;
         // A traversal that ended early, or of a part of the step, tells nothing of how good the hierarchies are.
         if question.wanted == Wanted::All {
-            self.hierarchies.observe(tests, candidates);
+            self.broad_phase.hierarchies.observe(tests, candidates);
         }
         Ok(())
     }
@@ -182,7 +223,8 @@ impl<S: Scalar> Engine<S> {
         pairs: [&[[u32; 2]]; 2],
     ) -> Result<(), StepError> {
         let begin = Instant::now();
-        let topology = self.hierarchies.topology();
+        let hierarchies = &self.broad_phase.hierarchies;
+        let topology = hierarchies.topology();
         check_frames::<S>(start, end, topology.vertex_count())?;
         check_pairs(topology, pairs)?;
         self.rows.clear();
@@ -199,7 +241,7 @@ impl<S: Scalar> Engine<S> {
         self.workers.resize_with(2 * shares, Worker::new);
         let bound = Bound::new(1.0);
         let step = StepInput {
-            level: self.hierarchies.level(),
+            level: hierarchies.level(),
             numbers: Numbers::Mesh(topology),
             rows: &self.rows,
             question: *question,
@@ -231,34 +273,18 @@ impl<S: Scalar> Engine<S> {
         start: &[S::Vector],
         end: &[S::Vector],
         limits: &Limits<S>,
+        boxes: CandidateBoxes,
         vertex_face: &mut Vec<[u32; 2]>,
         edge_edge: &mut Vec<[u32; 2]>,
     ) -> Result<(), StepError> {
         let begin = Instant::now();
         let fit = Fit {
             separation: limits.separation,
+            is_swept: boxes == CandidateBoxes::Swept,
             ..Fit::default()
         };
-        self.hierarchies.update(start, end, &fit)?;
-        let hierarchies = &self.hierarchies;
-        self.workers
-            .resize_with(hierarchies.shares(), Worker::new);
-        parallel::for_each(&mut self.workers, |index, worker| {
-            let share = hierarchies.share(index);
-            worker.kind = share.kind;
-            worker.chunk.clear();
-            let mut sink = CandidateSink {
-                hierarchies,
-                kind: share.kind,
-                found: &mut worker.chunk.kept,
-            };
-            let tests = hierarchies.visit(share, &mut worker.scratch, &mut sink);
-            worker.tests = tests.unwrap_or(0);
-        });
-        self.collect_kept(vertex_face, edge_edge);
-        let tests = self.workers.iter().map(|worker| worker.tests).sum();
-        self.hierarchies
-            .observe(tests, vertex_face.len() + edge_edge.len());
+        self.broad_phase.hierarchies.update(start, end, &fit)?;
+        self.broad_phase.candidates(vertex_face, edge_edge);
         let seconds = begin.elapsed().as_secs_f64();
         self.tally = StepTally {
             candidates: PairCounts {
@@ -293,12 +319,14 @@ impl<S: Scalar> Engine<S> {
 
     /// Replaces `contacts` by those of the last run.
     pub(crate) fn collect_contacts(&mut self, contacts: &mut Vec<Contact<S>>) {
+        let begin = Instant::now();
         contacts.clear();
         for worker in &mut self.workers {
             contacts.extend_from_slice(&worker.chunk.contacts);
             settle(&mut worker.chunk.contacts);
         }
         settle(contacts);
+        self.tally.seconds += begin.elapsed().as_secs_f64();
     }
 
     /// The earliest contact of the last run.
@@ -362,19 +390,4 @@ fn check_pairs(
     };
     bad(PairKind::VertexFace, vertex_face, [vertices, faces])?;
     bad(PairKind::EdgeEdge, edge_edge, [edges, edges])
-}
-
-/// Keeps what a traversal finds.
-struct CandidateSink<'a, S: Scalar> {
-    hierarchies: &'a Hierarchies<S>,
-    kind: PairKind,
-    found: &'a mut Vec<[u32; 2]>,
-}
-
-impl<S: Scalar> Sink for CandidateSink<'_, S> {
-    fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
-        let in_mesh = |&pair| self.hierarchies.in_mesh(self.kind, pair);
-        self.found.extend(pairs.iter().map(in_mesh));
-        true
-    }
 }

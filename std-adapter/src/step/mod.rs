@@ -77,6 +77,7 @@ use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
 
 /// A pair for which contact during the step is not excluded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,6 +89,17 @@ pub struct Contact<S> {
     /// When, in [0, 1] of the step. With the certified time of impact not after the exact time, and hardly before
     /// it; with the plain cubic as computed.
     pub time: S,
+}
+
+/// Which boxes tell candidates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CandidateBoxes {
+    /// Those at the start and at the end of the step, that are not in one order along an axis at both: relative boxes. Fewer pairs,
+    /// in less time.
+    #[default]
+    Moving,
+    /// The boxes that primitives sweep, that overlap: what other systems call candidates.
+    Swept,
 }
 
 /// What of a step is wanted.
@@ -241,27 +253,26 @@ impl<S: Scalar> CollisionDetector<S> {
         end: &[S::Vector],
     ) -> Result<Option<Contact<S>>, StepError> {
         let question = self.question(Wanted::Earliest);
+        let begin = Instant::now();
+        let mut earliest = None;
         for probe in PROBES {
             let engine = &mut self.engine;
             self.threads
                 .run(|| engine.run(start, end, &question, probe))?;
-            let earliest = self.engine.earliest();
+            earliest = self.engine.earliest();
             if earliest.is_some() {
-                return Ok(earliest);
+                break;
             }
         }
-        Ok(None)
+        self.engine.set_seconds(begin.elapsed().as_secs_f64());
+        Ok(earliest)
     }
 
     /// Whether the step is certainly free of contact.
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).
-    pub fn is_free(
-        &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
-    ) -> Result<bool, StepError> {
+    pub fn is_free(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<bool, StepError> {
         let question = self.question(Wanted::Any);
         let engine = &mut self.engine;
         self.threads
@@ -269,7 +280,7 @@ impl<S: Scalar> CollisionDetector<S> {
         Ok(self.engine.tally().contacts.total() == 0)
     }
 
-    /// Replaces `vertex_face` and `edge_edge` by the pairs that moving boxes leave: vertex and face, or two edges, the smaller
+    /// Replaces `vertex_face` and `edge_edge` by the pairs that boxes leave: vertex and face, or two edges, the smaller
     /// number first. All others are certainly farther apart than the separation throughout the step.
     ///
     /// # Errors
@@ -278,13 +289,14 @@ impl<S: Scalar> CollisionDetector<S> {
         &mut self,
         start: &[S::Vector],
         end: &[S::Vector],
+        boxes: CandidateBoxes,
         vertex_face: &mut Vec<[u32; 2]>,
         edge_edge: &mut Vec<[u32; 2]>,
     ) -> Result<(), StepError> {
         let limits = self.limits;
         let engine = &mut self.engine;
         self.threads
-            .run(|| engine.candidates(start, end, &limits, vertex_face, edge_edge))
+            .run(|| engine.candidates(start, end, &limits, boxes, vertex_face, edge_edge))
     }
 
     /// Replaces `contacts` by those of the pairs given, in their order, vertex–face first: a vertex and a face, or two edges.

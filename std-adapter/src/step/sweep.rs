@@ -26,11 +26,11 @@ use selvedge_core::points::Shape;
 use selvedge_core::{EdgeEdge, Motion, Scalar, VertexFace};
 use std::time::{Duration, Instant};
 
-/// So many sweeps, then one by one.
-const SWEEPS: usize = 12;
+/// So many sweeps, then one by one. Measured on cloth-ball: 5 sweeps take 20 ms more than 16, of 60; 12 take 2 more.
+const SWEEPS: usize = 16;
 
-/// The first sweep that asks the signed volume as well.
-const VOLUME_SWEEP: usize = 2;
+/// The first sweep that asks the signed volume as well: from the second on takes 7 ms more, from the third 1.
+const VOLUME_SWEEP: usize = 3;
 
 /// Whose numbers pairs have.
 #[derive(Clone, Copy)]

@@ -70,7 +70,7 @@ pub struct MovingStatistics {
 /// On the rayon pool in which it is called; outside of one on the calling thread.
 #[derive(Debug)]
 pub struct MovingBroadPhase<S: Scalar> {
-    hierarchies: Hierarchies<S>,
+    pub(crate) hierarchies: Hierarchies<S>,
     fit: Fit<S>,
     collectors: Vec<Collector>,
 }

@@ -16,7 +16,7 @@ pub(super) struct PairBuffer {
 }
 
 /// So many pairs go to the sink at once, or a few more: what fits in a core's own cache with all that is made of them.
-pub(crate) const CHUNK: usize = 2048;
+pub(crate) const CHUNK: usize = 4096;
 
 /// The set bits of each byte, lowest first; what follows them does not matter.
 const SET_BITS: [[u8; 8]; 256] = {
