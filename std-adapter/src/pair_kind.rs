@@ -93,6 +93,12 @@ pub struct PairCounts {
 }
 
 impl PairCounts {
+    /// No pairs.
+    pub(crate) const NONE: Self = Self {
+        vertex_face: 0,
+        edge_edge: 0,
+    };
+
     /// Both kinds together.
     #[must_use]
     pub const fn total(self) -> u64 {

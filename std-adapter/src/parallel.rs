@@ -126,6 +126,11 @@ pub(crate) fn for_each_chunk_with_chunk<T: Send, U: Send>(
     }
 }
 
+/// The number of the thread that calls, below [`threads`].
+pub(crate) fn own_index() -> usize {
+    rayon::current_thread_index().unwrap_or(0)
+}
+
 /// How many threads work is split between.
 pub(crate) fn threads() -> usize {
     if has_many_threads() {

@@ -58,7 +58,7 @@ fn a_detector_allocates_in_its_first_step_only() {
         .windows(2)
         .map(|pair| {
             let (start, end) = (&pair[0], &pair[1]);
-            let step = || {
+            let mut step = || {
                 let boxes = CandidateBoxes::Moving;
                 detector.contacts(start, end, &mut contacts)?;
                 detector.earliest(start, end)?;

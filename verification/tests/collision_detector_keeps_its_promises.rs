@@ -214,7 +214,7 @@ fn instruction_sets_and_threads_change_nothing() {
                 result.expect("finite positions, one for each vertex");
             }
             assert!(!contacts.is_empty());
-            assert!(detector.tally().filtered.total() > 2 * 4096);
+            assert!(detector.tally().candidates.total() > 2 * 4096);
             let earliest = detector.earliest(&start, &end).expect("finite positions");
             let earliest = earliest.expect("there are contacts");
             let first = contacts.iter().map(|contact| contact.time);

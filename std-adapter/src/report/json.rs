@@ -42,6 +42,7 @@ pub fn step(summary: &StepSummary) -> Value {
         "stages": step_stages(&summary.report),
         "contacts": contacts,
         "seconds": summary.report.seconds,
+        "first_run_seconds": summary.first_run_seconds,
     })
 }
 

@@ -38,6 +38,8 @@ pub struct StepSummary {
     pub report: StepReport,
     /// The earliest contact, in [0, 1] of the step.
     pub earliest: Option<f64>,
+    /// Seconds of the first run of the step, which builds hierarchies and makes buffers; the report's may be a later run's.
+    pub first_run_seconds: f64,
 }
 
 impl StepSummary {
@@ -51,6 +53,7 @@ impl StepSummary {
             .map(|contact| contact.time.to_f64());
         Self {
             earliest: times.min_by(f64::total_cmp),
+            first_run_seconds: pipeline.report().seconds,
             report: pipeline.report().clone(),
             preset,
             ..Self::of_mesh::<S>(topology, pipeline.threads())
@@ -71,6 +74,7 @@ impl StepSummary {
         }
         Self {
             question,
+            first_run_seconds: tally.seconds,
             report,
             earliest: earliest.map(|contact| contact.time.to_f64()),
             ..Self::of_mesh::<S>(detector.topology(), detector.threads())
@@ -88,6 +92,7 @@ impl StepSummary {
             triangles: topology.triangles().len(),
             report: StepReport::default(),
             earliest: None,
+            first_run_seconds: 0.0,
         }
     }
 }

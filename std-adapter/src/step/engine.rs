@@ -1,6 +1,6 @@
 //! The stages joined, on the threads of whoever calls.
 
-use super::sweep::{Chunk, ChunkSink, Numbers, StepInput, Tally};
+use super::sweep::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
 use super::{Bound, CandidateBoxes, Contact, Question, Wanted};
 use crate::PairKind;
 use crate::broad_phase::buffer::settle;
@@ -15,7 +15,7 @@ use selvedge_core::batch::VertexRow;
 use selvedge_core::elementary::Limits;
 use selvedge_core::{Motion, Scalar};
 use std::cmp::Ordering;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 /// A part of the step from its start, in which contacts are looked for.
@@ -82,17 +82,26 @@ impl StepTally {
 #[derive(Debug)]
 pub(crate) struct Engine<S: Scalar> {
     broad_phase: MovingBroadPhase<S>,
+    /// One for each share of the work.
     workers: Vec<Worker<S>>,
+    /// One for each thread.
+    spaces: Vec<Mutex<Space<S>>>,
     /// The motion of each vertex as the mesh numbers them, for pairs of the caller's.
     rows: Vec<VertexRow<S>>,
     tally: StepTally,
 }
 
+/// What a thread works in.
+#[derive(Debug)]
+struct Space<S> {
+    scratch: Scratch,
+    chunk: Chunk<S>,
+}
+
 /// One share of the work.
 #[derive(Debug)]
 struct Worker<S> {
-    scratch: Scratch,
-    chunk: Chunk<S>,
+    found: Found<S>,
     kind: PairKind,
     tests: u64,
     seconds: f64,
@@ -101,8 +110,7 @@ struct Worker<S> {
 impl<S: Scalar> Worker<S> {
     fn new() -> Self {
         Self {
-            scratch: Scratch::new(),
-            chunk: Chunk::new(),
+            found: Found::nothing(),
             kind: PairKind::VertexFace,
             tests: 0,
             seconds: 0.0,
@@ -115,6 +123,7 @@ impl<S: Scalar> Engine<S> {
         Self {
             broad_phase: MovingBroadPhase::new(topology),
             workers: Vec::new(),
+            spaces: Vec::new(),
             rows: Vec::new(),
             tally: StepTally::default(),
         }
@@ -175,6 +184,7 @@ impl<S: Scalar> Engine<S> {
 
         let hierarchies = &self.broad_phase.hierarchies;
         self.workers.resize_with(hierarchies.shares(), Worker::new);
+        let spaces = spaces_for_threads(&mut self.spaces);
         let bound = Bound::new(probe.until);
         let step = StepInput {
             level: hierarchies.level(),
@@ -187,19 +197,22 @@ impl<S: Scalar> Engine<S> {
             let begin = Instant::now();
             let share = hierarchies.share(index);
             worker.kind = share.kind;
-            worker.chunk.clear();
+            worker.found.clear();
             worker.tests = 0;
             let has_enough = question.wanted == Wanted::Any && bound.is_lowered();
             if !has_enough {
+                let Space { scratch, chunk } = &mut *own_space(spaces);
+                chunk.clear();
                 let mut sink = ChunkSink {
-                    chunk: &mut worker.chunk,
+                    chunk,
+                    found: &mut worker.found,
                     step: &step,
                     kind: share.kind,
                 };
-                let tests = hierarchies.visit(share, &mut worker.scratch, &mut sink);
+                let tests = hierarchies.visit(share, scratch, &mut sink);
                 if let Some(tests) = tests {
                     worker.tests = tests;
-                    worker.chunk.finish(&step, share.kind);
+                    chunk.finish(&step, share.kind, &mut worker.found);
                 }
             }
             worker.seconds = begin.elapsed().as_secs_f64();
@@ -239,6 +252,7 @@ impl<S: Scalar> Engine<S> {
             threads => 8 * threads,
         };
         self.workers.resize_with(2 * shares, Worker::new);
+        let spaces = spaces_for_threads(&mut self.spaces);
         let bound = Bound::new(1.0);
         let step = StepInput {
             level: hierarchies.level(),
@@ -256,11 +270,13 @@ impl<S: Scalar> Engine<S> {
             let pairs = pairs[kind as usize];
             let place = |index: usize| pairs.len() * index / shares;
             worker.kind = kind;
-            worker.chunk.clear();
-            for chunk in pairs[place(index)..place(index + 1)].chunks(CHUNK) {
-                worker.chunk.take(&step, kind, chunk);
+            worker.found.clear();
+            let Space { chunk, .. } = &mut *own_space(spaces);
+            chunk.clear();
+            for pairs in pairs[place(index)..place(index + 1)].chunks(CHUNK) {
+                chunk.take(&step, kind, pairs, &mut worker.found);
             }
-            worker.chunk.finish(&step, kind);
+            chunk.finish(&step, kind, &mut worker.found);
             worker.seconds = begin.elapsed().as_secs_f64();
         });
         self.count(begin, 0.0);
@@ -308,10 +324,10 @@ impl<S: Scalar> Engine<S> {
         edge_edge.clear();
         for worker in &mut self.workers {
             match worker.kind {
-                PairKind::VertexFace => vertex_face.extend_from_slice(&worker.chunk.kept),
-                PairKind::EdgeEdge => edge_edge.extend_from_slice(&worker.chunk.kept),
+                PairKind::VertexFace => vertex_face.extend_from_slice(&worker.found.kept),
+                PairKind::EdgeEdge => edge_edge.extend_from_slice(&worker.found.kept),
             }
-            settle(&mut worker.chunk.kept);
+            settle(&mut worker.found.kept);
         }
         settle(vertex_face);
         settle(edge_edge);
@@ -322,8 +338,8 @@ impl<S: Scalar> Engine<S> {
         let begin = Instant::now();
         contacts.clear();
         for worker in &mut self.workers {
-            contacts.extend_from_slice(&worker.chunk.contacts);
-            settle(&mut worker.chunk.contacts);
+            contacts.extend_from_slice(&worker.found.contacts);
+            settle(&mut worker.found.contacts);
         }
         settle(contacts);
         self.tally.seconds += begin.elapsed().as_secs_f64();
@@ -334,7 +350,7 @@ impl<S: Scalar> Engine<S> {
         let contacts = self
             .workers
             .iter()
-            .flat_map(|worker| &worker.chunk.contacts);
+            .flat_map(|worker| &worker.found.contacts);
         contacts.copied().min_by(|a, b| {
             let by_time = a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal);
             by_time.then((a.kind, a.pair).cmp(&(b.kind, b.pair)))
@@ -352,10 +368,10 @@ impl<S: Scalar> Engine<S> {
                 filtered,
                 filter_time,
                 elementary_time,
-            } = worker.chunk.tally;
+            } = worker.found.tally;
             tally.candidates += candidates;
             tally.filtered += filtered;
-            let contacts = worker.chunk.contacts.len() as u64;
+            let contacts = worker.found.contacts.len() as u64;
             match worker.kind {
                 PairKind::VertexFace => tally.contacts.vertex_face += contacts,
                 PairKind::EdgeEdge => tally.contacts.edge_edge += contacts,
@@ -368,6 +384,27 @@ impl<S: Scalar> Engine<S> {
         tally.seconds = begin.elapsed().as_secs_f64();
         self.tally = tally;
     }
+}
+
+/// Makes a space for each thread, if they are not there.
+fn spaces_for_threads<S: Scalar>(spaces: &mut Vec<Mutex<Space<S>>>) -> &[Mutex<Space<S>>] {
+    let new = || {
+        Mutex::new(Space {
+            scratch: Scratch::new(),
+            chunk: Chunk::new(),
+        })
+    };
+    if spaces.len() < parallel::threads() {
+        spaces.resize_with(parallel::threads(), new);
+    }
+    spaces
+}
+
+/// The space of the thread that calls. Nobody else asks for it: a thread has one share at a time.
+fn own_space<S>(spaces: &[Mutex<Space<S>>]) -> MutexGuard<'_, Space<S>> {
+    let space = &spaces[parallel::own_index() % spaces.len()];
+    // What a panic has left behind is cleared before use.
+    space.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Every pair must be of the mesh.

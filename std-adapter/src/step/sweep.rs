@@ -79,7 +79,38 @@ pub(super) struct Tally {
     pub(super) elementary_time: Duration,
 }
 
-/// One thread's chunk, and the contacts found so far.
+/// What a share of the work has found.
+#[derive(Debug)]
+pub(super) struct Found<S> {
+    pub(super) contacts: Vec<Contact<S>>,
+    /// The pairs that the filter has kept, as the mesh numbers them, if they are wanted.
+    pub(super) kept: Vec<[u32; 2]>,
+    pub(super) tally: Tally,
+}
+
+impl<S> Found<S> {
+    pub(super) const fn nothing() -> Self {
+        Self {
+            contacts: Vec::new(),
+            kept: Vec::new(),
+            tally: Tally {
+                candidates: PairCounts::NONE,
+                filtered: PairCounts::NONE,
+                filter_time: Duration::ZERO,
+                elementary_time: Duration::ZERO,
+            },
+        }
+    }
+
+    /// Forgets the step before.
+    pub(super) fn clear(&mut self) {
+        self.contacts.clear();
+        self.kept.clear();
+        self.tally = Tally::default();
+    }
+}
+
+/// One thread's chunk.
 #[derive(Debug)]
 pub(super) struct Chunk<S> {
     /// Pairs that the filter has kept, and the rows of their vertices.
@@ -91,11 +122,7 @@ pub(super) struct Chunk<S> {
     times: Vec<S>,
     rounds: Vec<Round>,
     /// When contact is not excluded, for each of `pairs`.
-    found: Vec<Option<S>>,
-    pub(super) contacts: Vec<Contact<S>>,
-    /// The pairs that the filter has kept, as the mesh numbers them, if they are wanted.
-    pub(super) kept: Vec<[u32; 2]>,
-    pub(super) tally: Tally,
+    impacts: Vec<Option<S>>,
 }
 
 impl<S: Scalar> Chunk<S> {
@@ -109,20 +136,14 @@ impl<S: Scalar> Chunk<S> {
             places: Vec::with_capacity(most),
             times: Vec::with_capacity(most),
             rounds: Vec::with_capacity(most.div_ceil(LANES)),
-            found: Vec::with_capacity(most),
-            contacts: Vec::new(),
-            kept: Vec::new(),
-            tally: Tally::default(),
+            impacts: Vec::with_capacity(most),
         }
     }
 
-    /// Forgets the step before.
+    /// Forgets what was left when a traversal ended early.
     pub(super) fn clear(&mut self) {
         self.pairs.clear();
         self.indices.clear();
-        self.contacts.clear();
-        self.kept.clear();
-        self.tally = Tally::default();
     }
 
     /// Takes candidates. Returns whether to go on.
@@ -131,6 +152,7 @@ impl<S: Scalar> Chunk<S> {
         step: &StepInput<'_, S>,
         kind: PairKind,
         candidates: &[[u32; 2]],
+        found: &mut Found<S>,
     ) -> bool {
         let begin = Instant::now();
         let first = self.pairs.len();
@@ -139,14 +161,14 @@ impl<S: Scalar> Chunk<S> {
         self.indices.extend(candidates.iter().map(indices));
         self.filter(step, kind, first);
         let kept = &self.pairs[first..];
-        *count(&mut self.tally.candidates, kind) += candidates.len() as u64;
-        *count(&mut self.tally.filtered, kind) += kept.len() as u64;
+        *count(&mut found.tally.candidates, kind) += candidates.len() as u64;
+        *count(&mut found.tally.filtered, kind) += kept.len() as u64;
         if step.question.keeps_filtered {
             let in_mesh = |&pair| step.numbers.in_mesh(kind, pair);
-            self.kept.extend(kept.iter().map(in_mesh));
+            found.kept.extend(kept.iter().map(in_mesh));
         }
-        self.tally.filter_time += begin.elapsed();
-        self.pairs.len() < CHUNK || self.finish(step, kind)
+        found.tally.filter_time += begin.elapsed();
+        self.pairs.len() < CHUNK || self.finish(step, kind, found)
     }
 
     /// Drops the pairs from `first` on that are never coplanar.
@@ -178,15 +200,20 @@ impl<S: Scalar> Chunk<S> {
     }
 
     /// Decides all pairs that there are. Returns whether to go on.
-    pub(super) fn finish(&mut self, step: &StepInput<'_, S>, kind: PairKind) -> bool {
+    pub(super) fn finish(
+        &mut self,
+        step: &StepInput<'_, S>,
+        kind: PairKind,
+        found: &mut Found<S>,
+    ) -> bool {
         let begin = Instant::now();
         let until = step.bound.get();
         self.places.clear();
         self.places.extend(0..self.pairs.len() as u32);
         self.times.clear();
         self.times.resize(self.pairs.len(), S::ZERO);
-        self.found.clear();
-        self.found.resize(self.pairs.len(), None);
+        self.impacts.clear();
+        self.impacts.resize(self.pairs.len(), None);
         for sweep in 0..SWEEPS {
             if self.places.is_empty() {
                 break;
@@ -195,12 +222,12 @@ impl<S: Scalar> Chunk<S> {
         }
         for open in 0..self.places.len() {
             let place = self.places[open] as usize;
-            self.found[place] = advanced(step, kind, self.indices[open], self.times[open], until);
+            self.impacts[place] = advanced(step, kind, self.indices[open], self.times[open], until);
         }
-        for (&pair, &found) in self.pairs.iter().zip(&self.found) {
-            if let Some(time) = found {
+        for (&pair, &impact) in self.pairs.iter().zip(&self.impacts) {
+            if let Some(time) = impact {
                 step.bound.lower(step.question.wanted, time);
-                self.contacts.push(Contact {
+                found.contacts.push(Contact {
                     kind,
                     pair: step.numbers.in_mesh(kind, pair),
                     time,
@@ -209,7 +236,7 @@ impl<S: Scalar> Chunk<S> {
         }
         self.pairs.clear();
         self.indices.clear();
-        self.tally.elementary_time += begin.elapsed();
+        found.tally.elementary_time += begin.elapsed();
         !(step.question.wanted == Wanted::Any && step.bound.is_lowered())
     }
 
@@ -241,7 +268,7 @@ impl<S: Scalar> Chunk<S> {
                 let index = first + lane;
                 if index < open {
                     let (place, time) = (self.places[index] as usize, self.times[index]);
-                    self.found[place] = if round.near >> lane & 1 != 0 {
+                    self.impacts[place] = if round.near >> lane & 1 != 0 {
                         Some(time)
                     } else {
                         advanced(step, kind, self.indices[index], time, until)
@@ -307,12 +334,13 @@ fn count(counts: &mut PairCounts, kind: PairKind) -> &mut u64 {
 /// A chunk that takes what a traversal finds.
 pub(super) struct ChunkSink<'a, S: Scalar> {
     pub(super) chunk: &'a mut Chunk<S>,
+    pub(super) found: &'a mut Found<S>,
     pub(super) step: &'a StepInput<'a, S>,
     pub(super) kind: PairKind,
 }
 
 impl<S: Scalar> Sink for ChunkSink<'_, S> {
     fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
-        self.chunk.take(self.step, self.kind, pairs)
+        self.chunk.take(self.step, self.kind, pairs, self.found)
     }
 }

@@ -74,6 +74,8 @@ pub(crate) struct Hierarchies<S: Scalar> {
     moving: Option<Vec<bool>>,
     /// What the boxes of what rests were fitted with, if they are still good.
     fitted: Option<Mapping>,
+    /// What the boxes hold.
+    fit: Fit<S>,
     extent: Aabb<f64>,
     tasks: [Vec<BlockPair>; 2],
     task_tests: u64,
@@ -95,6 +97,7 @@ impl<S: Scalar> Hierarchies<S> {
             boxes: Vec::new(),
             moving: None,
             fitted: None,
+            fit: Fit::default(),
             extent: Aabb::empty(),
             tasks: [Vec::new(), Vec::new()],
             task_tests: 0,
@@ -147,6 +150,7 @@ impl<S: Scalar> Hierarchies<S> {
         }
         let mapping = Mapping::new(&self.extent, fit.separation, fit.until, fit.is_swept);
         self.refit(start, end, mapping);
+        self.fit = *fit;
         self.find_tasks();
         Ok(())
     }
@@ -316,8 +320,11 @@ impl<S: Scalar> Hierarchies<S> {
     /// The candidates were found in so many tests, besides those of [`update`](Self::update).
     pub(crate) fn observe(&mut self, tests: u64, candidates: usize) {
         let tests = tests + self.task_tests;
-        self.degradation
-            .observe(PRICES, tests, self.edges.len(), candidates);
+        // Boxes of another kind cost something else.
+        if self.fit.until == S::ONE && !self.fit.is_swept {
+            self.degradation
+                .observe(PRICES, tests, self.edges.len(), candidates);
+        }
         self.statistics.box_tests = tests;
         self.statistics.candidates = candidates;
     }
