@@ -65,4 +65,7 @@ cargo test --package selvedge-verification
 say "kept inputs of the fuzz targets: selvedge-fuzz"
 cargo test --manifest-path fuzz/Cargo.toml
 
+say "rounding constants: Gappa's proofs, where it is installed"
+verification/gappa/check.sh --present --gappa
+
 say "all tests passed in $SECONDS s"

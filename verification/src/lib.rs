@@ -7,6 +7,8 @@
 //! | [`generator`] | inputs, biased to what breaks floating-point geometry; for property tests and fuzz targets |
 //! | [`minifloat`] | a number format of a few bits, in which every input of a grid can be tried |
 //! | [`altered`] | core's kernels with other constants in their error bounds |
+//! | [`traced`] | core's kernels on symbols: what they compute, in which steps |
+//! | [`proofs`] | Gappa scripts written from such traces |
 //! | [`culling`] | core's culling tests by name, one pair at a time |
 
 pub mod altered;
@@ -15,3 +17,5 @@ pub mod false_culls;
 pub mod generator;
 pub mod minifloat;
 pub mod oracle;
+pub mod proofs;
+pub mod traced;

@@ -14,13 +14,13 @@ use selvedge_core::exact::{
 use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
-    Choices, Format, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices,
-    pairs_of_any_kind,
+    Format, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
 };
 use selvedge_verification::oracle::{Kind, coplanar, within};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 use support::environment::Environment;
 use support::rationals::{InRationals, rational, separations};
+use support::widths::at_the_limit_of_a_width;
 
 fn signs<S: Format>(pair: &PairCase<S>) -> Option<[Ordering; 4]> {
     match pair.kind {
@@ -58,32 +58,6 @@ property!(
         Ok(())
     }
 );
-
-/// Coordinates as large and as small as a width of whole numbers holds, and a little larger, so that the next one is used:
-/// most of them ±(2^bits − 2^k) or ±1, times a power of two.
-fn at_the_limit_of_a_width<S: Format>(choices: &mut Choices<'_>) -> PairCase<S> {
-    let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
-    let limits = choices
-        .pick(&[61, 125, 317, 2098])
-        .min(S::MAX_EXPONENT - S::MIN_EXPONENT);
-    let bits = (limits + choices.within(2) as i32).min(S::MAX_EXPONENT - S::MIN_EXPONENT);
-    let unit = S::MIN_EXPONENT;
-    let top = unit + bits - S::PRECISION.cast_signed();
-    let points = std::array::from_fn(|_| {
-        std::array::from_fn(|_| {
-            std::array::from_fn(|_| {
-                let sign = choices.pick(&[1, -1]);
-                match choices.below(8) {
-                    0 => S::exact(sign, unit),
-                    1 => S::ZERO,
-                    2 => S::exact(sign << (S::PRECISION - 1), top),
-                    _ => S::exact(sign * ((1 << S::PRECISION) - 1), top),
-                }
-            })
-        })
-    });
-    PairCase::new(kind, points)
-}
 
 property!(
     nothing_overflows_at_the_limit_of_a_width,

@@ -148,14 +148,17 @@ fn advanced<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Option<S> {
     elementary::advance::time_of_impact_within(pair, &question.limits, from, S::ONE).time()
 }
 
-/// An eleventh: that the certified time of impact, its confirmation, or one of the two baselines for it disagrees with `touches`.
-fn times_differ<S: Scalar>(pair: &impl PrimitivePair<S>, touches: bool) -> u32 {
-    use elementary::{Limits, additive, advance, tight_inclusion};
+/// An eleventh: that the exact verdict, in whole numbers alone too, the certified time of impact, its confirmation, or one of the
+/// two baselines for it disagrees with `touches`.
+fn times_differ<S: Scalar, P: PrimitivePair<S>>(pair: &P, touches: bool) -> u32 {
+    use elementary::{Contact, Limits, additive, advance, contact, tight_inclusion};
     let limits = Limits::default();
     let time = advance::time_of_impact(pair, &limits).time();
     let confirmed = time.and_then(|time| advance::confirm::certain_contact(pair, time));
     let agree = time.is_some() == touches
         && advanced(pair).is_some() == touches
+        && (contact(pair) == Contact::Happens) == touches
+        && exact::touches::<P::Shape, S>(&pair.points()) == Some(touches)
         && confirmed.is_some() == touches
         && tight_inclusion::time_of_impact(pair, &limits)
             .time()

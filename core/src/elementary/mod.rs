@@ -1,7 +1,8 @@
-//! Elementary tests: when does a primitive pair first touch?
+//! Elementary tests: does a primitive pair touch, and when first?
 //!
 //! | test | promise |
 //! |---|---|
+//! | [`contact`](mod@contact) | **exact**: whether there is contact, not when; a bounded amount of work |
 //! | [`advance`] | **certified**: never a miss, a time that is never too late, a bounded amount of work |
 //! | [`tight_inclusion`] | no miss; no useful bound of the work (Wang et al. 2021); a baseline |
 //! | [`additive`] | none under rounding: in practice no miss, many false alarms (Li et al. 2021); a baseline |
@@ -10,9 +11,11 @@
 pub mod additive;
 pub mod advance;
 mod closest;
+pub mod contact;
 pub(crate) mod corners;
 pub mod cubic;
 mod impact;
 pub mod tight_inclusion;
 
+pub use contact::{Contact, Evidence, contact};
 pub use impact::{Impact, Limits, Reason};

@@ -158,11 +158,17 @@ impl AlignedPair {
         x.bits.max(y.bits).max(z.bits)
     }
 
+    /// Along each axis the four points' coordinates at the start, then those at the end.
+    #[inline(always)]
+    pub(super) fn coordinates<const N: usize>(&self) -> [[Integer<N>; 8]; 3] {
+        let [x, y, z] = &self.axes;
+        [x.integers(), y.integers(), z.integers()]
+    }
+
     /// At the start and at the end.
     #[inline(always)]
     pub(super) fn edges<const N: usize>(&self) -> [Edges<N>; 2] {
-        let [x, y, z] = &self.axes;
-        let (x, y, z) = (x.integers(), y.integers(), z.integers());
+        let [x, y, z] = self.coordinates();
         let edges = |[x, y, z]: [[Integer<N>; 3]; 3]| Edges {
             b: [x[0], y[0], z[0]],
             c: [x[1], y[1], z[1]],

@@ -128,14 +128,21 @@ impl<const N: usize> Integer<N> {
         bits.cmp(&0)
     }
 
+    /// Whether the number is negative, and the words of its magnitude, the lowest first.
+    #[inline(always)]
+    pub(super) fn sign_and_magnitude(&self) -> (bool, [u64; N]) {
+        if self.sign_word() == 0 {
+            return (false, self.0);
+        }
+        let mut magnitude = [0; N];
+        subtract(magnitude.iter_mut(), &self.0, u64::MAX);
+        (true, magnitude)
+    }
+
     /// The leading words of the magnitude.
     #[inline]
     pub(super) fn leading(&self) -> Leading {
-        let mut magnitude = self.0;
-        if self.sign_word() != 0 {
-            magnitude = [0; N];
-            subtract(magnitude.iter_mut(), &self.0, u64::MAX);
-        }
+        let (_, magnitude) = self.sign_and_magnitude();
         let mut words = magnitude
             .iter()
             .rev()

@@ -11,7 +11,7 @@ use super::integer::Integer;
 use core::ops::ControlFlow;
 
 /// The widest coordinates for which `N` words serve.
-const fn bits_in<const N: usize>() -> u32 {
+pub(super) const fn bits_in<const N: usize>() -> u32 {
     64 * N as u32 - 3
 }
 

@@ -1,8 +1,10 @@
-//! The signs of the signed volume's control values without rounding, and whether they exceed a separation.
+//! The signs of the signed volume's control values without rounding, whether they exceed a separation, and whether a pair
+//! touches.
 //!
-//! For the pairs that floating point leaves undecided, and to compare everything else with. What is decided is whether
-//! the control values k₀, 3k₁, 3k₂, k₃ of [`coplanarity`](crate::coplanarity) have one strict sign; then the four points
-//! are never coplanar in [0, 1]. The converse does not hold: the volume may have no root although signs differ.
+//! For the pairs that floating point leaves undecided, and to compare everything else with. [`touches`] gives the whole
+//! answer; how, its own file says (`contact`). What the others decide is whether the control values k₀, 3k₁, 3k₂, k₃ of
+//! [`coplanarity`](crate::coplanarity) have one strict sign; then the four points are never coplanar in [0, 1]. The
+//! converse does not hold: the volume may have no root although signs differ.
 //!
 //! # Whole numbers
 //! A finite floating-point number is a whole number times a power of two. Each monomial of the volume has one factor
@@ -52,9 +54,12 @@
 //! |kᵢ| > s·|nᵢ|·(1 + 2⁻⁶⁰), and never when |kᵢ| ≤ s·|nᵢ| for some i. With s = 0 the answer is exact.
 
 mod aligned;
+mod contact;
 mod integer;
 mod kernel;
 mod magnitude;
+
+pub use contact::touches;
 
 use crate::coplanarity::ControlValues;
 use crate::points::{PairPoints, PairShape};

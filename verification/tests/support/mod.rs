@@ -9,6 +9,7 @@
 pub(crate) mod distance;
 pub(crate) mod environment;
 pub(crate) mod rationals;
+pub(crate) mod widths;
 
 use rug::Rational;
 

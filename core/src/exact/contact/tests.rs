@@ -1,0 +1,70 @@
+//! How much work an answer is. (That answers are right is checked against the oracle, in `verification/`.)
+
+extern crate std;
+
+use super::touches;
+use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
+use crate::vector::Vector;
+use std::cell::Cell;
+
+std::thread_local! {
+    static SIGNS: Cell<u32> = const { Cell::new(0) };
+}
+
+pub(super) fn count_a_sign() {
+    SIGNS.set(SIGNS.get() + 1);
+}
+
+/// The most signs at roots that a pair took, out of many whose coordinates are whole numbers up to `limit`, of which those along
+/// some axes are all zero, or the same at the start and at the end.
+fn most_signs<P: PairShape>(limit: u64) -> u32 {
+    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
+    let mut random = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        state >> 33
+    };
+    let mut most = 0;
+    for _ in 0..100_000 {
+        let mut points = || {
+            [(); 4].map(|()| {
+                let [x, y, z] = [(); 3].map(|()| (random() % (limit + 1)) as f64);
+                Vector::new(x, y, z)
+            })
+        };
+        let (start, mut end) = (points(), points());
+        let flat = random() % 8;
+        let mut start = start;
+        for (a, b) in start.iter_mut().zip(&mut end) {
+            if flat & 1 != 0 {
+                (a.z, b.z) = (0.0, 0.0);
+            }
+            if flat & 3 == 3 {
+                (a.y, b.y) = (0.0, 0.0);
+            }
+            if flat & 4 != 0 {
+                b.x = a.x;
+            }
+        }
+        SIGNS.set(0);
+        assert!(touches::<P, f64>(&PairPoints { start, end }).is_some());
+        most = most.max(SIGNS.get());
+    }
+    most
+}
+
+#[test]
+fn no_more_signs_are_taken_than_stated() {
+    for limit in [1, 2, 5, 1000] {
+        let most = [
+            most_signs::<VertexAndFace>(limit),
+            most_signs::<EdgeAndEdge>(limit),
+        ];
+        // Some, so that they are counted at all.
+        assert!(
+            most.iter().all(|most| (10..=864).contains(most)),
+            "{most:?}"
+        );
+    }
+}

@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# Checks every proof of core's rounding constants, for f32 and f64: by Gappa, and what it finds by Coq.
+#
+#   check.sh            installs the tools where they are missing (Debian's gappa, coq, libcoq-gappa, libcoq-flocq)
+#   check.sh --present  does not: what is missing is skipped, with a line that says so (./test.sh)
+#   check.sh --gappa    without Coq
+#
+# A script's constants that are marked `#!` are halved one by one as well: then Gappa must fail.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+install=true
+coq=true
+for option in "$@"; do
+    case $option in
+    --present) install=false ;;
+    --gappa) coq=false ;;
+    *)
+        echo "usage: check.sh [--present] [--gappa]" >&2
+        exit 2
+        ;;
+    esac
+done
+
+is_there() { command -v "$1" >/dev/null 2>&1; }
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo -n "$@"; fi
+}
+library() { [ -e "$(coqc -where 2>/dev/null)/user-contrib/Gappa/Gappa_library.vo" ]; }
+install() {
+    is_there apt-get || {
+        echo "gappa: $1 is missing, and only Debian's packages are known here; see https://gappa.gitlabpages.inria.fr" >&2
+        exit 1
+    }
+    as_root apt-get install -y --no-install-recommends "${@:2}" </dev/null >/dev/null ||
+        { as_root apt-get update >/dev/null && as_root apt-get install -y --no-install-recommends "${@:2}" </dev/null >/dev/null; }
+}
+
+if ! is_there gappa; then
+    if ! $install; then
+        echo "gappa: SKIPPED, gappa is not installed: the rounding constants are not proven again (verification/gappa/check.sh installs it)"
+        exit 0
+    fi
+    install gappa gappa
+fi
+if $coq && ! { is_there coqc && library; }; then
+    if $install; then
+        install "coq with Gappa's library" coq libcoq-gappa libcoq-flocq
+    else
+        echo "gappa: Coq SKIPPED, coq and libcoq-gappa are not installed: Gappa alone checks the proofs"
+        coq=false
+    fi
+fi
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+proven=0
+halved=0
+checked=0
+
+gappa_says() { gappa -Wno-hint-difference "$1" >"$folder/says" 2>&1; }
+
+for format in f32 f64; do
+    for script in *.g traced/*.g; do
+        name=$(basename "$script" .g)
+        of_format=$folder/$name-$format.g
+        sed -f "formats/$format.sed" "$script" >"$of_format"
+        if grep -v '^#' "$of_format" | grep -q '@'; then
+            echo "gappa: $script has a constant that formats/$format.sed does not know" >&2
+            exit 1
+        fi
+        if ! gappa_says "$of_format"; then
+            echo "gappa: NOT PROVEN: $script for $format" >&2
+            grep -v Warning "$folder/says" >&2
+            exit 1
+        fi
+        proven=$((proven + 1))
+        # Each constant that is marked is needed: half of it is not enough.
+        for line in $(grep -n '^[a-z_]* = [0-9]*; *#!' "$of_format" | cut -d: -f1); do
+            sed -E "${line}s/= ([0-9]+);/= \1 * 0.5;/" "$of_format" >"$folder/halved.g"
+            if gappa_says "$folder/halved.g"; then
+                echo "gappa: half of a constant is proven, too; the mark #! is wrong: $script: $(sed -n "${line}p" "$script")" >&2
+                exit 1
+            fi
+            halved=$((halved + 1))
+        done
+        if $coq; then
+            # Coq takes only names without hyphens and digits in front.
+            source=$folder/proof_${name//-/_}_$format.v
+            gappa -Wno-hint-difference -Bcoq "$of_format" >"$source" 2>/dev/null
+            if grep -q '^Hypothesis\|^Axiom\|^Parameter' "$source"; then
+                echo "gappa: the proof of $script takes something for granted" >&2
+                exit 1
+            fi
+            (cd "$folder" && coqc -q "$(basename "$source")" >/dev/null) || {
+                echo "gappa: Coq does not accept the proof of $script for $format" >&2
+                exit 1
+            }
+            checked=$((checked + 1))
+        fi
+    done
+done
+echo "gappa: $proven proofs found, $halved halved constants refused, $checked proofs accepted by Coq"

@@ -1,0 +1,247 @@
+//! Core's kernels run on symbols, to see what they compute: which monomials, in how many rounded steps, in which order.
+//!
+//! The kernels are generic over [`Lanes`], so their source runs on [`Traced`] unchanged. What is read off it are the facts that
+//! the proofs in `verification/gappa` start from: so the proofs are about the code and not about a copy of it.
+
+use selvedge_core::{Lanes, Rounding};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// A number that knows how it was computed. Its steps are kept for the thread: see [`trace`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Traced {
+    /// The result of a step of the current trace.
+    Step(usize),
+    /// The unit roundoff.
+    UnitRoundoff,
+    /// η.
+    Underflow,
+    /// Where pairs are out of range.
+    LargestEdge,
+    /// The gap between sums.
+    SumGap,
+    /// One half.
+    Half,
+    /// Infinity.
+    Infinity,
+    /// A small whole number.
+    Small(u8),
+}
+
+/// One step.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Where the trace begins: a number of this name.
+    Input(String),
+    /// A rounded sum.
+    Sum(Traced, Traced),
+    /// A rounded difference.
+    Difference(Traced, Traced),
+    /// A rounded product.
+    Product(Traced, Traced),
+    /// A rounded square root.
+    Root(Traced),
+    /// Exact.
+    Negative(Traced),
+    /// Exact.
+    Magnitude(Traced),
+    /// One of the two, exactly.
+    Larger(Traced, Traced),
+    /// One of the two, exactly.
+    Smaller(Traced, Traced),
+}
+
+#[derive(Clone, Debug, Default)]
+struct Arena {
+    steps: Vec<Step>,
+    comparisons: Vec<[Traced; 2]>,
+}
+
+thread_local! {
+    static ARENA: RefCell<Arena> = RefCell::default();
+}
+
+/// What a kernel did.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    /// All steps, each after those that it uses.
+    pub steps: Vec<Step>,
+    /// All comparisons: whether the first is greater than the second.
+    pub comparisons: Vec<[Traced; 2]>,
+}
+
+/// Runs a kernel on symbols. What it computes must not depend on its comparisons, which are all false.
+pub fn trace<T>(kernel: impl FnOnce() -> T) -> (T, Trace) {
+    ARENA.take();
+    let result = kernel();
+    let Arena { steps, comparisons } = ARENA.take();
+    (result, Trace { steps, comparisons })
+}
+
+impl Traced {
+    /// A number with this name.
+    #[must_use]
+    pub fn input(name: impl Into<String>) -> Self {
+        Self::record(Step::Input(name.into()))
+    }
+
+    fn record(step: Step) -> Self {
+        ARENA.with_borrow_mut(|arena| {
+            arena.steps.push(step);
+            Self::Step(arena.steps.len() - 1)
+        })
+    }
+}
+
+impl Add for Traced {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self::record(Step::Sum(self, other))
+    }
+}
+
+impl Sub for Traced {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self::record(Step::Difference(self, other))
+    }
+}
+
+impl Mul for Traced {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self::record(Step::Product(self, other))
+    }
+}
+
+impl Neg for Traced {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::record(Step::Negative(self))
+    }
+}
+
+impl Rounding for Traced {
+    const UNIT_ROUNDOFF: Self = Self::UnitRoundoff;
+    const UNDERFLOW: Self = Self::Underflow;
+    const LARGEST_EDGE: Self = Self::LargestEdge;
+    const SUM_GAP: Self = Self::SumGap;
+    const ZERO: Self = Self::Small(0);
+    const ONE: Self = Self::Small(1);
+    const HALF: Self = Self::Half;
+    const INFINITY: Self = Self::Infinity;
+    fn small(count: u8) -> Self {
+        Self::Small(count)
+    }
+}
+
+impl Lanes for Traced {
+    type Scalar = Self;
+    type Mask = bool;
+    fn splat(self, value: Self) -> Self {
+        value
+    }
+    fn any(mask: bool) -> bool {
+        mask
+    }
+    fn sqrt(self) -> Self {
+        Self::record(Step::Root(self))
+    }
+    fn abs(self) -> Self {
+        Self::record(Step::Magnitude(self))
+    }
+    fn larger(self, other: Self) -> Self {
+        Self::record(Step::Larger(self, other))
+    }
+    fn smaller(self, other: Self) -> Self {
+        Self::record(Step::Smaller(self, other))
+    }
+    fn greater(self, other: Self) -> bool {
+        ARENA.with_borrow_mut(|arena| arena.comparisons.push([self, other]));
+        false
+    }
+}
+
+/// A product of inputs and constants by name, in alphabetical order.
+pub type Monomial = Vec<String>;
+
+/// The monomials of a result, each with the largest number of roundings that one of its occurrences passes through on its way.
+/// A minimum or a maximum has the monomials of both.
+pub type Paths = BTreeMap<Monomial, u32>;
+
+impl Trace {
+    /// Of a result as it is.
+    ///
+    /// # Panics
+    /// If it is no polynomial.
+    #[must_use]
+    pub fn paths(&self, number: Traced) -> Paths {
+        self.paths_with_last_step(number, 1)
+    }
+
+    /// Of a result that is compared with a floating-point number: rounding is monotone, so its last step does not count.
+    ///
+    /// # Panics
+    /// If it is no polynomial.
+    #[must_use]
+    pub fn paths_but_last(&self, number: Traced) -> Paths {
+        self.paths_with_last_step(number, 0)
+    }
+
+    fn paths_with_last_step(&self, number: Traced, last: u32) -> Paths {
+        let Traced::Step(index) = number else {
+            return Paths::from([(constant(number), 0)]);
+        };
+        match &self.steps[index] {
+            Step::Input(name) => Paths::from([(vec![name.clone()], 0)]),
+            Step::Sum(a, b) | Step::Difference(a, b) => {
+                union([self.paths(*a), self.paths(*b)], last)
+            }
+            Step::Product(a, b) => {
+                // Powers of two, and whole numbers times the unit roundoff, round nothing.
+                let is_exact = [a, b]
+                    .into_iter()
+                    .all(|factor| !matches!(factor, Traced::Step(_)));
+                let rounded = if is_exact { 0 } else { last };
+                let (a, b) = (self.paths(*a), self.paths(*b));
+                let mut products = Paths::new();
+                for (x, of_x) in &a {
+                    for (y, of_y) in &b {
+                        let mut monomial = [x.as_slice(), y].concat();
+                        monomial.sort();
+                        let count = products.entry(monomial).or_default();
+                        *count = (*count).max(of_x + of_y + rounded);
+                    }
+                }
+                products
+            }
+            Step::Negative(a) | Step::Magnitude(a) => self.paths_with_last_step(*a, last),
+            Step::Larger(a, b) | Step::Smaller(a, b) => {
+                let both = [a, b].map(|&x| self.paths_with_last_step(x, last));
+                union(both, 0)
+            }
+            Step::Root(_) => panic!("a root is no polynomial"),
+        }
+    }
+}
+
+fn union([mut one, other]: [Paths; 2], rounded: u32) -> Paths {
+    for (monomial, of_other) in other {
+        let count = one.entry(monomial).or_default();
+        *count = (*count).max(of_other);
+    }
+    for count in one.values_mut() {
+        *count += rounded;
+    }
+    one
+}
+
+fn constant(number: Traced) -> Monomial {
+    match number {
+        Traced::Small(1) => Vec::new(),
+        Traced::UnitRoundoff => vec!["u".to_owned()],
+        Traced::Small(count) => vec![count.to_string()],
+        other => vec![format!("{other:?}")],
+    }
+}

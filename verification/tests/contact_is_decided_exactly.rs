@@ -1,0 +1,342 @@
+//! `selvedge_core::elementary::contact` and `selvedge_core::exact::touches` say what the oracle says, for every finite pair.
+
+mod support;
+
+use proptest::prelude::*;
+use selvedge_core::PrimitivePair;
+use selvedge_core::elementary::Contact;
+use selvedge_core::elementary::contact::{Evidence, contact_and_evidence};
+use selvedge_core::exact;
+use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
+use selvedge_verification::generator::{
+    Choices, Format, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs,
+    pairs_of_any_kind, touching_pairs,
+};
+use selvedge_verification::oracle::{Kind, collides};
+use std::cell::Cell;
+use support::environment::Environment;
+use support::widths::at_the_limit_of_a_width;
+
+const KINDS: [Kind; 2] = [Kind::VertexFace, Kind::EdgeEdge];
+
+/// In whole numbers alone; `None` if a coordinate is not finite.
+fn touches<S: Format>(pair: &PairCase<S>) -> Option<bool> {
+    match pair.kind {
+        Kind::VertexFace => exact::touches::<VertexAndFace, S>(&pair.vertex_face().points()),
+        Kind::EdgeEdge => exact::touches::<EdgeAndEdge, S>(&pair.edge_edge().points()),
+    }
+}
+
+/// The same, after floating point has had its try.
+fn verdict<S: Format>(pair: &PairCase<S>) -> (Contact, Evidence) {
+    match pair.kind {
+        Kind::VertexFace => contact_and_evidence(&pair.vertex_face()),
+        Kind::EdgeEdge => contact_and_evidence(&pair.edge_edge()),
+    }
+}
+
+/// What the verdict should be where whole numbers say this.
+fn as_contact(touches: Option<bool>) -> Contact {
+    match touches {
+        Some(true) => Contact::Happens,
+        Some(false) => Contact::Never,
+        None => Contact::Undefined,
+    }
+}
+
+/// Both agree that the pair touches, or does not.
+fn both_say<S: Format>(pair: &PairCase<S>, truth: bool) -> Result<(), TestCaseError> {
+    prop_assert_eq!(touches(pair), Some(truth), "in whole numbers");
+    prop_assert_eq!(verdict(pair).0, as_contact(Some(truth)));
+    Ok(())
+}
+
+fn agree_with_the_oracle<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    both_say(pair, collides(&pair.question()).is_some())
+}
+
+/// A property of pairs of format `S`, and a test for each format.
+macro_rules! property {
+    ($name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
+        mod $name {
+            use super::*;
+
+            fn holds<S: Format>($pair: &PairCase<S>) -> Result<(), TestCaseError> {
+                $property
+            }
+
+            #[test]
+            fn f32() {
+                check($cases, $strategy, holds::<f32>);
+            }
+
+            #[test]
+            fn f64() {
+                check($cases, $strategy, holds::<f64>);
+            }
+        }
+    };
+}
+
+property!(
+    verdicts_are_the_oracles,
+    30_000,
+    pairs_of_any_kind(),
+    |pair| agree_with_the_oracle(pair)
+);
+
+/// Coordinates from 0 to `limit`: contacts at corners, along edges, at the start and end, and all kinds of degeneration, all at once.
+fn on_a_grid<S: Format>(limit: u32, choices: &mut Choices<'_>) -> PairCase<S> {
+    let kind = choices.pick(&KINDS);
+    let mut whole = || S::exact(choices.below(limit + 1).into(), 0);
+    let mut end = || std::array::from_fn(|_| whole());
+    let mut point = || std::array::from_fn(|_| end());
+    PairCase::new(kind, std::array::from_fn(|_| point()))
+}
+
+property!(
+    verdicts_are_the_oracles_on_small_whole_numbers,
+    10_000,
+    from_choices(|choices| {
+        let limit = choices.pick(&[1, 2, 3, 5, 9]);
+        on_a_grid(limit, choices)
+    }),
+    |pair| agree_with_the_oracle(pair)
+);
+
+property!(
+    nothing_overflows_at_the_limit_of_a_width,
+    2_000,
+    from_choices(at_the_limit_of_a_width),
+    |pair| agree_with_the_oracle(pair)
+);
+
+/// The pair number `index` of those with coordinates 0 and 1 on `axes` axes, and 0 on the others.
+fn of_bits(kind: Kind, axes: usize, index: usize) -> PairCase<f64> {
+    let coordinate = |point: usize, end: usize, axis: usize| {
+        let place = (point * 2 + end) * axes + axis;
+        if axis < axes && index >> place & 1 == 1 {
+            1.0
+        } else {
+            0.0
+        }
+    };
+    let position = |point, end| [0, 1, 2].map(|axis| coordinate(point, end, axis));
+    let points = [0, 1, 2, 3].map(|point| [position(point, 0), position(point, 1)]);
+    PairCase::new(kind, points)
+}
+
+/// All pairs of points of a square: coplanar throughout.
+#[test]
+fn verdicts_are_the_oracles_on_every_pair_in_a_square() {
+    for (kind, index) in KINDS
+        .iter()
+        .flat_map(|&k| (0..1 << 16).map(move |i| (k, i)))
+    {
+        let pair = of_bits(kind, 2, index);
+        let checked = agree_with_the_oracle(&pair);
+        assert!(checked.is_ok(), "{checked:?}\n{pair:?}");
+    }
+}
+
+/// Every 257th pair of points of a cube. (All 33,554,432 agree as well; that takes an hour.)
+#[test]
+fn verdicts_are_the_oracles_on_pairs_in_a_cube() {
+    for kind in KINDS {
+        for index in (0..1 << 24).step_by(257) {
+            let pair = of_bits(kind, 3, index);
+            let checked = agree_with_the_oracle(&pair);
+            assert!(checked.is_ok(), "{checked:?}\n{pair:?}");
+        }
+    }
+}
+
+fn pairs_that_touch_do<S: Format>() {
+    check(100_000, touching_pairs::<S>(), |moment| {
+        both_say(&moment.pair(), true)
+    });
+}
+
+#[test]
+fn pairs_that_touch_by_construction_do_f32() {
+    pairs_that_touch_do::<f32>();
+}
+
+#[test]
+fn pairs_that_touch_by_construction_do_f64() {
+    pairs_that_touch_do::<f64>();
+}
+
+fn coplanar_pairs_agree<S: Format>() {
+    check(20_000, coplanar_pairs::<S>(), |moment| {
+        agree_with_the_oracle(&moment.pair())
+    });
+}
+
+#[test]
+fn verdicts_are_the_oracles_for_coplanar_pairs_f32() {
+    coplanar_pairs_agree::<f32>();
+}
+
+#[test]
+fn verdicts_are_the_oracles_for_coplanar_pairs_f64() {
+    coplanar_pairs_agree::<f64>();
+}
+
+/// Of a property that must not be vacuous: how often each kind of evidence was given.
+#[test]
+fn every_kind_of_evidence_is_given() {
+    let counts = [const { Cell::new(0) }; 3];
+    check(2_000, pairs_of_any_kind::<f64>(), |pair| {
+        let count = match verdict(pair).1 {
+            Evidence::Separation => &counts[0],
+            Evidence::Crossing => &counts[1],
+            Evidence::WholeNumbers => &counts[2],
+            Evidence::Nothing => return Err(TestCaseError::fail("finite")),
+        };
+        count.set(count.get() + 1);
+        Ok(())
+    });
+    let counts = counts.map(|count| count.get());
+    assert!(counts.iter().all(|&count| count > 10), "{counts:?}");
+}
+
+property!(
+    what_is_not_finite_is_undefined,
+    20_000,
+    extraordinary_pairs(),
+    |pair| {
+        if pair.is_finite() {
+            return agree_with_the_oracle(pair);
+        }
+        prop_assert_eq!(touches(pair), None);
+        prop_assert_eq!(verdict(pair), (Contact::Undefined, Evidence::Nothing));
+        Ok(())
+    }
+);
+
+/// Whole numbers say the same of a pair that is written down in another way.
+fn same<S: Format>(pair: &PairCase<S>, changed: &PairCase<S>) -> Result<(), TestCaseError> {
+    let expected = touches(pair);
+    prop_assert_eq!(touches(changed), expected, "changed to {:?}", changed);
+    prop_assert_eq!(verdict(changed).0, as_contact(expected), "{:?}", changed);
+    Ok(())
+}
+
+property!(
+    reversing_time_changes_no_verdict,
+    10_000,
+    pairs_of_any_kind(),
+    |pair| same(pair, &pair.reversed())
+);
+
+property!(
+    mirroring_and_permuting_axes_changes_no_verdict,
+    5_000,
+    pairs_of_any_kind(),
+    |pair| {
+        for axis in 0..3 {
+            let mirrored = pair.with_positions(|mut position| {
+                position[axis] = -position[axis];
+                position
+            });
+            same(pair, &mirrored)?;
+        }
+        for axes in [[1, 2, 0], [1, 0, 2]] {
+            same(pair, &pair.with_axes(axes))?;
+        }
+        Ok(())
+    }
+);
+
+property!(
+    permuting_the_faces_vertices_changes_no_verdict,
+    10_000,
+    pairs(Kind::VertexFace),
+    |pair| {
+        [[0, 2, 3, 1], [0, 3, 1, 2], [0, 2, 1, 3]]
+            .into_iter()
+            .try_for_each(|order| same(pair, &pair.reordered(order)))
+    }
+);
+
+property!(
+    exchanging_edges_and_their_ends_changes_no_verdict,
+    5_000,
+    pairs(Kind::EdgeEdge),
+    |pair| {
+        [[2, 3, 0, 1], [1, 0, 2, 3], [0, 1, 3, 2], [3, 2, 0, 1]]
+            .into_iter()
+            .try_for_each(|order| same(pair, &pair.reordered(order)))
+    }
+);
+
+property!(
+    scaling_by_powers_of_two_changes_no_verdict,
+    10_000,
+    pairs_of_any_kind(),
+    |pair| {
+        // Each axis by its own: planes, and points in triangles, stay so.
+        for exponents in [[40, 40, 40], [-30, -30, -30], [7, -20, 60]] {
+            let factors = exponents.map(|exponent| S::exact(1, exponent));
+            let by = |x: [S; 3], factors: [S; 3]| [0, 1, 2].map(|axis| x[axis] * factors[axis]);
+            let scaled = pair.with_positions(|x| by(x, factors));
+            let inverses = exponents.map(|exponent| S::exact(1, -exponent));
+            if scaled.is_finite() && scaled.with_positions(|x| by(x, inverses)) == *pair {
+                same(pair, &scaled)?;
+            }
+        }
+        Ok(())
+    }
+);
+
+// More than that each is right: what floating point leaves open may differ.
+property!(
+    verdicts_are_the_same_in_every_floating_point_environment,
+    10_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let answers = |pair: &PairCase<S>| (touches(pair), verdict(pair).0);
+        let expected = answers(pair);
+        for environment in Environment::all() {
+            let answers = environment.run(pair, answers);
+            prop_assert_eq!(answers, expected, "{:?}", environment);
+        }
+        Ok(())
+    }
+);
+
+#[test]
+fn the_same_numbers_in_f64_have_the_same_verdict() {
+    check(50_000, pairs_of_any_kind::<f32>(), |pair| {
+        prop_assert_eq!(touches(pair), touches(&pair.widened()));
+        prop_assert_eq!(verdict(pair).0, verdict(&pair.widened()).0);
+        Ok(())
+    });
+}
+
+/// A vertex that grazes a face of the largest size there is at a border point, or misses it by the smallest number there is.
+fn decides_the_largest_spread_there_is<S: Format>() {
+    let (small, large) = (S::ZERO.up(), S::LARGEST);
+    for (height, happens) in [(S::ZERO, true), (small, false), (-small, false)] {
+        let face = [[-large, -large], [large, -large], [small, large]];
+        let [a, b, c] = face.map(|[x, y]| [[x, y, S::ZERO], [x, y, S::ZERO]]);
+        let vertex = [[small, large, height], [small, S::ZERO, height]];
+        let pair = PairCase::new(Kind::VertexFace, [vertex, a, b, c]);
+        for axes in [[0, 1, 2], [2, 0, 1], [1, 2, 0]] {
+            let pair = pair.with_axes(axes);
+            let checked = both_say(&pair, happens);
+            assert!(checked.is_ok(), "{checked:?}\n{pair:?}");
+        }
+    }
+}
+
+#[test]
+fn decides_the_largest_spread_there_is_f32() {
+    decides_the_largest_spread_there_is::<f32>();
+}
+
+#[test]
+fn decides_the_largest_spread_there_is_f64() {
+    decides_the_largest_spread_there_is::<f64>();
+}
