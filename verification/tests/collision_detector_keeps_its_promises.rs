@@ -200,7 +200,7 @@ fn what_rests_changes_nothing_for_what_moves_f32() {
 /// On a mesh of many chunks: the same contacts, bits and order.
 #[test]
 fn instruction_sets_and_threads_change_nothing() {
-    let scene = ArmScene::new(16).expect("a refinement in range");
+    let scene = ArmScene::new(40).expect("a refinement in range");
     let [start, end] = [57, 58].map(|frame| scene.frame(frame));
     let mut expected: Option<(Vec<Contact<f64>>, Contact<f64>)> = None;
     for (name, level) in available_levels() {

@@ -329,7 +329,8 @@ impl<S: Scalar> Hierarchies<S> {
         self.statistics.candidates = candidates;
     }
 
-    /// The positions of a pair's four vertices: vertex, face; or first, second edge.
+    /// The positions of a pair's four vertices: vertex, face; or two edges, the one with the mesh's smaller number first, so that
+    /// what is computed of them does not depend on where they are in the hierarchy.
     #[inline(always)]
     pub(crate) fn vertices(&self, kind: PairKind, [first, second]: [u32; 2]) -> [u32; 4] {
         let (first, second) = (first as usize, second as usize);
@@ -339,6 +340,12 @@ impl<S: Scalar> Hierarchies<S> {
                 [first as u32, a, b, c]
             }
             PairKind::EdgeEdge => {
+                let is_in_order = self.edges.primitives[first] < self.edges.primitives[second];
+                let (first, second) = if is_in_order {
+                    (first, second)
+                } else {
+                    (second, first)
+                };
                 let ([a, b], [c, d]) = (self.edges.vertices[first], self.edges.vertices[second]);
                 [a, b, c, d]
             }

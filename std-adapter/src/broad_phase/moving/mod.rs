@@ -29,8 +29,8 @@
 //!
 //! # Which pairs
 //! Exactly those that [relative boxes along three axes](selvedge_core::boxes::relative::three_axes) leave, of `f32` positions
-//! and of `f64` positions that are `f32` numbers. Other `f64` positions are rounded to `f32` for the boxes (`mapping`):
-//! pairs that are apart by less than that are candidates too, none is lost.
+//! and of `f64` positions that are `f32` numbers, unless the mesh is far from the origin for its size. Other `f64` positions are
+//! rounded to `f32` for the boxes (`mapping`): pairs that are apart by less than that are candidates too, none is lost.
 //!
 //! The order of the candidates depends on the hierarchies, and so on the steps before: the same sequence of steps gives the
 //! same candidates in the same order, on any number of threads and every instruction set.
