@@ -11,7 +11,7 @@
 //! count as well.
 
 use selvedge::PairKind;
-use selvedge::pipeline::{CullingTest, ElementaryTest, Pipeline, Redundancy, Stages};
+use selvedge::pipeline::{CullingTest, ElementaryTest, Pipeline, Redundancy, Source, Stages};
 use selvedge::queries::read as read_queries;
 use selvedge_core::elementary::advance::confirm::certain_contact;
 use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact, time_of_impact_and_work};
@@ -134,7 +134,7 @@ fn scene(start: &str, end: &str, lists: &[&str]) -> Result<usize> {
         }
     }
     let stages = Stages {
-        redundancy: Redundancy::RepresentativeTriangles,
+        source: Source::TrianglePairs(Redundancy::RepresentativeTriangles),
         tests: &[CullingTest::StoredSweptBoxes],
         elementary: ElementaryTest::Cubic,
     };

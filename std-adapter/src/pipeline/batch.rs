@@ -2,11 +2,12 @@
 
 use super::Distributed;
 use super::assignment::FeatureAssignment;
-use super::pairs::{Contact, MovingMesh};
+use super::pairs::MovingMesh;
 use super::preset::{CullingTest, ElementaryTest, Stages};
-use super::report::PairCounts;
 use super::stored::{BoundingVolume, Stored};
 use crate::PairKind;
+use crate::pair_kind::PairCounts;
+use crate::step::Contact;
 use arrayvec::ArrayVec;
 use selvedge_core::batch::{LANES, Level, Mask, Test, culled_from_rows};
 use selvedge_core::boxes::{Aabb, Dop18};

@@ -3,7 +3,18 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// How a method keeps the same primitive pair from being tested twice.
+/// Where a method's primitive pairs come from, and what keeps the same one from being tested twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Source {
+    /// Candidate triangle pairs, distributed.
+    TrianglePairs(Redundancy),
+    /// Hierarchies of moving boxes over vertices, edges and faces, which find each primitive pair once
+    /// ([`broad_phase::moving`](crate::broad_phase::moving)); then the certified stages of [`step`](crate::step), whatever
+    /// the tests, and exact verdicts for [`ElementaryTest::Exact`].
+    MovingBoxes,
+}
+
+/// How a method keeps the same primitive pair from being tested twice, where it distributes triangle pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Redundancy {
     /// Not at all: each candidate triangle pair is distributed in full, duplicates included.
@@ -133,8 +144,8 @@ impl ElementaryTest {
 /// A method as a choice for each stage after the broad phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stages {
-    /// How duplicates are avoided.
-    pub redundancy: Redundancy,
+    /// Where primitive pairs come from.
+    pub source: Source,
     /// The culling tests, in order; at most one for each [`Stage`].
     pub tests: &'static [CullingTest],
     /// The test of what survives.
@@ -220,28 +231,31 @@ impl Preset {
     pub const fn stages(self) -> Stages {
         use CullingTest as Test;
         use Redundancy::{HashSets, Kept, RepresentativeTriangles};
-        let (redundancy, tests): (_, &[Test]) = match self {
-            Self::Naive => (Kept, &[]),
-            Self::Basic | Self::Provot1997 => (HashSets, &[]),
-            Self::HutterFuhrmann2007 => (RepresentativeTriangles, &[Test::StoredDop18]),
-            Self::Curtis2008 => (RepresentativeTriangles, &[]),
-            Self::Tang2010 => (RepresentativeTriangles, &[Test::PlainNonCoplanarity]),
-            Self::TangC2010 => (RepresentativeTriangles, &[Test::SubspaceThree]),
-            Self::TangC2011 => (RepresentativeTriangles, &[Test::SubspaceNine]),
+        use Source::{MovingBoxes, TrianglePairs};
+        let (source, tests): (_, &[Test]) = match self {
+            Self::Naive => (TrianglePairs(Kept), &[]),
+            Self::Basic | Self::Provot1997 => (TrianglePairs(HashSets), &[]),
+            Self::HutterFuhrmann2007 => {
+                (TrianglePairs(RepresentativeTriangles), &[Test::StoredDop18])
+            }
+            Self::Curtis2008 => (TrianglePairs(RepresentativeTriangles), &[]),
+            Self::Tang2010 => (
+                TrianglePairs(RepresentativeTriangles),
+                &[Test::PlainNonCoplanarity],
+            ),
+            Self::TangC2010 => (
+                TrianglePairs(RepresentativeTriangles),
+                &[Test::SubspaceThree],
+            ),
+            Self::TangC2011 => (
+                TrianglePairs(RepresentativeTriangles),
+                &[Test::SubspaceNine],
+            ),
             Self::Lv2014 => (
-                RepresentativeTriangles,
+                TrianglePairs(RepresentativeTriangles),
                 &[Test::SegmentBox, Test::PlainNonCoplanarity],
             ),
-            // Relative boxes imply swept boxes; but stored boxes drop most pairs for two memory accesses each, and give the
-            // count that other systems report.
-            Self::Selvedge | Self::SelvedgeExact => (
-                RepresentativeTriangles,
-                &[
-                    Test::StoredSweptBoxes,
-                    Test::RelativeBoxesNine,
-                    Test::CertifiedNonCoplanarity,
-                ],
-            ),
+            Self::Selvedge | Self::SelvedgeExact => (MovingBoxes, &[Test::CertifiedNonCoplanarity]),
         };
         let elementary = match self {
             Self::Selvedge => ElementaryTest::TimeOfImpact,
@@ -249,7 +263,7 @@ impl Preset {
             _ => ElementaryTest::Cubic,
         };
         Stages {
-            redundancy,
+            source,
             tests,
             elementary,
         }

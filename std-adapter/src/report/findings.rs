@@ -2,7 +2,7 @@
 
 use super::number::{mean, rate};
 use super::paper::paper_row;
-use crate::pipeline::{Preset, Stages};
+use crate::pipeline::{Preset, Redundancy, Source, Stages};
 use crate::study::{Comparison, ComparisonRow};
 
 /// One sentence about a comparison.
@@ -147,8 +147,9 @@ fn fastest(ours: &ComparisonRow, comparison: &Comparison) -> Option<Finding> {
 /// than one whose test misses some.
 fn contacts(comparison: &Comparison) -> Vec<Finding> {
     let culls_nothing = |stages: Stages| stages.tests.is_empty();
-    let counts_once =
-        |row: &&ComparisonRow| row.preset.stages().redundancy != crate::pipeline::Redundancy::Kept;
+    let counts_once = |row: &&ComparisonRow| {
+        row.preset.stages().source != Source::TrianglePairs(Redundancy::Kept)
+    };
     let rows: Vec<_> = comparison.rows.iter().filter(counts_once).collect();
     let Some(reference) = rows.iter().find(|row| culls_nothing(row.preset.stages())) else {
         return Vec::new();
@@ -221,6 +222,7 @@ mod tests {
         ComparisonRow {
             preset,
             triangle_pairs: 5000.0,
+            has_triangle_pairs: true,
             broad_phase_seconds: 0.0,
             stages: Vec::new(),
             after_boxes: counts(2000.0, 3000.0),

@@ -30,13 +30,15 @@ pub struct MeanStage {
 pub struct ComparisonRow {
     /// Which method.
     pub preset: Preset,
-    /// Candidate triangle pairs a step; the same for every method.
+    /// Candidate triangle pairs a step; the same for every method that has them, else zero.
     pub triangle_pairs: f64,
+    /// Whether it has them; else its broad phase finds primitive pairs, those of [`after_boxes`](Self::after_boxes).
+    pub has_triangle_pairs: bool,
     /// Seconds a step of the broad phase, in the fastest round.
     pub broad_phase_seconds: f64,
-    /// From distribution to the elementary test.
+    /// Those after it, up to the elementary test.
     pub stages: Vec<MeanStage>,
-    /// After the last box test (as distributed where there is none).
+    /// After the last box test (where there is none, as distributed or as the broad phase finds them).
     pub after_boxes: MeanCounts,
     /// What reaches the elementary test: the paper's *candidate primitive pairs*.
     pub candidates: MeanCounts,
@@ -203,6 +205,7 @@ impl Method {
         ComparisonRow {
             preset: self.preset,
             triangle_pairs: mean(total.triangle_pairs as f64),
+            has_triangle_pairs: total.broad_phase_pairs.is_none(),
             broad_phase_seconds: mean(total.broad_phase_seconds),
             stages: stages.collect(),
             after_boxes: counts(total.after_boxes()),

@@ -87,7 +87,7 @@ fn survivors(comparison: &Comparison, kind: fn(&MeanCounts) -> f64) -> String {
     let rows = comparison.rows.iter().map(|row| {
         [
             name(row),
-            mean(kind(&distributed(row))),
+            distributed(row).map_or_else(String::new, |counts| mean(kind(&counts))),
             mean(kind(&row.after_boxes)),
             mean(kind(&row.candidates)),
             mean(kind(&row.contacts)),
