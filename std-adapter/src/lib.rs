@@ -12,6 +12,7 @@
 //! | [`dispatch`] | the instruction set of the batched kernels |
 //! | [`scene`] | the built-in motion: a sleeve on a bending arm |
 //! | [`study`] | experiments: methods compared, cost against size, benchmark queries, accuracy against time (feature `accuracy`); data only |
+//! | `hard_cases` | hard cases of the literature by name, with exact answers (feature `files`) |
 //! | `queries` | primitive-pair queries of the public benchmark, read exactly (feature `files`) |
 //! | `report` | tables, CSV, JSON, plots, pictures (feature `report`) |
 //!
@@ -23,6 +24,8 @@ pub mod dispatch;
 #[cfg(feature = "files")]
 mod excerpt;
 mod frame;
+#[cfg(feature = "files")]
+pub mod hard_cases;
 pub mod mesh;
 mod pair_kind;
 mod parallel;

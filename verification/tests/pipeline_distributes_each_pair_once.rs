@@ -10,7 +10,7 @@ use selvedge::pipeline::{
 };
 use selvedge::scene::ArmScene;
 use selvedge_core::elementary::advance::time_of_impact;
-use selvedge_core::elementary::{Limits, cubic};
+use selvedge_core::elementary::{Contact, Limits, contact, cubic};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
 use selvedge_verification::oracle::{Kind, collides};
@@ -311,6 +311,16 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(
                 (ElementaryTest::TimeOfImpact, Kind::VertexFace) => {
                     time_of_impact(&pair.vertex_face(), &limits).time()
                 }
+                (ElementaryTest::Exact, Kind::VertexFace) => {
+                    let exact = pair.vertex_face();
+                    let time = time_of_impact(&exact, &limits).time();
+                    time.filter(|_| contact(&exact) == Contact::Happens)
+                }
+                (ElementaryTest::Exact, Kind::EdgeEdge) => {
+                    let exact = pair.edge_edge();
+                    let time = time_of_impact(&exact, &limits).time();
+                    time.filter(|_| contact(&exact) == Contact::Happens)
+                }
                 (ElementaryTest::TimeOfImpact, Kind::EdgeEdge) => {
                     time_of_impact(&pair.edge_edge(), &limits).time()
                 }
@@ -344,6 +354,42 @@ fn every_preset_ends_with_what_its_own_tests_leave_f32() {
         300,
         meshes::<f32>(),
         every_preset_ends_with_what_its_own_tests_leave,
+    );
+}
+
+/// From the mesh to the contacts, against the exact oracle.
+fn the_exact_preset_finds_the_pairs_that_collide_and_no_other<S: Format>(
+    mesh: &MeshCase<S>,
+) -> Result<(), TestCaseError> {
+    let topology = mesh.topology();
+    let colliding: BTreeSet<MeshPair> = all_pairs(&topology)
+        .into_iter()
+        .filter(|&pair| collides(&points(mesh, &topology, pair).question()).is_some())
+        .collect();
+    let run = Run::new(mesh, Preset::SelvedgeExact.stages(), 1);
+    let contacts = run.pipeline.contacts().iter();
+    let found: BTreeSet<MeshPair> = contacts
+        .map(|contact| in_order(contact.kind, contact.pair))
+        .collect();
+    prop_assert_eq!(found, colliding);
+    Ok(())
+}
+
+#[test]
+fn the_exact_preset_finds_the_pairs_that_collide_and_no_other_f64() {
+    check(
+        150,
+        meshes::<f64>(),
+        the_exact_preset_finds_the_pairs_that_collide_and_no_other,
+    );
+}
+
+#[test]
+fn the_exact_preset_finds_the_pairs_that_collide_and_no_other_f32() {
+    check(
+        150,
+        meshes::<f32>(),
+        the_exact_preset_finds_the_pairs_that_collide_and_no_other,
     );
 }
 

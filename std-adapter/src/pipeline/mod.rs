@@ -17,8 +17,8 @@
 //!
 //! A published method is a [`Preset`]: a choice of stages ([`Stages`]), never another loop. All of them run the
 //! same code, on the same broad phase, so their times compare; every test goes sixteen pairs at a time
-//! ([`selvedge_core::batch`]). The preset `selvedge` alone has no triangle pairs ([`Source::MovingBoxes`]): it is
-//! [`step`](crate::step), counted as the others are.
+//! ([`selvedge_core::batch`]). The presets `selvedge` and `selvedge_exact` alone have no triangle pairs
+//! ([`Source::MovingBoxes`]): they are [`step`](crate::step), counted as the others are.
 //!
 //! ```
 //! use selvedge::{glam::DVec3, mesh::Topology, pipeline::{Pipeline, Preset}};
@@ -224,7 +224,8 @@ impl<S: Scalar> Pipeline<S> {
             }
             Route::MovingBoxes(engine) => {
                 let keeps_filtered = buffers.keep_candidates;
-                threads.run(|| engine.run_all(start, end, keeps_filtered))?;
+                let is_exact = stages.elementary == ElementaryTest::Exact;
+                threads.run(|| engine.run_all(start, end, keeps_filtered, is_exact))?;
                 buffers.take_from(engine);
                 *report = engine.tally().report();
             }

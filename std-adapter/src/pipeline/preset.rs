@@ -10,7 +10,7 @@ pub enum Source {
     TrianglePairs(Redundancy),
     /// Hierarchies of moving boxes over vertices, edges and faces, which find each primitive pair once
     /// ([`broad_phase::moving`](crate::broad_phase::moving)); then the certified stages of [`step`](crate::step), whatever
-    /// the tests.
+    /// the tests, and exact verdicts for [`ElementaryTest::Exact`].
     MovingBoxes,
 }
 
@@ -129,13 +129,15 @@ pub enum ElementaryTest {
     /// [`selvedge_core::elementary::advance`], with the default tolerance: certified; a contact's time is not after the exact
     /// one, and a pair that comes within the tolerance, or too close to tell, counts as a contact.
     TimeOfImpact,
+    /// The same, and then [`selvedge_core::elementary::contact`]: a contact is one exactly, and its time certified as before.
+    Exact,
 }
 
 impl ElementaryTest {
     /// Whether it never misses a contact, rounding included.
     #[must_use]
     pub const fn is_certified(self) -> bool {
-        matches!(self, Self::TimeOfImpact)
+        matches!(self, Self::TimeOfImpact | Self::Exact)
     }
 }
 
@@ -174,11 +176,13 @@ pub enum Preset {
     Lv2014,
     /// Ours.
     Selvedge,
+    /// Ours, with the exact verdict: no pair is called a contact that is none.
+    SelvedgeExact,
 }
 
 impl Preset {
     /// Every preset, in the order of the paper's references, ours last.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Naive,
         Self::Basic,
         Self::Provot1997,
@@ -189,6 +193,7 @@ impl Preset {
         Self::TangC2011,
         Self::Lv2014,
         Self::Selvedge,
+        Self::SelvedgeExact,
     ];
 
     /// The name on the command line and in reports.
@@ -205,6 +210,7 @@ impl Preset {
             Self::TangC2011 => "tang_c_2011",
             Self::Lv2014 => "lv_2014",
             Self::Selvedge => "selvedge",
+            Self::SelvedgeExact => "selvedge_exact",
         }
     }
 
@@ -212,6 +218,12 @@ impl Preset {
     #[must_use]
     pub const fn is_reconstructed(self) -> bool {
         matches!(self, Self::TangC2010 | Self::TangC2011)
+    }
+
+    /// Whether it is one of our own.
+    #[must_use]
+    pub const fn is_ours(self) -> bool {
+        matches!(self, Self::Selvedge | Self::SelvedgeExact)
     }
 
     /// The stages that the name stands for.
@@ -243,10 +255,11 @@ impl Preset {
                 TrianglePairs(RepresentativeTriangles),
                 &[Test::SegmentBox, Test::PlainNonCoplanarity],
             ),
-            Self::Selvedge => (MovingBoxes, &[Test::CertifiedNonCoplanarity]),
+            Self::Selvedge | Self::SelvedgeExact => (MovingBoxes, &[Test::CertifiedNonCoplanarity]),
         };
         let elementary = match self {
             Self::Selvedge => ElementaryTest::TimeOfImpact,
+            Self::SelvedgeExact => ElementaryTest::Exact,
             _ => ElementaryTest::Cubic,
         };
         Stages {

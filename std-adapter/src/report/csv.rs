@@ -31,7 +31,7 @@ pub fn comparison_csv(comparison: &Comparison, out: impl Write) -> io::Result<()
     header.extend(["vf_distributed", "vf_after_boxes", "vf_after_filter"]);
     header.extend(["vf_contacts", "ee_distributed", "ee_after_boxes"]);
     header.extend(["ee_after_filter", "ee_contacts", "frames_per_second"]);
-    header.push("broad_phase_seconds");
+    header.extend(["vf_missed", "ee_missed", "broad_phase_seconds"]);
     header.extend(STAGES.map(|(_, column)| column));
     header.extend(["paper_vf", "paper_ee", "paper_frames_per_second"]);
     writer.write_record(header)?;
@@ -63,6 +63,8 @@ fn comparison_record(row: &ComparisonRow) -> Vec<String> {
     record.extend(of_kind(|counts| counts.vertex_face));
     record.extend(of_kind(|counts| counts.edge_edge));
     record.push(row.frames_per_second.to_string());
+    record.push(row.missed.vertex_face.to_string());
+    record.push(row.missed.edge_edge.to_string());
     record.push(row.broad_phase_seconds.to_string());
     record.extend(STAGES.map(|(wanted, _)| {
         let stage = row.stages.iter().find(|stage| stage.stage == wanted);

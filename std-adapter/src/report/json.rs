@@ -6,12 +6,14 @@ use super::findings::findings;
 use super::n_log_n_ratios;
 use super::paper::paper_row;
 use super::step::{StepQuestion, StepSummary};
-use crate::pipeline::{PairCounts, Preset, Stage, StepReport};
 #[cfg(feature = "files")]
-use crate::study::QueryResult;
+use crate::hard_cases::Contact;
+use crate::pipeline::{PairCounts, Preset, Stage, StepReport};
 #[cfg(feature = "accuracy")]
 use crate::study::{Accuracy, AccuracySet};
 use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
+#[cfg(feature = "files")]
+use crate::study::{HardAnswer, HardResult, QueryMethod, QueryResult};
 use serde_json::{Value, json};
 
 /// One step: `selvedge cull`.
@@ -101,8 +103,7 @@ fn comparison_row(row: &ComparisonRow) -> Value {
         "reconstructed": row.preset.is_reconstructed(),
         "vertex_face": kind(|counts| counts.vertex_face),
         "edge_edge": kind(|counts| counts.edge_edge),
-        // Nothing decides exactly yet which pairs truly touch.
-        "missed": Value::Null,
+        "missed": row.missed.vertex_face + row.missed.edge_edge,
         "frames_per_second": row.frames_per_second,
         "stages": comparison_stages(row),
         "paper": paper_row(row.preset).map(|paper| json!({
@@ -241,4 +242,39 @@ fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
         }
     }
     rows
+}
+
+/// What every method said of the hard cases: `selvedge hard-cases`.
+#[cfg(feature = "files")]
+#[must_use]
+pub fn hard_cases(scalar: &str, results: &[HardResult]) -> Value {
+    let cases = results.iter().map(|result| {
+        let case = result.case;
+        let (first, enclosure) = match &case.contact {
+            Contact::Never => ("never", None),
+            Contact::Undefined => ("undefined", None),
+            Contact::First { exact, from, to } => (exact.as_str(), Some([*from, *to])),
+        };
+        let answers = QueryMethod::ALL.into_iter().zip(result.answers);
+        let answers = answers.map(|(method, answer)| {
+            let answer = match answer {
+                HardAnswer::Right => "right",
+                HardAnswer::FalseAlarm => "false-alarm",
+                HardAnswer::Missed => "missed",
+            };
+            (method.name().to_owned(), Value::from(answer))
+        });
+        json!({
+            "case": case.name,
+            "placement": case.placement,
+            "kind": case.kind.name(),
+            "first_contact": first,
+            "between": enclosure,
+            "answers": answers.collect::<serde_json::Map<_, _>>(),
+        })
+    });
+    json!({
+        "scalar": scalar,
+        "cases": cases.collect::<Vec<_>>(),
+    })
 }

@@ -485,6 +485,7 @@ mod tests {
             after_boxes: last(&|stage| stage == Stage::Distribution || stage.is_box_test()),
             candidates: last(&|stage| stage != Stage::Elementary),
             contacts: last(&|stage| stage == Stage::Elementary),
+            missed: MeanCounts::default(),
             frames_per_second: 0.01 * scale,
             stages,
         }

@@ -150,17 +150,19 @@ impl<S: Scalar> Engine<S> {
         self.tally.seconds = seconds;
     }
 
-    /// Finds all contacts of a step, with the default limits.
+    /// Finds all contacts of a step, with the default limits; the exact ones only if so asked.
     pub(crate) fn run_all(
         &mut self,
         start: &[S::Vector],
         end: &[S::Vector],
         keeps_filtered: bool,
+        is_exact: bool,
     ) -> Result<(), StepError> {
         let question = Question {
             limits: Limits::default(),
             wanted: Wanted::All,
             keeps_filtered,
+            is_exact,
         };
         self.run(start, end, &question, Probe::WHOLE)
     }

@@ -120,6 +120,8 @@ pub(crate) struct Question<S> {
     pub(crate) wanted: Wanted,
     /// Whether pairs that the filter keeps are wanted as well.
     pub(crate) keeps_filtered: bool,
+    /// Whether only pairs that truly touch are contacts, by the exact verdict. For separation zero.
+    pub(crate) is_exact: bool,
 }
 
 /// How late a contact may be to be of interest: shared by all threads, lowered by each contact where only the earliest is wanted.
@@ -344,6 +346,7 @@ impl<S: Scalar> CollisionDetector<S> {
             limits: self.limits,
             wanted,
             keeps_filtered: false,
+            is_exact: false,
         }
     }
 }

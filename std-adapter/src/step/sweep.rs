@@ -6,7 +6,7 @@
 //!   ▼
 //! open pairs       chunk by chunk
 //!   │  sweeps      one round of advancing for all that are open, again and again
-//!   │  one by one  the few that lanes cannot decide, or that are still open then
+//!   │  one by one  the few that lanes cannot decide, or that are still open then; exact verdicts, if asked for
 //!   ▼
 //! contacts         in the order of the candidates
 //! ```
@@ -21,6 +21,8 @@ use selvedge_core::batch::{
     LANES, Mask, Round, RoundQuestion, VertexRow, advance_from_rows, culled_from_rows,
 };
 use selvedge_core::elementary::advance::time_of_impact_within;
+use selvedge_core::elementary::contact::settled;
+use selvedge_core::elementary::{Contact as Verdict, Impact, Reason};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::points::Shape;
 use selvedge_core::{EdgeEdge, Motion, Scalar, VertexFace};
@@ -68,6 +70,29 @@ pub(super) struct StepInput<'a, S: Scalar> {
     pub(super) question: Question<S>,
     /// The earliest contact so far, of all threads.
     pub(super) bound: &'a Bound,
+}
+
+/// The pair of four vertices.
+enum Primitives<S: Scalar> {
+    VertexFace(VertexFace<S>),
+    EdgeEdge(EdgeEdge<S>),
+}
+
+impl<S: Scalar> StepInput<'_, S> {
+    #[inline(always)]
+    fn primitives(&self, kind: PairKind, rows: [u32; 4]) -> Primitives<S> {
+        let [a, b, c, d] = rows.map(|row| -> Motion<S> { self.rows[row as usize].motion() });
+        match kind {
+            PairKind::VertexFace => Primitives::VertexFace(VertexFace {
+                vertex: a,
+                face: [b, c, d],
+            }),
+            PairKind::EdgeEdge => Primitives::EdgeEdge(EdgeEdge {
+                first: [a, b],
+                second: [c, d],
+            }),
+        }
+    }
 }
 
 /// What was counted and how long it took.
@@ -225,7 +250,9 @@ impl<S: Scalar> Chunk<S> {
             self.impacts[place] = advanced(step, kind, self.indices[open], self.times[open], until);
         }
         for (&pair, &impact) in self.pairs.iter().zip(&self.impacts) {
-            if let Some(time) = impact {
+            if let Some(time) = impact
+                && (!step.question.is_exact || touches(step, kind, pair, time))
+            {
                 step.bound.lower(step.question.wanted, time);
                 found.contacts.push(Contact {
                     kind,
@@ -297,24 +324,24 @@ fn advanced<S: Scalar>(
     until: S,
 ) -> Option<S> {
     let limits = &step.question.limits;
-    let [a, b, c, d] = indices.map(|index| -> Motion<S> { step.rows[index as usize].motion() });
-    let impact = match kind {
-        PairKind::VertexFace => {
-            let pair = VertexFace {
-                vertex: a,
-                face: [b, c, d],
-            };
-            time_of_impact_within(&pair, limits, from, until)
-        }
-        PairKind::EdgeEdge => {
-            let pair = EdgeEdge {
-                first: [a, b],
-                second: [c, d],
-            };
-            time_of_impact_within(&pair, limits, from, until)
-        }
+    let impact = match step.primitives(kind, indices) {
+        Primitives::VertexFace(pair) => time_of_impact_within(&pair, limits, from, until),
+        Primitives::EdgeEdge(pair) => time_of_impact_within(&pair, limits, from, until),
     };
     impact.time()
+}
+
+/// Whether a pair for which contact is not excluded from `time` on truly touches.
+fn touches<S: Scalar>(step: &StepInput<'_, S>, kind: PairKind, pair: [u32; 2], time: S) -> bool {
+    let impact = Impact::Possible {
+        time,
+        reason: Reason::WithinTolerance,
+    };
+    let (verdict, _) = match step.primitives(kind, step.numbers.vertices(kind, pair)) {
+        Primitives::VertexFace(pair) => settled(&pair, &impact),
+        Primitives::EdgeEdge(pair) => settled(&pair, &impact),
+    };
+    verdict != Verdict::Never
 }
 
 fn shape(kind: PairKind) -> Shape {

@@ -76,7 +76,14 @@ fn table_1(comparison: &Comparison) -> String {
 }
 
 fn survivors(comparison: &Comparison, kind: fn(&MeanCounts) -> f64) -> String {
-    let header = ["method", "distributed", "boxes", "filter", "contacts"];
+    let header = [
+        "method",
+        "distributed",
+        "boxes",
+        "filter",
+        "contacts",
+        "missed",
+    ];
     let rows = comparison.rows.iter().map(|row| {
         [
             name(row),
@@ -84,6 +91,7 @@ fn survivors(comparison: &Comparison, kind: fn(&MeanCounts) -> f64) -> String {
             mean(kind(&row.after_boxes)),
             mean(kind(&row.candidates)),
             mean(kind(&row.contacts)),
+            mean(kind(&row.missed)),
         ]
     });
     table(header, rows)

@@ -86,13 +86,16 @@ fn promise(summary: &StepSummary) -> &'static str {
     let stages = summary.preset.stages();
     let tests_are_certified = stages.tests.iter().copied().all(CullingTest::is_certified);
     match (tests_are_certified, stages.elementary) {
+        (true, ElementaryTest::Exact) => {
+            "No contact is missed, none is false, and no time is too late: the verdict is exact.\n"
+        }
         (true, ElementaryTest::TimeOfImpact) => {
             "No contact is missed, and no time is too late: every stage is certified.\n"
         }
         (true, ElementaryTest::Cubic) => {
             "The plain cubic elementary test can miss contacts; the stages before it cannot.\n"
         }
-        (false, ElementaryTest::TimeOfImpact) => {
+        (false, ElementaryTest::TimeOfImpact | ElementaryTest::Exact) => {
             "The plain filter can miss contacts; the elementary test cannot.\n"
         }
         (false, ElementaryTest::Cubic) => {
