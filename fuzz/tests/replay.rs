@@ -53,6 +53,11 @@ fn time_of_impact_keeps_its_promises_on_the_kept_inputs() {
 }
 
 #[test]
+fn exact_verdict_keeps_its_promises_on_the_kept_inputs() {
+    replay("exact_verdict");
+}
+
+#[test]
 fn distribution_keeps_its_promises_on_the_kept_inputs() {
     replay("distribution");
 }

@@ -25,11 +25,13 @@
 //! assert_eq!(masks, [0xFFFF, 0b0111]);
 //! ```
 
+mod advance;
 mod rows;
 mod simd;
 mod tile;
 
-pub use fearless_simd::Level;
+pub use advance::{Round, RoundQuestion, advance_from_rows};
+pub use fearless_simd::{Level, Simd};
 pub use rows::VertexRow;
 pub use tile::Tile;
 

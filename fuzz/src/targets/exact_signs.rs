@@ -1,8 +1,8 @@
 use super::pair::{self, Numbers};
 use rug::{Integer, Rational};
+use selvedge::core::PrimitivePair;
 use selvedge::core::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar};
 use selvedge::core::points::{EdgeAndEdge, PairShape, VertexAndFace};
-use selvedge::core::PrimitivePair;
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::Kind;
 use std::cmp::Ordering;

@@ -1,15 +1,21 @@
-//! What studies found, as tables, CSV, JSON, plots and pictures. Everything is returned as text or bytes, or written
-//! to what the caller hands over; nothing here opens a file. The same data gives the same bytes, on every machine.
+//! What studies and simulations found, as tables, CSV, JSON, plots, pictures, a page that works offline, and animated glTF.
+//! Everything is returned as text or bytes, or written to what the caller hands over; nothing here opens a file. The same data
+//! gives the same bytes, on every machine.
+//!
+//! A simulation is handed over as a [`Recording`], which a [`Recorder`] makes.
 
 #[cfg(feature = "accuracy")]
 mod accuracy_svg;
 mod csv;
 mod figure;
 mod findings;
+pub mod gltf;
 pub mod json;
 mod number;
+pub mod page;
 mod paper;
 mod plot;
+mod recording;
 mod step;
 mod table_svg;
 pub mod tables;
@@ -21,19 +27,22 @@ pub use figure::{FIGURE_SIZE, FigureError, FigurePairs, figure_3};
 pub use findings::{Finding, findings};
 pub use paper::{PaperRow, paper_row};
 pub use plot::scaling_svg;
-pub use step::StepSummary;
+pub use recording::{
+    About, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind,
+};
+pub use step::{StepQuestion, StepSummary};
 pub use table_svg::comparison_svg;
 
 use crate::pipeline::Stage;
 use crate::study::{ComparisonRow, MeanCounts, ScalingPoint};
 
-/// The primitive pairs of a method before any culling test.
-fn distributed(row: &ComparisonRow) -> MeanCounts {
+/// The primitive pairs of a method before any culling test, if it distributes triangle pairs.
+fn distributed(row: &ComparisonRow) -> Option<MeanCounts> {
     let stage = row
         .stages
         .iter()
         .find(|stage| stage.stage == Stage::Distribution);
-    stage.map(|stage| stage.survivors).unwrap_or_default()
+    stage.map(|stage| stage.survivors)
 }
 
 /// Each size's time for a step over n log n, as a multiple of the first size's: 1 throughout for a cost of n log n.

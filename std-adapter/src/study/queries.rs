@@ -10,7 +10,7 @@ use crate::PairKind;
 use crate::pipeline::{CullingTest, Preset, Stages};
 use crate::queries::Query;
 use selvedge_core::boxes::{self, Dop18};
-use selvedge_core::elementary::{Impact, Limits, advance::time_of_impact};
+use selvedge_core::elementary::{Contact, Impact, Limits, advance::time_of_impact};
 use selvedge_core::{
     EdgeEdge, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary, filter,
 };
@@ -24,6 +24,8 @@ use std::time::{Duration, Instant};
 pub enum QueryMethod {
     /// All stages of [`Preset::Selvedge`] from its culling tests on: they, then the certified time of impact.
     Selvedge,
+    /// [`elementary::contact`](mod@elementary::contact), the exact verdict.
+    Exact,
     /// [`elementary::advance`] alone, the certified time of impact with its default tolerance.
     TimeOfImpact,
     /// [`CullingTest::CertifiedNonCoplanarity`] alone.
@@ -50,8 +52,9 @@ pub enum QueryMethod {
 
 impl QueryMethod {
     /// Every method, ours first.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Selvedge,
+        Self::Exact,
         Self::TimeOfImpact,
         Self::NonCoplanarity,
         Self::NonCoplanarityPlain,
@@ -70,6 +73,7 @@ impl QueryMethod {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Selvedge => "selvedge",
+            Self::Exact => "exact",
             Self::TimeOfImpact => "time_of_impact",
             Self::NonCoplanarity => "non_coplanarity",
             Self::NonCoplanarityPlain => "non_coplanarity_plain",
@@ -142,7 +146,7 @@ impl FromStr for QueryMethod {
         let known = Self::ALL.into_iter().find(|method| method.name() == name);
         known.ok_or_else(|| UnknownMethod {
             problem: match name {
-                "exact" | "bernstein_sign" => {
+                "bernstein_sign" => {
                     format!("the method `{name}` is planned, but not there yet")
                 }
                 _ => format!("there is no method `{name}`"),
@@ -224,6 +228,7 @@ fn measure<S: Scalar, P: QueryPair<S>>(mut run: Run<'_, S::Vector>) -> QueryResu
                     && time_of_impact(pair, &limits) != Impact::Never
             })
         }
+        QueryMethod::Exact => run.with(|pair: &P| elementary::contact(pair) != Contact::Never),
         QueryMethod::TimeOfImpact => {
             let limits = Limits::default();
             run.with(|pair: &P| time_of_impact(pair, &limits) != Impact::Never)
@@ -517,7 +522,10 @@ mod tests {
 
     #[test]
     fn an_unknown_name_is_told_the_known_ones() {
-        for (name, says) in [("exact", "not there yet"), ("quartic", "no method")] {
+        for (name, says) in [
+            ("bernstein_sign", "not there yet"),
+            ("quartic", "no method"),
+        ] {
             let message = name.parse::<QueryMethod>().unwrap_err().to_string();
             assert!(
                 message.contains(says) && message.contains("dop_18, cubic"),

@@ -1,0 +1,216 @@
+//! A simulation as one animated glTF 2.0 file (`.glb`), which Blender and most viewers open.
+//!
+//! Each part is a mesh. Its first frame is its shape, every later frame a morph target (Blender: a shape key), and an animation of
+//! their weights leads from each frame to the next; positions in between are interpolated along straight lines. Parts that never
+//! move have no targets.
+//!
+//! Written with `serde_json` alone: what is needed of the format is a page, the types of `gltf-json` would be three more
+//! dependencies and no shorter. The tests read it back with the `gltf` crate, which validates it.
+
+mod binary;
+mod normals;
+#[cfg(test)]
+mod tests;
+
+use super::recording::{Frame, Part, PartKind, Recording};
+use binary::Binary;
+use normals::vertex_normals;
+use selvedge_core::glam::{DQuat, DVec3};
+use serde_json::{Value, json};
+
+/// The format numbers bytes by a `u32`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "an animation of {0} bytes does not fit into a glTF file, which holds 4 GiB; record fewer frames"
+)]
+pub struct TooLarge(pub u64);
+
+/// Weights take the square of the frames, and programs slow down with the number of targets.
+const MOST_FRAMES: usize = 600;
+
+/// The bytes of a `.glb` file.
+///
+/// Times begin at 0 with the first frame. Of more than 600 frames, evenly chosen ones and the last are written. y is up in glTF:
+/// one node above all parts turns the scene's up direction there.
+///
+/// # Errors
+/// If the file would be larger than the format allows.
+pub fn binary(recording: &Recording) -> Result<Vec<u8>, TooLarge> {
+    let frames = chosen(&recording.frames);
+    let mut binary = Binary::default();
+    let (mut nodes, mut meshes, mut moving) = (Vec::new(), Vec::new(), Vec::new());
+    let parts = recording.placed_parts();
+    for (first, part) in parts.filter(|(_, part)| !part.triangles().is_empty()) {
+        let vertices = first..first + part.vertex_count();
+        let shape = |frame: &Frame| frame.positions[vertices.clone()].to_vec();
+        let rest = shape(frames[0]);
+        let moves = frames
+            .iter()
+            .any(|frame| frame.positions[vertices.clone()] != rest);
+        let later = if moves { &frames[1..] } else { &[] };
+        if moves {
+            moving.push(nodes.len());
+        }
+        nodes.push(json!({"name": part.name(), "mesh": meshes.len()}));
+        let up = recording.up();
+        meshes.push(mesh(
+            &mut binary,
+            part,
+            &rest,
+            later.iter().map(|frame| (frame.step, shape(frame))),
+            up,
+        ));
+    }
+    let root = nodes.len();
+    let turn = DQuat::from_rotation_arc(recording.up(), DVec3::Y);
+    nodes.push(json!({
+        "name": recording.about.name,
+        "rotation": turn.to_array().map(|number| number as f32),
+        "children": (0..root).collect::<Vec<_>>(),
+    }));
+    let mut document = json!({
+        "asset": {"version": "2.0", "generator": concat!("selvedge ", env!("CARGO_PKG_VERSION"))},
+        "scene": 0,
+        "scenes": [{"name": recording.about.name, "nodes": [root]}],
+        "nodes": nodes,
+        "materials": [CLOTH.json(), BODY.json()],
+    });
+    if root == 0 {
+        // A list of no children is not allowed.
+        document["nodes"][root]
+            .as_object_mut()
+            .map(|node| node.remove("children"));
+    } else {
+        document["meshes"] = meshes.into();
+    }
+    if !moving.is_empty() {
+        document["animations"] = json!([animation(&mut binary, recording, &frames, &moving)]);
+    }
+    binary.into_file(document)
+}
+
+/// Every so many frames and the last, at most [`MOST_FRAMES`].
+fn chosen(frames: &[Frame]) -> Vec<&Frame> {
+    let stride = if frames.len() <= MOST_FRAMES {
+        1
+    } else {
+        // One place is for the last.
+        frames.len().div_ceil(MOST_FRAMES - 1)
+    };
+    let mut chosen: Vec<&Frame> = frames.iter().step_by(stride).collect();
+    if !(frames.len() - 1).is_multiple_of(stride) {
+        chosen.extend(frames.last());
+    }
+    chosen
+}
+
+/// A part in its first frame, and a target for each later one.
+fn mesh(
+    binary: &mut Binary,
+    part: &Part,
+    rest: &[[f32; 3]],
+    later: impl Iterator<Item = (u64, Vec<[f32; 3]>)>,
+    up: DVec3,
+) -> Value {
+    let normals_of = |positions: &[[f32; 3]]| vertex_normals(positions, part.triangles(), up);
+    let normals = normals_of(rest);
+    let (mut targets, mut names, mut weights) = (Vec::new(), Vec::new(), Vec::new());
+    let indices = binary.add_indices(part.triangles());
+    let attributes = json!({
+        "POSITION": binary.add_vectors(rest),
+        "NORMAL": binary.add_vectors(&normals),
+    });
+    for (step, positions) in later {
+        targets.push(json!({
+            "POSITION": binary.add_vectors(&differences(&positions, rest)),
+            "NORMAL": binary.add_vectors(&differences(&normals_of(&positions), &normals)),
+        }));
+        names.push(format!("step {step}"));
+        weights.push(0.0);
+    }
+    let mut primitive = json!({
+        "attributes": attributes,
+        "indices": indices,
+        "material": match part.kind() {
+            PartKind::Cloth => 0,
+            PartKind::Body => 1,
+        },
+    });
+    let mut mesh = json!({"name": part.name()});
+    if !targets.is_empty() {
+        primitive["targets"] = targets.into();
+        mesh["weights"] = weights.into();
+        // Where Blender looks for the names of shape keys.
+        mesh["extras"] = json!({"targetNames": names});
+    }
+    mesh["primitives"] = json!([primitive]);
+    mesh
+}
+
+fn differences(to: &[[f32; 3]], from: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let pairs = to.iter().zip(from);
+    pairs
+        .map(|(a, b)| [a[0] - b[0], a[1] - b[1], a[2] - b[2]])
+        .collect()
+}
+
+/// At the time of frame k the weight of target k − 1 is 1 and all others are 0; the first frame has no target.
+fn animation(
+    binary: &mut Binary,
+    recording: &Recording,
+    frames: &[&Frame],
+    nodes: &[usize],
+) -> Value {
+    let start = recording.time(frames[0]);
+    let times = frames
+        .iter()
+        .map(|frame| (recording.time(frame) - start) as f32);
+    let targets = frames.len() - 1;
+    let mut weights = vec![0.0; frames.len() * targets];
+    for target in 0..targets {
+        weights[(target + 1) * targets + target] = 1.0;
+    }
+    let input = binary.add_numbers(&times.collect::<Vec<_>>());
+    let output = binary.add_numbers(&weights);
+    let channel =
+        |&node: &usize| json!({"sampler": 0, "target": {"node": node, "path": "weights"}});
+    json!({
+        "name": recording.about.name,
+        "samplers": [{"input": input, "output": output, "interpolation": "LINEAR"}],
+        "channels": nodes.iter().map(channel).collect::<Vec<_>>(),
+    })
+}
+
+/// How a part looks, as the page shows it.
+struct Material {
+    name: &'static str,
+    /// Red, green, blue, as linear light.
+    colour: [f32; 3],
+    both_sides: bool,
+}
+
+const CLOTH: Material = Material {
+    name: "cloth",
+    colour: [0.05, 0.18, 0.46],
+    both_sides: true,
+};
+const BODY: Material = Material {
+    name: "body",
+    colour: [0.47, 0.41, 0.36],
+    both_sides: false,
+};
+
+impl Material {
+    fn json(&self) -> Value {
+        let [red, green, blue] = self.colour;
+        json!({
+            "name": self.name,
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [red, green, blue, 1.0],
+                "metallicFactor": 0.0,
+                "roughnessFactor": 0.85,
+            },
+            "doubleSided": self.both_sides,
+        })
+    }
+}

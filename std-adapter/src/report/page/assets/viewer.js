@@ -1,0 +1,545 @@
+"use strict";
+
+/**
+ * Draws frames on a canvas with WebGL 2, or returns null where there is none.
+ *
+ * Everything is drawn in the viewer's own axes: x to the right, y up, z towards the reader, the scene's middle at 0.
+ */
+function createViewer(canvas, recording, onChange) {
+  const gl = canvas.getContext("webgl2", { alpha: true, antialias: true });
+  if (!gl) return null;
+
+  const scene = placeScene(recording);
+  const camera = { yaw: 0, pitch: 0, distance: 1, target: [0, 0, 0] };
+  const shown = { edges: false, bodies: true };
+
+  const SHADOW = 2048;
+  const FIELD = 0.6; // Of view, vertically, in radians.
+  const SUN = normalized([-0.5, 1, 0.65]);
+
+  const surface = program(gl, SURFACE_VERTEX, SURFACE_FRAGMENT);
+  const depth = program(gl, DEPTH_VERTEX, DEPTH_FRAGMENT);
+  const floor = program(gl, FLOOR_VERTEX, FLOOR_FRAGMENT);
+  const lines = program(gl, DEPTH_VERTEX, LINE_FRAGMENT);
+
+  const points = new Float32Array(3 * recording.vertices);
+  const normals = new Float32Array(3 * recording.vertices);
+  const pointBuffer = gl.createBuffer();
+  const normalBuffer = gl.createBuffer();
+  const vertices = gl.createVertexArray();
+  gl.bindVertexArray(vertices);
+  attribute(gl, 0, pointBuffer, points.byteLength);
+  attribute(gl, 1, normalBuffer, normals.byteLength);
+  elements(gl, recording.triangles);
+  gl.bindVertexArray(null);
+  let edges = null;
+
+  const shadowMap = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, shadowMap);
+  gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, SHADOW, SHADOW);
+  for (const [name, value] of [
+    [gl.TEXTURE_MIN_FILTER, gl.LINEAR],
+    [gl.TEXTURE_MAG_FILTER, gl.LINEAR],
+    [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE],
+    [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE],
+    [gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE],
+    [gl.TEXTURE_COMPARE_FUNC, gl.LEQUAL],
+  ]) gl.texParameteri(gl.TEXTURE_2D, name, value);
+  const shadowTarget = gl.createFramebuffer();
+  gl.bindFramebuffer(gl.FRAMEBUFFER, shadowTarget);
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, shadowMap, 0);
+  gl.drawBuffers([gl.NONE]);
+  gl.readBuffer(gl.NONE);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+
+  const reach = 1.05 * scene.radius;
+  const sunView = lookAt(scaled(SUN, 2 * reach), [0, 0, 0]);
+  const sunMatrix = multiplied(orthographic(reach, reach, 4 * reach), sunView);
+
+  /** Calls `draw` with each part's place among all triangles. */
+  function eachPart(draw) {
+    let first = 0;
+    for (const part of recording.parts) {
+      if (part.kind === "cloth" || shown.bodies) draw(part, first);
+      first += part.triangles;
+    }
+  }
+
+  function drawTriangles() {
+    eachPart((part, first) => gl.drawElements(gl.TRIANGLES, 3 * part.triangles, gl.UNSIGNED_INT, 12 * first));
+  }
+
+  function setFrame(frame) {
+    writeFrame(recording, frame, points);
+    scene.place(points);
+    writeNormals(recording.triangles, points, normals);
+    gl.bindBuffer(gl.ARRAY_BUFFER, pointBuffer);
+    gl.bufferSubData(gl.ARRAY_BUFFER, 0, points);
+    gl.bindBuffer(gl.ARRAY_BUFFER, normalBuffer);
+    gl.bufferSubData(gl.ARRAY_BUFFER, 0, normals);
+  }
+
+  function eyeOffset() {
+    const { yaw, pitch, distance } = camera;
+    const level = Math.cos(pitch);
+    return scaled([Math.sin(yaw) * level, Math.sin(pitch), Math.cos(yaw) * level], distance);
+  }
+
+  function draw() {
+    const width = canvas.width, height = canvas.height;
+    if (!width || !height || gl.isContextLost()) return;
+    const eye = added(camera.target, eyeOffset());
+    const near = Math.max(0.01 * camera.distance, camera.distance - 4 * scene.radius);
+    const projection = perspective(FIELD, width / height, near, camera.distance + 8 * scene.radius);
+    const matrix = multiplied(projection, lookAt(eye, camera.target));
+    const colours = themeColours(canvas);
+
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
+    gl.disable(gl.BLEND);
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.bindVertexArray(vertices);
+
+    gl.bindFramebuffer(gl.FRAMEBUFFER, shadowTarget);
+    gl.viewport(0, 0, SHADOW, SHADOW);
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    gl.polygonOffset(2.5, 8);
+    gl.useProgram(depth.program);
+    gl.uniformMatrix4fv(depth.at("matrix"), false, sunMatrix);
+    drawTriangles();
+
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.viewport(0, 0, width, height);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.polygonOffset(1, 1);
+    gl.useProgram(surface.program);
+    gl.uniformMatrix4fv(surface.at("matrix"), false, matrix);
+    gl.uniformMatrix4fv(surface.at("sunMatrix"), false, sunMatrix);
+    gl.uniform3fv(surface.at("eye"), eye);
+    gl.uniform3fv(surface.at("sun"), SUN);
+    eachPart((part, first) => {
+      const isCloth = part.kind === "cloth";
+      gl.uniform3fv(surface.at("front"), isCloth ? colours.cloth : colours.body);
+      gl.uniform3fv(surface.at("back"), isCloth ? colours.lining : colours.body);
+      gl.uniform1f(surface.at("sheen"), isCloth ? 1 : 0);
+      gl.drawElements(gl.TRIANGLES, 3 * part.triangles, gl.UNSIGNED_INT, 12 * first);
+    });
+
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    if (shown.edges) {
+      edges ??= createEdges(gl, recording, pointBuffer);
+      gl.bindVertexArray(edges.vertices);
+      gl.useProgram(lines.program);
+      gl.uniformMatrix4fv(lines.at("matrix"), false, matrix);
+      gl.uniform4fv(lines.at("colour"), [0, 0, 0, 0.45]);
+      gl.drawElements(gl.LINES, shown.bodies ? edges.count : edges.ofCloth, gl.UNSIGNED_INT, 0);
+    }
+    if (eye[1] > scene.floor) {
+      gl.bindVertexArray(null);
+      gl.useProgram(floor.program);
+      gl.uniformMatrix4fv(floor.at("matrix"), false, matrix);
+      gl.uniformMatrix4fv(floor.at("sunMatrix"), false, sunMatrix);
+      gl.uniform1f(floor.at("height"), scene.floor);
+      gl.uniform1f(floor.at("radius"), scene.radius);
+      gl.uniform1f(floor.at("spacing"), scene.gridSpacing);
+      gl.uniform2fv(floor.at("origin"), scene.gridOrigin);
+      gl.uniform3fv(floor.at("ink"), colours.grid);
+      gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
+    }
+  }
+
+  /** Looks at the whole of the animation, from in front, a little from above and from the side. */
+  function reset() {
+    camera.yaw = scene.yaw - 0.45;
+    camera.pitch = 0.3;
+    camera.target = [0, 0, 0];
+    camera.distance = 1;
+    // The eye must be so far away that every point, at its own depth, is in view.
+    const toView = lookAt(eyeOffset(), [0, 0, 0]);
+    const tall = Math.tan(FIELD / 2) * 0.9;
+    const wide = tall * (canvas.width / canvas.height || 1);
+    let distance = 0;
+    for (let i = 0; i < scene.sample.length; i += 3) {
+      const [x, y, z] = transformed(toView, scene.sample.subarray(i, i + 3));
+      distance = Math.max(distance, z + 1 + Math.abs(x) / wide, z + 1 + Math.abs(y) / tall);
+    }
+    camera.distance = Math.max(distance, 0.01 * scene.radius);
+    onChange();
+  }
+
+  function turn(across, down) {
+    camera.yaw -= across;
+    camera.pitch = Math.min(1.55, Math.max(-1.55, camera.pitch + down));
+    onChange();
+  }
+
+  function zoom(factor) {
+    const { radius } = scene;
+    camera.distance = Math.min(12 * radius, Math.max(0.02 * radius, camera.distance * factor));
+    onChange();
+  }
+
+  /** By shares of the canvas' height. */
+  function shift(across, up) {
+    const span = 2 * Math.tan(FIELD / 2) * camera.distance;
+    const view = lookAt(eyeOffset(), [0, 0, 0]);
+    for (let axis = 0; axis < 3; axis++) {
+      camera.target[axis] += span * (across * view[4 * axis] + up * view[4 * axis + 1]);
+    }
+    onChange();
+  }
+
+  function resize() {
+    const scale = Math.min(window.devicePixelRatio || 1, 2);
+    const width = Math.round(canvas.clientWidth * scale), height = Math.round(canvas.clientHeight * scale);
+    if (canvas.width !== width || canvas.height !== height) {
+      canvas.width = width;
+      canvas.height = height;
+      onChange();
+    }
+  }
+
+  return { setFrame, draw, reset, turn, zoom, shift, resize, shown, gridSpacing: scene.gridSpacing };
+}
+
+/** Lets pointers and keys turn, zoom and shift the view. */
+function steerView(canvas, viewer) {
+  const pointers = new Map();
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.focus({ preventScroll: true });
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, [event.clientX, event.clientY]);
+  });
+  const release = (event) => pointers.delete(event.pointerId);
+  canvas.addEventListener("pointerup", release);
+  canvas.addEventListener("pointercancel", release);
+  canvas.addEventListener("pointermove", (event) => {
+    const from = pointers.get(event.pointerId);
+    if (!from) return;
+    const to = [event.clientX, event.clientY];
+    const across = (to[0] - from[0]) / canvas.clientHeight, down = (to[1] - from[1]) / canvas.clientHeight;
+    const others = [...pointers].filter(([id]) => id !== event.pointerId);
+    if (others.length) {
+      const [, other] = others[0];
+      const before = Math.hypot(from[0] - other[0], from[1] - other[1]);
+      const after = Math.hypot(to[0] - other[0], to[1] - other[1]);
+      viewer.zoom(before / Math.max(after, 1));
+      viewer.shift(-across / 2, down / 2);
+    } else if (event.buttons === 1 && !event.shiftKey) {
+      viewer.turn(4 * across, 4 * down);
+    } else {
+      viewer.shift(-across, down);
+    }
+    pointers.set(event.pointerId, to);
+  });
+  // Who only scrolls past must not be held up.
+  canvas.addEventListener("wheel", (event) => {
+    if (document.activeElement !== canvas && !event.ctrlKey) return;
+    event.preventDefault();
+    const pixels = event.deltaY * (event.deltaMode === 1 ? 16 : 1);
+    viewer.zoom(Math.exp(0.0015 * Math.max(-400, Math.min(400, pixels))));
+  }, { passive: false });
+  const keys = {
+    ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1],
+  };
+  canvas.addEventListener("keydown", (event) => {
+    const arrow = keys[event.key];
+    if (arrow && event.shiftKey) viewer.shift(0.05 * arrow[0], -0.05 * arrow[1]);
+    else if (arrow) viewer.turn(-0.12 * arrow[0], -0.12 * arrow[1]);
+    else if (event.key === "+" || event.key === "=") viewer.zoom(0.9);
+    else if (event.key === "-") viewer.zoom(1 / 0.9);
+    else return;
+    event.preventDefault();
+  });
+}
+
+/** Where things are in the viewer's axes, over all frames. */
+function placeScene(recording) {
+  const up = recording.up;
+  // The axis that is least upright lies across.
+  const axis = [0, 1, 2].reduce((best, i) => (Math.abs(up[i]) < Math.abs(up[best]) ? i : best), 0);
+  const across = normalized([0, 1, 2].map((i) => (i === axis ? 1 : 0) - up[axis] * up[i]));
+  const rows = [across, up, crossed(across, up)];
+  const rotate = (p) => rows.map((row) => dot(row, p));
+
+  const least = [Infinity, Infinity, Infinity], most = [-Infinity, -Infinity, -Infinity];
+  const frames = recording.frameSteps.length;
+  for (let frame = 0; frame < frames; frame++) {
+    const box = recording.bounds.subarray(6 * frame, 6 * frame + 6);
+    for (let corner = 0; corner < 8; corner++) {
+      const p = rotate([0, 1, 2].map((i) => box[i] + ((corner >> i) & 1) * box[3 + i]));
+      for (let i = 0; i < 3; i++) {
+        least[i] = Math.min(least[i], p[i]);
+        most[i] = Math.max(most[i], p[i]);
+      }
+    }
+  }
+  const middle = least.map((low, i) => 0.5 * (low + most[i]));
+  const place = (points) => {
+    for (let i = 0; i < points.length; i += 3) {
+      const p = rotate([points[i], points[i + 1], points[i + 2]]);
+      for (let k = 0; k < 3; k++) points[i + k] = p[k] - middle[k];
+    }
+  };
+
+  // A few thousand points of a few frames say how much there is to see.
+  const points = new Float32Array(3 * recording.vertices);
+  const sample = [];
+  const stride = Math.max(1, Math.floor(recording.vertices / 400));
+  for (let k = 0; k < 12; k++) {
+    writeFrame(recording, Math.round((k / 11) * (frames - 1)), points);
+    place(points);
+    for (let v = 0; v < recording.vertices; v += stride) sample.push(...points.subarray(3 * v, 3 * v + 3));
+  }
+  let radius = 0;
+  for (let i = 0; i < sample.length; i += 3) radius = Math.max(radius, Math.hypot(sample[i], sample[i + 1], sample[i + 2]));
+  radius = Math.max(radius, 1e-9);
+  const gridSpacing = niceStep(2 * radius, 10);
+  return {
+    place, radius, gridSpacing,
+    sample: Float32Array.from(sample),
+    gridOrigin: [middle[0], middle[2]],
+    // A little below, so that what lies on the ground is not in it.
+    floor: least[1] - middle[1] - 0.002 * radius,
+    yaw: most[2] - least[2] > most[0] - least[0] ? Math.PI / 2 : 0,
+  };
+}
+
+/** Vertex normals, each triangle weighted by its area. */
+function writeNormals(triangles, points, normals) {
+  normals.fill(0);
+  for (let t = 0; t < triangles.length; t += 3) {
+    const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
+    const ux = points[b] - points[a], uy = points[b + 1] - points[a + 1], uz = points[b + 2] - points[a + 2];
+    const vx = points[c] - points[a], vy = points[c + 1] - points[a + 1], vz = points[c + 2] - points[a + 2];
+    const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+    normals[a] += x; normals[a + 1] += y; normals[a + 2] += z;
+    normals[b] += x; normals[b + 1] += y; normals[b + 2] += z;
+    normals[c] += x; normals[c + 1] += y; normals[c + 2] += z;
+  }
+}
+
+/** Every edge once, the cloth's first. */
+function createEdges(gl, recording, pointBuffer) {
+  const seen = new Set();
+  const ends = [];
+  let ofCloth = 0;
+  const add = (a, b) => {
+    const key = Math.min(a, b) * recording.vertices + Math.max(a, b);
+    if (seen.has(key)) return;
+    seen.add(key);
+    ends.push(a, b);
+  };
+  for (const kind of ["cloth", "body"]) {
+    let first = 0;
+    for (const part of recording.parts) {
+      const corners = recording.triangles.subarray(3 * first, 3 * (first + part.triangles));
+      for (let i = 0; part.kind === kind && i < corners.length; i += 3) {
+        for (let k = 0; k < 3; k++) add(corners[i + k], corners[i + ((k + 1) % 3)]);
+      }
+      first += part.triangles;
+    }
+    if (kind === "cloth") ofCloth = ends.length;
+  }
+  const vertices = gl.createVertexArray();
+  gl.bindVertexArray(vertices);
+  attribute(gl, 0, pointBuffer, null);
+  elements(gl, Uint32Array.from(ends));
+  return { vertices, count: ends.length, ofCloth };
+}
+
+function attribute(gl, index, buffer, bytes) {
+  gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+  if (bytes !== null) gl.bufferData(gl.ARRAY_BUFFER, bytes, gl.DYNAMIC_DRAW);
+  gl.enableVertexAttribArray(index);
+  gl.vertexAttribPointer(index, 3, gl.FLOAT, false, 0, 0);
+}
+
+function elements(gl, indices) {
+  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+  gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
+}
+
+function program(gl, vertexSource, fragmentSource) {
+  const made = gl.createProgram();
+  for (const [kind, source] of [[gl.VERTEX_SHADER, vertexSource], [gl.FRAGMENT_SHADER, fragmentSource]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, source);
+    gl.compileShader(shader);
+    gl.attachShader(made, shader);
+  }
+  gl.linkProgram(made);
+  if (!gl.getProgramParameter(made, gl.LINK_STATUS) && !gl.isContextLost()) {
+    const logs = gl.getAttachedShaders(made).map((shader) => gl.getShaderInfoLog(shader));
+    throw new Error(`a shader does not build: ${gl.getProgramInfoLog(made)} ${logs.join(" ")}`);
+  }
+  const places = new Map();
+  const at = (name) => {
+    if (!places.has(name)) places.set(name, gl.getUniformLocation(made, name));
+    return places.get(name);
+  };
+  return { program: made, at };
+}
+
+/** The theme's colours, as linear light. */
+function themeColours(canvas) {
+  const style = getComputedStyle(canvas);
+  const linear = (name) => {
+    const hex = style.getPropertyValue(name).trim().slice(1);
+    return [0, 2, 4].map((i) => (parseInt(hex.slice(i, i + 2), 16) / 255) ** 2.2);
+  };
+  return { cloth: linear("--cloth"), lining: linear("--lining"), body: linear("--body"), grid: linear("--grid") };
+}
+
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const crossed = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const scaled = (a, s) => [a[0] * s, a[1] * s, a[2] * s];
+const added = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+const normalized = (a) => scaled(a, 1 / Math.hypot(...a));
+
+// Matrices are stored column after column.
+
+function multiplied(a, b) {
+  const product = new Float32Array(16);
+  for (let column = 0; column < 4; column++) {
+    for (let row = 0; row < 4; row++) {
+      for (let k = 0; k < 4; k++) product[4 * column + row] += a[4 * k + row] * b[4 * column + k];
+    }
+  }
+  return product;
+}
+
+function transformed(m, p) {
+  return [0, 1, 2].map((row) => m[row] * p[0] + m[4 + row] * p[1] + m[8 + row] * p[2] + m[12 + row]);
+}
+
+function perspective(field, aspect, near, far) {
+  const f = 1 / Math.tan(field / 2), d = 1 / (near - far);
+  return new Float32Array([f / aspect, 0, 0, 0, 0, f, 0, 0, 0, 0, (near + far) * d, -1, 0, 0, 2 * near * far * d, 0]);
+}
+
+function orthographic(halfWidth, halfHeight, far) {
+  return new Float32Array([1 / halfWidth, 0, 0, 0, 0, 1 / halfHeight, 0, 0, 0, 0, -2 / far, 0, 0, 0, -1, 1]);
+}
+
+function lookAt(eye, target) {
+  const z = normalized(added(eye, scaled(target, -1)));
+  const x = normalized(crossed([0, 1, 0], z));
+  const y = crossed(z, x);
+  return new Float32Array([
+    x[0], y[0], z[0], 0, x[1], y[1], z[1], 0, x[2], y[2], z[2], 0, -dot(x, eye), -dot(y, eye), -dot(z, eye), 1,
+  ]);
+}
+
+const SUNLIGHT = `
+uniform mediump sampler2DShadow shadowMap;
+
+// The share of sunlight that reaches a point, over a few texels around its place on the map.
+float sunlight(vec4 place) {
+  vec3 p = place.xyz * 0.5 + 0.5;
+  if (any(greaterThan(abs(p - 0.5), vec3(0.5)))) return 1.0;
+  float sum = 0.0;
+  for (int y = -2; y <= 2; y++) {
+    for (int x = -2; x <= 2; x++) sum += texture(shadowMap, p + vec3(vec2(x, y) * (1.2 / 2048.0), 0.0));
+  }
+  return sum / 25.0;
+}
+`;
+
+const SURFACE_VERTEX = `#version 300 es
+layout(location = 0) in vec3 point;
+layout(location = 1) in vec3 normal;
+uniform mat4 matrix;
+uniform mat4 sunMatrix;
+out vec3 where;
+out vec3 outward;
+out vec4 sunPlace;
+void main() {
+  where = point;
+  // Sums of areas may be so small that their squares vanish.
+  outward = normal / max(max(abs(normal.x), abs(normal.y)), max(abs(normal.z), 1e-30));
+  sunPlace = sunMatrix * vec4(point, 1.0);
+  gl_Position = matrix * vec4(point, 1.0);
+}`;
+
+const SURFACE_FRAGMENT = `#version 300 es
+precision highp float;
+in vec3 where;
+in vec3 outward;
+in vec4 sunPlace;
+uniform vec3 eye;
+uniform vec3 sun;
+uniform vec3 front;
+uniform vec3 back;
+uniform float sheen;
+out vec4 colour;
+${SUNLIGHT}
+void main() {
+  vec3 n = normalize(outward) * (gl_FrontFacing ? 1.0 : -1.0);
+  vec3 toEye = normalize(eye - where);
+  vec3 base = gl_FrontFacing ? front : back;
+  float facing = dot(n, sun);
+  float direct = max((facing + 0.2) / 1.2, 0.0) * mix(0.12, 1.0, sunlight(sunPlace));
+  vec3 ambient = mix(vec3(0.20, 0.19, 0.18), vec3(0.42, 0.45, 0.50), 0.5 + 0.5 * n.y);
+  // A lamp at the eye keeps folds in the shade legible.
+  float lamp = 0.22 * max(dot(n, toEye), 0.0);
+  float rim = pow(1.0 - max(dot(n, toEye), 0.0), 3.0);
+  float gloss = pow(max(dot(n, normalize(sun + toEye)), 0.0), 32.0);
+  vec3 light = base * (ambient + lamp + 1.05 * direct * vec3(1.0, 0.97, 0.92));
+  light += sheen * 0.16 * rim * (base + 0.15) + (1.0 - sheen) * 0.08 * gloss * direct;
+  colour = vec4(pow(light, vec3(1.0 / 2.2)), 1.0);
+}`;
+
+const DEPTH_VERTEX = `#version 300 es
+layout(location = 0) in vec3 point;
+uniform mat4 matrix;
+void main() { gl_Position = matrix * vec4(point, 1.0); }`;
+
+const DEPTH_FRAGMENT = `#version 300 es
+void main() {}`;
+
+const LINE_FRAGMENT = `#version 300 es
+precision highp float;
+uniform vec4 colour;
+out vec4 result;
+void main() { result = colour; }`;
+
+const FLOOR_VERTEX = `#version 300 es
+uniform mat4 matrix;
+uniform mat4 sunMatrix;
+uniform float height;
+uniform float radius;
+out vec2 place;
+out vec4 sunPlace;
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+  place = corner * 3.0 * radius;
+  vec4 point = vec4(place.x, height, place.y, 1.0);
+  sunPlace = sunMatrix * point;
+  gl_Position = matrix * point;
+}`;
+
+const FLOOR_FRAGMENT = `#version 300 es
+precision highp float;
+in vec2 place;
+in vec4 sunPlace;
+uniform float radius;
+uniform float spacing;
+uniform vec2 origin;
+uniform vec3 ink;
+out vec4 colour;
+${SUNLIGHT}
+void main() {
+  float fade = 1.0 - smoothstep(0.9, 2.6, length(place) / radius);
+  vec2 cell = (place + origin) / spacing;
+  vec2 width = fwidth(cell);
+  vec2 distance = abs(fract(cell - 0.5) - 0.5) / max(width, vec2(1e-6));
+  vec2 strength = clamp(1.0 - distance + 0.3, 0.0, 1.0) * clamp(0.35 / max(width, vec2(1e-6)), 0.0, 1.0);
+  float line = max(strength.x, strength.y) * 0.55 * fade;
+  float shade = (1.0 - sunlight(sunPlace)) * 0.28 * fade;
+  float alpha = 1.0 - (1.0 - line) * (1.0 - shade);
+  colour = vec4(pow(ink, vec3(1.0 / 2.2)) * line * (1.0 - shade), alpha);
+}`;

@@ -1,0 +1,207 @@
+//! A simulation's report: one HTML file that needs nothing else, neither network nor server.
+//!
+//! Everything that is a number is in tables that need no script. The animation (WebGL 2) and the charts (SVG) are drawn by scripts
+//! in the page from data in the page; `data` says how it is packed.
+
+mod data;
+mod tables;
+#[cfg(test)]
+mod tests;
+
+use super::number::{grouped, rate, time};
+use super::recording::{PartKind, Recording, SeriesKind};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+const STYLE: &str = include_str!("assets/page.css");
+/// In the order in which they need each other.
+const SCRIPTS: [(&str, &str); 4] = [
+    ("data", include_str!("assets/data.js")),
+    ("viewer", include_str!("assets/viewer.js")),
+    ("charts", include_str!("assets/charts.js")),
+    ("player", include_str!("assets/player.js")),
+];
+
+/// The whole page.
+///
+/// What is not in the recording is not on the page: a section without series has no heading.
+#[must_use]
+pub fn html(recording: &Recording) -> String {
+    let about = &recording.about;
+    let has = |wanted: fn(SeriesKind) -> bool| {
+        recording.steps > 0 && recording.series_of(wanted).next().is_some()
+    };
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta name="generator" content=(concat!("selvedge ", env!("CARGO_PKG_VERSION")));
+                // No request may leave the page, not even for an icon.
+                link rel="icon" href="data:,";
+                title { (about.name) " – selvedge" }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header {
+                    p.kicker { "selvedge simulate" }
+                    h1 { (about.name) }
+                    p.lead { (summary(recording)) }
+                }
+                main {
+                    @for remark in &recording.remarks { p.remark role="note" { (remark) } }
+                    (animation(recording))
+                    (tiles(recording))
+                    @if has(|kind| kind == SeriesKind::Pairs) {
+                        section {
+                            h2 { "Pairs after each stage" }
+                            div.chart data-kind="pairs" {}
+                            (tables::pairs(recording))
+                        }
+                    }
+                    @if has(|kind| kind == SeriesKind::Events) {
+                        section {
+                            h2 { "What happened" }
+                            div.chart data-kind="events" {}
+                            (tables::events(recording))
+                        }
+                    }
+                    @if has(|kind| matches!(kind, SeriesKind::Effect | SeriesKind::Stage)) {
+                        section {
+                            h2 { "Time of each effect and each stage" }
+                            @if has(|kind| kind == SeriesKind::Effect) { div.chart data-kind="effect" {} }
+                            @if has(|kind| kind == SeriesKind::Stage) { div.chart data-kind="stage" {} }
+                            (tables::times(recording))
+                        }
+                    }
+                    @if has(|kind| matches!(kind, SeriesKind::Gauge(_))) {
+                        section {
+                            h2 { "State" }
+                            div.chart data-kind="gauge" {}
+                            (tables::gauges(recording))
+                        }
+                    }
+                    @if !about.knobs.is_empty() {
+                        section {
+                            h2 { "What trades time for accuracy" }
+                            (tables::knobs(recording))
+                        }
+                    }
+                    @if !about.scene.is_empty() {
+                        section {
+                            h2 { "Scene" }
+                            pre tabindex="0" aria-label="the scene file" { code { (about.scene) } }
+                        }
+                    }
+                }
+                footer {
+                    p {
+                        "Written by selvedge " (env!("CARGO_PKG_VERSION"))
+                        ". This file is complete in itself: it loads nothing."
+                    }
+                }
+                (data::blocks(recording))
+                @for (name, script) in SCRIPTS { script data-name=(name) { (PreEscaped(script)) } }
+            }
+        }
+    };
+    page.into_string()
+}
+
+/// What was simulated, in a sentence.
+fn summary(recording: &Recording) -> String {
+    let count = |kind: PartKind| {
+        let parts = recording
+            .parts
+            .iter()
+            .filter(move |part| part.kind() == kind);
+        parts.fold([0; 3], |[n, vertices, triangles], part| {
+            [
+                n + 1,
+                vertices + part.vertex_count() as u64,
+                triangles + part.triangles().len() as u64,
+            ]
+        })
+    };
+    let [_, vertices, triangles] = count(PartKind::Cloth);
+    let mut summary = format!(
+        "Cloth of {} vertices and {} triangles",
+        grouped(vertices),
+        grouped(triangles)
+    );
+    match count(PartKind::Body) {
+        [0, ..] => {}
+        [n, _, triangles] => {
+            let bodies = if n == 1 { "body" } else { "bodies" };
+            summary += &format!(", {n} {bodies} of {} triangles", grouped(triangles));
+        }
+    }
+    summary += &format!(
+        "; {} of {}.",
+        counted(recording.steps, "step"),
+        time(recording.about.time_step)
+    );
+    summary
+}
+
+/// `1 step`, `1,500 steps`.
+fn counted(count: u64, what: &str) -> String {
+    let s = if count == 1 { "" } else { "s" };
+    format!("{} {what}{s}", grouped(count))
+}
+
+/// The numbers that are asked for first.
+fn tiles(recording: &Recording) -> Markup {
+    let effects = recording.series_of(|kind| kind == SeriesKind::Effect);
+    let mut tiles = vec![(time(recording.duration()), "simulated")];
+    if let Some(seconds) = recording.wall_seconds {
+        let steps = recording.steps as f64;
+        tiles.push((time(seconds), "computed in"));
+        tiles.push((rate(steps / seconds), "steps a second"));
+    }
+    tiles.push((grouped(effects.count() as u64), "effects ran"));
+    html! {
+        dl.tiles {
+            @for (value, name) in &tiles { div { dt { (name) } dd { (value) } } }
+        }
+    }
+}
+
+/// The canvas and its controls. They are inert until the script has taken hold of them.
+fn animation(recording: &Recording) -> Markup {
+    let bodies = recording
+        .parts
+        .iter()
+        .any(|part| part.kind() == PartKind::Body);
+    let last = recording.frames.len() - 1;
+    html! {
+        section.animation aria-label="animation" {
+            div.stage {
+                canvas #view tabindex="0" role="img" aria-label="the cloth in motion; arrow keys turn the view, plus and minus zoom" {}
+                p #no-view.fallback { "The animation needs scripts and WebGL 2, which this browser does not offer or has turned off. Everything else on this page works without." }
+                p.hint aria-hidden="true" { "drag: turn · right drag: shift · wheel: zoom" }
+            }
+            div.controls {
+                button #play type="button" disabled title="play or pause (space)" { "Play" }
+                button #back type="button" disabled title="one frame back (,)" aria-label="one frame back" { "‹" }
+                button #forward type="button" disabled title="one frame forward (.)" aria-label="one frame forward" { "›" }
+                input #scrub type="range" min="0" max=(last) value="0" step="1" disabled aria-label="frame";
+                output #clock for="scrub" {}
+            }
+            div.controls.minor {
+                label { "Speed " select #speed disabled {
+                    option value="2" { "2×" }
+                    option value="1" selected { "1×" }
+                    option value="0.5" { "½×" }
+                    option value="0.25" { "¼×" }
+                    option value="0.1" { "⅒×" }
+                } }
+                label { input #edges type="checkbox" disabled; " edges" }
+                @if bodies { label { input #bodies type="checkbox" checked disabled; " bodies" } }
+                button #reset type="button" disabled title="the view of the beginning (Home)" { "Reset view" }
+                span.keys { kbd { "space" } " play · " kbd { "," } " " kbd { "." } " step · " kbd { "Home" } " reset" }
+            }
+        }
+    }
+}

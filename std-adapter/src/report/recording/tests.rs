@@ -1,0 +1,122 @@
+use super::*;
+use proptest::prelude::*;
+
+fn about() -> About {
+    About {
+        name: "test".to_owned(),
+        scene: String::new(),
+        up: DVec3::Z,
+        time_step: 0.5,
+        knobs: Vec::new(),
+    }
+}
+
+fn triangle() -> Part {
+    Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]])
+}
+
+/// A triangle at a height that says which step it is of.
+fn positions(step: u64) -> [DVec3; 3] {
+    [DVec3::ZERO, DVec3::X, DVec3::Y].map(|p| p + DVec3::Z * step as f64)
+}
+
+fn frames_of(count: u64, budget: usize) -> Recording {
+    let mut recorder = Recorder::new(about(), vec![triangle()], &[], &[]).with_budget(36 * budget);
+    for step in 0..count {
+        recorder.frame(step, &positions(step)).unwrap();
+    }
+    recorder.finish(None)
+}
+
+proptest! {
+    #[test]
+    fn frames_stay_within_the_budget_evenly_spread_and_end_at_the_end(count in 1..500_u64, budget in 2..20_usize) {
+        let recording = frames_of(count, budget);
+        let steps: Vec<u64> = recording.frames.iter().map(|frame| frame.step).collect();
+        // The last frame is kept on top.
+        prop_assert!(steps.len() <= budget + 1);
+        prop_assert_eq!((steps[0], steps[steps.len() - 1]), (0, count - 1));
+        let even = &steps[..steps.len() - 1];
+        prop_assert!(even.windows(3).all(|s| s[1] - s[0] == s[2] - s[1]));
+        // Never so few that more would have fitted twice.
+        prop_assert!(steps.len() as u64 >= count.min(budget as u64 / 2));
+        for frame in &recording.frames {
+            prop_assert_eq!(frame.positions[0], [0.0, 0.0, frame.step as f32]);
+            prop_assert_eq!(recording.time(frame), 0.5 * frame.step as f64);
+        }
+    }
+
+    #[test]
+    fn values_are_means_of_as_many_steps_as_told_and_sum_to_the_total(
+        steps in 1..10_000_u64,
+        start in 0..1000_u32,
+    ) {
+        let series = [("pairs", SeriesKind::Pairs), ("height", SeriesKind::Gauge("m"))];
+        let mut counter = f64::from(start);
+        let mut recorder = Recorder::new(about(), vec![triangle()], &series, &[counter, f64::NAN]);
+        recorder.frame(0, &positions(0)).unwrap();
+        // Whole numbers throughout, so that sums are exact.
+        let value = |step: u64| (step * step % 17) as f64;
+        for step in 0..steps {
+            counter += value(step);
+            recorder.step(&[counter, -value(step)]);
+        }
+        let recording = recorder.finish(None);
+        let each = recording.steps_per_value as usize;
+        let all: Vec<f64> = (0..steps).map(value).collect();
+        let [pairs, height] = &recording.series[..] else { unreachable!() };
+        prop_assert_eq!(pairs.values.len(), all.len().div_ceil(each));
+        prop_assert!(pairs.values.len() <= 2048 && (each == 1 || pairs.values.len() > 1024));
+        for ((chunk, &mean), &negative) in all.chunks(each).zip(&pairs.values).zip(&height.values) {
+            let expected = (chunk.iter().sum::<f64>() / chunk.len() as f64) as f32;
+            prop_assert_eq!((mean, negative), (expected, -expected));
+        }
+        prop_assert_eq!((recording.steps, pairs.total, height.total), (steps, all.iter().sum(), -all.iter().sum::<f64>()));
+        let largest = all.iter().copied().fold(0.0, f64::max);
+        prop_assert_eq!((pairs.smallest, pairs.largest), (0.0, largest));
+        prop_assert_eq!((height.smallest, height.largest), (-largest, 0.0));
+    }
+}
+
+#[test]
+fn a_recording_that_goes_on_from_a_checkpoint_knows_its_first_step() {
+    let mut recorder = Recorder::new(about(), vec![triangle()], &[], &[]);
+    recorder.frame(40, &positions(40)).unwrap();
+    recorder.step(&[]);
+    let recording = recorder.finish(Some(2.0));
+    assert_eq!((recording.first_step, recording.steps), (41, 1));
+    assert_eq!(recording.wall_seconds, Some(2.0));
+}
+
+#[test]
+fn a_frame_that_f32_cannot_hold_is_refused_by_step_and_vertex_and_not_recorded() {
+    let mut recorder = Recorder::new(about(), vec![triangle()], &[], &[]);
+    recorder.frame(0, &positions(0)).unwrap();
+    for bad in [f64::NAN, f64::INFINITY, 1e39] {
+        let mut broken = positions(1);
+        broken[2].y = bad;
+        let error = recorder.frame(1, &broken).unwrap_err();
+        assert_eq!((error.step, error.vertex), (1, 2));
+    }
+    assert_eq!(recorder.finish(None).frames.len(), 1);
+}
+
+#[test]
+fn a_frames_mesh_numbers_vertices_across_parts() {
+    let parts = vec![
+        triangle(),
+        Part::new("ball", PartKind::Body, 3, vec![[2, 1, 0]]),
+    ];
+    let mut recorder = Recorder::new(about(), parts, &[], &[]);
+    let all = [positions(0), positions(1)].concat();
+    recorder.frame(0, &all).unwrap();
+    let mesh = recorder.finish(None).mesh(0);
+    assert_eq!(mesh.triangles, [[0, 1, 2], [5, 4, 3]]);
+    assert_eq!(mesh.positions, all);
+}
+
+#[test]
+#[should_panic(expected = "not among the 3")]
+fn a_part_refuses_a_triangle_beyond_its_vertices() {
+    let _ = Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 3]]);
+}
