@@ -30,6 +30,8 @@ pub mod queries;
 #[cfg(feature = "report")]
 pub mod report;
 pub mod scene;
+#[cfg(feature = "simulation")]
+pub mod simulation;
 pub mod study;
 
 pub use pair_kind::{PairKind, ParsePairKindError};

@@ -45,7 +45,7 @@ mod pairs;
 mod preset;
 mod report;
 mod stored;
-mod swept;
+pub(crate) mod swept;
 
 pub use assignment::FeatureAssignment;
 pub use pairs::Contact;
