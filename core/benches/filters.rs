@@ -158,13 +158,7 @@ fn bench<S: Scalar>(criterion: &mut Criterion) {
             .collect();
         let tiles = pairs
             .chunks(LANES)
-            .map(|pairs| {
-                let mut tile = Tile::unknown();
-                for (lane, pair) in pairs.iter().enumerate() {
-                    tile.set(lane, pair.motions());
-                }
-                tile
-            })
+            .map(|pairs| Tile::new(pairs.iter().map(PrimitivePair::motions)))
             .collect();
         let mut bench = Bench {
             group,

@@ -28,8 +28,8 @@ pub trait Rounding: Copy {
     const UNDERFLOW: Self;
     /// Pairs with a difference of two points' coordinates from here on are kept: 2³⁰ for `f32`, 2²⁵⁰ for `f64`.
     ///
-    /// Below it no intermediate result of the filters overflows: volumes stay below 18·2⁹⁰ (2⁷⁵⁰), squares of normals
-    /// below 3·(4·2⁶⁰)² (2⁵⁰⁰). To nearest overflow is infinite, and every test keeps what is not finite; but rounding
+    /// Below it no intermediate result of the filters overflows: volumes stay below 18·2⁹⁰ (18·2⁷⁵⁰), squares of normals
+    /// below 3·(8·2⁶⁰)², which is 2¹²⁷·⁶ (3·(8·2⁵⁰⁰)²). To nearest overflow is infinite, and every test keeps what is not finite; but rounding
     /// towards zero stops at the largest finite number, which nothing would notice.
     const LARGEST_EDGE: Self;
     /// What one sum of two coordinates must exceed another by, so that flushed operands do not matter: η/u, 2⁻⁹³ for
@@ -153,7 +153,7 @@ const fn power_of_two_f32(exponent: i32) -> f32 {
 }
 
 /// A power of two, whose exponent field is biased by 1023.
-const fn power_of_two_f64(exponent: i64) -> f64 {
+pub(crate) const fn power_of_two_f64(exponent: i64) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 

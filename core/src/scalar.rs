@@ -1,7 +1,7 @@
 //! `f32` and `f64`, the two number formats that positions come in.
 
 use crate::batch::BatchScalar;
-use crate::lanes::{Lanes, Rounding};
+use crate::lanes::{Lanes, Rounding, power_of_two_f64};
 use core::fmt::{Debug, Display};
 use core::ops::Div;
 
@@ -48,6 +48,10 @@ pub trait Scalar:
     fn to_f64(self) -> f64;
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
+    /// A positive subnormal number becomes the smallest normal one; any other stays what it is.
+    ///
+    /// For lengths that are safe to overstate: a thread may compare a subnormal one as zero, as if none had been asked for.
+    fn raised_to_normal(self) -> Self;
 }
 
 /// [`glam::Vec3`] or [`glam::DVec3`]: a position, from which its [`Scalar`] can be inferred. Sealed with it.
@@ -93,6 +97,17 @@ macro_rules! scalar {
             fn is_finite(self) -> bool {
                 <$scalar>::is_finite(self)
             }
+
+            #[inline(always)]
+            fn raised_to_normal(self) -> Self {
+                let is_subnormal =
+                    self.to_bits().wrapping_sub(1) < <$scalar>::MIN_POSITIVE.to_bits() - 1;
+                if is_subnormal {
+                    <$scalar>::MIN_POSITIVE
+                } else {
+                    self
+                }
+            }
         }
     };
 }
@@ -103,7 +118,7 @@ scalar!(f64, glam::DVec3, 11, core::convert::identity);
 /// A subnormal number goes by way of its digits, since a thread may take it for zero in arithmetic.
 #[inline(always)]
 fn widened(value: f32) -> f64 {
-    const SMALLEST_SUBNORMAL: f64 = f64::from_bits((1023 - 149) << 52);
+    const SMALLEST_SUBNORMAL: f64 = power_of_two_f64(-149);
     let magnitude = value.to_bits() & 0x7fff_ffff;
     if magnitude < 1 << 23 {
         let digits = f64::from(magnitude) * SMALLEST_SUBNORMAL;
@@ -138,5 +153,18 @@ mod tests {
             }
         }
         assert!(f32::NAN.to_f64().is_nan());
+    }
+
+    #[test]
+    fn only_positive_subnormal_numbers_are_raised() {
+        let smallest = f64::MIN_POSITIVE;
+        for subnormal in [f64::from_bits(1), 4e-310, smallest.next_down()] {
+            assert_eq!(subnormal.raised_to_normal().to_bits(), smallest.to_bits());
+            let negative = -subnormal;
+            assert_eq!(negative.raised_to_normal().to_bits(), negative.to_bits());
+        }
+        for other in [0.0, -0.0, smallest, 1.0, -1.0, f64::INFINITY, f64::NAN] {
+            assert_eq!(other.raised_to_normal().to_bits(), other.to_bits());
+        }
     }
 }

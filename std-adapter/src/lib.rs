@@ -21,6 +21,7 @@ pub mod broad_phase;
 pub mod dispatch;
 #[cfg(feature = "files")]
 mod excerpt;
+mod frame;
 pub mod mesh;
 mod pair_kind;
 mod parallel;

@@ -68,3 +68,31 @@ pub(crate) fn for_each_with_chunk<T: Send, U: Send>(
         }
     }
 }
+
+/// Calls `action` with chunks of both lists, `size` long, that begin at the same index, and with that index.
+pub(crate) fn for_each_chunk_with_chunk<T: Send, U: Send>(
+    items: &mut [T],
+    others: &mut [U],
+    size: usize,
+    action: impl Fn(usize, &mut [T], &mut [U]) + Sync,
+) {
+    if items.len() > size && has_many_threads() {
+        let others = others.par_chunks_mut(size);
+        items
+            .par_chunks_mut(size)
+            .zip(others)
+            .enumerate()
+            .for_each(|(index, (items, others))| action(index * size, items, others));
+    } else {
+        action(0, items, others);
+    }
+}
+
+/// How many threads work is split between.
+pub(crate) fn threads() -> usize {
+    if has_many_threads() {
+        rayon::current_num_threads()
+    } else {
+        1
+    }
+}

@@ -437,3 +437,30 @@ fn with_an_eighth_of_the_rounding_bound_rounding_upward_would_cull_a_touching_pa
     let environment = Environment::UPWARD;
     is_culled_but_for::<AnEighth, f32>(PERMANENT, environment, Kind::EdgeEdge, points);
 }
+
+/// A vertex at rest that much above a triangle at rest, and a separation larger than it but subnormal, which flushing compares as
+/// none.
+fn keeps_within_a_subnormal_separation<S: Format>(height: S, separation: S) {
+    let o = S::ZERO;
+    let face = [[o, o, o], [S::ONE, o, o], [o, S::ONE, o]];
+    let pair = PairCase {
+        kind: Kind::VertexFace,
+        points: at_rest([[o, o, height], face[0], face[1], face[2]]),
+    };
+    for tier in tiers(true) {
+        let filter = Filter::new(tier).with_separation(separation);
+        let filter = filter.expect("finite and not negative");
+        let verdict = Environment::FLUSHING.run(&pair, |pair| filter.verdict(&pair.vertex_face()));
+        assert!(!verdict.is_culled(), "{tier:?}");
+    }
+}
+
+#[test]
+fn a_subnormal_separation_counts_when_flushing_f32() {
+    keeps_within_a_subnormal_separation(3e-39_f32, 4e-39);
+}
+
+#[test]
+fn a_subnormal_separation_counts_when_flushing_f64() {
+    keeps_within_a_subnormal_separation(3e-310, 4e-310);
+}

@@ -1,5 +1,8 @@
 //! The coplanarity cubic: its control values are the right polynomial, and rounding moves them no further than proven.
 
+#[macro_use]
+mod support;
+
 use proptest::prelude::*;
 use rug::{Float, Rational, ops::Pow};
 use selvedge::pipeline::CullingTest::PlainNonCoplanarity;
@@ -264,35 +267,12 @@ fn compared<S: Format>(pair: &PairCase<S>) -> Option<Compared> {
     })
 }
 
-/// A property of pairs of format `S`, and a test for each format.
-macro_rules! property {
-    ($(#[$about:meta])* $name:ident, $cases:expr, |$pair:ident| $property:expr) => {
-        $(#[$about])*
-        mod $name {
-            use super::*;
-
-            fn holds<S: Format>($pair: &PairCase<S>) -> Result<(), TestCaseError> {
-                $property
-            }
-
-            #[test]
-            fn f64() {
-                check($cases, pairs_of_any_kind(), holds::<f64>);
-            }
-
-            #[test]
-            fn f32() {
-                check($cases, pairs_of_any_kind(), holds::<f32>);
-            }
-        }
-    };
-}
-
 property!(
     /// Each monomial passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂), here to nearest. Products that underflow
     /// lose η₀ each: two for a component of n, four for one of h; once more through the last six additions at most.
     control_values_are_off_by_no_more_than_their_roundings,
     20_000,
+    pairs_of_any_kind(),
     |pair| {
         let Some(Compared {
             computed,
@@ -353,6 +333,7 @@ property!(
     /// The promise that the filter stands on, for each of the four values alone.
     a_control_value_beyond_its_bound_has_the_exact_sign,
     40_000,
+    pairs_of_any_kind(),
     |pair| {
         match compared(pair) {
             Some(Compared {
@@ -369,6 +350,7 @@ property!(
 property!(
     a_control_value_beyond_its_bound_by_magnitudes_has_the_exact_sign,
     40_000,
+    pairs_of_any_kind(),
     |pair| {
         if let Some(Compared {
             computed, exact, ..
@@ -407,6 +389,7 @@ property!(
     /// Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η with C = 16u, 20u.
     error_bounds_are_the_documented_ones,
     10_000,
+    pairs_of_any_kind(),
     |pair| {
         let Some(Compared {
             bounds,
@@ -430,6 +413,7 @@ property!(
     /// 96u times the product of three largest magnitudes, by axis or by edge, + (1 + M)²·η.
     error_bounds_by_magnitudes_are_the_documented_ones,
     10_000,
+    pairs_of_any_kind(),
     |pair| {
         if compared(pair).is_none() {
             return Ok(());
@@ -485,15 +469,20 @@ fn largest_normal<S: Format>(pair: &PairCase<S>) -> S {
     pair.tetrahedron().largest_normal(shape)
 }
 
-property!(no_normal_is_longer_than_its_bound, 40_000, |pair| {
-    if compared(pair).is_some() {
-        let bound = rational(largest_normal(pair)).square();
-        for (k, squared) in squared_normals(pair).iter().enumerate() {
-            prop_assert!(bound >= *squared, "control point {k}");
+property!(
+    no_normal_is_longer_than_its_bound,
+    40_000,
+    pairs_of_any_kind(),
+    |pair| {
+        if compared(pair).is_some() {
+            let bound = rational(largest_normal(pair)).square();
+            for (k, squared) in squared_normals(pair).iter().enumerate() {
+                prop_assert!(bound >= *squared, "control point {k}");
+            }
         }
+        Ok(())
     }
-    Ok(())
-});
+);
 
 /// (√(|n|² + η) + 128u·M²)·(1 + 32u). On small whole numbers all is exact up to the root: what remains rounds five times.
 fn the_bound_of_the_normal_is_the_documented_one<S: Format>() {

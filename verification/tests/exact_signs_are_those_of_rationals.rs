@@ -1,5 +1,6 @@
 //! `selvedge_core::exact` says what rational arithmetic says, for every finite pair.
 
+#[macro_use]
 mod support;
 
 use proptest::prelude::*;
@@ -46,29 +47,6 @@ fn never_within<S: Format>(pair: &PairCase<S>, separation: S, known: KnownSigns)
             is_never_within::<EdgeAndEdge, S>(&pair.edge_edge().points(), separation, known)
         }
     }
-}
-
-/// A property of pairs of format `S`, and a test for each format.
-macro_rules! property {
-    ($name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
-        mod $name {
-            use super::*;
-
-            fn holds<S: Format>($pair: &PairCase<S>) -> Result<(), TestCaseError> {
-                $property
-            }
-
-            #[test]
-            fn f32() {
-                check($cases, $strategy, holds::<f32>);
-            }
-
-            #[test]
-            fn f64() {
-                check($cases, $strategy, holds::<f64>);
-            }
-        }
-    };
 }
 
 property!(

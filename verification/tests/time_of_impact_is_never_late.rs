@@ -1,18 +1,22 @@
 //! The certified time of impact never misses, is never later than the exact time, is as tight as it says, and takes no
-//! more work than it says.
+//! more work than it says; in every floating-point environment.
+
+mod support;
 
 use proptest::prelude::*;
 use rug::Rational;
-use selvedge_core::Scalar;
 use selvedge_core::elementary::advance::confirm::certain_contact;
-use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact_and_work};
+use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact, time_of_impact_and_work};
 use selvedge_core::elementary::{Impact, Limits, Reason, tight_inclusion};
+use selvedge_core::glam::DVec3;
+use selvedge_core::{Motion, Scalar, VertexFace};
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs,
     from_choices, pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides, first_within, within, within_at};
 use std::cell::Cell;
+use support::environment::Environment;
 
 /// A pair, and lengths on its own scale.
 #[derive(Clone, Debug)]
@@ -210,6 +214,77 @@ property!(
     |moment| { finds_what_touches(moment) }
 );
 
+/// The same, computed in every environment that a thread can be in.
+fn finds_what_touches_in_every_environment<S: Format>(
+    moment: &Moment<S>,
+) -> Result<(), TestCaseError> {
+    let pair = moment.pair();
+    let time = moment.time();
+    for tolerance in [S::ZERO, size(&pair) * S::exact(1, -20)] {
+        for environment in Environment::all() {
+            let (impact, _) = environment.run(&pair, |pair| answer(pair, tolerance, S::ZERO));
+            let found = impact.time().map(|time| time.to_f64());
+            prop_assert!(
+                found.is_some_and(|found| found <= time),
+                "{environment:?}: {impact:?}"
+            );
+        }
+    }
+    Ok(())
+}
+
+property!(
+    finds_every_pair_that_touches_in_every_environment,
+    20_000,
+    touching_pairs,
+    |moment| finds_what_touches_in_every_environment(moment)
+);
+
+/// With a separation: the oracle says whether the pair comes that close.
+fn excludes_only_what_stays_apart<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+    let mut excluding = Environment::all();
+    excluding.retain(|environment| {
+        let (impact, _) = environment.run(question, Question::answer);
+        impact == Impact::Never
+    });
+    if excluding.is_empty() {
+        return Ok(());
+    }
+    let separation = question.separation.to_f64();
+    prop_assert!(
+        !within(&question.pair.question(), separation),
+        "excluded in {excluding:?}"
+    );
+    Ok(())
+}
+
+property!(
+    excludes_only_what_stays_apart_in_every_environment,
+    5_000,
+    questions,
+    |question| excludes_only_what_stays_apart(question)
+);
+
+/// Found by the test above: where subnormal numbers are taken for zero, a subnormal separation compared as none, and the vertex,
+/// which comes within it of a corner that sinks away from below, was found apart.
+#[test]
+fn a_subnormal_separation_counts_where_subnormal_numbers_are_taken_for_zero() {
+    let y = |y: f64| DVec3::new(0.0, y, 0.0);
+    let low = Motion::resting(y(-1.0));
+    let pair = VertexFace {
+        vertex: Motion::new(DVec3::ZERO, y(-4.389e-308)),
+        face: [low, low, Motion::new(y(-1.0), y(-4.4154e-308))],
+    };
+    let limits = Limits {
+        tolerance: 0.0,
+        separation: 4.13e-310,
+    };
+    for environment in Environment::all() {
+        let impact = environment.run(&pair, |pair| time_of_impact(pair, &limits));
+        assert!(impact.time().is_some(), "{environment:?}: {impact:?}");
+    }
+}
+
 /// Coplanar at some time: often a contact, often a near miss.
 fn is_not_late_when_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair();
@@ -307,15 +382,16 @@ type Confirmed = Cell<u32>;
 
 fn confirms_only_contacts<S: Format>(
     pair: &PairCase<S>,
+    environment: Environment,
     confirmed: &Confirmed,
 ) -> Result<(), TestCaseError> {
     let (impact, _) = answer(pair, size(pair) * S::exact(1, -20), S::ZERO);
     let times = [impact.time(), Some(S::exact(1, -1)), Some(S::ZERO)];
     for near in times.into_iter().flatten() {
-        let interval = match pair.kind {
+        let interval = environment.run(pair, |pair| match pair.kind {
             Kind::VertexFace => certain_contact(&pair.vertex_face(), near),
             Kind::EdgeEdge => certain_contact(&pair.edge_edge(), near),
-        };
+        });
         let Some([from, to]) = interval else { continue };
         confirmed.set(confirmed.get() + 1);
         let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
@@ -331,7 +407,7 @@ fn confirms_many<S: Format>() {
     let (asked, confirmed) = (Cell::new(0), Confirmed::default());
     check(20_000, pairs_of_any_kind::<S>(), |pair| {
         asked.set(asked.get() + 1);
-        confirms_only_contacts(pair, &confirmed)
+        confirms_only_contacts(pair, Environment::DEFAULT, &confirmed)
     });
     // Three in a hundred, as a rule.
     let (confirmed, asked) = (confirmed.get(), asked.get());
@@ -346,6 +422,27 @@ fn confirms_contacts_and_nothing_else_f64() {
 #[test]
 fn confirms_contacts_and_nothing_else_f32() {
     confirms_many::<f32>();
+}
+
+fn confirms_in_every_environment<S: Format>() {
+    let confirmed = Confirmed::default();
+    check(2_000, pairs_of_any_kind::<S>(), |pair| {
+        for environment in Environment::all() {
+            confirms_only_contacts(pair, environment, &confirmed)?;
+        }
+        Ok(())
+    });
+    assert!(Environment::all().is_empty() || confirmed.get() > 200);
+}
+
+#[test]
+fn confirms_contacts_and_nothing_else_in_every_environment_f64() {
+    confirms_in_every_environment::<f64>();
+}
+
+#[test]
+fn confirms_contacts_and_nothing_else_in_every_environment_f32() {
+    confirms_in_every_environment::<f32>();
 }
 
 /// The bisection of Wang et al., as a baseline, with a tolerance that keeps its work small.

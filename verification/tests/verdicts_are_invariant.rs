@@ -24,6 +24,9 @@
 //!
 //! The *plain* filter is not symmetric in time, since it computes from velocities; nothing is promised for it.
 
+#[macro_use]
+mod support;
+
 use proptest::prelude::*;
 use selvedge::pipeline::CullingTest::{
     self, CertifiedNonCoplanarity, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18,
@@ -62,29 +65,6 @@ fn mirrored<S: Format>(pair: &PairCase<S>, axis: usize) -> PairCase<S> {
         position[axis] = -position[axis];
         position
     })
-}
-
-/// A property of pairs of format `S`, and a test for each format.
-macro_rules! property {
-    ($name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
-        mod $name {
-            use super::*;
-
-            fn property<S: Format>($pair: &PairCase<S>) -> Result<(), TestCaseError> {
-                $property
-            }
-
-            #[test]
-            fn f64() {
-                check($cases, $strategy, property::<f64>);
-            }
-
-            #[test]
-            fn f32() {
-                check($cases, $strategy, property::<f32>);
-            }
-        }
-    };
 }
 
 property!(

@@ -42,16 +42,15 @@ fn input<S: Scalar>(level: Level) -> Input<S> {
         .collect();
     let tiles = pairs
         .chunks(LANES)
-        .map(|pairs| {
-            let mut tile = Tile::unknown();
-            for (lane, pair) in pairs.iter().enumerate() {
-                tile.set(lane, pair.motions());
-            }
-            tile
-        })
+        .map(|pairs| Tile::new(pairs.iter().map(PrimitivePair::motions)))
         .collect();
-    let rows = pairs.iter().flat_map(|pair| pair.motions().map(VertexRow::new)).collect();
-    let indices = (0..PAIRS as u32).map(|k| [4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3]).collect();
+    let rows = pairs
+        .iter()
+        .flat_map(|pair| pair.motions().map(VertexRow::new))
+        .collect();
+    let indices = (0..PAIRS as u32)
+        .map(|k| [4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3])
+        .collect();
     Input {
         pairs,
         tiles,
@@ -71,7 +70,10 @@ fn baseline<S: Scalar>() -> Input<S> {
 
 fn count_one_by_one<S: Scalar>(input: &Input<S>) -> usize {
     let pairs = black_box(&input.pairs);
-    pairs.iter().filter(|pair| non_coplanarity(*pair).is_culled()).count()
+    pairs
+        .iter()
+        .filter(|pair| non_coplanarity(*pair).is_culled())
+        .count()
 }
 
 fn count_tiles<S: Scalar>(input: &Input<S>) -> [Mask; 2] {
@@ -86,7 +88,14 @@ fn count_rows<S: Scalar>(input: &Input<S>) -> [Mask; 2] {
     let mut masks = [0; 2];
     let (rows, indices) = (black_box(&input.rows), black_box(&input.indices));
     let test = Test::CertifiedNonCoplanarity;
-    culled_from_rows(input.level, Shape::VertexFace, test, rows, indices, &mut masks);
+    culled_from_rows(
+        input.level,
+        Shape::VertexFace,
+        test,
+        rows,
+        indices,
+        &mut masks,
+    );
     masks
 }
 
@@ -119,7 +128,14 @@ benches!(one_by_one_f64, tiles_f64, rows_f64, f64);
 
 library_benchmark_group!(
     name = certified_filter,
-    benchmarks = [one_by_one_f32, tiles_f32, rows_f32, one_by_one_f64, tiles_f64, rows_f64]
+    benchmarks = [
+        one_by_one_f32,
+        tiles_f32,
+        rows_f32,
+        one_by_one_f64,
+        tiles_f64,
+        rows_f64
+    ]
 );
 
 main!(library_benchmark_groups = certified_filter);

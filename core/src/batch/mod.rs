@@ -4,8 +4,8 @@
 //! bit**, for every instruction set: each operation rounds on its own, and nothing is fused or reassociated.
 //!
 //! Pairs come from a mesh, as indices into [`VertexRow`]s ([`culled_from_rows`]), or one by one ([`culled`]), or side by
-//! side as [`Tile`]s ([`culled_from_tiles`]). Any number of pairs will do, at any address. The answer is one [`Mask`] for every sixteen pairs: a set bit
-//! says that the pair is culled.
+//! side as [`Tile`]s ([`culled_from_tiles`]). Any number of pairs will do, at any address. The answer is one [`Mask`] for
+//! every sixteen pairs: a set bit says that the pair is culled.
 //!
 //! The caller names the instruction set by a [`Level`]; `selvedge` detects the best one at run time.
 //!
@@ -150,10 +150,10 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
         let kernel = Kernel::Bounded(self.tier().bound(), self.positive_separation());
         let Decision {
             mut culled,
-            opposite,
+            settled,
         } = S::sixteen(level, P::SHAPE, kernel, pairs)?;
         // One by one, of those that the tier has more to say of.
-        let mut open = self.tier().open(culled, opposite);
+        let mut open = self.tier().open(culled, settled);
         while open != 0 {
             let lane = open.trailing_zeros();
             open &= open - 1;
@@ -174,10 +174,7 @@ pub fn culled<S: Scalar, P: PrimitivePair<S>>(
     masks: &mut [Mask],
 ) {
     for (pairs, mask) in pairs.chunks(LANES).zip(masks) {
-        let mut tile = Tile::unknown();
-        for (lane, pair) in pairs.iter().enumerate() {
-            tile.set(lane, pair.motions());
-        }
+        let tile = Tile::new(pairs.iter().map(PrimitivePair::motions));
         *mask = of_tile::<S, P::Shape>(level, test, &tile);
     }
 }
@@ -240,13 +237,9 @@ fn of_mesh<S: Scalar, P: PairShape>(
 /// Fewer than sixteen pairs, or some whose indices are not in `rows`.
 #[cold]
 fn gathered<S: Scalar>(rows: &[VertexRow<S>], indices: &[[u32; 4]]) -> Tile<S> {
-    let mut tile = Tile::unknown();
     let unknown = VertexRow::unknown();
-    for (lane, indices) in indices.iter().enumerate() {
-        let row = |index: u32| rows.get(index as usize).unwrap_or(&unknown).motion();
-        tile.set(lane, indices.map(row));
-    }
-    tile
+    let motion = |index: u32| rows.get(index as usize).unwrap_or(&unknown).motion();
+    Tile::new(indices.iter().map(|indices| indices.map(motion)))
 }
 
 #[inline(always)]

@@ -237,7 +237,7 @@ macro_rules! kernel {
                     };
                     Some(Decision {
                         culled: test.on::<P, _>(&points).to_bitmask() as Mask,
-                        opposite: 0,
+                        settled: 0,
                     })
                 }
                 Kernel::Bounded(bound, separation) => {
@@ -258,7 +258,7 @@ macro_rules! kernel {
                     let decision = decide::<P, _>(bound, &tetrahedron, separation);
                     Some(Decision {
                         culled: decision.culled.to_bitmask() as Mask,
-                        opposite: decision.opposite.to_bitmask() as Mask,
+                        settled: decision.settled.to_bitmask() as Mask,
                     })
                 }
             }
@@ -334,7 +334,7 @@ fn sixteen_f64<V: Simd, P: PairShape>(
     let high = eight_f64::<V, P>(simd, kernel, pairs, 8)?;
     Some(Decision {
         culled: low.culled | high.culled << 8,
-        opposite: low.opposite | high.opposite << 8,
+        settled: low.settled | high.settled << 8,
     })
 }
 

@@ -17,22 +17,32 @@ impl<S: Scalar> Tile<S> {
         Self([[[[S::INFINITY * S::ZERO; LANES]; 3]; 2]; 4])
     }
 
-    /// Puts a pair's four points (vertex, face; or first, second edge) in lane `lane`. Does nothing from lane
-    /// [`LANES`] on.
+    /// The first sixteen of `pairs`, each by its four points; if there are fewer, the other lanes are
+    /// [`unknown`](Self::unknown).
     ///
     /// ```
     /// use selvedge_core::batch::{culled_from_tiles, Level, Test, Tile};
     /// use selvedge_core::{glam::Vec3, points::Shape, Motion, PrimitivePair, VertexFace};
-    /// let above = VertexFace {
-    ///     vertex: Motion::resting(Vec3::Z),
+    /// let pairs = [Vec3::ZERO, Vec3::Z].map(|vertex| VertexFace {
+    ///     vertex: Motion::resting(vertex),
     ///     face: [Vec3::ZERO, Vec3::X, Vec3::Y].map(Motion::resting),
-    /// };
-    /// let mut tile = Tile::unknown();
-    /// tile.set(3, above.motions());
+    /// });
+    /// let tile = Tile::new(pairs.iter().map(PrimitivePair::motions));
     /// let mut masks = [0];
     /// culled_from_tiles(Level::baseline(), Shape::VertexFace, Test::SweptBoxes, &[tile], &mut masks);
-    /// assert_eq!(masks, [0b1000]);
+    /// assert_eq!(masks, [0b10]);
     /// ```
+    #[inline]
+    pub fn new(pairs: impl IntoIterator<Item = [Motion<S>; 4]>) -> Self {
+        let mut tile = Self::unknown();
+        for (lane, points) in pairs.into_iter().take(LANES).enumerate() {
+            tile.set(lane, points);
+        }
+        tile
+    }
+
+    /// Puts a pair's four points (vertex, face; or first, second edge) in lane `lane`. Does nothing from lane
+    /// [`LANES`] on.
     #[inline]
     pub fn set(&mut self, lane: usize, points: [Motion<S>; 4]) {
         for (coordinates, motion) in self.0.iter_mut().zip(points) {

@@ -28,7 +28,8 @@
 //! **Overflow.** M ≤ [`largest_extent`] is demanded, 2²⁹ (`f32`) or 2²⁵⁰ (`f64`), checked by an ordered comparison: then nothing
 //! that a certificate computes comes near the largest number, which directed rounding returns instead of infinity.
 
-use crate::points::PairPoints;
+use crate::lanes::power_of_two_f64;
+use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
@@ -45,8 +46,9 @@ impl<S: Scalar> Corners<S, 3> {
     /// Of a vertex and a face: a triangle.
     #[inline(always)]
     pub(super) fn of_vertex_face(points: &PairPoints<S>) -> Self {
-        let ([p0, a0, b0, c0], [p1, a1, b1, c1]) = (points.start, points.end);
-        Self::new([[p0 - a0, p1 - a1], [p0 - b0, p1 - b1], [p0 - c0, p1 - c1]])
+        let [_, a0, b0, c0] = VertexAndFace::corners(points.start);
+        let [_, a1, b1, c1] = VertexAndFace::corners(points.end);
+        Self::new([[a0, a1], [b0, b1], [c0, c1]])
     }
 }
 
@@ -54,13 +56,9 @@ impl<S: Scalar> Corners<S, 4> {
     /// Of two edges: a parallelogram, the second and third corner opposite to each other.
     #[inline(always)]
     pub(super) fn of_edge_edge(points: &PairPoints<S>) -> Self {
-        let ([u0, v0, k0, l0], [u1, v1, k1, l1]) = (points.start, points.end);
-        Self::new([
-            [u0 - k0, u1 - k1],
-            [u0 - l0, u1 - l1],
-            [v0 - k0, v1 - k1],
-            [v0 - l0, v1 - l1],
-        ])
+        let [a0, b0, c0, d0] = EdgeAndEdge::corners(points.start);
+        let [a1, b1, c1, d1] = EdgeAndEdge::corners(points.end);
+        Self::new([[a0, a1], [b0, b1], [c0, c1], [d0, d1]])
     }
 }
 
@@ -110,15 +108,9 @@ pub(super) fn largest_extent<S: Scalar>() -> S {
 
 /// Two to one power in `f32`, to another in `f64`.
 #[inline(always)]
-pub(super) fn of_format<S: Scalar>(single: i16, double: i16) -> S {
+pub(super) fn of_format<S: Scalar>(single: i64, double: i64) -> S {
     let is_single = S::UNIT_ROUNDOFF > S::from_f64(f64::EPSILON);
-    S::from_f64(power_of_two(if is_single { single } else { double }))
-}
-
-/// 2 to the power of `exponent`, of a normal number.
-#[inline(always)]
-const fn power_of_two(exponent: i16) -> f64 {
-    f64::from_bits(((1023 + exponent as i64) as u64) << 52)
+    S::from_f64(power_of_two_f64(if is_single { single } else { double }))
 }
 
 /// So many unit roundoffs below one: a factor that makes up for the rounding of a few operations.

@@ -64,8 +64,9 @@ pub fn is_never_coplanar<L: Lanes>(bound: Bound, tetrahedron: &MovingTetrahedron
 pub struct Decision<M> {
     /// All beyond their bounds, with one sign.
     pub culled: M,
-    /// Two of them beyond their bounds with opposite signs: no sharper bound can cull. Only with [`Bound::Permanent`].
-    pub opposite: M,
+    /// No sharper bound can cull: two of them are beyond their bounds with opposite signs, or all are zero since the pair
+    /// has no extent along an axis. Only with [`Bound::Permanent`].
+    pub settled: M,
 }
 
 /// The decision with a separation s on any number of lanes: `culled` proves that at no time in [0, 1] the vertex is within s
@@ -107,7 +108,7 @@ fn decide_beyond<L: Lanes>(
     };
     Decision {
         culled,
-        opposite: zero.greater(zero),
+        settled: zero.greater(zero),
     }
 }
 
@@ -146,9 +147,13 @@ fn by_permanent<L: Lanes>(
     let of_one_sign = least.larger(-greatest);
     let of_both_signs = greatest.smaller(-least);
     let decided = of_one_sign.greater(bound) & in_range;
-    let opposite = of_both_signs.greater(inner) & in_range;
 
+    // Cloth and floors are often flat along an axis, throughout. Differences that are zero are exactly so.
     let zero = largest.x.splat(L::Scalar::ZERO);
+    let least_extent = largest.x.smaller(largest.y).smaller(largest.z);
+    let is_flat = in_range ^ (in_range & least_extent.greater(zero));
+    let settled = (of_both_signs.greater(inner) & in_range) | is_flat;
+
     let of_one_sign = of_one_sign.greater(zero) & in_range;
     let culled = if L::any(of_one_sign ^ decided) {
         let bounds = with_clearance(tetrahedron.error_bounds(), clearance);
@@ -156,7 +161,7 @@ fn by_permanent<L: Lanes>(
     } else {
         decided
     };
-    Decision { culled, opposite }
+    Decision { culled, settled }
 }
 
 /// The middle control values are tripled, and so is what they must clear.

@@ -14,7 +14,7 @@ use crate::verdict::Verdict;
 
 /// Culls `pair` if A, B, 2C + F and 2D + E, as computed, all have the same strict sign.
 ///
-/// One deviation from the paper: where a value overflows the pair is kept.
+/// One deviation from the paper: where a value, or the sum of their magnitudes, overflows, the pair is kept.
 #[inline(always)]
 pub fn non_coplanarity<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
     Verdict::culled_if(has_one_sign::<P::Shape, S>(&pair.points()))

@@ -34,6 +34,7 @@ pub enum Tier {
     /// coplanar at some time.
     Subdivided(Depth),
     /// By the exact signs of the control values: [`Permanent`](Self::Permanent) first, integers where that does not decide.
+    /// (Where a thread flushes subnormal numbers it keeps a pair whose extent along an axis is subnormal.)
     Exact,
 }
 
@@ -62,13 +63,13 @@ impl Tier {
     /// Which of the pairs that its bound has or has not culled it looks at again: none, those undecided, or all that are
     /// kept.
     #[inline(always)]
-    pub(crate) fn open(self, culled: Mask, opposite: Mask) -> Mask {
+    pub(crate) fn open(self, culled: Mask, settled: Mask) -> Mask {
         match self {
             Self::Uncertified
             | Self::MagnitudesByEdge
             | Self::MagnitudesByAxis
             | Self::Permanent => 0,
-            Self::Widened | Self::Exact => !(culled | opposite),
+            Self::Widened | Self::Exact => !(culled | settled),
             Self::Subdivided(_) => !culled,
         }
     }
@@ -124,11 +125,14 @@ impl<S: Scalar> Filter<S> {
 
     /// The same filter for pairs that must stay farther apart than `separation`, in the unit of the positions. `None` if
     /// it is negative, infinite or NaN.
+    ///
+    /// A subnormal separation is [raised](Scalar::raised_to_normal) to the smallest normal number, so that it counts in threads
+    /// that take subnormal numbers for zero too.
     #[must_use]
     pub fn with_separation(self, separation: S) -> Option<Self> {
         (separation >= S::ZERO && separation.is_finite()).then_some(Self {
             tier: self.tier,
-            separation,
+            separation: separation.raised_to_normal(),
         })
     }
 
@@ -160,7 +164,7 @@ impl<S: Scalar> Filter<S> {
             self.positive_separation(),
         );
         let culled = Mask::from(decision.culled);
-        let is_open = self.tier.open(culled, Mask::from(decision.opposite)) & 1 != 0;
+        let is_open = self.tier.open(culled, Mask::from(decision.settled)) & 1 != 0;
         Verdict::culled_if(decision.culled || is_open && self.culls_open::<P::Shape>(&points))
     }
 

@@ -1,7 +1,8 @@
 //! `f64` for the few pairs that `f32` leaves undecided.
 //!
 //! `f32` positions are `f64` positions, so the certified filter may be asked again with a unit roundoff that is 2²⁹ times
-//! smaller. It is worth asking only if no two control values certainly have opposite signs.
+//! smaller. It is asked only where
+//! that can help: not if two control values certainly have opposite signs, or all are zero.
 
 use super::certified::{Bound, decide};
 use crate::points::{PairPoints, PairShape};

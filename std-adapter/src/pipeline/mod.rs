@@ -47,6 +47,7 @@ mod report;
 mod stored;
 pub(crate) mod swept;
 
+pub use crate::frame::StepError;
 pub use assignment::FeatureAssignment;
 pub use pairs::Contact;
 pub use preset::{CullingTest, ElementaryTest, Preset, Redundancy, Stage, Stages, UnknownPreset};
@@ -55,6 +56,7 @@ pub use report::{PairCounts, StageReport, StepReport};
 use crate::PairKind;
 use crate::broad_phase::{BroadPhase, SweptBox};
 use crate::dispatch::{Level, best_level};
+use crate::frame::check_frames;
 use crate::mesh::Topology;
 use crate::parallel;
 use batch::{Batch, StepInput};
@@ -107,34 +109,6 @@ struct Buffers<S: Scalar> {
 struct Distributed {
     vertex_face: FxHashSet<[u32; 2]>,
     edge_edge: FxHashSet<[u32; 2]>,
-}
-
-/// Why a step could not be run. The pipeline is as it was and can run another.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StepError {
-    /// A frame has too few or too many positions.
-    #[error("the {frame} frame has {found} positions, but the mesh has {expected} vertices")]
-    WrongLength {
-        /// `"start"` or `"end"`.
-        frame: &'static str,
-        /// The length of the slice.
-        found: usize,
-        /// The mesh's vertices.
-        expected: usize,
-    },
-    /// A position is NaN or infinite. (Culling would keep every pair of that vertex; better to say so.)
-    #[error(
-        "the {frame} frame has a coordinate that is not a finite number: vertex {vertex} is at {position}"
-    )]
-    NotFinite {
-        /// `"start"` or `"end"`.
-        frame: &'static str,
-        /// The first such vertex.
-        vertex: usize,
-        /// Its position.
-        position: String,
-    },
 }
 
 /// The threads of a [`Pipeline`] could not be started.
@@ -212,9 +186,7 @@ impl<S: Scalar> Pipeline<S> {
         start: &[S::Vector],
         end: &[S::Vector],
     ) -> Result<&StepReport, StepError> {
-        for (frame, positions) in [("start", start), ("end", end)] {
-            check_frame::<S>(frame, positions, self.topology.vertex_count())?;
-        }
+        check_frames::<S>(start, end, self.topology.vertex_count())?;
         let Self {
             topology,
             assignment,
@@ -380,35 +352,6 @@ impl<S: Scalar> Buffers<S> {
                 }
                 self.contacts.extend_from_slice(&batch.contacts);
             }
-        }
-    }
-}
-
-fn check_frame<S: Scalar>(
-    frame: &'static str,
-    positions: &[S::Vector],
-    expected: usize,
-) -> Result<(), StepError> {
-    if positions.len() != expected {
-        return Err(StepError::WrongLength {
-            frame,
-            found: positions.len(),
-            expected,
-        });
-    }
-    let is_finite = |&position: &S::Vector| {
-        let coordinates: [S; 3] = position.into();
-        coordinates.into_iter().all(Scalar::is_finite)
-    };
-    match positions.iter().position(|position| !is_finite(position)) {
-        None => Ok(()),
-        Some(vertex) => {
-            let [x, y, z]: [S; 3] = positions[vertex].into();
-            Err(StepError::NotFinite {
-                frame,
-                vertex,
-                position: format!("({x}, {y}, {z})"),
-            })
         }
     }
 }

@@ -12,6 +12,31 @@ pub(crate) mod rationals;
 
 use rug::Rational;
 
+/// A property of pairs of format `S`, and a test for each format. For the files that say `#[macro_use] mod support;`.
+#[allow(unused_macros, reason = "each test file uses a part")]
+macro_rules! property {
+    ($(#[$about:meta])* $name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
+        $(#[$about])*
+        mod $name {
+            use super::*;
+
+            fn holds<S: Format>($pair: &PairCase<S>) -> Result<(), TestCaseError> {
+                $property
+            }
+
+            #[test]
+            fn f32() {
+                check($cases, $strategy, holds::<f32>);
+            }
+
+            #[test]
+            fn f64() {
+                check($cases, $strategy, holds::<f64>);
+            }
+        }
+    };
+}
+
 pub(crate) type Point = [Rational; 3];
 
 pub(crate) fn point(coordinates: [f64; 3]) -> Point {

@@ -39,7 +39,7 @@
 //!
 //! # What is promised
 //! * **In every floating-point environment**: whatever direction the thread rounds in, and whether or not it flushes subnormal
-//!   numbers to zero. (Not with excess precision or fused operations, which Rust does not use.)
+//!   numbers to zero; a subnormal separation counts as the smallest normal number. (Not with excess precision or fused operations, which Rust does not use.)
 //! * **A bounded amount of work**, whatever the input: at most [`ROUNDS`] rounds, [`Work`] says of how many steps each.
 //!   Degenerate pairs do not loop.
 //! * **Tight**, where the reason is [`Reason::WithinTolerance`]: at the time returned the exact distance is at most
@@ -100,6 +100,10 @@ pub fn time_of_impact_and_work<S: Scalar, P: PrimitivePair<S>>(
     pair: &P,
     limits: &Limits<S>,
 ) -> (Impact<S>, Work) {
+    let limits = &Limits {
+        separation: limits.separation.raised_to_normal(),
+        ..*limits
+    };
     if limits.separation <= S::ZERO && relative::three_axes(pair).is_culled() {
         if limits.separation < S::ZERO {
             return not_excluded(S::ZERO, Reason::NotFinite, Work::default());

@@ -147,13 +147,9 @@ impl<S: Scalar> Pairs<'_, S> {
     /// The first pairs, side by side.
     fn tiles(&self) -> Vec<Tile<S>> {
         let tiled = &self.indices[..self.indices.len().min(TILED)];
-        let tiles = tiled.chunks(LANES).map(|indices| {
-            let mut tile = Tile::unknown();
-            for (lane, &indices) in indices.iter().enumerate() {
-                tile.set(lane, self.motions(indices));
-            }
-            tile
-        });
+        let tiles = tiled
+            .chunks(LANES)
+            .map(|indices| Tile::new(indices.iter().map(|&indices| self.motions(indices))));
         tiles.collect()
     }
 }
