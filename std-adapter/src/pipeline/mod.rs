@@ -45,7 +45,7 @@ mod pairs;
 mod preset;
 mod report;
 mod stored;
-pub(crate) mod swept;
+mod swept;
 
 pub use crate::frame::StepError;
 pub use assignment::FeatureAssignment;

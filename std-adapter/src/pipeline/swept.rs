@@ -12,7 +12,7 @@ use selvedge_core::Scalar;
 use selvedge_core::boxes::Aabb;
 
 /// Replaces `mapped` by the mapped boxes.
-pub(crate) fn map_boxes<S: Scalar>(mapped: &mut Vec<SweptBox>, boxes: &[Aabb<S>]) {
+pub(super) fn map_boxes<S: Scalar>(mapped: &mut Vec<SweptBox>, boxes: &[Aabb<S>]) {
     let middle = middle(boxes);
     parallel::fill(mapped, boxes, |swept| {
         let map = |bounds: [S; 3]| {

@@ -6,10 +6,14 @@ mod accuracy_svg;
 mod csv;
 mod figure;
 mod findings;
+#[cfg(feature = "simulation")]
+mod gltf;
 pub mod json;
 mod number;
 mod paper;
 mod plot;
+#[cfg(feature = "simulation")]
+mod simulation_html;
 mod step;
 mod table_svg;
 pub mod tables;
@@ -19,8 +23,12 @@ pub use self::csv::{comparison_csv, contacts_csv, pairs_csv};
 pub use accuracy_svg::accuracy_svg;
 pub use figure::{FIGURE_SIZE, FigureError, FigurePairs, figure_3};
 pub use findings::{Finding, findings};
+#[cfg(feature = "simulation")]
+pub use gltf::animated_gltf;
 pub use paper::{PaperRow, paper_row};
 pub use plot::scaling_svg;
+#[cfg(feature = "simulation")]
+pub use simulation_html::simulation_html;
 pub use step::StepSummary;
 pub use table_svg::comparison_svg;
 

@@ -9,14 +9,18 @@
 //!                          forces ▸ prediction ▸ constraints ▸ contacts ▸ friction ▸ certified pass ▸ velocities
 //! ```
 
+mod checkpoint;
 mod colour;
 mod contact;
 mod effects;
 mod plan;
+mod record;
 mod scene;
 mod simulator;
 
+pub use checkpoint::CheckpointError;
 pub use contact::{Blocker, ContactCounts, ContactSeconds};
 pub use effects::effect_names;
+pub use record::{Frame, Recording};
 pub use scene::{Body, Cloth, OnBlocked, RigidMotion, Scene, SceneError};
-pub use simulator::{Blocked, EffectTime, FASTEST, SetupError, Simulation};
+pub use simulator::{Blocked, CHECKPOINT_STEPS, EffectTime, FASTEST, SetupError, Simulation};

@@ -9,6 +9,7 @@
 //! **Finite whatever the scene says**: no constraint divides by what may vanish, and no vertex moves faster than
 //! [`FASTEST`].
 
+use super::checkpoint::{self, CheckpointError};
 use super::contact::{Blocker, Contact, ContactCounts, ContactSeconds, LARGEST_TURN};
 use super::plan::{Constraint, Entry, FREE, Force, Frame, Plan, StepInput, Touches};
 use super::scene::{OnBlocked, Pose, RigidMotion, Scene, World};
@@ -19,15 +20,21 @@ use std::time::Instant;
 /// In m/s: twice the speed of sound and more. What would move faster is slowed down to this.
 pub const FASTEST: f64 = 1000.0;
 
+/// A checkpoint can be taken when so many steps are done, and again so many later. There contact forgets what it knows besides
+/// the positions, which a resumed simulation does not know either.
+pub const CHECKPOINT_STEPS: u64 = 200;
+
 /// How often a step may be cut in half.
-const CUTS: i32 = 6;
+const CUTS: u32 = 6;
 
 /// A scene in motion.
 #[derive(Debug)]
 pub struct Simulation {
     name: String,
     time_step: f64,
+    fingerprint: u64,
     cloth_vertices: usize,
+    cloth_triangles: usize,
     triangles: Vec<[u32; 3]>,
     inverse_masses: Vec<f64>,
     /// Of each vertex: whose motion it follows.
@@ -134,6 +141,7 @@ impl Simulation {
             time_step,
             effects,
             on_blocked,
+            fingerprint,
             ..
         } = scene;
         let mut plan = Plan::new(World {
@@ -195,6 +203,8 @@ impl Simulation {
             on_blocked,
             body_names: bodies.into_iter().map(|body| body.name).collect(),
             contact,
+            fingerprint,
+            cloth_triangles: cloth.mesh.triangles.len(),
             cloth_vertices,
             triangles,
             inverse_masses,
@@ -259,6 +269,12 @@ impl Simulation {
         self.cloth_vertices
     }
 
+    /// How many of the triangles are the cloth's.
+    #[must_use]
+    pub fn cloth_triangles(&self) -> usize {
+        self.cloth_triangles
+    }
+
     /// The effects that were constructed, in the order in which they run, and the time that each has taken.
     #[must_use]
     pub fn effects(&self) -> &[EffectTime] {
@@ -281,6 +297,14 @@ impl Simulation {
     #[must_use]
     pub fn blocked_steps(&self) -> u64 {
         self.state.blocked_steps
+    }
+
+    /// Whether the state is certified to be free of intersections of whatever the scene's contact effects name: not without any,
+    /// and not while a body is let pass.
+    #[must_use]
+    pub fn is_certified(&self) -> bool {
+        let contact = self.contact.as_ref();
+        contact.is_some_and(|contact| !contact.yielding().contains(&true))
     }
 
     /// How far bodies and pins are behind their keyframes, in seconds.
@@ -312,30 +336,19 @@ impl Simulation {
     }
 
     fn whole_step(&mut self) -> Result<(), Blocked> {
-        let longest = self.longest_part();
-        let shortest = longest * 0.5_f64.powi(CUTS);
-        let (mut left, mut h) = (self.time_step, longest);
+        let mut left = self.time_step;
         let mut was_blocked = false;
         while left > 0.0 {
-            h = h.min(left);
-            let Err(blocker) = self.attempt(h, h) else {
-                left = if h < left { left - h } else { 0.0 };
-                h = longest;
-                continue;
+            let blocker = match self.part(left) {
+                Ok(h) => {
+                    left = if h < left { left - h } else { 0.0 };
+                    continue;
+                }
+                Err(blocker) => blocker,
             };
-            if let Some(contact) = &mut self.contact {
-                contact.counts.cuts += 1;
-            }
-            if 0.5 * h >= shortest {
-                h *= 0.5;
-                continue;
-            }
             was_blocked = true;
             match (self.on_blocked, blocker.body, &mut self.contact) {
-                (OnBlocked::Yield, Some(body), Some(contact)) => {
-                    contact.let_pass(body);
-                    h = longest;
-                }
+                (OnBlocked::Yield, Some(body), Some(contact)) => contact.let_pass(body),
                 (OnBlocked::Yield | OnBlocked::Hold, ..) => {
                     // Without anything that is forced to move a step can always be made.
                     self.attempt(left, 0.0)
@@ -349,27 +362,68 @@ impl Simulation {
         self.state.blocked_steps += u64::from(was_blocked);
         if let Some(contact) = &mut self.contact {
             contact.take_back(&self.state.positions);
+            if self.state.step % CHECKPOINT_STEPS == 0 {
+                contact.refresh(&self.state.positions);
+            }
         }
         Ok(())
     }
 
-    /// The longest part of a step in which no frame turns by more than contact can certify.
-    fn longest_part(&self) -> f64 {
-        if self.contact.is_none() {
-            return self.time_step;
+    /// All that the rest of the simulation depends on, every [`CHECKPOINT_STEPS`] steps; `None` in between.
+    #[must_use]
+    pub fn checkpoint(&self) -> Option<Vec<u8>> {
+        let yielding = self.contact.as_ref().map_or(&[][..], Contact::yielding);
+        (self.state.step % CHECKPOINT_STEPS == 0)
+            .then(|| checkpoint::write(self.fingerprint, &self.state, yielding))
+    }
+
+    /// Goes on from a checkpoint of the same scene: with the same bits as if it had never ended.
+    ///
+    /// # Errors
+    /// If it is not a checkpoint, is damaged, or is one of another scene; then nothing has changed.
+    pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), CheckpointError> {
+        let (state, yielding) =
+            checkpoint::read(checkpoint, self.fingerprint, self.state.positions.len())?;
+        if let Some(contact) = &mut self.contact {
+            if !contact.set_yielding(yielding) {
+                return Err(CheckpointError::Damaged);
+            }
+            contact.refresh(&state.positions);
         }
+        self.state = state;
+        Ok(())
+    }
+
+    /// Goes on by as much of `left` seconds as possible: returns how much. Half of it if that fails, and so on.
+    fn part(&mut self, left: f64) -> Result<f64, Blocker> {
+        let mut h = self.without_large_turn(left);
+        let mut cuts = 0;
+        loop {
+            match self.attempt(h, h) {
+                Err(_) if cuts < CUTS => {
+                    h *= 0.5;
+                    cuts += 1;
+                    if let Some(contact) = &mut self.contact {
+                        contact.counts.cuts += 1;
+                    }
+                }
+                result => return result.map(|()| h),
+            }
+        }
+    }
+
+    /// `h`, halved until no frame turns by more in that time than contact can certify.
+    fn without_large_turn(&self, mut h: f64) -> f64 {
         let clock = self.state.clock;
-        let turn = |frame: &RigidMotion| {
-            (frame.pose(clock + self.time_step).angle - frame.pose(clock).angle).abs()
+        let turns_too_far = |frame: &RigidMotion, h: f64| {
+            (frame.pose(clock + h).angle - frame.pose(clock).angle).abs() > LARGEST_TURN
         };
-        let largest = self.frames.iter().map(turn).fold(0.0, f64::max);
-        // Within a step a frame that speeds up turns at most three times as fast as on average (a cubic's slope).
-        let parts = if largest > LARGEST_TURN {
-            (3.0 * largest / LARGEST_TURN).ceil()
-        } else {
-            1.0
-        };
-        self.time_step / parts
+        if self.contact.is_some() {
+            while self.frames.iter().any(|frame| turns_too_far(frame, h)) {
+                h *= 0.5;
+            }
+        }
+        h
     }
 
     fn described(&self, blocker: Blocker) -> Blocked {
@@ -407,7 +461,7 @@ impl Simulation {
             effects[constraint.effect].seconds += begin.elapsed().as_secs_f64();
         }
         if let Some(contact) = &mut self.contact {
-            contact.prepare(step.start);
+            contact.prepare(step.start, &work.predicted, h);
             let settings = contact.settings;
             for (with_body, setting) in [(true, settings.bodies), (false, settings.cloth)] {
                 let Some((effect, _)) = setting else { continue };

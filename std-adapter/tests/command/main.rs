@@ -5,5 +5,6 @@ mod bad_input;
 mod compare;
 mod cull;
 mod queries;
+mod simulate;
 mod support;
 mod terminal;

@@ -147,7 +147,7 @@ fn twenty_mistakes_get_twenty_messages_that_say_what_to_do() {
         (
             "{ time = \"1 s\",",
             "{ time = 0,",
-            "s.toml:16:37: keyframes must be in order: each `time` later than the one before",
+            "s.toml:16:37: keyframes must be in order: each `time` a microsecond or more later than the one before",
         ),
         // Effects that contradict each other or the scene.
         (

@@ -6,6 +6,8 @@ mod comparison;
 #[cfg(feature = "files")]
 mod queries;
 mod scaling;
+#[cfg(feature = "simulation")]
+mod simulation;
 mod step;
 
 #[cfg(feature = "accuracy")]
@@ -14,6 +16,8 @@ pub use comparison::comparison;
 #[cfg(feature = "files")]
 pub use queries::queries;
 pub use scaling::scaling;
+#[cfg(feature = "simulation")]
+pub use simulation::simulation;
 pub use step::step;
 
 use comfy_table::{CellAlignment, LineStyle, Row, Table, TableStyle};

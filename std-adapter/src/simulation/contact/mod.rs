@@ -3,6 +3,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | `detect` | candidate pairs: the one place that knows the broad phase |
+//! | `horizon` | for how many steps they are good |
 //! | `pair` | one pair: the direction that keeps it apart, the certified time of impact |
 //! | `rows` | contacts as constraints of the solver |
 //! | `pass`, `zones` | no step is accepted that is not certified |
@@ -11,6 +12,7 @@
 
 mod closest;
 mod detect;
+mod horizon;
 mod pair;
 mod pass;
 mod rows;
@@ -18,6 +20,7 @@ mod zones;
 
 pub use pass::ContactCounts;
 pub(crate) use pass::LARGEST_TURN;
+pub(super) use rows::RECOVERY;
 
 use super::plan::{Frame, StepInput, Touches};
 use super::scene::table::Table;
@@ -25,9 +28,9 @@ use super::scene::{LENGTH, SceneError};
 use crate::PairKind;
 use crate::mesh::TopologyError;
 use detect::{Detector, Wanted};
+use horizon::Horizon;
 use pair::{Pair, rounding_error};
 use rows::Row;
-use selvedge_core::boxes::Aabb;
 use selvedge_core::glam::DVec3;
 use std::time::Instant;
 use zones::Zones;
@@ -87,6 +90,9 @@ impl ContactSettings {
     }
 }
 
+/// How far beyond the thickness candidates are looked for, in thicknesses: more makes longer lists that last longer.
+const REACH: f64 = 2.0 / 3.0;
+
 /// Why a step could not be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blocker {
@@ -122,19 +128,18 @@ pub(crate) struct Contact {
     carriers: Vec<Frame>,
     /// Of each vertex, for the thickness that neighbours can have.
     rest: Vec<DVec3>,
-    /// Half the thickness: by how much boxes are enlarged.
-    reach: f64,
-    /// How far a vertex may leave its path's box and still be covered by the candidates.
+    /// How far vertices may stray along each axis, for candidates to hold every pair within the thickness.
+    slack: f64,
+    /// The same for every pair that may come within the separation.
     room: f64,
+    horizon: Horizon,
     /// See [`rounding_error`].
     error: f64,
     /// Pairs near the state, each with what is known of it.
     pairs: Vec<Pair>,
-    /// Those of the step being made.
-    next: Vec<Pair>,
+    /// Where new ones are put.
+    found: Vec<Pair>,
     rows: Vec<Row>,
-    paths: Vec<Aabb<f64>>,
-    boxes: Vec<Aabb<f64>>,
     moved: Vec<bool>,
     zones: Zones,
     /// Bodies whose pairs have left the promise.
@@ -157,26 +162,26 @@ impl Contact {
             return Ok(None);
         }
         let largest = |pick: fn(Thickness) -> f64| settings.all().map(pick).fold(0.0, f64::max);
-        let reach = 0.5 * largest(|thickness| thickness.thickness);
+        let thickness = largest(|thickness| thickness.thickness);
+        let reach = thickness * (1.0 + REACH);
         let separation = largest(|thickness| thickness.separation);
         let wanted = Wanted {
             cloth: settings.cloth.is_some(),
             bodies: settings.bodies.is_some(),
         };
         Ok(Some(Self {
-            detector: Detector::new(triangles, carriers, cloth_vertices, wanted)?,
+            detector: Detector::new(triangles, carriers, cloth_vertices, reach, wanted)?,
             settings,
             carriers: carriers.to_vec(),
             rest: rest.to_vec(),
-            reach,
             // A hundredth less than what geometry allows: far above rounding.
-            room: 0.99 * (reach - 0.5 * separation).max(0.0),
+            slack: 0.99 * 0.5 * (reach - thickness),
+            room: 0.99 * 0.5 * (reach - separation),
+            horizon: Horizon::default(),
             error: 0.0,
             pairs: Vec::new(),
-            next: Vec::new(),
+            found: Vec::new(),
             rows: Vec::new(),
-            paths: Vec::new(),
-            boxes: Vec::new(),
             moved: vec![false; rest.len()],
             zones: Zones::default(),
             yielding: vec![false; bodies],
@@ -188,15 +193,9 @@ impl Contact {
     /// Forgets everything but the positions: a simulation that goes on from here, and one that is resumed here, are alike.
     pub(crate) fn refresh(&mut self, positions: &[DVec3]) {
         self.pairs.clear();
-        self.paths.clear();
-        self.paths.extend(positions.iter().map(|p| Aabb {
-            lower: p.to_array(),
-            upper: p.to_array(),
-        }));
-        let counts = self.counts;
-        self.find_candidates();
-        self.counts = counts;
-        std::mem::swap(&mut self.pairs, &mut self.next);
+        self.horizon.forget();
+        self.find_candidates(positions, positions, 1.0);
+        self.horizon.forget();
     }
 
     /// The first pair that touches, after [`refresh`](Self::refresh).
@@ -212,16 +211,19 @@ impl Contact {
         Some(pass::described(touching.kind, touching.vertices))
     }
 
-    /// Sets up the contacts of a step.
-    pub(crate) fn prepare(&mut self, start: &[DVec3]) {
+    /// Sets up the contacts of a step of `h` seconds that so far leads to `predicted`.
+    pub(crate) fn prepare(&mut self, start: &[DVec3], predicted: &[DVec3], h: f64) {
         let begin = Instant::now();
-        rows::collect(
-            &mut self.rows,
-            &mut self.pairs,
-            &self.settings,
-            &self.rest,
-            start,
-        );
+        self.error = pass::error(start, predicted);
+        let Self {
+            rows,
+            pairs,
+            settings,
+            rest,
+            error,
+            ..
+        } = self;
+        rows::collect(rows, pairs, settings, rest, [start, predicted], h, *error);
         self.stages.rows += begin.elapsed().as_secs_f64();
     }
 
@@ -239,6 +241,20 @@ impl Contact {
     /// Takes a body's pairs out of the promise until it is apart from the cloth.
     pub(crate) fn let_pass(&mut self, body: usize) {
         self.yielding[body] = true;
+    }
+
+    /// Of each body, whether its pairs have left the promise.
+    pub(crate) fn yielding(&self) -> &[bool] {
+        &self.yielding
+    }
+
+    /// Sets what [`yielding`](Self::yielding) says; returns whether there are so many bodies.
+    pub(crate) fn set_yielding(&mut self, yielding: Vec<bool>) -> bool {
+        let is_right = yielding.len() == self.yielding.len();
+        if is_right {
+            self.yielding = yielding;
+        }
+        is_right
     }
 
     /// Takes bodies back into the promise that are apart from the cloth by their separation.

@@ -88,9 +88,25 @@ impl Pair {
         if bound > 0.0 { bound } else { 0.0 }
     }
 
+    /// Remembers another direction, with its gap at the start of a step.
+    pub(super) fn refresh(&mut self, direction: DVec3, start: &[DVec3], error: f64) {
+        let direction = direction.as_vec3().as_dvec3();
+        let gap = self.gap_along(direction, start) - error;
+        if gap > f64::from(self.gap) {
+            self.set(direction, gap);
+        }
+    }
+
     fn set(&mut self, direction: DVec3, gap: f64) {
         self.direction = direction.to_array().map(|component| component as f32);
         self.gap = (gap / SLACK) as f32;
+    }
+
+    /// Whether the remembered direction keeps the pair at a distance there. Plain floating point.
+    #[inline(always)]
+    pub(super) fn is_kept_at(&self, distance: f64, positions: &[DVec3]) -> bool {
+        let direction = DVec3::from_array(self.direction.map(f64::from));
+        self.gap_along(direction, positions) > distance
     }
 
     /// Whether the direction that the pair remembers keeps it apart at the end of the step too, given that `gap` is right at
@@ -177,3 +193,51 @@ impl Pair {
 
 /// δ of the time of impact, in metres.
 const TOLERANCE: f64 = 1e-9;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point() -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+
+        /// On sampled times; the proof itself is checked with exact arithmetic where it is made.
+        #[test]
+        fn what_is_said_to_stay_apart_does(
+            start in prop::array::uniform4(point()),
+            moves in prop::array::uniform4(point()),
+            separation in 0.0..0.3_f64,
+            is_edge in any::<bool>(),
+        ) {
+            let end = [0, 1, 2, 3].map(|k| start[k] + moves[k] * 0.3);
+            let kind = if is_edge { PairKind::EdgeEdge } else { PairKind::VertexFace };
+            let mut pair = Pair::new(0, kind, [0, 1, 2, 3], FREE);
+            let error = rounding_error(2.0);
+            let until = pair.impact([&start, &end], separation, error);
+            let gap = f64::from(pair.gap);
+            for step in 0..=40 {
+                let t = f64::from(step) / 40.0;
+                let at = [0, 1, 2, 3].map(|k| start[k].lerp(end[k], t));
+                let distance = Closest::of(kind, at).distance();
+                if until.is_none_or(|until| t < until) {
+                    prop_assert!(distance > separation * (1.0 - 1e-9), "{distance} at {t}");
+                }
+            }
+            prop_assert!(Closest::of(kind, end).distance() >= gap);
+            prop_assert!(pair.distance_from_below(&start, error) <= Closest::of(kind, start).distance());
+            // And once more from where it is: the gap is right there, as `stays_apart` takes it to be.
+            let on = [0, 1, 2, 3].map(|k| end[k] + moves[k] * 0.1);
+            if pair.stays_apart(&on, separation, error) {
+                for t in [0.0, 0.25, 0.5, 0.75, 1.0] {
+                    let at = [0, 1, 2, 3].map(|k| end[k].lerp(on[k], t));
+                    prop_assert!(Closest::of(kind, at).distance() > separation * (1.0 - 1e-9));
+                }
+            }
+        }
+    }
+}

@@ -13,16 +13,15 @@
 //! **It ends.** Each pair that is not free merges zones, gives a zone a frame, raises a zone's level, or cuts the step; there are
 //! finitely many of each. [`ROUNDS`] is for certainty.
 //!
-//! **Candidates.** Vertices have room around their paths' boxes. Whatever a repair moves beyond that room has its box enlarged, and
-//! candidates are found anew.
+//! **Candidates** are found for several steps at once ([`horizon`](super::horizon)), with a reach R beyond the thickness h. While no
+//! vertex strays from the motion they were found for by more than (R − h)/2 along any axis, they hold every pair within h; while
+//! repairs take none farther than (R − m)/2, every pair that may come within m. Else they are found anew.
 
-use super::detect::Counts;
 use super::pair::{Pair, rounding_error};
 use super::zones::{Cut, Motions};
 use super::{Blocker, Contact};
 use crate::PairKind;
 use crate::simulation::plan::{FREE, Frame, StepInput};
-use selvedge_core::boxes::Aabb;
 use selvedge_core::glam::DVec3;
 use std::time::Instant;
 
@@ -34,17 +33,13 @@ pub(crate) const LARGEST_TURN: f64 = 6.3e-3;
 const ROUNDS: usize = 300;
 /// Rounds of projection before zones.
 const REPAIRS: usize = 3;
-/// What a projection aims at, in separations.
+/// What a projection aims at, in separations that are kept.
 const AIM: f64 = 1.05;
 
 /// What one step's contacts were.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ContactCounts {
-    /// Candidate triangle pairs.
-    pub triangle_pairs: u64,
-    /// Primitive pairs distributed from them.
-    pub primitive_pairs: u64,
-    /// Primitive pairs whose own boxes overlap.
+    /// Pairs that moving boxes leave, as far as an effect asks for them.
     pub candidates: u64,
     /// Those that the direction remembered from the step before did not settle.
     pub looked_at: u64,
@@ -61,17 +56,18 @@ pub struct ContactCounts {
 }
 
 impl ContactCounts {
-    /// Adds another step's.
-    pub fn add(&mut self, other: &Self) {
-        self.triangle_pairs += other.triangle_pairs;
-        self.primitive_pairs += other.primitive_pairs;
-        self.candidates += other.candidates;
-        self.looked_at += other.looked_at;
-        self.pushed += other.pushed;
-        self.violated += other.violated;
-        self.zone_rounds += other.zone_rounds;
-        self.held += other.held;
-        self.cuts += other.cuts;
+    /// What was counted since `earlier`.
+    #[must_use]
+    pub fn since(&self, earlier: &Self) -> Self {
+        Self {
+            candidates: self.candidates - earlier.candidates,
+            looked_at: self.looked_at - earlier.looked_at,
+            pushed: self.pushed - earlier.pushed,
+            violated: self.violated - earlier.violated,
+            zone_rounds: self.zone_rounds - earlier.zone_rounds,
+            held: self.held - earlier.held,
+            cuts: self.cuts - earlier.cuts,
+        }
     }
 }
 
@@ -86,75 +82,70 @@ impl Contact {
         end: &mut [DVec3],
     ) -> Result<(), Blocker> {
         let start = step.start;
-        self.error = rounding_error(largest(start).max(largest(end)));
-        let begin = Instant::now();
-        let paths = start.iter().zip(end.iter());
-        self.paths.clear();
-        self.paths
-            .extend(paths.map(|(&a, &b)| bounds(a.min(b), a.max(b))));
-        self.find_candidates();
-        self.stages.candidates += begin.elapsed().as_secs_f64();
+        self.error = error(start, end);
+        if !self.horizon.covers(end, step.h, self.slack) {
+            let begin = Instant::now();
+            self.find_candidates(start, end, step.h);
+            self.stages.candidates += begin.elapsed().as_secs_f64();
+        }
+        self.counts.candidates += self.pairs.len() as u64;
 
         let begin = Instant::now();
         let mut open = self.check_all(start, end);
         self.counts.violated += open.len() as u64;
         self.stages.certificates += begin.elapsed().as_secs_f64();
-        if open.is_empty() {
-            std::mem::swap(&mut self.pairs, &mut self.next);
-            return Ok(());
-        }
-        let begin = Instant::now();
-        for _ in 0..REPAIRS {
-            self.project(&open, step, end);
-            open = self.check_moved(&open, start, end);
-            if open.is_empty() {
-                break;
+        let mut result = Ok(());
+        if !open.is_empty() {
+            let begin = Instant::now();
+            for _ in 0..REPAIRS {
+                self.project(&open, step, end);
+                open = self.check_moved(&open, step, end);
+                if open.is_empty() {
+                    break;
+                }
             }
+            result = self.move_in_zones(open, step, end);
+            self.stages.repairs += begin.elapsed().as_secs_f64();
         }
-        let result = self.move_in_zones(open, step, end);
-        self.stages.repairs += begin.elapsed().as_secs_f64();
-        result?;
-        std::mem::swap(&mut self.pairs, &mut self.next);
-        Ok(())
+        match result {
+            Ok(()) => self.horizon.advance(step.h),
+            // They are of an end that is not reached.
+            Err(_) => self.forget_gaps(),
+        }
+        result
     }
 
-    /// Candidates for vertices that stay within their paths' boxes and the room around them.
-    pub(super) fn find_candidates(&mut self) {
-        let room = DVec3::splat(self.reach);
-        self.boxes.clear();
-        let widened = self.paths.iter().map(|path| {
-            let [lower, upper] = corners(path);
-            bounds(lower - room, upper + room)
-        });
-        self.boxes.extend(widened);
-        let Counts {
-            triangle_pairs,
-            primitive_pairs,
-            candidates,
-        } = self.detector.candidates(&self.boxes, &mut self.next);
-        self.counts.triangle_pairs += triangle_pairs;
-        self.counts.primitive_pairs += primitive_pairs;
-        self.counts.candidates += candidates;
+    /// Candidates for a motion, with what is known of them.
+    pub(super) fn find_candidates(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
+        let [start, far] = self.horizon.begin(start, end, h);
+        self.detector.candidates(start, far, &mut self.found);
         // Both lists ascend by key.
         let mut known = self.pairs.iter().peekable();
-        for pair in &mut self.next {
+        for pair in &mut self.found {
             while known.next_if(|other| other.key < pair.key).is_some() {}
             if let Some(same) = known.next_if(|other| other.key == pair.key) {
                 pair.remember(same);
             }
         }
+        std::mem::swap(&mut self.pairs, &mut self.found);
+    }
+
+    fn forget_gaps(&mut self) {
+        self.pairs
+            .iter_mut()
+            .for_each(|pair| pair.gap = f32::NEG_INFINITY);
     }
 
     /// The candidates that are not free, looked at for the first time in this step.
     fn check_all(&mut self, start: &[DVec3], end: &[DVec3]) -> Vec<usize> {
         let mut open = Vec::new();
         let mut looked_at = 0;
-        for index in 0..self.next.len() {
-            let Some(separation) = self.separation(&self.next[index]) else {
-                self.next[index].gap = f32::NEG_INFINITY;
+        for index in 0..self.pairs.len() {
+            let Some(separation) = self.separation(&self.pairs[index]) else {
+                self.pairs[index].gap = f32::NEG_INFINITY;
                 continue;
             };
-            let pair = &mut self.next[index];
+            let pair = &mut self.pairs[index];
             if pair.stays_apart(end, separation, self.error) {
                 continue;
             }
@@ -169,27 +160,29 @@ impl Contact {
 
     /// The candidates that are not free after some vertices have moved (`self.moved`): of those in `open`, and those of the
     /// vertices. Clears the marks.
-    fn check_moved(&mut self, open: &[usize], start: &[DVec3], end: &[DVec3]) -> Vec<usize> {
-        if self.grow_boxes(end) {
-            self.find_candidates();
+    fn check_moved(&mut self, open: &[usize], step: &StepInput<'_>, end: &[DVec3]) -> Vec<usize> {
+        let start = step.start;
+        if !self.horizon.covers(end, step.h, self.room) {
+            self.forget_gaps();
+            self.find_candidates(start, end, step.h);
             self.moved.fill(false);
             return self.check_all(start, end);
         }
         let mut still_open = Vec::new();
         let mut was_open = open.iter().copied().peekable();
-        for index in 0..self.next.len() {
+        for index in 0..self.pairs.len() {
             let was_open = was_open.next_if_eq(&index).is_some();
-            let touched = self.next[index]
+            let touched = self.pairs[index]
                 .vertices
                 .iter()
                 .any(|&v| self.moved[v as usize]);
             if !(was_open || touched) {
                 continue;
             }
-            let Some(separation) = self.separation(&self.next[index]) else {
+            let Some(separation) = self.separation(&self.pairs[index]) else {
                 continue;
             };
-            if !is_free(&mut self.next[index], [start, end], separation, self.error) {
+            if !is_free(&mut self.pairs[index], [start, end], separation, self.error) {
                 still_open.push(index);
             }
         }
@@ -197,33 +190,15 @@ impl Contact {
         still_open
     }
 
-    /// Makes room for vertices that have moved out of it; whether there were any.
-    fn grow_boxes(&mut self, end: &[DVec3]) -> bool {
-        let mut grown = false;
-        for (vertex, path) in self.paths.iter_mut().enumerate() {
-            if !self.moved[vertex] {
-                continue;
-            }
-            let [lower, upper] = corners(path);
-            let room = DVec3::splat(self.room);
-            let position = end[vertex];
-            if !(position.cmpge(lower - room).all() && position.cmple(upper + room).all()) {
-                *path = bounds(lower.min(position), upper.max(position));
-                grown = true;
-            }
-        }
-        grown
-    }
-
-    /// Projects each open pair, in order, to a little more than its separation.
+    /// Projects each open pair, in order, to a little more than the separation that it keeps.
     fn project(&mut self, open: &[usize], step: &StepInput<'_>, end: &mut [DVec3]) {
         for &index in open {
-            let pair = &self.next[index];
+            let pair = &self.pairs[index];
             let Some(separation) = self.separation(pair) else {
                 continue;
             };
             let closest = pair.closest(step.start);
-            let mut missing = AIM * separation;
+            let mut missing = AIM * kept(pair, step.start, separation, self.error);
             let mut mobility = 0.0;
             for (vertex, weight) in pair.vertices.into_iter().zip(closest.weights) {
                 let vertex = vertex as usize;
@@ -264,7 +239,7 @@ impl Contact {
         self.zones.reset(end.len());
         for _ in 0..ROUNDS {
             self.counts.zone_rounds += 1;
-            let pairs: Vec<&Pair> = open.iter().map(|&index| &self.next[index]).collect();
+            let pairs: Vec<&Pair> = open.iter().map(|&index| &self.pairs[index]).collect();
             let (error, start) = (self.error, step.start);
             let settings = &self.settings;
             let separation = |pair: &Pair| {
@@ -291,7 +266,7 @@ impl Contact {
             for vertex in 0..end.len() {
                 self.moved[vertex] = end[vertex] != before[vertex];
             }
-            open = self.check_moved(&open, start, end);
+            open = self.check_moved(&open, step, end);
             if open.is_empty() {
                 self.counts.held += self.zones.held() as u64;
                 return Ok(());
@@ -318,9 +293,9 @@ impl Contact {
                 .iter()
                 .any(|&v| self.carriers[v as usize] != FREE)
         };
-        let first = open.iter().find(|&&index| prescribed(&self.next[index]));
+        let first = open.iter().find(|&&index| prescribed(&self.pairs[index]));
         let index = first.or(open.first()).copied().unwrap_or_default();
-        let pair = &self.next[index];
+        let pair = &self.pairs[index];
         Blocker {
             time: step.time,
             kind: pair.kind,
@@ -352,21 +327,15 @@ fn kept(pair: &Pair, start: &[DVec3], separation: f64, error: f64) -> f64 {
     separation.min(KEPT * pair.distance_from_below(start, error))
 }
 
+/// Of gaps between these positions.
+pub(super) fn error(start: &[DVec3], end: &[DVec3]) -> f64 {
+    rounding_error(largest(start).max(largest(end)))
+}
+
 fn largest(positions: &[DVec3]) -> f64 {
     positions
         .iter()
         .fold(0.0, |largest: f64, p| largest.max(p.abs().max_element()))
-}
-
-fn bounds(lower: DVec3, upper: DVec3) -> Aabb<f64> {
-    Aabb {
-        lower: lower.to_array(),
-        upper: upper.to_array(),
-    }
-}
-
-fn corners(bounds: &Aabb<f64>) -> [DVec3; 2] {
-    [bounds.lower, bounds.upper].map(DVec3::from_array)
 }
 
 /// `vertex-face pair of vertices 1, 2, 3, 4`.

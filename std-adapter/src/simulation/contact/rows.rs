@@ -1,7 +1,8 @@
 //! Contacts as constraints: pairs that are nearer to each other than their thickness are pushed apart.
 //!
-//! A row is C = n·Σwᵢxᵢ − h ≥ 0 with the direction n and the weights w of the closest points at the start of the step. The push
-//! of one step is capped: deep contacts come apart over several steps, without a jump in velocity. On a fine mesh neighbours at
+//! A row is C = n·Σwᵢxᵢ − h ≥ 0 with the direction n and the weights w of the closest points at the start of the step. A pair that
+//! starts nearer than that comes apart at [`RECOVERY`] at most, whatever the length of the step: a push must not become a
+//! velocity. On a fine mesh neighbours at
 //! rest may be nearer than the thickness; such a pair's is half its distance at rest, or the mesh would lock.
 
 use super::pair::Pair;
@@ -9,10 +10,10 @@ use super::{ContactSettings, Thickness};
 use crate::simulation::plan::{StepInput, Touch, Touches};
 use selvedge_core::glam::DVec3;
 
-/// Pairs this much farther apart than their thickness get a row too: they may come into contact in this step.
+/// Pairs that start this much farther apart than their thickness get a row too if they come near.
 const MARGIN: f64 = 2.0 / 3.0;
-/// The largest push in a step, in thicknesses.
-const CAP: f64 = 1.0 / 3.0;
+/// How fast what is too near comes apart, in m/s.
+pub(in crate::simulation) const RECOVERY: f64 = 1.0;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
@@ -20,17 +21,19 @@ pub(super) struct Row {
     weights: [f64; 4],
     normal: DVec3,
     thickness: f64,
-    cap: f64,
     with_body: bool,
 }
 
-/// Replaces `rows` by those of the pairs that are near at the start of the step.
+/// Replaces `rows` by those of the pairs that are near at the start of the step, and that the direction which kept them apart
+/// there does not keep at their thickness at its predicted end.
 pub(super) fn collect(
     rows: &mut Vec<Row>,
     pairs: &mut [Pair],
     settings: &ContactSettings,
     rest: &[DVec3],
-    start: &[DVec3],
+    [start, predicted]: [&[DVec3]; 2],
+    h: f64,
+    error: f64,
 ) {
     rows.clear();
     for pair in pairs {
@@ -38,10 +41,11 @@ pub(super) fn collect(
             continue;
         };
         let reach = thickness * (1.0 + MARGIN);
-        if f64::from(pair.gap) > reach {
+        if f64::from(pair.gap) > reach || pair.is_kept_at(thickness, predicted) {
             continue;
         }
         let closest = pair.closest(start);
+        pair.refresh(closest.direction, start, error);
         let distance = closest.distance();
         if distance > reach || closest.direction == DVec3::ZERO {
             continue;
@@ -57,8 +61,7 @@ pub(super) fn collect(
             vertices: pair.vertices,
             weights: closest.weights,
             normal: closest.direction,
-            thickness: pair.thickness.into(),
-            cap: CAP * thickness,
+            thickness: f64::from(pair.thickness).min(distance + RECOVERY * h),
             with_body: pair.is_with_body(),
         });
     }
@@ -85,7 +88,7 @@ pub(super) fn project(
             continue;
         }
         pushed += 1;
-        let push = (-distance).min(row.cap);
+        let push = -distance;
         let along = row.normal * (push / mobility);
         for (vertex, weight) in vertices.into_iter().zip(row.weights) {
             positions[vertex] += along * (step.inverse_masses[vertex] * weight);

@@ -4,8 +4,9 @@
 //! cloth are kept off by the pairs with the body's mesh, as for any other body.
 
 use super::{Effect, Registration};
-use crate::simulation::contact::Thickness;
+use crate::simulation::contact::{RECOVERY, Thickness};
 use crate::simulation::plan::{Constraint, Plan, StepInput, Touch, Touches};
+use crate::simulation::scene::Pose;
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
@@ -64,35 +65,50 @@ struct Push {
     thickness: f64,
 }
 
+/// The way out of a capsule's axis to a point, at one pose.
+fn outward(capsule: &Capsule, pose: &Pose, point: DVec3) -> DVec3 {
+    let [from, to] = capsule.ends.map(|end| pose.apply(end));
+    point - nearest(from, to - from, point)
+}
+
+/// The point of a line, from `from` along `axis`, that is nearest.
+#[inline(always)]
+fn nearest(from: DVec3, axis: DVec3, point: DVec3) -> DVec3 {
+    let squared = axis.length_squared();
+    if squared > 0.0 {
+        from + axis * ((point - from).dot(axis) / squared).clamp(0.0, 1.0)
+    } else {
+        from
+    }
+}
+
 impl Constraint for Push {
     fn project(&mut self, step: &StepInput<'_>, positions: &mut [DVec3], touches: &mut Touches) {
         for capsule in &self.capsules {
             let [before, now] = step.poses[capsule.frame];
             let [from, to] = capsule.ends.map(|end| now.apply(end));
             let axis = to - from;
-            let squared = axis.length_squared();
             let reach = capsule.radius + self.thickness;
             let cloth = positions[..self.cloth_vertices].iter_mut().enumerate();
             for (vertex, position) in cloth {
-                let along = if squared > 0.0 {
-                    ((*position - from).dot(axis) / squared).clamp(0.0, 1.0)
-                } else {
-                    0.0
-                };
-                let outward = *position - (from + axis * along);
-                let distance = outward.length();
-                if distance < reach && distance > 0.0 && step.inverse_masses[vertex] > 0.0 {
-                    let normal = outward / distance;
-                    *position += normal * (reach - distance);
-                    touches.record(|| {
-                        let start = step.start[vertex];
-                        Touch {
-                            vertices: [vertex as u32; 4],
-                            weights: [1.0, 0.0, 0.0, 0.0],
-                            normal,
-                            push: reach - distance,
-                            drift: before.carry(&now, start) - start,
-                        }
+                let way = *position - nearest(from, axis, *position);
+                let distance = way.length();
+                if !(distance < reach && distance > 0.0 && step.inverse_masses[vertex] > 0.0) {
+                    continue;
+                }
+                // What starts too deep comes out slowly.
+                let start = step.start[vertex];
+                let depth = outward(capsule, &before, start).length();
+                let push = reach.min(depth + RECOVERY * step.h) - distance;
+                if push > 0.0 {
+                    let normal = way / distance;
+                    *position += normal * push;
+                    touches.record(|| Touch {
+                        vertices: [vertex as u32; 4],
+                        weights: [1.0, 0.0, 0.0, 0.0],
+                        normal,
+                        push,
+                        drift: before.carry(&now, start) - start,
                     });
                 }
             }

@@ -85,6 +85,8 @@ pub struct Scene {
     pub frame_rate: f64,
     /// What to do when the cloth cannot go on.
     pub on_blocked: OnBlocked,
+    /// Tells checkpoints of this scene from others': from its text and all its meshes.
+    pub(crate) fingerprint: u64,
     /// The effects called for, in the order of the registry.
     pub(crate) effects: Vec<(&'static str, Box<dyn Effect>)>,
 }
@@ -164,6 +166,7 @@ impl Scene {
             on_blocked: root.choice("on_blocked", &choices)?.unwrap_or_default(),
             time_step,
             duration,
+            fingerprint: fingerprint(text, &cloth, &bodies),
             cloth,
             bodies,
             effects,
@@ -188,6 +191,25 @@ impl Scene {
     pub fn steps_per_frame(&self) -> u64 {
         (1.0 / (self.frame_rate * self.time_step)).round().max(1.0) as u64
     }
+}
+
+fn fingerprint(text: &str, cloth: &Cloth, bodies: &[Body]) -> u64 {
+    // FNV-1a: the same in every version of every compiler.
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    let mut take = |bytes: &[u8]| {
+        for &byte in bytes {
+            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    };
+    take(text.as_bytes());
+    let meshes = std::iter::once(&cloth.mesh).chain(bodies.iter().map(|body| &body.mesh));
+    for position in meshes.flat_map(|mesh| &mesh.positions) {
+        position
+            .to_array()
+            .iter()
+            .for_each(|x| take(&x.to_le_bytes()));
+    }
+    hash
 }
 
 fn read_bodies(root: &Table<'_>) -> Result<Vec<Body>, SceneError> {

@@ -16,6 +16,9 @@ pub struct RigidMotion {
     keys: Vec<Key>,
 }
 
+/// In seconds: far above the resolution of the clock.
+const CLOSEST_KEYS: f64 = 1e-6;
+
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Key {
     time: f64,
@@ -58,8 +61,11 @@ impl RigidMotion {
         for key in table.tables("keyframes")? {
             key.expect_keys(&["time", "angle", "translation"])?;
             let time = key.required_number("time", TIME, 0.0..=LARGEST_TIME)?;
-            if keys.last().is_some_and(|last| last.time >= time) {
-                let message = "keyframes must be in order: each `time` later than the one before";
+            if keys
+                .last()
+                .is_some_and(|last| time < last.time + CLOSEST_KEYS)
+            {
+                let message = "keyframes must be in order: each `time` a microsecond or more later than the one before";
                 return Err(key.error("time", message.to_owned()));
             }
             keys.push(Key {
