@@ -1,0 +1,74 @@
+//! Every state that a simulation accepts is free of intersections, exactly: cloth with itself and cloth with bodies.
+
+use selvedge::simulation::{Scene, Simulation};
+use selvedge_verification::oracle::mesh_self_intersections;
+use std::path::{Path, PathBuf};
+
+fn scene_file(name: &str) -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .expect("the workspace");
+    root.join("std-adapter/scenes").join(name)
+}
+
+fn load(name: &str, change: impl Fn(String) -> String) -> Simulation {
+    let path = scene_file(name);
+    let text = std::fs::read_to_string(&path).expect("a scene that comes with the program");
+    let scene = Scene::parse(&change(text), &path).expect("a good scene");
+    Simulation::new(scene, 1).expect("a scene that starts free")
+}
+
+/// Pairs of triangles that intersect, at least one of them cloth: bodies may overlap each other.
+fn intersections(simulation: &Simulation) -> Vec<[u32; 2]> {
+    let positions: Vec<_> = simulation
+        .positions()
+        .iter()
+        .map(|p| p.to_array())
+        .collect();
+    let found = mesh_self_intersections(&positions, simulation.triangles());
+    let cloth = simulation.cloth_triangles() as u32;
+    found.into_iter().filter(|pair| pair[0] < cloth).collect()
+}
+
+/// Looks at every state that is a multiple of `every`; the number of steps that were done.
+fn run(simulation: &mut Simulation, steps: u64, every: u64) {
+    for step in 1..=steps {
+        if let Err(blocked) = simulation.step() {
+            panic!("step {step}: {blocked}");
+        }
+        if step % every == 0 {
+            assert_eq!(intersections(simulation), [[0; 2]; 0], "after step {step}");
+        }
+    }
+}
+
+#[test]
+fn the_arm_sleeve_is_free_throughout_the_bend() {
+    let mut simulation = load("arm-sleeve.toml", |text| text);
+    run(&mut simulation, 1300, 100);
+    let counts = simulation.contact_counts().expect("a scene with contact");
+    assert!(counts.violated > 0, "the pass had something to do");
+}
+
+#[test]
+#[ignore = "minutes: every step of the bend"]
+fn every_step_of_the_arm_sleeve_is_free() {
+    let mut simulation = load("arm-sleeve.toml", |text| text);
+    run(&mut simulation, 1500, 1);
+}
+
+/// So that the tests above can fail: the same sleeve without the certified effects.
+#[test]
+fn without_self_collision_the_sleeve_passes_through_itself() {
+    let without =
+        |text: String| text.replace("[effects.self_collision]\nthickness = \"3 mm\"\n", "");
+    let mut simulation = load("arm-sleeve.toml", without);
+    let mut crossed = 0;
+    for step in 1..=1300 {
+        simulation.step().expect("bodies alone do not block");
+        if step % 100 == 0 {
+            crossed += intersections(&simulation).len();
+        }
+    }
+    assert!(crossed > 0);
+}
