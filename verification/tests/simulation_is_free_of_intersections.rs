@@ -57,6 +57,40 @@ fn every_step_of_the_arm_sleeve_is_free() {
     run(&mut simulation, 1500, 1);
 }
 
+#[test]
+fn a_sheet_that_falls_on_a_ball_is_free() {
+    let mut simulation = load("drop.toml", |text| text);
+    run(&mut simulation, 700, 100);
+}
+
+/// In a fifth of the time, so that the folds close within the test.
+fn twisted_fast(text: String) -> String {
+    text.replace("time = \"10 s\"", "time = \"2 s\"")
+}
+
+#[test]
+fn a_tube_twisted_three_turns_is_free() {
+    let mut simulation = load("twist.toml", twisted_fast);
+    run(&mut simulation, 2000, 250);
+}
+
+#[test]
+fn a_hem_pulled_through_folds_at_high_speed_is_free() {
+    let mut simulation = load("violent.toml", |text| text);
+    run(&mut simulation, 600, 60);
+    let counts = simulation.contact_counts().expect("a scene with contact");
+    assert!(counts.violated > 1000, "the pass had something to do");
+}
+
+#[test]
+#[ignore = "many minutes: 10,000 steps each"]
+fn ten_thousand_steps_of_the_violent_and_the_twisted_scene_are_free() {
+    for name in ["violent.toml", "twist.toml"] {
+        let mut simulation = load(name, |text| text);
+        run(&mut simulation, 10_000, 25);
+    }
+}
+
 /// So that the tests above can fail: the same sleeve without the certified effects.
 #[test]
 fn without_self_collision_the_sleeve_passes_through_itself() {

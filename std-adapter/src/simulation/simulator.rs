@@ -362,7 +362,7 @@ impl Simulation {
         self.state.blocked_steps += u64::from(was_blocked);
         if let Some(contact) = &mut self.contact {
             contact.take_back(&self.state.positions);
-            if self.state.step % CHECKPOINT_STEPS == 0 {
+            if self.state.step.is_multiple_of(CHECKPOINT_STEPS) {
                 contact.refresh(&self.state.positions);
             }
         }
@@ -373,7 +373,9 @@ impl Simulation {
     #[must_use]
     pub fn checkpoint(&self) -> Option<Vec<u8>> {
         let yielding = self.contact.as_ref().map_or(&[][..], Contact::yielding);
-        (self.state.step % CHECKPOINT_STEPS == 0)
+        self.state
+            .step
+            .is_multiple_of(CHECKPOINT_STEPS)
             .then(|| checkpoint::write(self.fingerprint, &self.state, yielding))
     }
 

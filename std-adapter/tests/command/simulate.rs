@@ -161,7 +161,7 @@ fn what_is_wrong_with_a_scene_is_said_with_its_place() {
     );
     assert_eq!(
         place.refusal(1, &["simulate", "wrong.toml"]),
-        "error: wrong.toml:22:10: there is no effect 'gravty'; did you mean 'gravity'?\n"
+        "error: wrong.toml:21:10: there is no effect 'gravty'; did you mean 'gravity'?\n"
     );
     place.write("sheet.toml", SCENE);
     fs::create_dir(place.path("selvedge-out")).unwrap();

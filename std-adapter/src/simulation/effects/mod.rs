@@ -25,6 +25,12 @@ pub(crate) trait Effect: Debug + Send {
     fn register(self: Box<Self>, plan: &mut Plan<'_>);
 }
 
+/// An effect and its name in scenes.
+pub(crate) type Named = (&'static str, Box<dyn Effect>);
+
+/// Reads an effect's table.
+type Read = fn(&Table<'_>, &World<'_>) -> Result<Box<dyn Effect>, SceneError>;
+
 /// An effect that scenes can call for.
 pub(crate) struct Registration {
     pub(crate) name: &'static str,
@@ -32,7 +38,7 @@ pub(crate) struct Registration {
     pub(crate) keys: &'static [&'static str],
     /// It makes no sense unless one of these is there too; if any are named.
     pub(crate) needs: &'static [&'static str],
-    pub(crate) read: fn(&Table<'_>, &World<'_>) -> Result<Box<dyn Effect>, SceneError>,
+    pub(crate) read: Read,
 }
 
 /// Every effect, in the order in which they run.
@@ -52,10 +58,7 @@ const REGISTRY: [Registration; 12] = [
 ];
 
 /// Reads the effects that `table` names, and constructs no other.
-pub(crate) fn read(
-    table: &Table<'_>,
-    world: &World<'_>,
-) -> Result<Vec<(&'static str, Box<dyn Effect>)>, SceneError> {
+pub(crate) fn read(table: &Table<'_>, world: &World<'_>) -> Result<Vec<Named>, SceneError> {
     for (name, place) in table.keys() {
         if !REGISTRY.iter().any(|effect| effect.name == name) {
             let names = REGISTRY.iter().map(|effect| effect.name);

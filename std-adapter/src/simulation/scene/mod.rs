@@ -45,7 +45,7 @@ pub(crate) use quantity::{
     RATIO, SPEED,
 };
 
-use super::effects::{self, Effect};
+use super::effects::{self, Named};
 use crate::mesh::{self, Mesh};
 use quantity::TIME;
 use std::path::Path;
@@ -88,7 +88,7 @@ pub struct Scene {
     /// Tells checkpoints of this scene from others': from its text and all its meshes.
     pub(crate) fingerprint: u64,
     /// The effects called for, in the order of the registry.
-    pub(crate) effects: Vec<(&'static str, Box<dyn Effect>)>,
+    pub(crate) effects: Vec<Named>,
 }
 
 /// What effects are checked against.
