@@ -33,7 +33,7 @@
 //! | [`coplanarity`] | the signed volume of four moving points, as a cubic in Bernstein form, and its rounding error | proven bound |
 //! | [`exact`] | the signs of that cubic's control values, how they compare with a separation, and whether a pair touches, in whole numbers | exact |
 //! | [`filter`] | culls pairs that are never coplanar, or never within a separation: a [`Filter`](filter::Filter) of some [`Tier`](filter::Tier) | certified, exact, or plain as in the paper |
-//! | [`batch`] | the tests of `boxes` and `filter` on sixteen pairs side by side, alone or from a mesh | the same verdicts, bit for bit |
+//! | [`batch`] | the tests of `boxes` and `filter`, and rounds of advancing, on sixteen pairs side by side, alone or from a mesh | the same verdicts, bit for bit; certified |
 //! | [`boxes`] | swept boxes, segment against box, relative boxes, 18-DOPs | exact or certified |
 //! | [`features`], [`distribution`] | representative features of a triangle; a candidate triangle pair to its primitive pairs | each pair once |
 //! | [`elementary`] | whether a pair touches; time of impact | exact; certified; published baselines beside them |

@@ -43,6 +43,21 @@ fn box_tests_keep_their_promises_on_the_kept_inputs() {
 }
 
 #[test]
+fn exact_signs_keeps_its_promises_on_the_kept_inputs() {
+    replay("exact_signs");
+}
+
+#[test]
+fn time_of_impact_keeps_its_promises_on_the_kept_inputs() {
+    replay("time_of_impact");
+}
+
+#[test]
+fn exact_verdict_keeps_its_promises_on_the_kept_inputs() {
+    replay("exact_verdict");
+}
+
+#[test]
 fn distribution_keeps_its_promises_on_the_kept_inputs() {
     replay("distribution");
 }

@@ -6,11 +6,13 @@
 //! | module | what it is |
 //! |---|---|
 //! | [`mesh`] | triangle meshes and their topology, OBJ and PLY files, the paper's sleeve at any size |
-//! | [`broad_phase`] | candidate triangle pairs: which swept boxes overlap |
-//! | [`pipeline`] | **start here**: two frames in, candidates and contacts out; every published method as a choice of stages |
+//! | [`step`] | **start here**: positions at the start and at the end of a step in, contacts with their times out |
+//! | [`broad_phase`] | candidate pairs: from hierarchies of moving boxes, or triangle pairs whose swept boxes overlap |
+//! | [`pipeline`] | every published method, and ours, as a choice of stages, counted and timed |
 //! | [`dispatch`] | the instruction set of the batched kernels |
 //! | [`scene`] | the built-in motion: a sleeve on a bending arm |
 //! | [`study`] | experiments: methods compared, cost against size, benchmark queries, accuracy against time (feature `accuracy`); data only |
+//! | `hard_cases` | hard cases of the literature by name, with exact answers (feature `files`) |
 //! | `queries` | primitive-pair queries of the public benchmark, read exactly (feature `files`) |
 //! | `report` | tables, CSV, JSON, plots, pictures (feature `report`) |
 //!
@@ -21,6 +23,9 @@ pub mod broad_phase;
 pub mod dispatch;
 #[cfg(feature = "files")]
 mod excerpt;
+mod frame;
+#[cfg(feature = "files")]
+pub mod hard_cases;
 pub mod mesh;
 mod pair_kind;
 mod parallel;
@@ -30,6 +35,7 @@ pub mod queries;
 #[cfg(feature = "report")]
 pub mod report;
 pub mod scene;
+pub mod step;
 pub mod study;
 
 pub use pair_kind::{PairKind, ParsePairKindError};

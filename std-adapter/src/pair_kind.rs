@@ -1,7 +1,7 @@
 //! The two kinds of primitive pair, and how a benchmark file's path tells which it holds.
 
 use crate::mesh::Topology;
-use std::{fmt, path::Path, str::FromStr};
+use std::{fmt, ops::AddAssign, path::Path, str::FromStr};
 
 /// A kind of primitive pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -80,6 +80,36 @@ impl PairKind {
         } else {
             None
         }
+    }
+}
+
+/// How many pairs of each kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PairCounts {
+    /// Vertex–face pairs.
+    pub vertex_face: u64,
+    /// Edge–edge pairs.
+    pub edge_edge: u64,
+}
+
+impl PairCounts {
+    /// No pairs.
+    pub(crate) const NONE: Self = Self {
+        vertex_face: 0,
+        edge_edge: 0,
+    };
+
+    /// Both kinds together.
+    #[must_use]
+    pub const fn total(self) -> u64 {
+        self.vertex_face + self.edge_edge
+    }
+}
+
+impl AddAssign for PairCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.vertex_face += other.vertex_face;
+        self.edge_edge += other.edge_edge;
     }
 }
 

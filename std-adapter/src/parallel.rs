@@ -5,6 +5,44 @@
 
 use rayon::prelude::*;
 
+/// The threads could not be started.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot start {threads} threads: {source}")]
+pub struct ThreadError {
+    threads: usize,
+    source: rayon::ThreadPoolBuildError,
+}
+
+/// A pool of its own, or the calling thread.
+#[derive(Debug)]
+pub(crate) struct Threads(Option<rayon::ThreadPool>);
+
+impl Threads {
+    /// So many threads; 0: one for each core. With one thread no pool is made.
+    pub(crate) fn new(threads: usize) -> Result<Self, ThreadError> {
+        if threads == 1 {
+            return Ok(Self(None));
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.map_err(|source| ThreadError { threads, source })?;
+        Ok(Self(Some(pool)))
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.0
+            .as_ref()
+            .map_or(1, rayon::ThreadPool::current_num_threads)
+    }
+
+    /// Runs `action`, whose loops are then split between the threads.
+    pub(crate) fn run<T: Send>(&self, action: impl FnOnce() -> T + Send) -> T {
+        match &self.0 {
+            Some(pool) => pool.install(action),
+            None => action(),
+        }
+    }
+}
+
 /// Whether work should be split between threads.
 pub(crate) fn has_many_threads() -> bool {
     rayon::current_thread_index().is_some() && rayon::current_num_threads() > 1
@@ -66,5 +104,38 @@ pub(crate) fn for_each_with_chunk<T: Send, U: Send>(
         for (index, (item, chunk)) in items.iter_mut().zip(others.chunks_mut(size)).enumerate() {
             action(index, item, chunk);
         }
+    }
+}
+
+/// Calls `action` with chunks of both lists, `size` long, that begin at the same index, and with that index.
+pub(crate) fn for_each_chunk_with_chunk<T: Send, U: Send>(
+    items: &mut [T],
+    others: &mut [U],
+    size: usize,
+    action: impl Fn(usize, &mut [T], &mut [U]) + Sync,
+) {
+    if items.len() > size && has_many_threads() {
+        let others = others.par_chunks_mut(size);
+        items
+            .par_chunks_mut(size)
+            .zip(others)
+            .enumerate()
+            .for_each(|(index, (items, others))| action(index * size, items, others));
+    } else {
+        action(0, items, others);
+    }
+}
+
+/// The number of the thread that calls, below [`threads`].
+pub(crate) fn own_index() -> usize {
+    rayon::current_thread_index().unwrap_or(0)
+}
+
+/// How many threads work is split between.
+pub(crate) fn threads() -> usize {
+    if has_many_threads() {
+        rayon::current_num_threads()
+    } else {
+        1
     }
 }

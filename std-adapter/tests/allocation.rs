@@ -4,6 +4,7 @@ use selvedge::glam::DVec3;
 use selvedge::mesh::sleeve;
 use selvedge::pipeline::{Pipeline, Preset};
 use selvedge::scene::ArmScene;
+use selvedge::step::{CandidateBoxes, CollisionDetector};
 
 /// Allocations in each step, on the thread that calls.
 fn allocations(pipeline: &mut Pipeline<f64>, frames: &[Vec<DVec3>]) -> Vec<u64> {
@@ -37,6 +38,40 @@ fn a_sleeve_in_waves_allocates_in_its_first_step_only() {
         assert!(counted[0] > 0, "{preset}: the counter counts");
         assert_eq!(counted[1..], vec![0; frames.len() - 2], "{preset}");
     }
+}
+
+/// The same for an engine's questions, with buffers of its own.
+#[test]
+fn a_detector_allocates_in_its_first_step_only() {
+    let mesh = sleeve(1).expect("a refinement in range");
+    let wave = |frame: usize| -> Vec<DVec3> {
+        let phase = frame as f64 * 0.1;
+        let displaced =
+            |&position: &DVec3| position * (1.0 + 0.02 * (phase + 20.0 * position.x).sin());
+        mesh.positions.iter().map(displaced).collect()
+    };
+    let frames: Vec<_> = (0..50).map(wave).collect();
+    let topology = mesh.topology().expect("a sleeve");
+    let mut detector = CollisionDetector::<f64>::new(topology, 1).expect("one thread");
+    let (mut contacts, mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new(), Vec::new());
+    let counted: Vec<u64> = frames
+        .windows(2)
+        .map(|pair| {
+            let (start, end) = (&pair[0], &pair[1]);
+            let mut step = || {
+                let boxes = CandidateBoxes::Moving;
+                detector.contacts(start, end, &mut contacts)?;
+                detector.earliest(start, end)?;
+                detector.is_free(start, end)?;
+                detector.candidates(start, end, boxes, &mut vertex_face, &mut edge_edge)?;
+                detector.contacts_of(start, end, &vertex_face, &edge_edge, &mut contacts)
+            };
+            let count = allocation_counter::measure(|| step().expect("finite positions"));
+            count.count_total
+        })
+        .collect();
+    assert!(counted[0] > 0, "the counter counts");
+    assert_eq!(counted[1..], vec![0; frames.len() - 2]);
 }
 
 /// From where folds begin to meet to the end of the bend, again and again. When the broad phase builds its groups anew, a group's

@@ -4,7 +4,9 @@
 //! |---|---|
 //! | [`oracle`] | exact answers, from the definitions alone |
 //! | [`false_culls`] | a long run of every tier over random and adversarial pairs |
+//! | [`exact_campaign`] | a billion pairs, every cull and every "never" checked by exact arithmetic |
 //! | [`generator`] | inputs, biased to what breaks floating-point geometry; for property tests and fuzz targets |
+//! | [`hard_cases`] | the hard cases of the literature, by name |
 //! | [`minifloat`] | a number format of a few bits, in which every input of a grid can be tried |
 //! | [`altered`] | core's kernels with other constants in their error bounds |
 //! | [`traced`] | core's kernels on symbols: what they compute, in which steps |
@@ -13,8 +15,10 @@
 
 pub mod altered;
 pub mod culling;
+pub mod exact_campaign;
 pub mod false_culls;
 pub mod generator;
+pub mod hard_cases;
 pub mod minifloat;
 pub mod oracle;
 pub mod proofs;

@@ -5,11 +5,16 @@ mod support;
 
 use proptest::prelude::*;
 use rug::Rational;
+use selvedge::dispatch::{available_levels, best_level};
+use selvedge_core::batch::{Level, Round, RoundQuestion, VertexRow, advance_from_rows};
 use selvedge_core::elementary::advance::confirm::certain_contact;
-use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact, time_of_impact_and_work};
+use selvedge_core::elementary::advance::{
+    ROUNDS, Work, time_of_impact, time_of_impact_and_work, time_of_impact_within,
+};
 use selvedge_core::elementary::{Impact, Limits, Reason, tight_inclusion};
 use selvedge_core::glam::DVec3;
-use selvedge_core::{Motion, Scalar, VertexFace};
+use selvedge_core::points::Shape;
+use selvedge_core::{Motion, PrimitivePair, Scalar, VertexFace};
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs,
     from_choices, pairs_of_any_kind, touching_pairs,
@@ -82,6 +87,64 @@ fn answer<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S) -> (Impact
     match pair.kind {
         Kind::VertexFace => time_of_impact_and_work(&pair.vertex_face(), &limits),
         Kind::EdgeEdge => time_of_impact_and_work(&pair.edge_edge(), &limits),
+    }
+}
+
+/// The same question as a caller with many pairs asks it: sweeps of rounds in lanes, then the pair alone from where it is. Three
+/// times the same pair, so that lanes that are not used are there too.
+fn answer_in_sweeps<S: Format>(
+    pair: &PairCase<S>,
+    tolerance: S,
+    separation: S,
+    level: Level,
+) -> Impact<S> {
+    let limits = Limits {
+        tolerance,
+        separation,
+    };
+    let (shape, motions) = match pair.kind {
+        Kind::VertexFace => (Shape::VertexFace, pair.vertex_face().motions()),
+        Kind::EdgeEdge => (Shape::EdgeEdge, pair.edge_edge().motions()),
+    };
+    let rows = motions.map(VertexRow::new);
+    let mut times = [S::ZERO; 3];
+    for sweep in 0..6 {
+        let question = RoundQuestion {
+            limits,
+            until: S::ONE,
+            with_volume: sweep > 1,
+        };
+        let mut rounds = [Round::default()];
+        advance_from_rows(
+            level,
+            shape,
+            &question,
+            &rows,
+            &[[0, 1, 2, 3]; 3],
+            &mut times,
+            &mut rounds,
+        );
+        let Round { apart, near, stuck } = rounds[0];
+        for mask in [apart, near, stuck] {
+            assert!(mask == 0 || mask == 0b111, "{rounds:?}");
+        }
+        assert_eq!(apart & near | apart & stuck | near & stuck, 0);
+        if apart != 0 {
+            return Impact::Never;
+        }
+        if near != 0 {
+            return Impact::Possible {
+                time: times[0],
+                reason: Reason::WithinTolerance,
+            };
+        }
+        if stuck != 0 {
+            break;
+        }
+    }
+    match pair.kind {
+        Kind::VertexFace => time_of_impact_within(&pair.vertex_face(), &limits, times[0], S::ONE),
+        Kind::EdgeEdge => time_of_impact_within(&pair.edge_edge(), &limits, times[0], S::ONE),
     }
 }
 
@@ -164,8 +227,29 @@ macro_rules! property {
 }
 
 fn is_not_late<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+    never_is_late(question, question.answer().0)
+}
+
+fn is_not_late_in_sweeps<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
+    let Question {
+        pair,
+        tolerance,
+        separation,
+    } = question;
+    let in_sweeps = |level| answer_in_sweeps(pair, *tolerance, *separation, level);
+    let impact = in_sweeps(best_level());
+    for (name, level) in available_levels() {
+        let same = in_sweeps(level);
+        prop_assert_eq!(format!("{:?}", impact), format!("{:?}", same), "{}", name);
+    }
+    never_is_late(question, impact)
+}
+
+fn never_is_late<S: Format>(
+    question: &Question<S>,
+    impact: Impact<S>,
+) -> Result<(), TestCaseError> {
     let exact = question.pair.question();
-    let (impact, _) = question.answer();
     let separation = question.separation.to_f64();
     let first = if separation == 0.0 {
         collides(&exact)
@@ -193,6 +277,13 @@ property!(
     30_000,
     questions,
     |question| { is_not_late(question) }
+);
+
+property!(
+    is_never_later_than_the_exact_time_in_sweeps,
+    15_000,
+    questions,
+    |question| is_not_late_in_sweeps(question)
 );
 
 /// The time is known without the oracle.
@@ -223,11 +314,16 @@ fn finds_what_touches_in_every_environment<S: Format>(
     for tolerance in [S::ZERO, size(&pair) * S::exact(1, -20)] {
         for environment in Environment::all() {
             let (impact, _) = environment.run(&pair, |pair| answer(pair, tolerance, S::ZERO));
-            let found = impact.time().map(|time| time.to_f64());
-            prop_assert!(
-                found.is_some_and(|found| found <= time),
-                "{environment:?}: {impact:?}"
-            );
+            let in_sweeps = environment.run(&pair, |pair| {
+                answer_in_sweeps(pair, tolerance, S::ZERO, best_level())
+            });
+            for impact in [impact, in_sweeps] {
+                let found = impact.time().map(|time| time.to_f64());
+                prop_assert!(
+                    found.is_some_and(|found| found <= time),
+                    "{environment:?}: {impact:?}"
+                );
+            }
         }
     }
     Ok(())
@@ -245,7 +341,15 @@ fn excludes_only_what_stays_apart<S: Format>(question: &Question<S>) -> Result<(
     let mut excluding = Environment::all();
     excluding.retain(|environment| {
         let (impact, _) = environment.run(question, Question::answer);
-        impact == Impact::Never
+        let in_sweeps = environment.run(question, |question| {
+            let Question {
+                pair,
+                tolerance,
+                separation,
+            } = question;
+            answer_in_sweeps(pair, *tolerance, *separation, best_level())
+        });
+        impact == Impact::Never || in_sweeps == Impact::Never
     });
     if excluding.is_empty() {
         return Ok(());

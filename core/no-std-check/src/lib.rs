@@ -6,7 +6,10 @@
 
 use core::cmp::Ordering;
 use core::panic::PanicInfo;
-use selvedge_core::batch::{self, BatchTest, Level, Mask, Test, Tile, VertexRow};
+use selvedge_core::batch::{
+    self, BatchTest, Level, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows,
+};
+use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, Dop18, direction, relative, segment, swept_boxes};
 use selvedge_core::distribution::distribute;
 use selvedge_core::filter::{Filter, Tier};
@@ -124,6 +127,27 @@ fn with_batches<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
     verdicts | u32::from(differ) << 9 | exactly(pair) << 10 | tiers(pair) << 13
 }
 
+/// From when on contact is not excluded, by a round in lanes, then the pair alone.
+fn advanced<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Option<S> {
+    let rows = pair.motions().map(VertexRow::new);
+    let question = RoundQuestion {
+        limits: elementary::Limits::default(),
+        until: S::ONE,
+        with_volume: true,
+    };
+    let (mut times, mut rounds) = ([S::ZERO], [Round::default()]);
+    let (level, shape) = (Level::baseline(), P::Shape::SHAPE);
+    let indices = [[0, 1, 2, 3]];
+    advance_from_rows(
+        level, shape, &question, &rows, &indices, &mut times, &mut rounds,
+    );
+    let from = times[0];
+    if rounds[0].apart != 0 {
+        return None;
+    }
+    elementary::advance::time_of_impact_within(pair, &question.limits, from, S::ONE).time()
+}
+
 /// An eleventh: that the exact verdict, in whole numbers alone too, the certified time of impact, its confirmation, or one of the
 /// two baselines for it disagrees with `touches`.
 fn times_differ<S: Scalar, P: PrimitivePair<S>>(pair: &P, touches: bool) -> u32 {
@@ -132,6 +156,7 @@ fn times_differ<S: Scalar, P: PrimitivePair<S>>(pair: &P, touches: bool) -> u32 
     let time = advance::time_of_impact(pair, &limits).time();
     let confirmed = time.and_then(|time| advance::confirm::certain_contact(pair, time));
     let agree = time.is_some() == touches
+        && advanced(pair).is_some() == touches
         && (contact(pair) == Contact::Happens) == touches
         && exact::touches::<P::Shape, S>(&pair.points()) == Some(touches)
         && confirmed.is_some() == touches
@@ -198,6 +223,20 @@ pub extern "C" fn verdicts_f64(points: &Points<f64>) -> u32 {
 pub extern "C" fn verdicts_f32(points: &Points<f32>) -> u32 {
     let [vertex_face, edge_edge] = all_tests(points);
     vertex_face | edge_edge << 16
+}
+
+/// The lanes of a block with the first point in lane 3 and the box of the other three in lane 5 that are near the first point.
+#[unsafe(no_mangle)]
+pub extern "C" fn near(points: &Points<f32>) -> u32 {
+    let [a, b, c, d] =
+        points.map(|[start, end]| MovingBox::<f32>::of(&Motion::new(start.into(), end.into())));
+    let mut block = MovingBlock::empty();
+    block.set(3, &a);
+    block.set(5, &b.merged(&c).merged(&d));
+    if block.merged() != a.merged(&block.get(5)) {
+        return u32::MAX;
+    }
+    block.near(&a).into()
 }
 
 /// A triangle that represents as many of its vertices and edges as the two digits of `features` say; the number of primitive

@@ -1,5 +1,6 @@
 //! `f32` and `f64` vectors as [`Lanes`], and how rows and tiles become lanes.
 
+use super::advance::{LaneRound, Round, RoundQuestion, round};
 use super::{Kernel, LANES, Level, Mask, Tile, VertexRow};
 use crate::coplanarity::MovingTetrahedron;
 use crate::filter::certified::{Decision, decide};
@@ -7,7 +8,8 @@ use crate::lanes::Lanes;
 use crate::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
 use crate::vector::Vector;
 use fearless_simd::{
-    ExtractToken, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f32x8, f32x16, f64x8,
+    ExtractToken, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f32x8,
+    f32x16, f64x8,
 };
 
 /// What [`Scalar`](crate::Scalar) needs to go sixteen at a time.
@@ -23,6 +25,27 @@ pub trait BatchScalar: Copy {
         kernel: Kernel<Self>,
         pairs: Sixteen<'_, Self>,
     ) -> Option<Decision<Mask>>;
+
+    /// One round of advancing for sixteen pairs, from their times on. `None` if an index is not in the rows.
+    #[doc(hidden)]
+    fn round(
+        level: Level,
+        shape: Shape,
+        question: &RoundQuestion<Self>,
+        rows: &[VertexRow<Self>],
+        indices: &[[u32; 4]; LANES],
+        times: &mut [Self; LANES],
+    ) -> Option<Round>;
+}
+
+/// What advancing needs beyond [`Lanes`].
+pub(super) trait Quotients: Lanes {
+    /// `self / divisor`, lane by lane.
+    fn over(self, divisor: Self) -> Self;
+    /// One or the other, lane by lane.
+    fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self;
+    /// The lanes that are false.
+    fn not(mask: Self::Mask) -> Self::Mask;
 }
 
 /// Sixteen pairs' four points.
@@ -83,6 +106,30 @@ macro_rules! lanes {
 
 lanes!(f32x16, f32);
 lanes!(f64x8, f64);
+
+macro_rules! quotients {
+    ($vector:ident) => {
+        impl<V: Simd> Quotients for $vector<V> {
+            #[inline(always)]
+            fn over(self, divisor: Self) -> Self {
+                self / divisor
+            }
+
+            #[inline(always)]
+            fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self {
+                mask.select(if_true, if_false)
+            }
+
+            #[inline(always)]
+            fn not(mask: Self::Mask) -> Self::Mask {
+                !mask
+            }
+        }
+    };
+}
+
+quotients!(f32x16);
+quotients!(f64x8);
 
 /// Start and end of one point, or of one edge, of sixteen `f32` pairs, or of eight `f64` pairs from `$first` on. `$row` is
 /// such a row of the pair whose indices are `$pair`.
@@ -266,6 +313,39 @@ macro_rules! kernel {
     };
 }
 
+/// A round of advancing for one format: `$lanes` holds as many pairs as it looks at in one go, from the pair `$first` on.
+macro_rules! round_kernel {
+    ($scalar:ident, $name:ident, $row:ident, $lanes:ident) => {
+        #[inline(always)]
+        fn $name<V: Simd, P: PairShape>(
+            simd: V,
+            question: &RoundQuestion<$scalar>,
+            rows: &[VertexRow<$scalar>],
+            indices: &[[u32; 4]; LANES],
+            times: $lanes<V>,
+            first: usize,
+        ) -> Option<LaneRound<$lanes<V>>> {
+            macro_rules! point {
+                ($point:expr) => {
+                    columns!($scalar, indices, first, |pair| $row::load_array_ref(
+                        simd,
+                        &rows.get(pair[$point] as usize)?.0
+                    ))
+                };
+            }
+            let (a, b, c, d) = (point!(0), point!(1), point!(2), point!(3));
+            let points = PairPoints {
+                start: [a[0], b[0], c[0], d[0]],
+                end: [a[1], b[1], c[1], d[1]],
+            };
+            Some(round::<P, _>(&points, times, question))
+        }
+    };
+}
+
+round_kernel!(f32, round_f32, f32x8, f32x16);
+round_kernel!(f64, round_f64, f64x8, f64x8);
+
 kernel!(f32, sixteen_f32, f32x8, f32x16);
 kernel!(f64, eight_f64, f64x8, f64x8);
 
@@ -307,6 +387,29 @@ impl BatchScalar for f32 {
             Shape::EdgeEdge => sixteen_f32::<_, EdgeAndEdge>(simd, kernel, pairs, 0),
         })
     }
+
+    fn round(
+        level: Level,
+        shape: Shape,
+        question: &RoundQuestion<f32>,
+        rows: &[VertexRow<f32>],
+        indices: &[[u32; 4]; LANES],
+        times: &mut [f32; LANES],
+    ) -> Option<Round> {
+        vectorized!(level, simd => {
+            let from = f32x16::load_array_ref(simd, times);
+            let all = match shape {
+                Shape::VertexFace => round_f32::<_, VertexAndFace>(simd, question, rows, indices, from, 0),
+                Shape::EdgeEdge => round_f32::<_, EdgeAndEdge>(simd, question, rows, indices, from, 0),
+            }?;
+            *times = all.time.to_array();
+            Some(Round {
+                apart: all.apart.to_bitmask() as Mask,
+                near: all.near.to_bitmask() as Mask,
+                stuck: all.stuck.to_bitmask() as Mask,
+            })
+        })
+    }
 }
 
 impl BatchScalar for f64 {
@@ -319,6 +422,24 @@ impl BatchScalar for f64 {
         vectorized!(level, simd => match shape {
             Shape::VertexFace => sixteen_f64::<_, VertexAndFace>(simd, kernel, pairs),
             Shape::EdgeEdge => sixteen_f64::<_, EdgeAndEdge>(simd, kernel, pairs),
+        })
+    }
+
+    fn round(
+        level: Level,
+        shape: Shape,
+        question: &RoundQuestion<f64>,
+        rows: &[VertexRow<f64>],
+        indices: &[[u32; 4]; LANES],
+        times: &mut [f64; LANES],
+    ) -> Option<Round> {
+        vectorized!(level, simd => match shape {
+            Shape::VertexFace => {
+                sixteen_rounds_f64::<_, VertexAndFace>(simd, question, rows, indices, times)
+            }
+            Shape::EdgeEdge => {
+                sixteen_rounds_f64::<_, EdgeAndEdge>(simd, question, rows, indices, times)
+            }
         })
     }
 }
@@ -335,6 +456,35 @@ fn sixteen_f64<V: Simd, P: PairShape>(
     Some(Decision {
         culled: low.culled | high.culled << 8,
         settled: low.settled | high.settled << 8,
+    })
+}
+
+/// Eight pairs at a time.
+#[inline(always)]
+fn sixteen_rounds_f64<V: Simd, P: PairShape>(
+    simd: V,
+    question: &RoundQuestion<f64>,
+    rows: &[VertexRow<f64>],
+    indices: &[[u32; 4]; LANES],
+    times: &mut [f64; LANES],
+) -> Option<Round> {
+    let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = *times;
+    let from = f64x8::load_array(simd, [a, b, c, d, e, f, g, h]);
+    let low = round_f64::<V, P>(simd, question, rows, indices, from, 0)?;
+    let from = f64x8::load_array(simd, [i, j, k, l, m, n, o, p]);
+    let high = round_f64::<V, P>(simd, question, rows, indices, from, 8)?;
+    let [a, b, c, d, e, f, g, h] = low.time.to_array();
+    let [i, j, k, l, m, n, o, p] = high.time.to_array();
+    *times = [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p];
+    macro_rules! both {
+        ($mask:ident) => {
+            low.$mask.to_bitmask() as Mask | (high.$mask.to_bitmask() as Mask) << 8
+        };
+    }
+    Some(Round {
+        apart: both!(apart),
+        near: both!(near),
+        stuck: both!(stuck),
     })
 }
 

@@ -6,6 +6,7 @@
 //! | [`segment`] | the vertex's path against the face's swept box (the paper's VF test) | certified bound |
 //! | [`Dop18`] | swept boxes along 9 directions (Hutter, Fuhrmann 2007) | exact: rounding is monotone |
 //! | [`relative`] | 3 or 9 directions, both ends of the step apart: the two sets in the same order | exact |
+//! | [`moving`] | the boxes of any two sets at both ends of the step: relative boxes for a hierarchy | exact |
 //! | [`direction`] | the same along any direction, by default the pair's own normal | certified bound |
 //!
 //! # Why sums may round
@@ -71,6 +72,7 @@ macro_rules! values {
 mod aabb;
 pub mod direction;
 mod dop;
+pub mod moving;
 pub mod relative;
 pub mod segment;
 

@@ -72,15 +72,38 @@ pub fn contact_and_evidence<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> (Contac
         tolerance: S::ZERO,
         separation: S::ZERO,
     };
-    match time_of_impact(pair, &limits) {
+    settled(pair, &time_of_impact(pair, &limits))
+}
+
+/// The same for a pair whose time of impact is known already, for separation zero and any tolerance: the answer to it makes a
+/// verdict of `impact`, which must be this pair's.
+///
+/// ```
+/// use selvedge_core::elementary::{Contact, Limits, advance::time_of_impact, contact::settled};
+/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+/// // It comes to rest a hundred-millionth above the face, which is less than the tolerance.
+/// let pair = VertexFace {
+///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, 1e-8)),
+///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// };
+/// let impact = time_of_impact(&pair, &Limits { tolerance: 1e-6, separation: 0.0 });
+/// assert!(impact.time().is_some());
+/// assert_eq!(settled(&pair, &impact).0, Contact::Never);
+/// ```
+#[inline]
+pub fn settled<S: Scalar, P: PrimitivePair<S>>(
+    pair: &P,
+    impact: &Impact<S>,
+) -> (Contact, Evidence) {
+    match *impact {
         Impact::Never => (Contact::Never, Evidence::Separation),
-        Impact::Possible { time, .. } => settled(pair, time),
+        Impact::Possible { time, .. } => settled_from(pair, time),
     }
 }
 
 /// Where contact from `time` on is not excluded.
 #[inline(never)]
-fn settled<S: Scalar, P: PrimitivePair<S>>(pair: &P, time: S) -> (Contact, Evidence) {
+fn settled_from<S: Scalar, P: PrimitivePair<S>>(pair: &P, time: S) -> (Contact, Evidence) {
     if certain_contact(pair, time).is_some() {
         return (Contact::Happens, Evidence::Crossing);
     }

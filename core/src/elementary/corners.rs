@@ -102,25 +102,25 @@ impl<S: Scalar, const N: usize> Corners<S, N> {
 
 /// 2²⁹ or 2²⁵⁰: products of four numbers of eight times this size do not overflow.
 #[inline(always)]
-pub(super) fn largest_extent<S: Scalar>() -> S {
+pub(crate) fn largest_extent<S: Scalar>() -> S {
     of_format(29, 250)
 }
 
 /// Two to one power in `f32`, to another in `f64`.
 #[inline(always)]
-pub(super) fn of_format<S: Scalar>(single: i64, double: i64) -> S {
+pub(crate) fn of_format<S: Scalar>(single: i64, double: i64) -> S {
     let is_single = S::UNIT_ROUNDOFF > S::from_f64(f64::EPSILON);
     S::from_f64(power_of_two_f64(if is_single { single } else { double }))
 }
 
 /// So many unit roundoffs below one: a factor that makes up for the rounding of a few operations.
 #[inline(always)]
-pub(super) fn less_roundoffs<S: Scalar>(count: u8) -> S {
+pub(crate) fn less_roundoffs<S: Scalar>(count: u8) -> S {
     S::ONE - S::small(count) * S::UNIT_ROUNDOFF
 }
 
 /// So many unit roundoffs above one.
 #[inline(always)]
-pub(super) fn more_roundoffs<S: Scalar>(count: u8) -> S {
+pub(crate) fn more_roundoffs<S: Scalar>(count: u8) -> S {
     S::ONE + S::small(count) * S::UNIT_ROUNDOFF
 }

@@ -12,7 +12,7 @@ pub mod additive;
 pub mod advance;
 mod closest;
 pub mod contact;
-mod corners;
+pub(crate) mod corners;
 pub mod cubic;
 mod impact;
 pub mod tight_inclusion;

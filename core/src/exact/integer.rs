@@ -21,6 +21,8 @@ pub(super) struct Leading {
 }
 
 impl<const N: usize> Integer<N> {
+    pub(super) const ZERO: Self = Self([0; N]);
+
     /// `significand` · 2^`shift`.
     #[inline(always)]
     pub(super) fn shifted(significand: i64, shift: u32) -> Self {

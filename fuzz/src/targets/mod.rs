@@ -3,24 +3,33 @@
 mod box_tests;
 mod certified_filter;
 mod distribution;
+mod exact_signs;
+mod exact_verdict;
 mod meshes;
 mod message;
 mod pair;
 mod query_csv;
+mod time_of_impact;
 
 pub use box_tests::box_tests;
 pub use certified_filter::certified_filter;
 pub use distribution::distribution;
+pub use exact_signs::exact_signs;
+pub use exact_verdict::exact_verdict;
 pub use meshes::{obj, ply};
 pub use query_csv::query_csv;
+pub use time_of_impact::time_of_impact;
 
 /// A target by name.
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every target there is.
-pub const ALL: [Target; 6] = [
+pub const ALL: [Target; 9] = [
     ("certified_filter", certified_filter),
     ("box_tests", box_tests),
+    ("exact_signs", exact_signs),
+    ("exact_verdict", exact_verdict),
+    ("time_of_impact", time_of_impact),
     ("distribution", distribution),
     ("obj", obj),
     ("ply", ply),

@@ -27,6 +27,12 @@ ADDITIVE = {"max_iterations": 10_000_000, "conservative_rescaling": 0.9}
 MINIMUM_DISTANCE = 0.0
 
 BROAD_PHASE = "ipctk broad phase (LBVH)"
+# What `selvedge cull` is asked besides all contacts, by the pipeline selvedge: a row of the table, and its options.
+SHORT_QUESTIONS = {
+    "selvedge candidates (moving boxes)": ["--candidates-only"],
+    "selvedge candidates (swept boxes)": ["--candidates-only", "--swept-boxes"],
+    "selvedge earliest": ["--earliest"],
+}
 TIGHT_INCLUSION_STEP = "ipctk LBVH + Tight-Inclusion"
 ADDITIVE_STEP = "ipctk LBVH + additive CCD"
 
@@ -112,21 +118,48 @@ def run_selvedge(
         arguments.END,
         pipeline,
         arguments.threads,
-        # The first run makes the buffers, as ipctk's unmeasured round does.
+        # The first run builds hierarchies and makes the buffers, as ipctk's unmeasured round does.
         "--repeat",
-        "2",
+        "3",
     )
     try:
         row.samples.append(Sample(run.report["seconds"], run.cores))
+        first = run.report["first_run_seconds"]
         for stage in run.report["stages"]:
             stages.setdefault(stage["stage"], []).append(stage["seconds"])
         contacts = run.report["contacts"]
-        first = contacts["earliest"]
+        earliest = contacts["earliest"]
         row.result = f"{contacts['vertex_face']:,} VF, {contacts['edge_edge']:,} EE contacts" + (
-            "" if first is None else f" from {first:.4g}"
-        )
+            "" if earliest is None else f" from {earliest:.4g}"
+        ) + f"; first run, hierarchies built: {first:.3f} s"
     except (KeyError, TypeError) as error:
         common.fail(f"selvedge's report for {pipeline} lacks or mistypes a field: {error}")
+
+
+def ask_selvedge(arguments: argparse.Namespace, row: Measurement, options: list[str]) -> None:
+    """One of the short questions."""
+    run = common.cull(
+        arguments.selvedge,
+        arguments.START,
+        arguments.END,
+        "selvedge",
+        arguments.threads,
+        "--repeat",
+        "3",
+        *options,
+    )
+    try:
+        row.samples.append(Sample(run.report["seconds"], run.cores))
+        pairs = run.report["stages"][0]
+        contacts = run.report["contacts"]
+        if contacts is None:
+            row.result = f"{pairs['vertex_face']:,} VF, {pairs['edge_edge']:,} EE pairs"
+        elif contacts["earliest"] is None:
+            row.result = "free"
+        else:
+            row.result = f"at {contacts['earliest']:.4g}"
+    except (KeyError, TypeError) as error:
+        common.fail(f"selvedge's report lacks or mistypes a field: {error}")
 
 
 def spread(values: list[float]) -> dict[str, float]:
@@ -136,6 +169,13 @@ def spread(values: list[float]) -> dict[str, float]:
 def compare(rows: dict[str, Measurement], stages: dict[str, dict[str, list[float]]]) -> list[dict]:
     """ipctk's time over selvedge's, round by round, for each pipeline and each figure of ipctk."""
     ratios = []
+    for name in SHORT_QUESTIONS:
+        if name not in rows:
+            continue
+        peers = [BROAD_PHASE]
+        if "earliest" in name:
+            peers = [TIGHT_INCLUSION_STEP, ADDITIVE_STEP]
+        ratios += [(peer, name, "whole question", rows[name].seconds()) for peer in peers]
     for pipeline, own_stages in stages.items():
         for peer in (TIGHT_INCLUSION_STEP, ADDITIVE_STEP):
             ratios.append((peer, pipeline, "whole step", rows[pipeline].seconds()))
@@ -197,9 +237,9 @@ def main() -> None:
     if ipctk.get_num_threads() != arguments.threads:
         common.fail(f"ipctk runs on {ipctk.get_num_threads()} threads, not {arguments.threads}")
     own = {f"selvedge cull {name}": name for name in names}
-    rows = {
-        name: Measurement() for name in (BROAD_PHASE, TIGHT_INCLUSION_STEP, ADDITIVE_STEP, *own)
-    }
+    short = SHORT_QUESTIONS if "selvedge" in names else {}
+    all_rows = (BROAD_PHASE, TIGHT_INCLUSION_STEP, ADDITIVE_STEP, *own, *short)
+    rows = {name: Measurement() for name in all_rows}
     stages: dict[str, dict[str, list[float]]] = {name: {} for name in own}
 
     # ipctk's first round is not measured; each run of selvedge is a new process that runs the step twice.
@@ -210,6 +250,8 @@ def main() -> None:
             turns.append(
                 lambda row=row, name=name: run_selvedge(arguments, name, rows[row], stages[row])
             )
+        for row, options in short.items():
+            turns.append(lambda row=row, options=options: ask_selvedge(arguments, rows[row], options))
         # Every other round runs backwards, so that no one always comes after the same neighbour.
         for turn in turns if number % 2 == 0 else reversed(turns):
             turn()

@@ -51,3 +51,11 @@ impl<T> std::ops::DerefMut for Buffer<T> {
 pub(super) fn with_headroom(len: usize) -> usize {
     len + len / 2 + 1
 }
+
+/// To be called at the end of a step for a vector that is filled anew in each: makes room for half as much again as it holds, if
+/// there is hardly any room left.
+pub(crate) fn settle<T>(items: &mut Vec<T>) {
+    if items.capacity() < items.len() + items.len() / 8 + 1 {
+        items.reserve_exact(with_headroom(items.len()) - items.len());
+    }
+}

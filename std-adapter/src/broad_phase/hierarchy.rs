@@ -2,15 +2,13 @@
 
 use super::SweptBox;
 use super::candidates::{Bounds, EMPTY, bounds, union};
+use super::order::{Centre, order};
 use crate::parallel;
 
 /// Triangles in a group of the lowest level.
 pub(super) const LEAF: usize = 16;
 /// Groups in a group of the next level.
 pub(super) const BRANCHES: usize = 8;
-
-/// Slices shorter than this are not split between threads.
-const SEQUENTIAL: usize = 4096;
 
 /// All groups of a size; the last one may be smaller.
 #[derive(Debug, Default)]
@@ -42,12 +40,6 @@ pub(super) struct Hierarchy {
     centres: Vec<Centre>,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Centre {
-    position: [f32; 3],
-    triangle: u32,
-}
-
 impl Hierarchy {
     pub(super) fn len(&self) -> usize {
         self.triangles.len()
@@ -59,13 +51,13 @@ impl Hierarchy {
         self.centres
             .extend((0..).zip(boxes).map(|(triangle, swept)| Centre {
                 position: centre(swept),
-                triangle,
+                item: triangle,
             }));
-        order(&mut self.centres);
+        order::<BRANCHES>(&mut self.centres);
 
         self.triangles.clear();
         self.triangles
-            .extend(self.centres.iter().map(|centre| centre.triangle));
+            .extend(self.centres.iter().map(|centre| centre.item));
         for leaf in self.triangles.chunks_mut(LEAF) {
             leaf.sort_unstable();
         }
@@ -137,48 +129,5 @@ fn centre(swept: &SweptBox) -> [f32; 3] {
     std::array::from_fn(|axis| {
         let centre = 0.5 * swept.lower[axis] + 0.5 * swept.upper[axis];
         if centre.is_finite() { centre } else { 0.0 }
-    })
-}
-
-/// Splits at the median along the longest axis, again and again, but always between two groups of the
-/// largest size that fits in more than once.
-fn order(centres: &mut [Centre]) {
-    if centres.len() <= LEAF {
-        return;
-    }
-    let mut size = LEAF;
-    while size * BRANCHES < centres.len() {
-        size *= BRANCHES;
-    }
-    let middle = centres.len().div_ceil(size) / 2 * size;
-    let axis = longest_axis(centres);
-    centres.select_nth_unstable_by(middle, |a, b| a.position[axis].total_cmp(&b.position[axis]));
-    let (left, right) = centres.split_at_mut(middle);
-    if left.len() + right.len() > SEQUENTIAL {
-        parallel::both(|| order(left), || order(right));
-    } else {
-        order(left);
-        order(right);
-    }
-}
-
-fn longest_axis(centres: &[Centre]) -> usize {
-    let mut lower = [f32::INFINITY; 3];
-    let mut upper = [f32::NEG_INFINITY; 3];
-    for centre in centres {
-        for axis in 0..3 {
-            let x = centre.position[axis];
-            lower[axis] = if x < lower[axis] { x } else { lower[axis] };
-            upper[axis] = if x > upper[axis] { x } else { upper[axis] };
-        }
-    }
-    // Halved, so that the difference of finite numbers is finite.
-    let extent = |axis: usize| 0.5 * upper[axis] - 0.5 * lower[axis];
-    (1..3).fold(0, |longest, axis| {
-        if extent(axis) > extent(longest) {
-            axis
-        } else {
-            longest
-        }
     })
 }

@@ -39,13 +39,17 @@
 //! assert_eq!(pairs, [[0, 2]]);
 //! ```
 
-mod buffer;
+pub(crate) mod buffer;
 mod candidates;
+mod degradation;
 mod hierarchy;
+pub mod moving;
+mod order;
 mod output;
 mod traversal;
 
 use candidates::CandidateList;
+use degradation::{Degradation, Prices};
 use hierarchy::Hierarchy;
 use traversal::Traversal;
 
@@ -75,6 +79,18 @@ pub struct BroadPhaseStatistics {
     /// Pairs found by the last [`BroadPhase::candidate_triangle_pairs`].
     pub pairs: usize,
 }
+
+/// Build: measured as the time of a build over the time of each further block test that exchanging triangles at random
+/// after the build causes: 0.15 to 0.3 from 1,352 to 134,162 triangles. On three motions of 92,450 triangles (a twisting
+/// tube, a crumpling and a rolled-up sheet) a quarter or four times of this makes block tests and builds together no more than
+/// 4 % dearer.
+///
+/// Item: measured just after a build, 15.1 block tests a triangle with 49.2 pairs a triangle (crumpled cloth), 4.8 with 8.1
+/// (tube), hence 0.25 a pair and 2.7 a triangle besides.
+const PRICES: Prices = Prices {
+    build: 0.25,
+    item: 11.0,
+};
 
 /// Finds the pairs of triangles whose swept boxes overlap; see the [module](self).
 #[derive(Debug, Default)]
@@ -111,7 +127,9 @@ impl BroadPhase {
             "more than u32::MAX boxes"
         );
         self.everything.assign(boxes);
-        if boxes.len() != self.hierarchy.len() || self.degradation.is_worth_a_build(boxes.len()) {
+        if boxes.len() != self.hierarchy.len()
+            || self.degradation.is_worth_a_build(PRICES, boxes.len())
+        {
             self.hierarchy.build(boxes);
             self.degradation = Degradation::default();
             self.statistics.builds += 1;
@@ -125,7 +143,7 @@ impl BroadPhase {
         let block_tests = self.traversal.run(&self.hierarchy, &self.everything);
         output::concatenate(&self.hierarchy, &self.traversal, &mut self.offsets, pairs);
         self.degradation
-            .observe(block_tests, self.hierarchy.len(), pairs.len());
+            .observe(PRICES, block_tests, self.hierarchy.len(), pairs.len());
         self.statistics.block_tests = block_tests;
         self.statistics.pairs = pairs.len();
     }
@@ -140,42 +158,6 @@ impl BroadPhase {
     #[must_use]
     pub fn statistics(&self) -> BroadPhaseStatistics {
         self.statistics
-    }
-}
-
-/// How much more the traversals since the last build have cost than one just after a build would have.
-#[derive(Debug, Default)]
-struct Degradation {
-    /// Block tests for each unit of [`Self::size`] just after the build.
-    fresh: Option<f64>,
-    /// Block tests above that, summed over the steps since.
-    excess: f64,
-}
-
-impl Degradation {
-    /// What a build costs for each triangle and halving, in block tests.
-    ///
-    /// Measured as the time of a build over the time of each further block test that exchanging triangles
-    /// at random after the build causes: 0.15 to 0.3 from 1,352 to 134,162 triangles. On three motions of
-    /// 92,450 triangles (a twisting tube, a crumpling and a rolled-up sheet) a quarter or four times of
-    /// this makes block tests and builds together no more than 4 % dearer.
-    const BUILD: f64 = 0.25;
-
-    /// What a triangle costs in block tests, in units of what a pair costs.
-    ///
-    /// Measured just after a build: 15.1 block tests a triangle with 49.2 pairs a triangle (crumpled
-    /// cloth), 4.8 with 8.1 (tube), hence 0.25 a pair and 2.7 a triangle besides.
-    const TRIANGLE: f64 = 11.0;
-
-    fn observe(&mut self, block_tests: u64, triangles: usize, pairs: usize) {
-        let size = Self::TRIANGLE * triangles.max(1) as f64 + pairs as f64;
-        let fresh = *self.fresh.get_or_insert(block_tests as f64 / size);
-        self.excess += (block_tests as f64 - fresh * size).max(0.0);
-    }
-
-    fn is_worth_a_build(&self, triangles: usize) -> bool {
-        let triangles = triangles as f64;
-        self.excess > Self::BUILD * triangles * triangles.log2()
     }
 }
 

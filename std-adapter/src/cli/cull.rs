@@ -7,9 +7,10 @@ use super::progress::Progress;
 use selvedge::PairKind;
 use selvedge::core::Scalar;
 use selvedge::glam::DVec3;
-use selvedge::mesh::{MeshStep, read_step};
+use selvedge::mesh::{MeshStep, Topology, read_step};
 use selvedge::pipeline::{Pipeline, Preset};
-use selvedge::report::{StepSummary, contacts_csv, json, pairs_csv, tables};
+use selvedge::report::{StepQuestion, StepSummary, contacts_csv, json, pairs_csv, tables};
+use selvedge::step::{CandidateBoxes, CollisionDetector, StepTally};
 use std::path::{Path, PathBuf};
 
 /// Finds the pairs of a mesh that may collide during one time step.
@@ -22,6 +23,7 @@ Examples:
   selvedge cull frame-92.ply frame-93.ply
   selvedge cull a.obj b.obj --pipeline lv_2014 --threads 0 --json
   selvedge cull a.ply b.ply --pairs contacts.csv --candidates candidates.csv
+  selvedge cull a.ply b.ply --earliest
 
 Pairs are written as kind,i0,i1,i2,i3: the vertex and the face's three vertices,
 or the two edges' vertices, numbered from 0 in the order of the file. Times are
@@ -42,9 +44,18 @@ pub(crate) struct Cull {
     /// Write the contacts, with their times, to this file
     #[arg(long, value_name = "OUT.csv")]
     pairs: Option<PathBuf>,
-    /// Write the pairs that reach the elementary test to this file
+    /// Write the pairs that reach the elementary test to this file; with --candidates-only, those of the broad phase
     #[arg(long, value_name = "OUT.csv")]
     candidates: Option<PathBuf>,
+    /// End after the broad phase: the pairs that moving boxes leave (pipeline selvedge only)
+    #[arg(long, conflicts_with_all = ["earliest", "pairs"])]
+    candidates_only: bool,
+    /// With --candidates-only: by swept boxes instead, which leave more pairs, those that other systems count
+    #[arg(long, requires = "candidates_only")]
+    swept_boxes: bool,
+    /// Find the earliest contact and no other (pipeline selvedge only)
+    #[arg(long, conflicts_with = "candidates")]
+    earliest: bool,
     /// Run the step so often and tell the fastest run's times (the first builds the hierarchy and makes the buffers)
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     repeat: u32,
@@ -76,6 +87,17 @@ impl Cull {
             return Err("--pairs and --candidates name the same file".into());
         }
 
+        if self.candidates_only || self.earliest {
+            if self.pipeline != Preset::Selvedge {
+                return Err(format!(
+                    "only the pipeline {} answers --candidates-only and --earliest, not {}",
+                    Preset::Selvedge,
+                    self.pipeline
+                )
+                .into());
+            }
+            return self.ask::<S>(step.topology, &start, &end);
+        }
         let mut pipeline =
             Pipeline::<S>::new(step.topology, self.pipeline.stages(), self.threads.get())?;
         pipeline.keep_candidates(self.candidates.is_some());
@@ -83,6 +105,7 @@ impl Cull {
             let _progress = Progress::spinner("culling");
             pipeline.step(&start, &end)?.clone()
         };
+        let first_run_seconds = fastest.seconds;
         for _ in 1..self.repeat {
             let report = pipeline.step(&start, &end)?;
             if report.seconds < fastest.seconds {
@@ -112,6 +135,69 @@ impl Cull {
 
         let mut summary = StepSummary::new(self.pipeline, &pipeline);
         summary.report = fastest;
+        summary.first_run_seconds = first_run_seconds;
+        if self.json {
+            output::print_json(&json::step(&summary))
+        } else {
+            output::print(&tables::step(&summary))
+        }
+    }
+}
+
+impl Cull {
+    /// One of the questions that take less than all contacts.
+    fn ask<S: Scalar>(
+        &self,
+        topology: Topology,
+        start: &[S::Vector],
+        end: &[S::Vector],
+    ) -> Result<(), Failure> {
+        let mut detector = CollisionDetector::<S>::new(topology, self.threads.get())?;
+        let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+        let boxes = if self.swept_boxes {
+            CandidateBoxes::Swept
+        } else {
+            CandidateBoxes::Moving
+        };
+        let mut earliest = None;
+        let mut fastest: Option<StepTally> = None;
+        let mut first_run_seconds = None;
+        {
+            let _progress = Progress::spinner("culling");
+            for _ in 0..self.repeat {
+                if self.earliest {
+                    earliest = detector.earliest(start, end)?;
+                } else {
+                    detector.candidates(start, end, boxes, &mut vertex_face, &mut edge_edge)?;
+                }
+                let tally = *detector.tally();
+                first_run_seconds.get_or_insert(tally.seconds);
+                if fastest.is_none_or(|fastest| tally.seconds < fastest.seconds) {
+                    fastest = Some(tally);
+                }
+            }
+        }
+        let mut files = OutputFiles::default();
+        if let Some(path) = &self.candidates {
+            files.add(path.clone(), |out| {
+                pairs_csv(detector.topology(), &vertex_face, &edge_edge, out)
+            })?;
+        }
+        if let Some(path) = &self.pairs {
+            let contacts: Vec<_> = earliest.into_iter().collect();
+            files.add(path.clone(), |out| {
+                contacts_csv(detector.topology(), &contacts, out)
+            })?;
+        }
+        files.publish()?;
+        let question = if self.earliest {
+            StepQuestion::Earliest
+        } else {
+            StepQuestion::Candidates
+        };
+        let tally = fastest.unwrap_or_default();
+        let mut summary = StepSummary::of_detector(question, &detector, &tally, earliest.as_ref());
+        summary.first_run_seconds = first_run_seconds.unwrap_or_default();
         if self.json {
             output::print_json(&json::step(&summary))
         } else {

@@ -4,6 +4,7 @@ mod accuracy;
 mod arm;
 mod compare;
 mod cull;
+mod hard_cases;
 mod options;
 mod output;
 mod progress;
@@ -44,6 +45,7 @@ enum Command {
     Cull(cull::Cull),
     Compare(compare::Compare),
     Queries(queries::Queries),
+    HardCases(hard_cases::HardCases),
     Scaling(scaling::Scaling),
     Accuracy(accuracy::Accuracy),
     Arm(arm::Arm),
@@ -57,6 +59,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Cull(cull)) => cull.run(),
         Some(Command::Compare(compare)) => compare.run(),
         Some(Command::Queries(queries)) => queries.run(),
+        Some(Command::HardCases(hard_cases)) => hard_cases.run(),
         Some(Command::Scaling(scaling)) => scaling.run(),
         Some(Command::Accuracy(accuracy)) => accuracy.run(),
         Some(Command::Arm(arm)) => arm.run(),

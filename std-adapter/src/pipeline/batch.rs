@@ -2,18 +2,21 @@
 
 use super::Distributed;
 use super::assignment::FeatureAssignment;
-use super::pairs::{Contact, MovingMesh};
+use super::pairs::MovingMesh;
 use super::preset::{CullingTest, ElementaryTest, Stages};
-use super::report::PairCounts;
 use super::stored::{BoundingVolume, Stored};
 use crate::PairKind;
+use crate::pair_kind::PairCounts;
+use crate::step::Contact;
 use arrayvec::ArrayVec;
 use selvedge_core::batch::{LANES, Level, Mask, Test, culled_from_rows};
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
-use selvedge_core::elementary::{Limits, advance::time_of_impact};
+use selvedge_core::elementary::{
+    Contact as Verdict, Limits, advance::time_of_impact, contact::settled,
+};
 use selvedge_core::points::Shape;
-use selvedge_core::{EdgeEdge, Scalar, VertexFace, elementary};
+use selvedge_core::{EdgeEdge, PrimitivePair, Scalar, VertexFace, elementary};
 use std::time::Instant;
 
 /// What every batch of a step reads.
@@ -187,6 +190,11 @@ impl<S: Scalar> Batch<S> {
                 |pair| time_of_impact(pair, &limits).time(),
                 |pair| time_of_impact(pair, &limits).time(),
             ),
+            ElementaryTest::Exact => self.find_contacts_by(
+                step,
+                |pair| time_of_exact_contact(pair, &limits),
+                |pair| time_of_exact_contact(pair, &limits),
+            ),
         }
     }
 
@@ -217,6 +225,14 @@ impl<S: Scalar> Batch<S> {
         };
         self.tallies.push((found, begin.elapsed().as_secs_f64()));
     }
+}
+
+/// The certified time of impact of a pair that truly touches.
+fn time_of_exact_contact<S: Scalar>(pair: &impl PrimitivePair<S>, limits: &Limits<S>) -> Option<S> {
+    let impact = time_of_impact(pair, limits);
+    let time = impact.time()?;
+    let (verdict, _) = settled(pair, &impact);
+    (verdict != Verdict::Never).then_some(time)
 }
 
 /// Like `Vec::retain`, without a branch on the outcome: what survives is hard to predict.

@@ -15,9 +15,10 @@
 //! contacts
 //! ```
 //!
-//! A published method is a [`Preset`]: a choice of stages ([`Stages`]), never another loop. All presets run the
-//! same code, on the same broad phase, so their times compare. Two tests that only our own preset uses, relative boxes and
-//! the certified filter, go sixteen pairs at a time ([`selvedge_core::batch`]); the published ones go one by one.
+//! A published method is a [`Preset`]: a choice of stages ([`Stages`]), never another loop. All of them run the
+//! same code, on the same broad phase, so their times compare; every test goes sixteen pairs at a time
+//! ([`selvedge_core::batch`]). The presets `selvedge` and `selvedge_exact` alone have no triangle pairs
+//! ([`Source::MovingBoxes`]): they are [`step`](crate::step), counted as the others are.
 //!
 //! ```
 //! use selvedge::{glam::DVec3, mesh::Topology, pipeline::{Pipeline, Preset}};
@@ -33,7 +34,7 @@
 //!
 //! let mut pipeline = Pipeline::<f64>::new(topology, Preset::Selvedge.stages(), 1)?;
 //! let report = pipeline.step(&start, &end)?;
-//! assert_eq!((report.triangle_pairs, report.contacts().vertex_face), (1, 3));
+//! assert_eq!((report.candidates().vertex_face, report.contacts().vertex_face), (3, 3));
 //! let time = pipeline.contacts()[0].time;
 //! assert!(time <= 0.25 && time > 0.25 - 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -47,22 +48,30 @@ mod report;
 mod stored;
 mod swept;
 
+pub use crate::frame::StepError;
+pub use crate::pair_kind::PairCounts;
+pub use crate::parallel::ThreadError;
+pub use crate::step::Contact;
 pub use assignment::FeatureAssignment;
-pub use pairs::Contact;
-pub use preset::{CullingTest, ElementaryTest, Preset, Redundancy, Stage, Stages, UnknownPreset};
-pub use report::{PairCounts, StageReport, StepReport};
+pub use preset::{
+    CullingTest, ElementaryTest, Preset, Redundancy, Source, Stage, Stages, UnknownPreset,
+};
+pub use report::{StageReport, StepReport};
 
 use crate::PairKind;
 use crate::broad_phase::{BroadPhase, SweptBox};
 use crate::dispatch::{Level, best_level};
+use crate::frame::check_frames;
 use crate::mesh::Topology;
-use crate::parallel;
+use crate::parallel::{self, Threads};
+use crate::step::Engine;
 use batch::{Batch, StepInput};
 use pairs::MovingMesh;
 use rustc_hash::FxHashSet;
 use selvedge_core::batch::VertexRow;
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::{Motion, Scalar};
+use std::sync::Arc;
 use std::time::Instant;
 use stored::Stored;
 
@@ -77,12 +86,19 @@ const BATCH: usize = 2048;
 /// several threads rayon may still allocate for its queues.)
 #[derive(Debug)]
 pub struct Pipeline<S: Scalar> {
-    topology: Topology,
-    assignment: FeatureAssignment,
+    topology: Arc<Topology>,
     stages: Stages,
-    pool: Option<rayon::ThreadPool>,
+    route: Route<S>,
+    threads: Threads,
     buffers: Buffers<S>,
     report: StepReport,
+}
+
+/// Where primitive pairs come from.
+#[derive(Debug)]
+enum Route<S: Scalar> {
+    TrianglePairs(Redundancy, FeatureAssignment),
+    MovingBoxes(Box<Engine<S>>),
 }
 
 /// What is filled anew in each step.
@@ -109,42 +125,6 @@ struct Distributed {
     edge_edge: FxHashSet<[u32; 2]>,
 }
 
-/// Why a step could not be run. The pipeline is as it was and can run another.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StepError {
-    /// A frame has too few or too many positions.
-    #[error("the {frame} frame has {found} positions, but the mesh has {expected} vertices")]
-    WrongLength {
-        /// `"start"` or `"end"`.
-        frame: &'static str,
-        /// The length of the slice.
-        found: usize,
-        /// The mesh's vertices.
-        expected: usize,
-    },
-    /// A position is NaN or infinite. (Culling would keep every pair of that vertex; better to say so.)
-    #[error(
-        "the {frame} frame has a coordinate that is not a finite number: vertex {vertex} is at {position}"
-    )]
-    NotFinite {
-        /// `"start"` or `"end"`.
-        frame: &'static str,
-        /// The first such vertex.
-        vertex: usize,
-        /// Its position.
-        position: String,
-    },
-}
-
-/// The threads of a [`Pipeline`] could not be started.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot start {threads} threads: {source}")]
-pub struct ThreadError {
-    threads: usize,
-    source: rayon::ThreadPoolBuildError,
-}
-
 impl<S: Scalar> Pipeline<S> {
     /// Prepares `stages` for a mesh, on `threads` threads (0: one for each core).
     ///
@@ -152,30 +132,39 @@ impl<S: Scalar> Pipeline<S> {
     ///
     /// # Errors
     /// If the operating system refuses the threads.
-    pub fn new(topology: Topology, stages: Stages, threads: usize) -> Result<Self, ThreadError> {
-        let pool = match threads {
-            1 => None,
-            threads => Some(
-                rayon::ThreadPoolBuilder::new()
-                    .num_threads(threads)
-                    .build()
-                    .map_err(|source| ThreadError { threads, source })?,
-            ),
-        };
-        let assignment = match stages.redundancy {
-            Redundancy::RepresentativeTriangles => FeatureAssignment::representative(&topology),
-            Redundancy::Kept | Redundancy::HashSets => FeatureAssignment::every_feature(&topology),
+    pub fn new(
+        topology: impl Into<Arc<Topology>>,
+        stages: Stages,
+        threads: usize,
+    ) -> Result<Self, ThreadError> {
+        let topology = topology.into();
+        let threads = Threads::new(threads)?;
+        let route = match stages.source {
+            Source::MovingBoxes => Route::MovingBoxes(Box::new(Engine::new(topology.clone()))),
+            Source::TrianglePairs(redundancy) => {
+                let assignment = match redundancy {
+                    Redundancy::RepresentativeTriangles => {
+                        FeatureAssignment::representative(&topology)
+                    }
+                    Redundancy::Kept | Redundancy::HashSets => {
+                        FeatureAssignment::every_feature(&topology)
+                    }
+                };
+                Route::TrianglePairs(redundancy, assignment)
+            }
         };
         // A few batches for each thread, so that an unlucky one does not keep the others waiting.
-        let batches = pool
-            .as_ref()
-            .map_or(1, |pool| 4 * pool.current_num_threads());
+        let batches = match (&route, threads.count()) {
+            (Route::MovingBoxes(_), _) => 0,
+            (_, 1) => 1,
+            (_, count) => 4 * count,
+        };
         Ok(Self {
             buffers: Buffers {
                 keep_candidates: false,
                 level: best_level(),
-                rows: Vec::with_capacity(topology.vertex_count()),
-                swept: Vec::with_capacity(topology.triangles().len()),
+                rows: Vec::new(),
+                swept: Vec::new(),
                 broad_phase: BroadPhase::new(),
                 triangle_pairs: Vec::new(),
                 boxes: Stored::new(),
@@ -187,9 +176,9 @@ impl<S: Scalar> Pipeline<S> {
             },
             report: StepReport::default(),
             topology,
-            assignment,
             stages,
-            pool,
+            route,
+            threads,
         })
     }
 
@@ -201,6 +190,9 @@ impl<S: Scalar> Pipeline<S> {
     /// Forces the instruction set of the batched kernels; the best that the machine has is the default. Changes no result.
     pub const fn set_level(&mut self, level: Level) {
         self.buffers.level = level;
+        if let Route::MovingBoxes(engine) = &mut self.route {
+            engine.set_level(level);
+        }
     }
 
     /// Runs the step from `start` to `end`, one position for each vertex, in any length unit.
@@ -212,26 +204,37 @@ impl<S: Scalar> Pipeline<S> {
         start: &[S::Vector],
         end: &[S::Vector],
     ) -> Result<&StepReport, StepError> {
-        for (frame, positions) in [("start", start), ("end", end)] {
-            check_frame::<S>(frame, positions, self.topology.vertex_count())?;
-        }
+        check_frames::<S>(start, end, self.topology.vertex_count())?;
         let Self {
             topology,
-            assignment,
             stages,
-            pool,
+            route,
+            threads,
             buffers,
             report,
         } = self;
-        let mut run = || buffers.step(topology, assignment, *stages, start, end, report);
-        match pool {
-            Some(pool) => pool.install(run),
-            None => run(),
+        match route {
+            Route::TrianglePairs(redundancy, assignment) => {
+                let mesh = Distributor {
+                    topology,
+                    assignment,
+                    redundancy: *redundancy,
+                };
+                threads.run(|| buffers.step(mesh, *stages, start, end, report));
+            }
+            Route::MovingBoxes(engine) => {
+                let keeps_filtered = buffers.keep_candidates;
+                let is_exact = stages.elementary == ElementaryTest::Exact;
+                threads.run(|| engine.run_all(start, end, keeps_filtered, is_exact))?;
+                buffers.take_from(engine);
+                *report = engine.tally().report();
+            }
         }
         Ok(report)
     }
 
-    /// The contacts of the last step: batch by batch in the order of candidate triangle pairs.
+    /// The contacts of the last step: batch by batch in the order of candidate triangle pairs; without them vertex–face first,
+    /// in the order of the hierarchies.
     #[must_use]
     pub fn contacts(&self) -> &[Contact<S>] {
         &self.buffers.contacts
@@ -251,24 +254,40 @@ impl<S: Scalar> Pipeline<S> {
 
     /// The mesh's vertices, edges and triangles.
     #[must_use]
-    pub const fn topology(&self) -> &Topology {
+    pub fn topology(&self) -> &Topology {
         &self.topology
     }
 
     /// How many threads a step uses.
     #[must_use]
     pub fn threads(&self) -> usize {
-        self.pool
-            .as_ref()
-            .map_or(1, rayon::ThreadPool::current_num_threads)
+        self.threads.count()
     }
 }
 
+/// What makes primitive pairs of triangle pairs.
+#[derive(Clone, Copy)]
+struct Distributor<'a> {
+    topology: &'a Topology,
+    assignment: &'a FeatureAssignment,
+    redundancy: Redundancy,
+}
+
 impl<S: Scalar> Buffers<S> {
+    /// What `engine` has found in the last step.
+    fn take_from(&mut self, engine: &mut Engine<S>) {
+        engine.collect_contacts(&mut self.contacts);
+        if self.keep_candidates {
+            let [vertex_face, edge_edge] = &mut self.candidates;
+            engine.collect_kept(vertex_face, edge_edge);
+        } else {
+            self.candidates.iter_mut().for_each(Vec::clear);
+        }
+    }
+
     fn step(
         &mut self,
-        topology: &Topology,
-        assignment: &FeatureAssignment,
+        distributor: Distributor<'_>,
         stages: Stages,
         start: &[S::Vector],
         end: &[S::Vector],
@@ -282,7 +301,7 @@ impl<S: Scalar> Buffers<S> {
             .map(|(&start, &end)| Motion::new(start, end));
         self.rows.extend(moving.map(VertexRow::new));
         let mesh = MovingMesh {
-            topology,
+            topology: distributor.topology,
             rows: &self.rows,
         };
         self.boxes.refit_vertices_and_faces(mesh);
@@ -293,17 +312,22 @@ impl<S: Scalar> Buffers<S> {
         report.broad_phase_seconds = begin.elapsed().as_secs_f64();
         report.triangle_pairs = self.triangle_pairs.len() as u64;
 
-        self.primitive_stages(topology, assignment, stages, report);
+        self.primitive_stages(distributor, stages, report);
         report.seconds = begin.elapsed().as_secs_f64();
     }
 
     fn primitive_stages(
         &mut self,
-        topology: &Topology,
-        assignment: &FeatureAssignment,
+        distributor: Distributor<'_>,
         stages: Stages,
         report: &mut StepReport,
     ) {
+        let Distributor {
+            topology,
+            assignment,
+            redundancy,
+        } = distributor;
+        report.broad_phase_pairs = None;
         let names = std::iter::once(Stage::Distribution)
             .chain(stages.tests.iter().map(|test| test.stage()))
             .chain([Stage::Elementary]);
@@ -354,7 +378,7 @@ impl<S: Scalar> Buffers<S> {
                 batch.cull(&step);
                 batch.find_contacts(&step);
             };
-            if stages.redundancy == Redundancy::HashSets {
+            if redundancy == Redundancy::HashSets {
                 // The sets are asked in order, by one thread: whichever pair comes first stays.
                 parallel::for_each(batches, distribute);
                 batches
@@ -380,35 +404,6 @@ impl<S: Scalar> Buffers<S> {
                 }
                 self.contacts.extend_from_slice(&batch.contacts);
             }
-        }
-    }
-}
-
-fn check_frame<S: Scalar>(
-    frame: &'static str,
-    positions: &[S::Vector],
-    expected: usize,
-) -> Result<(), StepError> {
-    if positions.len() != expected {
-        return Err(StepError::WrongLength {
-            frame,
-            found: positions.len(),
-            expected,
-        });
-    }
-    let is_finite = |&position: &S::Vector| {
-        let coordinates: [S; 3] = position.into();
-        coordinates.into_iter().all(Scalar::is_finite)
-    };
-    match positions.iter().position(|position| !is_finite(position)) {
-        None => Ok(()),
-        Some(vertex) => {
-            let [x, y, z]: [S; 3] = positions[vertex].into();
-            Err(StepError::NotFinite {
-                frame,
-                vertex,
-                position: format!("({x}, {y}, {z})"),
-            })
         }
     }
 }

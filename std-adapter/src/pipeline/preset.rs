@@ -3,7 +3,18 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// How a method keeps the same primitive pair from being tested twice.
+/// Where a method's primitive pairs come from, and what keeps the same one from being tested twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Source {
+    /// Candidate triangle pairs, distributed.
+    TrianglePairs(Redundancy),
+    /// Hierarchies of moving boxes over vertices, edges and faces, which find each primitive pair once
+    /// ([`broad_phase::moving`](crate::broad_phase::moving)); then the certified stages of [`step`](crate::step), whatever
+    /// the tests, and exact verdicts for [`ElementaryTest::Exact`].
+    MovingBoxes,
+}
+
+/// How a method keeps the same primitive pair from being tested twice, where it distributes triangle pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Redundancy {
     /// Not at all: each candidate triangle pair is distributed in full, duplicates included.
@@ -118,21 +129,23 @@ pub enum ElementaryTest {
     /// [`selvedge_core::elementary::advance`], with the default tolerance: certified; a contact's time is not after the exact
     /// one, and a pair that comes within the tolerance, or too close to tell, counts as a contact.
     TimeOfImpact,
+    /// The same, and then [`selvedge_core::elementary::contact`]: a contact is one exactly, and its time certified as before.
+    Exact,
 }
 
 impl ElementaryTest {
     /// Whether it never misses a contact, rounding included.
     #[must_use]
     pub const fn is_certified(self) -> bool {
-        matches!(self, Self::TimeOfImpact)
+        matches!(self, Self::TimeOfImpact | Self::Exact)
     }
 }
 
 /// A method as a choice for each stage after the broad phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stages {
-    /// How duplicates are avoided.
-    pub redundancy: Redundancy,
+    /// Where primitive pairs come from.
+    pub source: Source,
     /// The culling tests, in order; at most one for each [`Stage`].
     pub tests: &'static [CullingTest],
     /// The test of what survives.
@@ -163,11 +176,13 @@ pub enum Preset {
     Lv2014,
     /// Ours.
     Selvedge,
+    /// Ours, with the exact verdict: no pair is called a contact that is none.
+    SelvedgeExact,
 }
 
 impl Preset {
     /// Every preset, in the order of the paper's references, ours last.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Naive,
         Self::Basic,
         Self::Provot1997,
@@ -178,6 +193,7 @@ impl Preset {
         Self::TangC2011,
         Self::Lv2014,
         Self::Selvedge,
+        Self::SelvedgeExact,
     ];
 
     /// The name on the command line and in reports.
@@ -194,6 +210,7 @@ impl Preset {
             Self::TangC2011 => "tang_c_2011",
             Self::Lv2014 => "lv_2014",
             Self::Selvedge => "selvedge",
+            Self::SelvedgeExact => "selvedge_exact",
         }
     }
 
@@ -203,40 +220,50 @@ impl Preset {
         matches!(self, Self::TangC2010 | Self::TangC2011)
     }
 
+    /// Whether it is one of our own.
+    #[must_use]
+    pub const fn is_ours(self) -> bool {
+        matches!(self, Self::Selvedge | Self::SelvedgeExact)
+    }
+
     /// The stages that the name stands for.
     #[must_use]
     pub const fn stages(self) -> Stages {
         use CullingTest as Test;
         use Redundancy::{HashSets, Kept, RepresentativeTriangles};
-        let (redundancy, tests): (_, &[Test]) = match self {
-            Self::Naive => (Kept, &[]),
-            Self::Basic | Self::Provot1997 => (HashSets, &[]),
-            Self::HutterFuhrmann2007 => (RepresentativeTriangles, &[Test::StoredDop18]),
-            Self::Curtis2008 => (RepresentativeTriangles, &[]),
-            Self::Tang2010 => (RepresentativeTriangles, &[Test::PlainNonCoplanarity]),
-            Self::TangC2010 => (RepresentativeTriangles, &[Test::SubspaceThree]),
-            Self::TangC2011 => (RepresentativeTriangles, &[Test::SubspaceNine]),
+        use Source::{MovingBoxes, TrianglePairs};
+        let (source, tests): (_, &[Test]) = match self {
+            Self::Naive => (TrianglePairs(Kept), &[]),
+            Self::Basic | Self::Provot1997 => (TrianglePairs(HashSets), &[]),
+            Self::HutterFuhrmann2007 => {
+                (TrianglePairs(RepresentativeTriangles), &[Test::StoredDop18])
+            }
+            Self::Curtis2008 => (TrianglePairs(RepresentativeTriangles), &[]),
+            Self::Tang2010 => (
+                TrianglePairs(RepresentativeTriangles),
+                &[Test::PlainNonCoplanarity],
+            ),
+            Self::TangC2010 => (
+                TrianglePairs(RepresentativeTriangles),
+                &[Test::SubspaceThree],
+            ),
+            Self::TangC2011 => (
+                TrianglePairs(RepresentativeTriangles),
+                &[Test::SubspaceNine],
+            ),
             Self::Lv2014 => (
-                RepresentativeTriangles,
+                TrianglePairs(RepresentativeTriangles),
                 &[Test::SegmentBox, Test::PlainNonCoplanarity],
             ),
-            // Relative boxes imply swept boxes; but stored boxes drop most pairs for two memory accesses each, and give the
-            // count that other systems report.
-            Self::Selvedge => (
-                RepresentativeTriangles,
-                &[
-                    Test::StoredSweptBoxes,
-                    Test::RelativeBoxesNine,
-                    Test::CertifiedNonCoplanarity,
-                ],
-            ),
+            Self::Selvedge | Self::SelvedgeExact => (MovingBoxes, &[Test::CertifiedNonCoplanarity]),
         };
         let elementary = match self {
             Self::Selvedge => ElementaryTest::TimeOfImpact,
+            Self::SelvedgeExact => ElementaryTest::Exact,
             _ => ElementaryTest::Cubic,
         };
         Stages {
-            redundancy,
+            source,
             tests,
             elementary,
         }

@@ -1,32 +1,8 @@
 //! What a step counted and how long its stages took.
 
 use super::preset::Stage;
+use crate::pair_kind::PairCounts;
 use arrayvec::ArrayVec;
-use std::ops::AddAssign;
-
-/// How many pairs of each kind.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PairCounts {
-    /// Vertex–face pairs.
-    pub vertex_face: u64,
-    /// Edge–edge pairs.
-    pub edge_edge: u64,
-}
-
-impl PairCounts {
-    /// Both kinds together.
-    #[must_use]
-    pub const fn total(self) -> u64 {
-        self.vertex_face + self.edge_edge
-    }
-}
-
-impl AddAssign for PairCounts {
-    fn add_assign(&mut self, other: Self) {
-        self.vertex_face += other.vertex_face;
-        self.edge_edge += other.edge_edge;
-    }
-}
 
 /// One stage after the broad phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,11 +18,13 @@ pub struct StageReport {
 /// One step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StepReport {
-    /// Candidate triangle pairs: their swept boxes overlap.
+    /// Candidate triangle pairs: their swept boxes overlap. Zero for a method that has none.
     pub triangle_pairs: u64,
+    /// The primitive pairs that the broad phase finds itself, for a method without triangle pairs.
+    pub broad_phase_pairs: Option<PairCounts>,
     /// Seconds of the broad phase: boxes, refit or build, traversal.
     pub broad_phase_seconds: f64,
-    /// The stages after it, in order, from distribution to the elementary test.
+    /// The stages after it, in order, up to the elementary test.
     pub stages: ArrayVec<StageReport, 8>,
     /// Seconds of the whole step by the clock on the wall.
     pub seconds: f64,
@@ -66,10 +44,12 @@ impl StepReport {
         self.last_survivors(|stage| stage != Stage::Elementary)
     }
 
-    /// The pairs after the last box test; where there is none, as distributed.
+    /// The pairs after the last box test; where there is none, as distributed, or as the broad phase finds them.
     #[must_use]
     pub fn after_boxes(&self) -> PairCounts {
-        self.last_survivors(|stage| stage == Stage::Distribution || stage.is_box_test())
+        let survivors =
+            self.last_survivors(|stage| stage == Stage::Distribution || stage.is_box_test());
+        self.broad_phase_pairs.unwrap_or(survivors)
     }
 
     /// The contacts found.
@@ -89,6 +69,9 @@ impl StepReport {
             }
         }
         self.triangle_pairs += other.triangle_pairs;
+        if let Some(pairs) = other.broad_phase_pairs {
+            *self.broad_phase_pairs.get_or_insert_default() += pairs;
+        }
         self.broad_phase_seconds += other.broad_phase_seconds;
         self.seconds += other.seconds;
     }

@@ -5,7 +5,7 @@ use super::paper::paper_row;
 use crate::PairKind;
 use crate::mesh::Topology;
 use crate::pipeline::{Contact, Stage};
-use crate::study::{Comparison, ComparisonRow};
+use crate::study::{Comparison, ComparisonRow, MeanCounts};
 use ::csv::Writer;
 use selvedge_core::Scalar;
 use std::io::{self, Write};
@@ -21,7 +21,7 @@ const STAGES: [(Stage, &str); 6] = [
 ];
 
 /// Writes a comparison, one row a method: counts are means per step, times are seconds per step. The paper's own
-/// numbers stand in the last three columns of the methods that are in its Table 1; a stage that a method lacks is empty.
+/// numbers stand in the last three columns of the methods that are in its Table 1; what a method lacks is empty.
 ///
 /// # Errors
 /// Those of `out`.
@@ -31,7 +31,7 @@ pub fn comparison_csv(comparison: &Comparison, out: impl Write) -> io::Result<()
     header.extend(["vf_distributed", "vf_after_boxes", "vf_after_filter"]);
     header.extend(["vf_contacts", "ee_distributed", "ee_after_boxes"]);
     header.extend(["ee_after_filter", "ee_contacts", "frames_per_second"]);
-    header.push("broad_phase_seconds");
+    header.extend(["vf_missed", "ee_missed", "broad_phase_seconds"]);
     header.extend(STAGES.map(|(_, column)| column));
     header.extend(["paper_vf", "paper_ee", "paper_frames_per_second"]);
     writer.write_record(header)?;
@@ -43,15 +43,28 @@ pub fn comparison_csv(comparison: &Comparison, out: impl Write) -> io::Result<()
 
 fn comparison_record(row: &ComparisonRow) -> Vec<String> {
     let distributed = distributed(row);
-    let survivors = [distributed, row.after_boxes, row.candidates, row.contacts];
+    let survivors = [row.after_boxes, row.candidates, row.contacts].map(Some);
+    let survivors = std::iter::once(distributed).chain(survivors);
+    let of_kind = |pick: fn(&MeanCounts) -> f64| {
+        let text = move |counts: Option<MeanCounts>| {
+            counts.map_or_else(String::new, |counts| pick(&counts).to_string())
+        };
+        survivors.clone().map(text)
+    };
     let mut record = vec![
         row.preset.to_string(),
         row.preset.is_reconstructed().to_string(),
-        row.triangle_pairs.to_string(),
+        if row.has_triangle_pairs {
+            row.triangle_pairs.to_string()
+        } else {
+            String::new()
+        },
     ];
-    record.extend(survivors.map(|counts| counts.vertex_face.to_string()));
-    record.extend(survivors.map(|counts| counts.edge_edge.to_string()));
+    record.extend(of_kind(|counts| counts.vertex_face));
+    record.extend(of_kind(|counts| counts.edge_edge));
     record.push(row.frames_per_second.to_string());
+    record.push(row.missed.vertex_face.to_string());
+    record.push(row.missed.edge_edge.to_string());
     record.push(row.broad_phase_seconds.to_string());
     record.extend(STAGES.map(|(wanted, _)| {
         let stage = row.stages.iter().find(|stage| stage.stage == wanted);

@@ -5,19 +5,35 @@ use super::distributed;
 use super::findings::findings;
 use super::n_log_n_ratios;
 use super::paper::paper_row;
-use super::step::StepSummary;
-use crate::pipeline::{PairCounts, Preset, Stage, StepReport};
+use super::step::{StepQuestion, StepSummary};
 #[cfg(feature = "files")]
-use crate::study::QueryResult;
+use crate::hard_cases::Contact;
+use crate::pipeline::{PairCounts, Preset, Stage, StepReport};
 #[cfg(feature = "accuracy")]
 use crate::study::{Accuracy, AccuracySet};
 use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
+#[cfg(feature = "files")]
+use crate::study::{HardAnswer, HardResult, QueryMethod, QueryResult};
 use serde_json::{Value, json};
 
 /// One step: `selvedge cull`.
 #[must_use]
 pub fn step(summary: &StepSummary) -> Value {
     let contacts = summary.report.contacts();
+    // Null is what was not asked.
+    let contacts = match summary.question {
+        StepQuestion::Contacts => json!({
+            "vertex_face": contacts.vertex_face,
+            "edge_edge": contacts.edge_edge,
+            "earliest": summary.earliest,
+        }),
+        StepQuestion::Earliest => json!({
+            "vertex_face": Value::Null,
+            "edge_edge": Value::Null,
+            "earliest": summary.earliest,
+        }),
+        StepQuestion::Candidates => Value::Null,
+    };
     json!({
         "pipeline": summary.preset.name(),
         "scalar": summary.scalar,
@@ -26,33 +42,31 @@ pub fn step(summary: &StepSummary) -> Value {
         "triangles": summary.triangles,
         "threads": summary.threads,
         "stages": step_stages(&summary.report),
-        "contacts": {
-            "vertex_face": contacts.vertex_face,
-            "edge_edge": contacts.edge_edge,
-            "earliest": summary.earliest,
-        },
+        "contacts": contacts,
         "seconds": summary.report.seconds,
+        "first_run_seconds": summary.first_run_seconds,
     })
 }
 
 fn step_stages(report: &StepReport) -> Vec<Value> {
-    let mut stages = vec![json!({
-        "stage": Stage::BroadPhase.name(),
-        "triangle_pairs": report.triangle_pairs,
-        "seconds": report.broad_phase_seconds,
-    })];
-    stages.extend(report.stages.iter().map(|stage| {
-        let PairCounts {
-            vertex_face,
-            edge_edge,
-        } = stage.survivors;
+    let of_pairs = |stage: Stage, pairs: PairCounts, seconds: f64| {
         json!({
-            "stage": stage.stage.name(),
-            "vertex_face": vertex_face,
-            "edge_edge": edge_edge,
-            "seconds": stage.seconds,
+            "stage": stage.name(),
+            "vertex_face": pairs.vertex_face,
+            "edge_edge": pairs.edge_edge,
+            "seconds": seconds,
         })
-    }));
+    };
+    let mut stages = vec![match report.broad_phase_pairs {
+        Some(pairs) => of_pairs(Stage::BroadPhase, pairs, report.broad_phase_seconds),
+        None => json!({
+            "stage": Stage::BroadPhase.name(),
+            "triangle_pairs": report.triangle_pairs,
+            "seconds": report.broad_phase_seconds,
+        }),
+    }];
+    let later = report.stages.iter();
+    stages.extend(later.map(|stage| of_pairs(stage.stage, stage.survivors, stage.seconds)));
     stages
 }
 
@@ -78,7 +92,7 @@ pub fn comparison(comparison: &Comparison) -> Value {
 fn comparison_row(row: &ComparisonRow) -> Value {
     let kind = |pick: fn(&MeanCounts) -> f64| {
         json!({
-            "distributed": pick(&distributed(row)),
+            "distributed": distributed(row).as_ref().map(pick),
             "after_boxes": pick(&row.after_boxes),
             "after_filter": pick(&row.candidates),
             "contacts": pick(&row.contacts),
@@ -89,8 +103,7 @@ fn comparison_row(row: &ComparisonRow) -> Value {
         "reconstructed": row.preset.is_reconstructed(),
         "vertex_face": kind(|counts| counts.vertex_face),
         "edge_edge": kind(|counts| counts.edge_edge),
-        // Nothing decides exactly yet which pairs truly touch.
-        "missed": Value::Null,
+        "missed": row.missed.vertex_face + row.missed.edge_edge,
         "frames_per_second": row.frames_per_second,
         "stages": comparison_stages(row),
         "paper": paper_row(row.preset).map(|paper| json!({
@@ -103,19 +116,25 @@ fn comparison_row(row: &ComparisonRow) -> Value {
 }
 
 fn comparison_stages(row: &ComparisonRow) -> Vec<Value> {
-    let mut stages = vec![json!({
-        "stage": Stage::BroadPhase.name(),
-        "triangle_pairs": row.triangle_pairs,
-        "seconds": row.broad_phase_seconds,
-    })];
-    stages.extend(row.stages.iter().map(|stage| {
+    let of_pairs = |stage: Stage, pairs: MeanCounts, seconds: f64| {
         json!({
-            "stage": stage.stage.name(),
-            "vertex_face": stage.survivors.vertex_face,
-            "edge_edge": stage.survivors.edge_edge,
-            "seconds": stage.seconds,
+            "stage": stage.name(),
+            "vertex_face": pairs.vertex_face,
+            "edge_edge": pairs.edge_edge,
+            "seconds": seconds,
         })
-    }));
+    };
+    let mut stages = vec![if row.has_triangle_pairs {
+        json!({
+            "stage": Stage::BroadPhase.name(),
+            "triangle_pairs": row.triangle_pairs,
+            "seconds": row.broad_phase_seconds,
+        })
+    } else {
+        of_pairs(Stage::BroadPhase, row.after_boxes, row.broad_phase_seconds)
+    }];
+    let later = row.stages.iter();
+    stages.extend(later.map(|stage| of_pairs(stage.stage, stage.survivors, stage.seconds)));
     stages
 }
 
@@ -153,7 +172,7 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value
         let candidates = point.step.candidates();
         json!({
             "triangles": point.triangles,
-            "triangle_pairs": point.step.triangle_pairs,
+            "triangle_pairs": point.step.broad_phase_pairs.is_none().then_some(point.step.triangle_pairs),
             "candidates": {
                 "vertex_face": candidates.vertex_face,
                 "edge_edge": candidates.edge_edge,
@@ -223,4 +242,39 @@ fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
         }
     }
     rows
+}
+
+/// What every method said of the hard cases: `selvedge hard-cases`.
+#[cfg(feature = "files")]
+#[must_use]
+pub fn hard_cases(scalar: &str, results: &[HardResult]) -> Value {
+    let cases = results.iter().map(|result| {
+        let case = result.case;
+        let (first, enclosure) = match &case.contact {
+            Contact::Never => ("never", None),
+            Contact::Undefined => ("undefined", None),
+            Contact::First { exact, from, to } => (exact.as_str(), Some([*from, *to])),
+        };
+        let answers = QueryMethod::ALL.into_iter().zip(result.answers);
+        let answers = answers.map(|(method, answer)| {
+            let answer = match answer {
+                HardAnswer::Right => "right",
+                HardAnswer::FalseAlarm => "false-alarm",
+                HardAnswer::Missed => "missed",
+            };
+            (method.name().to_owned(), Value::from(answer))
+        });
+        json!({
+            "case": case.name,
+            "placement": case.placement,
+            "kind": case.kind.name(),
+            "first_contact": first,
+            "between": enclosure,
+            "answers": answers.collect::<serde_json::Map<_, _>>(),
+        })
+    });
+    json!({
+        "scalar": scalar,
+        "cases": cases.collect::<Vec<_>>(),
+    })
 }

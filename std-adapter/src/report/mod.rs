@@ -30,19 +30,19 @@ pub use plot::scaling_svg;
 pub use recording::{
     About, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind,
 };
-pub use step::StepSummary;
+pub use step::{StepQuestion, StepSummary};
 pub use table_svg::comparison_svg;
 
 use crate::pipeline::Stage;
 use crate::study::{ComparisonRow, MeanCounts, ScalingPoint};
 
-/// The primitive pairs of a method before any culling test.
-fn distributed(row: &ComparisonRow) -> MeanCounts {
+/// The primitive pairs of a method before any culling test, if it distributes triangle pairs.
+fn distributed(row: &ComparisonRow) -> Option<MeanCounts> {
     let stage = row
         .stages
         .iter()
         .find(|stage| stage.stage == Stage::Distribution);
-    stage.map(|stage| stage.survivors).unwrap_or_default()
+    stage.map(|stage| stage.survivors)
 }
 
 /// Each size's time for a step over n log n, as a multiple of the first size's: 1 throughout for a cost of n log n.

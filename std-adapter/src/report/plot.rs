@@ -274,6 +274,7 @@ mod tests {
             first_step_seconds: 0.0,
             step: StepReport {
                 triangle_pairs: 0,
+                broad_phase_pairs: None,
                 broad_phase_seconds: seconds(Stage::BroadPhase),
                 stages: later
                     .map(|&(stage, seconds)| StageReport {

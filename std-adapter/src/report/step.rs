@@ -2,11 +2,26 @@
 
 use crate::mesh::Topology;
 use crate::pipeline::{Pipeline, Preset, StepReport};
+use crate::step::{CollisionDetector, Contact, StepTally};
 use selvedge_core::Scalar;
 
-/// The last step of a [`Pipeline`], ready to be reported.
+/// What was asked of a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StepQuestion {
+    /// All contacts.
+    #[default]
+    Contacts,
+    /// The pairs that the broad phase leaves, and nothing after it.
+    Candidates,
+    /// The earliest contact alone.
+    Earliest,
+}
+
+/// The last step of a [`Pipeline`] or a [`CollisionDetector`], ready to be reported.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepSummary {
+    /// What was asked.
+    pub question: StepQuestion,
     /// The method.
     pub preset: Preset,
     /// `"f32"` or `"f64"`.
@@ -23,6 +38,8 @@ pub struct StepSummary {
     pub report: StepReport,
     /// The earliest contact, in [0, 1] of the step.
     pub earliest: Option<f64>,
+    /// Seconds of the first run of the step, which builds hierarchies and makes buffers; the report's may be a later run's.
+    pub first_run_seconds: f64,
 }
 
 impl StepSummary {
@@ -35,14 +52,47 @@ impl StepSummary {
             .iter()
             .map(|contact| contact.time.to_f64());
         Self {
+            earliest: times.min_by(f64::total_cmp),
+            first_run_seconds: pipeline.report().seconds,
+            report: pipeline.report().clone(),
             preset,
+            ..Self::of_mesh::<S>(topology, pipeline.threads())
+        }
+    }
+
+    /// A step of `detector`, which told these counts and times, and found this earliest contact.
+    #[must_use]
+    pub fn of_detector<S: Scalar>(
+        question: StepQuestion,
+        detector: &CollisionDetector<S>,
+        tally: &StepTally,
+        earliest: Option<&Contact<S>>,
+    ) -> Self {
+        let mut report = tally.report();
+        if question == StepQuestion::Candidates {
+            report.stages.clear();
+        }
+        Self {
+            question,
+            first_run_seconds: tally.seconds,
+            report,
+            earliest: earliest.map(|contact| contact.time.to_f64()),
+            ..Self::of_mesh::<S>(detector.topology(), detector.threads())
+        }
+    }
+
+    fn of_mesh<S: Scalar>(topology: &Topology, threads: usize) -> Self {
+        Self {
+            question: StepQuestion::Contacts,
+            preset: Preset::Selvedge,
             scalar: S::NAME,
-            threads: pipeline.threads(),
+            threads,
             vertices: topology.vertex_count(),
             edges: topology.edges().len(),
             triangles: topology.triangles().len(),
-            report: pipeline.report().clone(),
-            earliest: times.min_by(f64::total_cmp),
+            report: StepReport::default(),
+            earliest: None,
+            first_run_seconds: 0.0,
         }
     }
 }

@@ -169,7 +169,13 @@ fn column_groups(comparison: &Comparison) -> Vec<ColumnGroup> {
         pairs("Distributed", &|row| {
             survivors(row, |stage| stage == Stage::Distribution)
         }),
-        pairs("After boxes", &|row| survivors(row, Stage::is_box_test)),
+        pairs("After boxes", &|row| {
+            if row.has_triangle_pairs {
+                survivors(row, Stage::is_box_test)
+            } else {
+                Some(row.after_boxes)
+            }
+        }),
         pairs("After filter", &|row| Some(row.candidates)),
         pairs("Contacts", &|row| {
             survivors(row, |stage| stage == Stage::Elementary)
@@ -385,7 +391,8 @@ fn subtitle(comparison: &Comparison) -> String {
         s(threads),
         s(rounds),
     );
-    if let Some(row) = comparison.rows.first() {
+    let with_triangle_pairs = |row: &&ComparisonRow| row.has_triangle_pairs;
+    if let Some(row) = comparison.rows.iter().find(with_triangle_pairs) {
         subtitle += &format!(
             "; {} candidate triangle pairs a step",
             mean(row.triangle_pairs)
@@ -473,10 +480,12 @@ mod tests {
         ComparisonRow {
             preset,
             triangle_pairs: 8412.0,
+            has_triangle_pairs: true,
             broad_phase_seconds: 0.001,
             after_boxes: last(&|stage| stage == Stage::Distribution || stage.is_box_test()),
             candidates: last(&|stage| stage != Stage::Elementary),
             contacts: last(&|stage| stage == Stage::Elementary),
+            missed: MeanCounts::default(),
             frames_per_second: 0.01 * scale,
             stages,
         }

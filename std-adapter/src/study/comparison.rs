@@ -1,7 +1,8 @@
 //! The paper's Table 1, for every method, on the same steps in one run.
 
 use super::Frames;
-use crate::pipeline::{PairCounts, Pipeline, Preset, Stage, StepReport};
+use crate::PairKind;
+use crate::pipeline::{Contact, PairCounts, Pipeline, Preset, Stage, StepReport};
 use std::error::Error;
 
 /// Means per step.
@@ -29,18 +30,22 @@ pub struct MeanStage {
 pub struct ComparisonRow {
     /// Which method.
     pub preset: Preset,
-    /// Candidate triangle pairs a step; the same for every method.
+    /// Candidate triangle pairs a step; the same for every method that has them, else zero.
     pub triangle_pairs: f64,
+    /// Whether it has them; else its broad phase finds primitive pairs, those of [`after_boxes`](Self::after_boxes).
+    pub has_triangle_pairs: bool,
     /// Seconds a step of the broad phase, in the fastest round.
     pub broad_phase_seconds: f64,
-    /// From distribution to the elementary test.
+    /// Those after it, up to the elementary test.
     pub stages: Vec<MeanStage>,
-    /// After the last box test (as distributed where there is none).
+    /// After the last box test (where there is none, as distributed or as the broad phase finds them).
     pub after_boxes: MeanCounts,
     /// What reaches the elementary test: the paper's *candidate primitive pairs*.
     pub candidates: MeanCounts,
     /// Contacts that the elementary test finds.
     pub contacts: MeanCounts,
+    /// Pairs that touch, by the exact verdict, and are not among them.
+    pub missed: MeanCounts,
     /// Steps a second, culling and elementary tests together, in the fastest round.
     pub frames_per_second: f64,
 }
@@ -77,7 +82,8 @@ impl Comparison {
 /// Runs every step of `frames` through each of `presets`.
 ///
 /// All methods run a step before any runs the next, `rounds` times, so that a change in the machine's speed
-/// meets all of them; the fastest round of each step counts. `progress` is called after each step of each
+/// meets all of them; the fastest round of each step counts. Which pairs truly touch is asked of
+/// [`Preset::SelvedgeExact`], once a step and untimed. `progress` is called after each step of each
 /// round with the share that is done.
 ///
 /// # Errors
@@ -98,8 +104,11 @@ pub fn compare(
             preset,
             pipeline,
             total: StepReport::default(),
+            missed: PairCounts::default(),
         });
     }
+    let mut exact =
+        Pipeline::<f64>::new(topology.clone(), Preset::SelvedgeExact.stages(), threads)?;
     let (mut start, mut end) = (Vec::new(), Vec::new());
     frames.positions(0, &mut start);
     let steps = frames.step_count();
@@ -118,8 +127,11 @@ pub fn compare(
             }
             progress((step * rounds + round + 1) as f64 / (steps * rounds) as f64);
         }
+        exact.step(&start, &end)?;
+        let touching = touching_pairs(exact.contacts());
         for (method, report) in methods.iter_mut().zip(fastest) {
             method.total.add(&report.unwrap_or_default());
+            method.missed += missing(&touching, &touching_pairs(method.pipeline.contacts()));
         }
         std::mem::swap(&mut start, &mut end);
     }
@@ -144,6 +156,37 @@ struct Method {
     preset: Preset,
     pipeline: Pipeline<f64>,
     total: StepReport,
+    missed: PairCounts,
+}
+
+/// Contacts in an order of their own, each once, the edges of a pair in ascending order.
+fn touching_pairs(contacts: &[Contact<f64>]) -> Vec<(PairKind, [u32; 2])> {
+    let pairs = contacts.iter().map(|contact| {
+        let [first, second] = contact.pair;
+        match contact.kind {
+            PairKind::VertexFace => (contact.kind, [first, second]),
+            PairKind::EdgeEdge => (contact.kind, [first.min(second), first.max(second)]),
+        }
+    });
+    let mut pairs: Vec<_> = pairs.collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+/// How many of `wanted` are not among `found`; both are in order.
+fn missing(wanted: &[(PairKind, [u32; 2])], found: &[(PairKind, [u32; 2])]) -> PairCounts {
+    let mut missing = PairCounts::default();
+    for pair in wanted
+        .iter()
+        .filter(|pair| found.binary_search(pair).is_err())
+    {
+        match pair.0 {
+            PairKind::VertexFace => missing.vertex_face += 1,
+            PairKind::EdgeEdge => missing.edge_edge += 1,
+        }
+    }
+    missing
 }
 
 impl Method {
@@ -162,11 +205,13 @@ impl Method {
         ComparisonRow {
             preset: self.preset,
             triangle_pairs: mean(total.triangle_pairs as f64),
+            has_triangle_pairs: total.broad_phase_pairs.is_none(),
             broad_phase_seconds: mean(total.broad_phase_seconds),
             stages: stages.collect(),
             after_boxes: counts(total.after_boxes()),
             candidates: counts(total.candidates()),
             contacts: counts(total.contacts()),
+            missed: counts(self.missed),
             frames_per_second: steps as f64 / total.seconds,
         }
     }

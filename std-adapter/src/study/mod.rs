@@ -7,6 +7,8 @@ mod candidates;
 mod comparison;
 mod frames;
 #[cfg(feature = "files")]
+mod hard_cases;
+#[cfg(feature = "files")]
 mod queries;
 mod scaling;
 
@@ -19,6 +21,8 @@ pub use arm::ArmFrames;
 pub use candidates::{StepCandidates, busiest_step, step_candidates};
 pub use comparison::{Comparison, ComparisonRow, MeanCounts, MeanStage, compare};
 pub use frames::{Frames, TwoFrames};
+#[cfg(feature = "files")]
+pub use hard_cases::{HardAnswer, HardResult, ask_hard_cases};
 #[cfg(feature = "files")]
 pub use queries::{
     Nanoseconds, QueryMethod, QueryResult, TruthCounts, UnknownMethod, measure_queries,

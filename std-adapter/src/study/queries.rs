@@ -10,7 +10,7 @@ use crate::PairKind;
 use crate::pipeline::{CullingTest, Preset, Stages};
 use crate::queries::Query;
 use selvedge_core::boxes::{self, Dop18};
-use selvedge_core::elementary::{Impact, Limits, advance::time_of_impact};
+use selvedge_core::elementary::{Contact, Impact, Limits, advance::time_of_impact};
 use selvedge_core::{
     EdgeEdge, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary, filter,
 };
@@ -24,6 +24,8 @@ use std::time::{Duration, Instant};
 pub enum QueryMethod {
     /// All stages of [`Preset::Selvedge`] from its culling tests on: they, then the certified time of impact.
     Selvedge,
+    /// [`elementary::contact`](mod@elementary::contact), the exact verdict.
+    Exact,
     /// [`elementary::advance`] alone, the certified time of impact with its default tolerance.
     TimeOfImpact,
     /// [`CullingTest::CertifiedNonCoplanarity`] alone.
@@ -50,8 +52,9 @@ pub enum QueryMethod {
 
 impl QueryMethod {
     /// Every method, ours first.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Selvedge,
+        Self::Exact,
         Self::TimeOfImpact,
         Self::NonCoplanarity,
         Self::NonCoplanarityPlain,
@@ -70,6 +73,7 @@ impl QueryMethod {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Selvedge => "selvedge",
+            Self::Exact => "exact",
             Self::TimeOfImpact => "time_of_impact",
             Self::NonCoplanarity => "non_coplanarity",
             Self::NonCoplanarityPlain => "non_coplanarity_plain",
@@ -82,6 +86,30 @@ impl QueryMethod {
             Self::TightInclusion => "tight_inclusion",
             Self::Additive => "additive",
         }
+    }
+
+    /// Asks it about one pair of four points: false if it culls the pair, or finds that it does not touch.
+    #[must_use]
+    pub fn keeps<S: Scalar>(self, kind: PairKind, points: [Motion<S>; 4]) -> bool {
+        let query = Query {
+            start: points.map(|point| point.start),
+            end: points.map(|point| point.end),
+            collides: None,
+            line: 0,
+        };
+        let queries = [query];
+        let run = Run {
+            method: self,
+            kind,
+            queries: &queries,
+            progress: &mut |_| {},
+            is_timed: false,
+        };
+        let result = match kind {
+            PairKind::VertexFace => measure::<S, VertexFace<S>>(run),
+            PairKind::EdgeEdge => measure::<S, EdgeEdge<S>>(run),
+        };
+        result.positives > 0
     }
 
     /// Whether it never denies a contact, rounding included.
@@ -118,7 +146,7 @@ impl FromStr for QueryMethod {
         let known = Self::ALL.into_iter().find(|method| method.name() == name);
         known.ok_or_else(|| UnknownMethod {
             problem: match name {
-                "exact" | "bernstein_sign" => {
+                "bernstein_sign" => {
                     format!("the method `{name}` is planned, but not there yet")
                 }
                 _ => format!("there is no method `{name}`"),
@@ -176,27 +204,23 @@ pub fn measure_queries<S: Scalar>(
     queries: &[Query<S::Vector>],
     progress: &mut dyn FnMut(usize),
 ) -> QueryResult {
-    match kind {
-        PairKind::VertexFace => measure::<S, VertexFace<S>>(method, kind, queries, progress),
-        PairKind::EdgeEdge => measure::<S, EdgeEdge<S>>(method, kind, queries, progress),
-    }
-}
-
-fn measure<S: Scalar, P: QueryPair<S>>(
-    method: QueryMethod,
-    kind: PairKind,
-    queries: &[Query<S::Vector>],
-    progress: &mut dyn FnMut(usize),
-) -> QueryResult {
-    use CullingTest as Test;
-    let mut run = Run {
+    let run = Run {
         kind,
         method,
         queries,
         progress,
+        is_timed: true,
     };
+    match kind {
+        PairKind::VertexFace => measure::<S, VertexFace<S>>(run),
+        PairKind::EdgeEdge => measure::<S, EdgeEdge<S>>(run),
+    }
+}
+
+fn measure<S: Scalar, P: QueryPair<S>>(mut run: Run<'_, S::Vector>) -> QueryResult {
+    use CullingTest as Test;
     // One loop for each method, compiled for it alone.
-    match method {
+    match run.method {
         QueryMethod::Selvedge => {
             let limits = Limits::default();
             run.with(|pair: &P| {
@@ -204,6 +228,7 @@ fn measure<S: Scalar, P: QueryPair<S>>(
                     && time_of_impact(pair, &limits) != Impact::Never
             })
         }
+        QueryMethod::Exact => run.with(|pair: &P| elementary::contact(pair) != Contact::Never),
         QueryMethod::TimeOfImpact => {
             let limits = Limits::default();
             run.with(|pair: &P| time_of_impact(pair, &limits) != Impact::Never)
@@ -319,6 +344,8 @@ struct Run<'a, V> {
     kind: PairKind,
     queries: &'a [Query<V>],
     progress: &'a mut dyn FnMut(usize),
+    /// Otherwise each query is asked once, and no clock is read.
+    is_timed: bool,
 }
 
 impl<V: Copy> Run<'_, V> {
@@ -336,8 +363,13 @@ impl<V: Copy> Run<'_, V> {
                 end: query.end[k],
             });
             let pair = P::from_points(points);
-            let (positive, nanoseconds) = watch.time(|| test(black_box(&pair)));
-            times.push(nanoseconds);
+            let positive = if self.is_timed {
+                let (positive, nanoseconds) = watch.time(|| test(black_box(&pair)));
+                times.push(nanoseconds);
+                positive
+            } else {
+                test(&pair)
+            };
             positives += usize::from(positive);
             truth = truth.zip(query.collides).map(|(mut truth, collides)| {
                 truth.positives += usize::from(collides);
@@ -490,7 +522,10 @@ mod tests {
 
     #[test]
     fn an_unknown_name_is_told_the_known_ones() {
-        for (name, says) in [("exact", "not there yet"), ("quartic", "no method")] {
+        for (name, says) in [
+            ("bernstein_sign", "not there yet"),
+            ("quartic", "no method"),
+        ] {
             let message = name.parse::<QueryMethod>().unwrap_err().to_string();
             assert!(
                 message.contains(says) && message.contains("dop_18, cubic"),

@@ -1,7 +1,7 @@
 //! `selvedge cull`.
 
 use crate::support::{Workplace, keys, moved_by};
-use selvedge::pipeline::Preset;
+use selvedge::pipeline::{Preset, Source};
 use serde_json::{Value, json};
 
 const CULL: [&str; 3] = ["cull", "start.obj", "end.obj"];
@@ -17,8 +17,26 @@ fn stage<'a>(document: &'a Value, name: &str) -> &'a Value {
 
 #[test]
 fn json_has_the_mesh_the_stages_and_the_contacts() {
-    let document = Workplace::with_step().json(&with(&["--json"]));
-    assert_eq!(document["pipeline"], "selvedge");
+    let place = Workplace::with_step();
+    let ours = place.json(&with(&["--json"]));
+    has_the_mesh_the_stages_and_the_contacts(&ours, "selvedge", false);
+    // The small triangle's corners and the large face; its edges and the two slanted ones of the large triangle.
+    assert_eq!(stage(&ours, "broad-phase")["vertex_face"], 3);
+    assert_eq!(stage(&ours, "broad-phase")["edge_edge"], 6);
+
+    let paper = place.json(&with(&["--json", "--pipeline", "lv_2014"]));
+    has_the_mesh_the_stages_and_the_contacts(&paper, "lv_2014", true);
+    assert_eq!(stage(&paper, "broad-phase")["triangle_pairs"], 1);
+    assert_eq!(stage(&paper, "distribution")["vertex_face"], 6);
+    assert_eq!(stage(&paper, "distribution")["edge_edge"], 9);
+}
+
+fn has_the_mesh_the_stages_and_the_contacts(
+    document: &Value,
+    pipeline: &str,
+    has_triangle_pairs: bool,
+) {
+    assert_eq!(document["pipeline"], pipeline);
     assert_eq!(
         [
             &document["vertices"],
@@ -31,15 +49,12 @@ fn json_has_the_mesh_the_stages_and_the_contacts() {
     let stages = document["stages"].as_array().unwrap();
     for (index, stage) in stages.iter().enumerate() {
         let counts: &[&str] = match index {
-            0 => &["stage", "triangle_pairs", "seconds"],
+            0 if has_triangle_pairs => &["stage", "triangle_pairs", "seconds"],
             _ => &["stage", "vertex_face", "edge_edge", "seconds"],
         };
         assert_eq!(keys(stage), counts);
         assert!(stage["seconds"].as_f64().unwrap() >= 0.0);
     }
-    assert_eq!(stage(&document, "broad-phase")["triangle_pairs"], 1);
-    assert_eq!(stage(&document, "distribution")["vertex_face"], 6);
-    assert_eq!(stage(&document, "distribution")["edge_edge"], 9);
     // The corners of the small triangle fall from 1, 1.1 and 1.2 by 4 each.
     let contacts = &document["contacts"];
     assert_eq!(keys(contacts), ["vertex_face", "edge_edge", "earliest"]);
@@ -61,7 +76,10 @@ fn stages_are_those_of_the_preset() {
             .iter()
             .map(|stage| stage["stage"].as_str().unwrap().to_owned())
             .collect();
-        let mut expected = vec!["broad-phase".to_owned(), "distribution".to_owned()];
+        let mut expected = vec!["broad-phase".to_owned()];
+        if preset.stages().source != Source::MovingBoxes {
+            expected.push("distribution".to_owned());
+        }
         expected.extend(
             preset
                 .stages()
@@ -128,6 +146,46 @@ fn candidates_hold_every_pair_before_the_elementary_test() {
 }
 
 #[test]
+fn candidates_only_ends_after_the_broad_phase() {
+    let place = Workplace::with_step();
+    let options = ["--json", "--candidates-only", "--candidates", "out.csv"];
+    let document = place.json(&with(&options));
+    assert_eq!(document["contacts"], Value::Null);
+    assert_eq!(document["stages"].as_array().unwrap().len(), 1);
+    assert_eq!(stage(&document, "broad-phase")["vertex_face"], 3);
+    assert_eq!(place.read("out.csv").lines().count(), 1 + 3 + 6);
+    assert!(
+        place
+            .stdout(&with(&["--candidates-only"]))
+            .contains("certainly apart throughout")
+    );
+}
+
+#[test]
+fn the_earliest_contact_is_found_alone() {
+    let place = Workplace::with_step();
+    let document = place.json(&with(&["--json", "--earliest", "--pairs", "out.csv"]));
+    let earliest = document["contacts"]["earliest"].as_f64().unwrap();
+    assert!(earliest <= 0.25 && earliest > 0.25 - 1e-9, "{earliest}");
+    let text = place.read("out.csv");
+    assert!(text.contains("vertex-face,3,0,1,2,0.2"), "{text}");
+    place.write("end.obj", moved_by(-0.5));
+    let document = place.json(&with(&["--json", "--earliest"]));
+    assert_eq!(document["contacts"]["earliest"], Value::Null);
+}
+
+#[test]
+fn the_published_pipelines_do_not_answer_short_questions() {
+    let place = Workplace::with_step();
+    for option in ["--earliest", "--candidates-only"] {
+        let output = place.run(&with(&[option, "--pipeline", "lv_2014"]));
+        assert_eq!(output.status.code(), Some(1));
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert!(message.contains("only the pipeline selvedge"), "{message}");
+    }
+}
+
+#[test]
 fn counts_do_not_depend_on_the_number_of_threads() {
     let place = Workplace::new();
     place.stdout(&["arm", "--frames", "55,56"]);
@@ -187,7 +245,12 @@ fn what_is_unusual_about_the_mesh_is_said_on_standard_error() {
 
 #[test]
 fn the_table_has_every_stage_and_the_contacts() {
-    let text = Workplace::with_step().stdout(&CULL);
+    let place = Workplace::with_step();
+    let text = place.stdout(&CULL);
+    for part in ["broad-phase", "non-coplanarity", "elementary"] {
+        assert!(text.contains(part), "{text}");
+    }
+    let text = place.stdout(&with(&["--pipeline", "lv_2014"]));
     for part in [
         "broad-phase",
         "distribution",

@@ -4,6 +4,7 @@ mod accuracy;
 mod bad_input;
 mod compare;
 mod cull;
+mod hard_cases;
 mod queries;
 mod support;
 mod terminal;

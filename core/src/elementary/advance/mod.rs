@@ -94,11 +94,39 @@ pub fn time_of_impact<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<
     time_of_impact_and_work(pair, limits).0
 }
 
+/// [`time_of_impact`] of a pair that is proven to be apart up to `from`, asked no further than `until`: [`Impact::Never`] says
+/// that it is apart from `from` until then, and a time that is not excluded is no earlier than `from`.
+///
+/// Both in [0, 1]; else, or if they are NaN, nothing is excluded. So a caller who has advanced pairs side by side
+/// ([`batch`](crate::batch)), or who looks for the earliest contact, goes on from what is known.
+#[inline]
+pub fn time_of_impact_within<S: Scalar, P: PrimitivePair<S>>(
+    pair: &P,
+    limits: &Limits<S>,
+    from: S,
+    until: S,
+) -> Impact<S> {
+    if !(from >= S::ZERO && from <= S::ONE && until >= from && until <= S::ONE) {
+        return not_excluded(S::ZERO, Reason::NotFinite, Work::default()).0;
+    }
+    advanced(pair, limits, [from, until]).0
+}
+
 /// [`time_of_impact`], and how much work it was.
 #[inline]
 pub fn time_of_impact_and_work<S: Scalar, P: PrimitivePair<S>>(
     pair: &P,
     limits: &Limits<S>,
+) -> (Impact<S>, Work) {
+    advanced(pair, limits, [S::ZERO, S::ONE])
+}
+
+/// From the first time of `span` to the second.
+#[inline(always)]
+fn advanced<S: Scalar, P: PrimitivePair<S>>(
+    pair: &P,
+    limits: &Limits<S>,
+    span: [S; 2],
 ) -> (Impact<S>, Work) {
     let limits = &Limits {
         separation: limits.separation.raised_to_normal(),
@@ -112,8 +140,8 @@ pub fn time_of_impact_and_work<S: Scalar, P: PrimitivePair<S>>(
     }
     let points = pair.points();
     match P::Shape::SHAPE {
-        Shape::VertexFace => decide(&points, &Corners::of_vertex_face(&points), limits),
-        Shape::EdgeEdge => decide(&points, &Corners::of_edge_edge(&points), limits),
+        Shape::VertexFace => decide(&points, &Corners::of_vertex_face(&points), limits, span),
+        Shape::EdgeEdge => decide(&points, &Corners::of_edge_edge(&points), limits, span),
     }
 }
 
@@ -128,6 +156,7 @@ fn decide<S: Scalar, const N: usize>(
     points: &PairPoints<S>,
     corners: &Corners<S, N>,
     limits: &Limits<S>,
+    span: [S; 2],
 ) -> (Impact<S>, Work) {
     let mut work = Work::default();
     if !(points.is_finite() && limits.separation >= S::ZERO) {
@@ -148,6 +177,7 @@ fn decide<S: Scalar, const N: usize>(
         corners,
         volume: &volume,
         limits,
+        span,
         work: &mut work,
     }
     .run();
@@ -159,6 +189,8 @@ struct Advance<'a, S, const N: usize> {
     corners: &'a Corners<S, N>,
     volume: &'a SignedVolume<S>,
     limits: &'a Limits<S>,
+    /// Up to when it is known to be apart, and when the time ends that is asked about.
+    span: [S; 2],
     work: &'a mut Work,
 }
 
@@ -198,7 +230,8 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
     fn run(&mut self) -> Impact<S> {
         let near = self.limits.tolerance + self.limits.separation;
         let near_squared = near * near;
-        let mut now = Snapshot::new(self.corners, S::ZERO);
+        let [from, end] = self.span;
+        let mut now = Snapshot::new(self.corners, from);
         let possible = |now: &Snapshot<S, N>, reason| Impact::Possible {
             time: now.time,
             reason,
@@ -221,10 +254,13 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
                     _ => {}
                 }
             }
+            if until > end {
+                return Impact::Never;
+            }
             let mut next = Snapshot::new(self.corners, until);
             if self.work.rounds > 3 && next.closest.squared_distance > near_squared {
                 self.turn_on(&now, &mut next);
-                if next.time >= S::ONE {
+                if next.time >= S::ONE || next.time > end {
                     return Impact::Never;
                 }
             }

@@ -41,6 +41,7 @@
 //! Along one axis alone nearly every contact is settled, with a handful of signs.
 
 mod moment;
+mod rounded;
 #[cfg(test)]
 mod tests;
 mod whole;
@@ -51,7 +52,7 @@ use super::kernel::bits_in;
 use crate::points::{PairPoints, PairShape, Shape};
 use crate::scalar::Scalar;
 use core::cmp::Ordering;
-use moment::{Crossing, End, Moment, Root, Start, sign_after_start, sign_before_end};
+use moment::{Crossing, Moment, Root, sign_before_end};
 use whole::Whole;
 
 /// Whether the closed vertex and face, or the two closed edges, share a point at some time in [0, 1].
@@ -77,192 +78,103 @@ pub fn touches<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<bool> 
     let pair = AlignedPair::new::<P, S>(points)?;
     let bits = pair.bits();
     Some(if bits <= bits_in::<1>() {
-        in_words::<P, 1, 3, 16>(&pair)
+        in_words::<P, 1, 2, 3, 16>(&pair)
     } else if bits <= bits_in::<2>() {
-        in_words::<P, 2, 6, 32>(&pair)
+        in_words::<P, 2, 4, 6, 32>(&pair)
     } else if bits <= bits_in::<5>() {
-        in_words::<P, 5, 15, 80>(&pair)
+        in_words::<P, 5, 10, 15, 80>(&pair)
     } else {
-        in_words::<P, 33, 99, 528>(&pair)
+        in_words::<P, 33, 66, 99, 528>(&pair)
     })
 }
 
-/// With coordinates of `N` words; `C` = 3·`N`, `R` = 16·`N`.
+/// With coordinates of `N` words; `N2` = 2·`N`, `N3` = 3·`N`, `R` = 16·`N`.
 ///
 /// Out of line, so that a call pays for the stack of its own width only.
 #[inline(never)]
-fn in_words<P: PairShape, const N: usize, const C: usize, const R: usize>(
+fn in_words<P: PairShape, const N: usize, const N2: usize, const N3: usize, const R: usize>(
     pair: &AlignedPair,
 ) -> bool {
     let axes = pair.coordinates::<N>();
     match P::SHAPE {
-        Shape::VertexFace => Polygon::<3, C, R>::of_vertex_face(&axes).touches(),
-        Shape::EdgeEdge => Polygon::<4, C, R>::of_edge_edge(&axes).touches(),
+        Shape::VertexFace => Polygon::<3, N>::of_vertex_face(&axes).touches::<N2, N3, R>(),
+        Shape::EdgeEdge => Polygon::<4, N>::of_edge_edge(&axes).touches::<N2, N3, R>(),
     }
 }
 
-/// A polynomial in s = t/(1 − t) of degree 1, 2 or 3: see `moment`.
-type Linear<const C: usize> = [Whole<C>; 2];
-type Quadratic<const C: usize> = [Whole<C>; 3];
-type Cubic<const C: usize> = [Whole<C>; 4];
+/// One coordinate of a corner, at the start and at the end of the step: the coefficients of a linear polynomial in s.
+type Linear<const N: usize> = [Integer<N>; 2];
 
-/// The moving corners of a pair, around the triangle or parallelogram, along each axis; with `R` words to work with.
-struct Polygon<const CORNERS: usize, const C: usize, const R: usize>([[Linear<C>; CORNERS]; 3]);
+/// The moving corners of a pair, around the triangle or parallelogram, along each axis.
+struct Polygon<const CORNERS: usize, const N: usize>([[Linear<N>; CORNERS]; 3]);
 
-impl<const C: usize, const R: usize> Polygon<3, C, R> {
-    fn of_vertex_face<const N: usize>(axes: &[[Integer<N>; 8]; 3]) -> Self {
+impl<const N: usize> Polygon<3, N> {
+    fn of_vertex_face(axes: &[[Integer<N>; 8]; 3]) -> Self {
         Self(axes.each_ref().map(|[p0, a0, b0, c0, p1, a1, b1, c1]| {
             [
-                corner([p0, a0], [p1, a1]),
-                corner([p0, b0], [p1, b1]),
-                corner([p0, c0], [p1, c1]),
+                [p0.minus(a0), p1.minus(a1)],
+                [p0.minus(b0), p1.minus(b1)],
+                [p0.minus(c0), p1.minus(c1)],
             ]
         }))
     }
 }
 
-impl<const C: usize, const R: usize> Polygon<4, C, R> {
-    fn of_edge_edge<const N: usize>(axes: &[[Integer<N>; 8]; 3]) -> Self {
+impl<const N: usize> Polygon<4, N> {
+    fn of_edge_edge(axes: &[[Integer<N>; 8]; 3]) -> Self {
         Self(axes.each_ref().map(|[u0, v0, k0, l0, u1, v1, k1, l1]| {
             [
-                corner([u0, k0], [u1, k1]),
-                corner([u0, l0], [u1, l1]),
-                corner([v0, l0], [v1, l1]),
-                corner([v0, k0], [v1, k1]),
+                [u0.minus(k0), u1.minus(k1)],
+                [u0.minus(l0), u1.minus(l1)],
+                [v0.minus(l0), v1.minus(l1)],
+                [v0.minus(k0), v1.minus(k1)],
             ]
         }))
     }
 }
 
-/// The difference of two points, at the start and at the end.
-fn corner<const N: usize, const C: usize>(
-    [p0, q0]: [&Integer<N>; 2],
-    [p1, q1]: [&Integer<N>; 2],
-) -> Linear<C> {
-    [Whole::new(&p0.minus(q0)), Whole::new(&p1.minus(q1))]
-}
-
-impl<const CORNERS: usize, const C: usize, const R: usize> Polygon<CORNERS, C, R> {
-    fn touches(&self) -> bool {
-        let volume = self.volume();
-        if self.touches_at(&Start, &volume) || self.touches_at(&End, &volume) {
+impl<const CORNERS: usize, const N: usize> Polygon<CORNERS, N> {
+    fn touches<const N2: usize, const N3: usize, const R: usize>(&self) -> bool {
+        let volume = self.volume::<N2, N3>();
+        let signs = volume.each_ref().map(Integer::sign);
+        let [at_start, .., at_end] = signs;
+        if at_start.is_eq() && self.touches_at_an_end::<0, N2>()
+            || at_end.is_eq() && self.touches_at_an_end::<1, N2>()
+        {
             return true;
         }
-        if volume.iter().all(Whole::is_zero) {
-            return self.touches_in_plane();
-        }
-        match changes_of_sign(&volume) {
+        let search = Search::<CORNERS, N, N2, N3, R>(self);
+        match changes_of_sign(signs) {
+            _ if signs == [Ordering::Equal; 4] => search.touches_in_plane(),
             0 => false,
-            1 => self.touches_when_coplanar(&Crossing::<C, R> {
-                cubic: &volume,
-                after: None,
-                before: None,
-                sign_before: sign_after_start(&volume),
-            }),
-            _ => self.touches_at_one_of_many(&volume),
+            1 => search.touches_when_coplanar(&Crossing::<N3, R>::between_ends(
+                &volume.each_ref().map(Whole::new),
+            )),
+            _ => search.touches_at_one_of_many(&volume.each_ref().map(Whole::new)),
         }
     }
 
-    fn touches_at(&self, moment: &impl Moment<C>, volume: &Cubic<C>) -> bool {
-        moment.sign(volume).is_eq() && self.touches_when_coplanar(moment)
-    }
-
-    /// At a time when the origin is in a plane with the corners.
-    fn touches_when_coplanar(&self, moment: &impl Moment<C>) -> bool {
-        for [y, z] in self.projections() {
-            let (mut turns_left, mut turns_right) = (false, false);
-            for ((y0, z0), (y1, z1)) in y.iter().zip(z).zip(around(y).zip(around(z))) {
-                match moment.sign(&cross(y0, z0, y1, z1)) {
-                    Ordering::Less => turns_right = true,
-                    Ordering::Equal => {}
-                    Ordering::Greater => turns_left = true,
-                }
-                if turns_left && turns_right {
-                    return false;
-                }
-            }
-            if turns_left || turns_right {
-                return true;
-            }
-        }
-        self.0.iter().all(|corners| {
-            let mut signs = corners.iter().map(|corner| moment.sign(corner));
-            let first = signs.next().unwrap_or(Ordering::Equal);
-            first.is_eq() || signs.any(|sign| sign != first)
-        })
-    }
-
-    /// In a step with several roots of the volume, or one more than once.
-    fn touches_at_one_of_many(&self, volume: &Cubic<C>) -> bool {
-        let [k0, k1, k2, k3] = volume;
-        let derivative: Quadratic<C> = [*k1, k2.times_small(2), k3.times_small(3)];
-        // 3K = s·K′ + this: where the derivative is zero it has the volume's sign.
-        let rest: Quadratic<C> = [k0.times_small(3), k1.times_small(2), *k2];
-        let turning_points = Root::<C, R>::positive(&derivative);
-        let mut after = None;
-        let mut sign_before = sign_after_start(volume);
-        for turning_point in turning_points.iter().flatten() {
-            let sign = turning_point.sign(&rest);
-            let touches = if sign.is_eq() {
-                self.touches_when_coplanar(turning_point)
-            } else {
-                sign == sign_before.reverse()
-                    && self.touches_when_coplanar(&Crossing {
-                        cubic: volume,
-                        after,
-                        before: Some(turning_point),
-                        sign_before,
-                    })
-            };
-            if touches {
-                return true;
-            }
-            (after, sign_before) = (Some(turning_point), sign);
-        }
-        sign_before_end(volume) == sign_before.reverse()
-            && self.touches_when_coplanar(&Crossing {
-                cubic: volume,
-                after,
-                before: None,
-                sign_before,
-            })
-    }
-
-    /// In a step throughout which the origin is in a plane with the corners.
-    fn touches_in_plane(&self) -> bool {
-        let touches_at_a_root_of = |polynomial: &[Whole<C>]| {
-            Root::<C, R>::positive(polynomial)
-                .iter()
-                .flatten()
-                .any(|root| self.touches_when_coplanar(root))
-        };
-        self.0.iter().flatten().any(|c| touches_at_a_root_of(c))
-            || self.projections().iter().any(|[y, z]| {
-                let corners = y.iter().zip(*z).zip(around(y).zip(around(z)));
-                corners
-                    .into_iter()
-                    .any(|((y0, z0), (y1, z1))| touches_at_a_root_of(&cross(y0, z0, y1, z1)))
-            })
-    }
-
-    /// The corners along the two other axes, for each axis.
-    fn projections(&self) -> [[&[Linear<C>; CORNERS]; 2]; 3] {
-        let [x, y, z] = &self.0;
-        [[y, z], [z, x], [x, y]]
+    /// At the start (`END` = 0) or end (1) of the step, when the origin is in a plane with the corners.
+    fn touches_at_an_end<const END: usize, const N2: usize>(&self) -> bool {
+        contains_origin(
+            self,
+            |[[a, b], [c, d]]| minor::<N, N2>(&a[END], &b[END], &c[END], &d[END]).sign(),
+            |coordinate| coordinate[END].sign(),
+        )
     }
 
     /// The determinant of the first three corners.
-    fn volume(&self) -> Cubic<C> {
-        let mut volume = [Whole::ZERO; 4];
+    fn volume<const N2: usize, const N3: usize>(&self) -> [Integer<N3>; 4] {
+        let mut volume = [Integer::ZERO; 4];
         for (x, [y, z]) in self.0.iter().zip(self.projections()) {
             if let ([x0, ..], [_, y1, y2, ..], [_, z1, z2, ..]) =
                 (x.as_slice(), y.as_slice(), z.as_slice())
             {
-                let normal = cross(y1, z1, y2, z2);
+                let normal = cross::<N, N2>([[y1, z1], [y2, z2]]);
                 for (i, factor) in x0.iter().enumerate() {
                     for (j, component) in normal.iter().enumerate() {
                         if let Some(sum) = volume.get_mut(i + j) {
-                            *sum = sum.plus(&factor.times::<C, C>(component));
+                            *sum = sum.plus(&factor.times(component));
                         }
                     }
                 }
@@ -270,35 +182,156 @@ impl<const CORNERS: usize, const C: usize, const R: usize> Polygon<CORNERS, C, R
         }
         volume
     }
+
+    /// The corners along the two other axes, for each axis.
+    fn projections(&self) -> [[&[Linear<N>; CORNERS]; 2]; 3] {
+        let [x, y, z] = &self.0;
+        [[y, z], [z, x], [x, y]]
+    }
 }
 
-/// The corners, beginning with the second and ending with the first.
-fn around<T, const N: usize>(corners: &[T; N]) -> impl Iterator<Item = &T> {
-    corners.iter().cycle().skip(1)
+/// The coordinates along two axes of a corner and of the next.
+type Neighbours<'a, const N: usize> = [[&'a Linear<N>; 2]; 2];
+
+/// All neighbours, around the polygon.
+fn neighbours<'a, const CORNERS: usize, const N: usize>(
+    [y, z]: [&'a [Linear<N>; CORNERS]; 2],
+) -> impl Iterator<Item = Neighbours<'a, N>> {
+    let next = |coordinates: &'a [Linear<N>; CORNERS]| coordinates.iter().cycle().skip(1);
+    let corners = y.iter().zip(z).zip(next(y).zip(next(z)));
+    corners.map(|((y0, z0), (y1, z1))| [[y0, z0], [y1, z1]])
 }
 
-/// One component of the cross product of two corners.
-fn cross<const C: usize>(
-    [a0, a1]: &Linear<C>,
-    [b0, b1]: &Linear<C>,
-    [c0, c1]: &Linear<C>,
-    [d0, d1]: &Linear<C>,
-) -> Quadratic<C> {
-    let minor = |a: &Whole<C>, b: &Whole<C>, c: &Whole<C>, d: &Whole<C>| -> Whole<C> {
-        a.times::<C, C>(d).minus(&b.times::<C, C>(c))
-    };
+/// Conditions 2 and 3 of the module's documentation, at a time when the first is met: given the signs then of neighbours' cross
+/// product and of a coordinate.
+#[inline(always)]
+fn contains_origin<const CORNERS: usize, const N: usize>(
+    polygon: &Polygon<CORNERS, N>,
+    cross_sign: impl Fn(Neighbours<'_, N>) -> Ordering,
+    coordinate_sign: impl Fn(&Linear<N>) -> Ordering,
+) -> bool {
+    for projection in polygon.projections() {
+        let (mut turns_left, mut turns_right) = (false, false);
+        for pair in neighbours(projection) {
+            let turn = cross_sign(pair);
+            turns_left |= turn.is_gt();
+            turns_right |= turn.is_lt();
+            if turns_left && turns_right {
+                return false;
+            }
+        }
+        if turns_left || turns_right {
+            return true;
+        }
+    }
+    polygon.0.iter().all(|corners| {
+        let mut signs = corners.iter().map(&coordinate_sign);
+        let first = signs.next().unwrap_or(Ordering::Equal);
+        first.is_eq() || signs.any(|sign| sign != first)
+    })
+}
+
+/// For contact within the step, at roots of polynomials.
+struct Search<
+    'a,
+    const CORNERS: usize,
+    const N: usize,
+    const N2: usize,
+    const N3: usize,
+    const R: usize,
+>(&'a Polygon<CORNERS, N>);
+
+impl<const CORNERS: usize, const N: usize, const N2: usize, const N3: usize, const R: usize>
+    Search<'_, CORNERS, N, N2, N3, R>
+{
+    /// At a time when the origin is in a plane with the corners.
+    fn touches_when_coplanar(&self, moment: &impl Moment<N3>) -> bool {
+        contains_origin(
+            self.0,
+            |neighbours| moment.sign(&cross::<N, N2>(neighbours).each_ref().map(Whole::new)),
+            |coordinate| moment.sign(&coordinate.each_ref().map(Whole::new)),
+        )
+    }
+
+    /// In a step with several roots of the volume, or one more than once.
+    fn touches_at_one_of_many(&self, volume: &[Whole<N3>; 4]) -> bool {
+        let [k0, k1, k2, k3] = volume;
+        let derivative: [Whole<N3>; 3] = [*k1, k2.times_small(2), k3.times_small(3)];
+        // 3K = s·K′ + this: where the derivative is zero it has the volume's sign.
+        let rest: [Whole<N3>; 3] = [k0.times_small(3), k1.times_small(2), *k2];
+        let turning_points = Root::<N3, R>::positive(&derivative);
+        let mut crossing = Crossing::between_ends(volume);
+        for turning_point in turning_points.iter().flatten() {
+            let sign = turning_point.sign(&rest);
+            let touches = if sign.is_eq() {
+                self.touches_when_coplanar(turning_point)
+            } else {
+                sign == crossing.sign_before.reverse() && {
+                    crossing.before = Some(turning_point);
+                    self.touches_when_coplanar(&crossing)
+                }
+            };
+            if touches {
+                return true;
+            }
+            crossing = Crossing {
+                cubic: volume,
+                after: Some(turning_point),
+                before: None,
+                sign_before: sign,
+            };
+        }
+        sign_before_end(volume) == crossing.sign_before.reverse()
+            && self.touches_when_coplanar(&crossing)
+    }
+
+    /// In a step throughout which the origin is in a plane with the corners.
+    fn touches_in_plane(&self) -> bool {
+        let touches_at_a_root_of = |polynomial: &[Whole<N3>]| {
+            let roots = Root::<N3, R>::positive(polynomial);
+            roots
+                .iter()
+                .flatten()
+                .any(|root| self.touches_when_coplanar(root))
+        };
+        let mut coordinates = self.0.0.iter().flatten();
+        let mut projections = self.0.projections().into_iter();
+        coordinates.any(|coordinate| touches_at_a_root_of(&coordinate.each_ref().map(Whole::new)))
+            || projections.any(|projection| {
+                neighbours(projection).any(|neighbours| {
+                    let cross = cross::<N, N2>(neighbours);
+                    touches_at_a_root_of(&cross.each_ref().map(Whole::new))
+                })
+            })
+    }
+}
+
+/// a·d − b·c.
+fn minor<const N: usize, const N2: usize>(
+    a: &Integer<N>,
+    b: &Integer<N>,
+    c: &Integer<N>,
+    d: &Integer<N>,
+) -> Integer<N2> {
+    a.times::<N, N2>(d).minus(&b.times::<N, N2>(c))
+}
+
+/// One component of the cross product of neighbours, a quadratic in s.
+fn cross<const N: usize, const N2: usize>(
+    [[[a0, a1], [b0, b1]], [[c0, c1], [d0, d1]]]: Neighbours<'_, N>,
+) -> [Integer<N2>; 3] {
     [
         minor(a0, b0, c0, d0),
-        minor(a0, b1, c0, d1).plus(&minor(a1, b0, c1, d0)),
+        minor(a0, b0, c1, d1).plus(&minor(a1, b1, c0, d0)),
         minor(a1, b1, c1, d1),
     ]
 }
 
 /// How often the sign changes in a row of coefficients.
-fn changes_of_sign<const C: usize>(polynomial: &[Whole<C>]) -> u32 {
+fn changes_of_sign(signs: [Ordering; 4]) -> u32 {
     let (mut changes, mut last) = (0, Ordering::Equal);
-    for sign in polynomial.iter().map(Whole::sign).filter(|s| s.is_ne()) {
-        changes += u32::from(sign == last.reverse() && last.is_ne());
+    for sign in signs.into_iter().filter(|sign| sign.is_ne()) {
+        changes += u32::from(sign == last.reverse());
         last = sign;
     }
     changes

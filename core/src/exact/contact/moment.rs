@@ -11,7 +11,8 @@
 //! and k₁, k₂ ≤ 18·2³ᵐ; its derivatives, and the quadratic that stands for it where the first is zero, stay below
 //! 36·2³ᵐ < 2^(3m+6): all of them, with the sign apart, in `C` = 3·N words.
 //!
-//! [`Root::sign`] takes the remainder l of a polynomial divided by the quadratic q, and of q divided by l. What can come together:
+//! A root's sign is that of one of the last numbers of [`terms`], the remainder l of a polynomial divided by the quadratic q, and of q
+//! divided by l. What can come together:
 //!
 //! | polynomial | q | l below | last number below |
 //! |---|---|---|---|
@@ -24,7 +25,10 @@
 //! (In the first row l is a sum of three or four products of two coefficients of q and one of the cubic, in the others two of
 //! two; the last number a sum of three, l² times a coefficient of q.) The largest has 16·(64·N − 2) + 26 < 1024·N bits, which is
 //! `R` = 16·N words. Where q is linear less is needed.
+//!
+//! Before all these words are computed the same is tried with [`rounded`](super::rounded) numbers; most signs are certain from them.
 
+use super::rounded::{Rounded, Scale};
 use super::whole::Whole;
 use core::cmp::Ordering;
 
@@ -34,28 +38,8 @@ pub(super) trait Moment<const C: usize> {
     fn sign(&self, polynomial: &[Whole<C>]) -> Ordering;
 }
 
-/// The start of the step.
-pub(super) struct Start;
-
-/// The end of the step.
-pub(super) struct End;
-
-impl<const C: usize> Moment<C> for Start {
-    #[inline(always)]
-    fn sign(&self, polynomial: &[Whole<C>]) -> Ordering {
-        polynomial.first().map_or(Ordering::Equal, Whole::sign)
-    }
-}
-
-impl<const C: usize> Moment<C> for End {
-    #[inline(always)]
-    fn sign(&self, polynomial: &[Whole<C>]) -> Ordering {
-        polynomial.last().map_or(Ordering::Equal, Whole::sign)
-    }
-}
-
 /// A polynomial's sign just after the start.
-pub(super) fn sign_after_start<const C: usize>(polynomial: &[Whole<C>]) -> Ordering {
+fn sign_after_start<const C: usize>(polynomial: &[Whole<C>]) -> Ordering {
     first_of_signs(polynomial.iter())
 }
 
@@ -79,6 +63,17 @@ fn first_of_signs<'a, const C: usize>(
 enum Side {
     Lower,
     Upper,
+}
+
+impl Side {
+    /// The sign of l₁·√D as it is added, given that of l₁.
+    #[inline(always)]
+    const fn of_root(self, l1: Ordering) -> Ordering {
+        match self {
+            Self::Lower => l1.reverse(),
+            Self::Upper => l1,
+        }
+    }
 }
 
 /// A positive root of a quadratic, or of a linear polynomial, with `R` words to work with.
@@ -143,33 +138,9 @@ impl<const C: usize, const R: usize> Root<C, R> {
         }
         value.sign()
     }
-
-    /// l₀ + l₁·s, a positive multiple of the polynomial at both roots of a + b·s + c·s².
-    ///
-    /// Horner's rule: (l₀ + l₁·s)·s, times c and with c·s² = −a − b·s, is −a·l₁ + (c·l₀ − b·l₁)·s.
-    fn remainder(&self, polynomial: &[Whole<C>]) -> [Whole<R>; 2] {
-        let [a, b, c] = &self.quadratic;
-        let mut coefficients = polynomial.iter().rev();
-        let mut next = || coefficients.next().map(Whole::widened::<R>);
-        let mut l1 = next().unwrap_or(Whole::ZERO);
-        let Some(mut l0) = next() else {
-            return [l1, Whole::ZERO];
-        };
-        let mut power: Whole<R> = c.widened();
-        while let Some(coefficient) = next() {
-            let (raised, product): (Whole<R>, Whole<R>) = (coefficient.times(&power), l1.times(a));
-            let (from_l0, from_l1): (Whole<R>, Whole<R>) = (l0.times(c), l1.times(b));
-            (l0, l1) = (raised.minus(&product), from_l0.minus(&from_l1));
-            power = power.times(c);
-        }
-        [l0, l1]
-    }
 }
 
 impl<const C: usize, const R: usize> Moment<C> for Root<C, R> {
-    /// With σ = (−b ± √D)/2c, D = b² − 4ac and l the remainder, 2c·l(σ) is A ± l₁√D, A = 2c·l₀ − b·l₁. Where its terms have
-    /// opposite signs, A² − l₁²D = 4c·(c·l₀² − b·l₀l₁ + a·l₁²) says which is larger. (The number in brackets is the resultant of
-    /// polynomial and q, times a power of c.)
     fn sign(&self, polynomial: &[Whole<C>]) -> Ordering {
         #[cfg(test)]
         super::tests::count_a_sign();
@@ -177,25 +148,112 @@ impl<const C: usize, const R: usize> Moment<C> for Root<C, R> {
         if c.is_zero() {
             return Self::sign_at_quotient(a, b, polynomial);
         }
-        let [l0, l1] = self.remainder(polynomial);
-        let of_root_term = match self.side {
-            Side::Lower => l1.sign().reverse(),
-            Side::Upper => l1.sign(),
-        };
-        let (from_l0, from_l1): (Whole<R>, Whole<R>) = (l0.times(c), l1.times(b));
-        let half: Whole<R> = from_l0.minus(&from_l1);
-        let of_first_term = half.plus::<R, R>(&from_l0).sign();
-        if of_root_term.is_eq() || of_root_term == of_first_term {
-            return of_first_term;
+        if let Some(sign) = self.estimated_sign(polynomial) {
+            return sign;
         }
-        let (first, second): (Whole<R>, Whole<R>) = (l0.times(&half), l1.times(&l1));
-        let last: Whole<R> = second.times(a);
-        match first.plus::<R, R>(&last).sign() {
-            Ordering::Less => of_root_term,
+        let quadratic = self.quadratic.each_ref().map(Whole::widened::<R>);
+        let polynomial = polynomial.iter().rev().map(Whole::widened::<R>);
+        let [l1, first, last] = terms(quadratic, polynomial).map(|term| term.sign());
+        let of_root = self.side.of_root(l1);
+        if of_root.is_eq() || of_root == first {
+            return first;
+        }
+        match last {
+            Ordering::Less => of_root,
             Ordering::Equal => Ordering::Equal,
-            Ordering::Greater => of_first_term,
+            Ordering::Greater => first,
         }
     }
+}
+
+impl<const C: usize, const R: usize> Root<C, R> {
+    /// The sign, if rounded numbers tell.
+    fn estimated_sign(&self, polynomial: &[Whole<C>]) -> Option<Ordering> {
+        let of_quadratic = Scale::of(&self.quadratic);
+        let of_polynomial = Scale::of(polynomial);
+        let quadratic = self.quadratic.each_ref().map(|x| of_quadratic.rounded(x));
+        let polynomial = polynomial.iter().rev().map(|x| of_polynomial.rounded(x));
+        let [l1, first, last] = terms(quadratic, polynomial);
+        let of_root = self.side.of_root(l1.sign_if_beyond(32)?);
+        if first.sign_if_beyond(64) == Some(of_root) {
+            return Some(of_root);
+        }
+        match last.sign_if_beyond(512)? {
+            Ordering::Less => Some(of_root),
+            _ => first.sign_if_beyond(64),
+        }
+    }
+}
+
+/// What whole numbers and rounded ones have in common.
+trait Number: Copy {
+    const ZERO: Self;
+    fn plus(&self, other: &Self) -> Self;
+    fn minus(&self, other: &Self) -> Self;
+    fn times(&self, other: &Self) -> Self;
+}
+
+impl<const R: usize> Number for Whole<R> {
+    const ZERO: Self = Self::ZERO;
+
+    #[inline(always)]
+    fn plus(&self, other: &Self) -> Self {
+        Whole::plus(self, other)
+    }
+
+    #[inline(always)]
+    fn minus(&self, other: &Self) -> Self {
+        Whole::minus(self, other)
+    }
+
+    #[inline(always)]
+    fn times(&self, other: &Self) -> Self {
+        Whole::times(self, other)
+    }
+}
+
+impl Number for Rounded {
+    const ZERO: Self = Self::ZERO;
+
+    #[inline(always)]
+    fn plus(&self, other: &Self) -> Self {
+        Rounded::plus(*self, *other)
+    }
+
+    #[inline(always)]
+    fn minus(&self, other: &Self) -> Self {
+        Rounded::minus(*self, *other)
+    }
+
+    #[inline(always)]
+    fn times(&self, other: &Self) -> Self {
+        Rounded::times(*self, *other)
+    }
+}
+
+/// The three numbers whose signs decide which sign a polynomial, given by its coefficients from the highest down, has at a root
+/// of q = a + b·s + c·s², c > 0.
+///
+/// First the remainder l₀ + l₁·s, a positive multiple of the polynomial at both roots of q, by Horner's rule: (l₀ + l₁·s)·s,
+/// times c and with c·s² = −a − b·s, is −a·l₁ + (c·l₀ − b·l₁)·s. Its value at σ = (−b ± √D)/2c, D = b² − 4ac, times 2c, is
+/// A ± l₁√D with A = 2c·l₀ − b·l₁. Where the two have opposite signs,
+/// A² − l₁²D = 4c·(c·l₀² − b·l₀l₁ + a·l₁²) says which is larger. (The number in brackets is the resultant of polynomial and q
+/// times a power of c.) Returned are l₁, A and the number in brackets.
+#[inline(always)]
+fn terms<T: Number>([a, b, c]: [T; 3], polynomial: impl IntoIterator<Item = T>) -> [T; 3] {
+    let mut coefficients = polynomial.into_iter();
+    let mut l1 = coefficients.next().unwrap_or(T::ZERO);
+    let mut l0 = coefficients.next().unwrap_or(T::ZERO);
+    let mut power = c;
+    for coefficient in coefficients {
+        let next = coefficient.times(&power).minus(&l1.times(&a));
+        (l0, l1) = (next, l0.times(&c).minus(&l1.times(&b)));
+        power = power.times(&c);
+    }
+    let from_l0 = l0.times(&c);
+    let half = from_l0.minus(&l1.times(&b));
+    let last = l0.times(&half).plus(&l1.times(&l1).times(&a));
+    [l1, half.plus(&from_l0), last]
 }
 
 impl<const C: usize, const R: usize> Root<C, R> {
@@ -237,7 +295,17 @@ pub(super) struct Crossing<'a, const C: usize, const R: usize> {
     pub(super) sign_before: Ordering,
 }
 
-impl<const C: usize, const R: usize> Crossing<'_, C, R> {
+impl<'a, const C: usize, const R: usize> Crossing<'a, C, R> {
+    /// In all of the step.
+    pub(super) fn between_ends(cubic: &'a [Whole<C>; 4]) -> Self {
+        Self {
+            cubic,
+            after: None,
+            before: None,
+            sign_before: sign_after_start(cubic),
+        }
+    }
+
     fn compare(&self, root: &Root<C, R>) -> Ordering {
         if self.after.is_some_and(|after| root.compare(after).is_le()) {
             return Ordering::Greater;
@@ -268,5 +336,92 @@ impl<const C: usize, const R: usize> Moment<C> for Crossing<'_, C, R> {
             }
         }
         sign
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Number, Scale, Whole, terms};
+    use crate::exact::integer::Integer;
+
+    impl Number for i128 {
+        const ZERO: Self = 0;
+
+        fn plus(&self, other: &Self) -> Self {
+            self + other
+        }
+
+        fn minus(&self, other: &Self) -> Self {
+            self - other
+        }
+
+        fn times(&self, other: &Self) -> Self {
+            self * other
+        }
+    }
+
+    /// With coefficients of 16 bits all terms of a cubic fit into 128.
+    #[test]
+    fn rounded_terms_are_as_close_as_documented() {
+        let mut state = 0x9E37_79B9_7F4A_7C15_u64;
+        let mut random = || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            i64::from(state as i16) >> (state >> 60)
+        };
+        let whole = |x: i64| Whole::<2>::new(&Integer::<1>::shifted(x, 0));
+        let mut largest = [0; 3];
+        for degree in [1, 2, 3] {
+            for _ in 0..100_000 {
+                let quadratic = [random(), random(), random()];
+                let cubic = [random(), random(), random(), random()];
+                let polynomial = cubic.iter().take(degree + 1);
+                let exact = terms(
+                    quadratic.map(i128::from),
+                    polynomial.clone().map(|&x| x.into()),
+                );
+                // The scale's own power of two, by which the terms are too large.
+                let bits = |coefficients: &[i64]| {
+                    let magnitudes = coefficients.iter().map(|x| x.unsigned_abs());
+                    64 - magnitudes.max().unwrap_or(0).leading_zeros() as i32
+                };
+                let [of_quadratic, of_polynomial] =
+                    [bits(&quadratic), bits(cubic.get(..=degree).unwrap_or(&[]))];
+                let steps = degree as i32 - 1;
+                let of_remainder = of_polynomial + steps * of_quadratic;
+                let powers = [
+                    of_remainder,
+                    of_remainder + of_quadratic,
+                    2 * of_remainder + of_quadratic,
+                ];
+
+                let quadratic = quadratic.map(whole);
+                let scale = Scale::of(&quadratic);
+                let rounded_quadratic = quadratic.each_ref().map(|x| scale.rounded(x));
+                let mut cubic = cubic.map(whole);
+                let polynomial = cubic.get_mut(..=degree).unwrap_or_default();
+                let scale = Scale::of(polynomial);
+                let rounded = polynomial.iter().map(|x| scale.rounded(x));
+                let rounded = terms(rounded_quadratic, rounded);
+                for (i, (exact, rounded)) in exact.into_iter().zip(rounded).enumerate() {
+                    let unit = 56 - powers[i];
+                    let exact = if unit >= 0 {
+                        exact << unit
+                    } else {
+                        exact >> -unit
+                    };
+                    let error = (exact - i128::from(rounded.0)).abs();
+                    largest[i] = largest[i].max(error);
+                }
+            }
+        }
+        // One more for the shift of the exact value.
+        assert!(
+            largest[0] <= 19 && largest[1] <= 60 && largest[2] <= 385,
+            "{largest:?}"
+        );
+        // With so few bits only the last products are cut off.
+        assert!(largest[2] > 1, "{largest:?}");
     }
 }

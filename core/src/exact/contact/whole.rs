@@ -65,6 +65,23 @@ impl<const C: usize> Whole<C> {
         self.words.get(..self.length).unwrap_or_default()
     }
 
+    /// The least number of bits that hold the magnitude.
+    #[inline(always)]
+    pub(super) fn bits(&self) -> u32 {
+        match self.digits().split_last() {
+            Some((last, below)) => 64 * below.len() as u32 + 64 - last.leading_zeros(),
+            None => 0,
+        }
+    }
+
+    /// The lowest word of the magnitude without its lowest `dropped` bits.
+    #[inline(always)]
+    pub(super) fn magnitude_without(&self, dropped: u32) -> u64 {
+        let mut words = self.digits().iter().skip((dropped / 64) as usize).copied();
+        let (low, high) = (words.next().unwrap_or(0), words.next().unwrap_or(0));
+        ((u128::from(high) << 64 | u128::from(low)) >> (dropped % 64)) as u64
+    }
+
     /// How the number compares with zero.
     #[inline(always)]
     pub(super) const fn sign(&self) -> Ordering {

@@ -76,14 +76,22 @@ fn table_1(comparison: &Comparison) -> String {
 }
 
 fn survivors(comparison: &Comparison, kind: fn(&MeanCounts) -> f64) -> String {
-    let header = ["method", "distributed", "boxes", "filter", "contacts"];
+    let header = [
+        "method",
+        "distributed",
+        "boxes",
+        "filter",
+        "contacts",
+        "missed",
+    ];
     let rows = comparison.rows.iter().map(|row| {
         [
             name(row),
-            mean(kind(&distributed(row))),
+            distributed(row).map_or_else(String::new, |counts| mean(kind(&counts))),
             mean(kind(&row.after_boxes)),
             mean(kind(&row.candidates)),
             mean(kind(&row.contacts)),
+            mean(kind(&row.missed)),
         ]
     });
     table(header, rows)

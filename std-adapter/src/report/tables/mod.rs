@@ -4,6 +4,8 @@
 mod accuracy;
 mod comparison;
 #[cfg(feature = "files")]
+mod hard_cases;
+#[cfg(feature = "files")]
 mod queries;
 mod scaling;
 mod step;
@@ -11,6 +13,8 @@ mod step;
 #[cfg(feature = "accuracy")]
 pub use accuracy::accuracy;
 pub use comparison::comparison;
+#[cfg(feature = "files")]
+pub use hard_cases::hard_cases;
 #[cfg(feature = "files")]
 pub use queries::queries;
 pub use scaling::scaling;

@@ -23,7 +23,10 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Strin
         .map(|(point, ratio)| {
             [
                 grouped(point.triangles as u64),
-                grouped(point.step.triangle_pairs),
+                match point.step.broad_phase_pairs {
+                    None => grouped(point.step.triangle_pairs),
+                    Some(_) => String::new(),
+                },
                 grouped(point.step.candidates().total()),
                 time(point.setup_seconds),
                 time(point.first_step_seconds),

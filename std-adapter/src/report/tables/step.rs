@@ -1,17 +1,21 @@
 use super::table;
 use crate::pipeline::{CullingTest, ElementaryTest, Stage};
-use crate::report::StepSummary;
 use crate::report::number::{grouped, time};
+use crate::report::{StepQuestion, StepSummary};
 
 /// One step: what each stage left over and how long it took.
 #[must_use]
 pub fn step(summary: &StepSummary) -> String {
     let report = &summary.report;
+    let pairs = report.broad_phase_pairs;
     let broad_phase = [
         Stage::BroadPhase.to_string(),
-        grouped(report.triangle_pairs),
-        String::new(),
-        String::new(),
+        match pairs {
+            None => grouped(report.triangle_pairs),
+            Some(_) => String::new(),
+        },
+        pairs.map_or_else(String::new, |pairs| grouped(pairs.vertex_face)),
+        pairs.map_or_else(String::new, |pairs| grouped(pairs.edge_edge)),
         time(report.broad_phase_seconds),
     ];
     let stages = report.stages.iter().map(|stage| {
@@ -32,19 +36,15 @@ pub fn step(summary: &StepSummary) -> String {
     ];
     let header = ["stage", "triangle pairs", "VF pairs", "EE pairs", "time"];
     let rows = [broad_phase].into_iter().chain(stages).chain([whole]);
-    let contacts = report.contacts();
-    let first = summary
-        .earliest
-        .map_or_else(String::new, |time| format!(", the first at t = {time:.6}"));
     let s = if summary.threads == 1 { "" } else { "s" };
     let sums = if summary.threads == 1 {
         ""
     } else {
-        "Times after the broad phase are summed over threads.\n"
+        "Times of stages are summed over threads.\n"
     };
     format!(
         "{} vertices, {} edges, {} triangles\n{} in {} on {} thread{s}\n\n{}\n{sums}\
-         Contacts: {} vertex–face and {} edge–edge{first}.\n{}",
+         {}",
         grouped(summary.vertices as u64),
         grouped(summary.edges as u64),
         grouped(summary.triangles as u64),
@@ -52,10 +52,33 @@ pub fn step(summary: &StepSummary) -> String {
         summary.scalar,
         summary.threads,
         table(header, rows),
-        grouped(contacts.vertex_face),
-        grouped(contacts.edge_edge),
-        promise(summary),
+        answer(summary),
     )
+}
+
+/// What was asked, and what it is worth.
+fn answer(summary: &StepSummary) -> String {
+    let contacts = summary.report.contacts();
+    match (summary.question, summary.earliest) {
+        (StepQuestion::Candidates, _) => {
+            "All other pairs are certainly apart throughout the step.\n".to_owned()
+        }
+        (StepQuestion::Earliest, None) => "The step is certainly free of contact.\n".to_owned(),
+        (StepQuestion::Earliest, Some(time)) => format!(
+            "The earliest contact is at t = {time:.6}, certainly none before.\n\
+             Counts are of the part of the step in which it was found.\n"
+        ),
+        (StepQuestion::Contacts, first) => {
+            let first =
+                first.map_or_else(String::new, |time| format!(", the first at t = {time:.6}"));
+            format!(
+                "Contacts: {} vertex–face and {} edge–edge{first}.\n{}",
+                grouped(contacts.vertex_face),
+                grouped(contacts.edge_edge),
+                promise(summary),
+            )
+        }
+    }
 }
 
 /// What the counts are worth.
@@ -63,13 +86,16 @@ fn promise(summary: &StepSummary) -> &'static str {
     let stages = summary.preset.stages();
     let tests_are_certified = stages.tests.iter().copied().all(CullingTest::is_certified);
     match (tests_are_certified, stages.elementary) {
+        (true, ElementaryTest::Exact) => {
+            "No contact is missed, none is false, and no time is too late: the verdict is exact.\n"
+        }
         (true, ElementaryTest::TimeOfImpact) => {
             "No contact is missed, and no time is too late: every stage is certified.\n"
         }
         (true, ElementaryTest::Cubic) => {
             "The plain cubic elementary test can miss contacts; the stages before it cannot.\n"
         }
-        (false, ElementaryTest::TimeOfImpact) => {
+        (false, ElementaryTest::TimeOfImpact | ElementaryTest::Exact) => {
             "The plain filter can miss contacts; the elementary test cannot.\n"
         }
         (false, ElementaryTest::Cubic) => {

@@ -1,0 +1,19 @@
+#!/bin/bash -eu
+# Run by the base image of OSS-Fuzz and ClusterFuzzLite: programs, kept inputs, dictionaries and options go to $OUT.
+cd "$SRC/selvedge/fuzz"
+cargo fuzz build -O --debug-assertions
+host=$(rustc -vV | sed -n 's/^host: //p')
+for source in fuzz_targets/*.rs; do
+    target=$(basename "$source" .rs)
+    cp "target/$host/release/$target" "$OUT/"
+    folders=("corpus/$target")
+    [ ! -d "regressions/$target" ] || folders+=("regressions/$target")
+    zip -q -j -r "$OUT/${target}_seed_corpus.zip" "${folders[@]}"
+    [ ! -f "dictionaries/$target.dict" ] || cp "dictionaries/$target.dict" "$OUT/"
+    case $target in
+    obj | ply) longest=2048 ;;
+    query_csv) longest=4096 ;;
+    *) longest=700 ;;
+    esac
+    printf '[libfuzzer]\nmax_len = %s\n' "$longest" >"$OUT/$target.options"
+done

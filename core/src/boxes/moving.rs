@@ -1,0 +1,229 @@
+//! Moving boxes: a set's box at the start of the step and its box at the end.
+//!
+//! Two sets whose boxes are apart along one axis, *in the same order* at both ends of the step, are apart throughout: each
+//! coordinate moves linearly, so the order holds in between as well. That is the test of [relative boxes](super::relative)
+//! along three axes, for sets of any number of points, and so for the nodes of a hierarchy. It culls whatever the overlap of
+//! swept boxes culls, and more, because it knows that the two move together. **Exact**: comparisons only.
+//!
+//! [`MovingBox`] is one box, [`MovingBlock`] sixteen of them side by side.
+//!
+//! # Boxes in fewer digits
+//! A block holds `f32`. Coordinates of more digits may be mapped by any function that never exchanges two of them (rounding is
+//! one, [in any direction](super#why-sums-may-round)): what is strictly ordered after the mapping was so before, so nothing
+//! has to be rounded outwards, and no pair that touches is culled. Pairs that are apart by less than the mapping shows are
+//! kept.
+
+use super::Aabb;
+use crate::batch::{LANES, Mask};
+use crate::motion::Motion;
+use crate::scalar::Scalar;
+use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
+
+/// The box of a set at the start of the step, and at its end.
+///
+/// ```
+/// use selvedge_core::boxes::moving::MovingBox;
+/// // A point that follows another one at a distance, over ten times that distance.
+/// let first = MovingBox::<f64>::of(&([0.0, 0.0, 0.0], [10.0, 0.0, 0.0]).into());
+/// let second = MovingBox::of(&([1.0, 0.0, 0.0], [11.0, 0.0, 0.0]).into());
+/// assert!(first.is_apart_from(&second));
+/// assert!(first.swept().overlaps(&second.swept()));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MovingBox<S> {
+    /// At time 0.
+    pub start: Aabb<S>,
+    /// At time 1.
+    pub end: Aabb<S>,
+}
+
+impl<S: Scalar> MovingBox<S> {
+    /// The box of nothing: apart from every bounded box, and no part of what it is [merged](Self::merged) with.
+    #[must_use]
+    pub fn empty() -> Self {
+        Self {
+            start: Aabb::empty(),
+            end: Aabb::empty(),
+        }
+    }
+
+    /// The boxes of one moving point. Unbounded, and so apart from nothing, if a coordinate is NaN or infinite.
+    #[inline]
+    #[must_use]
+    pub fn of(motion: &Motion<S>) -> Self {
+        if !motion.is_finite() {
+            return Self {
+                start: Aabb::everything(),
+                end: Aabb::everything(),
+            };
+        }
+        let [start, end] = motion.ends().map(|position| Aabb {
+            lower: position,
+            upper: position,
+        });
+        Self { start, end }
+    }
+
+    /// The smallest that holds both.
+    #[inline]
+    #[must_use]
+    pub fn merged(&self, other: &Self) -> Self {
+        Self {
+            start: self.start.merged(&other.start),
+            end: self.end.merged(&other.end),
+        }
+    }
+
+    /// The box that holds the set throughout the step.
+    #[inline]
+    #[must_use]
+    pub fn swept(&self) -> Aabb<S> {
+        self.start.merged(&self.end)
+    }
+
+    /// Whether along one axis all of one set stays above all of the other throughout the step. Exact.
+    #[inline]
+    #[must_use]
+    pub fn is_apart_from(&self, other: &Self) -> bool {
+        let mut apart = false;
+        for axis in 0..3 {
+            apart |= (self.start.lower[axis] > other.start.upper[axis])
+                & (self.end.lower[axis] > other.end.upper[axis]);
+            apart |= (other.start.lower[axis] > self.start.upper[axis])
+                & (other.end.lower[axis] > self.end.upper[axis]);
+        }
+        apart
+    }
+}
+
+/// Sixteen moving boxes side by side: for each coordinate of the lower and the upper corner, at the start and at the end, one
+/// row of sixteen numbers.
+///
+/// ```
+/// use selvedge_core::{batch::Level, boxes::moving::{MovingBlock, MovingBox}};
+/// let point = |x: f32| MovingBox::of(&([x, 0.0, 0.0], [x, 1.0, 0.0]).into());
+/// let mut block = MovingBlock::empty();
+/// for lane in 0..16 {
+///     block.set(lane, &point(lane as f32));
+/// }
+/// assert_eq!(block.near(&point(3.0)), 0b1000);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct MovingBlock {
+    /// Lower corner at the start (x, y, z), upper corner; lower and upper corner at the end.
+    rows: [[f32; LANES]; 12],
+}
+
+impl MovingBlock {
+    /// Sixteen [empty](MovingBox::empty) boxes.
+    #[must_use]
+    pub const fn empty() -> Self {
+        const LOWER: [f32; LANES] = [f32::INFINITY; LANES];
+        const UPPER: [f32; LANES] = [f32::NEG_INFINITY; LANES];
+        Self {
+            rows: [
+                LOWER, LOWER, LOWER, UPPER, UPPER, UPPER, LOWER, LOWER, LOWER, UPPER, UPPER, UPPER,
+            ],
+        }
+    }
+
+    /// Puts a box in lane `lane`. Does nothing from lane [`LANES`] on.
+    #[inline]
+    pub fn set(&mut self, lane: usize, moving: &MovingBox<f32>) {
+        for (row, number) in self.rows.iter_mut().zip(numbers(moving)) {
+            if let Some(place) = row.get_mut(lane) {
+                *place = number;
+            }
+        }
+    }
+
+    /// The box in lane `lane`; an [empty](MovingBox::empty) one from lane [`LANES`] on.
+    #[inline(always)]
+    #[must_use]
+    pub fn get(&self, lane: usize) -> MovingBox<f32> {
+        if lane >= LANES {
+            return MovingBox::empty();
+        }
+        let [a, b, c, d, e, f, g, h, i, j, k, l] = &self.rows;
+        MovingBox {
+            start: Aabb {
+                lower: [a[lane], b[lane], c[lane]],
+                upper: [d[lane], e[lane], f[lane]],
+            },
+            end: Aabb {
+                lower: [g[lane], h[lane], i[lane]],
+                upper: [j[lane], k[lane], l[lane]],
+            },
+        }
+    }
+
+    /// The smallest box that holds all sixteen.
+    #[inline]
+    #[must_use]
+    pub fn merged(&self) -> MovingBox<f32> {
+        let [a, b, c, d, e, f, g, h, i, j, k, l] = &self.rows;
+        let least = |row: &[f32; LANES]| {
+            row.iter()
+                .fold(f32::INFINITY, |least, &x| if x < least { x } else { least })
+        };
+        let greatest = |row: &[f32; LANES]| {
+            let above = |greatest, &x| if x > greatest { x } else { greatest };
+            row.iter().fold(f32::NEG_INFINITY, above)
+        };
+        MovingBox {
+            start: Aabb {
+                lower: [least(a), least(b), least(c)],
+                upper: [greatest(d), greatest(e), greatest(f)],
+            },
+            end: Aabb {
+                lower: [least(g), least(h), least(i)],
+                upper: [greatest(j), greatest(k), greatest(l)],
+            },
+        }
+    }
+
+    /// The lanes whose box is not [apart from](MovingBox::is_apart_from) `other`, as bits, one lane after the other.
+    #[must_use]
+    pub fn near(&self, other: &MovingBox<f32>) -> Mask {
+        (0..LANES).fold(0, |near, lane| {
+            let is_near = !self.get(lane).is_apart_from(other);
+            near | Mask::from(is_near) << lane
+        })
+    }
+
+    /// The same answer, sixteen lanes at once: for loops that run inside [`Simd::vectorize`], which name an instruction set
+    /// by its token.
+    #[inline(always)]
+    #[must_use]
+    pub fn near_in_lanes<V: Simd>(&self, simd: V, other: &MovingBox<f32>) -> Mask {
+        let [a, b, c, d, e, f, g, h, i, j, k, l] = &self.rows;
+        macro_rules! above {
+            ($row:expr, $limit:expr) => {
+                f32x16::load_array_ref(simd, $row).simd_gt(f32x16::splat(simd, $limit))
+            };
+        }
+        macro_rules! below {
+            ($row:expr, $limit:expr) => {
+                f32x16::load_array_ref(simd, $row).simd_lt(f32x16::splat(simd, $limit))
+            };
+        }
+        let (start, end) = (&other.start, &other.end);
+        let x = (above!(a, start.upper[0]) & above!(g, end.upper[0]))
+            | (below!(d, start.lower[0]) & below!(j, end.lower[0]));
+        let y = (above!(b, start.upper[1]) & above!(h, end.upper[1]))
+            | (below!(e, start.lower[1]) & below!(k, end.lower[1]));
+        let z = (above!(c, start.upper[2]) & above!(i, end.upper[2]))
+            | (below!(f, start.lower[2]) & below!(l, end.lower[2]));
+        !((x | y | z).to_bitmask() as Mask)
+    }
+}
+
+#[inline(always)]
+fn numbers(moving: &MovingBox<f32>) -> [f32; 12] {
+    let [a, b, c] = moving.start.lower;
+    let [d, e, f] = moving.start.upper;
+    let [g, h, i] = moving.end.lower;
+    let [j, k, l] = moving.end.upper;
+    [a, b, c, d, e, f, g, h, i, j, k, l]
+}

@@ -1,0 +1,89 @@
+//! Fixed-point numbers for a first try at signs, in 64-bit whole numbers and not in floating point: no environment changes them.
+//!
+//! A polynomial's coefficients are divided by a power of two that is larger than all of them, and cut off after [`FRACTION`] = 56
+//! bits; so is every product. Each of that changes a number by less than δ = 2⁻⁵⁶. What [`terms`](super::moment) computes from them, at
+//! most a cubic and a quadratic, then has these bounds (an error in a product xy is |x|e_y + |y|e_x + δ, and something of second order):
+//!
+//! | number | magnitude ≤ | error, in δ |
+//! |---|---|---|
+//! | a coefficient | 1 | 1 |
+//! | c² | 1 | 3 |
+//! | l₀, l₁ after a first step: differences of two products | 2 | 6, 6 |
+//! | l₀ = k·c² − a·l₁ | 3 | 5 + 9 = 14 |
+//! | l₁ = c·l₀ − b·l₁ | 4 | 9 + 9 = 18 |
+//! | c·l₀, b·l₁ | 3, 4 | 18, 23 |
+//! | their difference | 7 | 41 |
+//! | A, with c·l₀ once more | 10 | 59 |
+//! | l₀ times the difference | 21 | 123 + 98 + 1 = 222 |
+//! | l₁² · a | 16 | 145 + 16 + 1 = 162 |
+//! | their sum | 37 | 384 |
+//!
+//! With 32, 64 and 512 in place of 18, 59 and 384 what is of second order, less than 2⁻⁴⁰ of it, is covered too. A polynomial of lower degree has less.
+//! No number exceeds 64·2⁵⁶ = 2⁶².
+
+use super::whole::Whole;
+use core::cmp::Ordering;
+
+/// Bits after the point.
+const FRACTION: u32 = 56;
+
+/// A number times 2⁵⁶, cut off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Rounded(pub(super) i64);
+
+/// What a polynomial is divided by: two to this power is above every coefficient.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scale(u32);
+
+impl Scale {
+    #[inline(always)]
+    pub(super) fn of<const C: usize>(polynomial: &[Whole<C>]) -> Self {
+        Self(polynomial.iter().map(Whole::bits).max().unwrap_or(0))
+    }
+
+    #[inline(always)]
+    pub(super) fn rounded<const C: usize>(self, coefficient: &Whole<C>) -> Rounded {
+        let magnitude = match self.0.checked_sub(FRACTION) {
+            Some(dropped) => coefficient.magnitude_without(dropped),
+            None => coefficient.magnitude_without(0) << (FRACTION - self.0),
+        };
+        // Below 2⁵⁶ by the choice of the scale.
+        let magnitude = magnitude.cast_signed();
+        Rounded(if coefficient.sign().is_lt() {
+            -magnitude
+        } else {
+            magnitude
+        })
+    }
+}
+
+impl Rounded {
+    pub(super) const ZERO: Self = Self(0);
+
+    #[inline(always)]
+    pub(super) const fn plus(self, other: Self) -> Self {
+        Self(self.0.wrapping_add(other.0))
+    }
+
+    #[inline(always)]
+    pub(super) const fn minus(self, other: Self) -> Self {
+        Self(self.0.wrapping_sub(other.0))
+    }
+
+    #[inline(always)]
+    pub(super) const fn times(self, other: Self) -> Self {
+        Self(((self.0 as i128 * other.0 as i128) >> FRACTION) as i64)
+    }
+
+    /// The exact number's sign, if this is off by less than so many δ and farther than that from zero.
+    #[inline(always)]
+    pub(super) const fn sign_if_beyond(self, error: i64) -> Option<Ordering> {
+        if self.0 > error {
+            Some(Ordering::Greater)
+        } else if self.0 < -error {
+            Some(Ordering::Less)
+        } else {
+            None
+        }
+    }
+}

@@ -1,0 +1,59 @@
+use super::pair::{self, Numbers};
+use selvedge::core::PrimitivePair;
+use selvedge::core::elementary::{Contact, contact};
+use selvedge::core::exact::touches;
+use selvedge::core::points::{EdgeAndEdge, VertexAndFace};
+use selvedge_verification::generator::{Format, PairCase};
+use selvedge_verification::oracle::{Kind, collides};
+
+/// The exact verdict, and the one in whole numbers alone, are the oracle's; they stay the same when time is reversed or points
+/// trade places; NaN and infinities have none. On the numbers of the generator, and on small whole ones.
+pub fn exact_verdict(data: &[u8]) {
+    match pair::numbers(data) {
+        Numbers::Single(case) => check(&case),
+        Numbers::Double(case) => check(&case),
+    }
+    let points = pair::whole(data);
+    for kind in [Kind::VertexFace, Kind::EdgeEdge] {
+        let small = |position: [i8; 3]| position.map(|x| f64::from(x / 8));
+        check(&PairCase::new(kind, points.map(|ends| ends.map(small))));
+    }
+}
+
+fn check<S: Format>(case: &PairCase<S>) {
+    let expected = if case.is_finite() {
+        match collides(&case.question()) {
+            Some(_) => Contact::Happens,
+            None => Contact::Never,
+        }
+    } else {
+        Contact::Undefined
+    };
+    let order = match case.kind {
+        Kind::VertexFace => [0, 2, 3, 1],
+        Kind::EdgeEdge => [3, 2, 0, 1],
+    };
+    assert_eq!(verdicts(case), [expected; 2], "{case:?}");
+    assert_eq!(verdicts(&case.reversed()), [expected; 2], "{case:?}");
+    assert_eq!(verdicts(&case.reordered(order)), [expected; 2], "{case:?}");
+}
+
+/// After floating point, and in whole numbers alone.
+fn verdicts<S: Format>(case: &PairCase<S>) -> [Contact; 2] {
+    let (verdict, touches) = match case.kind {
+        Kind::VertexFace => {
+            let pair = case.vertex_face();
+            (contact(&pair), touches::<VertexAndFace, S>(&pair.points()))
+        }
+        Kind::EdgeEdge => {
+            let pair = case.edge_edge();
+            (contact(&pair), touches::<EdgeAndEdge, S>(&pair.points()))
+        }
+    };
+    let in_whole_numbers = match touches {
+        Some(true) => Contact::Happens,
+        Some(false) => Contact::Never,
+        None => Contact::Undefined,
+    };
+    [verdict, in_whole_numbers]
+}

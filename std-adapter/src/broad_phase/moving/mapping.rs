@@ -1,0 +1,112 @@
+//! From positions of any format to boxes in `f32`.
+//!
+//! # Without a separation
+//! A coordinate x becomes fl₃₂(fl₆₄(x − o)), o the same for all of an axis. Both roundings are monotone, in any direction, so
+//! images that are in strict order belong to coordinates that are: [nothing has to be rounded
+//! outwards](selvedge_core::boxes::moving#boxes-in-fewer-digits). `f32` positions stay as they are, with o = 0; so do
+//! `f64` positions that are `f32` numbers, unless the mesh is far from the origin for its size. There o is its middle, so
+//! that `f32` does not waste its digits on where the mesh is.
+//!
+//! # With a separation, or for a part of the step
+//! Boxes are widened by half the separation s on each side, and a position within the step is rounded itself; then images
+//! are no longer monotone, and bounds are moved outwards by more than all roundings together:
+//!
+//! ```text
+//! widening = s/2 + 2⁻²²·(|x₀ − o| + |x₁ − o| + s/2) + 2⁻¹⁰⁰
+//! ```
+//!
+//! In any direction of rounding, with v the magnitudes in brackets: the difference x − o is off by at most 2⁻⁵²v, a position
+//! within the step by three operations more, each at most 2⁻⁵²v; sums in the widening and subtracting it by less than 2⁻⁴⁹v;
+//! the last rounding, to `f32`, by at most 2⁻²³ of a number that is at most (1 + 2⁻²²)v. That is less than 2⁻²²v by
+//! 2⁻²⁴v. Flushed numbers lose 2⁻¹²⁶ (`f32`) or 2⁻¹⁰²² each, less than 2⁻¹⁰⁰ altogether. So two images that are in strict
+//! order belong to coordinates more than s apart. Overflow makes a bound infinite, or in directed rounding the largest number;
+//! neither is beyond a bound that it should not be beyond, for both are at least as far out as any that is not widened.
+
+use selvedge_core::Scalar;
+use selvedge_core::boxes::{Aabb, moving::MovingBox};
+
+/// How positions become boxes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Mapping {
+    origin: [f64; 3],
+    /// Half of the separation.
+    half: f64,
+    /// Where in the step the boxes of the end are taken.
+    until: f64,
+    /// Both boxes the same, the swept one.
+    is_swept: bool,
+}
+
+impl Mapping {
+    /// For positions within the box. `until` is in (0, 1].
+    pub(super) fn new<S: Scalar>(
+        extent: &Aabb<f64>,
+        separation: S,
+        until: S,
+        is_swept: bool,
+    ) -> Self {
+        Self {
+            origin: origin::<S>(extent),
+            half: 0.5 * separation.raised_to_normal().to_f64(),
+            until: until.to_f64(),
+            is_swept,
+        }
+    }
+
+    /// The box of one vertex that moves from `start` to `end`.
+    #[inline]
+    pub(super) fn vertex<S: Scalar>(&self, start: [S; 3], end: [S; 3]) -> MovingBox<f32> {
+        let mut moving = MovingBox::empty();
+        for axis in 0..3 {
+            let from = start[axis].to_f64() - self.origin[axis];
+            let to = end[axis].to_f64() - self.origin[axis];
+            let ([a, b], [c, d]) = if self.half == 0.0 && self.until == 1.0 {
+                ([from; 2], [to; 2])
+            } else {
+                let sizes = from.abs() + to.abs() + self.half;
+                let widening = self.half + (WIDENING * sizes + FLUSHED);
+                let until = (1.0 - self.until) * from + self.until * to;
+                (
+                    [from - widening, from + widening],
+                    [until - widening, until + widening],
+                )
+            };
+            moving.start.lower[axis] = nearest_f32(a);
+            moving.start.upper[axis] = nearest_f32(b);
+            moving.end.lower[axis] = nearest_f32(c);
+            moving.end.upper[axis] = nearest_f32(d);
+        }
+        if self.is_swept {
+            let swept = moving.swept();
+            moving = MovingBox {
+                start: swept,
+                end: swept,
+            };
+        }
+        moving
+    }
+}
+
+/// 2⁻²².
+const WIDENING: f64 = 1.0 / 4_194_304.0;
+/// 2⁻¹⁰⁰.
+const FLUSHED: f64 = f64::from_bits((1023 - 100) << 52);
+
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "rounding to nearest is monotone, which is all that is needed"
+)]
+fn nearest_f32(value: f64) -> f32 {
+    value as f32
+}
+
+/// The middle of an axis where it is more than four times the mesh's size away from zero; else zero.
+fn origin<S: Scalar>(extent: &Aabb<f64>) -> [f64; 3] {
+    let is_single = S::UNIT_ROUNDOFF.to_f64() > f64::EPSILON;
+    [0, 1, 2].map(|axis| {
+        let (lower, upper) = (0.5 * extent.lower[axis], 0.5 * extent.upper[axis]);
+        let middle = lower + upper;
+        let is_far = middle.is_finite() && middle.abs() > 8.0 * (upper - lower);
+        if is_far && !is_single { middle } else { 0.0 }
+    })
+}

@@ -1,0 +1,197 @@
+//! Candidate vertex–face and edge–edge pairs, straight from hierarchies of moving boxes.
+//!
+//! Each vertex, edge and face has its box at the start and its box at the end of the step
+//! ([`selvedge_core::boxes::moving`]). Two of them whose boxes keep one order along an axis cannot meet; the others are
+//! candidates, unless they have a vertex in common. That holds for groups of them as well, so three hierarchies, over
+//! vertices, edges and faces, find the candidates without looking at every pair: no triangle pairs, no distribution, no
+//! pair twice.
+//!
+//! ```
+//! use selvedge::{broad_phase::moving::MovingBroadPhase, glam::DVec3, mesh::Topology};
+//!
+//! // A small triangle falls through a large one.
+//! let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?;
+//! let mut start = vec![DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, -5.0, 0.0), DVec3::new(0.0, 5.0, 0.0)];
+//! start.extend([DVec3::new(0.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 1.1), DVec3::new(0.0, 1.0, 1.2)]);
+//! let mut end = start.clone();
+//! for vertex in &mut end[3..] {
+//!     vertex.z -= 4.0;
+//! }
+//!
+//! let mut broad_phase = MovingBroadPhase::<f64>::new(topology);
+//! let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+//! broad_phase.update(&start, &end)?;
+//! broad_phase.candidates(&mut vertex_face, &mut edge_edge);
+//! vertex_face.sort();
+//! assert_eq!(vertex_face, [[3, 0], [4, 0], [5, 0]]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Which pairs
+//! Exactly those that [relative boxes along three axes](selvedge_core::boxes::relative::three_axes) leave, of `f32` positions
+//! and of `f64` positions that are `f32` numbers, unless the mesh is far from the origin for its size. Other `f64` positions are
+//! rounded to `f32` for the boxes (`mapping`): pairs that are apart by less than that are candidates too, none is lost.
+//!
+//! The order of the candidates depends on the hierarchies, and so on the steps before: the same sequence of steps gives the
+//! same candidates in the same order, on any number of threads and every instruction set.
+
+mod hierarchies;
+mod mapping;
+mod pairs;
+mod traversal;
+mod tree;
+
+pub(crate) use hierarchies::{Fit, Hierarchies, Share};
+pub(crate) use pairs::{CHUNK, Sink};
+pub(crate) use traversal::Scratch;
+
+use super::buffer::settle;
+use crate::PairKind;
+use crate::dispatch::Level;
+use crate::frame::StepError;
+use crate::mesh::Topology;
+use crate::parallel;
+use selvedge_core::Scalar;
+use std::sync::Arc;
+
+/// What a [`MovingBroadPhase`] has done so far. Counts do not depend on the number of threads.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MovingStatistics {
+    /// How often the hierarchies were built, the first time included.
+    pub builds: usize,
+    /// Tests of the last traversal, each of one box against sixteen.
+    pub box_tests: u64,
+    /// Candidates of the last traversal.
+    pub candidates: usize,
+}
+
+/// Finds the vertex–face and edge–edge pairs that moving boxes leave; see the [module](self).
+///
+/// On the rayon pool in which it is called; outside of one on the calling thread.
+#[derive(Debug)]
+pub struct MovingBroadPhase<S: Scalar> {
+    pub(crate) hierarchies: Hierarchies<S>,
+    fit: Fit<S>,
+    collectors: Vec<Collector>,
+}
+
+/// One share of the work, and what it found.
+#[derive(Debug)]
+struct Collector {
+    scratch: Scratch,
+    pairs: Vec<[u32; 2]>,
+    tests: u64,
+}
+
+impl<S: Scalar> MovingBroadPhase<S> {
+    /// A broad phase for a mesh.
+    #[must_use]
+    pub fn new(topology: impl Into<Arc<Topology>>) -> Self {
+        Self {
+            hierarchies: Hierarchies::new(topology.into()),
+            fit: Fit::default(),
+            collectors: Vec::new(),
+        }
+    }
+
+    /// Forces the instruction set; the best that the machine has is the default. Changes no result.
+    pub const fn set_level(&mut self, level: Level) {
+        self.hierarchies.set_level(level);
+    }
+
+    /// From the next update on: pairs that come within `separation` of each other are candidates too. Zero at first.
+    ///
+    /// Returns whether it was accepted: not if it is negative, infinite or NaN.
+    pub fn set_separation(&mut self, separation: S) -> bool {
+        let is_valid = separation >= S::ZERO && separation.is_finite();
+        if is_valid {
+            self.fit.separation = separation;
+        }
+        is_valid
+    }
+
+    /// From the next update on: whether boxes that overlap at different times make a candidate, as swept boxes do, the common
+    /// choice elsewhere. Off at first.
+    pub const fn set_swept(&mut self, swept: bool) {
+        self.fit.is_swept = swept;
+    }
+
+    /// Takes the positions of a step. Builds the hierarchies in the first step and when they have degraded, refits them
+    /// otherwise.
+    ///
+    /// They have degraded when the candidates found since they were built have cost more, beyond what they cost just after,
+    /// than building them anew.
+    ///
+    /// # Errors
+    /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
+    pub fn update(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<(), StepError> {
+        self.hierarchies.update(start, end, &self.fit)
+    }
+
+    /// Replaces `vertex_face` and `edge_edge` by the candidates of the last update: vertex and face, or two edges, the smaller
+    /// number first, as the topology numbers them.
+    pub fn candidates(&mut self, vertex_face: &mut Vec<[u32; 2]>, edge_edge: &mut Vec<[u32; 2]>) {
+        let shares = self.hierarchies.shares();
+        self.collectors.resize_with(shares, Collector::new);
+        let hierarchies = &self.hierarchies;
+        parallel::for_each(&mut self.collectors, |index, collector| {
+            collector.collect(hierarchies, hierarchies.share(index));
+        });
+        vertex_face.clear();
+        edge_edge.clear();
+        for (index, collector) in self.collectors.iter_mut().enumerate() {
+            let found = match self.hierarchies.share(index).kind {
+                PairKind::VertexFace => &mut *vertex_face,
+                PairKind::EdgeEdge => &mut *edge_edge,
+            };
+            found.extend_from_slice(&collector.pairs);
+            settle(&mut collector.pairs);
+        }
+        settle(vertex_face);
+        settle(edge_edge);
+        let tests = self.collectors.iter().map(|collector| collector.tests);
+        self.hierarchies
+            .observe(tests.sum(), vertex_face.len() + edge_edge.len());
+    }
+
+    /// Counts of what was done.
+    #[must_use]
+    pub const fn statistics(&self) -> MovingStatistics {
+        self.hierarchies.statistics()
+    }
+}
+
+impl Collector {
+    fn new() -> Self {
+        Self {
+            scratch: Scratch::new(),
+            pairs: Vec::new(),
+            tests: 0,
+        }
+    }
+
+    fn collect<S: Scalar>(&mut self, hierarchies: &Hierarchies<S>, share: Share<'_>) {
+        self.pairs.clear();
+        let mut collected = Collected {
+            hierarchies,
+            kind: share.kind,
+            pairs: &mut self.pairs,
+        };
+        let tests = hierarchies.visit(share, &mut self.scratch, &mut collected);
+        self.tests = tests.unwrap_or(0);
+    }
+}
+
+struct Collected<'a, S: Scalar> {
+    hierarchies: &'a Hierarchies<S>,
+    kind: PairKind,
+    pairs: &'a mut Vec<[u32; 2]>,
+}
+
+impl<S: Scalar> Sink for Collected<'_, S> {
+    fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
+        let in_mesh = |&pair| self.hierarchies.in_mesh(self.kind, pair);
+        self.pairs.extend(pairs.iter().map(in_mesh));
+        true
+    }
+}

@@ -1,0 +1,189 @@
+//! A hierarchy of moving boxes over the vertices, the edges or the faces of a mesh.
+//!
+//! The primitives are put into an [order](super::super::order) in which any 16 (256, 4096, …) consecutive ones from a multiple
+//! of that number lie close together. A *block* holds the moving boxes of sixteen of them side by side; a block of the next
+//! level holds the boxes of sixteen blocks, and so on up to the one block that holds all. So the tree is arrays alone: the
+//! children of block b are the blocks, or primitives, from 16b on, and no block but the last of a level has an empty lane.
+
+use super::super::hierarchy::LEAF;
+use super::super::order::{Centre, order};
+use crate::parallel;
+use selvedge_core::batch::{LANES, Mask};
+use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
+
+const _: () = assert!(LEAF == LANES, "the order's groups are the blocks");
+
+/// All blocks of a level.
+#[derive(Debug, Default)]
+pub(super) struct Level {
+    pub(super) blocks: Vec<MovingBlock>,
+    pub(super) nodes: Vec<Node>,
+}
+
+/// What is known of a block as a whole.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub(super) bounds: MovingBox<f32>,
+    /// The lanes that hold something.
+    pub(super) present: Mask,
+    /// The lanes that hold something that takes part in every pair, not only in those with such a partner.
+    pub(super) moving: Mask,
+}
+
+/// A tree over primitives of N vertices each. Empty until it is built.
+#[derive(Debug, Default)]
+pub(super) struct Tree<const N: usize> {
+    /// The primitive at each position.
+    pub(super) primitives: Vec<u32>,
+    /// The positions of its vertices in the tree of vertices.
+    pub(super) vertices: Vec<[u32; N]>,
+    /// The same side by side for each block of primitives, [`NONE`] in lanes that hold nothing.
+    pub(super) corners: Vec<[[u32; LANES]; N]>,
+    /// Blocks of primitives first.
+    pub(super) levels: Vec<Level>,
+    centres: Vec<Centre>,
+}
+
+/// No vertex.
+const NONE: u32 = u32::MAX;
+
+impl<const N: usize> Tree<N> {
+    pub(super) fn len(&self) -> usize {
+        self.primitives.len()
+    }
+
+    /// The level of the one block that holds all; `None` if there is nothing.
+    pub(super) fn top(&self) -> Option<usize> {
+        self.levels.len().checked_sub(1)
+    }
+
+    /// Puts primitives in order by their centres. [`connect`](Self::connect) and [`refit`](Self::refit) must follow.
+    pub(super) fn build(
+        &mut self,
+        primitives: impl Iterator<Item = u32>,
+        centre: impl Fn(u32) -> [f32; 3],
+    ) {
+        self.centres.clear();
+        self.centres.extend(primitives.map(|item| Centre {
+            position: centre(item),
+            item,
+        }));
+        order::<LANES>(&mut self.centres);
+        self.primitives.clear();
+        self.primitives
+            .extend(self.centres.iter().map(|centre| centre.item));
+
+        let mut size = self.primitives.len();
+        let mut height = 0;
+        while size > 0 {
+            if self.levels.len() == height {
+                self.levels.push(Level::default());
+            }
+            let level = &mut self.levels[height];
+            let blocks = size.div_ceil(LANES);
+            level.blocks.clear();
+            level.blocks.resize(blocks, MovingBlock::empty());
+            level.nodes.clear();
+            level.nodes.extend((0..blocks).map(|block| {
+                let present = Mask::MAX >> (LANES - LANES.min(size - block * LANES));
+                Node {
+                    bounds: MovingBox::empty(),
+                    present,
+                    moving: present,
+                }
+            }));
+            height += 1;
+            size = if blocks > 1 { blocks } else { 0 };
+        }
+        self.levels.truncate(height);
+    }
+
+    /// Notes the vertices of each primitive, by their positions.
+    pub(super) fn connect(&mut self, vertices_of: impl Fn(u32) -> [u32; N]) {
+        self.vertices.clear();
+        let of_primitives = self.primitives.iter();
+        self.vertices
+            .extend(of_primitives.map(|&primitive| vertices_of(primitive)));
+        self.corners.clear();
+        self.corners.extend(self.vertices.chunks(LANES).map(|own| {
+            let mut corners = [[NONE; LANES]; N];
+            for (lane, vertices) in own.iter().enumerate() {
+                for (row, &vertex) in corners.iter_mut().zip(vertices) {
+                    row[lane] = vertex;
+                }
+            }
+            corners
+        }));
+    }
+
+    /// Marks the primitives with a vertex that `moves`.
+    pub(super) fn mark(&mut self, moves: impl Fn(u32) -> bool) {
+        let mut below: &[Node] = &[];
+        for (height, level) in self.levels.iter_mut().enumerate() {
+            for (block, node) in level.nodes.iter_mut().enumerate() {
+                let is_moving = |lane: usize| {
+                    let child = block * LANES + lane;
+                    match height {
+                        0 => self.vertices[child].iter().any(|&vertex| moves(vertex)),
+                        _ => below[child].moving != 0,
+                    }
+                };
+                let lanes = 0..node.present.count_ones() as usize;
+                node.moving =
+                    lanes.fold(0, |mask, lane| mask | Mask::from(is_moving(lane)) << lane);
+            }
+            below = &level.nodes;
+        }
+    }
+
+    /// Gives all blocks the boxes of what they hold; with `only_moving`, those in which something moves.
+    pub(super) fn refit(&mut self, boxes: &[MovingBox<f32>], only_moving: bool) {
+        let Some((leaves, upper)) = self.levels.split_first_mut() else {
+            return;
+        };
+        let vertices = &self.vertices;
+        refit_level(leaves, only_moving, |position| {
+            let of_vertices = vertices[position].map(|vertex| &boxes[vertex as usize]);
+            let mut moving = *of_vertices[0];
+            for vertex in &of_vertices[1..] {
+                moving = moving.merged(vertex);
+            }
+            moving
+        });
+        let mut below = &*leaves;
+        for level in upper {
+            refit_level(level, only_moving, |child| below.nodes[child].bounds);
+            below = level;
+        }
+    }
+}
+
+/// Blocks that one thread refits in one go.
+const BLOCKS: usize = 64;
+
+fn refit_level(
+    level: &mut Level,
+    only_moving: bool,
+    child: impl Fn(usize) -> MovingBox<f32> + Sync,
+) {
+    let blocks = &mut level.blocks;
+    parallel::for_each_chunk_with_chunk(
+        &mut level.nodes,
+        blocks,
+        BLOCKS,
+        |first, nodes, blocks| {
+            for (index, (node, block)) in nodes.iter_mut().zip(blocks).enumerate() {
+                if only_moving && node.moving == 0 {
+                    continue;
+                }
+                let mut bounds = MovingBox::empty();
+                for lane in 0..node.present.count_ones() as usize {
+                    let moving = child((first + index) * LANES + lane);
+                    block.set(lane, &moving);
+                    bounds = bounds.merged(&moving);
+                }
+                node.bounds = bounds;
+            }
+        },
+    );
+}

@@ -1,0 +1,57 @@
+//! An order in which consecutive items lie close together.
+
+use super::hierarchy::LEAF;
+use crate::parallel;
+
+/// Slices shorter than this are not split between threads.
+const SEQUENTIAL: usize = 4096;
+
+/// An item and where it is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Centre {
+    pub(super) position: [f32; 3],
+    pub(super) item: u32,
+}
+
+/// Splits at the median along the longest axis, again and again, but always between two groups of the
+/// largest size that fits in more than once. Sizes are LEAF · BRANCHESᵏ.
+pub(super) fn order<const BRANCHES: usize>(centres: &mut [Centre]) {
+    if centres.len() <= LEAF {
+        return;
+    }
+    let mut size = LEAF;
+    while size * BRANCHES < centres.len() {
+        size *= BRANCHES;
+    }
+    let middle = centres.len().div_ceil(size) / 2 * size;
+    let axis = longest_axis(centres);
+    centres.select_nth_unstable_by(middle, |a, b| a.position[axis].total_cmp(&b.position[axis]));
+    let (left, right) = centres.split_at_mut(middle);
+    if left.len() + right.len() > SEQUENTIAL {
+        parallel::both(|| order::<BRANCHES>(left), || order::<BRANCHES>(right));
+    } else {
+        order::<BRANCHES>(left);
+        order::<BRANCHES>(right);
+    }
+}
+
+fn longest_axis(centres: &[Centre]) -> usize {
+    let mut lower = [f32::INFINITY; 3];
+    let mut upper = [f32::NEG_INFINITY; 3];
+    for centre in centres {
+        for axis in 0..3 {
+            let x = centre.position[axis];
+            lower[axis] = if x < lower[axis] { x } else { lower[axis] };
+            upper[axis] = if x > upper[axis] { x } else { upper[axis] };
+        }
+    }
+    // Halved, so that the difference of finite numbers is finite.
+    let extent = |axis: usize| 0.5 * upper[axis] - 0.5 * lower[axis];
+    (1..3).fold(0, |longest, axis| {
+        if extent(axis) > extent(longest) {
+            axis
+        } else {
+            longest
+        }
+    })
+}

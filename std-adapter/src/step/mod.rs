@@ -1,0 +1,352 @@
+//! **For an engine**: a mesh's contacts, step by step.
+//!
+//! ```text
+//! once per mesh   topology
+//! every step      positions at the start and at the end
+//!   │  broad phase   hierarchies of moving boxes, refitted: candidate VF and EE pairs
+//!   │  filter        certified non-coplanarity, sixteen pairs at a time
+//!   │  elementary    certified time of impact, in sweeps over all open pairs
+//!   ▼
+//! contacts with their times, in a buffer of the caller's
+//! ```
+//!
+//! ```
+//! use selvedge::{glam::DVec3, mesh::Topology, step::CollisionDetector};
+//!
+//! // Once: a small triangle above a large one.
+//! let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?;
+//! let mut detector = CollisionDetector::<f64>::new(topology, 1)?;
+//! let mut contacts = Vec::new();
+//!
+//! let mut start = vec![DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, -5.0, 0.0), DVec3::new(0.0, 5.0, 0.0)];
+//! start.extend([DVec3::new(0.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 1.1), DVec3::new(0.0, 1.0, 1.2)]);
+//! for _ in 0..3 {
+//!     // Each step: it falls by 0.4.
+//!     let mut end = start.clone();
+//!     for vertex in &mut end[3..] {
+//!         vertex.z -= 0.4;
+//!     }
+//!     detector.contacts(&start, &end, &mut contacts)?;
+//!     start = end;
+//! }
+//! // In the third step its three vertices go through the large face.
+//! assert_eq!(contacts.len(), 3);
+//! assert_eq!(contacts[0].pair[1], 0);
+//! let first = contacts.iter().map(|contact| contact.time).fold(1.0, f64::min);
+//! assert!(first <= 0.5 && first > 0.5 - 1e-8);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # What can be asked
+//! | question | method | what it saves |
+//! |---|---|---|
+//! | all contacts with their times | [`contacts`](CollisionDetector::contacts) | |
+//! | the earliest contact | [`earliest`](CollisionDetector::earliest) | looks at a short part of the step first, and never beyond the earliest contact so far |
+//! | is the step free of contact? | [`is_free`](CollisionDetector::is_free) | ends at the first contact |
+//! | which pairs come near each other? | [`candidates`](CollisionDetector::candidates) | ends after the broad phase |
+//! | contacts of pairs that the caller has | [`contacts_of`](CollisionDetector::contacts_of) | no broad phase |
+//!
+//! Vertices that rest, and meshes that never move, are named once
+//! ([`set_moving`](CollisionDetector::set_moving)): pairs in which nothing moves are not looked at, and boxes of what rests
+//! are fitted once. Several meshes are one topology, the triangles of each with their own vertices.
+//!
+//! # What is promised
+//! * **No contact is missed** and no time is later than the exact one, rounding included, in every floating-point environment
+//!   ([`selvedge_core`](crate::core)). Pairs that come within the tolerance of the separation, or too close for
+//!   rounding to tell, count as contacts.
+//! * The same contacts with the same times in the same order, on any number of threads and every instruction set. (The order is
+//!   that of the hierarchies, which depends on the steps before; the set and the times do not.)
+//! * After the first step nothing is allocated, unless there are more pairs than ever or hierarchies are built anew. (With
+//!   several threads rayon may still allocate for its queues.)
+//! * Frames of the wrong length, and positions that are not finite, are errors.
+
+mod engine;
+mod sweep;
+
+pub use crate::frame::StepError;
+pub use crate::parallel::ThreadError;
+pub(crate) use engine::Engine;
+pub use engine::StepTally;
+
+use crate::PairKind;
+use crate::dispatch::Level;
+use crate::mesh::Topology;
+use crate::parallel::Threads;
+use engine::{PROBES, Probe};
+use selvedge_core::Scalar;
+use selvedge_core::elementary::Limits;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+/// A pair for which contact during the step is not excluded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact<S> {
+    /// Vertex–face or edge–edge.
+    pub kind: PairKind,
+    /// The vertex and the face, or the two edges, as numbered by the [`Topology`].
+    pub pair: [u32; 2],
+    /// When, in [0, 1] of the step. With the certified time of impact not after the exact time, and hardly before
+    /// it; with the plain cubic as computed.
+    pub time: S,
+}
+
+/// Which boxes tell candidates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CandidateBoxes {
+    /// Those at the start and at the end of the step, that are not in one order along an axis at both: relative boxes. Fewer pairs,
+    /// in less time.
+    #[default]
+    Moving,
+    /// The boxes that primitives sweep, that overlap: what other systems call candidates.
+    Swept,
+}
+
+/// What of a step is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// Every contact.
+    All,
+    /// The earliest; of several at the same time, all are found.
+    Earliest,
+    /// Whether there is one.
+    Any,
+}
+
+/// What is asked of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Question<S> {
+    pub(crate) limits: Limits<S>,
+    pub(crate) wanted: Wanted,
+    /// Whether pairs that the filter keeps are wanted as well.
+    pub(crate) keeps_filtered: bool,
+    /// Whether only pairs that truly touch are contacts, by the exact verdict. For separation zero.
+    pub(crate) is_exact: bool,
+}
+
+/// How late a contact may be to be of interest: shared by all threads, lowered by each contact where only the earliest is wanted.
+///
+/// A time is as its bits, which are in the same order, times being no less than zero. In which order threads lower it changes
+/// no answer: a pair is dropped only if it is proven to be apart until *after* the bound, which never is before the earliest
+/// contact.
+#[derive(Debug)]
+pub(crate) struct Bound(AtomicU64);
+
+impl Bound {
+    fn new(time: f64) -> Self {
+        Self(AtomicU64::new(time.to_bits()))
+    }
+
+    fn get<S: Scalar>(&self) -> S {
+        S::from_f64(f64::from_bits(self.0.load(Ordering::Relaxed)))
+    }
+
+    /// There is a contact at `time`.
+    fn lower<S: Scalar>(&self, wanted: Wanted, time: S) {
+        match wanted {
+            Wanted::All => {}
+            Wanted::Earliest => {
+                // Adding zero makes a negative zero positive.
+                let bits = (time.to_f64() + 0.0).to_bits();
+                self.0.fetch_min(bits, Ordering::Relaxed);
+            }
+            Wanted::Any => self.0.store(0, Ordering::Relaxed),
+        }
+    }
+
+    /// Whether any contact was found, of which the caller wants one.
+    fn is_lowered(&self) -> bool {
+        self.0.load(Ordering::Relaxed) == 0
+    }
+}
+
+/// Finds the contacts of a mesh, one step after another; see the [module](self).
+#[derive(Debug)]
+pub struct CollisionDetector<S: Scalar> {
+    engine: Engine<S>,
+    threads: Threads,
+    limits: Limits<S>,
+}
+
+impl<S: Scalar> CollisionDetector<S> {
+    /// A detector for a mesh, on `threads` threads (0: one for each core; 1: the calling thread).
+    ///
+    /// # Errors
+    /// If the operating system refuses the threads.
+    pub fn new(topology: impl Into<Arc<Topology>>, threads: usize) -> Result<Self, ThreadError> {
+        Ok(Self {
+            engine: Engine::new(topology.into()),
+            threads: Threads::new(threads)?,
+            limits: Limits::default(),
+        })
+    }
+
+    /// The separation that pairs must keep and the tolerance of times, in the unit of the positions. At first
+    /// [`Limits::default`]: no separation.
+    ///
+    /// # Errors
+    /// If one of them is negative, infinite or NaN.
+    pub fn set_limits(&mut self, limits: Limits<S>) -> Result<(), StepError> {
+        for length in [limits.separation, limits.tolerance] {
+            if !(length >= S::ZERO && length.is_finite()) {
+                return Err(StepError::BadLimit {
+                    length: format!("{length}"),
+                });
+            }
+        }
+        self.limits = limits;
+        Ok(())
+    }
+
+    /// Forces the instruction set; the best that the machine has is the default. Changes no result.
+    pub const fn set_level(&mut self, level: Level) {
+        self.engine.set_level(level);
+    }
+
+    /// Names the vertices that move, true for each that does; `None`: all of them, as at first.
+    ///
+    /// From the next step on, pairs of which no vertex moves are not looked at. The positions of vertices that do
+    /// not move are taken from the next step's start and end, and **not looked at again** until this is called anew.
+    ///
+    /// # Errors
+    /// If the slice's length is not the mesh's number of vertices.
+    pub fn set_moving(&mut self, moving: Option<&[bool]>) -> Result<(), StepError> {
+        let expected = self.topology().vertex_count();
+        match moving {
+            Some(moving) if moving.len() != expected => Err(StepError::WrongLength {
+                frame: "moving",
+                found: moving.len(),
+                expected,
+            }),
+            _ => {
+                self.engine.set_moving(moving.map(<[bool]>::to_vec));
+                Ok(())
+            }
+        }
+    }
+
+    /// Replaces `contacts` by all contacts of the step from `start` to `end`, one position for each vertex: vertex–face first.
+    ///
+    /// # Errors
+    /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
+    pub fn contacts(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        contacts: &mut Vec<Contact<S>>,
+    ) -> Result<(), StepError> {
+        let question = self.question(Wanted::All);
+        let engine = &mut self.engine;
+        self.threads
+            .run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        self.engine.collect_contacts(contacts);
+        Ok(())
+    }
+
+    /// The earliest contact of the step; of several at the same time the one with the smallest numbers, vertex–face first.
+    ///
+    /// No contact is earlier. A step up to that time, or a little less, is free.
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts).
+    pub fn earliest(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+    ) -> Result<Option<Contact<S>>, StepError> {
+        let question = self.question(Wanted::Earliest);
+        let begin = Instant::now();
+        let mut earliest = None;
+        for probe in PROBES {
+            let engine = &mut self.engine;
+            self.threads
+                .run(|| engine.run(start, end, &question, probe))?;
+            earliest = self.engine.earliest();
+            if earliest.is_some() {
+                break;
+            }
+        }
+        self.engine.set_seconds(begin.elapsed().as_secs_f64());
+        Ok(earliest)
+    }
+
+    /// Whether the step is certainly free of contact.
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts).
+    pub fn is_free(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<bool, StepError> {
+        let question = self.question(Wanted::Any);
+        let engine = &mut self.engine;
+        self.threads
+            .run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        Ok(self.engine.tally().contacts.total() == 0)
+    }
+
+    /// Replaces `vertex_face` and `edge_edge` by the pairs that boxes leave: vertex and face, or two edges, the smaller
+    /// number first. All others are certainly farther apart than the separation throughout the step.
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts).
+    pub fn candidates(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        boxes: CandidateBoxes,
+        vertex_face: &mut Vec<[u32; 2]>,
+        edge_edge: &mut Vec<[u32; 2]>,
+    ) -> Result<(), StepError> {
+        let limits = self.limits;
+        let engine = &mut self.engine;
+        self.threads
+            .run(|| engine.candidates(start, end, &limits, boxes, vertex_face, edge_edge))
+    }
+
+    /// Replaces `contacts` by those of the pairs given, in their order, vertex–face first: a vertex and a face, or two edges.
+    ///
+    /// Pairs that share a vertex are in contact at time 0.
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts), and if a pair names what the mesh does not have.
+    pub fn contacts_of(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        vertex_face: &[[u32; 2]],
+        edge_edge: &[[u32; 2]],
+        contacts: &mut Vec<Contact<S>>,
+    ) -> Result<(), StepError> {
+        let question = self.question(Wanted::All);
+        let engine = &mut self.engine;
+        self.threads
+            .run(|| engine.run_on(start, end, &question, [vertex_face, edge_edge]))?;
+        self.engine.collect_contacts(contacts);
+        Ok(())
+    }
+
+    /// What the last step counted and how long its stages took.
+    #[must_use]
+    pub const fn tally(&self) -> &StepTally {
+        self.engine.tally()
+    }
+
+    /// The mesh's vertices, edges and triangles.
+    #[must_use]
+    pub fn topology(&self) -> &Topology {
+        self.engine.topology()
+    }
+
+    /// How many threads a step uses.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        self.threads.count()
+    }
+
+    const fn question(&self, wanted: Wanted) -> Question<S> {
+        Question {
+            limits: self.limits,
+            wanted,
+            keeps_filtered: false,
+            is_exact: false,
+        }
+    }
+}

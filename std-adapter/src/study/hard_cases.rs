@@ -1,0 +1,98 @@
+//! What each method says of the built-in hard cases.
+
+use super::QueryMethod;
+use crate::hard_cases::{Contact, HardCase, hard_cases};
+use selvedge_core::glam::DVec3;
+use selvedge_core::{Motion, Scalar};
+
+/// One method's answer beside the exact one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HardAnswer {
+    /// Kept, and it touches (or must be kept since it is not finite); or culled, and it does not.
+    Right,
+    /// Kept, though it does not touch: allowed, since it is only looked at again.
+    FalseAlarm,
+    /// **Wrong**: culled, though it touches or is not finite.
+    Missed,
+}
+
+/// One case, and what every method said.
+#[derive(Clone, Debug)]
+pub struct HardResult {
+    /// The case.
+    pub case: &'static HardCase,
+    /// In the order of [`QueryMethod::ALL`].
+    pub answers: [HardAnswer; QueryMethod::ALL.len()],
+}
+
+/// Asks every method about each of the [`hard_cases`] that has `name` in its name, in the format `S`; `progress` gets the share
+/// that is done.
+///
+/// Cases whose coordinates `S` does not hold exactly are left out: the answer would be another.
+#[must_use]
+pub fn ask_hard_cases<S: Scalar>(name: &str, progress: &mut dyn FnMut(f64)) -> Vec<HardResult> {
+    let cases = hard_cases().iter().filter(|case| case.name.contains(name));
+    let cases: Vec<_> = cases.collect();
+    let mut results = Vec::new();
+    for (index, &case) in cases.iter().enumerate() {
+        if let Some(points) = exactly::<S>(case) {
+            let must_be_kept = case.contact != Contact::Never;
+            let answers = QueryMethod::ALL.map(|method| {
+                match (method.keeps::<S>(case.kind, points), must_be_kept) {
+                    (true, true) | (false, false) => HardAnswer::Right,
+                    (true, false) => HardAnswer::FalseAlarm,
+                    (false, true) => HardAnswer::Missed,
+                }
+            });
+            results.push(HardResult { case, answers });
+        }
+        progress((index + 1) as f64 / cases.len() as f64);
+    }
+    results
+}
+
+/// The case's points as `S`, if that changes none of them.
+fn exactly<S: Scalar>(case: &HardCase) -> Option<[Motion<S>; 4]> {
+    let convert = |position: DVec3| {
+        let converted = position.to_array().map(S::from_f64);
+        let is_same = |(old, new): (f64, S)| old == new.to_f64() || old.is_nan();
+        let mut all = position.to_array().into_iter().zip(converted);
+        all.all(is_same).then(|| converted.into())
+    };
+    let mut points = case.motions().map(|motion| {
+        Some(Motion {
+            start: convert(motion.start)?,
+            end: convert(motion.end)?,
+        })
+    });
+    let [a, b, c, d] = &mut points;
+    Some([a.take()?, b.take()?, c.take()?, d.take()?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{HardAnswer, ask_hard_cases};
+    use crate::study::QueryMethod;
+
+    /// The command shows what it is for: the plain test's failures, and none of ours.
+    #[test]
+    fn certified_methods_miss_nothing_and_the_plain_test_does() {
+        let missed = |results: &[super::HardResult], wanted: bool| {
+            let of = |result: &super::HardResult| {
+                let by_method = QueryMethod::ALL.into_iter().zip(result.answers);
+                let missed = by_method.filter(|(_, answer)| *answer == HardAnswer::Missed);
+                missed
+                    .filter(|(method, _)| method.is_certified() == wanted)
+                    .count()
+            };
+            results.iter().map(of).sum::<usize>()
+        };
+        let name = "coplanar throughout";
+        let double = ask_hard_cases::<f64>(name, &mut |_| {});
+        let single = ask_hard_cases::<f32>(name, &mut |_| {});
+        assert_eq!(missed(&double, true) + missed(&single, true), 0);
+        assert!(missed(&double, false) > 5);
+        // What f32 does not hold exactly is left out.
+        assert!(!single.is_empty() && single.len() < double.len());
+    }
+}

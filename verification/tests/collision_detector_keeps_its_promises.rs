@@ -1,0 +1,303 @@
+//! What an engine asks of a mesh, step by step, against the exact oracle and against itself.
+
+use proptest::prelude::*;
+use selvedge::PairKind::{self, EdgeEdge, VertexFace};
+use selvedge::dispatch::available_levels;
+use selvedge::glam::DVec3;
+use selvedge::mesh::Topology;
+use selvedge::scene::ArmScene;
+use selvedge::step::{CandidateBoxes, CollisionDetector, Contact, StepError};
+use selvedge_core::Scalar;
+use selvedge_core::elementary::Limits;
+use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
+use selvedge_verification::oracle::{Kind, collides, within};
+use std::collections::BTreeMap;
+
+type MeshPair = (PairKind, [u32; 2]);
+
+fn detector<S: Format>(mesh: &MeshCase<S>) -> CollisionDetector<S> {
+    CollisionDetector::new(mesh.topology(), 1).expect("one thread")
+}
+
+fn contacts<S: Format>(detector: &mut CollisionDetector<S>, mesh: &MeshCase<S>) -> Vec<Contact<S>> {
+    let mut contacts = Vec::new();
+    let result = detector.contacts(&mesh.frame(0), &mesh.frame(1), &mut contacts);
+    result.expect("finite positions, one for each vertex");
+    contacts
+}
+
+fn by_pair<S: Scalar>(contacts: &[Contact<S>]) -> BTreeMap<MeshPair, f64> {
+    contacts
+        .iter()
+        .map(|contact| ((contact.kind, contact.pair), contact.time.to_f64()))
+        .collect()
+}
+
+/// All pairs without a common vertex: VF, EE.
+fn all_pairs(topology: &Topology) -> [Vec<[u32; 2]>; 2] {
+    let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+    for vertex in 0..topology.vertex_count() as u32 {
+        let has_triangle = topology.triangles().iter().any(|t| t.contains(&vertex));
+        for (face, triangle) in (0..).zip(topology.triangles()) {
+            if has_triangle && !triangle.contains(&vertex) {
+                vertex_face.push([vertex, face]);
+            }
+        }
+    }
+    for (second, b) in (0..).zip(topology.edges()) {
+        for (first, a) in (0..second).zip(topology.edges()) {
+            if !a.iter().any(|end| b.contains(end)) {
+                edge_edge.push([first, second]);
+            }
+        }
+    }
+    [vertex_face, edge_edge]
+}
+
+fn case<S: Format>(mesh: &MeshCase<S>, topology: &Topology, (kind, pair): MeshPair) -> PairCase<S> {
+    let points = kind
+        .vertices(pair, topology)
+        .map(|vertex| mesh.positions[vertex as usize]);
+    match kind {
+        VertexFace => PairCase::new(Kind::VertexFace, points),
+        EdgeEdge => PairCase::new(Kind::EdgeEdge, points),
+    }
+}
+
+/// Every question, where the oracle knows the answer.
+fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
+    let topology = mesh.topology();
+    let (start, end) = (mesh.frame(0), mesh.frame(1));
+    let mut detector = detector(mesh);
+    let all = by_pair(&contacts(&mut detector, mesh));
+    let earliest = detector.earliest(&start, &end).expect("finite positions");
+    let is_free = detector.is_free(&start, &end).expect("finite positions");
+    let [vertex_face, edge_edge] = all_pairs(&topology);
+    let mut own = Vec::new();
+    detector
+        .contacts_of(&start, &end, &vertex_face, &edge_edge, &mut own)
+        .expect("pairs of the mesh");
+    let own = by_pair(&own);
+    prop_assert_eq!(is_free, all.is_empty());
+    for pair in all.keys() {
+        prop_assert!(own.contains_key(pair));
+    }
+    let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
+    for pair in of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)) {
+        let Some(first) = collides(&case(mesh, &topology, pair).question()) else {
+            continue;
+        };
+        let earliest = earliest.as_ref().map(|contact| contact.time.to_f64());
+        for (question, found) in [
+            ("contacts", all.get(&pair).copied()),
+            ("contacts_of", own.get(&pair).copied()),
+            ("earliest", earliest),
+        ] {
+            let is_in_time = found.is_some_and(|found| first.cmp_f64(found).is_ge());
+            prop_assert!(
+                is_in_time,
+                "{}: {:?}, {:?} at {:?}",
+                question,
+                found,
+                pair,
+                first
+            );
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn no_question_misses_a_contact_f64() {
+    check(250, meshes::<f64>(), no_question_misses_a_contact);
+}
+
+#[test]
+fn no_question_misses_a_contact_f32() {
+    check(250, meshes::<f32>(), no_question_misses_a_contact);
+}
+
+#[test]
+fn no_pair_that_comes_within_the_separation_is_missed() {
+    check(60, meshes::<f64>(), |mesh| {
+        let topology = mesh.topology();
+        let mut detector = detector(mesh);
+        for separation in [1e-9, 0.25, 1.0] {
+            let limits = Limits {
+                separation,
+                ..Limits::default()
+            };
+            detector.set_limits(limits).expect("a length");
+            let found = by_pair(&contacts(&mut detector, mesh));
+            let [vertex_face, edge_edge] = all_pairs(&topology);
+            let vertex_face = vertex_face.into_iter().map(|pair| (VertexFace, pair));
+            let edge_edge = edge_edge.into_iter().map(|pair| (EdgeEdge, pair));
+            for pair in vertex_face.chain(edge_edge) {
+                if !found.contains_key(&pair) {
+                    let question = case(mesh, &topology, pair).question();
+                    prop_assert!(!within(&question, separation), "{:?}", pair);
+                }
+            }
+        }
+        Ok(())
+    });
+}
+
+/// Half of the vertices rest, in this step and the next; the pairs with another vertex are found as before, with the same times.
+fn what_rests_changes_nothing_for_what_moves<S: Format>(
+    mesh: &MeshCase<S>,
+) -> Result<(), TestCaseError> {
+    let topology = mesh.topology();
+    let moving: Vec<bool> = (0..mesh.positions.len()).map(|k| k % 2 == 0).collect();
+    let step = |step: usize| {
+        let position = |(ends, &moves): (&[[S; 3]; 2], &bool)| match (moves, step) {
+            (false, _) => [ends[0]; 2],
+            (true, 0) => *ends,
+            (true, _) => [ends[1], ends[0]],
+        };
+        MeshCase {
+            triangles: mesh.triangles.clone(),
+            positions: mesh.positions.iter().zip(&moving).map(position).collect(),
+        }
+    };
+    let (mut whole, mut part) = (detector(mesh), detector(mesh));
+    part.set_moving(Some(&moving)).expect("one for each vertex");
+    for number in 0..3 {
+        let mesh = step(number);
+        let moves = |contact: &Contact<S>| {
+            let vertices = contact.kind.vertices(contact.pair, &topology);
+            vertices.iter().any(|&vertex| moving[vertex as usize])
+        };
+        let mut expected = contacts(&mut whole, &mesh);
+        expected.retain(moves);
+        let found = contacts(&mut part, &mesh);
+        prop_assert_eq!(by_pair(&found), by_pair(&expected), "step {}", number);
+    }
+    part.set_moving(None).expect("all");
+    let all = by_pair(&contacts(&mut part, mesh));
+    prop_assert_eq!(all, by_pair(&contacts(&mut whole, mesh)));
+    Ok(())
+}
+
+#[test]
+fn what_rests_changes_nothing_for_what_moves_f64() {
+    check(
+        500,
+        meshes::<f64>(),
+        what_rests_changes_nothing_for_what_moves,
+    );
+}
+
+#[test]
+fn what_rests_changes_nothing_for_what_moves_f32() {
+    check(
+        500,
+        meshes::<f32>(),
+        what_rests_changes_nothing_for_what_moves,
+    );
+}
+
+/// On a mesh of many chunks: the same contacts, bits and order.
+#[test]
+fn instruction_sets_and_threads_change_nothing() {
+    let scene = ArmScene::new(40).expect("a refinement in range");
+    let [start, end] = [57, 58].map(|frame| scene.frame(frame));
+    let mut expected: Option<(Vec<Contact<f64>>, Contact<f64>)> = None;
+    for (name, level) in available_levels() {
+        for threads in [1, 2, 3] {
+            let topology = scene.topology().clone();
+            let mut detector = CollisionDetector::<f64>::new(topology, threads).expect("threads");
+            detector.set_level(level);
+            let mut contacts = Vec::new();
+            for _ in 0..2 {
+                let result = detector.contacts(&start, &end, &mut contacts);
+                result.expect("finite positions, one for each vertex");
+            }
+            assert!(!contacts.is_empty());
+            assert!(detector.tally().candidates.total() > 2 * 4096);
+            let earliest = detector.earliest(&start, &end).expect("finite positions");
+            let earliest = earliest.expect("there are contacts");
+            let first = contacts.iter().map(|contact| contact.time);
+            assert_eq!(first.reduce(f64::min), Some(earliest.time));
+            assert!(!detector.is_free(&start, &end).expect("finite positions"));
+            match &expected {
+                None => expected = Some((contacts, earliest)),
+                Some(expected) => {
+                    assert!(
+                        *expected == (contacts, earliest),
+                        "{name}, {threads} threads"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pair_of_ones_own_is_looked_at_as_it_is() {
+    let resting = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|x| [x; 2]);
+    let falling = [0.2, 0.3, 0.4].map(|x| [[x, 0.2, 1.0], [x, 0.2, -1.0]]);
+    let mesh = MeshCase::<f64> {
+        triangles: vec![[0, 1, 2], [3, 4, 5]],
+        positions: resting.into_iter().chain(falling).collect(),
+    };
+    let mut detector = detector(&mesh);
+    let mut found = Vec::new();
+    let (start, end) = (mesh.frame(0), mesh.frame(1));
+    let mut ask = |vertex_face: &[[u32; 2]], edge_edge: &[[u32; 2]]| {
+        let result = detector.contacts_of(&start, &end, vertex_face, edge_edge, &mut found);
+        result.map(|()| found.clone())
+    };
+    assert_eq!(ask(&[], &[]), Ok(Vec::new()));
+    let two = ask(&[[5, 0], [3, 0]], &[]).expect("pairs of the mesh");
+    assert_eq!([two[0].pair, two[1].pair], [[5, 0], [3, 0]]);
+    assert!(two[0].time > 0.5 - 1e-8 && two[0].time <= 0.5);
+    for (vertex_face, edge_edge) in [
+        (&[[6, 0]][..], &[][..]),
+        (&[[0, 2]], &[]),
+        (&[], &[[0, 6]]),
+        (&[], &[[6, 0]]),
+    ] {
+        let error = ask(vertex_face, edge_edge).expect_err("no such pair");
+        assert!(matches!(error, StepError::NoSuchPair { .. }), "{error}");
+    }
+}
+
+#[test]
+fn what_is_wrong_with_the_input_is_an_error() {
+    let mesh = MeshCase::<f64> {
+        triangles: vec![[0, 1, 2]],
+        positions: vec![[[0.0; 3]; 2]; 3],
+    };
+    let frame = mesh.frame(0);
+    let mut detector = detector(&mesh);
+    let (mut vertex_face, mut edge_edge, mut found) = (Vec::new(), Vec::new(), Vec::new());
+    let bad: [&[DVec3]; 3] = [&frame[1..], &[], &[DVec3::NAN; 3]];
+    for bad in bad {
+        for (start, end) in [(bad, &frame[..]), (&frame[..], bad)] {
+            assert!(detector.contacts(start, end, &mut found).is_err());
+            assert!(detector.earliest(start, end).is_err());
+            assert!(detector.is_free(start, end).is_err());
+            let boxes = CandidateBoxes::Moving;
+            let result = detector.candidates(start, end, boxes, &mut vertex_face, &mut edge_edge);
+            assert!(result.is_err());
+            let result = detector.contacts_of(start, end, &[], &[], &mut found);
+            assert!(result.is_err());
+        }
+    }
+    assert!(detector.set_moving(Some(&[true])).is_err());
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        let (separation, tolerance) = (bad, 0.0);
+        let limits = Limits {
+            tolerance,
+            separation,
+        };
+        assert!(detector.set_limits(limits).is_err());
+        let limits = Limits {
+            tolerance: bad,
+            separation: 0.0,
+        };
+        assert!(detector.set_limits(limits).is_err());
+    }
+    assert!(detector.contacts(&frame, &frame, &mut found).is_ok());
+}

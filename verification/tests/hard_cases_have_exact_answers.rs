@@ -1,0 +1,180 @@
+//! The hard cases of `selvedge hard-cases`: their answers are exact, ours are right on all of them, and on each case's
+//! neighbours in the last place.
+
+use selvedge::PairKind;
+use selvedge::hard_cases::{Contact, HardCase, hard_cases};
+use selvedge::study::QueryMethod;
+use selvedge_core::Scalar;
+use selvedge_core::elementary::advance::time_of_impact;
+use selvedge_core::elementary::{Contact as Verdict, Impact, Limits, contact};
+use selvedge_verification::generator::{Format, PairCase};
+use selvedge_verification::hard_cases::table;
+use selvedge_verification::oracle::{Kind, collides};
+use std::cmp::Ordering;
+use std::fs;
+use std::path::Path;
+
+/// `UPDATE_HARD_CASES=1 cargo test` writes it anew.
+#[test]
+fn the_file_is_what_the_oracle_says() {
+    let text = table();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../std-adapter/data/hard-cases.csv");
+    if std::env::var_os("UPDATE_HARD_CASES").is_some() {
+        fs::write(&path, &text).expect("a folder that can be written");
+    }
+    assert!(
+        fs::read_to_string(path).expect("the file") == text,
+        "hard-cases.csv is not what the oracle says; UPDATE_HARD_CASES=1 writes it anew"
+    );
+}
+
+fn pair(case: &HardCase) -> PairCase<f64> {
+    let kind = match case.kind {
+        PairKind::VertexFace => Kind::VertexFace,
+        PairKind::EdgeEdge => Kind::EdgeEdge,
+    };
+    let points =
+        [0, 1, 2, 3].map(|point| [case.start[point].to_array(), case.end[point].to_array()]);
+    PairCase::new(kind, points)
+}
+
+fn to_f32(pair: &PairCase<f64>) -> PairCase<f32> {
+    let points = pair.points.map(|ends| ends.map(|x| x.map(f32::from_f64)));
+    PairCase::new(pair.kind, points)
+}
+
+/// What is known to be an exact answer: read from the file, it is the oracle's again.
+#[test]
+fn answers_read_from_the_file_are_those_of_the_oracle() {
+    for case in hard_cases() {
+        let pair = pair(case);
+        match case.contact {
+            Contact::Undefined => assert!(!pair.is_finite()),
+            Contact::Never => assert!(collides(&pair.question()).is_none(), "{}", case.name),
+            Contact::First { from, to, .. } => {
+                let time = collides(&pair.question()).expect("a contact");
+                assert!(
+                    time.cmp_f64(from).is_ge() && time.cmp_f64(to).is_le(),
+                    "{}",
+                    case.name
+                );
+                assert!(to == from || to == from.next_up());
+            }
+        }
+    }
+}
+
+/// Our methods, which must never cull what touches. (The bisection of Tight-Inclusion must not either, but takes its time.)
+fn ours() -> impl Iterator<Item = QueryMethod> {
+    let is_ours =
+        |method: &QueryMethod| method.is_certified() && *method != QueryMethod::TightInclusion;
+    QueryMethod::ALL.into_iter().filter(is_ours)
+}
+
+fn culling<S: Format>(pair: &PairCase<S>) -> Vec<QueryMethod> {
+    let culls = |method: &QueryMethod| !method.keeps::<S>(kind(pair), pair.motions());
+    ours().filter(culls).collect()
+}
+
+fn kind<S>(pair: &PairCase<S>) -> PairKind {
+    match pair.kind {
+        Kind::VertexFace => PairKind::VertexFace,
+        Kind::EdgeEdge => PairKind::EdgeEdge,
+    }
+}
+
+/// Ours keep what touches, are not late, exclude nothing of what is not finite, and the exact verdict is exact.
+fn is_right<S: Format>(name: &str, pair: &PairCase<S>) {
+    let limits = Limits::default();
+    let (impact, contact) = match pair.kind {
+        Kind::VertexFace => {
+            let pair = pair.vertex_face();
+            (time_of_impact(&pair, &limits), contact(&pair))
+        }
+        Kind::EdgeEdge => {
+            let pair = pair.edge_edge();
+            (time_of_impact(&pair, &limits), contact(&pair))
+        }
+    };
+    if !pair.is_finite() {
+        assert_eq!(culling(pair), [], "{name}: {pair:?}");
+        assert_eq!(contact, Verdict::Undefined, "{name}: {pair:?}");
+        return;
+    }
+    let Some(first) = collides(&pair.question()) else {
+        assert_eq!(contact, Verdict::Never, "{name}: {pair:?}");
+        return;
+    };
+    assert_eq!(contact, Verdict::Happens, "{name}: {pair:?}");
+    assert_eq!(culling(pair), [], "{name}: {pair:?}");
+    let Impact::Possible { time, .. } = impact else {
+        panic!("{name}: missed {pair:?}");
+    };
+    let order = first.cmp_f64(time.to_f64());
+    assert_ne!(order, Ordering::Less, "{name}: {time} is late for {pair:?}");
+}
+
+#[test]
+fn ours_are_right_on_all_cases_in_both_formats() {
+    for case in hard_cases() {
+        let pair = pair(case);
+        is_right(&case.name, &pair);
+        is_right(&case.name, &to_f32(&pair));
+    }
+}
+
+/// Each coordinate up and down by one unit in the last place.
+fn neighbours<S: Format>(pair: &PairCase<S>) -> impl Iterator<Item = PairCase<S>> {
+    let pair = *pair;
+    (0..24).flat_map(move |index| {
+        [-1, 1].map(|step| {
+            let mut pair = pair;
+            let number = &mut pair.points[index / 6][index / 3 % 2][index % 3];
+            *number = number.nudged(step);
+            pair
+        })
+    })
+}
+
+/// What the first of ours culls of a collision's neighbours really does not touch.
+fn nudges_cull_no_collision<S: Format>(name: &str, pair: &PairCase<S>) -> usize {
+    let mut culled = 0;
+    for neighbour in neighbours(pair) {
+        if let Some(method) = culling(&neighbour).first() {
+            let contact = collides(&neighbour.question());
+            assert!(contact.is_none(), "{name}: {method} culls {neighbour:?}");
+            culled += 1;
+        }
+    }
+    culled
+}
+
+#[test]
+fn a_nudge_by_one_unit_in_the_last_place_never_turns_a_kept_collision_into_a_cull() {
+    let mut culled = 0;
+    for case in hard_cases() {
+        if matches!(case.contact, Contact::First { .. }) {
+            culled += nudges_cull_no_collision(&case.name, &pair(case));
+            culled += nudges_cull_no_collision(&case.name, &to_f32(&pair(case)));
+        }
+    }
+    // Otherwise this would show nothing.
+    assert!(culled > 300, "only {culled} neighbours are culled");
+}
+
+/// Cases that are not moved by rounding tell more than "kept": the certified time of impact excludes what is clearly apart.
+#[test]
+fn cases_that_are_clearly_apart_are_excluded() {
+    let mut excluded = 0;
+    for case in hard_cases() {
+        let is_clear = matches!(case.contact, Contact::Never)
+            && ["1 m", "10 km"].contains(&case.placement.as_str());
+        if is_clear && !case.name.contains("2^-1074") {
+            let pair = pair(case);
+            let kept = QueryMethod::Selvedge.keeps::<f64>(case.kind, pair.motions());
+            assert!(!kept, "{} ({}) is kept", case.name, case.placement);
+            excluded += 1;
+        }
+    }
+    assert!(excluded > 20, "only {excluded}");
+}
