@@ -105,8 +105,10 @@ mod tests {
 
     #[test]
     fn a_vertex_that_strays_ends_it() {
-        let mut horizon = Horizon::default();
-        horizon.steps = 4;
+        let mut horizon = Horizon {
+            steps: 4,
+            ..Horizon::default()
+        };
         horizon.begin(&[DVec3::ZERO], &[DVec3::X], 1.0);
         horizon.advance(1.0);
         assert!(horizon.covers(&[DVec3::new(2.0, 0.09, 0.0)], 1.0, 0.1));
