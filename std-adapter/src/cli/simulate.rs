@@ -121,7 +121,7 @@ impl Simulate {
             }
             recorder.step(simulation);
             let step = simulation.steps_done();
-            if step % steps_per_frame == 0 || step == steps {
+            if step.is_multiple_of(steps_per_frame) || step == steps {
                 recorder.frame(simulation)?;
                 self.write_frame(simulation, step.div_ceil(steps_per_frame))?;
             }
