@@ -139,7 +139,7 @@ fn verdicts_are_the_oracles_on_every_pair_in_a_square() {
     }
 }
 
-/// Every 257th pair of points of a cube. (All 33,554,432 agree as well; that takes an hour.)
+/// Every 257th pair of points of a cube, of 16,777,216 of each kind.
 #[test]
 fn verdicts_are_the_oracles_on_pairs_in_a_cube() {
     for kind in KINDS {
