@@ -7,7 +7,7 @@
 use selvedge_core::glam::DVec3;
 
 /// Most steps to look ahead.
-const FARTHEST: u32 = 8;
+const FARTHEST: u32 = 4;
 
 /// The motion that candidates were found for.
 #[derive(Debug, Default)]
@@ -99,8 +99,8 @@ mod tests {
             }
             horizon.advance(1.0);
         }
-        // 1 + 2 + 4, then 8 at a time.
-        assert_eq!(found, 3 + 8);
+        // 1 + 2, then 4 at a time.
+        assert_eq!(found, 2 + 16);
     }
 
     #[test]

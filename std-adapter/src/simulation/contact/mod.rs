@@ -90,8 +90,9 @@ impl ContactSettings {
     }
 }
 
-/// How far beyond the thickness candidates are looked for, in thicknesses: more makes longer lists that last longer.
-const REACH: f64 = 2.0 / 3.0;
+/// How far beyond the thickness candidates are looked for, in thicknesses: more makes longer lists that last longer. Measured on the
+/// arm sleeve: from 0.2 to 0.7, and looking 2 to 8 steps ahead, a step costs the same within a tenth.
+const REACH: f64 = 0.3;
 
 /// Why a step could not be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
