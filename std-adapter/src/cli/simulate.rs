@@ -5,7 +5,7 @@ use super::options::Threads;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge::mesh::{self, Mesh};
-use selvedge::report::{SimulationRecorder, gltf, json, page, tables};
+use selvedge::report::{SimulationRecorder, Subject, gltf, json, page, tables};
 use selvedge::simulation::{Scene, Simulation};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -58,7 +58,7 @@ impl Simulate {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let scene = Scene::read(&self.scene)?;
         let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
-        let time_step = scene.time_step;
+        let subject = Subject::new(&scene);
         let path = self.scene.display();
         let mut simulation = Simulation::new(scene, self.threads.get())
             .map_err(|error| format!("{path}: {error}"))?;
@@ -78,8 +78,7 @@ impl Simulate {
 
         let begin = Instant::now();
         let first = simulation.steps_done();
-        let text = std::fs::read_to_string(&self.scene).unwrap_or_default();
-        let mut recorder = SimulationRecorder::new(&simulation, text, time_step)?;
+        let mut recorder = SimulationRecorder::new(subject, &simulation)?;
         let result = self.run_steps(&mut simulation, &mut recorder, steps, steps_per_frame);
         let seconds = begin.elapsed().as_secs_f64();
         if let Err(failure) = &result {

@@ -27,11 +27,11 @@ pub use figure::{FIGURE_SIZE, FigureError, FigurePairs, figure_3};
 pub use findings::{Finding, findings};
 pub use paper::{PaperRow, paper_row};
 pub use plot::scaling_svg;
-#[cfg(feature = "simulation")]
-pub use recording::SimulationRecorder;
 pub use recording::{
     About, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind,
 };
+#[cfg(feature = "simulation")]
+pub use recording::{SimulationRecorder, Subject};
 pub use step::{StepQuestion, StepSummary};
 pub use table_svg::comparison_svg;
 

@@ -43,7 +43,7 @@ mod tests;
 
 pub use recorder::{FrameError, Recorder};
 #[cfg(feature = "simulation")]
-pub use simulated::SimulationRecorder;
+pub use simulated::{SimulationRecorder, Subject};
 
 use crate::mesh::Mesh;
 use selvedge_core::glam::DVec3;

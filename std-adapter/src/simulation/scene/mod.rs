@@ -48,6 +48,7 @@ pub(crate) use quantity::{
 use super::effects::{self, Named};
 use crate::mesh::{self, Mesh};
 use quantity::TIME;
+use selvedge_core::glam::DVec3;
 use std::path::Path;
 use table::{Source, Table};
 
@@ -83,6 +84,10 @@ pub struct Scene {
     pub duration: f64,
     /// How many frames to write for each second simulated.
     pub frame_rate: f64,
+    /// Against gravity, of any length; z where the scene names no gravity.
+    pub up: DVec3,
+    /// The file's text.
+    pub text: String,
     /// What to do when the cloth cannot go on.
     pub on_blocked: OnBlocked,
     /// Tells checkpoints of this scene from others': from its text and all its meshes.
@@ -150,6 +155,14 @@ impl Scene {
             Some(table) => effects::read(&table, &world)?,
             None => Vec::new(),
         };
+        let gravity = match root.table("effects")? {
+            Some(table) => table.table("gravity")?,
+            None => None,
+        };
+        let gravity = match gravity {
+            Some(table) => table.vector("acceleration", ACCELERATION, 1e4)?,
+            None => None,
+        };
         let choices = [
             ("stop", OnBlocked::Stop),
             ("hold", OnBlocked::Hold),
@@ -164,6 +177,8 @@ impl Scene {
                 .number("frames_per_second", FREQUENCY, 0.001..=1e6)?
                 .unwrap_or(60.0),
             on_blocked: root.choice("on_blocked", &choices)?.unwrap_or_default(),
+            up: gravity.map_or(DVec3::Z, |acceleration| -acceleration),
+            text: text.to_owned(),
             time_step,
             duration,
             fingerprint: fingerprint(text, &cloth, &bodies),
