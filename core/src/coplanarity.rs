@@ -31,7 +31,8 @@
 //!  kᵢ (computed) > Eᵢ proves kᵢ > 0,   Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η,   C₀ = C₃ = 16u,   C₁ = C₂ = 20u (for 3k₁, 3k₂)
 //! ```
 //!
-//! and the same below −Eᵢ, M being the largest magnitude of a component of B, C and P.
+//! and the same below −Eᵢ, M being the largest magnitude of a component of B, C and P. These constants, and those of all other
+//! bounds, are proven by Gappa for both formats, and Coq accepts the proofs: `verification/gappa`.
 //!
 //! **Without the permanent.** Each monomial is at most Mx·My·Mz, the product of the largest magnitudes along each axis
 //! ([`largest_by_axis`](MovingTetrahedron::largest_by_axis)), or the product of the largest components of B, C and P

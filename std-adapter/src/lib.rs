@@ -13,11 +13,13 @@
 //! | [`scene`] | the built-in motion: a sleeve on a bending arm |
 //! | [`study`] | experiments: methods compared, cost against size, benchmark queries, accuracy against time (feature `accuracy`); data only |
 //! | `hard_cases` | hard cases of the literature by name, with exact answers (feature `files`) |
+//! | `simulation` | cloth in motion: scenes from TOML files, effects, contact with a certified pass (feature `simulation`) |
 //! | `queries` | primitive-pair queries of the public benchmark, read exactly (feature `files`) |
 //! | `report` | tables, CSV, JSON, plots, pictures (feature `report`) |
 //!
 //! `default-features = false` leaves a small library for a game engine: meshes in memory, broad phase, pipelines.
-//! The feature `cli` (default) brings the `selvedge` command, and with it `accuracy`, `files` and `report`.
+//! The feature `cli` (default) brings the `selvedge` command, and with it `accuracy`, `files`, `report` and
+//! `simulation`.
 
 pub mod broad_phase;
 pub mod dispatch;
@@ -35,6 +37,8 @@ pub mod queries;
 #[cfg(feature = "report")]
 pub mod report;
 pub mod scene;
+#[cfg(feature = "simulation")]
+pub mod simulation;
 pub mod step;
 pub mod study;
 

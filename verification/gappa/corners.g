@@ -17,6 +17,13 @@ of_length = 32; #! core/src/elementary/advance/directions.rs: bar = bar + separa
 along_axis = 8; #! core/src/elementary/advance/directions.rs: let bar = separation * more_roundoffs(8) + S::UNDERFLOW;
 #~ core/src/elementary/corners.rs: let vanishing = of_format::<S>(-100, -960);
 #~ core/src/elementary/advance/directions.rs: if squared > of_format(-100, -900) {
+# The same, several pairs side by side:
+#~ core/src/batch/advance.rs: time.splat(L::Scalar::small(20) * L::Scalar::UNIT_ROUNDOFF) * w.abs().dot(extent) + time.splat(L::Scalar::UNDERFLOW);
+#~ core/src/batch/advance.rs: let vanishing = time.splat(of_format(-100, -960));
+#~ core/src/batch/advance.rs: let factor = time.splat(more_roundoffs(32));
+#~ core/src/batch/advance.rs: let less = time.splat(less_roundoffs(32));
+#~ core/src/batch/advance.rs: let quotient = (at_start - bar).over(at_start - at_end) * less;
+#~ core/src/batch/advance.rs: let is_safe = squared.greater(squared.splat(of_format(-100, -900)));
 #~ core/src/elementary/advance/directions.rs: before.w.dot(*to) + after.w.dot(*from) > middle_bar
 eta = 1b@eta@;
 lambda = 1b@lambda@;

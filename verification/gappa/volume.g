@@ -22,6 +22,9 @@ of_lengths = 64; #~ core/src/elementary/advance/volume.rs: separation: separatio
 of_part = 32; #~ core/src/elementary/advance/volume.rs: let next = (time + part * (S::ONE - time) * less_roundoffs(32)) * less_roundoffs(8);
 of_time = 8;
 #~ core/src/elementary/advance/volume.rs: let error = sixty_four * permanent + S::UNDERFLOW * (size * size);
+# The same, several pairs side by side:
+#~ core/src/batch/advance.rs: let error = time.splat(L::Scalar::small(64) * L::Scalar::UNIT_ROUNDOFF) * extent.dot(extent.cross_permanent(extent)) + time.splat(L::Scalar::UNDERFLOW) * (size * size);
+#~ core/src/batch/advance.rs: let next = (proven + part * (one - proven) * time.splat(less_roundoffs(32))) * time.splat(less_roundoffs(8));
 eta = 1b@eta@;
 lambda = 1b@lambda@;
 

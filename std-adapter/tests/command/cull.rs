@@ -20,9 +20,9 @@ fn json_has_the_mesh_the_stages_and_the_contacts() {
     let place = Workplace::with_step();
     let ours = place.json(&with(&["--json"]));
     has_the_mesh_the_stages_and_the_contacts(&ours, "selvedge", false);
-    // The small triangle's corners and the large face; all edges pass the large one's by.
+    // The small triangle's corners and the large face; its edges and the two slanted ones of the large triangle.
     assert_eq!(stage(&ours, "broad-phase")["vertex_face"], 3);
-    assert_eq!(stage(&ours, "broad-phase")["edge_edge"], 0);
+    assert_eq!(stage(&ours, "broad-phase")["edge_edge"], 6);
 
     let paper = place.json(&with(&["--json", "--pipeline", "lv_2014"]));
     has_the_mesh_the_stages_and_the_contacts(&paper, "lv_2014", true);
@@ -153,7 +153,7 @@ fn candidates_only_ends_after_the_broad_phase() {
     assert_eq!(document["contacts"], Value::Null);
     assert_eq!(document["stages"].as_array().unwrap().len(), 1);
     assert_eq!(stage(&document, "broad-phase")["vertex_face"], 3);
-    assert_eq!(place.read("out.csv").lines().count(), 4);
+    assert_eq!(place.read("out.csv").lines().count(), 1 + 3 + 6);
     assert!(
         place
             .stdout(&with(&["--candidates-only"]))

@@ -6,5 +6,6 @@ mod compare;
 mod cull;
 mod hard_cases;
 mod queries;
+mod simulate;
 mod support;
 mod terminal;

@@ -72,6 +72,8 @@ pub(crate) struct Hierarchies<S: Scalar> {
     boxes: Vec<MovingBox<f32>>,
     /// Which vertices move, if not all.
     moving: Option<Vec<bool>>,
+    /// Whether what does not count as moving may move all the same.
+    refit_all: bool,
     /// What the boxes of what rests were fitted with, if they are still good.
     fitted: Option<Mapping>,
     /// What the boxes hold.
@@ -96,6 +98,7 @@ impl<S: Scalar> Hierarchies<S> {
             rows: Vec::new(),
             boxes: Vec::new(),
             moving: None,
+            refit_all: false,
             fitted: None,
             fit: Fit::default(),
             extent: Aabb::empty(),
@@ -134,6 +137,12 @@ impl<S: Scalar> Hierarchies<S> {
         self.moving = moving;
         self.fitted = None;
         self.mark();
+    }
+
+    /// From the next update on only pairs with a wanted vertex are found. All vertices may move.
+    pub(crate) fn set_wanted(&mut self, wanted: Vec<bool>) {
+        self.refit_all = true;
+        self.set_moving(Some(wanted));
     }
 
     /// Takes the positions of a step and finds where to look for pairs.
@@ -218,7 +227,7 @@ impl<S: Scalar> Hierarchies<S> {
 
     fn refit(&mut self, start: &[S::Vector], end: &[S::Vector], mapping: Mapping) {
         // What rests keeps the rows and boxes that it has.
-        let only_moving = self.moving.is_some() && self.fitted == Some(mapping);
+        let only_moving = self.moving.is_some() && !self.refit_all && self.fitted == Some(mapping);
         let vertices = &self.vertices.primitives;
         let unknown = Motion::resting(S::Vector::default());
         self.rows.resize(vertices.len(), VertexRow::new(unknown));

@@ -116,6 +116,15 @@ impl<S: Scalar> MovingBroadPhase<S> {
         self.fit.is_swept = swept;
     }
 
+    /// From the next update on only pairs with a vertex that is `wanted` are candidates, one entry for each vertex of the mesh:
+    /// pairs of cloth, say, and not those of bodies among themselves.
+    ///
+    /// # Panics
+    /// At the next update, if there are fewer entries than vertices.
+    pub fn set_wanted(&mut self, wanted: Vec<bool>) {
+        self.hierarchies.set_wanted(wanted);
+    }
+
     /// Takes the positions of a step. Builds the hierarchies in the first step and when they have degraded, refits them
     /// otherwise.
     ///

@@ -36,10 +36,14 @@
 //! ```
 
 mod recorder;
+#[cfg(feature = "simulation")]
+mod simulated;
 #[cfg(test)]
 mod tests;
 
 pub use recorder::{FrameError, Recorder};
+#[cfg(feature = "simulation")]
+pub use simulated::{SimulationRecorder, Subject};
 
 use crate::mesh::Mesh;
 use selvedge_core::glam::DVec3;

@@ -104,7 +104,8 @@ impl Recorder {
         self.offered.is_multiple_of(self.stride)
     }
 
-    /// Offers the state after `step` steps, 0 for the start, later than all states offered before.
+    /// Offers the state after `step` steps, 0 for the start: after more steps than all states offered before, or after as many as
+    /// the last one, which it then replaces.
     ///
     /// # Errors
     /// If a coordinate is not finite as an f32. Then nothing is recorded.
@@ -123,6 +124,13 @@ impl Recorder {
                 vertex,
                 position: positions[vertex],
             });
+        }
+        let last = self.skipped.as_mut().or(self.recording.frames.last_mut());
+        if let Some(last) = last.filter(|last| last.step == step) {
+            for (place, &position) in last.positions.iter_mut().zip(positions) {
+                *place = rounded(position);
+            }
+            return Ok(());
         }
         // Its memory is used again.
         let mut frame = self.skipped.take().unwrap_or_default();

@@ -89,6 +89,27 @@ fn a_recording_that_goes_on_from_a_checkpoint_knows_its_first_step() {
 }
 
 #[test]
+fn a_second_state_after_the_same_step_replaces_the_first() {
+    for budget in [2, 9] {
+        let mut recorder =
+            Recorder::new(about(), vec![triangle()], &[], &[]).with_budget(36 * budget);
+        for step in 0..4 {
+            recorder.frame(step, &positions(step)).unwrap();
+            recorder.frame(step, &positions(step + 70)).unwrap();
+        }
+        let recording = recorder.finish(None);
+        let steps: Vec<u64> = recording.frames.iter().map(|frame| frame.step).collect();
+        assert!(
+            steps.is_sorted_by(|a, b| a < b) && steps.ends_with(&[3]),
+            "{steps:?}"
+        );
+        for frame in &recording.frames {
+            assert_eq!(frame.positions[0][2], frame.step as f32 + 70.0);
+        }
+    }
+}
+
+#[test]
 fn a_frame_that_f32_cannot_hold_is_refused_by_step_and_vertex_and_not_recorded() {
     let mut recorder = Recorder::new(about(), vec![triangle()], &[], &[]);
     recorder.frame(0, &positions(0)).unwrap();

@@ -8,6 +8,8 @@ mod hard_cases;
 #[cfg(feature = "files")]
 mod queries;
 mod scaling;
+#[cfg(feature = "simulation")]
+mod simulation;
 mod step;
 
 #[cfg(feature = "accuracy")]
@@ -18,6 +20,8 @@ pub use hard_cases::hard_cases;
 #[cfg(feature = "files")]
 pub use queries::queries;
 pub use scaling::scaling;
+#[cfg(feature = "simulation")]
+pub use simulation::simulation;
 pub use step::step;
 
 use comfy_table::{CellAlignment, LineStyle, Row, Table, TableStyle};

@@ -95,7 +95,9 @@
     show(frame + by);
   }
 
-  for (const control of document.querySelectorAll(".controls [disabled]")) control.disabled = false;
+  for (const control of document.querySelectorAll(".controls [disabled]")) {
+    control.disabled = !viewer && ["edges", "bodies", "reset"].includes(control.id);
+  }
   play.addEventListener("click", () => setPlaying(!playing));
   find("back").addEventListener("click", () => step(-1));
   find("forward").addEventListener("click", () => step(1));

@@ -20,7 +20,7 @@ function createViewer(canvas, recording, onChange) {
   const surface = program(gl, SURFACE_VERTEX, SURFACE_FRAGMENT);
   const depth = program(gl, DEPTH_VERTEX, DEPTH_FRAGMENT);
   const floor = program(gl, FLOOR_VERTEX, FLOOR_FRAGMENT);
-  const lines = program(gl, DEPTH_VERTEX, LINE_FRAGMENT);
+  const lines = program(gl, LINE_VERTEX, LINE_FRAGMENT);
 
   const points = new Float32Array(3 * recording.vertices);
   const normals = new Float32Array(3 * recording.vertices);
@@ -89,8 +89,10 @@ function createViewer(canvas, recording, onChange) {
     const width = canvas.width, height = canvas.height;
     if (!width || !height || gl.isContextLost()) return;
     const eye = added(camera.target, eyeOffset());
-    const near = Math.max(0.01 * camera.distance, camera.distance - 4 * scene.radius);
-    const projection = perspective(FIELD, width / height, near, camera.distance + 8 * scene.radius);
+    // The floor ends, faded out, at 2.6 radii.
+    const away = Math.hypot(...eye);
+    const near = Math.max(0.02 * camera.distance, away - 2.8 * scene.radius);
+    const projection = perspective(FIELD, width / height, near, away + 3 * scene.radius);
     const matrix = multiplied(projection, lookAt(eye, camera.target));
     const colours = themeColours(canvas);
 
@@ -118,6 +120,7 @@ function createViewer(canvas, recording, onChange) {
     gl.uniformMatrix4fv(surface.at("sunMatrix"), false, sunMatrix);
     gl.uniform3fv(surface.at("eye"), eye);
     gl.uniform3fv(surface.at("sun"), SUN);
+    gl.uniform1f(surface.at("lift"), 0.008 * scene.radius);
     eachPart((part, first) => {
       const isCloth = part.kind === "cloth";
       gl.uniform3fv(surface.at("front"), isCloth ? colours.cloth : colours.body);
@@ -133,7 +136,9 @@ function createViewer(canvas, recording, onChange) {
       gl.bindVertexArray(edges.vertices);
       gl.useProgram(lines.program);
       gl.uniformMatrix4fv(lines.at("matrix"), false, matrix);
-      gl.uniform4fv(lines.at("colour"), [0, 0, 0, 0.45]);
+      gl.uniform3fv(lines.at("eye"), eye);
+      gl.uniform1f(lines.at("lift"), 0.003 * scene.radius);
+      gl.uniform4fv(lines.at("colour"), [0, 0, 0, 0.4]);
       gl.drawElements(gl.LINES, shown.bodies ? edges.count : edges.ofCloth, gl.UNSIGNED_INT, 0);
     }
     if (eye[1] > scene.floor) {
@@ -454,6 +459,8 @@ layout(location = 0) in vec3 point;
 layout(location = 1) in vec3 normal;
 uniform mat4 matrix;
 uniform mat4 sunMatrix;
+uniform vec3 sun;
+uniform float lift;
 out vec3 where;
 out vec3 outward;
 out vec4 sunPlace;
@@ -461,7 +468,9 @@ void main() {
   where = point;
   // Sums of areas may be so small that their squares vanish.
   outward = normal / max(max(abs(normal.x), abs(normal.y)), max(abs(normal.z), 1e-30));
-  sunPlace = sunMatrix * vec4(point, 1.0);
+  // Looked up a little off the surface, towards the sun, so that coarse triangles do not shade themselves.
+  vec3 lifted = point + normalize(outward) * sign(dot(outward, sun)) * lift;
+  sunPlace = sunMatrix * vec4(lifted, 1.0);
   gl_Position = matrix * vec4(point, 1.0);
 }`;
 
@@ -482,13 +491,13 @@ void main() {
   vec3 toEye = normalize(eye - where);
   vec3 base = gl_FrontFacing ? front : back;
   float facing = dot(n, sun);
-  float direct = max((facing + 0.2) / 1.2, 0.0) * mix(0.12, 1.0, sunlight(sunPlace));
-  vec3 ambient = mix(vec3(0.20, 0.19, 0.18), vec3(0.42, 0.45, 0.50), 0.5 + 0.5 * n.y);
+  float direct = max((facing + 0.2) / 1.2, 0.0) * mix(0.1, 1.0, sunlight(sunPlace));
+  vec3 ambient = mix(vec3(0.13, 0.12, 0.115), vec3(0.30, 0.32, 0.36), 0.5 + 0.5 * n.y);
   // A lamp at the eye keeps folds in the shade legible.
-  float lamp = 0.22 * max(dot(n, toEye), 0.0);
+  float lamp = 0.14 * max(dot(n, toEye), 0.0);
   float rim = pow(1.0 - max(dot(n, toEye), 0.0), 3.0);
   float gloss = pow(max(dot(n, normalize(sun + toEye)), 0.0), 32.0);
-  vec3 light = base * (ambient + lamp + 1.05 * direct * vec3(1.0, 0.97, 0.92));
+  vec3 light = base * (ambient + lamp + 0.85 * direct * vec3(1.0, 0.97, 0.92));
   light += sheen * 0.16 * rim * (base + 0.15) + (1.0 - sheen) * 0.08 * gloss * direct;
   colour = vec4(pow(light, vec3(1.0 / 2.2)), 1.0);
 }`;
@@ -500,6 +509,14 @@ void main() { gl_Position = matrix * vec4(point, 1.0); }`;
 
 const DEPTH_FRAGMENT = `#version 300 es
 void main() {}`;
+
+const LINE_VERTEX = `#version 300 es
+layout(location = 0) in vec3 point;
+uniform mat4 matrix;
+uniform vec3 eye;
+uniform float lift;
+// Nearer to the eye than the triangles that the line belongs to.
+void main() { gl_Position = matrix * vec4(point + normalize(eye - point) * lift, 1.0); }`;
 
 const LINE_FRAGMENT = `#version 300 es
 precision highp float;

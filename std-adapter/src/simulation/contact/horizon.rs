@@ -1,0 +1,118 @@
+//! For how long candidates stay good.
+//!
+//! Candidates are found for a motion straight on from the present one, several steps ahead: whatever is no candidate keeps more
+//! than the reach of the search along an axis, on all of that way. As long as every vertex stays within some room of it, a pair
+//! that is no candidate keeps the reach less twice the room.
+
+use selvedge_core::glam::DVec3;
+
+/// Most steps to look ahead.
+const FARTHEST: u32 = 4;
+
+/// The motion that candidates were found for.
+#[derive(Debug, Default)]
+pub(super) struct Horizon {
+    origin: Vec<DVec3>,
+    /// In metres a second.
+    drift: Vec<DVec3>,
+    /// The end of the motion.
+    far: Vec<DVec3>,
+    /// In seconds; zero if there is no motion.
+    span: f64,
+    /// Since it began, in seconds.
+    elapsed: f64,
+    /// How many steps the span was meant to last.
+    steps: u32,
+}
+
+impl Horizon {
+    /// Begins anew, and learns nothing from the past.
+    pub(super) fn forget(&mut self) {
+        self.span = 0.0;
+        self.steps = 1;
+    }
+
+    /// Begins with the step from `start` to `end` in `h` seconds. Returns the motion to find candidates for.
+    ///
+    /// Looks twice as far ahead as before if that lasted, half as far if it did not last half of its time.
+    pub(super) fn begin<'a>(
+        &'a mut self,
+        start: &'a [DVec3],
+        end: &[DVec3],
+        h: f64,
+    ) -> [&'a [DVec3]; 2] {
+        if self.span > 0.0 {
+            if self.elapsed > 0.9 * self.span {
+                self.steps = (2 * self.steps).min(FARTHEST);
+            } else if self.elapsed < 0.5 * self.span {
+                self.steps = (self.steps / 2).max(1);
+            }
+        }
+        self.elapsed = 0.0;
+        self.span = h * f64::from(self.steps);
+        self.origin.clear();
+        self.origin.extend_from_slice(start);
+        self.drift.clear();
+        self.drift
+            .extend(start.iter().zip(end).map(|(&from, &to)| (to - from) / h));
+        self.far.clear();
+        let span = self.span;
+        let ways = start.iter().zip(&self.drift);
+        self.far
+            .extend(ways.map(|(&from, &drift)| from + drift * span));
+        [start, &self.far]
+    }
+
+    /// Whether, `h` seconds on, all vertices are within `room` of the motion along each axis, and it has not ended.
+    pub(super) fn covers(&self, end: &[DVec3], h: f64, room: f64) -> bool {
+        let time = self.elapsed + h;
+        // Steps that add up to the span do so but for rounding.
+        if !(time <= self.span * (1.0 + 1e-9)) {
+            return false;
+        }
+        let ways = self.origin.iter().zip(&self.drift);
+        end.iter().zip(ways).all(|(&now, (&origin, &drift))| {
+            (now - (origin + drift * time)).abs().max_element() <= room
+        })
+    }
+
+    /// A step of `h` seconds was made.
+    pub(super) fn advance(&mut self, h: f64) {
+        self.elapsed += h;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_straight_motion_is_covered_to_its_end_and_farther_each_time() {
+        let mut horizon = Horizon::default();
+        horizon.forget();
+        let at = |step: u32| [DVec3::X * f64::from(step)];
+        let mut found = 0;
+        for step in 0..64 {
+            if !horizon.covers(&at(step + 1), 1.0, 0.1) {
+                horizon.begin(&at(step), &at(step + 1), 1.0);
+                found += 1;
+            }
+            horizon.advance(1.0);
+        }
+        // 1 + 2, then 4 at a time.
+        assert_eq!(found, 2 + 16);
+    }
+
+    #[test]
+    fn a_vertex_that_strays_ends_it() {
+        let mut horizon = Horizon {
+            steps: 4,
+            ..Horizon::default()
+        };
+        horizon.begin(&[DVec3::ZERO], &[DVec3::X], 1.0);
+        horizon.advance(1.0);
+        assert!(horizon.covers(&[DVec3::new(2.0, 0.09, 0.0)], 1.0, 0.1));
+        assert!(!horizon.covers(&[DVec3::new(2.0, 0.11, 0.0)], 1.0, 0.1));
+        assert!(!horizon.covers(&[DVec3::new(f64::NAN, 0.0, 0.0)], 1.0, 0.1));
+    }
+}

@@ -1,0 +1,183 @@
+//! `selvedge simulate`.
+
+use crate::support::{Workplace, keys};
+use std::fs;
+
+const SCENE: &str = r#"
+name = "a </script> sheet"
+time_step = "2 ms"
+duration = "1 s"
+frames_per_second = 10
+
+[cloth]
+shape = "sheet"
+corner = [-0.2, -0.2, 0.13]
+sides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }
+cells = [8, 8]
+density = "200 g/m2"
+
+[[body]]
+name = "ball"
+shape = "ball"
+centre = [0, 0, 0]
+radius = "10 cm"
+around = 10
+
+[effects.gravity]
+
+[effects.stretch]
+stiffness = "200 N/m"
+
+[effects.body_contact]
+thickness = "5 mm"
+
+[effects.self_collision]
+thickness = "5 mm"
+"#;
+
+fn place() -> Workplace {
+    let place = Workplace::new();
+    place.write("sheet.toml", SCENE);
+    place
+}
+
+#[test]
+fn json_names_exactly_the_effects_that_the_scene_calls_for() {
+    let document = place().json(&["simulate", "sheet.toml", "--json"]);
+    for key in [
+        "scene",
+        "steps",
+        "seconds",
+        "effects",
+        "stages",
+        "contacts_resolved",
+        "intersections_at_end",
+    ] {
+        assert!(keys(&document).contains(&key), "{key}");
+    }
+    let effects = document["effects"].as_array().unwrap();
+    let names: Vec<_> = effects
+        .iter()
+        .map(|effect| effect["effect"].as_str().unwrap())
+        .collect();
+    assert_eq!(
+        names,
+        ["gravity", "stretch", "body_contact", "self_collision"]
+    );
+    assert_eq!(
+        (&document["steps"], &document["intersections_at_end"]),
+        (&500.into(), &0.into())
+    );
+    assert!(document["contacts_resolved"].as_u64().unwrap() > 100);
+}
+
+#[test]
+fn without_contact_effects_no_stage_is_reported_and_nothing_is_promised() {
+    let place = Workplace::new();
+    let (without, _) = SCENE.split_once("[effects.body_contact]").unwrap();
+    place.write("sheet.toml", without);
+    let document = place.json(&["simulate", "sheet.toml", "--json"]);
+    assert_eq!(document["stages"].as_array().unwrap().len(), 0);
+    assert!(document["intersections_at_end"].is_null());
+}
+
+#[test]
+fn the_report_needs_no_network_and_no_other_file() {
+    let place = place();
+    place.stdout(&["simulate", "sheet.toml", "--output", "out"]);
+    let page = place.read("out/sheet.html");
+    // That nothing is loaded is tested with the page itself; here, that this is that page, with this scene.
+    assert!(page.contains("<h1>a &lt;/script&gt; sheet</h1>"));
+    assert!(page.contains("body_contact: thickness"));
+    let header = "<script id=\"recording\" type=\"application/json\">";
+    let start = page.find(header).unwrap() + header.len();
+    let end = start + page[start..].find("</script>").unwrap();
+    let data: serde_json::Value = serde_json::from_str(&page[start..end]).unwrap();
+    assert_eq!(data["frameSteps"].as_array().unwrap().len(), 11);
+    assert_eq!(data["steps"], 500);
+    assert_eq!(data["parts"][1]["name"], "ball");
+    let series = data["series"].as_array().unwrap().iter();
+    let effects = series.filter(|series| series["kind"] == "effect");
+    let names: Vec<_> = effects.map(|series| &series["name"]).collect();
+    assert_eq!(
+        names,
+        ["gravity", "stretch", "body_contact", "self_collision"]
+    );
+}
+
+#[test]
+fn frames_come_as_meshes_or_as_one_animation() {
+    let place = place();
+    place.stdout(&[
+        "simulate",
+        "sheet.toml",
+        "--output",
+        "out",
+        "--frames",
+        "ply",
+    ]);
+    let plys = place
+        .listing()
+        .iter()
+        .filter(|name| name.ends_with(".ply"))
+        .count();
+    assert_eq!(plys, 11);
+    place.stdout(&[
+        "simulate",
+        "sheet.toml",
+        "--output",
+        "out",
+        "--frames",
+        "gltf",
+    ]);
+    assert!(
+        fs::read(place.path("out/sheet.glb"))
+            .unwrap()
+            .starts_with(b"glTF")
+    );
+}
+
+#[test]
+fn a_resumed_run_ends_with_the_same_bits_on_any_number_of_threads() {
+    let place = place();
+    let run = |options: &[&str]| {
+        let arguments = [
+            "simulate",
+            "sheet.toml",
+            "--output",
+            "out",
+            "--frames",
+            "ply",
+        ];
+        place.stdout(&[&arguments[..], options].concat());
+        fs::read(place.path("out/sheet-00010.ply")).unwrap()
+    };
+    let whole = run(&[]);
+    // The first checkpoint is after 200 steps; the rest is run again.
+    fs::remove_file(place.path("out/sheet-00010.ply")).unwrap();
+    assert_eq!(whole, run(&["--resume"]));
+    assert_eq!(whole, run(&["--threads", "2"]));
+}
+
+#[test]
+fn what_is_wrong_with_a_scene_is_said_with_its_place() {
+    let place = Workplace::new();
+    place.write(
+        "wrong.toml",
+        SCENE.replace("[effects.gravity]", "[effects.gravty]"),
+    );
+    assert_eq!(
+        place.refusal(1, &["simulate", "wrong.toml"]),
+        "error: wrong.toml:21:10: there is no effect 'gravty'; did you mean 'gravity'?\n"
+    );
+    place.write("sheet.toml", SCENE);
+    fs::create_dir(place.path("selvedge-out")).unwrap();
+    let message = place.refusal(1, &["simulate", "sheet.toml", "--resume"]);
+    assert!(
+        message.contains("sheet.checkpoint: cannot be read"),
+        "{message}"
+    );
+    place.write("sheet.toml", SCENE.replace("0.13", "0.1"));
+    let message = place.refusal(1, &["simulate", "sheet.toml"]);
+    assert!(message.contains("starts with an intersection"), "{message}");
+}

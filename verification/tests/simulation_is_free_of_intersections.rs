@@ -1,0 +1,105 @@
+//! Every state that a simulation accepts is free of intersections, exactly: cloth with itself and cloth with bodies.
+
+use selvedge::simulation::{Scene, Simulation};
+use selvedge_verification::oracle::mesh_self_intersections;
+use std::path::{Path, PathBuf};
+
+fn scene_file(name: &str) -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .expect("the workspace");
+    root.join("std-adapter/scenes").join(name)
+}
+
+fn load(name: &str, change: impl Fn(String) -> String) -> Simulation {
+    let path = scene_file(name);
+    let text = std::fs::read_to_string(&path).expect("a scene that comes with the program");
+    let scene = Scene::parse(&change(text), &path).expect("a good scene");
+    Simulation::new(scene, 1).expect("a scene that starts free")
+}
+
+/// Pairs of triangles that intersect, at least one of them cloth: bodies may overlap each other.
+fn intersections(simulation: &Simulation) -> Vec<[u32; 2]> {
+    let positions: Vec<_> = simulation
+        .positions()
+        .iter()
+        .map(|p| p.to_array())
+        .collect();
+    let found = mesh_self_intersections(&positions, simulation.triangles());
+    let cloth = simulation.cloth_triangles() as u32;
+    found.into_iter().filter(|pair| pair[0] < cloth).collect()
+}
+
+/// Looks at every state that is a multiple of `every`; the number of steps that were done.
+fn run(simulation: &mut Simulation, steps: u64, every: u64) {
+    for step in 1..=steps {
+        if let Err(blocked) = simulation.step() {
+            panic!("step {step}: {blocked}");
+        }
+        if step % every == 0 {
+            assert_eq!(intersections(simulation), [[0; 2]; 0], "after step {step}");
+        }
+    }
+}
+
+#[test]
+fn the_arm_sleeve_is_free_throughout_the_bend() {
+    let mut simulation = load("arm-sleeve.toml", |text| text);
+    run(&mut simulation, 1300, 100);
+    let counts = simulation.contact_counts().expect("a scene with contact");
+    assert!(counts.violated > 0, "the pass had something to do");
+}
+
+#[test]
+#[ignore = "minutes: every step of the bend"]
+fn every_step_of_the_arm_sleeve_is_free() {
+    let mut simulation = load("arm-sleeve.toml", |text| text);
+    run(&mut simulation, 1500, 1);
+}
+
+#[test]
+fn a_sheet_that_falls_on_a_ball_is_free() {
+    let mut simulation = load("drop.toml", |text| text);
+    run(&mut simulation, 700, 100);
+}
+
+#[test]
+fn a_tube_twisted_three_turns_is_free() {
+    // In a fifth of the time, so that the folds close within the test.
+    let faster = |text: String| text.replace("time = \"10 s\"", "time = \"2 s\"");
+    let mut simulation = load("twist.toml", faster);
+    run(&mut simulation, 2000, 250);
+}
+
+#[test]
+fn a_hem_pulled_through_folds_at_high_speed_is_free() {
+    let mut simulation = load("violent.toml", |text| text);
+    run(&mut simulation, 600, 60);
+    let counts = simulation.contact_counts().expect("a scene with contact");
+    assert!(counts.violated > 1000, "the pass had something to do");
+}
+
+#[test]
+#[ignore = "many minutes: 10,000 steps each"]
+fn ten_thousand_steps_of_the_violent_and_the_twisted_scene_are_free() {
+    for name in ["violent.toml", "twist.toml"] {
+        let mut simulation = load(name, |text| text);
+        run(&mut simulation, 10_000, 25);
+    }
+}
+
+/// So that the tests above can fail: the same sleeve without the certified effects.
+#[test]
+fn without_self_collision_the_sleeve_passes_through_itself() {
+    let without =
+        |text: String| text.replace("[effects.self_collision]\nthickness = \"3 mm\"\n", "");
+    let mut simulation = load("arm-sleeve.toml", without);
+    let mut crossed = 0;
+    for step in 1..=1300 {
+        simulation.step().expect("bodies alone do not block");
+        if step % 100 == 0 {
+            crossed += intersections(&simulation).len();
+        }
+    }
+    assert!(crossed > 0);
+}
