@@ -71,8 +71,10 @@ impl Horizon {
             return false;
         }
         let ways = self.origin.iter().zip(&self.drift);
+        let room = DVec3::splat(room);
+        // Ordered comparisons: a largest component would drop NaN.
         end.iter().zip(ways).all(|(&now, (&origin, &drift))| {
-            (now - (origin + drift * time)).abs().max_element() <= room
+            (now - (origin + drift * time)).abs().cmple(room).all()
         })
     }
 
