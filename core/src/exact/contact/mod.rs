@@ -59,7 +59,7 @@ use whole::Whole;
 ///
 /// Exact for all finite input, in every floating-point environment; `None` if a coordinate is NaN or infinite.
 ///
-/// With most pairs [`contact`](crate::elementary::contact) has the same answer sooner.
+/// With most pairs [`contact`](crate::elementary::contact()) has the same answer sooner.
 ///
 /// ```
 /// use selvedge_core::{exact, glam::DVec3, points::VertexAndFace, Motion, PrimitivePair, VertexFace};
