@@ -24,7 +24,7 @@ pub struct FrameError {
     pub position: DVec3,
 }
 
-/// Makes a [`Recording`], step by step. See [the example](super).
+/// Makes a [`Recording`], step by step.
 #[derive(Clone, Debug)]
 pub struct Recorder {
     recording: Recording,
