@@ -139,7 +139,13 @@ fn advanced<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Option<S> {
     let (level, shape) = (Level::baseline(), P::Shape::SHAPE);
     let indices = [[0, 1, 2, 3]];
     advance_from_rows(
-        level, shape, &question, &rows, &indices, &mut times, &mut rounds,
+        level,
+        shape,
+        &question,
+        &rows,
+        &indices,
+        &mut times,
+        &mut rounds,
     );
     let from = times[0];
     if rounds[0].apart != 0 {
