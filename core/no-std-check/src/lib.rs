@@ -47,10 +47,18 @@ fn tiers<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> u32 {
     for mask in in_every_form(Test::NormalDirection, pair, &mut masks) {
         answers |= 1 << mask;
     }
-    match answers {
+    let agrees = match answers {
         0b01 => 0,
         0b10 => 1,
         _ => 2,
+    };
+    // It culls what no tier culls, and the other way round.
+    let outside = bit(0, filter::inside::never_inside(pair));
+    let mut in_batches = in_every_form(Test::InsideFunctions, pair, &mut masks).into_iter();
+    if in_batches.all(|mask| u32::from(mask) == outside) {
+        agrees
+    } else {
+        2
     }
 }
 
