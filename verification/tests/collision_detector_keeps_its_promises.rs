@@ -117,6 +117,37 @@ fn no_question_misses_a_contact_f32() {
     check(250, meshes::<f32>(), no_question_misses_a_contact);
 }
 
+/// With exact verdicts the contacts are those that the oracle finds, and no others.
+fn exact_contacts_are_those_that_touch<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
+    let topology = mesh.topology();
+    let (start, end) = (mesh.frame(0), mesh.frame(1));
+    let mut detector = detector(mesh);
+    detector.set_exact(true);
+    let all = by_pair(&contacts(&mut detector, mesh));
+    let [vertex_face, edge_edge] = all_pairs(&topology);
+    let mut own = Vec::new();
+    detector
+        .contacts_of(&start, &end, &vertex_face, &edge_edge, &mut own)
+        .expect("pairs of the mesh");
+    prop_assert_eq!(&by_pair(&own), &all);
+    let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
+    for pair in of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)) {
+        let touches = collides(&case(mesh, &topology, pair).question()).is_some();
+        prop_assert_eq!(all.contains_key(&pair), touches, "{:?}", pair);
+    }
+    Ok(())
+}
+
+#[test]
+fn exact_contacts_are_those_that_touch_f64() {
+    check(250, meshes::<f64>(), exact_contacts_are_those_that_touch);
+}
+
+#[test]
+fn exact_contacts_are_those_that_touch_f32() {
+    check(250, meshes::<f32>(), exact_contacts_are_those_that_touch);
+}
+
 #[test]
 fn no_pair_that_comes_within_the_separation_is_missed() {
     check(60, meshes::<f64>(), |mesh| {

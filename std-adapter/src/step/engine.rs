@@ -1,5 +1,6 @@
 //! The stages joined, on the threads of whoever calls.
 
+use super::given::PrimitiveBoxes;
 use super::sweep::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
 use super::{Bound, CandidateBoxes, Contact, Question, Wanted};
 use crate::PairKind;
@@ -7,6 +8,7 @@ use crate::broad_phase::buffer::settle;
 use crate::broad_phase::moving::{CHUNK, Fit, MovingBroadPhase, Scratch};
 use crate::dispatch::Level;
 use crate::frame::{StepError, check_frames};
+use crate::glam::DVec3;
 use crate::mesh::Topology;
 use crate::pair_kind::PairCounts;
 use crate::parallel;
@@ -15,6 +17,7 @@ use selvedge_core::batch::VertexRow;
 use selvedge_core::elementary::Limits;
 use selvedge_core::{Motion, Scalar};
 use std::cmp::Ordering;
+use std::sync::atomic::{self, AtomicBool};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -40,13 +43,15 @@ pub(super) const PROBES: [Probe; 2] = [Probe { until: 1.0 / 16.0 }, Probe::WHOLE
 /// What a step counted, and its seconds. With several threads the seconds of stages are sums over them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepTally {
-    /// Pairs that moving boxes leave.
+    /// The caller's own pairs, if it has brought some.
+    pub given: PairCounts,
+    /// Pairs that moving boxes leave, of a caller's pairs as well.
     pub candidates: PairCounts,
     /// Those that may become coplanar.
     pub filtered: PairCounts,
     /// Contacts.
     pub contacts: PairCounts,
-    /// Boxes, refit or build, traversal.
+    /// Boxes, refit or build, traversal; for a caller's pairs, boxes and their comparison.
     pub broad_phase_seconds: f64,
     /// The certified non-coplanarity filter.
     pub filter_seconds: f64,
@@ -58,7 +63,8 @@ pub struct StepTally {
 
 impl StepTally {
     /// The same as the stages of a method.
-    pub(crate) fn report(&self) -> StepReport {
+    #[must_use]
+    pub fn report(&self) -> StepReport {
         let stage = |stage, survivors, seconds| StageReport {
             stage,
             survivors,
@@ -76,6 +82,24 @@ impl StepTally {
             seconds: self.seconds,
         }
     }
+
+    /// The same of a caller's pairs that a broad phase has found in so many seconds.
+    #[must_use]
+    pub fn report_after(&self, broad_phase_seconds: f64) -> StepReport {
+        let mut report = self.report();
+        let boxes = StageReport {
+            stage: Stage::RelativeBoxes,
+            survivors: self.candidates,
+            seconds: self.broad_phase_seconds,
+        };
+        report.stages.insert(0, boxes);
+        StepReport {
+            broad_phase_pairs: Some(self.given),
+            broad_phase_seconds,
+            seconds: broad_phase_seconds + self.seconds,
+            ..report
+        }
+    }
 }
 
 /// See the [module](super).
@@ -88,6 +112,9 @@ pub(crate) struct Engine<S: Scalar> {
     spaces: Vec<Mutex<Space<S>>>,
     /// The motion of each vertex as the mesh numbers them, for pairs of the caller's.
     rows: Vec<VertexRow<S>>,
+    boxes: PrimitiveBoxes,
+    /// The rows in f64, for narrower formats.
+    wide_rows: Vec<VertexRow<f64>>,
     tally: StepTally,
 }
 
@@ -96,6 +123,8 @@ pub(crate) struct Engine<S: Scalar> {
 struct Space<S> {
     scratch: Scratch,
     chunk: Chunk<S>,
+    /// A caller's pairs that boxes leave.
+    near: Vec<[u32; 2]>,
 }
 
 /// One share of the work.
@@ -125,6 +154,8 @@ impl<S: Scalar> Engine<S> {
             workers: Vec::new(),
             spaces: Vec::new(),
             rows: Vec::new(),
+            boxes: PrimitiveBoxes::default(),
+            wide_rows: Vec::new(),
             tally: StepTally::default(),
         }
     }
@@ -182,6 +213,7 @@ impl<S: Scalar> Engine<S> {
             is_swept: false,
         };
         self.broad_phase.hierarchies.update(start, end, &fit)?;
+        widen(self.broad_phase.hierarchies.rows(), &mut self.wide_rows);
         let update = begin.elapsed().as_secs_f64();
 
         let hierarchies = &self.broad_phase.hierarchies;
@@ -192,6 +224,7 @@ impl<S: Scalar> Engine<S> {
             level: hierarchies.level(),
             numbers: Numbers::Positions(hierarchies),
             rows: hierarchies.rows(),
+            wide_rows: &self.wide_rows,
             question: *question,
             bound: &bound,
         };
@@ -203,7 +236,7 @@ impl<S: Scalar> Engine<S> {
             worker.tests = 0;
             let has_enough = question.wanted == Wanted::Any && bound.is_lowered();
             if !has_enough {
-                let Space { scratch, chunk } = &mut *own_space(spaces);
+                let Space { scratch, chunk, .. } = &mut *own_space(spaces);
                 chunk.clear();
                 let mut sink = ChunkSink {
                     chunk,
@@ -241,13 +274,16 @@ impl<S: Scalar> Engine<S> {
         let hierarchies = &self.broad_phase.hierarchies;
         let topology = hierarchies.topology();
         check_frames::<S>(start, end, topology.vertex_count())?;
-        check_pairs(topology, pairs)?;
         self.rows.clear();
         let moving = start
             .iter()
             .zip(end)
             .map(|(&start, &end)| Motion::new(start, end));
         self.rows.extend(moving.map(VertexRow::new));
+        let separation = question.limits.separation;
+        widen(&self.rows, &mut self.wide_rows);
+        self.boxes.fit::<S>(topology, start, end, separation);
+        let update = begin.elapsed().as_secs_f64();
 
         let shares = match parallel::threads() {
             1 => 1,
@@ -260,9 +296,12 @@ impl<S: Scalar> Engine<S> {
             level: hierarchies.level(),
             numbers: Numbers::Mesh(topology),
             rows: &self.rows,
+            wide_rows: &self.wide_rows,
             question: *question,
             bound: &bound,
         };
+        let boxes = &self.boxes;
+        let is_strange = AtomicBool::new(false);
         parallel::for_each(&mut self.workers, |index, worker| {
             let begin = Instant::now();
             let (kind, index) = match index.checked_sub(shares) {
@@ -273,15 +312,26 @@ impl<S: Scalar> Engine<S> {
             let place = |index: usize| pairs.len() * index / shares;
             worker.kind = kind;
             worker.found.clear();
-            let Space { chunk, .. } = &mut *own_space(spaces);
+            let Space { chunk, near, .. } = &mut *own_space(spaces);
             chunk.clear();
             for pairs in pairs[place(index)..place(index + 1)].chunks(CHUNK) {
-                chunk.take(&step, kind, pairs, &mut worker.found);
+                if boxes.keep_near(step.level, kind, pairs, near).is_none() {
+                    is_strange.store(true, atomic::Ordering::Relaxed);
+                    return;
+                }
+                chunk.take(&step, kind, near, &mut worker.found);
             }
             chunk.finish(&step, kind, &mut worker.found);
             worker.seconds = begin.elapsed().as_secs_f64();
         });
-        self.count(begin, 0.0);
+        if is_strange.into_inner() {
+            check_pairs(topology, pairs)?;
+        }
+        self.count(begin, update);
+        self.tally.given = PairCounts {
+            vertex_face: pairs[0].len() as u64,
+            edge_edge: pairs[1].len() as u64,
+        };
         Ok(())
     }
 
@@ -388,12 +438,28 @@ impl<S: Scalar> Engine<S> {
     }
 }
 
+/// Replaces `wide` by the same rows in f64, exactly; by none if they are f64 already.
+fn widen<S: Scalar>(rows: &[VertexRow<S>], wide: &mut Vec<VertexRow<f64>>) {
+    wide.clear();
+    if S::UNIT_ROUNDOFF.to_f64() > f64::EPSILON {
+        let exactly = |position: S::Vector| -> DVec3 {
+            let numbers: [S; 3] = position.into();
+            DVec3::from_array(numbers.map(S::to_f64))
+        };
+        wide.extend(rows.iter().map(|row| {
+            let motion: Motion<S> = row.motion();
+            VertexRow::new(Motion::new(exactly(motion.start), exactly(motion.end)))
+        }));
+    }
+}
+
 /// Makes a space for each thread, if they are not there.
 fn spaces_for_threads<S: Scalar>(spaces: &mut Vec<Mutex<Space<S>>>) -> &[Mutex<Space<S>>] {
     let new = || {
         Mutex::new(Space {
             scratch: Scratch::new(),
             chunk: Chunk::new(),
+            near: Vec::with_capacity(CHUNK),
         })
     };
     if spaces.len() < parallel::threads() {

@@ -5,11 +5,16 @@
 //!   │  filter      certified non-coplanarity, sixteen pairs at a time
 //!   ▼
 //! open pairs       chunk by chunk
-//!   │  sweeps      one round of advancing for all that are open, again and again
+//!   │  sweeps      one round of advancing for all that are open, again and again; f32 where positions are f32
+//!   │  f64 sweeps  for f32 positions, which f64 holds exactly: those that f32 cannot decide
 //!   │  one by one  the few that lanes cannot decide, or that are still open then; exact verdicts, if asked for
 //!   ▼
 //! contacts         in the order of the candidates
 //! ```
+//!
+//! In f32 a pair's distance is lost in rounding errors at 2⁻⁹ of its size (`closest.rs` of the core), long before it is within
+//! the tolerance. The first rounds need no more digits than that and have twice the lanes; f64 then goes on
+//! from the time reached, with all that is proven in f64 true of the same positions.
 
 use super::{Bound, Contact, Question, Wanted};
 use crate::PairKind;
@@ -22,7 +27,7 @@ use selvedge_core::batch::{
 };
 use selvedge_core::elementary::advance::time_of_impact_within;
 use selvedge_core::elementary::contact::settled;
-use selvedge_core::elementary::{Contact as Verdict, Impact, Reason};
+use selvedge_core::elementary::{Contact as Verdict, Impact, Limits, Reason};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::points::Shape;
 use selvedge_core::{EdgeEdge, Motion, Scalar, VertexFace};
@@ -33,6 +38,9 @@ const SWEEPS: usize = 16;
 
 /// The first sweep that asks the signed volume as well: from the second on takes 7 ms more, from the third 1.
 const VOLUME_SWEEP: usize = 3;
+
+/// So many sweeps in f32 for f32 positions.
+const NARROW_SWEEPS: usize = 3;
 
 /// Whose numbers pairs have.
 #[derive(Clone, Copy)]
@@ -67,32 +75,11 @@ pub(super) struct StepInput<'a, S: Scalar> {
     pub(super) level: Level,
     pub(super) numbers: Numbers<'a, S>,
     pub(super) rows: &'a [VertexRow<S>],
+    /// The same in f64, for narrower formats; else none.
+    pub(super) wide_rows: &'a [VertexRow<f64>],
     pub(super) question: Question<S>,
     /// The earliest contact so far, of all threads.
     pub(super) bound: &'a Bound,
-}
-
-/// The pair of four vertices.
-enum Primitives<S: Scalar> {
-    VertexFace(VertexFace<S>),
-    EdgeEdge(EdgeEdge<S>),
-}
-
-impl<S: Scalar> StepInput<'_, S> {
-    #[inline(always)]
-    fn primitives(&self, kind: PairKind, rows: [u32; 4]) -> Primitives<S> {
-        let [a, b, c, d] = rows.map(|row| -> Motion<S> { self.rows[row as usize].motion() });
-        match kind {
-            PairKind::VertexFace => Primitives::VertexFace(VertexFace {
-                vertex: a,
-                face: [b, c, d],
-            }),
-            PairKind::EdgeEdge => Primitives::EdgeEdge(EdgeEdge {
-                first: [a, b],
-                second: [c, d],
-            }),
-        }
-    }
 }
 
 /// What was counted and how long it took.
@@ -142,26 +129,122 @@ pub(super) struct Chunk<S> {
     pairs: Vec<[u32; 2]>,
     indices: Vec<[u32; 4]>,
     masks: Vec<Mask>,
-    /// Of those that are open: which of `pairs` it is, and up to when it is proven to be apart.
-    places: Vec<u32>,
-    times: Vec<S>,
-    rounds: Vec<Round>,
+    open: Open<S>,
+    /// Of narrower formats: those that f64 must decide.
+    wide: Open<f64>,
     /// When contact is not excluded, for each of `pairs`.
     impacts: Vec<Option<S>>,
 }
 
+/// Pairs that are neither excluded nor near yet.
+#[derive(Debug)]
+struct Open<S> {
+    /// Which of the chunk's pairs it is.
+    places: Vec<u32>,
+    /// The rows of its vertices.
+    indices: Vec<[u32; 4]>,
+    /// Up to when it is proven to be apart.
+    times: Vec<S>,
+    rounds: Vec<Round>,
+    /// Pairs that the last sweep has found near, or could not advance.
+    left: Vec<Left<S>>,
+}
+
+/// A pair that is not advanced any more.
+#[derive(Clone, Copy, Debug)]
+struct Left<S> {
+    place: u32,
+    indices: [u32; 4],
+    time: S,
+    is_near: bool,
+}
+
+impl<S: Scalar> Open<S> {
+    fn new() -> Self {
+        Self {
+            places: Vec::with_capacity(MOST),
+            indices: Vec::with_capacity(MOST),
+            times: Vec::with_capacity(MOST),
+            rounds: Vec::with_capacity(MOST.div_ceil(LANES)),
+            left: Vec::with_capacity(MOST),
+        }
+    }
+
+    fn clear(&mut self) {
+        self.places.clear();
+        self.indices.clear();
+        self.times.clear();
+    }
+
+    fn push(&mut self, place: u32, indices: [u32; 4], time: S) {
+        self.places.push(place);
+        self.indices.push(indices);
+        self.times.push(time);
+    }
+
+    /// One round for all; those that it decides are open no more.
+    fn sweep(
+        &mut self,
+        level: Level,
+        kind: PairKind,
+        rows: &[VertexRow<S>],
+        question: &RoundQuestion<S>,
+    ) {
+        let open = self.places.len();
+        self.rounds.clear();
+        self.rounds.resize(open.div_ceil(LANES), Round::default());
+        advance_from_rows(
+            level,
+            shape(kind),
+            question,
+            rows,
+            &self.indices,
+            &mut self.times,
+            &mut self.rounds,
+        );
+        self.left.clear();
+        let mut kept = 0;
+        for (first, round) in (0..).step_by(LANES).zip(&self.rounds) {
+            let mut left = round.near | round.stuck;
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                left &= left - 1;
+                let index = first + lane;
+                if index < open {
+                    self.left.push(Left {
+                        place: self.places[index],
+                        indices: self.indices[index],
+                        time: self.times[index],
+                        is_near: round.near >> lane & 1 != 0,
+                    });
+                }
+            }
+            let closed = round.apart | round.near | round.stuck;
+            for index in first..open.min(first + LANES) {
+                self.places[kept] = self.places[index];
+                self.indices[kept] = self.indices[index];
+                self.times[kept] = self.times[index];
+                kept += usize::from(closed >> (index - first) & 1 == 0);
+            }
+        }
+        self.places.truncate(kept);
+        self.indices.truncate(kept);
+        self.times.truncate(kept);
+    }
+}
+
+/// A chunk is swept when there are as many pairs as one visit brings, so there are never twice as many.
+const MOST: usize = 3 * CHUNK;
+
 impl<S: Scalar> Chunk<S> {
     pub(super) fn new() -> Self {
-        // A chunk is swept when there are as many pairs as one visit brings, so there are never twice as many.
-        let most = 3 * CHUNK;
         Self {
-            pairs: Vec::with_capacity(most),
-            indices: Vec::with_capacity(most),
-            masks: Vec::with_capacity(most.div_ceil(LANES)),
-            places: Vec::with_capacity(most),
-            times: Vec::with_capacity(most),
-            rounds: Vec::with_capacity(most.div_ceil(LANES)),
-            impacts: Vec::with_capacity(most),
+            pairs: Vec::with_capacity(MOST),
+            indices: Vec::with_capacity(MOST),
+            masks: Vec::with_capacity(MOST.div_ceil(LANES)),
+            open: Open::new(),
+            wide: Open::new(),
+            impacts: Vec::with_capacity(MOST),
         }
     }
 
@@ -232,22 +315,41 @@ impl<S: Scalar> Chunk<S> {
         found: &mut Found<S>,
     ) -> bool {
         let begin = Instant::now();
-        let until = step.bound.get();
-        self.places.clear();
-        self.places.extend(0..self.pairs.len() as u32);
-        self.times.clear();
-        self.times.resize(self.pairs.len(), S::ZERO);
+        let until: S = step.bound.get();
         self.impacts.clear();
         self.impacts.resize(self.pairs.len(), None);
-        for sweep in 0..SWEEPS {
-            if self.places.is_empty() {
-                break;
-            }
-            self.sweep(step, kind, until, sweep >= VOLUME_SWEEP);
-        }
-        for open in 0..self.places.len() {
-            let place = self.places[open] as usize;
-            self.impacts[place] = advanced(step, kind, self.indices[open], self.times[open], until);
+        self.open.clear();
+        self.open.places.extend(0..self.pairs.len() as u32);
+        self.open.indices.append(&mut self.indices);
+        self.open.times.resize(self.pairs.len(), S::ZERO);
+        self.wide.clear();
+        if step.wide_rows.is_empty() {
+            let rows = step.rows;
+            let (level, limits) = (step.level, step.question.limits);
+            run_sweeps(
+                level,
+                kind,
+                rows,
+                limits,
+                until,
+                &mut self.open,
+                &mut self.impacts,
+            );
+        } else {
+            self.sweep_narrowly(step, kind, until);
+            let limits = Limits {
+                separation: step.question.limits.separation.to_f64(),
+                tolerance: step.question.limits.tolerance.to_f64(),
+            };
+            run_sweeps(
+                step.level,
+                kind,
+                step.wide_rows,
+                limits,
+                until.to_f64(),
+                &mut self.wide,
+                &mut self.impacts,
+            );
         }
         for (&pair, &impact) in self.pairs.iter().zip(&self.impacts) {
             if let Some(time) = impact
@@ -267,64 +369,112 @@ impl<S: Scalar> Chunk<S> {
         !(step.question.wanted == Wanted::Any && step.bound.is_lowered())
     }
 
-    /// One round for all open pairs; those that it decides are open no more.
-    fn sweep(&mut self, step: &StepInput<'_, S>, kind: PairKind, until: S, with_volume: bool) {
+    /// As far as the format itself decides anything soon; the others are left to f64.
+    fn sweep_narrowly(&mut self, step: &StepInput<'_, S>, kind: PairKind, until: S) {
+        let Self { open, wide, .. } = self;
         let question = RoundQuestion {
             limits: step.question.limits,
             until,
-            with_volume,
+            with_volume: false,
         };
-        let open = self.places.len();
-        self.rounds.clear();
-        self.rounds.resize(open.div_ceil(LANES), Round::default());
-        advance_from_rows(
-            step.level,
-            shape(kind),
-            &question,
-            step.rows,
-            &self.indices[..open],
-            &mut self.times,
-            &mut self.rounds,
-        );
-        let mut kept = 0;
-        for (first, round) in (0..).step_by(LANES).zip(&self.rounds) {
-            let mut decided = round.near | round.stuck;
-            while decided != 0 {
-                let lane = decided.trailing_zeros() as usize;
-                decided &= decided - 1;
-                let index = first + lane;
-                if index < open {
-                    let (place, time) = (self.places[index] as usize, self.times[index]);
-                    self.impacts[place] = if round.near >> lane & 1 != 0 {
-                        Some(time)
-                    } else {
-                        advanced(step, kind, self.indices[index], time, until)
-                    };
-                }
+        for _ in 0..NARROW_SWEEPS {
+            if open.places.is_empty() {
+                return;
             }
-            let closed = round.apart | round.near | round.stuck;
-            for index in first..open.min(first + LANES) {
-                self.places[kept] = self.places[index];
-                self.indices[kept] = self.indices[index];
-                self.times[kept] = self.times[index];
-                kept += usize::from(closed >> (index - first) & 1 == 0);
+            open.sweep(step.level, kind, step.rows, &question);
+            for left in &open.left {
+                wide.push(left.place, left.indices, left.time.to_f64());
             }
         }
-        self.places.truncate(kept);
-        self.times.truncate(kept);
+        for ((&place, &indices), time) in open.places.iter().zip(&open.indices).zip(&open.times) {
+            wide.push(place, indices, time.to_f64());
+        }
+    }
+}
+
+/// Decides all that are open, in lanes of the format `T`: when contact with them is not excluded.
+fn run_sweeps<T: Scalar, S: Scalar>(
+    level: Level,
+    kind: PairKind,
+    rows: &[VertexRow<T>],
+    limits: Limits<T>,
+    until: T,
+    open: &mut Open<T>,
+    impacts: &mut [Option<S>],
+) {
+    let alone = |indices, from| advanced(kind, rows, indices, &limits, from, until);
+    for sweep in 0..SWEEPS {
+        if open.places.is_empty() {
+            return;
+        }
+        let question = RoundQuestion {
+            limits,
+            until,
+            with_volume: sweep >= VOLUME_SWEEP,
+        };
+        open.sweep(level, kind, rows, &question);
+        for left in &open.left {
+            let time = if left.is_near {
+                Some(left.time)
+            } else {
+                alone(left.indices, left.time)
+            };
+            impacts[left.place as usize] = time.map(rounded_down);
+        }
+    }
+    for ((&place, &indices), &from) in open.places.iter().zip(&open.indices).zip(&open.times) {
+        impacts[place as usize] = alone(indices, from).map(rounded_down);
+    }
+}
+
+/// A time that is not negative, or a little less, in the format `S`, which may be narrower.
+fn rounded_down<T: Scalar, S: Scalar>(time: T) -> S {
+    let time = time.to_f64();
+    let rounded = S::from_f64(time);
+    if rounded.to_f64() <= time {
+        return rounded;
+    }
+    // One unit in the last place is at most 2u of a normal number, so this is below it by three at least, in any direction of
+    // rounding; of a subnormal one it may not be.
+    let lower = rounded * (S::ONE - S::small(8) * S::UNIT_ROUNDOFF);
+    if lower.to_f64() <= time {
+        lower
+    } else {
+        S::ZERO
+    }
+}
+
+/// The pair of four vertices.
+enum Primitives<S: Scalar> {
+    VertexFace(VertexFace<S>),
+    EdgeEdge(EdgeEdge<S>),
+}
+
+#[inline(always)]
+fn primitives<S: Scalar>(kind: PairKind, rows: &[VertexRow<S>], pair: [u32; 4]) -> Primitives<S> {
+    let [a, b, c, d] = pair.map(|row| -> Motion<S> { rows[row as usize].motion() });
+    match kind {
+        PairKind::VertexFace => Primitives::VertexFace(VertexFace {
+            vertex: a,
+            face: [b, c, d],
+        }),
+        PairKind::EdgeEdge => Primitives::EdgeEdge(EdgeEdge {
+            first: [a, b],
+            second: [c, d],
+        }),
     }
 }
 
 /// One pair alone, from the time up to which it is proven to be apart.
 fn advanced<S: Scalar>(
-    step: &StepInput<'_, S>,
     kind: PairKind,
+    rows: &[VertexRow<S>],
     indices: [u32; 4],
+    limits: &Limits<S>,
     from: S,
     until: S,
 ) -> Option<S> {
-    let limits = &step.question.limits;
-    let impact = match step.primitives(kind, indices) {
+    let impact = match primitives(kind, rows, indices) {
         Primitives::VertexFace(pair) => time_of_impact_within(&pair, limits, from, until),
         Primitives::EdgeEdge(pair) => time_of_impact_within(&pair, limits, from, until),
     };
@@ -337,7 +487,7 @@ fn touches<S: Scalar>(step: &StepInput<'_, S>, kind: PairKind, pair: [u32; 2], t
         time,
         reason: Reason::WithinTolerance,
     };
-    let (verdict, _) = match step.primitives(kind, step.numbers.vertices(kind, pair)) {
+    let (verdict, _) = match primitives(kind, step.rows, step.numbers.vertices(kind, pair)) {
         Primitives::VertexFace(pair) => settled(&pair, &impact),
         Primitives::EdgeEdge(pair) => settled(&pair, &impact),
     };

@@ -41,7 +41,8 @@ mod pairs;
 mod traversal;
 mod tree;
 
-pub(crate) use hierarchies::{Fit, Hierarchies, Share};
+pub(crate) use hierarchies::{Fit, Hierarchies, Share, extent};
+pub(crate) use mapping::Mapping;
 pub(crate) use pairs::{CHUNK, Sink};
 pub(crate) use traversal::Scratch;
 
