@@ -9,6 +9,8 @@ use super::step::{StepQuestion, StepSummary};
 #[cfg(feature = "files")]
 use crate::hard_cases::Contact;
 use crate::pipeline::{PairCounts, Preset, Stage, StepReport};
+#[cfg(all(feature = "accuracy", feature = "files"))]
+use crate::study::elementary::ElementaryAccuracy;
 #[cfg(feature = "accuracy")]
 use crate::study::{Accuracy, AccuracySet};
 use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
@@ -280,6 +282,48 @@ fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
         }
     }
     rows
+}
+
+/// Every elementary test, its time and what it gets wrong: a part of `selvedge accuracy`.
+#[cfg(all(feature = "accuracy", feature = "files"))]
+#[must_use]
+pub fn elementary(accuracy: &ElementaryAccuracy) -> Value {
+    let sets = accuracy.sets.iter().map(|set| {
+        json!({
+            "set": set.name,
+            "scalar": set.scalar,
+            "vertex_face": set.vertex_face,
+            "edge_edge": set.edge_edge,
+            "touching": set.touching,
+            "with_time": set.with_time,
+        })
+    });
+    let rows = accuracy.sets.iter().flat_map(|set| {
+        set.rows.iter().map(|row| {
+            json!({
+                "set": set.name,
+                "scalar": set.scalar,
+                "method": row.method.name(),
+                "tolerance": row.method.tolerance(),
+                "certified": row.method.is_certified(),
+                "pairs": row.asked,
+                "touching": row.touching,
+                "nanoseconds_per_pair": row.nanoseconds,
+                "false_negatives": row.missed,
+                "late": row.late,
+                "latest": row.latest,
+                "false_positives": row.false_alarms,
+                "early_median": row.early,
+                "early_most": row.early.map(|_| row.earliest),
+            })
+        })
+    });
+    json!({
+        "seed": accuracy.options.seed,
+        "repeat": accuracy.options.repeat,
+        "sets": sets.collect::<Vec<_>>(),
+        "rows": rows.collect::<Vec<_>>(),
+    })
 }
 
 /// What every method said of the hard cases: `selvedge hard-cases`.

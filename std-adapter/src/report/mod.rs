@@ -23,6 +23,8 @@ pub mod tables;
 pub use self::csv::{comparison_csv, contacts_csv, pairs_csv};
 #[cfg(feature = "accuracy")]
 pub use accuracy_svg::accuracy_svg;
+#[cfg(all(feature = "accuracy", feature = "files"))]
+pub use accuracy_svg::elementary_svg;
 pub use figure::{FIGURE_SIZE, FigureError, FigurePairs, figure_3};
 pub use findings::{Finding, findings};
 pub use paper::{PaperRow, paper_row};

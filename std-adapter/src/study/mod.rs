@@ -12,6 +12,8 @@ mod hard_cases;
 mod queries;
 mod scaling;
 
+#[cfg(all(feature = "accuracy", feature = "files"))]
+pub use accuracy::elementary;
 #[cfg(feature = "accuracy")]
 pub use accuracy::{
     Accuracy, AccuracyOptions, AccuracyRow, AccuracySet, BackendTime, BackendsDisagree,
