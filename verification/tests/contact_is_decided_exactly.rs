@@ -1,5 +1,6 @@
 //! `selvedge_core::elementary::contact` and `selvedge_core::exact::touches` say what the oracle says, for every finite pair.
 
+#[macro_use]
 mod support;
 
 use proptest::prelude::*;
@@ -53,29 +54,6 @@ fn both_say<S: Format>(pair: &PairCase<S>, truth: bool) -> Result<(), TestCaseEr
 
 fn agree_with_the_oracle<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     both_say(pair, collides(&pair.question()).is_some())
-}
-
-/// A property of pairs of format `S`, and a test for each format.
-macro_rules! property {
-    ($name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
-        mod $name {
-            use super::*;
-
-            fn holds<S: Format>($pair: &PairCase<S>) -> Result<(), TestCaseError> {
-                $property
-            }
-
-            #[test]
-            fn f32() {
-                check($cases, $strategy, holds::<f32>);
-            }
-
-            #[test]
-            fn f64() {
-                check($cases, $strategy, holds::<f64>);
-            }
-        }
-    };
 }
 
 property!(
