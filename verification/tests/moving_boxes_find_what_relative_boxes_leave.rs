@@ -8,6 +8,7 @@ use selvedge::dispatch::available_levels;
 use selvedge::glam::DVec3;
 use selvedge::mesh::Topology;
 use selvedge::scene::ArmScene;
+use selvedge::step::StepError;
 use selvedge_core::Scalar;
 use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
 use selvedge_verification::oracle::{Kind, within};
@@ -191,7 +192,8 @@ fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(
     let topology = mesh.topology();
     let mut broad_phase = MovingBroadPhase::new(topology.clone());
     for separation in [0.0, 1e-9, 0.25, 1.0] {
-        prop_assert!(broad_phase.set_separation(S::from_f64(separation)));
+        let accepted = broad_phase.set_separation(S::from_f64(separation));
+        prop_assert!(accepted.is_ok());
         update(&mut broad_phase, mesh);
         let found: BTreeSet<MeshPair> = candidates(&mut broad_phase).into_iter().collect();
         let separation = S::from_f64(separation).to_f64();
@@ -233,12 +235,17 @@ fn a_separation_widens_boxes_by_no_more_than_it_has_to() {
     };
     let mut broad_phase = MovingBroadPhase::new(mesh.topology());
     for (separation, count) in [(0.0, 0), (0.249_99, 0), (0.25, 15), (1.0, 15)] {
-        assert!(broad_phase.set_separation(separation));
+        assert!(broad_phase.set_separation(separation).is_ok());
         update(&mut broad_phase, &mesh);
         assert_eq!(candidates(&mut broad_phase).len(), count, "{separation}");
     }
-    assert!(!broad_phase.set_separation(-1.0));
-    assert!(!broad_phase.set_separation(f64::NAN));
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        let refused = broad_phase.set_separation(bad);
+        assert!(matches!(refused, Err(StepError::BadLimit { .. })), "{bad}");
+    }
+    // It is as it was.
+    update(&mut broad_phase, &mesh);
+    assert_eq!(candidates(&mut broad_phase).len(), 15);
 }
 
 #[test]
