@@ -188,7 +188,7 @@ fn elementary_tests_are_measured_at_every_tolerance_and_the_unsafe_ones_are_caug
     let document = &document["elementary"];
     // Hard cases, arm, step, nearly coplanar pairs, in two formats.
     assert_eq!(document["sets"].as_array().unwrap().len(), 8);
-    assert_eq!(rows(document).len(), 8 * 24);
+    assert_eq!(rows(document).len(), 8 * 25);
     let mut wrong = 0.0;
     for row in rows(document) {
         let mistakes = at(row, "false_negatives") + at(row, "late");

@@ -26,7 +26,7 @@ const LABEL_X: f64 = LEFT + PLOT_WIDTH + 24.0;
 const LABEL_SPACING: f64 = 16.0;
 const SMALL: f64 = 12.0;
 const STRIP_GAP: f64 = 12.0;
-const STRIP_HEIGHT: f64 = 3.0 * 18.0 + 8.0;
+const STRIP_HEIGHT: f64 = 4.0 * 18.0 + 8.0;
 const STRIP: &str = "#fbe9de";
 const HEIGHT: f64 = TOP + PLOT_HEIGHT + STRIP_GAP + STRIP_HEIGHT + 34.0;
 const ROW_GAP: f64 = 26.0;
@@ -211,6 +211,7 @@ fn draw_unsafe(group: &mut Group, set: &ElementarySet, axis: &TimeAxis) {
     for (index, (name, label)) in [
         ("without_bounds", "without bounds"),
         ("additive", "additive"),
+        ("bernstein_sign", "Bernstein sign"),
         ("cubic", "cubic"),
     ]
     .into_iter()

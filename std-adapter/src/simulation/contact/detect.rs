@@ -45,10 +45,10 @@ impl Detector {
     ) -> Result<Self, TopologyError> {
         let topology = Arc::new(Topology::new(carriers.len(), triangles.to_vec())?);
         let mut broad_phase = MovingBroadPhase::new(Arc::clone(&topology));
-        let is_valid = broad_phase.set_separation(thickness);
+        let accepted = broad_phase.set_separation(thickness);
         // Bodies among themselves are of no interest.
         broad_phase.set_wanted((0..carriers.len()).map(|v| v < cloth_vertices).collect());
-        debug_assert!(is_valid, "scenes give a positive thickness");
+        debug_assert!(accepted.is_ok(), "scenes give a positive thickness");
         Ok(Self {
             topology,
             wanted,

@@ -109,6 +109,9 @@ impl Tally {
             (Some(time), ExactAnswer::Touches { first }) => {
                 self.touching += 1;
                 let Some([from, to]) = *first else { return };
+                if time.is_nan() {
+                    return;
+                }
                 if time > to {
                     self.late += 1;
                     self.latest = self.latest.max(time - to);

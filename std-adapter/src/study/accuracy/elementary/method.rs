@@ -1,7 +1,7 @@
 use super::Pair;
 use selvedge_core::elementary::{
-    Contact, Limits, additive, advance, advance::uncertified, contact::settled, cubic,
-    tight_inclusion,
+    Contact, Limits, additive, advance, advance::uncertified, bernstein_sign, contact::settled,
+    cubic, tight_inclusion,
 };
 use selvedge_core::{PrimitivePair, Scalar};
 use std::fmt;
@@ -19,6 +19,8 @@ pub enum ElementaryMethod {
     TightInclusion(f64),
     /// [`selvedge_core::elementary::additive`]. **Not certified.**
     Additive,
+    /// [`selvedge_core::elementary::bernstein_sign`], which tells no times. **Not certified.**
+    BernsteinSign,
     /// [`selvedge_core::elementary::cubic`]. **Not certified.**
     Cubic,
 }
@@ -28,8 +30,8 @@ const TOLERANCES: [f64; 7] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12];
 
 impl ElementaryMethod {
     /// Every method at every tolerance.
-    pub const ALL: [Self; 3 * TOLERANCES.len() + 3] = {
-        let mut all = [Self::Exact; 3 * TOLERANCES.len() + 3];
+    pub const ALL: [Self; 3 * TOLERANCES.len() + 4] = {
+        let mut all = [Self::Exact; 3 * TOLERANCES.len() + 4];
         let count = TOLERANCES.len();
         let mut index = 0;
         while index < count {
@@ -40,7 +42,8 @@ impl ElementaryMethod {
             index += 1;
         }
         all[3 * count + 1] = Self::Additive;
-        all[3 * count + 2] = Self::Cubic;
+        all[3 * count + 2] = Self::BernsteinSign;
+        all[3 * count + 3] = Self::Cubic;
         all
     };
 
@@ -53,6 +56,7 @@ impl ElementaryMethod {
             Self::Exact => "exact",
             Self::TightInclusion(_) => "tight_inclusion",
             Self::Additive => "additive",
+            Self::BernsteinSign => "bernstein_sign",
             Self::Cubic => "cubic",
         }
     }
@@ -64,7 +68,7 @@ impl ElementaryMethod {
             Self::Certified(tolerance)
             | Self::Uncertified(tolerance)
             | Self::TightInclusion(tolerance) => Some(tolerance),
-            Self::Exact | Self::Additive | Self::Cubic => None,
+            Self::Exact | Self::Additive | Self::BernsteinSign | Self::Cubic => None,
         }
     }
 
@@ -77,7 +81,7 @@ impl ElementaryMethod {
         )
     }
 
-    /// From when on contact is not excluded; `None` if it is.
+    /// From when on contact is not excluded, NaN if the test does not say; `None` if it is.
     pub(super) fn time<S: Scalar>(self, pair: &Pair<S>) -> Option<S> {
         match (self, pair) {
             (Self::Cubic, Pair::VertexFace(pair)) => cubic::vertex_face(pair),
@@ -108,6 +112,7 @@ impl ElementaryMethod {
                     Contact::Happens | Contact::Undefined => impact.time(),
                 }
             }
+            Self::BernsteinSign => bernstein_sign::touches(pair).then(|| S::from_f64(f64::NAN)),
             // Its kinds have functions of their own.
             Self::Cubic => None,
         }
