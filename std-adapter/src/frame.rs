@@ -47,6 +47,17 @@ pub enum StepError {
     },
 }
 
+/// A separation or a tolerance must be a length: finite, not negative.
+pub(crate) fn check_length<S: Scalar>(length: S) -> Result<(), StepError> {
+    if length >= S::ZERO && length.is_finite() {
+        Ok(())
+    } else {
+        Err(StepError::BadLimit {
+            length: format!("{length}"),
+        })
+    }
+}
+
 /// Both frames must have a finite position for each vertex.
 pub(crate) fn check_frames<S: Scalar>(
     start: &[S::Vector],

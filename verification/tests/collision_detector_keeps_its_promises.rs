@@ -9,8 +9,8 @@ use selvedge::scene::ArmScene;
 use selvedge::step::{CandidateBoxes, CollisionDetector, Contact, StepError};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
-use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
-use selvedge_verification::oracle::{Kind, collides, within};
+use selvedge_verification::generator::{Format, MeshCase, check, meshes};
+use selvedge_verification::oracle::{collides, within};
 use std::collections::BTreeMap;
 
 type MeshPair = (PairKind, [u32; 2]);
@@ -54,16 +54,6 @@ fn all_pairs(topology: &Topology) -> [Vec<[u32; 2]>; 2] {
     [vertex_face, edge_edge]
 }
 
-fn case<S: Format>(mesh: &MeshCase<S>, topology: &Topology, (kind, pair): MeshPair) -> PairCase<S> {
-    let points = kind
-        .vertices(pair, topology)
-        .map(|vertex| mesh.positions[vertex as usize]);
-    match kind {
-        VertexFace => PairCase::new(Kind::VertexFace, points),
-        EdgeEdge => PairCase::new(Kind::EdgeEdge, points),
-    }
-}
-
 /// Every question, where the oracle knows the answer.
 fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
@@ -84,7 +74,7 @@ fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), Tes
     }
     let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
     for pair in of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)) {
-        let Some(first) = collides(&case(mesh, &topology, pair).question()) else {
+        let Some(first) = collides(&mesh.pair(&topology, pair).question()) else {
             continue;
         };
         let earliest = earliest.as_ref().map(|contact| contact.time.to_f64());
@@ -134,7 +124,7 @@ fn no_pair_that_comes_within_the_separation_is_missed() {
             let edge_edge = edge_edge.into_iter().map(|pair| (EdgeEdge, pair));
             for pair in vertex_face.chain(edge_edge) {
                 if !found.contains_key(&pair) {
-                    let question = case(mesh, &topology, pair).question();
+                    let question = mesh.pair(&topology, pair).question();
                     prop_assert!(!within(&question, separation), "{:?}", pair);
                 }
             }

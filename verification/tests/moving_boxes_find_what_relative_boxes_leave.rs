@@ -8,6 +8,7 @@ use selvedge::dispatch::available_levels;
 use selvedge::glam::DVec3;
 use selvedge::mesh::Topology;
 use selvedge::scene::ArmScene;
+use selvedge::step::StepError;
 use selvedge_core::Scalar;
 use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
 use selvedge_verification::oracle::{Kind, within};
@@ -55,16 +56,6 @@ fn all_pairs(topology: &Topology) -> BTreeSet<MeshPair> {
         }
     }
     pairs
-}
-
-fn case<S: Format>(mesh: &MeshCase<S>, topology: &Topology, (kind, pair): MeshPair) -> PairCase<S> {
-    let points = kind
-        .vertices(pair, topology)
-        .map(|vertex| mesh.positions[vertex as usize]);
-    match kind {
-        VertexFace => PairCase::new(Kind::VertexFace, points),
-        EdgeEdge => PairCase::new(Kind::EdgeEdge, points),
-    }
 }
 
 /// Whether, along one axis, all of one primitive is above all of the other at the ends given, in one order.
@@ -120,7 +111,7 @@ fn candidates_are_those_of_the_definition<S: Format>(
         prop_assert_eq!(set.len(), found.len(), "a pair is found twice");
         prop_assert!(set.is_subset(&all));
         let left = |&pair: &MeshPair| {
-            let pair = case(mesh, &topology, pair);
+            let pair = mesh.pair(&topology, pair);
             !if is_swept {
                 keeps_order(&pair, |high, low| {
                     high.iter().all(|high| low.iter().all(|low| high > low))
@@ -201,13 +192,14 @@ fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(
     let topology = mesh.topology();
     let mut broad_phase = MovingBroadPhase::new(topology.clone());
     for separation in [0.0, 1e-9, 0.25, 1.0] {
-        prop_assert!(broad_phase.set_separation(S::from_f64(separation)));
+        let accepted = broad_phase.set_separation(S::from_f64(separation));
+        prop_assert!(accepted.is_ok());
         update(&mut broad_phase, mesh);
         let found: BTreeSet<MeshPair> = candidates(&mut broad_phase).into_iter().collect();
         let separation = S::from_f64(separation).to_f64();
         for pair in all_pairs(&topology) {
             if !found.contains(&pair) {
-                let question = case(mesh, &topology, pair).question();
+                let question = mesh.pair(&topology, pair).question();
                 prop_assert!(!within(&question, separation), "{:?}", pair);
             }
         }
@@ -243,12 +235,17 @@ fn a_separation_widens_boxes_by_no_more_than_it_has_to() {
     };
     let mut broad_phase = MovingBroadPhase::new(mesh.topology());
     for (separation, count) in [(0.0, 0), (0.249_99, 0), (0.25, 15), (1.0, 15)] {
-        assert!(broad_phase.set_separation(separation));
+        assert!(broad_phase.set_separation(separation).is_ok());
         update(&mut broad_phase, &mesh);
         assert_eq!(candidates(&mut broad_phase).len(), count, "{separation}");
     }
-    assert!(!broad_phase.set_separation(-1.0));
-    assert!(!broad_phase.set_separation(f64::NAN));
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        let refused = broad_phase.set_separation(bad);
+        assert!(matches!(refused, Err(StepError::BadLimit { .. })), "{bad}");
+    }
+    // It is as it was.
+    update(&mut broad_phase, &mesh);
+    assert_eq!(candidates(&mut broad_phase).len(), 15);
 }
 
 #[test]

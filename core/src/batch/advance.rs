@@ -1,18 +1,9 @@
 //! Advancing many pairs by separating directions, one round for sixteen of them at a time.
 //!
-//! [`advance_from_rows`] takes pairs that are proven to be apart up to some time each, and proves them apart up to a later one,
-//! or to the end. It is the body of [`time_of_impact`](crate::elementary::advance::time_of_impact) with what goes well
-//! in lanes: a constant separating direction, and, where asked for, two steps of clipping the signed volume. So a caller
-//! sweeps over all open pairs, drops those that are decided, and sweeps again; and finishes the few that remain open one by one,
-//! from where they are
-//! ([`time_of_impact_within`](crate::elementary::advance::time_of_impact_within)).
-//!
-//! # What is promised
-//! **Certified, in every floating-point environment**, as for one pair: the proofs, their
-//! bounds and the order of operations are those of `elementary/advance`, where they are derived; the closest point, from
-//! which a direction is taken, is found without branches, and no proof relies on it. The
-//! same bits on every instruction set. NaN, infinite or too large differences, and indices that are not in the rows, make a
-//! pair [`stuck`](Round::stuck).
+//! [`advance_from_rows`] is the body of one round of [`time_of_impact`](crate::elementary::advance::time_of_impact) with what goes
+//! well in lanes: a constant separating direction, and, where asked for, two steps of clipping the signed volume. The proofs, their
+//! bounds and the order of operations are those of `elementary/advance`, where they are derived. The closest point, from which a
+//! direction is taken, is found without branches; no proof relies on it.
 
 use super::simd::Quotients;
 use super::{LANES, Level, Mask, VertexRow};
@@ -50,12 +41,12 @@ pub struct RoundQuestion<S> {
 /// One round of advancing for each pair that `indices` name, from its time on: proven to be apart up to that, each is proven to be so up
 /// to a later one, or to the end.
 ///
-/// It is the body of [`time_of_impact`](crate::elementary::advance::time_of_impact) with what goes well in lanes: a
-/// constant separating direction and, where asked for, two steps of clipping the signed volume. A caller sweeps over all
-/// open pairs, drops those that are decided, sweeps again, and finishes those that are stuck, or still open after a dozen sweeps,
-/// one by one ([`time_of_impact_within`](crate::elementary::advance::time_of_impact_within)). **Certified, in every
-/// floating-point environment**, and the same bits on every instruction set. NaN, infinite or too large differences, and indices that
-/// are not in the rows, make a pair stuck.
+/// A caller sweeps over all open pairs, drops those that are decided, sweeps again, and finishes those that are stuck, or still
+/// open after a dozen sweeps, one by one
+/// ([`time_of_impact_within`](crate::elementary::advance::time_of_impact_within)).
+///
+/// **Certified, in every floating-point environment**, as for one pair, and the same bits on every instruction set. NaN,
+/// infinite or too large differences, and indices that are not in the rows, make a pair [`stuck`](Round::stuck).
 ///
 /// Times and rounds past the last pair are not touched; pairs past
 /// the last time or round are not looked at. With a separation or a tolerance that is negative, NaN or too large (above 2²⁹,

@@ -109,19 +109,32 @@ def add(first: Sample, second: Sample) -> Sample:
     return Sample(seconds, cpu / seconds)
 
 
+class Own(NamedTuple):
+    """What one row of selvedge runs: a pipeline, the instruction set (None: the best), and the options of a short question."""
+
+    pipeline: str
+    simd: str | None
+    options: list[str]
+
+    def run(self, arguments: argparse.Namespace) -> common.Run:
+        return common.cull(
+            arguments.selvedge,
+            arguments.START,
+            arguments.END,
+            self.pipeline,
+            arguments.threads,
+            # The first run builds hierarchies and makes the buffers, as ipctk's unmeasured round does.
+            "--repeat",
+            "3",
+            *([] if self.simd is None else ["--simd", self.simd]),
+            *self.options,
+        )
+
+
 def run_selvedge(
-    arguments: argparse.Namespace, pipeline: str, row: Measurement, stages: dict[str, list[float]]
+    arguments: argparse.Namespace, own: Own, row: Measurement, stages: dict[str, list[float]]
 ) -> None:
-    run = common.cull(
-        arguments.selvedge,
-        arguments.START,
-        arguments.END,
-        pipeline,
-        arguments.threads,
-        # The first run builds hierarchies and makes the buffers, as ipctk's unmeasured round does.
-        "--repeat",
-        "3",
-    )
+    run = own.run(arguments)
     try:
         row.samples.append(Sample(run.report["seconds"], run.cores))
         first = run.report["first_run_seconds"]
@@ -133,21 +146,12 @@ def run_selvedge(
             "" if earliest is None else f" from {earliest:.4g}"
         ) + f"; first run, hierarchies built: {first:.3f} s"
     except (KeyError, TypeError) as error:
-        common.fail(f"selvedge's report for {pipeline} lacks or mistypes a field: {error}")
+        common.fail(f"selvedge's report for {own.pipeline} lacks or mistypes a field: {error}")
 
 
-def ask_selvedge(arguments: argparse.Namespace, row: Measurement, options: list[str]) -> None:
+def ask_selvedge(arguments: argparse.Namespace, own: Own, row: Measurement) -> None:
     """One of the short questions."""
-    run = common.cull(
-        arguments.selvedge,
-        arguments.START,
-        arguments.END,
-        "selvedge",
-        arguments.threads,
-        "--repeat",
-        "3",
-        *options,
-    )
+    run = own.run(arguments)
     try:
         row.samples.append(Sample(run.report["seconds"], run.cores))
         pairs = run.report["stages"][0]
@@ -166,12 +170,12 @@ def spread(values: list[float]) -> dict[str, float]:
     return {"median": statistics.median(values), "min": min(values), "max": max(values)}
 
 
-def compare(rows: dict[str, Measurement], stages: dict[str, dict[str, list[float]]]) -> list[dict]:
-    """ipctk's time over selvedge's, round by round, for each pipeline and each figure of ipctk."""
+def compare(
+    rows: dict[str, Measurement], stages: dict[str, dict[str, list[float]]], short: dict[str, Own]
+) -> list[dict]:
+    """ipctk's time over selvedge's, round by round, for each row of selvedge and each figure of ipctk."""
     ratios = []
-    for name in SHORT_QUESTIONS:
-        if name not in rows:
-            continue
+    for name in short:
         peers = [BROAD_PHASE]
         if "earliest" in name:
             peers = [TIGHT_INCLUSION_STEP, ADDITIVE_STEP]
@@ -228,6 +232,11 @@ def main() -> None:
     parser.add_argument(
         "--repeats", type=common.positive, default=5, help="rounds (default: %(default)s)"
     )
+    parser.add_argument(
+        "--simd",
+        metavar="NAME[,NAME…]",
+        help="instruction sets to force in selvedge, one after the other (default: the machine's best)",
+    )
     common.add_shared_arguments(parser, "selvedge,lv_2014,curtis_2008")
     arguments = parser.parse_args()
     names = common.pipelines(arguments) if arguments.selvedge else []
@@ -236,8 +245,17 @@ def main() -> None:
     peer = Ipctk(step, arguments.threads)
     if ipctk.get_num_threads() != arguments.threads:
         common.fail(f"ipctk runs on {ipctk.get_num_threads()} threads, not {arguments.threads}")
-    own = {f"selvedge cull {name}": name for name in names}
-    short = SHORT_QUESTIONS if "selvedge" in names else {}
+    # What stands behind a row's name, and the instruction set.
+    sets = [(f", {name}", name) for name in arguments.simd.split(",")] if arguments.simd else [("", None)]
+    own = {
+        f"selvedge cull {name}{tail}": Own(name, simd, []) for tail, simd in sets for name in names
+    }
+    short = {
+        question + tail: Own("selvedge", simd, options)
+        for tail, simd in sets
+        for question, options in SHORT_QUESTIONS.items()
+        if "selvedge" in names
+    }
     all_rows = (BROAD_PHASE, TIGHT_INCLUSION_STEP, ADDITIVE_STEP, *own, *short)
     rows = {name: Measurement() for name in all_rows}
     stages: dict[str, dict[str, list[float]]] = {name: {} for name in own}
@@ -246,17 +264,17 @@ def main() -> None:
     peer.run(rows, record=False)
     for number in range(arguments.repeats):
         turns: list[Callable[[], None]] = [lambda: peer.run(rows, record=True)]
-        for row, name in own.items():
+        for row, what in own.items():
             turns.append(
-                lambda row=row, name=name: run_selvedge(arguments, name, rows[row], stages[row])
+                lambda row=row, what=what: run_selvedge(arguments, what, rows[row], stages[row])
             )
-        for row, options in short.items():
-            turns.append(lambda row=row, options=options: ask_selvedge(arguments, rows[row], options))
+        for row, what in short.items():
+            turns.append(lambda row=row, what=what: ask_selvedge(arguments, what, rows[row]))
         # Every other round runs backwards, so that no one always comes after the same neighbour.
         for turn in turns if number % 2 == 0 else reversed(turns):
             turn()
 
-    ratios = compare(rows, stages)
+    ratios = compare(rows, stages, short)
     settings = {
         "start": os.fspath(arguments.START),
         "end": os.fspath(arguments.END),
@@ -266,6 +284,7 @@ def main() -> None:
         "threads": arguments.threads,
         "repeats": arguments.repeats,
         "scalar": "f64",
+        "simd": arguments.simd,
         "processor": platform.processor() or platform.machine(),
         "ipctk_version": ipctk.__version__,
         "ipctk_mesh_seconds": peer.mesh_seconds,

@@ -1,7 +1,7 @@
 //! `selvedge cull`.
 
 use super::Failure;
-use super::options::{ScalarChoice, Threads, preset_parser};
+use super::options::{ScalarChoice, Simd, Threads, preset_parser};
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge::PairKind;
@@ -38,6 +38,8 @@ pub(crate) struct Cull {
     pipeline: Preset,
     #[command(flatten)]
     threads: Threads,
+    #[command(flatten)]
+    simd: Simd,
     /// The format to compute in
     #[arg(long, value_enum, default_value_t = ScalarChoice::F64)]
     scalar: ScalarChoice,
@@ -100,6 +102,7 @@ impl Cull {
         }
         let mut pipeline =
             Pipeline::<S>::new(step.topology, self.pipeline.stages(), self.threads.get())?;
+        pipeline.set_level(self.simd.level());
         pipeline.keep_candidates(self.candidates.is_some());
         let mut fastest = {
             let _progress = Progress::spinner("culling");
@@ -153,6 +156,7 @@ impl Cull {
         end: &[S::Vector],
     ) -> Result<(), Failure> {
         let mut detector = CollisionDetector::<S>::new(topology, self.threads.get())?;
+        detector.set_level(self.simd.level());
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
         let boxes = if self.swept_boxes {
             CandidateBoxes::Swept

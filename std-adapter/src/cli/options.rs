@@ -1,6 +1,7 @@
 //! Arguments that several subcommands share.
 
 use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
+use selvedge::dispatch::{Level, available_levels, best_level};
 use selvedge::pipeline::Preset;
 
 /// More threads than any machine has cores; each needs buffers of its own.
@@ -16,6 +17,25 @@ pub(crate) enum ScalarChoice {
     F32,
     /// 64-bit floating point.
     F64,
+}
+
+/// `--simd`.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct Simd {
+    /// The instruction set to compute with; the machine's widest unless given. Changes no result, only the time
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(available_levels().into_iter().map(|(name, _)| name)))]
+    simd: Option<String>,
+}
+
+impl Simd {
+    /// The one named, which the machine has, or its best.
+    pub(crate) fn level(&self) -> Level {
+        let named = self.simd.as_ref().and_then(|wanted| {
+            let mut levels = available_levels().into_iter();
+            levels.find(|(name, _)| name == wanted)
+        });
+        named.map_or_else(best_level, |(_, level)| level)
+    }
 }
 
 /// `--threads`.

@@ -17,6 +17,8 @@ mod paper;
 mod plot;
 mod recording;
 mod step;
+#[cfg(test)]
+mod svg_texts;
 mod table_svg;
 pub mod tables;
 

@@ -70,6 +70,7 @@ pub use engine::StepTally;
 
 use crate::PairKind;
 use crate::dispatch::Level;
+use crate::frame::check_length;
 use crate::mesh::Topology;
 use crate::parallel::Threads;
 use engine::{PROBES, Probe};
@@ -185,15 +186,10 @@ impl<S: Scalar> CollisionDetector<S> {
     /// [`Limits::default`]: no separation.
     ///
     /// # Errors
-    /// If one of them is negative, infinite or NaN.
+    /// If one of them is negative, infinite or NaN. Then both stay as they were.
     pub fn set_limits(&mut self, limits: Limits<S>) -> Result<(), StepError> {
-        for length in [limits.separation, limits.tolerance] {
-            if !(length >= S::ZERO && length.is_finite()) {
-                return Err(StepError::BadLimit {
-                    length: format!("{length}"),
-                });
-            }
-        }
+        check_length(limits.separation)?;
+        check_length(limits.tolerance)?;
         self.limits = limits;
         Ok(())
     }
@@ -245,7 +241,21 @@ impl<S: Scalar> CollisionDetector<S> {
 
     /// The earliest contact of the step; of several at the same time the one with the smallest numbers, vertex–face first.
     ///
-    /// No contact is earlier. A step up to that time, or a little less, is free.
+    /// It is the first of all that [`contacts`](Self::contacts) finds, with the same time. Writing s for the separation and δ for the
+    /// tolerance of the [limits](Self::set_limits):
+    /// * **The time is a certified lower bound.** Before it no two primitives are within s of each other, rounding included. So the
+    ///   step may be taken up to it (`start + (end − start)·time`, but for the rounding of these positions), and any step shorter
+    ///   than it is free. `None` is a proof that the whole step is.
+    /// * **How early it may be.** At that time the distance of the pair is at most s + δ and a rounding error
+    ///   ([bounded there](selvedge_core::elementary::advance#what-is-promised)). If it comes closer at a speed of v there,
+    ///   in lengths a step, and goes on to come within s, the exact time is about δ/v later. But it need not: a pair that comes within
+    ///   s + δ and turns back, a near miss, is a contact as any other, and then the exact first contact is that of another pair, or
+    ///   there is none. A near miss at more than s + δ never is; the time may well come after it.
+    /// * **The exception**: a pair too close for rounding to tell, within some 20u (2⁻⁴⁸; `f32`: 2⁻¹⁹) of the size of its
+    ///   differences, counts from when that cannot be excluded, which may be long before it touches, or though it never does.
+    ///
+    /// So it is not a proof of contact. Where a step without contact must not be cut short,
+    /// [`elementary::contact`](selvedge_core::elementary::contact()) decides whether the pair touches, exactly.
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).

@@ -208,6 +208,22 @@ fn counts_do_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
+fn every_instruction_set_can_be_forced_and_changes_nothing() {
+    let place = Workplace::with_step();
+    let contacts = |options: &[&str]| {
+        place.stdout(&[&with(&["--pairs", "out.csv"])[..], options].concat());
+        let earliest = place.json(&[&with(&["--json", "--earliest"])[..], options].concat());
+        (place.read("out.csv"), earliest["contacts"].clone())
+    };
+    let best = contacts(&[]);
+    for (name, _) in selvedge::dispatch::available_levels() {
+        assert_eq!(contacts(&["--simd", name]), best, "{name}");
+    }
+    let unknown = place.run(&with(&["--simd", "abacus"]));
+    assert_eq!(unknown.status.code(), Some(2));
+}
+
+#[test]
 fn single_precision_says_what_it_rounds() {
     let place = Workplace::with_step();
     let output = place.run(&with(&["--json", "--scalar", "f32"]));

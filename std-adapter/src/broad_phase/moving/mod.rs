@@ -48,7 +48,7 @@ pub(crate) use traversal::Scratch;
 use super::buffer::settle;
 use crate::PairKind;
 use crate::dispatch::Level;
-use crate::frame::StepError;
+use crate::frame::{StepError, check_length};
 use crate::mesh::Topology;
 use crate::parallel;
 use selvedge_core::Scalar;
@@ -101,13 +101,12 @@ impl<S: Scalar> MovingBroadPhase<S> {
 
     /// From the next update on: pairs that come within `separation` of each other are candidates too. Zero at first.
     ///
-    /// Returns whether it was accepted: not if it is negative, infinite or NaN.
-    pub fn set_separation(&mut self, separation: S) -> bool {
-        let is_valid = separation >= S::ZERO && separation.is_finite();
-        if is_valid {
-            self.fit.separation = separation;
-        }
-        is_valid
+    /// # Errors
+    /// If it is negative, infinite or NaN. Then it stays as it was.
+    pub fn set_separation(&mut self, separation: S) -> Result<(), StepError> {
+        check_length(separation)?;
+        self.fit.separation = separation;
+        Ok(())
     }
 
     /// From the next update on: whether boxes that overlap at different times make a candidate, as swept boxes do, the common

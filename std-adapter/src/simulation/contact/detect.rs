@@ -52,9 +52,9 @@ impl Detector {
         wanted: Wanted,
     ) -> Self {
         let mut broad_phase = MovingBroadPhase::new(Arc::clone(&topology));
-        let is_valid = broad_phase.set_separation(reach);
+        let accepted = broad_phase.set_separation(reach);
+        debug_assert!(accepted.is_ok(), "scenes give a positive thickness");
         broad_phase.set_wanted(cloth(carriers.len(), cloth_vertices));
-        debug_assert!(is_valid, "scenes give a positive thickness");
         Self {
             neighbours: None,
             topology,

@@ -34,8 +34,8 @@ impl Neighbours {
     ) -> Self {
         let mut broad_phase = MovingBroadPhase::<f64>::new(Arc::clone(topology));
         let is_cloth = |vertex: usize| vertex < cloth_vertices;
-        let is_valid = broad_phase.set_separation(distance);
-        debug_assert!(is_valid, "scenes give a positive thickness");
+        let accepted = broad_phase.set_separation(distance);
+        debug_assert!(accepted.is_ok(), "scenes give a positive thickness");
         broad_phase.set_wanted((0..rest.len()).map(is_cloth).collect());
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
         if broad_phase.update(rest, rest).is_ok() {
