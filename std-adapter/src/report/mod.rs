@@ -32,10 +32,10 @@ pub use findings::{Finding, findings};
 pub use paper::{PaperRow, paper_row};
 pub use plot::scaling_svg;
 pub use recording::{
-    About, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind,
+    About, Added, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind,
 };
 #[cfg(feature = "simulation")]
-pub use recording::{SimulationRecorder, Subject};
+pub use recording::{SimulationRecorder, Subject, added};
 pub use step::{StepQuestion, StepSummary};
 pub use table_svg::comparison_svg;
 

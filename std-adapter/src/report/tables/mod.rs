@@ -25,7 +25,7 @@ pub use hard_cases::hard_cases;
 pub use queries::queries;
 pub use scaling::scaling;
 #[cfg(feature = "simulation")]
-pub use simulation::simulation;
+pub use simulation::{effects_one_by_one, simulation};
 pub use step::step;
 
 use comfy_table::{CellAlignment, LineStyle, Row, Table, TableStyle};
