@@ -94,13 +94,13 @@ pub(crate) fn retain<T: Copy + Send + Sync>(
 }
 
 /// Calls `action` with chunks of the items and the index at which each begins; joins their results to `result` by `take`, in order.
-pub(crate) fn map_chunks<T: Send, R: Send>(
+pub(crate) fn map_chunks<T: Send, R>(
     items: &mut [T],
     action: impl Fn(usize, &mut [T], &mut R) + Sync + Send,
     result: &mut R,
     take: impl Fn(&mut R, R),
 ) where
-    R: Default,
+    R: Default + Send,
 {
     if items.len() > CHUNK && has_many_threads() {
         let of_chunk = |(index, chunk): (usize, &mut [T])| {

@@ -122,7 +122,7 @@ fn exact_contacts_are_those_that_touch<S: Format>(mesh: &MeshCase<S>) -> Result<
     prop_assert_eq!(&by_pair(&own), &all);
     let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
     for pair in of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)) {
-        let touches = collides(&case(mesh, &topology, pair).question()).is_some();
+        let touches = collides(&mesh.pair(&topology, pair).question()).is_some();
         prop_assert_eq!(all.contains_key(&pair), touches, "{:?}", pair);
     }
     Ok(())
