@@ -25,10 +25,12 @@ impl<'a> Reader<'a> {
         self.array().map(f64::from_le_bytes)
     }
 
+    #[cfg(feature = "report")]
     pub(crate) fn f32(&mut self) -> Option<f32> {
         self.array().map(f32::from_le_bytes)
     }
 
+    #[cfg(feature = "report")]
     /// How many items follow, each of at least `size` bytes: `None` if there is no room for so many, so that damaged bytes make
     /// nobody reserve memory for them.
     pub(crate) fn count(&mut self, size: usize) -> Option<usize> {
@@ -36,6 +38,7 @@ impl<'a> Reader<'a> {
         (count.checked_mul(size)? <= self.0.len()).then_some(count)
     }
 
+    #[cfg(feature = "report")]
     /// Bytes that a [`block`](put_block) holds.
     pub(crate) fn block(&mut self) -> Option<&'a [u8]> {
         let count = self.count(1)?;
@@ -43,6 +46,7 @@ impl<'a> Reader<'a> {
     }
 }
 
+#[cfg(feature = "report")]
 /// Appends bytes after their number.
 pub(crate) fn put_block(bytes: &mut Vec<u8>, block: &[u8]) {
     bytes.extend((block.len() as u64).to_le_bytes());

@@ -76,6 +76,7 @@ pub(crate) fn fill<I: Sync, O: Send>(
     }
 }
 
+#[cfg(feature = "simulation")]
 /// Keeps the items for which `keep` is true, in their order.
 pub(crate) fn retain<T: Copy + Send + Sync>(
     items: &mut Vec<T>,
@@ -93,6 +94,7 @@ pub(crate) fn retain<T: Copy + Send + Sync>(
     }
 }
 
+#[cfg(feature = "simulation")]
 /// Calls `action` with chunks of the items and the index at which each begins; joins their results to `result` by `take`, in order.
 pub(crate) fn map_chunks<T: Send, R>(
     items: &mut [T],
@@ -116,6 +118,7 @@ pub(crate) fn map_chunks<T: Send, R>(
     }
 }
 
+#[cfg(feature = "simulation")]
 /// Items that one thread takes at once.
 const CHUNK: usize = 4096;
 
