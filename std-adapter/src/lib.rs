@@ -22,6 +22,8 @@
 //! `simulation`.
 
 pub mod broad_phase;
+#[cfg(any(feature = "report", feature = "simulation"))]
+mod bytes;
 pub mod dispatch;
 #[cfg(feature = "files")]
 mod excerpt;

@@ -14,7 +14,7 @@ pub struct ThreadError {
 }
 
 /// A pool of its own, or the calling thread.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Threads(Option<rayon::ThreadPool>);
 
 impl Threads {
@@ -75,6 +75,49 @@ pub(crate) fn fill<I: Sync, O: Send>(
         output.extend(input.iter().map(make));
     }
 }
+
+/// Keeps the items for which `keep` is true, in their order.
+pub(crate) fn retain<T: Copy + Send + Sync>(
+    items: &mut Vec<T>,
+    keep: impl Fn(&T) -> bool + Sync + Send,
+) {
+    if has_many_threads() {
+        let kept = |chunk: &[T]| -> Vec<T> { chunk.iter().copied().filter(&keep).collect() };
+        let chunks: Vec<_> = items.par_chunks(CHUNK).map(kept).collect();
+        items.clear();
+        chunks
+            .iter()
+            .for_each(|chunk| items.extend_from_slice(chunk));
+    } else {
+        items.retain(keep);
+    }
+}
+
+/// Calls `action` with chunks of the items and the index at which each begins; joins their results to `result` by `take`, in order.
+pub(crate) fn map_chunks<T: Send, R>(
+    items: &mut [T],
+    action: impl Fn(usize, &mut [T], &mut R) + Sync + Send,
+    result: &mut R,
+    take: impl Fn(&mut R, R),
+) where
+    R: Default + Send,
+{
+    if items.len() > CHUNK && has_many_threads() {
+        let of_chunk = |(index, chunk): (usize, &mut [T])| {
+            let mut own = R::default();
+            action(index * CHUNK, chunk, &mut own);
+            own
+        };
+        let chunks = items.par_chunks_mut(CHUNK).enumerate();
+        let results: Vec<R> = chunks.map(of_chunk).collect();
+        results.into_iter().for_each(|own| take(result, own));
+    } else {
+        action(0, items, result);
+    }
+}
+
+/// Items that one thread takes at once.
+const CHUNK: usize = 4096;
 
 /// Calls both, in any order.
 pub(crate) fn both(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {

@@ -1,7 +1,7 @@
 //! After the first step, a step allocates nothing.
 
 use selvedge::glam::DVec3;
-use selvedge::mesh::sleeve;
+use selvedge::mesh::{Mesh, sleeve};
 use selvedge::pipeline::{Pipeline, Preset};
 use selvedge::scene::ArmScene;
 use selvedge::step::{CandidateBoxes, CollisionDetector};
@@ -21,16 +21,21 @@ fn allocations(pipeline: &mut Pipeline<f64>, frames: &[Vec<DVec3>]) -> Vec<u64> 
         .collect()
 }
 
-#[test]
-fn a_sleeve_in_waves_allocates_in_its_first_step_only() {
-    let mesh = sleeve(1).expect("a refinement in range");
-    let wave = |frame: usize| -> Vec<DVec3> {
-        let phase = frame as f64 * 0.1;
+/// The mesh in waves that run along it.
+fn waves(mesh: &Mesh, count: usize) -> Vec<Vec<DVec3>> {
+    let frame = |index: usize| {
+        let phase = index as f64 * 0.1;
         let displaced =
             |&position: &DVec3| position * (1.0 + 0.02 * (phase + 20.0 * position.x).sin());
         mesh.positions.iter().map(displaced).collect()
     };
-    let frames: Vec<_> = (0..100).map(wave).collect();
+    (0..count).map(frame).collect()
+}
+
+#[test]
+fn a_sleeve_in_waves_allocates_in_its_first_step_only() {
+    let mesh = sleeve(1).expect("a refinement in range");
+    let frames = waves(&mesh, 100);
     for preset in Preset::ALL {
         let topology = mesh.topology().expect("a sleeve");
         let mut pipeline = Pipeline::new(topology, preset.stages(), 1).expect("one thread");
@@ -44,13 +49,7 @@ fn a_sleeve_in_waves_allocates_in_its_first_step_only() {
 #[test]
 fn a_detector_allocates_in_its_first_step_only() {
     let mesh = sleeve(1).expect("a refinement in range");
-    let wave = |frame: usize| -> Vec<DVec3> {
-        let phase = frame as f64 * 0.1;
-        let displaced =
-            |&position: &DVec3| position * (1.0 + 0.02 * (phase + 20.0 * position.x).sin());
-        mesh.positions.iter().map(displaced).collect()
-    };
-    let frames: Vec<_> = (0..50).map(wave).collect();
+    let frames = waves(&mesh, 50);
     let topology = mesh.topology().expect("a sleeve");
     let mut detector = CollisionDetector::<f64>::new(topology, 1).expect("one thread");
     let (mut contacts, mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new(), Vec::new());

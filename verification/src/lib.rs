@@ -3,8 +3,7 @@
 //! | module | what it is |
 //! |---|---|
 //! | [`oracle`] | exact answers, from the definitions alone |
-//! | [`false_culls`] | a long run of every tier over random and adversarial pairs |
-//! | [`exact_campaign`] | a billion pairs, every cull and every "never" checked by exact arithmetic |
+//! | [`campaign`] | long runs over many pairs, every claim checked by exact arithmetic |
 //! | [`generator`] | inputs, biased to what breaks floating-point geometry; for property tests and fuzz targets |
 //! | [`hard_cases`] | the hard cases of the literature, by name |
 //! | [`minifloat`] | a number format of a few bits, in which every input of a grid can be tried |
@@ -14,9 +13,8 @@
 //! | [`culling`] | core's culling tests by name, one pair at a time |
 
 pub mod altered;
+pub mod campaign;
 pub mod culling;
-pub mod exact_campaign;
-pub mod false_culls;
 pub mod generator;
 pub mod hard_cases;
 pub mod minifloat;

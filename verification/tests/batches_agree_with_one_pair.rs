@@ -8,7 +8,7 @@ use selvedge_core::batch::{
     BatchTest, LANES, Mask, Test, Tile, VertexRow, culled, culled_from_rows, culled_from_tiles,
 };
 use selvedge_core::boxes::direction;
-use selvedge_core::filter::{Filter, Tier};
+use selvedge_core::filter::{Filter, Tier, inside};
 use selvedge_core::points::Shape;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, meshes};
@@ -29,6 +29,13 @@ fn direction_verdict<S: Format>(case: &PairCase<S>) -> Verdict {
     match case.kind {
         Kind::VertexFace => direction::normal(&case.vertex_face()),
         Kind::EdgeEdge => direction::normal(&case.edge_edge()),
+    }
+}
+
+fn inside_verdict<S: Format>(case: &PairCase<S>) -> Verdict {
+    match case.kind {
+        Kind::VertexFace => inside::never_inside(&case.vertex_face()),
+        Kind::EdgeEdge => inside::never_inside(&case.edge_edge()),
     }
 }
 
@@ -156,6 +163,7 @@ fn verdicts_agree<S: Format>(kind: Kind) {
             batch.agrees(test, |pair: &PairCase<S>| verdict(one_by_one, pair))?;
         }
         batch.agrees(Test::NormalDirection, direction_verdict)?;
+        batch.agrees(Test::InsideFunctions, inside_verdict)?;
         for tier in Tier::ALL {
             let filter = Filter::<S>::new(tier);
             batch.agrees(filter, |pair: &PairCase<S>| filter_verdict(filter, pair))?;

@@ -10,7 +10,7 @@ use selvedge::dispatch::available_levels;
 use selvedge_core::batch::{BatchTest, Level, Test, Tile, culled_from_tiles};
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::certified::Bound;
-use selvedge_core::filter::{Filter, Tier};
+use selvedge_core::filter::{Filter, Tier, inside};
 use selvedge_core::points::Shape;
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling;
@@ -22,12 +22,13 @@ use selvedge_verification::oracle::{Kind, collides};
 use std::hint::black_box;
 use support::environment::Environment;
 
-const BOX_TESTS: [Test; 5] = [
+const BOX_TESTS: [Test; 6] = [
     Test::SweptBoxes,
     Test::SegmentBox,
     Test::RelativeBoxes,
     Test::RelativeBoxesNine,
     Test::NormalDirection,
+    Test::InsideFunctions,
 ];
 
 /// Certified tiers that promise to keep coplanar pairs, and those that promise to keep touching ones only.
@@ -79,6 +80,12 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
             direction::normal(&edge_edge)
         };
         note(normal.is_culled(), &|| "normal".into());
+        let outside = if is_face {
+            inside::never_inside(&vertex_face)
+        } else {
+            inside::never_inside(&edge_edge)
+        };
+        note(outside.is_culled(), &|| "inside functions".into());
         for test in BOX_TESTS {
             for (name, level) in available_levels() {
                 let culled = batch_culls(level, shape, test, &tile);

@@ -9,8 +9,8 @@ use selvedge::scene::ArmScene;
 use selvedge::step::{CandidateBoxes, CollisionDetector, Contact, StepError};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
-use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
-use selvedge_verification::oracle::{Kind, collides, within};
+use selvedge_verification::generator::{Format, MeshCase, check, meshes};
+use selvedge_verification::oracle::{collides, within};
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
@@ -55,16 +55,6 @@ fn all_pairs(topology: &Topology) -> [Vec<[u32; 2]>; 2] {
     [vertex_face, edge_edge]
 }
 
-fn case<S: Format>(mesh: &MeshCase<S>, topology: &Topology, (kind, pair): MeshPair) -> PairCase<S> {
-    let points = kind
-        .vertices(pair, topology)
-        .map(|vertex| mesh.positions[vertex as usize]);
-    match kind {
-        VertexFace => PairCase::new(Kind::VertexFace, points),
-        EdgeEdge => PairCase::new(Kind::EdgeEdge, points),
-    }
-}
-
 /// Every question, where the oracle knows the answer.
 fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
@@ -85,7 +75,7 @@ fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), Tes
     }
     let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
     for pair in of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)) {
-        let Some(first) = collides(&case(mesh, &topology, pair).question()) else {
+        let Some(first) = collides(&mesh.pair(&topology, pair).question()) else {
             continue;
         };
         let earliest = earliest.as_ref().map(|contact| contact.time.to_f64());
@@ -118,6 +108,37 @@ fn no_question_misses_a_contact_f32() {
     check(250, meshes::<f32>(), no_question_misses_a_contact);
 }
 
+/// With exact verdicts the contacts are those that the oracle finds, and no others.
+fn exact_contacts_are_those_that_touch<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
+    let topology = mesh.topology();
+    let (start, end) = (mesh.frame(0), mesh.frame(1));
+    let mut detector = detector(mesh);
+    detector.set_exact(true);
+    let all = by_pair(&contacts(&mut detector, mesh));
+    let [vertex_face, edge_edge] = all_pairs(&topology);
+    let mut own = Vec::new();
+    detector
+        .contacts_of(&start, &end, &vertex_face, &edge_edge, &mut own)
+        .expect("pairs of the mesh");
+    prop_assert_eq!(&by_pair(&own), &all);
+    let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
+    for pair in of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)) {
+        let touches = collides(&mesh.pair(&topology, pair).question()).is_some();
+        prop_assert_eq!(all.contains_key(&pair), touches, "{:?}", pair);
+    }
+    Ok(())
+}
+
+#[test]
+fn exact_contacts_are_those_that_touch_f64() {
+    check(250, meshes::<f64>(), exact_contacts_are_those_that_touch);
+}
+
+#[test]
+fn exact_contacts_are_those_that_touch_f32() {
+    check(250, meshes::<f32>(), exact_contacts_are_those_that_touch);
+}
+
 #[test]
 fn no_pair_that_comes_within_the_separation_is_missed() {
     check(60, meshes::<f64>(), |mesh| {
@@ -135,7 +156,7 @@ fn no_pair_that_comes_within_the_separation_is_missed() {
             let edge_edge = edge_edge.into_iter().map(|pair| (EdgeEdge, pair));
             for pair in vertex_face.chain(edge_edge) {
                 if !found.contains_key(&pair) {
-                    let question = case(mesh, &topology, pair).question();
+                    let question = mesh.pair(&topology, pair).question();
                     prop_assert!(!within(&question, separation), "{:?}", pair);
                 }
             }

@@ -1,5 +1,6 @@
 //! `selvedge_core::elementary::contact` and `selvedge_core::exact::touches` say what the oracle says, for every finite pair.
 
+#[macro_use]
 mod support;
 
 use proptest::prelude::*;
@@ -9,8 +10,8 @@ use selvedge_core::elementary::contact::{Evidence, contact_and_evidence};
 use selvedge_core::exact;
 use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
 use selvedge_verification::generator::{
-    Choices, Format, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs,
-    pairs_of_any_kind, touching_pairs,
+    Choices, Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices,
+    pairs, pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides};
 use std::cell::Cell;
@@ -53,29 +54,6 @@ fn both_say<S: Format>(pair: &PairCase<S>, truth: bool) -> Result<(), TestCaseEr
 
 fn agree_with_the_oracle<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     both_say(pair, collides(&pair.question()).is_some())
-}
-
-/// A property of pairs of format `S`, and a test for each format.
-macro_rules! property {
-    ($name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
-        mod $name {
-            use super::*;
-
-            fn holds<S: Format>($pair: &PairCase<S>) -> Result<(), TestCaseError> {
-                $property
-            }
-
-            #[test]
-            fn f32() {
-                check($cases, $strategy, holds::<f32>);
-            }
-
-            #[test]
-            fn f64() {
-                check($cases, $strategy, holds::<f64>);
-            }
-        }
-    };
 }
 
 property!(
@@ -151,37 +129,19 @@ fn verdicts_are_the_oracles_on_pairs_in_a_cube() {
     }
 }
 
-fn pairs_that_touch_do<S: Format>() {
-    check(100_000, touching_pairs::<S>(), |moment| {
-        both_say(&moment.pair(), true)
-    });
-}
+property!(
+    pairs_that_touch_by_construction_do,
+    100_000,
+    touching_pairs(),
+    |moment: Moment| both_say(&moment.pair(), true)
+);
 
-#[test]
-fn pairs_that_touch_by_construction_do_f32() {
-    pairs_that_touch_do::<f32>();
-}
-
-#[test]
-fn pairs_that_touch_by_construction_do_f64() {
-    pairs_that_touch_do::<f64>();
-}
-
-fn coplanar_pairs_agree<S: Format>() {
-    check(20_000, coplanar_pairs::<S>(), |moment| {
-        agree_with_the_oracle(&moment.pair())
-    });
-}
-
-#[test]
-fn verdicts_are_the_oracles_for_coplanar_pairs_f32() {
-    coplanar_pairs_agree::<f32>();
-}
-
-#[test]
-fn verdicts_are_the_oracles_for_coplanar_pairs_f64() {
-    coplanar_pairs_agree::<f64>();
-}
+property!(
+    verdicts_are_the_oracles_for_coplanar_pairs,
+    20_000,
+    coplanar_pairs(),
+    |moment: Moment| agree_with_the_oracle(&moment.pair())
+);
 
 /// Of a property that must not be vacuous: how often each kind of evidence was given.
 #[test]

@@ -2,7 +2,8 @@
 //! depends on neither threads nor interruptions.
 
 use selvedge::dispatch::best_level;
-use selvedge_verification::exact_campaign::{Claim, Progress, Scenes, Tally, run};
+use selvedge_verification::campaign::Findings;
+use selvedge_verification::campaign::exact::{Claim, Progress, Scenes, Tally, run};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A vertex that falls through a face; and two edges that cross.
@@ -29,14 +30,21 @@ fn to_the_end(progress: Progress, threads: usize) -> Progress {
 }
 
 fn sum(progress: &Progress, what: fn(&Tally) -> u64) -> u64 {
-    progress.tallies.iter().flatten().flatten().map(what).sum()
+    progress
+        .found
+        .tallies
+        .iter()
+        .flatten()
+        .flatten()
+        .map(what)
+        .sum()
 }
 
 #[test]
 fn no_certified_claim_is_wrong_and_each_kind_of_proof_is_needed() {
     let progress = to_the_end(campaign(&Claim::CERTIFIED, 100_000), 2);
-    assert_eq!(progress.wrong(), 0, "{progress}");
-    for by_source in &progress.tallies {
+    assert_eq!(progress.found.wrong(), 0, "{progress}");
+    for by_source in &progress.found.tallies {
         for claim in 0..Claim::CERTIFIED.len() {
             let of_claim = by_source.iter().map(|tallies| &tallies[claim]);
             assert!(
@@ -62,7 +70,7 @@ fn no_certified_claim_is_wrong_and_each_kind_of_proof_is_needed() {
 #[test]
 fn false_culls_of_the_plain_filter_are_found_and_shown() {
     let progress = to_the_end(campaign(&[Claim::Plain], 25_000), 2);
-    assert!(progress.wrong() > 10, "{progress}");
+    assert!(progress.found.wrong() > 10, "{progress}");
     assert!(
         progress.to_string().contains("Plain, f32, is wrong of\n"),
         "{progress}"

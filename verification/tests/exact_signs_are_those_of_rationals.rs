@@ -14,7 +14,8 @@ use selvedge_core::exact::{
 use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
-    Format, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
+    Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices,
+    pairs_of_any_kind,
 };
 use selvedge_verification::oracle::{Kind, coplanar, within};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
@@ -147,22 +148,15 @@ property!(
     }
 );
 
-fn never_culls_what_is_coplanar_by_construction<S: Format>() {
-    check(20_000, coplanar_pairs::<S>(), |moment| {
+property!(
+    never_culls_what_is_coplanar_by_construction,
+    20_000,
+    coplanar_pairs(),
+    |moment: Moment| {
         prop_assert!(!never_coplanar(&moment.pair(), UNKNOWN));
         Ok(())
-    });
-}
-
-#[test]
-fn never_culls_what_is_coplanar_by_construction_f32() {
-    never_culls_what_is_coplanar_by_construction::<f32>();
-}
-
-#[test]
-fn never_culls_what_is_coplanar_by_construction_f64() {
-    never_culls_what_is_coplanar_by_construction::<f64>();
-}
+    }
+);
 
 property!(
     what_is_not_finite_has_no_signs_and_is_kept,

@@ -1,6 +1,7 @@
 //! A short run of `examples/false_culls.rs`, and that an interrupted run ends like an uninterrupted one.
 
-use selvedge_verification::false_culls::{Progress, Rule, run};
+use selvedge_verification::campaign::Findings;
+use selvedge_verification::campaign::false_culls::{Progress, Rule, run};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 const SEED: u64 = 1;
@@ -10,8 +11,8 @@ fn no_certified_tier_has_a_false_cull_and_the_others_do() {
     let progress = run(Progress::new(SEED, 100_000, 10_000), 2, |_| (), || false);
     println!("{progress}");
     assert!(progress.is_finished());
-    assert_eq!(progress.broken_promises(), 0, "{progress}");
-    for rows in &progress.rows {
+    assert_eq!(progress.found.wrong(), 0, "{progress}");
+    for rows in &progress.found.rows {
         for (rule, tally) in Rule::all().into_iter().zip(rows) {
             assert_eq!(tally.pairs, 100_000);
             assert!(tally.culled > 1000, "{rule} culls too little to tell");
@@ -45,6 +46,10 @@ fn a_run_that_is_killed_and_started_again_ends_like_any_other() {
 
 #[test]
 fn another_seed_gives_other_pairs() {
-    let culled = |seed: u64| run(Progress::new(seed, 1_000, 1_000), 1, |_| (), || false).rows;
+    let culled = |seed: u64| {
+        run(Progress::new(seed, 1_000, 1_000), 1, |_| (), || false)
+            .found
+            .rows
+    };
     assert_ne!(culled(SEED), culled(SEED + 1));
 }

@@ -58,16 +58,6 @@ fn all_pairs(topology: &Topology) -> BTreeSet<MeshPair> {
     pairs
 }
 
-fn case<S: Format>(mesh: &MeshCase<S>, topology: &Topology, (kind, pair): MeshPair) -> PairCase<S> {
-    let points = kind
-        .vertices(pair, topology)
-        .map(|vertex| mesh.positions[vertex as usize]);
-    match kind {
-        VertexFace => PairCase::new(Kind::VertexFace, points),
-        EdgeEdge => PairCase::new(Kind::EdgeEdge, points),
-    }
-}
-
 /// Whether, along one axis, all of one primitive is above all of the other at the ends given, in one order.
 fn keeps_order<S: Format>(pair: &PairCase<S>, above: impl Fn([S; 2], [S; 2]) -> bool) -> bool {
     let (one, other) = pair.points.split_at(match pair.kind {
@@ -121,7 +111,7 @@ fn candidates_are_those_of_the_definition<S: Format>(
         prop_assert_eq!(set.len(), found.len(), "a pair is found twice");
         prop_assert!(set.is_subset(&all));
         let left = |&pair: &MeshPair| {
-            let pair = case(mesh, &topology, pair);
+            let pair = mesh.pair(&topology, pair);
             !if is_swept {
                 keeps_order(&pair, |high, low| {
                     high.iter().all(|high| low.iter().all(|low| high > low))
@@ -209,7 +199,7 @@ fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(
         let separation = S::from_f64(separation).to_f64();
         for pair in all_pairs(&topology) {
             if !found.contains(&pair) {
-                let question = case(mesh, &topology, pair).question();
+                let question = mesh.pair(&topology, pair).question();
                 prop_assert!(!within(&question, separation), "{:?}", pair);
             }
         }

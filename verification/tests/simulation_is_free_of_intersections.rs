@@ -64,6 +64,30 @@ fn a_sheet_that_falls_on_a_ball_is_free() {
 }
 
 #[test]
+fn a_sheet_that_is_folded_twice_is_free() {
+    let mut simulation = load("fold.toml", |text| text);
+    run(&mut simulation, 3000, 300);
+}
+
+/// Double the time step, and stiffness over six orders of magnitude.
+#[test]
+fn stiff_and_soft_cloth_in_long_steps_is_free() {
+    for factor in [1e-3, 1.0, 1e3] {
+        let change = |text: String| {
+            let text = text.replace("time_step = \"1 ms\"", "time_step = \"2 ms\"");
+            let text = text.replace("\"400 N/m\"", &(400.0 * factor).to_string());
+            let text = text.replace("\"80 N/m\"", &(80.0 * factor).to_string());
+            text.replace("\"15 uN m\"", &(15e-6 * factor).to_string())
+        };
+        let mut simulation = load("drop.toml", change);
+        run(&mut simulation, 500, 50);
+        assert!(simulation.positions().iter().all(|p| p.is_finite()));
+        let counts = simulation.contact_counts().expect("a scene with contact");
+        assert!(counts.pushed > 1000, "{factor}");
+    }
+}
+
+#[test]
 fn a_tube_twisted_three_turns_is_free() {
     // In a fifth of the time, so that the folds close within the test.
     let faster = |text: String| text.replace("time = \"10 s\"", "time = \"2 s\"");

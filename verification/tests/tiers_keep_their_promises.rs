@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::{Depth, Filter, Tier};
 use selvedge_verification::generator::{
-    Format, PairCase, check, coplanar_pairs, extraordinary_pairs, grazes_of_a_box,
+    Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, grazes_of_a_box,
     pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides, coplanar, within};
@@ -95,46 +95,32 @@ property!(
     }
 );
 
-fn nothing_certified_culls_what_is_built_to_touch<S: Format>() {
-    check(60_000, touching_pairs::<S>(), |moment| {
+property!(
+    nothing_certified_culls_what_is_built_to_touch,
+    60_000,
+    touching_pairs(),
+    |moment: Moment| {
         let pair = moment.pair();
         for tier in certified() {
             prop_assert!(!culls(tier, &pair), "{tier:?}");
         }
         prop_assert!(!normal_culls(&pair));
         Ok(())
-    });
-}
+    }
+);
 
-#[test]
-fn nothing_certified_culls_what_is_built_to_touch_f32() {
-    nothing_certified_culls_what_is_built_to_touch::<f32>();
-}
-
-#[test]
-fn nothing_certified_culls_what_is_built_to_touch_f64() {
-    nothing_certified_culls_what_is_built_to_touch::<f64>();
-}
-
-fn only_subdivided_culls_what_is_built_to_be_coplanar<S: Format>() {
-    check(60_000, coplanar_pairs::<S>(), |moment| {
+property!(
+    only_subdivided_culls_what_is_built_to_be_coplanar,
+    60_000,
+    coplanar_pairs(),
+    |moment: Moment| {
         let pair = moment.pair();
         for tier in certified().filter(|&tier| !is_subdivided(tier)) {
             prop_assert!(!culls(tier, &pair), "{tier:?}");
         }
         Ok(())
-    });
-}
-
-#[test]
-fn only_subdivided_culls_what_is_built_to_be_coplanar_f32() {
-    only_subdivided_culls_what_is_built_to_be_coplanar::<f32>();
-}
-
-#[test]
-fn only_subdivided_culls_what_is_built_to_be_coplanar_f64() {
-    only_subdivided_culls_what_is_built_to_be_coplanar::<f64>();
-}
+    }
+);
 
 property!(
     exact_culls_exactly_when_the_rational_control_values_have_one_sign,

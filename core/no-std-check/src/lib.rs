@@ -47,10 +47,18 @@ fn tiers<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> u32 {
     for mask in in_every_form(Test::NormalDirection, pair, &mut masks) {
         answers |= 1 << mask;
     }
-    match answers {
+    let agrees = match answers {
         0b01 => 0,
         0b10 => 1,
         _ => 2,
+    };
+    // It culls what no tier culls, and the other way round.
+    let outside = bit(0, filter::inside::never_inside(pair));
+    let mut in_batches = in_every_form(Test::InsideFunctions, pair, &mut masks).into_iter();
+    if in_batches.all(|mask| u32::from(mask) == outside) {
+        agrees
+    } else {
+        2
     }
 }
 
@@ -157,7 +165,7 @@ fn advanced<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Option<S> {
 /// An eleventh: that the exact verdict, in whole numbers alone too, the certified time of impact, its confirmation, or one of the
 /// two baselines for it disagrees with `touches`.
 fn times_differ<S: Scalar, P: PrimitivePair<S>>(pair: &P, touches: bool) -> u32 {
-    use elementary::{Contact, Limits, additive, advance, contact, tight_inclusion};
+    use elementary::{Contact, Limits, additive, advance, bernstein_sign, contact, tight_inclusion};
     let limits = Limits::default();
     let time = advance::time_of_impact(pair, &limits).time();
     let confirmed = time.and_then(|time| advance::confirm::certain_contact(pair, time));
@@ -170,7 +178,8 @@ fn times_differ<S: Scalar, P: PrimitivePair<S>>(pair: &P, touches: bool) -> u32 
             .time()
             .is_some()
             == touches
-        && additive::time_of_impact(pair, S::ZERO).time().is_some() == touches;
+        && additive::time_of_impact(pair, S::ZERO).time().is_some() == touches
+        && bernstein_sign::touches(pair) == touches;
     u32::from(!agree) << 10
 }
 

@@ -40,7 +40,7 @@ pub use tile::Tile;
 
 use crate::boxes;
 use crate::filter::certified::{Bound, Decision};
-use crate::filter::{Filter, plain};
+use crate::filter::{Filter, inside, plain};
 use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
 use crate::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
@@ -69,6 +69,8 @@ pub enum Test {
     NormalDirection,
     /// [`plain::non_coplanarity`], the paper's. **Not certified.**
     PlainNonCoplanarity,
+    /// [`inside::never_inside`].
+    InsideFunctions,
     /// [`non_coplanarity`](crate::filter::certified::non_coplanarity).
     CertifiedNonCoplanarity,
 }
@@ -82,6 +84,7 @@ impl Test {
             Self::RelativeBoxes => PointTest::ThreeAxes,
             Self::RelativeBoxesNine => PointTest::NineDirections,
             Self::NormalDirection => PointTest::Normal,
+            Self::InsideFunctions => PointTest::Inside,
             Self::PlainNonCoplanarity => PointTest::Plain,
             Self::CertifiedNonCoplanarity => return Kernel::Bounded(Bound::Permanent, None),
         };
@@ -107,6 +110,7 @@ pub enum PointTest {
     ThreeAxes,
     NineDirections,
     Normal,
+    Inside,
     Plain,
 }
 
@@ -123,6 +127,7 @@ impl PointTest {
                 boxes::relative::are_apart_along_nine_directions::<P, L>(points)
             }
             Self::Normal => boxes::direction::are_apart_along_normal::<P, L>(points),
+            Self::Inside => inside::is_outside_of_one_side::<P, L>(points),
             Self::Plain => plain::has_one_sign::<P, L>(points),
         }
     }

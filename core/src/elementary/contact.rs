@@ -3,7 +3,8 @@
 //! [`contact`] never errs on either side, and has no tolerance. It asks, one after the other:
 //! 1. the [certified time of impact](super::advance) with tolerance zero, whose "never" is a proof;
 //! 2. [`certain_contact`], a proof of contact around the time that came of it;
-//! 3. whole numbers, [`exact::touches`], for what floating point leaves open: contacts at the very start or end, touching
+//! 3. for `f32` positions, which `f64` holds exactly, both again in `f64`, whose errors are half a billion times smaller;
+//! 4. whole numbers, [`exact::touches`], for what floating point leaves open: contacts at the very start or end, touching
 //!    without passing through, coplanar motion, distances of a rounding error.
 //!
 //! ```
@@ -28,11 +29,13 @@
 //!   where `f64` coordinates of 1e300 and 1e-300 come together along one axis, which also take up to 300 kB of stack (x86-64, optimised).
 
 use super::advance::confirm::certain_contact;
-use super::advance::time_of_impact;
+use super::advance::{time_of_impact, time_of_impact_within};
 use super::{Impact, Limits};
 use crate::exact;
-use crate::motion::PrimitivePair;
+use crate::motion::{EdgeEdge, Motion, PrimitivePair, VertexFace};
+use crate::points::{PairShape, Shape};
 use crate::scalar::Scalar;
+use glam::DVec3;
 
 /// Whether two moving sets share a point at some time in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -107,9 +110,52 @@ fn settled_from<S: Scalar, P: PrimitivePair<S>>(pair: &P, time: S) -> (Contact, 
     if certain_contact(pair, time).is_some() {
         return (Contact::Happens, Evidence::Crossing);
     }
+    if let Some(answer) = settled_in_f64(pair, time) {
+        return answer;
+    }
     match exact::touches::<P::Shape, S>(&pair.points()) {
         Some(false) => (Contact::Never, Evidence::WholeNumbers),
         Some(true) => (Contact::Happens, Evidence::WholeNumbers),
         None => (Contact::Undefined, Evidence::Nothing),
     }
+}
+
+/// What `f64` proves of a narrower format's pair, for which contact from `time` on is not excluded.
+fn settled_in_f64<S: Scalar, P: PrimitivePair<S>>(
+    pair: &P,
+    time: S,
+) -> Option<(Contact, Evidence)> {
+    if S::FRACTION_BITS + 1 >= f64::MANTISSA_DIGITS {
+        return None;
+    }
+    let exactly = |position: S::Vector| {
+        let [x, y, z]: [S; 3] = position.into();
+        DVec3::new(x.to_f64(), y.to_f64(), z.to_f64())
+    };
+    let [a, b, c, d] = pair
+        .motions()
+        .map(|point| Motion::new(exactly(point.start), exactly(point.end)));
+    let from = time.to_f64();
+    match P::Shape::SHAPE {
+        Shape::VertexFace => {
+            let face = [b, c, d];
+            proven(&VertexFace { vertex: a, face }, from)
+        }
+        Shape::EdgeEdge => {
+            let (first, second) = ([a, b], [c, d]);
+            proven(&EdgeEdge { first, second }, from)
+        }
+    }
+}
+
+/// What floating point proves of a pair that is known to be apart before `from`.
+fn proven<P: PrimitivePair<f64>>(pair: &P, from: f64) -> Option<(Contact, Evidence)> {
+    let limits = Limits {
+        tolerance: 0.0,
+        separation: 0.0,
+    };
+    let Some(time) = time_of_impact_within(pair, &limits, from, 1.0).time() else {
+        return Some((Contact::Never, Evidence::Separation));
+    };
+    certain_contact(pair, time).map(|_| (Contact::Happens, Evidence::Crossing))
 }

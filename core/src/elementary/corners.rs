@@ -80,6 +80,12 @@ impl<S: Scalar, const N: usize> Corners<S, N> {
         self.extent.largest() <= largest_extent()
     }
 
+    /// Takes an extent of zero, in proportion to which all errors are bounded: **nothing is certified any more.**
+    #[inline(always)]
+    pub(super) fn forget_errors(&mut self) {
+        self.extent = Vector::new(S::ZERO, S::ZERO, S::ZERO);
+    }
+
     /// Where the corners are at `time`, rounded.
     #[inline(always)]
     pub(super) fn at(&self, time: S) -> [Vector<S>; N] {

@@ -68,13 +68,13 @@ fn first_root<S: Scalar>(pair: &impl PrimitivePair<S>, accept: impl Fn(S) -> boo
 }
 
 /// A cubic by its four control values (none tripled).
-struct Cubic<S> {
-    k: [S; 4],
+pub(super) struct Cubic<S> {
+    pub(super) k: [S; 4],
 }
 
 impl<S: Scalar> Cubic<S> {
     #[inline(always)]
-    fn new(tetrahedron: MovingTetrahedron<S>) -> Self {
+    pub(super) fn new(tetrahedron: MovingTetrahedron<S>) -> Self {
         let [k0, k1, k2, k3] = tetrahedron.control_values().0;
         let third = S::from_f64(1.0 / 3.0);
         Self {
@@ -93,7 +93,7 @@ impl<S: Scalar> Cubic<S> {
 
     /// Calls `visit(from, to)` on the pieces of [0, 1] between the extremes, in order, until it returns true.
     #[inline(always)]
-    fn for_each_monotone_piece(&self, mut visit: impl FnMut(S, S) -> bool) {
+    pub(super) fn for_each_monotone_piece(&self, mut visit: impl FnMut(S, S) -> bool) {
         let mut from = S::ZERO;
         for extreme in self.extremes() {
             if extreme > from && extreme < S::ONE {

@@ -74,8 +74,10 @@ impl<const N: usize> Integer<N> {
         // In line is faster for a few words; for many it would only be more code.
         if N <= 2 {
             self.product(other)
-        } else {
+        } else if N + M < 10 {
             self.product_out_of_line(other)
+        } else {
+            self.product_of_significant_words(other)
         }
     }
 
@@ -87,37 +89,57 @@ impl<const N: usize> Integer<N> {
         self.product(other)
     }
 
+    /// The same with less to do where most words are zero or mere sign: numbers have many words when one pair's coordinates
+    /// differ in size by hundreds of powers of two, and then each of them has few words of its own.
+    #[inline(never)]
+    fn product_of_significant_words<const M: usize, const R: usize>(
+        &self,
+        other: &Integer<M>,
+    ) -> Integer<R> {
+        const { assert!(R == N + M, "a product has the words of both factors") };
+        let (zeros_of_a, a) = self.significant_words();
+        let (zeros_of_b, b) = other.significant_words();
+        let mut product = [0; R];
+        // All of these words exist, since R = N + M; so nothing is lost by the default.
+        let (own, extension) = product
+            .get_mut(zeros_of_a + zeros_of_b..)
+            .and_then(|words| words.split_at_mut_checked(a.len() + b.len()))
+            .unwrap_or_default();
+        multiply_signed(a, b, own);
+        extension.fill(sign_word(own));
+        Integer(product)
+    }
+
+    /// How many low words are zero, and the others without those above that only repeat the sign.
+    #[inline(always)]
+    fn significant_words(&self) -> (usize, &[u64]) {
+        let sign = self.sign_word();
+        let mut words = self.0.as_slice();
+        while let [rest @ .., below, top] = words
+            && *top == sign
+            && sign_word(&[*below]) == sign
+        {
+            words = words.get(..=rest.len()).unwrap_or_default();
+        }
+        let mut zeros = 0;
+        while let [0, rest @ ..] = words {
+            (zeros, words) = (zeros + 1, rest);
+        }
+        (zeros, words)
+    }
+
     #[inline(always)]
     fn product<const M: usize, const R: usize>(&self, other: &Integer<M>) -> Integer<R> {
         const { assert!(R == N + M, "a product has the words of both factors") };
         let mut product = [0; R];
-        for (i, &x) in self.0.iter().enumerate() {
-            // All of these words exist, since R = N + M; so nothing is lost by the default.
-            let (row, above) = product
-                .get_mut(i..)
-                .and_then(|words| words.split_at_mut_checked(M))
-                .unwrap_or_default();
-            let mut carry = 0;
-            for (&y, word) in other.0.iter().zip(row) {
-                // (2⁶⁴ − 1)² + 2·(2⁶⁴ − 1) = 2¹²⁸ − 1.
-                let sum = u128::from(x) * u128::from(y) + u128::from(*word) + u128::from(carry);
-                (*word, carry) = (sum as u64, (sum >> 64) as u64);
-            }
-            if let Some(word) = above.first_mut() {
-                *word = carry;
-            }
-        }
-        // That read a negative factor −x as 2^(64·N) − x, which is the other factor times 2^(64·N) too much.
-        subtract(product.iter_mut().skip(N), &other.0, self.sign_word());
-        subtract(product.iter_mut().skip(M), &self.0, other.sign_word());
+        multiply_signed(&self.0, &other.0, &mut product);
         Integer(product)
     }
 
     /// All ones if negative, else zero.
     #[inline(always)]
     fn sign_word(&self) -> u64 {
-        let top = self.0.last().copied().unwrap_or(0);
-        (top.cast_signed() >> 63).cast_unsigned()
+        sign_word(&self.0)
     }
 
     /// How the number compares with zero.
@@ -169,6 +191,37 @@ impl<const N: usize> Integer<N> {
             is_cut: rest != 0,
         }
     }
+}
+
+/// All ones if the number of these words, the lowest first, is negative, else zero.
+#[inline(always)]
+fn sign_word(words: &[u64]) -> u64 {
+    let top = words.last().copied().unwrap_or(0);
+    (top.cast_signed() >> 63).cast_unsigned()
+}
+
+/// The product of two numbers by their words into `product`, which has the words of both and is zero.
+#[inline(always)]
+fn multiply_signed(a: &[u64], b: &[u64], product: &mut [u64]) {
+    for (i, &x) in a.iter().enumerate() {
+        // All of these words exist, so nothing is lost by the default.
+        let (row, above) = product
+            .get_mut(i..)
+            .and_then(|words| words.split_at_mut_checked(b.len()))
+            .unwrap_or_default();
+        let mut carry = 0;
+        for (&y, word) in b.iter().zip(row) {
+            // (2⁶⁴ − 1)² + 2·(2⁶⁴ − 1) = 2¹²⁸ − 1.
+            let sum = u128::from(x) * u128::from(y) + u128::from(*word) + u128::from(carry);
+            (*word, carry) = (sum as u64, (sum >> 64) as u64);
+        }
+        if let Some(word) = above.first_mut() {
+            *word = carry;
+        }
+    }
+    // That read a negative factor −x as 2^(64·words) − x, which is the other factor times 2^(64·words) too much.
+    subtract(product.iter_mut().skip(a.len()), b, sign_word(a));
+    subtract(product.iter_mut().skip(b.len()), a, sign_word(b));
 }
 
 /// Subtracts `other`, each word masked by `mask`, from the words `from`; a borrow beyond the last is dropped.
@@ -256,6 +309,27 @@ mod tests {
                 assert_eq!(product, expected, "{a} · 2^{i} times {b} · 2^{j}");
             }
         }
+    }
+
+    #[test]
+    fn the_product_of_significant_words_is_the_product() {
+        let for_each_number = |visit: &dyn Fn(&Integer<6>)| {
+            visit(&Integer::ZERO);
+            for significand in [1, -1, 3, -3, i64::MAX, i64::MIN] {
+                for shift in [0, 1, 63, 64, 127, 128, 200, 256, 319, 320] {
+                    let number = shifted(significand, shift);
+                    visit(&number);
+                    visit(&number.minus(&shifted(1, 0)));
+                    visit(&number.plus(&shifted(significand, 7)));
+                }
+            }
+        };
+        for_each_number(&|a| {
+            for_each_number(&|b| {
+                let expected: Integer<12> = a.product(b);
+                assert_eq!(a.product_of_significant_words(b), expected, "{a:?} · {b:?}");
+            });
+        });
     }
 
     #[test]

@@ -11,8 +11,11 @@
 //! | [`Tier::Widened`] | covered: `f32`, and `f64` where that does not decide | more near coplanarity, for `f32` positions |
 //! | [`Tier::Exact`] | none: integer arithmetic | all whose exact control values have one sign |
 //! | [`Tier::Subdivided`] | covered | pairs whose step falls into parts that are each free of contact |
+//!
+//! [`inside`] is the other half of the cubic test, as a filter of its own: pairs that may become coplanar, but beside each other.
 
 pub mod certified;
+pub mod inside;
 pub mod plain;
 mod subdivided;
 mod tier;

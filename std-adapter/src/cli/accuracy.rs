@@ -4,22 +4,29 @@ use super::Failure;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge::mesh::read_step;
-use selvedge::report::{accuracy_svg, json, tables};
-use selvedge::study::{AccuracyOptions, TwoFrames, measure_accuracy};
+use selvedge::report::{accuracy_svg, elementary_svg, json, tables};
+use selvedge::study::elementary::{ElementaryAccuracy, measure_elementary_accuracy};
+use selvedge::study::{Accuracy as FilterAccuracy, AccuracyOptions, TwoFrames, measure_accuracy};
+use serde_json::{Map, Value};
 use std::path::PathBuf;
 
-/// Measures what accuracy costs in time: every non-coplanarity filter on the same pairs.
+/// Measures what accuracy costs in time: every non-coplanarity filter on the same pairs, and every elementary test.
 ///
-/// From the paper's plain filter, which culls a colliding pair now and then, to exact arithmetic: how much of what exact
+/// Filters: from the paper's plain filter, which culls a colliding pair now and then, to exact arithmetic: how much of what exact
 /// arithmetic culls each one culls, what it culls without proof, and how long a pair takes on each instruction set. The
 /// pairs are candidates of the built-in arm scene, the same far from the origin, random pairs that are nearly coplanar, and
 /// those of your own step between two meshes (OBJ or PLY) if you name it; in f32 and in f64.
+///
+/// Elementary tests: the certified time of impact at tolerances from 1e-2 to 1e-12, with its error bounds and without, the exact
+/// verdict, and the plain cubic, Tight-Inclusion and additive tests, on such pairs and on the built-in hard cases: time per pair
+/// against missed contacts, false alarms and the error of the time.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   selvedge accuracy
   selvedge accuracy frame-92.ply frame-93.ply --svg accuracy.svg
   selvedge accuracy --pairs 5000 --repeat 1 --json
+  selvedge accuracy --only elementary --elementary-svg elementary.svg
 
 Times are only as quiet as the machine. In each format, a filter is compared
 with exact arithmetic on the coordinates that it is given, rounded to it.")]
@@ -29,6 +36,9 @@ pub(crate) struct Accuracy {
     start: Option<PathBuf>,
     /// The mesh at the end of that step
     end: Option<PathBuf>,
+    /// Measure only the filters, or only the elementary tests
+    #[arg(long, value_enum)]
+    only: Option<Part>,
     /// How many pairs to take of each set; of a larger set, evenly spaced runs. About 50,000 of them are timed
     #[arg(long, value_name = "N", default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..))]
     pairs: u32,
@@ -47,6 +57,16 @@ pub(crate) struct Accuracy {
     /// Write a plot of accuracy against time to this file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// Write a plot of the elementary tests to this file: the error of the time of impact against time
+    #[arg(long, value_name = "FILE")]
+    elementary_svg: Option<PathBuf>,
+}
+
+/// What is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Part {
+    Filters,
+    Elementary,
 }
 
 /// A length that both formats know.
@@ -62,37 +82,68 @@ fn separation(text: &str) -> Result<f64, String> {
 impl Accuracy {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let json_file = self.json.as_ref().filter(|path| path.as_os_str() != "-");
-        for path in [json_file, self.svg.as_ref()].into_iter().flatten() {
+        let files_of_plots = [&self.svg, &self.elementary_svg].map(Option::as_ref);
+        let paths: Vec<_> = files_of_plots
+            .into_iter()
+            .chain([json_file])
+            .flatten()
+            .collect();
+        for (index, path) in paths.iter().enumerate() {
             OutputFiles::check(path)?;
+            if paths[..index].contains(path) {
+                return Err(format!("{}: named for two outputs", path.display()).into());
+            }
         }
-        if json_file.is_some() && json_file == self.svg.as_ref() {
-            return Err("--json and --svg name the same file".into());
+        for (file, part, option) in [
+            (&self.svg, Part::Filters, "--svg"),
+            (&self.elementary_svg, Part::Elementary, "--elementary-svg"),
+        ] {
+            if file.is_some() && !self.measures(part) {
+                return Err(format!("{option} needs what --only leaves out").into());
+            }
         }
         let mesh = self.mesh()?;
-        let accuracy = {
-            let progress = Progress::bar("measuring");
-            let options = AccuracyOptions {
-                pairs: self.pairs as usize,
-                repeat: self.repeat,
-                seed: self.seed,
-                separation: self.separation,
-            };
-            measure_accuracy(mesh.as_ref(), options, &mut |share| progress.set(share))?
+        let options = AccuracyOptions {
+            pairs: self.pairs as usize,
+            repeat: self.repeat,
+            seed: self.seed,
+            separation: self.separation,
         };
+        let filters = self.measures(Part::Filters).then(|| {
+            let progress = Progress::bar("filters");
+            measure_accuracy(mesh.as_ref(), options, &mut |share| progress.set(share))
+        });
+        let filters = filters.transpose()?;
+        let elementary = self.measures(Part::Elementary).then(|| {
+            let progress = Progress::bar("elementary tests");
+            let set = &mut |share| progress.set(share);
+            measure_elementary_accuracy(mesh.as_ref(), options, set)
+        });
+        let elementary = elementary.transpose()?;
+
+        let document = document(filters.as_ref(), elementary.as_ref());
         let mut files = OutputFiles::default();
         if let Some(path) = json_file {
-            let document = format!("{:#}\n", json::accuracy(&accuracy));
-            files.add_bytes(path.clone(), document.as_bytes())?;
+            files.add_bytes(path.clone(), format!("{document:#}\n").as_bytes())?;
         }
-        if let Some(path) = &self.svg {
-            files.add_bytes(path.clone(), accuracy_svg(&accuracy).as_bytes())?;
+        if let (Some(path), Some(filters)) = (&self.svg, &filters) {
+            files.add_bytes(path.clone(), accuracy_svg(filters).as_bytes())?;
+        }
+        if let (Some(path), Some(elementary)) = (&self.elementary_svg, &elementary) {
+            files.add_bytes(path.clone(), elementary_svg(elementary).as_bytes())?;
         }
         files.publish()?;
         if self.json.is_some() && json_file.is_none() {
-            output::print_json(&json::accuracy(&accuracy))
-        } else {
-            output::print(&tables::accuracy(&accuracy))
+            return output::print_json(&document);
         }
+        let filters = filters.as_ref().map(tables::accuracy);
+        let elementary = elementary.as_ref().map(tables::elementary);
+        let texts: Vec<_> = filters.into_iter().chain(elementary).collect();
+        output::print(&texts.join("\n"))
+    }
+
+    fn measures(&self, part: Part) -> bool {
+        self.only.is_none_or(|only| only == part)
     }
 
     fn mesh(&self) -> Result<Option<TwoFrames>, Failure> {
@@ -113,4 +164,13 @@ impl Accuracy {
             end: step.end,
         }))
     }
+}
+
+/// The filters' document, with that of the elementary tests in it.
+fn document(filters: Option<&FilterAccuracy>, elementary: Option<&ElementaryAccuracy>) -> Value {
+    let mut document = filters.map_or_else(|| Value::Object(Map::new()), json::accuracy);
+    if let Some(elementary) = elementary {
+        document["elementary"] = json::elementary(elementary);
+    }
+    document
 }

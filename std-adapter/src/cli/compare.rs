@@ -1,35 +1,40 @@
-//! `selvedge compare`, and `selvedge` without a subcommand.
+//! `selvedge compare`.
 
 use super::Failure;
 use super::options::{Threads, preset_parser, refinement_parser};
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
+use super::simulate::run_steps;
+use clap::CommandFactory;
+use clap::error::ErrorKind;
 use selvedge::mesh::read_step;
 use selvedge::pipeline::Preset;
 use selvedge::report::{FigurePairs, comparison_csv, comparison_svg, figure_3, json, tables};
 use selvedge::scene::ArmScene;
+use selvedge::simulation::{Scene, Simulation};
 use selvedge::study::{
-    self, ArmFrames, Comparison, Frames, StepCandidates, TwoFrames, busiest_step, step_candidates,
+    self, ArmFrames, Comparison, Frames, SimulatedSteps, StepCandidates, TwoFrames, busiest_step,
+    step_candidates,
 };
 use std::path::{Path, PathBuf};
 
 /// How the comparison is run and printed.
 #[derive(Debug, clap::Args)]
-struct Run {
+pub(super) struct Run {
     #[command(flatten)]
-    threads: Threads,
+    pub(super) threads: Threads,
     /// How often each method runs each step; the fastest counts
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
     rounds: u32,
     /// Print one JSON document instead of tables
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 /// How finely the arm scene is cut, in time and in space.
 #[derive(Debug, clap::Args)]
 struct Arm {
-    /// Bend the arm in this many steps
+    /// Bend the arm in this many steps; of a scene file, compare on this many steps, evenly spread
     #[arg(long, value_name = "N", default_value_t = ArmScene::STEPS as u32, value_parser = clap::value_parser!(u32).range(1..))]
     steps: u32,
     /// Multiply the sleeve's 1,345 triangles by this
@@ -43,45 +48,23 @@ impl Arm {
     }
 }
 
-/// The arguments of `selvedge` alone.
-#[derive(Debug, clap::Args)]
-pub(crate) struct MainJob {
-    #[command(flatten)]
-    arm: Arm,
-    #[command(flatten)]
-    run: Run,
-    /// Write the comparison (CSV, SVG) and a picture of candidates (PNG) to this folder
-    #[arg(long, value_name = "DIR", default_value = "selvedge-out")]
-    output: PathBuf,
-}
-
-impl MainJob {
-    pub(crate) fn run(&self) -> Result<(), Failure> {
-        let frames = self.arm.frames()?;
-        OutputFiles::check_folder(&self.output)?;
-        let comparison = self.run.compare(&frames, &Preset::ALL)?;
-        let mut files = OutputFiles::default();
-        add_report(&mut files, &self.output, &frames, &comparison)?;
-        files.publish()?;
-        self.run.print(&comparison)
-    }
-}
-
 /// Runs every method on the same steps: the paper's Table 1.
 ///
-/// Takes the built-in arm scene, or the step between two meshes of equal topology (OBJ or PLY). All methods share one
-/// broad phase and run each step in turn, so that their times compare.
+/// Takes the built-in arm scene, a scene file (TOML), which is simulated first, or the step between two meshes of equal
+/// topology (OBJ or PLY). All methods share one broad phase and run each step in turn, so that their times compare.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   selvedge compare
+  selvedge compare std-adapter/scenes/twist.toml --steps 100
   selvedge compare --pipelines lv_2014,selvedge --refinement 100 --threads 0
   selvedge compare frame-92.ply frame-93.ply --csv table.csv")]
 pub(crate) struct Compare {
-    /// The mesh at the start of the step; without it, the arm scene
-    #[arg(requires = "end", conflicts_with_all = ["steps", "refinement"])]
+    /// The mesh at the start of the step, or a scene file; without it, the arm scene
+    #[arg(conflicts_with = "refinement")]
     start: Option<PathBuf>,
     /// The mesh at the end of the step
+    #[arg(conflicts_with = "steps")]
     end: Option<PathBuf>,
     /// The methods to run, with commas between; all of them if left out
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = preset_parser())]
@@ -102,8 +85,36 @@ impl Compare {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         match (&self.start, &self.end) {
             (Some(start), Some(end)) => self.run_on(&read_frames(start, end)?),
-            _ => self.run_on(&self.arm.frames()?),
+            (Some(scene), None) => self.run_on(&self.simulated(scene)?),
+            (None, _) => self.run_on(&self.arm.frames()?),
         }
+    }
+
+    /// The steps of a scene.
+    fn simulated(&self, path: &Path) -> Result<SimulatedSteps, Failure> {
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            let message = format!(
+                "{}: one file alone must be a scene, a .toml file; after a mesh, name the mesh at the end of the step as well",
+                path.display()
+            );
+            let mut command = super::Cli::command();
+            command
+                .error(ErrorKind::MissingRequiredArgument, message)
+                .exit();
+        }
+        let of_file = |failure: Failure| format!("{}: {failure}", path.display());
+        let scene = Scene::read(path)?;
+        let steps = scene.steps();
+        let mut frames = SimulatedSteps::new(&scene, self.arm.steps as usize);
+        let mut simulation = Simulation::new(scene, self.run.threads.get())
+            .map_err(|error| of_file(error.into()))?;
+        frames.observe(&simulation);
+        run_steps(&mut simulation, steps, |simulation| {
+            frames.observe(simulation);
+            Ok(())
+        })
+        .map_err(of_file)?;
+        Ok(frames)
     }
 
     fn run_on(&self, frames: &impl Frames) -> Result<(), Failure> {
@@ -141,7 +152,11 @@ impl Compare {
 }
 
 impl Run {
-    fn compare(&self, frames: &impl Frames, presets: &[Preset]) -> Result<Comparison, Failure> {
+    pub(super) fn compare(
+        &self,
+        frames: &impl Frames,
+        presets: &[Preset],
+    ) -> Result<Comparison, Failure> {
         let progress = Progress::bar("comparing");
         let rounds = self.rounds as usize;
         study::compare(frames, presets, self.threads.get(), rounds, &mut |share| {
@@ -174,7 +189,7 @@ fn read_frames(start: &Path, end: &Path) -> Result<TwoFrames, Failure> {
 
 /// Everything that a run leaves in its folder: the table as CSV and SVG, and the paper's Figure 3, on the step in which
 /// ours has the most candidates left.
-fn add_report(
+pub(super) fn add_report(
     files: &mut OutputFiles,
     folder: &Path,
     frames: &impl Frames,
@@ -188,11 +203,11 @@ fn add_report(
     files.add_bytes(folder.join("comparison.svg"), table.as_bytes())?;
 
     let threads = comparison.threads;
-    let frame = busiest_step(frames, Preset::Selvedge, threads)?;
-    let basic = step_candidates(frames, frame, Preset::Basic, threads)?;
-    let ours = step_candidates(frames, frame, Preset::Selvedge, threads)?;
-    let mut positions = Vec::new();
-    frames.positions(frame + 1, &mut positions);
+    let step = busiest_step(frames, Preset::Selvedge, threads)?;
+    let basic = step_candidates(frames, step, Preset::Basic, threads)?;
+    let ours = step_candidates(frames, step, Preset::Selvedge, threads)?;
+    let (mut start, mut positions) = (Vec::new(), Vec::new());
+    frames.step(step, &mut start, &mut positions);
     let [basic, ours] = [&basic, &ours].map(panel);
     let figure = figure_3(frames.topology(), &positions, &basic, &ours)?;
     files.add_bytes(folder.join("figure-3.png"), &figure)

@@ -8,9 +8,9 @@ use selvedge::PairKind;
 use selvedge::core::Scalar;
 use selvedge::glam::DVec3;
 use selvedge::mesh::{MeshStep, Topology, read_step};
-use selvedge::pipeline::{Pipeline, Preset};
+use selvedge::pipeline::{Pipeline, Preset, StepReport};
 use selvedge::report::{StepQuestion, StepSummary, contacts_csv, json, pairs_csv, tables};
-use selvedge::step::{CandidateBoxes, CollisionDetector, StepTally};
+use selvedge::step::{CandidateBoxes, CollisionDetector};
 use std::path::{Path, PathBuf};
 
 /// Finds the pairs of a mesh that may collide during one time step.
@@ -46,14 +46,16 @@ pub(crate) struct Cull {
     /// Write the contacts, with their times, to this file
     #[arg(long, value_name = "OUT.csv")]
     pairs: Option<PathBuf>,
-    /// Write the pairs that reach the elementary test to this file; with --candidates-only, those of the broad phase
+    /// Write the pairs that reach the elementary test to this file; with --candidates-only or --swept-boxes, those of the
+    /// broad phase
     #[arg(long, value_name = "OUT.csv")]
     candidates: Option<PathBuf>,
     /// End after the broad phase: the pairs that moving boxes leave (pipeline selvedge only)
     #[arg(long, conflicts_with_all = ["earliest", "pairs"])]
     candidates_only: bool,
-    /// With --candidates-only: by swept boxes instead, which leave more pairs, those that other systems count
-    #[arg(long, requires = "candidates_only")]
+    /// Take the pairs whose swept boxes overlap, which are more: those that other systems count. All stages after the
+    /// broad phase then start from these, as from pairs of a caller's own (pipelines selvedge and selvedge_exact only)
+    #[arg(long, conflicts_with = "earliest")]
     swept_boxes: bool,
     /// Find the earliest contact and no other (pipeline selvedge only)
     #[arg(long, conflicts_with = "candidates")]
@@ -89,16 +91,18 @@ impl Cull {
             return Err("--pairs and --candidates name the same file".into());
         }
 
-        if self.candidates_only || self.earliest {
-            if self.pipeline != Preset::Selvedge {
+        if let Some(question) = self.question() {
+            let is_exact = self.pipeline == Preset::SelvedgeExact;
+            if !(self.pipeline == Preset::Selvedge || is_exact && question == Question::Swept) {
                 return Err(format!(
-                    "only the pipeline {} answers --candidates-only and --earliest, not {}",
+                    "only the pipeline {} answers {}, not {}",
                     Preset::Selvedge,
+                    question.option(),
                     self.pipeline
                 )
                 .into());
             }
-            return self.ask::<S>(step.topology, &start, &end);
+            return self.ask::<S>(question, step.topology, &start, &end);
         }
         let mut pipeline =
             Pipeline::<S>::new(step.topology, self.pipeline.stages(), self.threads.get())?;
@@ -147,40 +151,82 @@ impl Cull {
     }
 }
 
+/// What a detector is asked instead of all contacts from the moving boxes on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Question {
+    Candidates,
+    Earliest,
+    /// All contacts of the pairs whose swept boxes overlap.
+    Swept,
+}
+
+impl Question {
+    const fn option(self) -> &'static str {
+        match self {
+            Self::Candidates => "--candidates-only",
+            Self::Earliest => "--earliest",
+            Self::Swept => "--swept-boxes",
+        }
+    }
+}
+
 impl Cull {
-    /// One of the questions that take less than all contacts.
+    fn question(&self) -> Option<Question> {
+        match (self.candidates_only, self.earliest, self.swept_boxes) {
+            (true, ..) => Some(Question::Candidates),
+            (_, true, _) => Some(Question::Earliest),
+            (_, _, true) => Some(Question::Swept),
+            _ => None,
+        }
+    }
+
+    /// One of the questions that pipelines do not answer.
     fn ask<S: Scalar>(
         &self,
+        question: Question,
         topology: Topology,
         start: &[S::Vector],
         end: &[S::Vector],
     ) -> Result<(), Failure> {
         let mut detector = CollisionDetector::<S>::new(topology, self.threads.get())?;
+        detector.set_exact(self.pipeline == Preset::SelvedgeExact);
         detector.set_level(self.simd.level());
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+        let mut contacts = Vec::new();
         let boxes = if self.swept_boxes {
             CandidateBoxes::Swept
         } else {
             CandidateBoxes::Moving
         };
-        let mut earliest = None;
-        let mut fastest: Option<StepTally> = None;
+        let mut fastest: Option<StepReport> = None;
         let mut first_run_seconds = None;
         {
             let _progress = Progress::spinner("culling");
             for _ in 0..self.repeat {
-                if self.earliest {
-                    earliest = detector.earliest(start, end)?;
+                if question == Question::Earliest {
+                    contacts = detector.earliest(start, end)?.into_iter().collect();
                 } else {
                     detector.candidates(start, end, boxes, &mut vertex_face, &mut edge_edge)?;
                 }
-                let tally = *detector.tally();
-                first_run_seconds.get_or_insert(tally.seconds);
-                if fastest.is_none_or(|fastest| tally.seconds < fastest.seconds) {
-                    fastest = Some(tally);
+                let mut report = detector.tally().report();
+                match question {
+                    Question::Earliest => {}
+                    Question::Candidates => report.stages.clear(),
+                    Question::Swept => {
+                        let pairs = (&vertex_face, &edge_edge);
+                        detector.contacts_of(start, end, pairs.0, pairs.1, &mut contacts)?;
+                        report = detector.tally().report_after(report.seconds);
+                    }
+                }
+                first_run_seconds.get_or_insert(report.seconds);
+                let is_faster = |fastest: &StepReport| report.seconds < fastest.seconds;
+                if fastest.as_ref().is_none_or(is_faster) {
+                    fastest = Some(report);
                 }
             }
         }
+        let times = contacts.iter().map(|contact| contact.time.to_f64());
+        let earliest = times.min_by(f64::total_cmp);
         let mut files = OutputFiles::default();
         if let Some(path) = &self.candidates {
             files.add(path.clone(), |out| {
@@ -188,19 +234,19 @@ impl Cull {
             })?;
         }
         if let Some(path) = &self.pairs {
-            let contacts: Vec<_> = earliest.into_iter().collect();
             files.add(path.clone(), |out| {
                 contacts_csv(detector.topology(), &contacts, out)
             })?;
         }
         files.publish()?;
-        let question = if self.earliest {
-            StepQuestion::Earliest
-        } else {
-            StepQuestion::Candidates
+        let question = match question {
+            Question::Candidates => StepQuestion::Candidates,
+            Question::Earliest => StepQuestion::Earliest,
+            Question::Swept => StepQuestion::Contacts,
         };
-        let tally = fastest.unwrap_or_default();
-        let mut summary = StepSummary::of_detector(question, &detector, &tally, earliest.as_ref());
+        let report = fastest.unwrap_or_default();
+        let mut summary = StepSummary::of_detector(question, &detector, report, earliest);
+        summary.preset = self.pipeline;
         summary.first_run_seconds = first_run_seconds.unwrap_or_default();
         if self.json {
             output::print_json(&json::step(&summary))

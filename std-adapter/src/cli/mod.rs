@@ -5,6 +5,7 @@ mod arm;
 mod compare;
 mod cull;
 mod hard_cases;
+mod main_job;
 mod options;
 mod output;
 mod progress;
@@ -20,20 +21,20 @@ pub(crate) type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 /// Finds which vertex–face and edge–edge pairs of a deforming triangle mesh can collide during a time step.
 ///
-/// Without a subcommand: runs every published method on a built-in scene, a sleeve on a bending arm, prints the
-/// comparison and writes it to a folder.
+/// Without a subcommand: simulates a sleeve on a bending arm, runs every published method on steps of it, prints the
+/// comparison, and writes it to a folder with a report to look at.
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 80, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
     #[command(flatten)]
-    main_job: compare::MainJob,
+    main_job: main_job::MainJob,
 }
 
 const EXAMPLES: &str = "\
 Examples:
-  selvedge                                  compare all methods on the arm scene
+  selvedge                                  a sleeve in motion, all methods on it
   selvedge cull a.ply b.ply                 pairs that may collide from a to b
   selvedge cull a.ply b.ply --pairs c.csv   … and the contacts, one a line
   selvedge compare a.obj b.obj --json       all methods on your own mesh

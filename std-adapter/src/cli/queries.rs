@@ -23,8 +23,8 @@ Examples:
   selvedge queries */*/*.csv --method selvedge,cubic --scalar f32
   selvedge queries pairs.csv --kind edge-edge --json
 
-A query's time is that of calling the method on it again and again for 2 µs, over
-the number of calls, in the fastest of three runs.")]
+A query's time is that of calling the method on it again and again for 2 µs,
+over the number of calls, in the fastest of three runs.")]
 pub(crate) struct Queries {
     /// Files of queries
     #[arg(required = true, value_name = "FILE.csv")]

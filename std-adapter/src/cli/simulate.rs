@@ -5,8 +5,10 @@ use super::options::Threads;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge::mesh::{self, Mesh};
-use selvedge::report::{SimulationRecorder, Subject, gltf, json, page, tables};
-use selvedge::simulation::{Scene, Simulation};
+use selvedge::report::{SimulationRecorder, Subject, added, gltf, json, page, tables};
+use selvedge::simulation::{CheckpointError, Scene, SceneError, Simulation};
+use selvedge::study::{EffectCost, effects_one_by_one};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -19,6 +21,7 @@ use std::time::{Duration, Instant};
 Examples:
   selvedge simulate std-adapter/scenes/arm-sleeve.toml
   selvedge simulate scene.toml --frames gltf --output out    for Blender
+  selvedge simulate scene.toml --effects-one-by-one          what each costs
   selvedge simulate scene.toml --resume                      after an interruption
 
 Scenes that come with the program are in std-adapter/scenes.")]
@@ -31,6 +34,9 @@ pub(crate) struct Simulate {
     /// Write the frames as well
     #[arg(long, value_enum)]
     frames: Option<Frames>,
+    /// Run the scene also without effects, with the first one, with the first two, and so on, and report what a step costs
+    #[arg(long)]
+    effects_one_by_one: bool,
     /// Go on from the last checkpoint in the output folder
     #[arg(long)]
     resume: bool,
@@ -51,6 +57,37 @@ enum Frames {
     Gltf,
 }
 
+/// The two parts of a checkpoint file: the simulation's state, and what was recorded.
+fn split(saved: &[u8]) -> Option<(&[u8], &[u8])> {
+    let (&length, rest) = saved.split_first_chunk()?;
+    rest.split_at_checked(usize::try_from(u64::from_le_bytes(length)).ok()?)
+}
+
+/// Runs a simulation up to step `steps`, and shows it to `then` after each step.
+pub(super) fn run_steps(
+    simulation: &mut Simulation,
+    steps: u64,
+    mut then: impl FnMut(&Simulation) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let progress = Progress::steps("simulating", steps);
+    while simulation.steps_done() < steps {
+        simulation.step()?;
+        then(simulation)?;
+        progress.set_steps(simulation.steps_done());
+    }
+    Ok(())
+}
+
+/// What each effect of a scene costs.
+pub(super) fn effect_costs(
+    read: impl Fn() -> Result<Scene, SceneError>,
+    steps: u64,
+    threads: usize,
+) -> Result<Vec<EffectCost>, Failure> {
+    let progress = Progress::bar("effects one by one");
+    effects_one_by_one(read, steps, threads, &mut |share| progress.set(share))
+}
+
 /// Between two checkpoints, at least; the first is written as soon as it can be.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(5);
 
@@ -63,28 +100,55 @@ impl Simulate {
         let mut simulation = Simulation::new(scene, self.threads.get())
             .map_err(|error| format!("{path}: {error}"))?;
         OutputFiles::check_folder(&self.output)?;
+        let mut recorder = SimulationRecorder::new(subject, &simulation)?;
+        // Seconds that this run took before it was interrupted.
+        let mut earlier = 0.0;
         if self.resume {
-            let checkpoint = self.file("checkpoint");
-            let of_file = |error: String| format!("{}: {error}", checkpoint.display());
-            let bytes = std::fs::read(&checkpoint).map_err(|error| {
-                of_file(format!(
-                    "cannot be read: {error}; was there a checkpoint yet?"
-                ))
-            })?;
+            let saved = self.read_checkpoint()?;
+            let of_file = |error: String| format!("{}: {error}", self.file("checkpoint").display());
+            let (state, recorded) =
+                split(&saved).ok_or_else(|| of_file(CheckpointError::Damaged.to_string()))?;
             simulation
-                .resume(&bytes)
+                .resume(state)
                 .map_err(|error| of_file(error.to_string()))?;
+            earlier = recorder
+                .restore(recorded)
+                .ok_or_else(|| of_file(CheckpointError::Damaged.to_string()))?;
+        } else {
+            self.write_frame(&simulation, 0)?;
         }
 
         let begin = Instant::now();
-        let first = simulation.steps_done();
-        let mut recorder = SimulationRecorder::new(subject, &simulation)?;
-        let result = self.run_steps(&mut simulation, &mut recorder, steps, steps_per_frame);
-        let seconds = begin.elapsed().as_secs_f64();
+        let seconds = || earlier + begin.elapsed().as_secs_f64();
+        let mut last_checkpoint: Option<Instant> = None;
+        let result = run_steps(&mut simulation, steps, |simulation| {
+            recorder.step(simulation);
+            let step = simulation.steps_done();
+            if step.is_multiple_of(steps_per_frame) || step == steps {
+                recorder.frame(simulation)?;
+                self.write_frame(simulation, step.div_ceil(steps_per_frame))?;
+            }
+            if last_checkpoint.is_none_or(|last| last.elapsed() >= CHECKPOINT_INTERVAL)
+                && let Some(state) = simulation.checkpoint()
+            {
+                self.write_checkpoint(&state, &recorder.save(seconds()))?;
+                last_checkpoint = Some(Instant::now());
+            }
+            Ok(())
+        });
+        let result = result.map_err(|failure| Failure::from(format!("{path}: {failure}")));
+        let seconds = seconds();
         if let Err(failure) = &result {
+            // Where it was blocked, or could not go on.
+            recorder.frame(&simulation)?;
             recorder.remark(failure.to_string());
         }
-        let recording = recorder.finish(seconds);
+        let mut recording = recorder.finish(seconds);
+        let costs = match self.effects_one_by_one {
+            true => effect_costs(|| Scene::read(&self.scene), steps, self.threads.get())?,
+            false => Vec::new(),
+        };
+        recording.added = added(&costs);
 
         let mut files = OutputFiles::default();
         files.add_bytes(self.file("html"), page::html(&recording).as_bytes())?;
@@ -94,47 +158,40 @@ impl Simulate {
         files.publish()?;
         // What has been simulated is written and told all the same.
         let printed = if self.json {
-            output::print_json(&json::simulation(&simulation, first, seconds))
+            let mut document = json::simulation(&simulation, seconds);
+            if self.effects_one_by_one {
+                document["effects_one_by_one"] = json::effects_one_by_one(&costs);
+            }
+            output::print_json(&document)
         } else {
-            output::print(&tables::simulation(&simulation, first, seconds))
+            let mut text = tables::simulation(&simulation, seconds);
+            if self.effects_one_by_one {
+                text += "\n";
+                text += &tables::effects_one_by_one(&costs);
+            }
+            output::print(&text)
         };
         result.and(printed)
     }
 
-    fn run_steps(
-        &self,
-        simulation: &mut Simulation,
-        recorder: &mut SimulationRecorder,
-        steps: u64,
-        steps_per_frame: u64,
-    ) -> Result<(), Failure> {
-        let progress = Progress::steps("simulating", steps);
-        if simulation.steps_done() == 0 {
-            self.write_frame(simulation, 0)?;
-        }
-        let mut last_checkpoint: Option<Instant> = None;
-        while simulation.steps_done() < steps {
-            if let Err(blocked) = simulation.step() {
-                recorder.frame(simulation)?;
-                return Err(format!("{}: {blocked}", self.scene.display()).into());
-            }
-            recorder.step(simulation);
-            let step = simulation.steps_done();
-            if step.is_multiple_of(steps_per_frame) || step == steps {
-                recorder.frame(simulation)?;
-                self.write_frame(simulation, step.div_ceil(steps_per_frame))?;
-            }
-            if last_checkpoint.is_none_or(|last| last.elapsed() >= CHECKPOINT_INTERVAL)
-                && let Some(bytes) = simulation.checkpoint()
-            {
-                let mut files = OutputFiles::default();
-                files.add_bytes(self.file("checkpoint"), &bytes)?;
-                files.publish_quietly()?;
-                last_checkpoint = Some(Instant::now());
-            }
-            progress.set_steps(step);
-        }
-        Ok(())
+    /// One file with both, so that they are always of the same step.
+    fn write_checkpoint(&self, state: &[u8], recorded: &[u8]) -> Result<(), Failure> {
+        let mut files = OutputFiles::default();
+        files.add(self.file("checkpoint"), |out| {
+            out.write_all(&(state.len() as u64).to_le_bytes())?;
+            out.write_all(state)?;
+            out.write_all(recorded)
+        })?;
+        files.publish_quietly()
+    }
+
+    fn read_checkpoint(&self) -> Result<Vec<u8>, Failure> {
+        let path = self.file("checkpoint");
+        let read = std::fs::read(&path);
+        read.map_err(|error| {
+            let path = path.display();
+            format!("{path}: cannot be read: {error}; was there a checkpoint yet?").into()
+        })
     }
 
     /// The output file with this extension, called as the scene's.

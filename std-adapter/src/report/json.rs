@@ -9,6 +9,8 @@ use super::step::{StepQuestion, StepSummary};
 #[cfg(feature = "files")]
 use crate::hard_cases::Contact;
 use crate::pipeline::{PairCounts, Preset, Stage, StepReport};
+#[cfg(all(feature = "accuracy", feature = "files"))]
+use crate::study::elementary::ElementaryAccuracy;
 #[cfg(feature = "accuracy")]
 use crate::study::{Accuracy, AccuracySet};
 use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
@@ -164,26 +166,31 @@ pub fn queries(scalar: &str, results: &[QueryResult]) -> Value {
     json!({"scalar": scalar, "methods": methods.collect::<Vec<_>>()})
 }
 
-/// A simulation from step `first` on, which took `seconds`: `selvedge simulate`.
+/// What a step costs with the first of the effects, with the first two, and so on.
 #[cfg(feature = "simulation")]
 #[must_use]
-pub fn simulation(simulation: &crate::simulation::Simulation, first: u64, seconds: f64) -> Value {
-    let steps = simulation.steps_done() - first;
+pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
+    let costs = costs.iter().map(
+        |cost| json!({"added": cost.added, "steps": cost.steps, "seconds_a_step": cost.seconds}),
+    );
+    costs.collect()
+}
+
+/// A simulation that has taken `seconds` so far: `selvedge simulate`.
+#[cfg(feature = "simulation")]
+#[must_use]
+pub fn simulation(simulation: &crate::simulation::Simulation, seconds: f64) -> Value {
+    let steps = simulation.steps_done();
     let effects = simulation.effects().iter();
     let effects: Vec<_> = effects
         .map(|effect| json!({"effect": effect.name, "seconds": effect.seconds}))
         .collect();
-    let contact = simulation
-        .contact_counts()
-        .zip(simulation.contact_seconds());
-    let stages = contact.map_or(json!([]), |(counts, seconds)| {
-        json!([
-            {"stage": "candidates", "pairs": counts.candidates, "seconds": seconds.candidates},
-            {"stage": "contact-set-up", "pairs": counts.pushed, "seconds": seconds.rows},
-            {"stage": "certificates", "pairs": counts.looked_at, "seconds": seconds.certificates},
-            {"stage": "repairs", "pairs": counts.violated, "seconds": seconds.repairs},
-        ])
-    });
+    let counts = simulation.contact_counts();
+    let pairs = counts.iter().flat_map(|counts| counts.pairs());
+    let pairs = pairs.map(|(stage, count)| json!({"stage": stage, "pairs": count}));
+    let stages = simulation.contact_seconds().into_iter();
+    let stages = stages.flat_map(|seconds| seconds.stages());
+    let stages = stages.map(|(stage, seconds)| json!({"stage": stage, "seconds": seconds}));
     json!({
         "scene": simulation.name(),
         "steps": steps,
@@ -191,10 +198,11 @@ pub fn simulation(simulation: &crate::simulation::Simulation, first: u64, second
         "steps_per_second": steps as f64 / seconds,
         "simulated_seconds": simulation.time(),
         "effects": effects,
-        "stages": stages,
-        "contacts_resolved": contact.map(|(counts, _)| counts.pushed),
-        "vertices_held": contact.map(|(counts, _)| counts.held),
-        "cuts": contact.map(|(counts, _)| counts.cuts),
+        "pairs": pairs.collect::<Vec<_>>(),
+        "stages": stages.collect::<Vec<_>>(),
+        "contacts_resolved": counts.map(|counts| counts.pushed),
+        "vertices_held": counts.map(|counts| counts.held),
+        "cuts": counts.map(|counts| counts.cuts),
         "blocked_steps": simulation.blocked_steps(),
         "lag_seconds": simulation.lag(),
         // Certified for cloth with whatever the scene's contact effects name; nobody looks if there are none.
@@ -280,6 +288,48 @@ fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
         }
     }
     rows
+}
+
+/// Every elementary test, its time and what it gets wrong: a part of `selvedge accuracy`.
+#[cfg(all(feature = "accuracy", feature = "files"))]
+#[must_use]
+pub fn elementary(accuracy: &ElementaryAccuracy) -> Value {
+    let sets = accuracy.sets.iter().map(|set| {
+        json!({
+            "set": set.name,
+            "scalar": set.scalar,
+            "vertex_face": set.vertex_face,
+            "edge_edge": set.edge_edge,
+            "touching": set.touching,
+            "with_time": set.with_time,
+        })
+    });
+    let rows = accuracy.sets.iter().flat_map(|set| {
+        set.rows.iter().map(|row| {
+            json!({
+                "set": set.name,
+                "scalar": set.scalar,
+                "method": row.method.name(),
+                "tolerance": row.method.tolerance(),
+                "certified": row.method.is_certified(),
+                "pairs": row.asked,
+                "touching": row.touching,
+                "nanoseconds_per_pair": row.nanoseconds,
+                "false_negatives": row.missed,
+                "late": row.late,
+                "latest": row.latest,
+                "false_positives": row.false_alarms,
+                "early_median": row.early,
+                "early_most": row.early.map(|_| row.earliest),
+            })
+        })
+    });
+    json!({
+        "seed": accuracy.options.seed,
+        "repeat": accuracy.options.repeat,
+        "sets": sets.collect::<Vec<_>>(),
+        "rows": rows.collect::<Vec<_>>(),
+    })
 }
 
 /// What every method said of the hard cases: `selvedge hard-cases`.

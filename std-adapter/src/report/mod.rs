@@ -17,21 +17,25 @@ mod paper;
 mod plot;
 mod recording;
 mod step;
+#[cfg(test)]
+mod svg_texts;
 mod table_svg;
 pub mod tables;
 
 pub use self::csv::{comparison_csv, contacts_csv, pairs_csv};
 #[cfg(feature = "accuracy")]
 pub use accuracy_svg::accuracy_svg;
+#[cfg(all(feature = "accuracy", feature = "files"))]
+pub use accuracy_svg::elementary_svg;
 pub use figure::{FIGURE_SIZE, FigureError, FigurePairs, figure_3};
 pub use findings::{Finding, findings};
 pub use paper::{PaperRow, paper_row};
 pub use plot::scaling_svg;
 pub use recording::{
-    About, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind,
+    About, Added, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind,
 };
 #[cfg(feature = "simulation")]
-pub use recording::{SimulationRecorder, Subject};
+pub use recording::{SimulationRecorder, Subject, added};
 pub use step::{StepQuestion, StepSummary};
 pub use table_svg::comparison_svg;
 

@@ -253,6 +253,7 @@ fn power_of_ten_time(seconds: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::svg_texts::texts;
     use super::*;
     use crate::pipeline::{PairCounts, StageReport, StepReport};
     use proptest::prelude::*;
@@ -286,16 +287,6 @@ mod tests {
                 seconds: stages.iter().map(|&(_, seconds)| seconds).sum(),
             },
         }
-    }
-
-    fn texts(svg: &str) -> Vec<String> {
-        let document = Document::parse(svg).unwrap();
-        let texts = document
-            .descendants()
-            .filter(|node| node.has_tag_name("text"));
-        texts
-            .map(|node| node.text().unwrap_or_default().trim().to_owned())
-            .collect()
     }
 
     fn has(svg: &str, wanted: &str) -> bool {

@@ -2,7 +2,7 @@
 
 use crate::mesh::Topology;
 use crate::pipeline::{Pipeline, Preset, StepReport};
-use crate::step::{CollisionDetector, Contact, StepTally};
+use crate::step::CollisionDetector;
 use selvedge_core::Scalar;
 
 /// What was asked of a step.
@@ -60,23 +60,19 @@ impl StepSummary {
         }
     }
 
-    /// A step of `detector`, which told these counts and times, and found this earliest contact.
+    /// A step of `detector` with what it counted, and the time of its earliest contact.
     #[must_use]
     pub fn of_detector<S: Scalar>(
         question: StepQuestion,
         detector: &CollisionDetector<S>,
-        tally: &StepTally,
-        earliest: Option<&Contact<S>>,
+        report: StepReport,
+        earliest: Option<f64>,
     ) -> Self {
-        let mut report = tally.report();
-        if question == StepQuestion::Candidates {
-            report.stages.clear();
-        }
         Self {
             question,
-            first_run_seconds: tally.seconds,
+            first_run_seconds: report.seconds,
             report,
-            earliest: earliest.map(|contact| contact.time.to_f64()),
+            earliest,
             ..Self::of_mesh::<S>(detector.topology(), detector.threads())
         }
     }

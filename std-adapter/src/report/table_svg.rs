@@ -446,6 +446,7 @@ fn round(length: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::svg_texts::texts;
     use super::*;
     use crate::study::MeanStage;
     use proptest::prelude::*;
@@ -508,16 +509,6 @@ mod tests {
         let rows = Preset::ALL.iter().enumerate();
         let rows = rows.map(|(index, &preset)| row(preset, scale / (1.0 + index as f64)));
         comparison("arm", rows.collect())
-    }
-
-    fn texts(svg: &str) -> Vec<String> {
-        let document = Document::parse(svg).unwrap();
-        let texts = document
-            .descendants()
-            .filter(|node| node.has_tag_name("text"));
-        texts
-            .map(|node| node.text().unwrap_or_default().trim().to_owned())
-            .collect()
     }
 
     fn fills(svg: &str, colour: &str) -> usize {

@@ -21,6 +21,7 @@ mod effects;
 mod plan;
 mod scene;
 mod simulator;
+mod sweeps;
 
 pub use checkpoint::CheckpointError;
 pub use contact::{Blocker, ContactCounts, ContactSeconds};

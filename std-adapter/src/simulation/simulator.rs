@@ -9,11 +9,12 @@
 //! **Finite whatever the scene says**: no constraint divides by what may vanish, and no vertex moves faster than
 //! [`FASTEST`].
 
-use super::checkpoint::{self, CheckpointError};
+use super::checkpoint::{Checkpoint, CheckpointError, Shape};
 use super::contact::{Blocker, Contact, ContactCounts, ContactSeconds, LARGEST_TURN};
 use super::plan::{Constraint, Entry, FREE, Force, Frame, Plan, StepInput, Touches};
 use super::scene::{OnBlocked, Pose, RigidMotion, Scene, World};
 use crate::mesh::{Mesh, TopologyError};
+use crate::parallel::{ThreadError, Threads};
 use selvedge_core::glam::DVec3;
 use std::time::Instant;
 
@@ -49,7 +50,7 @@ pub struct Simulation {
     effects: Vec<EffectTime>,
     on_blocked: OnBlocked,
     body_names: Vec<String>,
-    pool: Option<rayon::ThreadPool>,
+    threads: Threads,
     state: State,
     work: Work,
 }
@@ -110,13 +111,8 @@ pub enum SetupError {
     #[error("the scene starts with an intersection: {0} touches")]
     Touching(String),
     /// The operating system refused the threads.
-    #[error("cannot start {threads} threads: {source}")]
-    Threads {
-        /// How many were asked for.
-        threads: usize,
-        /// Why.
-        source: rayon::ThreadPoolBuildError,
-    },
+    #[error(transparent)]
+    Threads(#[from] ThreadError),
 }
 
 impl Simulation {
@@ -125,15 +121,7 @@ impl Simulation {
     /// # Errors
     /// If the operating system refuses the threads.
     pub fn new(scene: Scene, threads: usize) -> Result<Self, SetupError> {
-        let pool = match threads {
-            1 => None,
-            threads => Some(
-                rayon::ThreadPoolBuilder::new()
-                    .num_threads(threads)
-                    .build()
-                    .map_err(|source| SetupError::Threads { threads, source })?,
-            ),
-        };
+        let threads = Threads::new(threads)?;
         let Scene {
             name,
             cloth,
@@ -212,7 +200,7 @@ impl Simulation {
             forces,
             constraints,
             effects: times,
-            pool,
+            threads,
             state: State {
                 step: 0,
                 blocked_steps: 0,
@@ -325,13 +313,10 @@ impl Simulation {
     /// If bodies or pins force the cloth where it cannot go without intersecting, and the scene wants to stop then. What is
     /// done of the step stays.
     pub fn step(&mut self) -> Result<(), Blocked> {
-        // The pool is taken out so that it can run what borrows the rest.
-        let pool = self.pool.take();
-        let result = match &pool {
-            Some(pool) => pool.install(|| self.whole_step()),
-            None => self.whole_step(),
-        };
-        self.pool = pool;
+        // Taken out so that they can run what borrows the rest.
+        let threads = std::mem::take(&mut self.threads);
+        let result = threads.run(|| self.whole_step());
+        self.threads = threads;
         result
     }
 
@@ -369,30 +354,45 @@ impl Simulation {
         Ok(())
     }
 
-    /// All that the rest of the simulation depends on, every [`CHECKPOINT_STEPS`] steps; `None` in between.
+    /// All that the rest of the simulation depends on, and what has been measured so far, every [`CHECKPOINT_STEPS`] steps;
+    /// `None` in between.
     #[must_use]
     pub fn checkpoint(&self) -> Option<Vec<u8>> {
-        let yielding = self.contact.as_ref().map_or(&[][..], Contact::yielding);
-        self.state
-            .step
-            .is_multiple_of(CHECKPOINT_STEPS)
-            .then(|| checkpoint::write(self.fingerprint, &self.state, yielding))
+        if !self.state.step.is_multiple_of(CHECKPOINT_STEPS) {
+            return None;
+        }
+        let mut checkpoint = Checkpoint {
+            state: self.state.clone(),
+            effects: self.effects.iter().map(|effect| effect.seconds).collect(),
+            ..Checkpoint::default()
+        };
+        if let Some(contact) = &self.contact {
+            checkpoint.yielding = contact.yielding().to_vec();
+            (checkpoint.counts, checkpoint.stages) = (contact.counts, contact.stages);
+        }
+        Some(checkpoint.write(self.fingerprint))
     }
 
-    /// Goes on from a checkpoint of the same scene: with the same bits as if it had never ended.
+    /// Goes on from a checkpoint of the same scene: with the same bits as if it had never ended. Counters and times go on as well.
     ///
     /// # Errors
     /// If it is not a checkpoint, is damaged, or is one of another scene; then nothing has changed.
     pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), CheckpointError> {
-        let (state, yielding) =
-            checkpoint::read(checkpoint, self.fingerprint, self.state.positions.len())?;
+        let shape = Shape {
+            vertices: self.state.positions.len(),
+            yielding: self.contact.as_ref().map_or(0, |c| c.yielding().len()),
+            effects: self.effects.len(),
+        };
+        let checkpoint = Checkpoint::read(checkpoint, self.fingerprint, shape)?;
         if let Some(contact) = &mut self.contact {
-            if !contact.set_yielding(yielding) {
-                return Err(CheckpointError::Damaged);
-            }
-            contact.refresh(&state.positions);
+            contact.set_yielding(&checkpoint.yielding);
+            contact.refresh(&checkpoint.state.positions);
+            (contact.counts, contact.stages) = (checkpoint.counts, checkpoint.stages);
         }
-        self.state = state;
+        for (effect, seconds) in self.effects.iter_mut().zip(checkpoint.effects) {
+            effect.seconds = seconds;
+        }
+        self.state = checkpoint.state;
         Ok(())
     }
 
@@ -429,10 +429,9 @@ impl Simulation {
     }
 
     fn described(&self, blocker: Blocker) -> Blocked {
-        let [a, b, c, d] = blocker.vertices;
         Blocked {
             time: blocker.time,
-            what: format!("the {} pair of vertices {a}, {b}, {c}, {d}", blocker.kind),
+            what: blocker.pair(),
             body: blocker.body.map(|body| self.body_names[body].clone()),
         }
     }

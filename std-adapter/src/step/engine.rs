@@ -1,6 +1,7 @@
 //! The stages joined, on the threads of whoever calls.
 
 use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
+use super::given::PrimitiveBoxes;
 use super::{Bound, CandidateBoxes, Contact, Question, Wanted, power_of_two, widened};
 use crate::PairKind;
 use crate::broad_phase::buffer::settle;
@@ -14,6 +15,7 @@ use crate::pipeline::{Stage, StageReport, StepReport};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
 use std::cmp::Ordering;
+use std::sync::atomic::{self, AtomicBool};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -39,13 +41,15 @@ pub(super) const PROBES: [Probe; 2] = [Probe { until: 1.0 / 16.0 }, Probe::WHOLE
 /// What a step counted, and its seconds. With several threads the seconds of stages are sums over them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepTally {
-    /// Pairs that moving boxes leave.
+    /// The caller's own pairs, if it has brought some.
+    pub given: PairCounts,
+    /// Pairs that moving boxes leave, of a caller's pairs as well.
     pub candidates: PairCounts,
     /// Those that may become coplanar.
     pub filtered: PairCounts,
     /// Contacts.
     pub contacts: PairCounts,
-    /// Boxes, refit or build, traversal.
+    /// Boxes, refit or build, traversal; for a caller's pairs, boxes and their comparison.
     pub broad_phase_seconds: f64,
     /// The certified non-coplanarity filter.
     pub filter_seconds: f64,
@@ -57,7 +61,8 @@ pub struct StepTally {
 
 impl StepTally {
     /// The same as the stages of a method.
-    pub(crate) fn report(&self) -> StepReport {
+    #[must_use]
+    pub fn report(&self) -> StepReport {
         let stage = |stage, survivors, seconds| StageReport {
             stage,
             survivors,
@@ -75,6 +80,24 @@ impl StepTally {
             seconds: self.seconds,
         }
     }
+
+    /// The same of a caller's pairs that a broad phase has found in so many seconds.
+    #[must_use]
+    pub fn report_after(&self, broad_phase_seconds: f64) -> StepReport {
+        let mut report = self.report();
+        let boxes = StageReport {
+            stage: Stage::RelativeBoxes,
+            survivors: self.candidates,
+            seconds: self.broad_phase_seconds,
+        };
+        report.stages.insert(0, boxes);
+        StepReport {
+            broad_phase_pairs: Some(self.given),
+            broad_phase_seconds,
+            seconds: broad_phase_seconds + self.seconds,
+            ..report
+        }
+    }
 }
 
 /// See the [module](super).
@@ -87,6 +110,7 @@ pub(crate) struct Engine<S: Scalar> {
     spaces: Vec<Mutex<Space>>,
     /// The motion of each vertex as the mesh numbers them, for pairs of the caller's.
     rows: Rows,
+    boxes: PrimitiveBoxes,
     tally: StepTally,
 }
 
@@ -95,6 +119,8 @@ pub(crate) struct Engine<S: Scalar> {
 struct Space {
     scratch: Scratch,
     chunk: Chunk,
+    /// A caller's pairs that boxes leave.
+    near: Vec<[u32; 2]>,
 }
 
 /// One share of the work.
@@ -124,6 +150,7 @@ impl<S: Scalar> Engine<S> {
             workers: Vec::new(),
             spaces: Vec::new(),
             rows: Rows::default(),
+            boxes: PrimitiveBoxes::default(),
             tally: StepTally::default(),
         }
     }
@@ -203,7 +230,7 @@ impl<S: Scalar> Engine<S> {
             worker.tests = 0;
             let has_enough = question.wanted == Wanted::Any && bound.is_lowered();
             if !has_enough {
-                let Space { scratch, chunk } = &mut *own_space(spaces);
+                let Space { scratch, chunk, .. } = &mut *own_space(spaces);
                 chunk.clear();
                 let mut sink = ChunkSink {
                     chunk,
@@ -241,9 +268,11 @@ impl<S: Scalar> Engine<S> {
         let hierarchies = &self.broad_phase.hierarchies;
         let topology = hierarchies.topology();
         check_frames::<S>(start, end, topology.vertex_count())?;
-        check_pairs(topology, pairs)?;
         self.rows.set::<S>(start, end);
         self.rows.narrow();
+        let separation = S::from_f64(question.limits.separation);
+        self.boxes.fit::<S>(topology, start, end, separation);
+        let update = begin.elapsed().as_secs_f64();
 
         let shares = match parallel::threads() {
             1 => 1,
@@ -259,6 +288,8 @@ impl<S: Scalar> Engine<S> {
             question: *question,
             bound: &bound,
         };
+        let boxes = &self.boxes;
+        let is_strange = AtomicBool::new(false);
         parallel::for_each(&mut self.workers, |index, worker| {
             let begin = Instant::now();
             let (kind, index) = match index.checked_sub(shares) {
@@ -269,15 +300,26 @@ impl<S: Scalar> Engine<S> {
             let place = |index: usize| pairs.len() * index / shares;
             worker.kind = kind;
             worker.found.clear();
-            let Space { chunk, .. } = &mut *own_space(spaces);
+            let Space { chunk, near, .. } = &mut *own_space(spaces);
             chunk.clear();
             for pairs in pairs[place(index)..place(index + 1)].chunks(CHUNK) {
-                chunk.take(&step, kind, pairs, &mut worker.found);
+                if boxes.keep_near(step.level, kind, pairs, near).is_none() {
+                    is_strange.store(true, atomic::Ordering::Relaxed);
+                    return;
+                }
+                chunk.take(&step, kind, near, &mut worker.found);
             }
             chunk.finish(&step, kind, &mut worker.found);
             worker.seconds = begin.elapsed().as_secs_f64();
         });
-        self.count(begin, 0.0);
+        if is_strange.into_inner() {
+            check_pairs(topology, pairs)?;
+        }
+        self.count(begin, update);
+        self.tally.given = PairCounts {
+            vertex_face: pairs[0].len() as u64,
+            edge_edge: pairs[1].len() as u64,
+        };
         Ok(())
     }
 
@@ -416,6 +458,7 @@ fn spaces_for_threads(spaces: &mut Vec<Mutex<Space>>) -> &[Mutex<Space>] {
         Mutex::new(Space {
             scratch: Scratch::new(),
             chunk: Chunk::new(),
+            near: Vec::with_capacity(CHUNK),
         })
     };
     if spaces.len() < parallel::threads() {

@@ -50,9 +50,11 @@ impl Frames for ArmFrames {
         self.steps
     }
 
-    fn positions(&self, frame: usize, positions: &mut Vec<DVec3>) {
-        positions.resize(self.topology().vertex_count(), DVec3::ZERO);
-        let time = frame as f64 / self.steps as f64;
-        self.scene.write_positions(time.min(1.0), positions);
+    fn step(&self, step: usize, start: &mut Vec<DVec3>, end: &mut Vec<DVec3>) {
+        for (frame, positions) in [(step, start), (step + 1, end)] {
+            positions.resize(self.topology().vertex_count(), DVec3::ZERO);
+            let time = frame as f64 / self.steps as f64;
+            self.scene.write_positions(time.min(1.0), positions);
+        }
     }
 }

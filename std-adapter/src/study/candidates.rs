@@ -16,19 +16,18 @@ pub struct StepCandidates {
     pub edge_edge: Vec<[u32; 2]>,
 }
 
-/// The candidates of `preset` in the step that leads from `frame` to the next.
+/// The candidates of `preset` in a step of `frames`.
 ///
 /// # Errors
 /// If threads cannot be started or a frame is not finite.
 pub fn step_candidates(
     frames: &impl Frames,
-    frame: usize,
+    step: usize,
     preset: Preset,
     threads: usize,
 ) -> Result<StepCandidates, Box<dyn Error + Send + Sync>> {
     let (mut start, mut end) = (Vec::new(), Vec::new());
-    frames.positions(frame, &mut start);
-    frames.positions(frame + 1, &mut end);
+    frames.step(step, &mut start, &mut end);
     let mut pipeline = Pipeline::<f64>::new(frames.topology().clone(), preset.stages(), threads)?;
     pipeline.keep_candidates(true);
     pipeline.step(&start, &end)?;
@@ -39,7 +38,7 @@ pub fn step_candidates(
     })
 }
 
-/// The frame at the start of the step in which `preset` leaves the most candidates; the earliest of several.
+/// The step in which `preset` leaves the most candidates; the earliest of several.
 ///
 /// # Errors
 /// If threads cannot be started or a frame is not finite.
@@ -50,15 +49,13 @@ pub fn busiest_step(
 ) -> Result<usize, Box<dyn Error + Send + Sync>> {
     let mut pipeline = Pipeline::<f64>::new(frames.topology().clone(), preset.stages(), threads)?;
     let (mut start, mut end) = (Vec::new(), Vec::new());
-    frames.positions(0, &mut start);
     let mut busiest = (0, 0);
-    for frame in 0..frames.step_count() {
-        frames.positions(frame + 1, &mut end);
+    for step in 0..frames.step_count() {
+        frames.step(step, &mut start, &mut end);
         let candidates = pipeline.step(&start, &end)?.candidates().total();
         if candidates > busiest.1 {
-            busiest = (frame, candidates);
+            busiest = (step, candidates);
         }
-        std::mem::swap(&mut start, &mut end);
     }
     Ok(busiest.0)
 }

@@ -110,10 +110,9 @@ pub fn compare(
     let mut exact =
         Pipeline::<f64>::new(topology.clone(), Preset::SelvedgeExact.stages(), threads)?;
     let (mut start, mut end) = (Vec::new(), Vec::new());
-    frames.positions(0, &mut start);
     let steps = frames.step_count();
     for step in 0..steps {
-        frames.positions(step + 1, &mut end);
+        frames.step(step, &mut start, &mut end);
         let mut fastest: Vec<Option<StepReport>> = vec![None; methods.len()];
         for round in 0..rounds {
             for (method, fastest) in methods.iter_mut().zip(&mut fastest) {
@@ -133,7 +132,6 @@ pub fn compare(
             method.total.add(&report.unwrap_or_default());
             method.missed += missing(&touching, &touching_pairs(method.pipeline.contacts()));
         }
-        std::mem::swap(&mut start, &mut end);
     }
     Ok(Comparison {
         name: frames.name(),

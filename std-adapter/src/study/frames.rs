@@ -1,18 +1,19 @@
-//! A mesh in motion, frame by frame.
+//! A mesh in motion, step by step.
 
 use crate::glam::DVec3;
 use crate::mesh::Topology;
 
-/// A sequence of frames of one mesh; a step leads from each frame to the next.
+/// Steps of one mesh, each from one frame to another. A step need not begin where the one before ends.
 pub trait Frames {
     /// What the motion is called in reports: a scene's name, or the files.
     fn name(&self) -> String;
     /// The mesh.
     fn topology(&self) -> &Topology;
-    /// How many steps there are: one less than frames.
+    /// How many steps there are.
     fn step_count(&self) -> usize;
-    /// Replaces `positions` by those of frame 0 to [`step_count`](Self::step_count), in the caller's length unit.
-    fn positions(&self, frame: usize, positions: &mut Vec<DVec3>);
+    /// Replaces `start` and `end` by the positions before and after a step, which is below
+    /// [`step_count`](Self::step_count), in the caller's length unit.
+    fn step(&self, step: usize, start: &mut Vec<DVec3>, end: &mut Vec<DVec3>);
 }
 
 /// One step from one frame to another.
@@ -41,7 +42,8 @@ impl Frames for TwoFrames {
         1
     }
 
-    fn positions(&self, frame: usize, positions: &mut Vec<DVec3>) {
-        positions.clone_from(if frame == 0 { &self.start } else { &self.end });
+    fn step(&self, _: usize, start: &mut Vec<DVec3>, end: &mut Vec<DVec3>) {
+        start.clone_from(&self.start);
+        end.clone_from(&self.end);
     }
 }

@@ -52,7 +52,7 @@ pub fn ask_hard_cases<S: Scalar>(name: &str, progress: &mut dyn FnMut(f64)) -> V
 }
 
 /// The case's points as `S`, if that changes none of them.
-fn exactly<S: Scalar>(case: &HardCase) -> Option<[Motion<S>; 4]> {
+pub(super) fn exactly<S: Scalar>(case: &HardCase) -> Option<[Motion<S>; 4]> {
     let convert = |position: DVec3| {
         let converted = position.to_array().map(S::from_f64);
         let is_same = |(old, new): (f64, S)| old == new.to_f64() || old.is_nan();

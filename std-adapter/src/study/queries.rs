@@ -44,6 +44,8 @@ pub enum QueryMethod {
     Dop18,
     /// [`elementary::cubic`], Provot's test. **Not certified**: it misses contacts.
     Cubic,
+    /// [`elementary::bernstein_sign`], Tang et al. 2014 without exact arithmetic. **Not certified**: it misses contacts.
+    BernsteinSign,
     /// [`elementary::tight_inclusion`], the bisection of Wang et al. 2021, with their default tolerance of 1e-6.
     TightInclusion,
     /// [`elementary::additive`], Li et al. 2021. **Not certified.**
@@ -52,7 +54,7 @@ pub enum QueryMethod {
 
 impl QueryMethod {
     /// Every method, ours first.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Selvedge,
         Self::Exact,
         Self::TimeOfImpact,
@@ -64,6 +66,7 @@ impl QueryMethod {
         Self::SegmentBox,
         Self::Dop18,
         Self::Cubic,
+        Self::BernsteinSign,
         Self::TightInclusion,
         Self::Additive,
     ];
@@ -83,6 +86,7 @@ impl QueryMethod {
             Self::SegmentBox => "segment_box",
             Self::Dop18 => "dop_18",
             Self::Cubic => "cubic",
+            Self::BernsteinSign => "bernstein_sign",
             Self::TightInclusion => "tight_inclusion",
             Self::Additive => "additive",
         }
@@ -116,7 +120,7 @@ impl QueryMethod {
     #[must_use]
     pub fn is_certified(self) -> bool {
         match self {
-            Self::NonCoplanarityPlain | Self::Cubic | Self::Additive => false,
+            Self::NonCoplanarityPlain | Self::Cubic | Self::BernsteinSign | Self::Additive => false,
             Self::Selvedge => {
                 SELVEDGE.elementary.is_certified()
                     && SELVEDGE.tests.iter().all(|test| test.is_certified())
@@ -132,26 +136,17 @@ impl fmt::Display for QueryMethod {
     }
 }
 
-/// A name that no method has, or not yet.
+/// A name that no method has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{problem}; choose from {list}", list = QueryMethod::ALL.map(QueryMethod::name).join(", "))]
-pub struct UnknownMethod {
-    problem: String,
-}
+#[error("there is no method `{0}`; choose from {list}", list = QueryMethod::ALL.map(QueryMethod::name).join(", "))]
+pub struct UnknownMethod(String);
 
 impl FromStr for QueryMethod {
     type Err = UnknownMethod;
 
     fn from_str(name: &str) -> Result<Self, UnknownMethod> {
         let known = Self::ALL.into_iter().find(|method| method.name() == name);
-        known.ok_or_else(|| UnknownMethod {
-            problem: match name {
-                "bernstein_sign" => {
-                    format!("the method `{name}` is planned, but not there yet")
-                }
-                _ => format!("there is no method `{name}`"),
-            },
-        })
+        known.ok_or_else(|| UnknownMethod(name.to_owned()))
     }
 }
 
@@ -245,6 +240,9 @@ fn measure<S: Scalar, P: QueryPair<S>>(mut run: Run<'_, S::Vector>) -> QueryResu
         QueryMethod::SegmentBox => run.with(|pair: &P| keeps(Test::SegmentBox, pair)),
         QueryMethod::Dop18 => run.with(|pair: &P| keeps(Test::StoredDop18, pair)),
         QueryMethod::Cubic => run.with(|pair: &P| pair.cubic().is_some()),
+        QueryMethod::BernsteinSign => {
+            run.with(|pair: &P| elementary::bernstein_sign::touches(pair))
+        }
         QueryMethod::TightInclusion => {
             let limits = Limits {
                 tolerance: S::from_f64(1e-6),
@@ -522,15 +520,10 @@ mod tests {
 
     #[test]
     fn an_unknown_name_is_told_the_known_ones() {
-        for (name, says) in [
-            ("bernstein_sign", "not there yet"),
-            ("quartic", "no method"),
-        ] {
-            let message = name.parse::<QueryMethod>().unwrap_err().to_string();
-            assert!(
-                message.contains(says) && message.contains("dop_18, cubic"),
-                "{message}"
-            );
-        }
+        let message = "quartic".parse::<QueryMethod>().unwrap_err().to_string();
+        assert!(
+            message.contains("no method `quartic`") && message.contains("dop_18, cubic"),
+            "{message}"
+        );
     }
 }

@@ -17,20 +17,19 @@ pub struct ScalingPoint {
     pub step: StepReport,
 }
 
-/// Runs the step of `frames` that starts at `frame`, `rounds` times after a first run that builds.
+/// Runs one step of `frames`, `rounds` times after a first run that builds.
 ///
 /// # Errors
 /// If threads cannot be started or a frame is not finite.
 pub fn measure_size(
     frames: &impl Frames,
-    frame: usize,
+    step: usize,
     preset: Preset,
     threads: usize,
     rounds: usize,
 ) -> Result<ScalingPoint, Box<dyn Error + Send + Sync>> {
     let (mut start, mut end) = (Vec::new(), Vec::new());
-    frames.positions(frame, &mut start);
-    frames.positions(frame + 1, &mut end);
+    frames.step(step, &mut start, &mut end);
     let begin = std::time::Instant::now();
     let mut pipeline = Pipeline::<f64>::new(frames.topology().clone(), preset.stages(), threads)?;
     let setup_seconds = begin.elapsed().as_secs_f64();

@@ -4,7 +4,18 @@ use crate::support::{Workplace, keys};
 use serde_json::Value;
 
 /// Small enough for a test.
-const SHORT: [&str; 5] = ["accuracy", "--pairs", "1500", "--repeat", "1"];
+const SHORT: [&str; 7] = [
+    "accuracy", "--only", "filters", "--pairs", "1500", "--repeat", "1",
+];
+const ELEMENTARY: [&str; 7] = [
+    "accuracy",
+    "--only",
+    "elementary",
+    "--pairs",
+    "300",
+    "--repeat",
+    "1",
+];
 
 fn rows(document: &Value) -> &Vec<Value> {
     document["rows"].as_array().unwrap()
@@ -154,4 +165,70 @@ fn files_are_written_and_the_table_printed() {
     ] {
         assert!(plot.contains(label), "{label}");
     }
+}
+
+#[test]
+fn elementary_tests_are_measured_at_every_tolerance_and_the_unsafe_ones_are_caught() {
+    let place = Workplace::with_step();
+    let outputs = [
+        "start.obj",
+        "end.obj",
+        "--json=rows.json",
+        "--elementary-svg",
+        "plot.svg",
+    ];
+    let text = place.stdout(&[&ELEMENTARY[..], &outputs].concat());
+    assert!(text.contains("without_bounds!") && text.contains("! not certified"));
+    assert!(
+        !text.contains("certified!") && !text.contains("exact!"),
+        "{text}"
+    );
+    let document: Value = serde_json::from_str(&place.read("rows.json")).unwrap();
+    assert_eq!(keys(&document), ["elementary"]);
+    let document = &document["elementary"];
+    // Hard cases, arm, step, nearly coplanar pairs, in two formats.
+    assert_eq!(document["sets"].as_array().unwrap().len(), 8);
+    assert_eq!(rows(document).len(), 8 * 25);
+    let mut wrong = 0.0;
+    for row in rows(document) {
+        let mistakes = at(row, "false_negatives") + at(row, "late");
+        if row["certified"] == true {
+            assert_eq!(mistakes, 0.0, "{row}");
+        }
+        if row["method"] == "exact" {
+            assert_eq!(row["false_positives"], 0, "{row}");
+        }
+        wrong += mistakes;
+    }
+    assert!(wrong > 100.0, "{wrong}");
+    let step = |row: &&Value| row["set"] == "start to end" && row["scalar"] == "f64";
+    let mut step = rows(document).iter().filter(step);
+    // Three vertices go through a face.
+    assert!(step.all(|row| row["touching"].as_u64() <= Some(3)));
+    let plot = place.read("plot.svg");
+    for label in [
+        "Hard cases, f32",
+        "Arm scene, f64",
+        "certified 1e-9",
+        "cubic",
+    ] {
+        assert!(plot.contains(label), "{label}");
+    }
+    assert!(!plot.contains("NaN"));
+}
+
+#[test]
+fn without_only_one_document_has_both_parts_and_a_plot_needs_its_part() {
+    let place = Workplace::new();
+    let short = ["accuracy", "--pairs", "100", "--repeat", "1", "--json"];
+    let document = place.json(&short);
+    assert_eq!(
+        keys(&document),
+        ["seed", "repeat", "separation", "sets", "rows", "elementary"]
+    );
+    let message = place.refusal(1, &[&SHORT[..], &["--elementary-svg", "a.svg"]].concat());
+    assert!(
+        message.contains("--elementary-svg needs what --only leaves out"),
+        "{message}"
+    );
 }

@@ -9,18 +9,20 @@ const SHORT: [&str; 4] = ["--steps", "2", "--rounds", "1"];
 const REPORT: [&str; 3] = ["comparison.csv", "comparison.svg", "figure-3.png"];
 
 #[test]
-fn the_main_job_compares_every_method_and_writes_its_report() {
+fn the_main_job_simulates_the_sleeve_compares_every_method_and_writes_its_report() {
     let place = Workplace::new();
     let text = place.stdout(&SHORT);
+    assert!(text.starts_with("arm sleeve: 1,500 steps in "), "{text}");
+    assert!(text.contains("arm sleeve, 2 of its 1500 simulated steps"));
     for preset in Preset::ALL {
         assert!(text.contains(preset.name()), "{preset} is missing");
     }
     assert!(text.contains("693 vertices") && text.contains("1,345 triangles"));
     let written = REPORT.map(|name| format!("selvedge-out/{name}"));
-    assert_eq!(
-        place.listing(),
-        [&["selvedge-out".to_owned()][..], &written].concat()
-    );
+    let first = ["selvedge-out", "selvedge-out/arm-sleeve.html"].map(str::to_owned);
+    assert_eq!(place.listing(), [&first[..], &written].concat());
+    let page = place.read("selvedge-out/arm-sleeve.html");
+    assert!(page.contains("<h1>arm sleeve</h1>"));
     let picture = std::fs::read(place.path("selvedge-out/figure-3.png")).unwrap();
     assert_eq!(&picture[..8], b"\x89PNG\r\n\x1a\n");
     assert!(place.read("selvedge-out/comparison.svg").contains("</svg>"));
@@ -30,7 +32,7 @@ fn the_main_job_compares_every_method_and_writes_its_report() {
 fn the_main_job_takes_another_folder() {
     let place = Workplace::new();
     place.stdout(&[&SHORT[..], &["--output", "a/b"]].concat());
-    assert_eq!(place.listing().len(), 2 + REPORT.len());
+    assert_eq!(place.listing().len(), 3 + REPORT.len());
     assert!(place.path("a/b/comparison.csv").exists());
 }
 
@@ -107,6 +109,43 @@ fn two_meshes_are_compared_as_one_step() {
     assert_eq!(rows.len(), Preset::ALL.len());
     for row in rows {
         assert_eq!(row["vertex_face"]["contacts"], 3.0, "{row}");
+    }
+}
+
+#[test]
+fn a_scene_is_simulated_and_compared_on_steps_of_its_own() {
+    let place = Workplace::new();
+    place.write(
+        "sheet.toml",
+        r#"
+        name = "falling sheet"
+        time_step = "5 ms"
+        duration = "0.1 s"
+        [cloth]
+        shape = "sheet"
+        sides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }
+        cells = [8, 8]
+        density = "200 g/m2"
+        [effects.gravity]
+        [effects.self_collision]
+        thickness = "5 mm"
+        "#,
+    );
+    let arguments = ["compare", "sheet.toml", "--json", "--steps", "4"];
+    let document = place.json(&arguments);
+    assert_eq!(
+        (&document["steps"], &document["triangles"]),
+        (&4.into(), &128.into())
+    );
+    let name = "falling sheet, 4 of its 20 simulated steps";
+    assert_eq!(document["scene"], name);
+    // More steps than the scene has: all of them.
+    let document = place.json(&["compare", "sheet.toml", "--json", "--steps", "99"]);
+    assert_eq!(document["steps"], 20);
+    for row in document["rows"].as_array().unwrap() {
+        assert_eq!(row["missed"], 0.0, "{row}");
+        // What the simulation has certified no method may find.
+        assert_eq!(row["vertex_face"]["contacts"], 0.0, "{row}");
     }
 }
 

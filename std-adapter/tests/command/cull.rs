@@ -297,3 +297,38 @@ fn an_older_output_file_is_replaced() {
     place.stdout(&with(&["--pairs", "out.csv"]));
     assert!(place.read("out.csv").starts_with("kind,"));
 }
+
+#[test]
+fn pairs_whose_swept_boxes_overlap_go_through_all_later_stages() {
+    let place = Workplace::with_step();
+    let usual = place.json(&with(&["--json"]));
+    for pipeline in ["selvedge", "selvedge_exact"] {
+        let swept = [
+            "--swept-boxes",
+            "--pipeline",
+            pipeline,
+            "--json",
+            "--pairs",
+            "out.csv",
+        ];
+        let document = place.json(&with(&swept));
+        assert_eq!(document["pipeline"], pipeline);
+        assert_eq!(document["contacts"], usual["contacts"]);
+        let stages: Vec<_> = document["stages"].as_array().unwrap().iter().collect();
+        let names: Vec<_> = stages.iter().map(|stage| &stage["stage"]).collect();
+        assert_eq!(
+            names,
+            [
+                "broad-phase",
+                "relative-boxes",
+                "non-coplanarity",
+                "elementary"
+            ]
+        );
+        let pairs = |index: usize| stages[index]["vertex_face"].as_u64();
+        assert!(pairs(0) >= pairs(1) && pairs(1) >= pairs(2) && pairs(3) == Some(3));
+        assert_eq!(place.read("out.csv").lines().count(), 4);
+    }
+    let message = place.refusal(1, &with(&["--swept-boxes", "--pipeline", "lv_2014"]));
+    assert!(message.contains("--swept-boxes"), "{message}");
+}

@@ -72,6 +72,36 @@ fn json_names_exactly_the_effects_that_the_scene_calls_for() {
 }
 
 #[test]
+fn effects_one_by_one_has_a_row_for_each_and_one_without() {
+    let place = place();
+    let text = place.stdout(&["simulate", "sheet.toml", "--effects-one-by-one"]);
+    let names = [
+        "no effect",
+        "gravity",
+        "stretch",
+        "body_contact",
+        "self_collision",
+    ];
+    let (_, rows) = text.split_once("more than before").unwrap();
+    for name in names {
+        let named = rows.lines().filter(|line| line.starts_with(name));
+        assert_eq!(named.count(), 1, "{text}");
+    }
+    let page = place.read("selvedge-out/sheet.html");
+    assert!(page.contains("Effects added one at a time"));
+    let arguments = ["simulate", "sheet.toml", "--json", "--effects-one-by-one"];
+    let document = place.json(&arguments);
+    let costs = document["effects_one_by_one"].as_array().unwrap();
+    assert_eq!(costs.len(), names.len());
+    assert!(costs[0]["added"].is_null() && costs[4]["added"] == "self_collision");
+    assert!(
+        costs
+            .iter()
+            .all(|cost| cost["seconds_a_step"].as_f64() > Some(0.0))
+    );
+}
+
+#[test]
 fn without_contact_effects_no_stage_is_reported_and_nothing_is_promised() {
     let place = Workplace::new();
     let (without, _) = SCENE.split_once("[effects.body_contact]").unwrap();
@@ -156,6 +186,9 @@ fn a_resumed_run_ends_with_the_same_bits_on_any_number_of_threads() {
     // The first checkpoint is after 200 steps; the rest is run again.
     fs::remove_file(place.path("out/sheet-00010.ply")).unwrap();
     assert_eq!(whole, run(&["--resume"]));
+    // The report is of all of it.
+    let page = place.read("out/sheet.html");
+    assert!(page.contains("\"firstStep\":1,") && page.contains("\"steps\":500,"));
     assert_eq!(whole, run(&["--threads", "2"]));
 }
 

@@ -21,6 +21,9 @@ fn a_resumed_simulation_has_the_same_bits() {
     let checkpoint = whole.checkpoint().unwrap();
     let mut resumed = load("arm-sleeve.toml", fast, 1);
     resumed.resume(&checkpoint).unwrap();
+    // What was counted goes on as well.
+    assert_eq!(resumed.contact_counts(), whole.contact_counts());
+    assert_eq!(resumed.effects(), whole.effects());
     for _ in 0..150 {
         whole.step().unwrap();
         assert_eq!(whole.checkpoint(), None);

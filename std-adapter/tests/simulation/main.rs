@@ -2,6 +2,8 @@
 
 mod blocked;
 mod determinism;
+mod drape;
+mod energy;
 mod paying_only;
 mod stability;
 mod wrong_scenes;

@@ -161,6 +161,11 @@ fn twenty_mistakes_get_twenty_messages_that_say_what_to_do() {
             "s.toml:19:10: internal pressure needs a closed cloth, but this one has 40 open edges",
         ),
         (
+            "part = \"bottom-left\"",
+            "ball = { centre = [5, 0, 0], radius = 0.1 }",
+            "s.toml:31:8: no vertex of the cloth is in this group",
+        ),
+        (
             "[[effects.pins.group]]\npart = \"bottom-left\"",
             "[effects.pins]",
             "s.toml:30:1: pins need at least one [[effects.pins.group]]",

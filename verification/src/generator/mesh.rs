@@ -2,7 +2,9 @@
 
 use super::numbers::{exponent, finite, fraction};
 use super::pairs::{complexity, simpler_number};
-use super::{Choices, Format, Simplify};
+use super::{Choices, Format, PairCase, Simplify};
+use crate::oracle::Kind;
+use selvedge::PairKind;
 use selvedge::mesh::Topology;
 use std::fmt;
 
@@ -52,6 +54,21 @@ impl<S: Format> MeshCase<S> {
     #[must_use]
     pub fn topology(&self) -> Topology {
         Topology::new(self.positions.len(), self.triangles.clone()).expect("indices are in range")
+    }
+
+    /// Two primitives of the mesh by their indices in its `topology`.
+    ///
+    /// # Panics
+    /// If there are none with these indices.
+    #[must_use]
+    pub fn pair(&self, topology: &Topology, (kind, pair): (PairKind, [u32; 2])) -> PairCase<S> {
+        let points = kind
+            .vertices(pair, topology)
+            .map(|vertex| self.positions[vertex as usize]);
+        match kind {
+            PairKind::VertexFace => PairCase::new(Kind::VertexFace, points),
+            PairKind::EdgeEdge => PairCase::new(Kind::EdgeEdge, points),
+        }
     }
 
     /// Positions at time 0 (for `end` 0) or 1.

@@ -13,15 +13,19 @@ pub(crate) mod widths;
 
 use rug::Rational;
 
-/// A property of pairs of format `S`, and a test for each format. For the files that say `#[macro_use] mod support;`.
+/// A property of pairs of format `S`, or of other inputs, and a test for each format. For the files that say
+/// `#[macro_use] mod support;`.
 #[allow(unused_macros, reason = "each test file uses a part")]
 macro_rules! property {
     ($(#[$about:meta])* $name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
+        property!($(#[$about])* $name, $cases, $strategy, |$pair: PairCase| $property);
+    };
+    ($(#[$about:meta])* $name:ident, $cases:expr, $strategy:expr, |$input:ident: $type:ident| $property:expr) => {
         $(#[$about])*
         mod $name {
             use super::*;
 
-            fn holds<S: Format>($pair: &PairCase<S>) -> Result<(), TestCaseError> {
+            fn holds<S: Format>($input: &$type<S>) -> Result<(), TestCaseError> {
                 $property
             }
 

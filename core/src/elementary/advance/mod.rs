@@ -61,6 +61,7 @@ pub mod confirm;
 mod directions;
 #[cfg(test)]
 mod tests;
+pub mod uncertified;
 mod volume;
 
 use super::closest::{Closest, Feature, closest};
@@ -109,7 +110,7 @@ pub fn time_of_impact_within<S: Scalar, P: PrimitivePair<S>>(
     if !(from >= S::ZERO && from <= S::ONE && until >= from && until <= S::ONE) {
         return not_excluded(S::ZERO, Reason::NotFinite, Work::default()).0;
     }
-    advanced(pair, limits, [from, until]).0
+    advanced::<S, P, true>(pair, limits, [from, until]).0
 }
 
 /// [`time_of_impact`], and how much work it was.
@@ -118,12 +119,12 @@ pub fn time_of_impact_and_work<S: Scalar, P: PrimitivePair<S>>(
     pair: &P,
     limits: &Limits<S>,
 ) -> (Impact<S>, Work) {
-    advanced(pair, limits, [S::ZERO, S::ONE])
+    advanced::<S, P, true>(pair, limits, [S::ZERO, S::ONE])
 }
 
 /// From the first time of `span` to the second.
 #[inline(always)]
-fn advanced<S: Scalar, P: PrimitivePair<S>>(
+fn advanced<S: Scalar, P: PrimitivePair<S>, const IS_CERTIFIED: bool>(
     pair: &P,
     limits: &Limits<S>,
     span: [S; 2],
@@ -140,8 +141,14 @@ fn advanced<S: Scalar, P: PrimitivePair<S>>(
     }
     let points = pair.points();
     match P::Shape::SHAPE {
-        Shape::VertexFace => decide(&points, &Corners::of_vertex_face(&points), limits, span),
-        Shape::EdgeEdge => decide(&points, &Corners::of_edge_edge(&points), limits, span),
+        Shape::VertexFace => {
+            let corners = Corners::of_vertex_face(&points);
+            decide::<S, 3, IS_CERTIFIED>(&points, corners, limits, span)
+        }
+        Shape::EdgeEdge => {
+            let corners = Corners::of_edge_edge(&points);
+            decide::<S, 4, IS_CERTIFIED>(&points, corners, limits, span)
+        }
     }
 }
 
@@ -152,9 +159,9 @@ const fn not_excluded<S: Scalar>(time: S, reason: Reason, work: Work) -> (Impact
 
 /// Everything after the relative boxes.
 #[inline(always)]
-fn decide<S: Scalar, const N: usize>(
+fn decide<S: Scalar, const N: usize, const IS_CERTIFIED: bool>(
     points: &PairPoints<S>,
-    corners: &Corners<S, N>,
+    mut corners: Corners<S, N>,
     limits: &Limits<S>,
     span: [S; 2],
 ) -> (Impact<S>, Work) {
@@ -165,6 +172,10 @@ fn decide<S: Scalar, const N: usize>(
     if !(corners.are_in_range() && limits.separation <= largest_extent()) {
         return not_excluded(S::ZERO, Reason::OutOfRange, work);
     }
+    if !IS_CERTIFIED {
+        corners.forget_errors();
+    }
+    let corners = &corners;
     if limits.separation > S::ZERO && corners.are_beyond_along_an_axis(limits.separation) {
         return (Impact::Never, work);
     }

@@ -432,7 +432,7 @@ const SHARES: usize = 16;
 const VERTICES: usize = 1024;
 
 /// The box of all positions of both frames.
-fn extent<S: Scalar>(start: &[S::Vector], end: &[S::Vector]) -> Aabb<f64> {
+pub(crate) fn extent<S: Scalar>(start: &[S::Vector], end: &[S::Vector]) -> Aabb<f64> {
     let mut extent = Aabb::<f64>::empty();
     for &position in start.iter().chain(end) {
         let position: [S; 3] = position.into();

@@ -27,7 +27,7 @@ use selvedge_core::boxes::{Aabb, moving::MovingBox};
 
 /// How positions become boxes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Mapping {
+pub(crate) struct Mapping {
     origin: [f64; 3],
     /// Half of the separation.
     half: f64,
@@ -39,7 +39,7 @@ pub(super) struct Mapping {
 
 impl Mapping {
     /// For positions within the box. `until` is in (0, 1].
-    pub(super) fn new<S: Scalar>(
+    pub(crate) fn new<S: Scalar>(
         extent: &Aabb<f64>,
         separation: S,
         until: S,
@@ -55,7 +55,7 @@ impl Mapping {
 
     /// The box of one vertex that moves from `start` to `end`.
     #[inline]
-    pub(super) fn vertex<S: Scalar>(&self, start: [S; 3], end: [S; 3]) -> MovingBox<f32> {
+    pub(crate) fn vertex<S: Scalar>(&self, start: [S; 3], end: [S; 3]) -> MovingBox<f32> {
         let mut moving = MovingBox::empty();
         for axis in 0..3 {
             let from = start[axis].to_f64() - self.origin[axis];

@@ -42,7 +42,8 @@ mod rows;
 mod traversal;
 mod tree;
 
-pub(crate) use hierarchies::{Fit, Hierarchies, Share};
+pub(crate) use hierarchies::{Fit, Hierarchies, Share, extent};
+pub(crate) use mapping::Mapping;
 pub(crate) use pairs::{CHUNK, Sink};
 pub(crate) use rows::Rows;
 pub(crate) use traversal::Scratch;

@@ -1,8 +1,13 @@
 //! What accuracy costs in time, as a plot.
 
 mod axes;
+#[cfg(feature = "files")]
+mod elementary;
 mod marks;
 mod panel;
+
+#[cfg(feature = "files")]
+pub use elementary::elementary_svg;
 
 use super::table_svg::{FAINT_INK, FONT, INK, PAPER_WHITE, prose_width};
 use crate::study::{Accuracy, AccuracySet};

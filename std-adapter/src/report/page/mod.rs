@@ -75,6 +75,12 @@ pub fn html(recording: &Recording) -> String {
                             (tables::times(recording))
                         }
                     }
+                    @if !recording.added.is_empty() {
+                        section {
+                            h2 { "Effects added one at a time" }
+                            (tables::added(recording))
+                        }
+                    }
                     @if has(|kind| matches!(kind, SeriesKind::Gauge(_))) {
                         section {
                             h2 { "State" }

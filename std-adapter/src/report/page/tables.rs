@@ -101,6 +101,40 @@ pub(super) fn times(recording: &Recording) -> Markup {
     }
 }
 
+/// What a step costs with the first effect, with the first two, and so on: a bar each.
+pub(super) fn added(recording: &Recording) -> Markup {
+    let most = { recording.added.iter() }.fold(0.0, |most: f64, added| most.max(added.seconds));
+    let before = |index: usize| {
+        let before = index.checked_sub(1).map(|index| &recording.added[index]);
+        before.map(|before| recording.added[index].seconds - before.seconds)
+    };
+    html! {
+        p { "Each row is a simulation of its own, with all effects down to that row. The cloth moves otherwise without the rest, so a difference is not only the effect's own work." }
+        div.scroll { table {
+            thead { tr {
+                th scope="col" { "effect added" }
+                th scope="col" { "a step" }
+                th scope="col" { "" }
+                th scope="col" { "more than before" }
+            } }
+            tbody { @for (index, added) in recording.added.iter().enumerate() { tr {
+                th scope="row" { (added.name) }
+                td { (time(added.seconds)) }
+                td.share {
+                    @let share = if most > 0.0 { added.seconds / most } else { 0.0 };
+                    span.bar aria-hidden="true" style=(format!("--share:{share:.4}")) {}
+                }
+                td { (before(index).map_or_else(absent, signed_time)) }
+            } } }
+        } }
+    }
+}
+
+fn signed_time(seconds: f64) -> String {
+    let sign = if seconds < 0.0 { "−" } else { "+" };
+    format!("{sign}{}", time(seconds.abs()))
+}
+
 /// Quantities of the state.
 pub(super) fn gauges(recording: &Recording) -> Markup {
     let gauges = recording

@@ -43,7 +43,7 @@ mod tests;
 
 pub use recorder::{FrameError, Recorder};
 #[cfg(feature = "simulation")]
-pub use simulated::{SimulationRecorder, Subject};
+pub use simulated::{SimulationRecorder, Subject, added};
 
 use crate::mesh::Mesh;
 use selvedge_core::glam::DVec3;
@@ -69,6 +69,8 @@ pub struct Recording {
     pub series: Vec<Series>,
     /// How long the steps took by the clock on the wall, in seconds, if it is known.
     pub wall_seconds: Option<f64>,
+    /// What a step costs with the first of the effects, with the first two, and so on, if that was measured.
+    pub added: Vec<Added>,
     /// What else a reader must know, a sentence each: where the simulation was blocked, that it was interrupted.
     pub remarks: Vec<String>,
 }
@@ -86,6 +88,15 @@ pub struct About {
     pub time_step: f64,
     /// What trades time for accuracy.
     pub knobs: Vec<Knob>,
+}
+
+/// What a step costs with some of the effects.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Added {
+    /// The effect that was added last; "no effect" to begin with.
+    pub name: String,
+    /// Seconds a step, with all up to this one.
+    pub seconds: f64,
 }
 
 /// A setting that trades time for accuracy: the time step, a thickness, a tolerance.

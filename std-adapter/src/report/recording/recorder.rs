@@ -5,6 +5,7 @@
 //! simulation whose end nobody knows.
 
 use super::{About, Frame, Part, Recording, Series, SeriesKind};
+use crate::bytes::{Reader, put_block};
 use selvedge_core::glam::DVec3;
 
 /// More than a chart has pixels.
@@ -75,6 +76,7 @@ impl Recorder {
             steps_per_value: 1,
             series: named.collect(),
             wall_seconds: None,
+            added: Vec::new(),
             remarks: Vec::new(),
         };
         Self {
@@ -196,6 +198,93 @@ impl Recorder {
         recording.steps += 1;
     }
 
+    /// All that has been recorded in `seconds` by the clock on the wall, as bytes, to go on with after an interruption: see
+    /// [`restore`](Self::restore).
+    #[must_use]
+    pub fn save(&self, seconds: f64) -> Vec<u8> {
+        let recording = &self.recording;
+        let mut bytes = Vec::new();
+        bytes.extend((recording.vertex_count() as u64).to_le_bytes());
+        bytes.extend((recording.series.len() as u64).to_le_bytes());
+        bytes.extend(seconds.to_le_bytes());
+        let numbers = [
+            recording.steps,
+            recording.first_step,
+            recording.steps_per_value,
+            self.stride,
+            self.offered,
+        ];
+        bytes.extend(numbers.into_iter().flat_map(u64::to_le_bytes));
+        for frames in [&recording.frames[..], self.skipped.as_slice()] {
+            bytes.extend((frames.len() as u64).to_le_bytes());
+            for frame in frames {
+                bytes.extend(frame.step.to_le_bytes());
+                let coordinates = frame.positions.iter().flatten();
+                bytes.extend(coordinates.flat_map(|x| x.to_le_bytes()));
+            }
+        }
+        for (index, series) in recording.series.iter().enumerate() {
+            put_block(&mut bytes, series.name.as_bytes());
+            let numbers = [
+                self.readings[index],
+                series.total,
+                series.smallest,
+                series.largest,
+            ];
+            bytes.extend(numbers.into_iter().flat_map(f64::to_le_bytes));
+            bytes.extend((self.sums[index].len() as u64).to_le_bytes());
+            bytes.extend(self.sums[index].iter().flat_map(|sum| sum.to_le_bytes()));
+        }
+        bytes.extend((recording.remarks.len() as u64).to_le_bytes());
+        for remark in &recording.remarks {
+            put_block(&mut bytes, remark.as_bytes());
+        }
+        bytes
+    }
+
+    /// Goes on with what another recorder of the same parts and series has [saved](Self::save); returns its seconds. Counters must read
+    /// what they read then. `None`, and nothing has changed, if the bytes are damaged, or of other parts or series.
+    #[must_use]
+    pub fn restore(&mut self, bytes: &[u8]) -> Option<f64> {
+        let mut restored = self.clone();
+        let seconds = restored.read(&mut Reader(bytes))?;
+        *self = restored;
+        Some(seconds)
+    }
+
+    fn read(&mut self, reader: &mut Reader<'_>) -> Option<f64> {
+        let vertices = self.recording.vertex_count();
+        let same = |found: u64, own: usize| (found == own as u64).then_some(());
+        same(reader.u64()?, vertices)?;
+        same(reader.u64()?, self.recording.series.len())?;
+        let seconds = reader.f64()?;
+        let recording = &mut self.recording;
+        recording.steps = reader.u64()?;
+        recording.first_step = reader.u64()?;
+        recording.steps_per_value = reader.u64()?;
+        self.stride = reader.u64()?;
+        self.offered = reader.u64()?;
+        recording.frames = read_frames(reader, vertices)?;
+        self.skipped = read_frames(reader, vertices)?.pop();
+        for (index, series) in recording.series.iter_mut().enumerate() {
+            (reader.block()? == series.name.as_bytes()).then_some(())?;
+            self.readings[index] = reader.f64()?;
+            series.total = reader.f64()?;
+            series.smallest = reader.f64()?;
+            series.largest = reader.f64()?;
+            let count = reader.count(size_of::<f64>())?;
+            self.sums[index] = (0..count).map(|_| reader.f64()).collect::<Option<_>>()?;
+        }
+        recording.remarks.clear();
+        for _ in 0..reader.count(1)? {
+            let remark = String::from_utf8(reader.block()?.to_vec()).ok()?;
+            recording.remarks.push(remark);
+        }
+        let values = self.sums.iter().all(|sums| sums.len() <= MOST_VALUES);
+        let positive = recording.steps_per_value > 0 && self.stride > 0;
+        (values && positive && reader.0.is_empty()).then_some(seconds)
+    }
+
     /// Says something that a reader must know.
     pub fn remark(&mut self, sentence: impl Into<String>) {
         self.recording.remarks.push(sentence.into());
@@ -224,6 +313,20 @@ impl Recorder {
         }
         recording
     }
+}
+
+fn read_frames(reader: &mut Reader<'_>, vertices: usize) -> Option<Vec<Frame>> {
+    let frames = reader.count(size_of::<u64>())?;
+    let frame = |_| {
+        let step = reader.u64()?;
+        let position = |_| {
+            let position = [reader.f32()?, reader.f32()?, reader.f32()?];
+            is_finite(position).then_some(position)
+        };
+        let positions = (0..vertices).map(position).collect::<Option<_>>()?;
+        Some(Frame { step, positions })
+    };
+    (0..frames).map(frame).collect()
 }
 
 fn rounded(position: DVec3) -> [f32; 3] {

@@ -1,38 +1,25 @@
 //! Records a [`Simulation`].
 
-use super::{About, FrameError, Knob, Part, PartKind, Recorder, Recording, SeriesKind};
+use super::{About, Added, FrameError, Knob, Part, PartKind, Recorder, Recording, SeriesKind};
 use crate::mesh::Mesh;
-use crate::report::number;
-use crate::simulation::{ContactCounts, ContactSeconds, Scene, Simulation};
-use toml::de::{DeTable, DeValue};
-
-/// What contact counts, in the order of the data flow.
-const PAIRS: [&str; 3] = [
-    "candidate pairs",
-    "not settled by remembered directions",
-    "not free, repaired",
-];
-const EVENTS: [&str; 4] = [
-    "pairs pushed apart",
-    "vertices held",
-    "steps cut in half",
-    "steps blocked",
-];
-/// The stages that contact effects share.
-const STAGES: [&str; 4] = [
-    "candidate pairs",
-    "contact set-up",
-    "certificates",
-    "repairs",
-];
-/// Settings of effects that trade time for accuracy.
-const KNOBS: [&str; 3] = ["thickness", "separation", "sweeps"];
+use crate::simulation::{Scene, Simulation};
+use crate::study::EffectCost;
 
 /// What a recording says of a scene, taken before a [`Simulation`] consumes it.
 #[derive(Clone, Debug)]
 pub struct Subject {
     about: About,
     parts: Vec<Part>,
+}
+
+/// What was measured, for a [`Recording`]'s `added`.
+#[must_use]
+pub fn added(costs: &[EffectCost]) -> Vec<Added> {
+    let named = |cost: &EffectCost| Added {
+        name: cost.added.unwrap_or("no effect").to_owned(),
+        seconds: cost.seconds,
+    };
+    costs.iter().map(named).collect()
 }
 
 impl Subject {
@@ -44,7 +31,9 @@ impl Subject {
             scene: scene.text.clone(),
             up: scene.up,
             time_step: scene.time_step,
-            knobs: knobs(scene),
+            knobs: { scene.settings().into_iter() }
+                .map(|(name, value)| Knob::new(name, value))
+                .collect(),
         };
         let part = |name: &str, kind, mesh: &Mesh| {
             Part::new(name, kind, mesh.positions.len(), mesh.triangles.clone())
@@ -55,34 +44,6 @@ impl Subject {
         parts.extend(bodies);
         Self { about, parts }
     }
-}
-
-/// The time step, and settings of effects as the scene writes them.
-fn knobs(scene: &Scene) -> Vec<Knob> {
-    let mut knobs = vec![Knob::new("time step", number::time(scene.time_step))];
-    let root = DeTable::parse(&scene.text);
-    let effects = root
-        .as_ref()
-        .ok()
-        .and_then(|root| root.get_ref().get("effects"));
-    let Some(DeValue::Table(effects)) = effects.map(|effects| effects.get_ref()) else {
-        return knobs;
-    };
-    for (effect, settings) in effects {
-        let DeValue::Table(settings) = settings.get_ref() else {
-            continue;
-        };
-        for name in KNOBS {
-            let value = match settings.get(name).map(|value| value.get_ref()) {
-                Some(DeValue::String(text)) => text.to_string(),
-                Some(DeValue::Integer(number)) => number.to_string(),
-                Some(DeValue::Float(number)) => number.to_string(),
-                _ => continue,
-            };
-            knobs.push(Knob::new(format!("{}: {name}", effect.get_ref()), value));
-        }
-    }
-    knobs
 }
 
 /// A [`Recorder`] of a simulation: its effects, and its contacts if it looks for them, are the series.
@@ -98,15 +59,11 @@ impl SimulationRecorder {
     /// # Panics
     /// If the simulation is of another scene, with another number of vertices.
     pub fn new(subject: Subject, simulation: &Simulation) -> Result<Self, FrameError> {
-        let effects = simulation.effects().iter();
-        let mut series: Vec<_> = effects
-            .map(|effect| (effect.name, SeriesKind::Effect))
+        let counters = counters(simulation);
+        let series: Vec<_> = counters
+            .iter()
+            .map(|&(name, kind, _)| (name, kind))
             .collect();
-        if simulation.contact_counts().is_some() {
-            series.extend(PAIRS.map(|name| (name, SeriesKind::Pairs)));
-            series.extend(EVENTS.map(|name| (name, SeriesKind::Events)));
-            series.extend(STAGES.map(|name| (name, SeriesKind::Stage)));
-        }
         let Subject { about, parts } = subject;
         let recorder = Recorder::new(about, parts, &series, &readings(simulation));
         let mut recorder = Self(recorder);
@@ -128,6 +85,19 @@ impl SimulationRecorder {
             .frame(simulation.steps_done(), simulation.positions())
     }
 
+    /// All that has been recorded in `seconds` by the clock on the wall, as bytes.
+    #[must_use]
+    pub fn save(&self, seconds: f64) -> Vec<u8> {
+        self.0.save(seconds)
+    }
+
+    /// Goes on with what another recorder of the same simulation has [saved](Self::save); returns its seconds. `None`, and nothing has
+    /// changed, if the bytes are damaged, or of other series or another number of vertices.
+    #[must_use]
+    pub fn restore(&mut self, bytes: &[u8]) -> Option<f64> {
+        self.0.restore(bytes)
+    }
+
     /// Says something that a reader must know.
     pub fn remark(&mut self, sentence: impl Into<String>) {
         self.0.remark(sentence);
@@ -140,32 +110,30 @@ impl SimulationRecorder {
     }
 }
 
-/// The counters' readings, in the order of the series.
-fn readings(simulation: &Simulation) -> Vec<f64> {
+/// All that a simulation counts and measures: a series each.
+fn counters(simulation: &Simulation) -> Vec<(&'static str, SeriesKind, f64)> {
     let effects = simulation.effects().iter();
-    let mut readings: Vec<f64> = effects.map(|effect| effect.seconds).collect();
-    if let (Some(counts), Some(seconds)) =
-        (simulation.contact_counts(), simulation.contact_seconds())
-    {
-        let &ContactCounts {
-            candidates,
-            looked_at,
-            pushed,
-            violated,
-            held,
-            cuts,
-            ..
-        } = counts;
-        let blocked = simulation.blocked_steps();
-        let counted = [candidates, looked_at, violated, pushed, held, cuts, blocked];
-        readings.extend(counted.map(|count| count as f64));
-        let &ContactSeconds {
-            candidates,
-            rows,
-            certificates,
-            repairs,
-        } = seconds;
-        readings.extend([candidates, rows, certificates, repairs]);
+    let mut counters: Vec<_> = effects
+        .map(|effect| (effect.name, SeriesKind::Effect, effect.seconds))
+        .collect();
+    let mut add = |kind, named: &[(&'static str, f64)]| {
+        counters.extend(named.iter().map(|&(name, reading)| (name, kind, reading)));
+    };
+    let number = |(name, count)| (name, count as f64);
+    if let Some(counts) = simulation.contact_counts() {
+        add(SeriesKind::Pairs, &counts.pairs().map(number));
+        add(SeriesKind::Events, &counts.events().map(number));
+        let blocked = ("steps blocked", simulation.blocked_steps());
+        add(SeriesKind::Events, &[blocked].map(number));
     }
-    readings
+    if let Some(seconds) = simulation.contact_seconds() {
+        add(SeriesKind::Stage, &seconds.stages());
+    }
+    counters
+}
+
+/// In the order of the series.
+fn readings(simulation: &Simulation) -> Vec<f64> {
+    let counters = counters(simulation).into_iter();
+    counters.map(|(_, _, reading)| reading).collect()
 }

@@ -3,6 +3,8 @@
 #[cfg(feature = "accuracy")]
 mod accuracy;
 mod comparison;
+#[cfg(all(feature = "accuracy", feature = "files"))]
+mod elementary;
 #[cfg(feature = "files")]
 mod hard_cases;
 #[cfg(feature = "files")]
@@ -15,13 +17,15 @@ mod step;
 #[cfg(feature = "accuracy")]
 pub use accuracy::accuracy;
 pub use comparison::comparison;
+#[cfg(all(feature = "accuracy", feature = "files"))]
+pub use elementary::elementary;
 #[cfg(feature = "files")]
 pub use hard_cases::hard_cases;
 #[cfg(feature = "files")]
 pub use queries::queries;
 pub use scaling::scaling;
 #[cfg(feature = "simulation")]
-pub use simulation::simulation;
+pub use simulation::{effects_one_by_one, simulation};
 pub use step::step;
 
 use comfy_table::{CellAlignment, LineStyle, Row, Table, TableStyle};

@@ -1,12 +1,31 @@
 use super::table;
 use crate::report::number::{grouped, time};
 use crate::simulation::Simulation;
+use crate::study::EffectCost;
 
-/// A simulation from step `first` on, which took `seconds`.
+/// What a step costs with the first of the effects, with the first two, and so on.
 #[must_use]
-pub fn simulation(simulation: &Simulation, first: u64, seconds: f64) -> String {
-    let steps = simulation.steps_done() - first;
-    let per_step = |seconds: f64| time(seconds / steps.max(1) as f64);
+pub fn effects_one_by_one(costs: &[EffectCost]) -> String {
+    let mut before = None;
+    let rows = costs.iter().map(|cost| {
+        let more = before.map_or(0.0, |before| cost.seconds - before);
+        before = Some(cost.seconds);
+        let sign = if more < 0.0 { "−" } else { "+" };
+        [
+            cost.added.unwrap_or("no effect").to_owned(),
+            time(cost.seconds),
+            format!("{sign}{}", time(more.abs())),
+        ]
+    });
+    table(["effect added", "a step", "more than before"], rows)
+}
+
+/// A simulation that has taken `seconds` so far.
+#[must_use]
+pub fn simulation(simulation: &Simulation, seconds: f64) -> String {
+    let steps = simulation.steps_done();
+    let per_step =
+        |(name, seconds): (&str, f64)| [name.to_owned(), time(seconds / steps.max(1) as f64)];
     let mut text = format!(
         "{}: {} steps in {}, {} a second\n\n",
         simulation.name(),
@@ -15,31 +34,21 @@ pub fn simulation(simulation: &Simulation, first: u64, seconds: f64) -> String {
         grouped((steps as f64 / seconds) as u64),
     );
     let effects = simulation.effects().iter();
-    let effects = effects.map(|effect| [effect.name.to_owned(), per_step(effect.seconds)]);
-    let stages = simulation.contact_seconds().map(|seconds| {
-        [
-            ("candidate pairs", seconds.candidates),
-            ("contact set-up", seconds.rows),
-            ("certificates", seconds.certificates),
-            ("repairs", seconds.repairs),
-        ]
-        .map(|(stage, seconds)| [stage.to_owned(), per_step(seconds)])
-    });
-    let rows = effects.chain(stages.into_iter().flatten());
+    let mut rows: Vec<_> = effects
+        .map(|effect| per_step((effect.name, effect.seconds)))
+        .collect();
+    if let Some(seconds) = simulation.contact_seconds() {
+        rows.extend(seconds.stages().map(per_step));
+    }
     text += &table(["effect or stage", "a step"], rows);
     if let Some(counts) = simulation.contact_counts() {
-        let mean = |count: u64| format!("{:.3}", count as f64 / steps.max(1) as f64);
-        let rows = [
-            ("candidate pairs", counts.candidates),
-            ("not settled by remembered directions", counts.looked_at),
-            ("pushed apart", counts.pushed),
-            ("not free, repaired", counts.violated),
-            ("vertices held", counts.held),
-            ("times cut in half", counts.cuts),
-        ]
-        .map(|(what, count)| [what.to_owned(), mean(count)]);
+        let mean = |(name, count): (&str, u64)| {
+            let mean = count as f64 / steps.max(1) as f64;
+            [name.to_owned(), format!("{mean:.3}")]
+        };
+        let rows = { counts.pairs().into_iter() }.chain(counts.events());
         text += "\n";
-        text += &table(["pairs", "a step"], rows);
+        text += &table(["pairs and events", "a step"], rows.map(mean));
     }
     if simulation.blocked_steps() > 0 {
         let blocked = grouped(simulation.blocked_steps());

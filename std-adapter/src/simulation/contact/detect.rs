@@ -1,12 +1,15 @@
 //! Which primitive pairs may come close in a step: the only place that knows how candidates are found.
 //!
 //! They come from [hierarchies of moving boxes](crate::broad_phase::moving): along each axis every pair that is no candidate
-//! keeps its order, and more than the thickness, between the start and the end of the step.
+//! keeps its order, and more than a reach, between the start and the end of the step. [Neighbours](super::neighbours) have a
+//! smaller reach.
 
+use super::neighbours::{Neighbours, keep_apart};
 use super::pair::Pair;
 use crate::PairKind;
 use crate::broad_phase::moving::MovingBroadPhase;
-use crate::mesh::{Topology, TopologyError};
+use crate::mesh::Topology;
+use crate::parallel;
 use crate::simulation::plan::{FREE, Frame};
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
@@ -23,11 +26,15 @@ pub(super) struct Wanted {
 pub(super) struct Detector {
     topology: Arc<Topology>,
     wanted: Wanted,
+    /// Whether the broad phase looks for pairs of a few vertices only.
+    is_narrowed: bool,
     /// Of each vertex: whose motion it follows.
     carriers: Vec<Frame>,
     /// Vertices from here on are bodies'.
     cloth_vertices: usize,
     broad_phase: MovingBroadPhase<f64>,
+    /// With their reach.
+    neighbours: Option<(Neighbours, f64)>,
     vertex_face: Vec<[u32; 2]>,
     edge_edge: Vec<[u32; 2]>,
     sorted: Vec<[u32; 2]>,
@@ -35,23 +42,24 @@ pub(super) struct Detector {
 }
 
 impl Detector {
-    /// `triangles`: the cloth's, then the bodies'; `carriers` of each vertex; vertices from `cloth_vertices` on are bodies'.
+    /// Of each vertex its motion is in `carriers`; vertices from `cloth_vertices` on are bodies'. Pairs that come within `reach` along
+    /// every axis will be candidates.
     pub(super) fn new(
-        triangles: &[[u32; 3]],
+        topology: Arc<Topology>,
         carriers: &[Frame],
         cloth_vertices: usize,
-        thickness: f64,
+        reach: f64,
         wanted: Wanted,
-    ) -> Result<Self, TopologyError> {
-        let topology = Arc::new(Topology::new(carriers.len(), triangles.to_vec())?);
+    ) -> Self {
         let mut broad_phase = MovingBroadPhase::new(Arc::clone(&topology));
-        let accepted = broad_phase.set_separation(thickness);
-        // Bodies among themselves are of no interest.
-        broad_phase.set_wanted((0..carriers.len()).map(|v| v < cloth_vertices).collect());
+        let accepted = broad_phase.set_separation(reach);
         debug_assert!(accepted.is_ok(), "scenes give a positive thickness");
-        Ok(Self {
+        broad_phase.set_wanted(cloth(carriers.len(), cloth_vertices));
+        Self {
+            neighbours: None,
             topology,
             wanted,
+            is_narrowed: false,
             carriers: carriers.to_vec(),
             cloth_vertices,
             broad_phase,
@@ -59,7 +67,12 @@ impl Detector {
             edge_edge: Vec::new(),
             sorted: Vec::new(),
             places: Vec::new(),
-        })
+        }
+    }
+
+    /// These pairs will be candidates only if they come within their own reach.
+    pub(super) fn set_neighbours(&mut self, neighbours: Neighbours, reach: f64) {
+        self.neighbours = Some((neighbours, reach));
     }
 
     /// Replaces `pairs` by the candidates of the motion from `start` to `end`, in ascending order of their keys: whatever order
@@ -67,22 +80,69 @@ impl Detector {
     ///
     /// # Panics
     /// If a position is not finite.
-    pub(super) fn candidates(&mut self, start: &[DVec3], end: &[DVec3], pairs: &mut Vec<Pair>) {
+    pub(super) fn candidates(&mut self, motion: [&[DVec3]; 2], pairs: &mut Vec<Pair>) {
+        if std::mem::take(&mut self.is_narrowed) {
+            let all = cloth(self.carriers.len(), self.cloth_vertices);
+            self.broad_phase.set_wanted(all);
+        }
+        self.update(motion);
+        self.find(motion, pairs);
+    }
+
+    /// Replaces `pairs` by those with a vertex that is in `only`. Returns whether it is so; else all are there.
+    ///
+    /// # Panics
+    /// If a position is not finite.
+    pub(super) fn candidates_of(
+        &mut self,
+        only: &[bool],
+        motion: [&[DVec3]; 2],
+        pairs: &mut Vec<Pair>,
+    ) -> bool {
+        let builds = self.broad_phase.statistics().builds;
+        self.broad_phase.set_wanted(only.to_vec());
+        self.is_narrowed = true;
+        self.update(motion);
+        // After a build the broad phase takes what a traversal costs for the measure of later ones: so that must be a whole one.
+        let is_narrow = self.broad_phase.statistics().builds == builds;
+        if is_narrow {
+            self.find(motion, pairs);
+        } else {
+            self.candidates(motion, pairs);
+        }
+        is_narrow
+    }
+
+    fn update(&mut self, [start, end]: [&[DVec3]; 2]) {
+        let updated = self.broad_phase.update(start, end);
+        updated.expect("the solver keeps every position finite");
+    }
+
+    fn find(&mut self, motion: [&[DVec3]; 2], pairs: &mut Vec<Pair>) {
         let Self {
             topology,
             broad_phase,
+            neighbours,
             vertex_face,
             edge_edge,
             sorted,
             places,
             ..
         } = self;
-        broad_phase
-            .update(start, end)
-            .expect("the solver keeps every position finite");
         broad_phase.candidates(vertex_face, edge_edge);
-        sort(vertex_face, topology.vertex_count(), sorted, places);
-        sort(edge_edge, topology.edges().len(), sorted, places);
+        let counts = [topology.vertex_count(), topology.edges().len()];
+        for (kind, found, count) in [
+            (PairKind::VertexFace, &mut *vertex_face, counts[0]),
+            (PairKind::EdgeEdge, &mut *edge_edge, counts[1]),
+        ] {
+            if let Some((neighbours, reach)) = neighbours {
+                parallel::retain(found, |&pair| {
+                    let vertices = kind.vertices(pair, topology);
+                    !keep_apart(kind, vertices, motion, *reach) || !neighbours.contain(kind, pair)
+                });
+            }
+            sort(found, count, sorted, places);
+        }
         pairs.clear();
         for (kind, found) in [
             (PairKind::VertexFace, &self.vertex_face),
@@ -122,6 +182,13 @@ impl Detector {
             vertex => self.carriers[vertex],
         }
     }
+}
+
+/// Of each vertex whether it is of interest: bodies among themselves are not.
+fn cloth(vertices: usize, cloth_vertices: usize) -> Vec<bool> {
+    (0..vertices)
+        .map(|vertex| vertex < cloth_vertices)
+        .collect()
 }
 
 /// Sorts pairs whose first numbers are below `count`: by counting, then each few with the same first number.

@@ -3,6 +3,9 @@
 //! Candidates are found for a motion straight on from the present one, several steps ahead: whatever is no candidate keeps more
 //! than the reach of the search along an axis, on all of that way. As long as every vertex stays within some room of it, a pair
 //! that is no candidate keeps the reach less twice the room.
+//!
+//! Where few vertices leave that room, as in a crease, they alone get a [new way](Horizon::lead_back) for the rest of the time, and
+//! candidates are looked for with what they belong to.
 
 use selvedge_core::glam::DVec3;
 
@@ -12,9 +15,12 @@ const FARTHEST: u32 = 4;
 /// The motion that candidates were found for.
 #[derive(Debug, Default)]
 pub(super) struct Horizon {
+    /// Where the motion began; of a vertex with a new way, where that would have.
     origin: Vec<DVec3>,
     /// In metres a second.
     drift: Vec<DVec3>,
+    /// Where the motion is now, if some vertices have strayed.
+    now: Vec<DVec3>,
     /// The end of the motion.
     far: Vec<DVec3>,
     /// In seconds; zero if there is no motion.
@@ -65,17 +71,54 @@ impl Horizon {
 
     /// Whether, `h` seconds on, all vertices are within `room` of the motion along each axis, and it has not ended.
     pub(super) fn covers(&self, end: &[DVec3], h: f64, room: f64) -> bool {
-        let time = self.elapsed + h;
+        self.lasts(h) && (0..end.len()).all(|vertex| self.has_room(vertex, end[vertex], h, room))
+    }
+
+    /// Whether the motion lasts for another `h` seconds.
+    pub(super) fn lasts(&self, h: f64) -> bool {
         // Steps that add up to the span do so but for rounding.
-        if !(time <= self.span * (1.0 + 1e-9)) {
-            return false;
+        self.elapsed + h <= self.span * (1.0 + 1e-9)
+    }
+
+    /// Sets in `strayed` which vertices are not within `room` of the motion, `h` seconds on; returns how many.
+    pub(super) fn find_strayed(
+        &self,
+        end: &[DVec3],
+        h: f64,
+        room: f64,
+        strayed: &mut Vec<bool>,
+    ) -> usize {
+        strayed.clear();
+        strayed.extend((0..end.len()).map(|vertex| !self.has_room(vertex, end[vertex], h, room)));
+        strayed.iter().filter(|&&strayed| strayed).count()
+    }
+
+    fn has_room(&self, vertex: usize, end: DVec3, h: f64, room: f64) -> bool {
+        let expected = self.origin[vertex] + self.drift[vertex] * (self.elapsed + h);
+        // Ordered comparisons: a largest component would drop NaN.
+        (end - expected).abs().cmple(DVec3::splat(room)).all()
+    }
+
+    /// Gives the vertices that have strayed the way from `start` to `end`, on which they are now, for the rest of the motion. Returns
+    /// what is left of it, for all vertices.
+    pub(super) fn lead_back<'a>(
+        &'a mut self,
+        strayed: &[bool],
+        start: &[DVec3],
+        end: &[DVec3],
+        h: f64,
+    ) -> [&'a [DVec3]; 2] {
+        for vertex in (0..strayed.len()).filter(|&vertex| strayed[vertex]) {
+            let drift = (end[vertex] - start[vertex]) / h;
+            self.drift[vertex] = drift;
+            self.origin[vertex] = start[vertex] - drift * self.elapsed;
+            self.far[vertex] = start[vertex] + drift * (self.span - self.elapsed);
         }
         let ways = self.origin.iter().zip(&self.drift);
-        let room = DVec3::splat(room);
-        // Ordered comparisons: a largest component would drop NaN.
-        end.iter().zip(ways).all(|(&now, (&origin, &drift))| {
-            (now - (origin + drift * time)).abs().cmple(room).all()
-        })
+        self.now.clear();
+        self.now
+            .extend(ways.map(|(&origin, &drift)| origin + drift * self.elapsed));
+        [&self.now, &self.far]
     }
 
     /// A step of `h` seconds was made.
@@ -103,6 +146,26 @@ mod tests {
         }
         // 1 + 2, then 4 at a time.
         assert_eq!(found, 2 + 16);
+    }
+
+    #[test]
+    fn a_vertex_that_strays_is_led_back_and_the_others_go_on() {
+        let mut horizon = Horizon {
+            steps: 4,
+            ..Horizon::default()
+        };
+        horizon.begin(&[DVec3::ZERO; 2], &[DVec3::X; 2], 1.0);
+        horizon.advance(1.0);
+        let (start, end) = ([DVec3::X; 2], [DVec3::new(2.0, 0.05, 0.0), DVec3::X]);
+        let mut strayed = Vec::new();
+        assert_eq!(horizon.find_strayed(&end, 1.0, 0.1, &mut strayed), 1);
+        assert_eq!(strayed, [false, true]);
+        let [now, far] = horizon.lead_back(&strayed, &start, &end, 1.0);
+        assert_eq!(now, [DVec3::X; 2]);
+        assert_eq!(far, [DVec3::X * 4.0, DVec3::X]);
+        assert!(horizon.covers(&end, 1.0, 0.1));
+        horizon.advance(1.0);
+        assert!(horizon.covers(&[DVec3::X * 3.0, DVec3::X], 1.0, 0.1));
     }
 
     #[test]

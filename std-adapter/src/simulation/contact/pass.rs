@@ -15,12 +15,14 @@
 //!
 //! **Candidates** are found for several steps at once ([`horizon`](super::horizon)), with a reach R beyond the thickness h. While no
 //! vertex strays from the motion they were found for by more than (R − h)/2 along any axis, they hold every pair within h; while
-//! repairs take none farther than (R − m)/2, every pair that may come within m. Else they are found anew.
+//! repairs take none farther than (R − m)/2, every pair that may come within m. If few stray farther, the candidates of these are found
+//! again and added; else all are found anew.
 
 use super::pair::{Pair, rounding_error};
 use super::zones::{Cut, Motions};
-use super::{Blocker, Contact};
+use super::{Blocker, Contact, ContactSettings};
 use crate::PairKind;
+use crate::parallel;
 use crate::simulation::plan::{FREE, Frame, StepInput};
 use selvedge_core::glam::DVec3;
 use std::time::Instant;
@@ -31,6 +33,8 @@ const KEPT: f64 = 1.0 - 1e-5;
 pub(crate) const LARGEST_TURN: f64 = 6.3e-3;
 /// More than any step has taken.
 const ROUNDS: usize = 300;
+/// If one vertex in so many or more has strayed, all candidates are found anew.
+const MANY: usize = 4;
 /// Rounds of projection before zones.
 const REPAIRS: usize = 3;
 /// What a projection aims at, in separations that are kept.
@@ -56,18 +60,25 @@ pub struct ContactCounts {
 }
 
 impl ContactCounts {
-    /// What was counted since `earlier`.
+    /// Pairs that are left after each stage, in the order of the data flow.
     #[must_use]
-    pub fn since(&self, earlier: &Self) -> Self {
-        Self {
-            candidates: self.candidates - earlier.candidates,
-            looked_at: self.looked_at - earlier.looked_at,
-            pushed: self.pushed - earlier.pushed,
-            violated: self.violated - earlier.violated,
-            zone_rounds: self.zone_rounds - earlier.zone_rounds,
-            held: self.held - earlier.held,
-            cuts: self.cuts - earlier.cuts,
-        }
+    pub fn pairs(&self) -> [(&'static str, u64); 3] {
+        [
+            ("candidate pairs", self.candidates),
+            ("not settled by remembered directions", self.looked_at),
+            ("not free, repaired", self.violated),
+        ]
+    }
+
+    /// What else happened.
+    #[must_use]
+    pub fn events(&self) -> [(&'static str, u64); 4] {
+        [
+            ("pairs pushed apart", self.pushed),
+            ("rounds with zones", self.zone_rounds),
+            ("vertices held", self.held),
+            ("times cut in half", self.cuts),
+        ]
     }
 }
 
@@ -83,11 +94,9 @@ impl Contact {
     ) -> Result<(), Blocker> {
         let start = step.start;
         self.error = error(start, end);
-        if !self.horizon.covers(end, step.h, self.slack) {
-            let begin = Instant::now();
-            self.find_candidates(start, end, step.h);
-            self.stages.candidates += begin.elapsed().as_secs_f64();
-        }
+        let begin = Instant::now();
+        self.cover(start, end, step.h);
+        self.stages.candidates += begin.elapsed().as_secs_f64();
         self.counts.candidates += self.pairs.len() as u64;
 
         let begin = Instant::now();
@@ -115,10 +124,53 @@ impl Contact {
         result
     }
 
-    /// Candidates for a motion, with what is known of them.
+    /// Sees to it that the candidates are good for the step from `start` to `end`.
+    fn cover(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
+        if !self.horizon.lasts(h) {
+            return self.find_candidates(start, end, h);
+        }
+        let strayed = self
+            .horizon
+            .find_strayed(end, h, self.slack, &mut self.strayed);
+        match strayed {
+            0 => {}
+            few if few < end.len() / MANY => self.find_candidates_of_strayed(start, end, h),
+            _ => self.find_candidates(start, end, h),
+        }
+    }
+
+    /// Adds the candidates that vertices have which have strayed.
+    fn find_candidates_of_strayed(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
+        let motion = self.horizon.lead_back(&self.strayed, start, end, h);
+        let is_narrow = self
+            .detector
+            .candidates_of(&self.strayed, motion, &mut self.found);
+        if !is_narrow {
+            return self.take_found();
+        }
+        // Both lists ascend by key.
+        self.merged.clear();
+        let mut found = self.found.iter().peekable();
+        for known in &self.pairs {
+            while let Some(&new) = found.next_if(|new| new.key < known.key) {
+                self.merged.push(new);
+            }
+            found.next_if(|new| new.key == known.key);
+            self.merged.push(*known);
+        }
+        self.merged.extend(found);
+        std::mem::swap(&mut self.pairs, &mut self.merged);
+    }
+
+    /// Candidates for a motion.
     pub(super) fn find_candidates(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
-        let [start, far] = self.horizon.begin(start, end, h);
-        self.detector.candidates(start, far, &mut self.found);
+        let motion = self.horizon.begin(start, end, h);
+        self.detector.candidates(motion, &mut self.found);
+        self.take_found();
+    }
+
+    /// Replaces the candidates by those that were found, with what is known of them.
+    fn take_found(&mut self) {
         // Both lists ascend by key.
         let mut known = self.pairs.iter().peekable();
         for pair in &mut self.found {
@@ -136,26 +188,41 @@ impl Contact {
             .for_each(|pair| pair.gap = f32::NEG_INFINITY);
     }
 
-    /// The candidates that are not free, looked at for the first time in this step.
+    /// The candidates that are not free, looked at for the first time in this step, in order.
     fn check_all(&mut self, start: &[DVec3], end: &[DVec3]) -> Vec<usize> {
-        let mut open = Vec::new();
-        let mut looked_at = 0;
-        for index in 0..self.pairs.len() {
-            let Some(separation) = self.separation(&self.pairs[index]) else {
-                self.pairs[index].gap = f32::NEG_INFINITY;
-                continue;
-            };
-            let pair = &mut self.pairs[index];
-            if pair.stays_apart(end, separation, self.error) {
-                continue;
-            }
-            looked_at += 1;
-            if !is_free(pair, [start, end], separation, self.error) {
-                open.push(index);
-            }
-        }
-        self.counts.looked_at += looked_at;
-        open
+        let Self {
+            pairs,
+            settings,
+            yielding,
+            error,
+            ..
+        } = self;
+        let mut looked_at = LookedAt::default();
+        parallel::map_chunks(
+            pairs,
+            |first, pairs, looked_at: &mut LookedAt| {
+                for (index, pair) in pairs.iter_mut().enumerate() {
+                    let Some(separation) = settings.separation(pair, yielding) else {
+                        pair.gap = f32::NEG_INFINITY;
+                        continue;
+                    };
+                    if pair.stays_apart(end, separation, *error) {
+                        continue;
+                    }
+                    looked_at.count += 1;
+                    if !is_free(pair, [start, end], separation, *error) {
+                        looked_at.open.push(first + index);
+                    }
+                }
+            },
+            &mut looked_at,
+            |all, own| {
+                all.count += own.count;
+                all.open.extend(own.open);
+            },
+        );
+        self.counts.looked_at += looked_at.count;
+        looked_at.open
     }
 
     /// The candidates that are not free after some vertices have moved (`self.moved`): of those in `open`, and those of the
@@ -304,13 +371,27 @@ impl Contact {
         }
     }
 
-    /// The separation that a pair is asked to keep; `None` if none is promised.
     fn separation(&self, pair: &Pair) -> Option<f64> {
-        if pair.is_with_body() && self.yielding[pair.body as usize] {
+        self.settings.separation(pair, &self.yielding)
+    }
+}
+
+impl ContactSettings {
+    /// The separation that a pair is asked to keep; `None` if none is promised.
+    fn separation(&self, pair: &Pair, yielding: &[bool]) -> Option<f64> {
+        if pair.is_with_body() && yielding[pair.body as usize] {
             return None;
         }
-        self.settings.of(pair).map(|thickness| thickness.separation)
+        self.of(pair).map(|thickness| thickness.separation)
     }
+}
+
+/// What came of looking at pairs that their remembered directions did not settle.
+#[derive(Default)]
+struct LookedAt {
+    count: u64,
+    /// Those that are not free.
+    open: Vec<usize>,
 }
 
 /// Whether the pair keeps its separation, or what is left of it.
@@ -338,7 +419,7 @@ fn largest(positions: &[DVec3]) -> f64 {
         .fold(0.0, |largest: f64, p| largest.max(p.abs().max_element()))
 }
 
-/// `vertex-face pair of vertices 1, 2, 3, 4`.
+/// `the vertex-face pair of vertices 1, 2, 3, 4`.
 pub(super) fn described(kind: PairKind, vertices: [u32; 4]) -> String {
     let [a, b, c, d] = vertices;
     format!("the {kind} pair of vertices {a}, {b}, {c}, {d}")

@@ -2,11 +2,12 @@
 //!
 //! A row is C = n·Σwᵢxᵢ − h ≥ 0 with the direction n and the weights w of the closest points at the start of the step. A pair that
 //! starts nearer than that comes apart at [`RECOVERY`] at most, whatever the length of the step: a push must not become a
-//! velocity. On a fine mesh neighbours at
-//! rest may be nearer than the thickness; such a pair's is half its distance at rest, or the mesh would lock.
+//! velocity. On a fine mesh neighbours at rest may be nearer than the thickness; such a pair's is at most half its distance at rest,
+//! or the mesh would lock, and [less](super::neighbours).
 
 use super::pair::Pair;
 use super::{ContactSettings, Thickness};
+use crate::parallel;
 use crate::simulation::plan::{StepInput, Touch, Touches};
 use selvedge_core::glam::DVec3;
 
@@ -36,35 +37,55 @@ pub(super) fn collect(
     error: f64,
 ) {
     rows.clear();
-    for pair in pairs {
-        let Some(Thickness { thickness, .. }) = settings.of(pair) else {
-            continue;
-        };
-        let reach = thickness * (1.0 + MARGIN);
-        if f64::from(pair.gap) > reach || pair.is_kept_at(thickness, predicted) {
-            continue;
-        }
-        let closest = pair.closest(start);
-        pair.refresh(closest.direction, start, error);
-        let distance = closest.distance();
-        if distance > reach || closest.direction == DVec3::ZERO {
-            continue;
-        }
-        if pair.thickness == 0.0 {
-            pair.thickness = if pair.is_with_body() {
-                thickness
-            } else {
-                thickness.min(0.5 * pair.closest(rest).distance())
-            } as f32;
-        }
-        rows.push(Row {
-            vertices: pair.vertices,
-            weights: closest.weights,
-            normal: closest.direction,
-            thickness: f64::from(pair.thickness).min(distance + RECOVERY * h),
-            with_body: pair.is_with_body(),
-        });
+    parallel::map_chunks(
+        pairs,
+        |_, pairs, rows: &mut Vec<Row>| {
+            let near = pairs.iter_mut();
+            rows.extend(
+                near.filter_map(|pair| row(pair, settings, rest, [start, predicted], h, error)),
+            );
+        },
+        rows,
+        |all, own| all.extend(own),
+    );
+}
+
+/// The row of a pair, if it needs one.
+#[inline(always)]
+fn row(
+    pair: &mut Pair,
+    settings: &ContactSettings,
+    rest: &[DVec3],
+    [start, predicted]: [&[DVec3]; 2],
+    h: f64,
+    error: f64,
+) -> Option<Row> {
+    let Thickness { thickness, .. } = settings.of(pair)?;
+    // The pair's own, once it is known.
+    let aim = match f64::from(pair.thickness) {
+        0.0 => thickness,
+        own => own,
+    };
+    let reach = aim * (1.0 + MARGIN);
+    if f64::from(pair.gap) > reach || pair.is_kept_at(aim, predicted) {
+        return None;
     }
+    let closest = pair.closest(start);
+    pair.refresh(closest.direction, start, error);
+    let distance = closest.distance();
+    if distance > reach || closest.direction == DVec3::ZERO {
+        return None;
+    }
+    if pair.thickness == 0.0 {
+        pair.thickness = settings.thickness_of(pair, thickness, rest) as f32;
+    }
+    Some(Row {
+        vertices: pair.vertices,
+        weights: closest.weights,
+        normal: closest.direction,
+        thickness: f64::from(pair.thickness).min(distance + RECOVERY * h),
+        with_body: pair.is_with_body(),
+    })
 }
 
 /// Pushes once along the rows of bodies, or of the cloth with itself.

@@ -26,6 +26,10 @@ pub(super) const REGISTRATION: Registration = Registration {
 struct BodyContact(Thickness);
 
 impl Effect for BodyContact {
+    fn settings(&self) -> Vec<(&'static str, String)> {
+        self.0.settings()
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         plan.contact.bodies = Some((plan.effect, self.0));
         let cloth_vertices = plan.world.cloth.mesh.positions.len();

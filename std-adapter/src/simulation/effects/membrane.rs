@@ -4,25 +4,29 @@ use crate::simulation::scene::Cloth;
 use selvedge_core::glam::DVec3;
 
 /// A triangle of cloth with its material directions (Baraff and Witkin 1998): positions xᵢ give the images
-/// w_u = Σaᵢxᵢ of a unit of warp and w_v = Σbᵢxᵢ of a unit of weft. At rest both have length one and are perpendicular; the
-/// coefficients of each sum to zero.
+/// w_u = Σaᵢxᵢ of a unit of warp and w_v = Σbᵢxᵢ of a unit of weft. At rest both have length one and are perpendicular. The
+/// coefficients of each sum to zero: of three, the last two are here.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Membrane {
     pub(super) vertices: [u32; 3],
-    pub(super) a: [f64; 3],
-    pub(super) b: [f64; 3],
-    /// At rest, in m².
-    pub(super) area: f64,
+    pub(super) a: [f64; 2],
+    pub(super) b: [f64; 2],
 }
 
 /// Σcᵢxᵢ.
 #[inline(always)]
-pub(super) fn image(coefficients: [f64; 3], x: [DVec3; 3]) -> DVec3 {
-    x[0] * coefficients[0] + x[1] * coefficients[1] + x[2] * coefficients[2]
+pub(super) fn image(c: [f64; 2], x: [DVec3; 3]) -> DVec3 {
+    (x[1] - x[0]) * c[0] + (x[2] - x[0]) * c[1]
 }
 
-/// All triangles.
-pub(super) fn membranes(cloth: &Cloth) -> Vec<Membrane> {
+/// All three coefficients.
+#[inline(always)]
+pub(super) fn all(c: [f64; 2]) -> [f64; 3] {
+    [-c[0] - c[1], c[0], c[1]]
+}
+
+/// All triangles, each with its area at rest, in m².
+pub(super) fn membranes(cloth: &Cloth) -> Vec<(Membrane, f64)> {
     let make = |&vertices: &[u32; 3]| {
         let [p, q, r] = vertices.map(|v| cloth.mesh.positions[v as usize]);
         let (first, second) = (q - p, r - p);
@@ -39,14 +43,12 @@ pub(super) fn membranes(cloth: &Cloth) -> Vec<Membrane> {
         let (pu, pv) = (first.dot(along), first.dot(across));
         let (qu, qv) = (second.dot(along), second.dot(across));
         let scale = 1.0 / (pu * qv - qu * pv);
-        let a = [(pv - qv) * scale, qv * scale, -pv * scale];
-        let b = [(qu - pu) * scale, -qu * scale, pu * scale];
-        Membrane {
+        let membrane = Membrane {
             vertices,
-            a,
-            b,
-            area: 0.5 * cross.length(),
-        }
+            a: [qv * scale, -pv * scale],
+            b: [-qu * scale, pu * scale],
+        };
+        (membrane, 0.5 * cross.length())
     };
     cloth.mesh.triangles.iter().map(make).collect()
 }

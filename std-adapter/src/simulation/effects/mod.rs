@@ -23,6 +23,11 @@ use std::fmt::Debug;
 pub(crate) trait Effect: Debug + Send {
     /// Puts what the effect does into the plan.
     fn register(self: Box<Self>, plan: &mut Plan<'_>);
+
+    /// What trades time for accuracy, with its unit.
+    fn settings(&self) -> Vec<(&'static str, String)> {
+        Vec::new()
+    }
 }
 
 /// An effect and its name in scenes.

@@ -42,7 +42,7 @@ enum Carrier {
     Own(RigidMotion),
 }
 
-/// Exactly one of `part`, `vertices` and `box` says which vertices; `follow` or keyframes where they go.
+/// Exactly one of `part`, `vertices`, `box` and `ball` says which vertices; `follow` or keyframes where they go.
 fn read_group(
     table: &Table<'_>,
     world: &World<'_>,
@@ -52,6 +52,7 @@ fn read_group(
         "part",
         "vertices",
         "box",
+        "ball",
         "follow",
         "pivot",
         "axis",
@@ -59,27 +60,32 @@ fn read_group(
     ];
     table.expect_keys(own)?;
     let count = taken.len() as u64;
-    let ways = ["part", "vertices", "box"].map(|key| table.has(key));
+    let ways = ["part", "vertices", "box", "ball"].map(|key| table.has(key));
     let vertices = match ways {
-        [true, false, false] => {
+        [true, false, false, false] => {
             let part = table.text("part")?.unwrap_or_default();
             let vertices = world.cloth.selection(part);
             vertices
                 .map_err(|message| table.error("part", message))?
                 .to_vec()
         }
-        [false, true, false] => {
+        [false, true, false, false] => {
             let vertices = table.counts("vertices", 0..=count - 1)?.unwrap_or_default();
             vertices.into_iter().map(|vertex| vertex as u32).collect()
         }
-        [false, false, true] => in_box(&table.required_table("box")?, world)?,
+        [false, false, true, false] => in_box(&table.required_table("box")?, world)?,
+        [false, false, false, true] => in_ball(&table.required_table("ball")?, world)?,
         _ => {
-            let message = "pins need exactly one of `part`, `vertices` and `box`".to_owned();
+            let message =
+                "pins need exactly one of `part`, `vertices`, `box` and `ball`".to_owned();
             return Err(table.error("part", message));
         }
     };
     if vertices.is_empty() {
-        return Err(table.error("box", "no vertex of the cloth is in this group".to_owned()));
+        let message = "no vertex of the cloth is in this group".to_owned();
+        let ways = ["vertices", "box", "ball"];
+        let way = ways.into_iter().find(|key| table.has(key));
+        return Err(table.error(way.unwrap_or("part"), message));
     }
     for &vertex in &vertices {
         if std::mem::replace(&mut taken[vertex as usize], true) {
@@ -111,6 +117,15 @@ fn in_box(table: &Table<'_>, world: &World<'_>) -> Result<Vec<u32>, SceneError> 
     let upper = table.required_vector("upper", LENGTH, WORLD)?;
     let positions = world.cloth.mesh.positions.iter().enumerate();
     let inside = positions.filter(|(_, p)| p.cmpge(lower).all() && p.cmple(upper).all());
+    Ok(inside.map(|(vertex, _)| vertex as u32).collect())
+}
+
+fn in_ball(table: &Table<'_>, world: &World<'_>) -> Result<Vec<u32>, SceneError> {
+    table.expect_keys(&["centre", "radius"])?;
+    let centre = table.required_vector("centre", LENGTH, WORLD)?;
+    let radius = table.required_number("radius", LENGTH, 1e-6..=WORLD)?;
+    let positions = world.cloth.mesh.positions.iter().enumerate();
+    let inside = positions.filter(|(_, p)| p.distance(centre) <= radius);
     Ok(inside.map(|(vertex, _)| vertex as u32).collect())
 }
 

@@ -17,6 +17,10 @@ pub(super) const REGISTRATION: Registration = Registration {
 struct SelfCollision(Thickness);
 
 impl Effect for SelfCollision {
+    fn settings(&self) -> Vec<(&'static str, String)> {
+        self.0.settings()
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         plan.contact.cloth = Some((plan.effect, self.0));
     }

@@ -1,6 +1,6 @@
 //! Shear: C = w_u·w_v (Baraff and Witkin 1998), compliance 1/(k·A).
 
-use super::membrane::{Membrane, image, membranes};
+use super::membrane::{Membrane, all, image, membranes};
 use super::{Effect, Registration};
 use crate::simulation::colour::{Coloured, Local};
 use crate::simulation::plan::Plan;
@@ -26,9 +26,9 @@ struct Shear {
 impl Effect for Shear {
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
-        let angles = membranes(cloth).into_iter().map(|membrane| Angle {
+        let angles = membranes(cloth).into_iter().map(|(membrane, area)| Angle {
             membrane,
-            compliance: 1.0 / (self.stiffness * membrane.area),
+            compliance: 1.0 / (self.stiffness * area),
         });
         let vertex_count = cloth.mesh.positions.len();
         plan.add_constraint(Coloured::new(angles.collect(), vertex_count));
@@ -51,6 +51,7 @@ impl Local<3> for Angle {
     fn corrections(&self, x: [DVec3; 3], w: [f64; 3], stiffening: f64) -> [DVec3; 3] {
         let Membrane { a, b, .. } = self.membrane;
         let (warp, weft) = (image(a, x), image(b, x));
+        let (a, b) = (all(a), all(b));
         let mut gradients = [DVec3::ZERO; 3];
         let mut weight = self.compliance * stiffening;
         for k in 0..3 {

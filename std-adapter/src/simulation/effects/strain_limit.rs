@@ -5,11 +5,12 @@
 //! with coefficients d_u·a + d_v·b, and no compliance. One triangle's correction stretches its neighbours, so some are left a
 //! little above the limit: more `sweeps` bring them closer (an accuracy–time choice).
 
-use super::membrane::{Membrane, image, membranes};
+use super::membrane::{Membrane, all, image, membranes};
 use super::{Effect, Registration};
 use crate::simulation::colour::{Coloured, Local};
-use crate::simulation::plan::{Constraint, Plan, StepInput, Touches};
+use crate::simulation::plan::Plan;
 use crate::simulation::scene::RATIO;
+use crate::simulation::sweeps::Sweeps;
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
@@ -31,31 +32,20 @@ struct StrainLimit {
 }
 
 impl Effect for StrainLimit {
+    fn settings(&self) -> Vec<(&'static str, String)> {
+        vec![("sweeps", self.sweeps.to_string())]
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
         let limit = self.limit;
         let limits = membranes(cloth)
             .into_iter()
-            .map(|membrane| Limit { membrane, limit })
+            .map(|(membrane, _)| Limit { membrane, limit })
             .collect();
-        plan.add_constraint(Sweeps {
-            limits: Coloured::new(limits, cloth.mesh.positions.len()),
-            sweeps: self.sweeps,
-        });
-    }
-}
-
-#[derive(Debug)]
-struct Sweeps {
-    limits: Coloured<Limit, 3>,
-    sweeps: u64,
-}
-
-impl Constraint for Sweeps {
-    fn project(&mut self, step: &StepInput<'_>, positions: &mut [DVec3], touches: &mut Touches) {
-        for _ in 0..self.sweeps {
-            self.limits.project(step, positions, touches);
-        }
+        let vertex_count = cloth.mesh.positions.len();
+        let limits = Coloured::new(limits, vertex_count);
+        plan.add_constraint(Sweeps::new(limits, vertex_count, self.sweeps));
     }
 }
 
@@ -77,6 +67,10 @@ impl Local<3> for Limit {
         let (warp, weft) = (image(a, x), image(b, x));
         let (uu, uv, vv) = (warp.dot(warp), warp.dot(weft), weft.dot(weft));
         let (middle, half) = (0.5 * (uu + vv), 0.5 * (uu - vv));
+        // Most are far below, and a length is no more than the sum of its parts.
+        if middle + half.abs() + uv.abs() < self.limit * self.limit {
+            return [DVec3::ZERO; 3];
+        }
         let spread = (half * half + uv * uv).sqrt();
         let largest = (middle + spread).sqrt();
         if !(largest > self.limit) {
@@ -94,12 +88,13 @@ impl Local<3> for Limit {
         } else {
             (1.0, 0.0)
         };
-        let c = [0, 1, 2].map(|k| du * a[k] + dv * b[k]);
+        let two = [du * a[0] + dv * b[0], du * a[1] + dv * b[1]];
+        let c = all(two);
         let weight = w[0] * c[0] * c[0] + w[1] * c[1] * c[1] + w[2] * c[2] * c[2];
         if !(weight > 0.0) {
             return [DVec3::ZERO; 3];
         }
-        let along = image(c, x) * ((self.limit - largest) / (weight * largest));
+        let along = image(two, x) * ((self.limit - largest) / (weight * largest));
         [0, 1, 2].map(|k| along * (w[k] * c[k]))
     }
 }

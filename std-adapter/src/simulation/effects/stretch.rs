@@ -3,7 +3,7 @@
 //! Extended position-based dynamics (Macklin et al. 2016) with one iteration a step: Δx = −C·W∇C / (∇C·W∇C + α/h²). Where w
 //! vanishes it has no direction, and nothing is done.
 
-use super::membrane::{Membrane, image, membranes};
+use super::membrane::{Membrane, all, image, membranes};
 use super::{Effect, Registration};
 use crate::simulation::colour::{Coloured, Local};
 use crate::simulation::plan::Plan;
@@ -33,9 +33,9 @@ struct Stretch {
 impl Effect for Stretch {
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
-        let springs = membranes(cloth).into_iter().map(|membrane| Spring {
+        let springs = membranes(cloth).into_iter().map(|(membrane, area)| Spring {
             membrane,
-            compliance: self.stiffness.map(|k| 1.0 / (k * membrane.area)),
+            compliance: self.stiffness.map(|k| 1.0 / (k * area)),
         });
         let vertex_count = cloth.mesh.positions.len();
         plan.add_constraint(Coloured::new(springs.collect(), vertex_count));
@@ -62,6 +62,7 @@ impl Local<3> for Spring {
         for (c, compliance) in [(self.membrane.a, warp), (self.membrane.b, weft)] {
             let stretched = image(c, [x[0] + moves[0], x[1] + moves[1], x[2] + moves[2]]);
             let length = stretched.length();
+            let c = all(c);
             let weight = w[0] * c[0] * c[0] + w[1] * c[1] * c[1] + w[2] * c[2] * c[2];
             // Shorter than a millionth there is no direction to speak of.
             if length > 1e-6 && weight > 0.0 {

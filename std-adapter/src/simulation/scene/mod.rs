@@ -194,6 +194,27 @@ impl Scene {
         self.effects.iter().map(|(name, _)| *name).collect()
     }
 
+    /// Forgets all effects but the first `count`, in the order in which they run. What an effect needs runs before it, so that the
+    /// rest is a scene as well. It is another scene for checkpoints.
+    pub fn keep_first_effects(&mut self, count: usize) {
+        if count < self.effects.len() {
+            self.effects.truncate(count);
+            self.fingerprint = self.fingerprint.rotate_left(1 + count as u32);
+        }
+    }
+
+    /// What trades time for accuracy, by name, each with its value and unit: the time step, and settings of effects, those that the
+    /// file leaves to their defaults included.
+    #[must_use]
+    pub fn settings(&self) -> Vec<(String, String)> {
+        let mut settings = vec![("time step".to_owned(), TIME.written_short(self.time_step))];
+        for (effect, of_effect) in &self.effects {
+            let named = of_effect.settings().into_iter();
+            settings.extend(named.map(|(name, value)| (format!("{effect}: {name}"), value)));
+        }
+        settings
+    }
+
     /// How many steps the duration takes.
     #[must_use]
     pub fn steps(&self) -> u64 {

@@ -85,6 +85,20 @@ impl Quantity {
         }
     }
 
+    /// A value to six digits, in the unit in which that is shortest.
+    pub(crate) fn written_short(&self, value: f64) -> String {
+        let in_unit = |&(unit, size): &(&str, f64)| {
+            let digits = format!("{:.5e}", value / size);
+            let number = digits.parse().unwrap_or(value / size);
+            match unit {
+                "" => format!("{number}"),
+                unit => format!("{number} {unit}"),
+            }
+        };
+        let written = self.units.iter().map(in_unit);
+        written.min_by_key(String::len).unwrap_or_default()
+    }
+
     /// What a scene may write, for messages.
     pub(crate) fn example(&self) -> String {
         match self.units {
@@ -99,6 +113,15 @@ impl Quantity {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn values_are_written_in_the_unit_that_fits() {
+        let lengths = [3e-3, 0.1 * 3e-3, 0.5, 1e-6].map(|value| LENGTH.written_short(value));
+        assert_eq!(lengths, ["3 mm", "0.3 mm", "0.5 m", "0.001 mm"]);
+        let times = [1e-3, 2.5e-5].map(|value| TIME.written_short(value));
+        assert_eq!(times, ["1 ms", "25 us"]);
+        assert_eq!(RATIO.written_short(1.0 / 3.0), "0.333333");
+    }
 
     #[test]
     fn text_is_a_number_and_perhaps_a_unit() {

@@ -21,6 +21,8 @@
 //! A second time is that of tiles in the first cache (128 pairs of each chunk, again and again), on the best instruction set
 //! alone: the arithmetic, without the gathering, and with branches that the processor has learnt.
 
+#[cfg(feature = "files")]
+pub mod elementary;
 mod filter;
 mod measure;
 mod near_coplanar;
@@ -178,6 +180,46 @@ const DIRECTION: DVec3 = DVec3::new(0.7, -0.6, 0.39);
 /// No more nearly coplanar pairs than this are made: they take half a kilobyte each.
 const MOST_GENERATED: usize = 200_000;
 
+/// What every study of accuracy takes its pairs from.
+struct ScenePairs {
+    arm: PairSet,
+    mesh: Option<PairSet>,
+    /// Made in `f32`, and in `f64`.
+    near_coplanar: [PairSet; 2],
+}
+
+fn arm_frames() -> Result<ArmFrames, Box<dyn Error + Send + Sync>> {
+    Ok(ArmFrames::new(1, ArmScene::STEPS)?)
+}
+
+fn arm_steps() -> impl Iterator<Item = usize> {
+    (ARM_STRIDE - 1..ArmScene::STEPS).step_by(ARM_STRIDE)
+}
+
+fn scene_pairs<F: Frames>(
+    mesh: Option<&F>,
+    options: AccuracyOptions,
+) -> Result<ScenePairs, Box<dyn Error + Send + Sync>> {
+    let AccuracyOptions { pairs, seed, .. } = options;
+    let arm = arm_frames()?;
+    let here: Vec<_> = arm_steps().map(|step| (step, DVec3::ZERO)).collect();
+    let of_mesh = |mesh: &F| {
+        let steps: Vec<_> = (0..mesh.step_count())
+            .map(|step| (step, DVec3::ZERO))
+            .collect();
+        PairSet::of_steps(mesh.name(), mesh, &steps, pairs)
+    };
+    let generated = pairs.min(MOST_GENERATED);
+    Ok(ScenePairs {
+        arm: PairSet::of_steps(arm.name(), &arm, &here, pairs)?,
+        mesh: mesh.map(of_mesh).transpose()?,
+        near_coplanar: [
+            PairSet::near_coplanar::<f32>(seed, generated),
+            PairSet::near_coplanar::<f64>(seed, generated),
+        ],
+    })
+}
+
 /// Measures every filter on the candidate pairs of the arm scene, those of `mesh` (all its steps) if there is one, nearly
 /// coplanar pairs and pairs far from the origin. `progress` is told the share that is done.
 ///
@@ -191,34 +233,25 @@ pub fn measure_accuracy<F: Frames>(
     let AccuracyOptions {
         pairs,
         repeat,
-        seed,
         separation,
+        ..
     } = options;
-    let arm = ArmFrames::new(1, ArmScene::STEPS)?;
-    let arm_steps = (ARM_STRIDE - 1..ArmScene::STEPS).step_by(ARM_STRIDE);
-    let here: Vec<_> = arm_steps.clone().map(|step| (step, DVec3::ZERO)).collect();
+    let ScenePairs {
+        arm,
+        mesh,
+        near_coplanar,
+    } = scene_pairs(mesh, options)?;
     let distances = DISTANCES.into_iter().cycle();
-    let far: Vec<_> = arm_steps
+    let far: Vec<_> = arm_steps()
         .zip(distances)
         .map(|(step, distance)| (step, distance * DIRECTION))
         .collect();
-    let mut scenes = vec![PairSet::of_steps(arm.name(), &arm, &here, pairs)?];
-    if let Some(mesh) = mesh {
-        let steps: Vec<_> = (0..mesh.step_count())
-            .map(|step| (step, DVec3::ZERO))
-            .collect();
-        scenes.push(PairSet::of_steps(mesh.name(), mesh, &steps, pairs)?);
-    }
     let name = "Arm scene, 1 km to 1,000 km from the origin".to_owned();
-    scenes.push(PairSet::of_steps(name, &arm, &far, pairs)?);
-    let generated = pairs.min(MOST_GENERATED);
-    let near_coplanar = (
-        PairSet::near_coplanar::<f32>(seed, generated),
-        PairSet::near_coplanar::<f64>(seed, generated),
-    );
+    let far = PairSet::of_steps(name, &arm_frames()?, &far, pairs)?;
+    let scenes: Vec<_> = [Some(arm), mesh, Some(far)].into_iter().flatten().collect();
 
     let mut in_each_format: Vec<_> = scenes.iter().map(|set| (set, set)).collect();
-    in_each_format.push((&near_coplanar.0, &near_coplanar.1));
+    in_each_format.push((&near_coplanar[0], &near_coplanar[1]));
     let count = 2 * in_each_format.len();
     let mut sets = Vec::with_capacity(count);
     for (single, double) in in_each_format {

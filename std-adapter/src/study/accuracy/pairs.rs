@@ -55,8 +55,7 @@ impl PairSet {
         let mut set = Self::new(name);
         let (mut start, mut end) = (Vec::new(), Vec::new());
         for &(frame, offset) in steps {
-            frames.positions(frame, &mut start);
-            frames.positions(frame + 1, &mut end);
+            frames.step(frame, &mut start, &mut end);
             pipeline.step(&start, &end)?;
             let first = set.points.len() as u32;
             let moving = start.iter().zip(&end);

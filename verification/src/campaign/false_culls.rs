@@ -1,7 +1,5 @@
 //! False culls counted over many pairs, random and adversarial, every cull checked exactly.
 //!
-//! Work comes in chunks, each with random numbers of its own, so that the result depends on neither threads nor interruptions.
-//!
 //! # Who judges
 //! A cull without separation is proven right by the exact signs of the control values
 //! ([`control_value_signs`], itself checked against rationals in the tests), or for subdivided tiers by relative boxes; one
@@ -9,6 +7,7 @@
 //! it does prove the oracle confirms every 10,000th. A cull is false if the pair is coplanar, is within the separation, or, for
 //! subdivided tiers, touches.
 
+use crate::campaign::{self, Findings};
 use crate::generator::{Choices, Format, PairCase};
 use crate::oracle::{self, Kind};
 use proptest::prelude::Rng;
@@ -20,9 +19,7 @@ use selvedge_core::filter::{Filter, Tier, plain};
 use serde::{Deserialize, Serialize};
 use std::cell::OnceCell;
 use std::cmp::Ordering::{Greater, Less};
-use std::collections::BTreeSet;
 use std::fmt;
-use std::sync::Mutex;
 
 /// Every this many culls of a rule the oracle confirms one that is proven already.
 const SAMPLE: u64 = 10_000;
@@ -106,44 +103,40 @@ impl Tally {
     }
 }
 
-/// How far a run has come.
+/// What a run found, by rule.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Progress {
-    /// Where random numbers come from.
-    pub seed: u64,
-    /// Chunks for each of the two number formats.
-    pub chunks: u64,
-    /// Pairs a chunk.
-    pub pairs_per_chunk: u64,
-    /// Finished chunks: twice the number for `f32`, one more for `f64`.
-    pub done: BTreeSet<u64>,
+pub struct Found {
     /// A row for each of [`Rule::all`], for `f32` and for `f64`.
     pub rows: [Vec<Tally>; 2],
 }
 
+/// How far a run has come. Chunks of an even index are of `f32`, the others of `f64`.
+pub type Progress = campaign::Progress<Found>;
+
 impl Progress {
-    /// Nothing done yet. Whole chunks: at least `pairs` pairs for each format.
+    /// Nothing done yet. Whole chunks: at least `pairs` pairs for each of the two number formats.
     #[must_use]
     pub fn new(seed: u64, pairs: u64, pairs_per_chunk: u64) -> Self {
-        let nothing = vec![Tally::default(); Rule::all().len()];
-        Self {
-            seed,
-            chunks: pairs.div_ceil(pairs_per_chunk),
-            pairs_per_chunk,
-            done: BTreeSet::new(),
-            rows: [nothing.clone(), nothing],
+        let rows = || vec![Tally::default(); Rule::all().len()];
+        let found = Found {
+            rows: [rows(), rows()],
+        };
+        let of_format = pairs.next_multiple_of(pairs_per_chunk);
+        Self::with_nothing_done(seed, 2 * of_format, pairs_per_chunk, found)
+    }
+}
+
+impl Findings for Found {
+    type OfChunk = Vec<Tally>;
+
+    fn add(&mut self, chunk: u64, tallies: Vec<Tally>) {
+        for (row, tally) in self.rows[format(chunk)].iter_mut().zip(&tallies) {
+            row.add(tally);
         }
     }
 
-    /// Whether all chunks are done.
-    #[must_use]
-    pub fn is_finished(&self) -> bool {
-        self.done.len() as u64 == 2 * self.chunks
-    }
-
     /// False culls of rules that promise that there are none.
-    #[must_use]
-    pub fn broken_promises(&self) -> u64 {
+    fn wrong(&self) -> u64 {
         let of = |rows: &Vec<Tally>| {
             let certified = Rule::all().into_iter().zip(rows);
             let certified = certified.filter(|(rule, _)| rule.is_certified());
@@ -151,6 +144,16 @@ impl Progress {
         };
         self.rows.iter().map(of).sum()
     }
+
+    fn looks_for_the_same(&self, other: &Self) -> bool {
+        let rules = |found: &Self| found.rows.each_ref().map(Vec::len);
+        rules(self) == rules(other)
+    }
+}
+
+/// Of a chunk: 0 is `f32`, 1 is `f64`.
+const fn format(chunk: u64) -> usize {
+    (chunk % 2) as usize
 }
 
 impl fmt::Display for Progress {
@@ -160,7 +163,7 @@ impl fmt::Display for Progress {
             "{:24} {:6} {:>12} {:>12} {:>10} {:>12} {:>10}",
             "tier", "scalar", "pairs", "culled", "by oracle", "false culls", "touching"
         )?;
-        for (rows, scalar) in self.rows.iter().zip(["f32", "f64"]) {
+        for (rows, scalar) in self.found.rows.iter().zip(["f32", "f64"]) {
             for (rule, tally) in Rule::all().into_iter().zip(rows) {
                 let Tally {
                     pairs,
@@ -176,7 +179,7 @@ impl fmt::Display for Progress {
                 )?;
             }
         }
-        for (rows, scalar) in self.rows.iter().zip(["f32", "f64"]) {
+        for (rows, scalar) in self.found.rows.iter().zip(["f32", "f64"]) {
             for (rule, tally) in Rule::all().into_iter().zip(rows) {
                 if let Some(example) = &tally.example {
                     writeln!(f, "\n{rule}, {scalar}, culls\n{}", example.pair)?;
@@ -197,40 +200,12 @@ pub fn run(
     after_chunk: impl Fn(&Progress) + Sync,
     stops: impl Fn() -> bool + Sync,
 ) -> Progress {
-    let Progress {
-        seed,
-        pairs_per_chunk,
-        ..
-    } = progress;
-    let all = 0..2 * progress.chunks;
-    let left: Vec<u64> = all.filter(|chunk| !progress.done.contains(chunk)).collect();
-    let left = Mutex::new(left.into_iter());
-    let progress = Mutex::new(progress);
-    let take = || left.lock().expect("no panic").next();
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                while !stops() {
-                    let Some(chunk) = take() else {
-                        break;
-                    };
-                    let format = (chunk % 2) as usize;
-                    let tallies = if format == 0 {
-                        look_at_chunk::<f32>(seed, chunk, pairs_per_chunk)
-                    } else {
-                        look_at_chunk::<f64>(seed, chunk, pairs_per_chunk)
-                    };
-                    let mut progress = progress.lock().expect("no panic");
-                    for (row, tally) in progress.rows[format].iter_mut().zip(&tallies) {
-                        row.add(tally);
-                    }
-                    progress.done.insert(chunk);
-                    after_chunk(&progress);
-                }
-            });
-        }
-    });
-    progress.into_inner().expect("no panic")
+    let (seed, pairs) = (progress.seed, progress.pairs_per_chunk);
+    let look_at = |chunk| match format(chunk) {
+        0 => look_at_chunk::<f32>(seed, chunk, pairs),
+        _ => look_at_chunk::<f64>(seed, chunk, pairs),
+    };
+    campaign::run(progress, threads, look_at, after_chunk, stops)
 }
 
 fn look_at_chunk<S: Format>(seed: u64, chunk: u64, pairs: u64) -> Vec<Tally> {

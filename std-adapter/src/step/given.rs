@@ -1,0 +1,202 @@
+//! Moving boxes for pairs that the caller has: the first test of each, as for those that hierarchies find.
+//!
+//! ```text
+//! once a step   the f32 box of each vertex, edge and face at the start and at the end      64 bytes, one cache line
+//! each pair     one comparison of sixteen numbers:
+//!
+//!   second      start: lower x y z, −upper x y z, –, –     end: lower x y z, −upper x y z, –, –
+//!   first       start: upper x y z, −lower x y z, ∞, ∞     end: upper x y z, −lower x y z, ∞, ∞
+//!               apart if the second is above the first in one of the six at the start, and in the same at the end
+//! ```
+//!
+//! In place of the rows of four vertices that any other test gathers, each pair takes two cache lines, and no branch. That it is
+//! certified to drop a pair is derived with the [boxes](selvedge_core::boxes::moving) and their [mapping](crate::broad_phase::moving).
+
+use crate::PairKind;
+use crate::broad_phase::moving::{Mapping, extent};
+use crate::dispatch::Level;
+use crate::mesh::Topology;
+use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
+use selvedge_core::Scalar;
+use selvedge_core::boxes::moving::MovingBox;
+
+/// A moving box as one row of sixteen numbers: lower and negated upper corner at the start, and at the end.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct Row([f32; 16]);
+
+impl Row {
+    /// As the second of a pair.
+    fn second(moving: &MovingBox<f32>) -> Self {
+        let [a, b, c] = moving.start.lower;
+        let [d, e, f] = moving.start.upper;
+        let [g, h, i] = moving.end.lower;
+        let [j, k, l] = moving.end.upper;
+        let none = 0.0;
+        Self([
+            a, b, c, -d, -e, -f, none, none, g, h, i, -j, -k, -l, none, none,
+        ])
+    }
+
+    /// As the first of a pair: what the second must be above.
+    fn first(moving: &MovingBox<f32>) -> Self {
+        let [a, b, c] = moving.start.lower;
+        let [d, e, f] = moving.start.upper;
+        let [g, h, i] = moving.end.lower;
+        let [j, k, l] = moving.end.upper;
+        let none = f32::INFINITY;
+        Self([
+            d, e, f, -a, -b, -c, none, none, j, k, l, -g, -h, -i, none, none,
+        ])
+    }
+}
+
+/// The moving boxes of a mesh's primitives in one step.
+#[derive(Debug, Default)]
+pub(super) struct PrimitiveBoxes {
+    vertex_boxes: Vec<MovingBox<f32>>,
+    /// Of VF, EE pairs.
+    firsts: [Vec<Row>; 2],
+    seconds: [Vec<Row>; 2],
+}
+
+impl PrimitiveBoxes {
+    /// Makes the boxes of a step. Pairs that they show to be apart are so by more than `separation`.
+    pub(super) fn fit<S: Scalar>(
+        &mut self,
+        topology: &Topology,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        separation: S,
+    ) {
+        let mapping = Mapping::new(&extent::<S>(start, end), separation, S::ONE, false);
+        let moving = start.iter().zip(end);
+        self.vertex_boxes.clear();
+        self.vertex_boxes
+            .extend(moving.map(|(&start, &end)| mapping.vertex::<S>(start.into(), end.into())));
+        let boxes = &self.vertex_boxes;
+        let of = |vertex: u32| &boxes[vertex as usize];
+        let [vertices, first_edges] = &mut self.firsts;
+        let [faces, second_edges] = &mut self.seconds;
+        for rows in [&mut *vertices, first_edges, faces, second_edges] {
+            rows.clear();
+        }
+        vertices.extend(boxes.iter().map(Row::first));
+        for &[a, b] in topology.edges() {
+            let moving = of(a).merged(of(b));
+            first_edges.push(Row::first(&moving));
+            second_edges.push(Row::second(&moving));
+        }
+        let triangles = topology.triangles().iter();
+        faces.extend(triangles.map(|&[a, b, c]| Row::second(&of(a).merged(of(b)).merged(of(c)))));
+    }
+
+    /// Replaces `near` by the pairs that are not certainly apart, in the same order; `None` if the mesh does not have one of
+    /// the primitives.
+    #[must_use]
+    pub(super) fn keep_near(
+        &self,
+        level: Level,
+        kind: PairKind,
+        pairs: &[[u32; 2]],
+        near: &mut Vec<[u32; 2]>,
+    ) -> Option<()> {
+        let (firsts, seconds) = (&self.firsts[kind as usize], &self.seconds[kind as usize]);
+        near.clear();
+        near.resize(pairs.len(), [0; 2]);
+        let kept = fearless_simd::dispatch!(level, simd => {
+            keep_near_in_lanes(simd, firsts, seconds, pairs, near)
+        })?;
+        near.truncate(kept);
+        Some(())
+    }
+}
+
+/// `near` is as long as `pairs`. Returns how many are kept.
+#[inline(always)]
+fn keep_near_in_lanes<V: Simd>(
+    simd: V,
+    firsts: &[Row],
+    seconds: &[Row],
+    pairs: &[[u32; 2]],
+    near: &mut [[u32; 2]],
+) -> Option<usize> {
+    let mut kept = 0;
+    for &pair in pairs {
+        let [first, second] = pair;
+        let limit = f32x16::load_array_ref(simd, &firsts.get(first as usize)?.0);
+        let second = f32x16::load_array_ref(simd, &seconds.get(second as usize)?.0);
+        let above = second.simd_gt(limit).to_bitmask();
+        near[kept] = pair;
+        kept += usize::from(above & above >> 8 & 0x3F == 0);
+    }
+    Some(kept)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dispatch::available_levels;
+    use crate::glam::DVec3;
+
+    /// A triangle, and a vertex of a second one above it or beside it, at both ends of the step.
+    fn is_near(start: DVec3, end: DVec3, separation: f64) -> bool {
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let far = [DVec3::splat(50.0), DVec3::splat(51.0)];
+        let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]]).unwrap();
+        let frame = |vertex: DVec3| [&corners[..], &[vertex], &far].concat();
+        let mut boxes = PrimitiveBoxes::default();
+        boxes.fit::<f64>(&topology, &frame(start), &frame(end), separation);
+        let mut answers = available_levels().into_iter().map(|(_, level)| {
+            let mut near = Vec::new();
+            let known = boxes.keep_near(level, PairKind::VertexFace, &[[3, 0]], &mut near);
+            assert_eq!(known, Some(()));
+            !near.is_empty()
+        });
+        let answer = answers.next().unwrap();
+        assert!(answers.all(|other| other == answer));
+        answer
+    }
+
+    #[test]
+    fn a_pair_is_dropped_only_if_one_axis_keeps_its_order() {
+        let at = DVec3::new;
+        for (start, end, near) in [
+            (at(0.2, 0.2, 1.0), at(0.2, 0.2, 0.5), false),
+            (at(0.2, 0.2, -1.0), at(0.2, 0.2, -0.5), false),
+            (at(0.2, 0.2, 1.0), at(0.2, 0.2, 0.0), true),
+            (at(0.2, 0.2, 1.0), at(0.2, 0.2, -1.0), true),
+            // Along one axis at the start, along another at the end.
+            (at(0.2, 0.2, 1.0), at(-1.0, 0.2, 0.0), true),
+            (at(-1.0, 0.2, 1.0), at(-1.0, 0.2, -1.0), false),
+            (at(0.2, 1.5, 1.0), at(0.2, 1.1, -1.0), false),
+        ] {
+            assert_eq!(is_near(start, end, 0.0), near, "{start} {end}");
+        }
+    }
+
+    #[test]
+    fn a_pair_within_the_separation_is_near() {
+        let (start, end) = (DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, 0.5));
+        assert!(!is_near(start, end, 0.49));
+        assert!(is_near(start, end, 0.51));
+    }
+
+    #[test]
+    fn pairs_are_kept_in_their_order() {
+        let topology = Topology::new(4, vec![[0, 1, 2], [1, 3, 2]]).unwrap();
+        let frame = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE];
+        let mut boxes = PrimitiveBoxes::default();
+        boxes.fit::<f64>(&topology, &frame, &frame, 0.0);
+        let mut near = Vec::new();
+        let pairs = [[3, 1], [0, 1], [3, 0], [1, 0], [2, 1]];
+        let level = crate::dispatch::best_level();
+        let mut keep =
+            |pairs: &[[u32; 2]]| boxes.keep_near(level, PairKind::VertexFace, pairs, &mut near);
+        assert_eq!(keep(&[[0, 1], [4, 0]]), None);
+        assert_eq!(keep(&[[0, 2]]), None);
+        assert_eq!(keep(&pairs), Some(()));
+        // Vertex 3 is above the first triangle's box.
+        assert_eq!(near, [[3, 1], [0, 1], [1, 0], [2, 1]]);
+    }
+}

@@ -1,0 +1,73 @@
+use super::*;
+use crate::study::TwoFrames;
+use selvedge_core::glam::DVec3;
+
+fn measured() -> ElementaryAccuracy {
+    let options = AccuracyOptions {
+        pairs: 2000,
+        repeat: 1,
+        seed: 7,
+        separation: 0.0,
+    };
+    measure_elementary_accuracy::<TwoFrames>(None, options, &mut |_| ()).unwrap()
+}
+
+#[test]
+fn certified_tests_miss_nothing_and_are_never_late_and_the_others_are_caught() {
+    let ElementaryAccuracy { sets, .. } = measured();
+    assert_eq!(sets.len(), 6);
+    let (mut wrong, mut early) = (0, 0);
+    for set in &sets {
+        assert!(set.with_time <= set.touching);
+        for row in &set.rows {
+            let name = format!("{}, {}, {}", set.name, set.scalar, row.method);
+            assert!(row.asked > 0 && row.nanoseconds > 0.0, "{name}");
+            if row.method.is_certified() {
+                assert!(!row.is_wrong(), "{name}: {row:?}");
+            } else {
+                wrong += usize::from(row.is_wrong());
+            }
+            if row.method == ElementaryMethod::Exact {
+                assert_eq!(row.false_alarms, 0, "{name}");
+            }
+            early += usize::from(row.early.is_some_and(|early| early > 0.0));
+        }
+    }
+    assert!(wrong > 5 && early > 20, "{wrong} wrong, {early} early");
+}
+
+#[test]
+fn a_finer_tolerance_gives_no_earlier_times() {
+    for set in measured().sets {
+        let of = |tolerance| {
+            let method = ElementaryMethod::Certified(tolerance);
+            set.rows.iter().find(|row| row.method == method).unwrap()
+        };
+        let (coarse, fine) = (of(1e-2), of(1e-9));
+        if (coarse.asked, fine.asked) == (set.vertex_face + set.edge_edge, coarse.asked) {
+            assert!(fine.early <= coarse.early, "{}", set.name);
+            assert!(fine.false_alarms <= coarse.false_alarms, "{}", set.name);
+        }
+    }
+}
+
+/// A vertex that falls from 1 to −3 reaches the plane at ¼; above 0.2, 0.2 there is a triangle, above 3, 3 none.
+#[test]
+fn exact_answers_are_right_and_enclose_the_time() {
+    let fall = |x: f64, height: f64| VertexFace {
+        vertex: Motion::new(DVec3::new(x, x, 1.0), DVec3::new(x, x, height)),
+        face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+    };
+    assert_eq!(exact_answer(&fall(3.0, -3.0)), ExactAnswer::Never);
+    assert_eq!(exact_answer(&fall(0.2, 1e-300)), ExactAnswer::Never);
+    let ExactAnswer::Touches {
+        first: Some([from, to]),
+    } = exact_answer(&fall(0.2, -3.0))
+    else {
+        panic!("it touches, and passes through");
+    };
+    assert!((from..=to).contains(&0.25) && to - from < WIDEST);
+    // At the very end of the step, without passing through.
+    let graze = exact_answer(&fall(0.2, 0.0));
+    assert_eq!(graze, ExactAnswer::Touches { first: None });
+}

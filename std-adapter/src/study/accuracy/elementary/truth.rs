@@ -1,0 +1,69 @@
+use selvedge_core::elementary::advance::confirm::certain_contact;
+use selvedge_core::elementary::advance::time_of_impact;
+use selvedge_core::elementary::{Contact, Limits, contact};
+use selvedge_core::glam::DVec3;
+use selvedge_core::points::{PairShape, Shape};
+use selvedge_core::{EdgeEdge, Motion, PrimitivePair, Scalar, VertexFace};
+
+/// A first contact that is enclosed less closely than this, in steps, counts as one of unknown time.
+pub const WIDEST: f64 = 1e-10;
+
+/// Whether a pair touches, and when first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ExactAnswer {
+    /// Not at any time in [0, 1].
+    Never,
+    /// It does.
+    Touches {
+        /// The first time is no earlier than the first of these, and no later than the second; `None` if that is not known well.
+        first: Option<[f64; 2]>,
+    },
+}
+
+/// The exact answer, and an enclosure of the first time: see the [module](self).
+///
+/// A pair that is not finite is said to touch, at an unknown time.
+#[must_use]
+pub fn exact_answer<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> ExactAnswer {
+    let [a, b, c, d] = pair.motions().map(|point| Motion {
+        start: in_f64::<S>(point.start),
+        end: in_f64::<S>(point.end),
+    });
+    match <P::Shape as PairShape>::SHAPE {
+        Shape::VertexFace => answer(&VertexFace {
+            vertex: a,
+            face: [b, c, d],
+        }),
+        Shape::EdgeEdge => answer(&EdgeEdge {
+            first: [a, b],
+            second: [c, d],
+        }),
+    }
+}
+
+/// Exactly.
+fn in_f64<S: Scalar>(position: S::Vector) -> DVec3 {
+    let numbers: [S; 3] = position.into();
+    DVec3::from_array(numbers.map(S::to_f64))
+}
+
+fn answer<P: PrimitivePair<f64>>(pair: &P) -> ExactAnswer {
+    match contact(pair) {
+        Contact::Never => ExactAnswer::Never,
+        Contact::Happens => ExactAnswer::Touches {
+            first: first_time(pair),
+        },
+        Contact::Undefined => ExactAnswer::Touches { first: None },
+    }
+}
+
+/// An enclosure of the first time of a pair that touches.
+fn first_time<P: PrimitivePair<f64>>(pair: &P) -> Option<[f64; 2]> {
+    let as_tight_as_can_be = Limits {
+        tolerance: 0.0,
+        separation: 0.0,
+    };
+    let from = time_of_impact(pair, &as_tight_as_can_be).time()?;
+    let [_, to] = certain_contact(pair, from)?;
+    (to - from <= WIDEST).then_some([from, to])
+}

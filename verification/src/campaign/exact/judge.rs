@@ -1,0 +1,115 @@
+//! Who judges a claim: exact signs, an axis, whole numbers, and the oracle.
+
+use super::{Claim, SAMPLE, Tally};
+use crate::generator::{Format, PairCase};
+use crate::oracle::{self, Kind};
+use selvedge_core::PrimitivePair;
+use selvedge_core::exact::{control_value_signs, touches};
+use std::cmp::Ordering::{Greater, Less};
+
+/// One pair, and what is proven of it so far.
+pub(super) struct Judge<'a, S: Format, P> {
+    case: &'a PairCase<S>,
+    pair: &'a P,
+    has_one_sign: Option<bool>,
+    is_apart: Option<By>,
+}
+
+/// What proves that the sets stay apart.
+#[derive(Clone, Copy, PartialEq)]
+enum By {
+    Axis,
+    Signs,
+    WholeNumbers,
+    Nothing,
+}
+
+impl<'a, S: Format, P: PrimitivePair<S>> Judge<'a, S, P> {
+    pub(super) const fn new(case: &'a PairCase<S>, pair: &'a P) -> Self {
+        Self {
+            case,
+            pair,
+            has_one_sign: None,
+            is_apart: None,
+        }
+    }
+
+    /// Counts the claim, and whether it is right.
+    pub(super) fn judge(&mut self, claim: Claim, tally: &mut Tally, chunk: u64) {
+        tally.claims += 1;
+        let by = if claim.is_of_the_volume() {
+            if self.has_one_sign() {
+                By::Signs
+            } else {
+                By::Nothing
+            }
+        } else {
+            self.is_apart()
+        };
+        match by {
+            By::Axis => tally.by_axis += 1,
+            By::Signs => tally.by_signs += 1,
+            By::WholeNumbers => tally.by_whole_numbers += 1,
+            By::Nothing => {}
+        }
+        if by != By::Nothing && tally.claims % SAMPLE != 1 {
+            return;
+        }
+        tally.by_oracle += 1;
+        let question = self.case.question();
+        let is_wrong = if claim.is_of_the_volume() {
+            oracle::coplanar(&question.start, &question.end)
+        } else {
+            oracle::collides(&question).is_some()
+        };
+        if is_wrong {
+            tally.wrong += 1;
+            let example = (chunk, format!("{:?}", self.case));
+            tally.example = tally.example.take().into_iter().chain([example]).min();
+        }
+    }
+
+    fn has_one_sign(&mut self) -> bool {
+        *self.has_one_sign.get_or_insert_with(|| {
+            let signs = control_value_signs::<P::Shape, S>(&self.pair.points());
+            matches!(
+                signs,
+                Some([Less, Less, Less, Less] | [Greater, Greater, Greater, Greater])
+            )
+        })
+    }
+
+    fn is_apart(&mut self) -> By {
+        if let Some(by) = self.is_apart {
+            return by;
+        }
+        let by = if self.is_apart_along_an_axis() {
+            By::Axis
+        } else if self.has_one_sign() {
+            By::Signs
+        } else if touches::<P::Shape, S>(&self.pair.points()) == Some(false) {
+            By::WholeNumbers
+        } else {
+            By::Nothing
+        };
+        self.is_apart = Some(by);
+        by
+    }
+
+    /// One set ahead of the other along an axis, at both ends of the step.
+    fn is_apart_along_an_axis(&self) -> bool {
+        let of_first = match self.case.kind {
+            Kind::VertexFace => 1,
+            Kind::EdgeEdge => 2,
+        };
+        let (first, second) = self.case.points.split_at(of_first);
+        let ahead = |one: &[[[S; 3]; 2]], other: &[[[S; 3]; 2]], axis: usize| {
+            let all_ahead = |end: usize| {
+                one.iter()
+                    .all(|p| other.iter().all(|q| p[end][axis] > q[end][axis]))
+            };
+            all_ahead(0) && all_ahead(1)
+        };
+        (0..3).any(|axis| ahead(first, second, axis) || ahead(second, first, axis))
+    }
+}

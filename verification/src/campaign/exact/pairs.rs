@@ -1,0 +1,198 @@
+//! Pairs that cost little to make, and where they come from.
+
+use crate::generator::{Choices, Format, PairCase};
+use crate::oracle::Kind;
+
+/// Where pairs come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Random coordinates, half of the pairs nearly coplanar.
+    Random,
+    /// Pairs of the tests' [generator](crate::generator), each in many variants a few units in the last place away.
+    Adversarial,
+    /// Pairs of real motion, as they are, nudged, far from the origin, or moved onto one another's plane.
+    Scene,
+}
+
+impl Source {
+    pub(super) const ALL: [Self; 3] = [Self::Random, Self::Adversarial, Self::Scene];
+}
+
+/// Four moving points.
+pub type Points = [[[f64; 3]; 2]; 4];
+
+/// The pairs of real motion.
+#[derive(Clone, Debug, Default)]
+pub struct Scenes {
+    /// Vertex and face.
+    pub vertex_face: Vec<Points>,
+    /// Two edges.
+    pub edge_edge: Vec<Points>,
+}
+
+/// Makes the pairs of a chunk.
+pub(super) struct Maker<'a> {
+    source: Source,
+    kind: Kind,
+    of_scene: &'a [Points],
+    random: Random,
+}
+
+impl<'a> Maker<'a> {
+    pub(super) fn new(source: Source, kind: Kind, scenes: &'a Scenes, random: Random) -> Self {
+        let of_scene = match kind {
+            Kind::VertexFace => &scenes.vertex_face,
+            Kind::EdgeEdge => &scenes.edge_edge,
+        };
+        Self {
+            source,
+            kind,
+            of_scene,
+            random,
+        }
+    }
+
+    /// Appends the next `count` pairs.
+    pub(super) fn make<S: Format>(&mut self, count: usize, cases: &mut Vec<PairCase<S>>) {
+        let (kind, random) = (self.kind, &mut self.random);
+        let mut base = PairCase::new(kind, [[[S::ZERO; 3]; 2]; 4]);
+        let mut variants = 0;
+        for _ in 0..count {
+            let case = match self.source {
+                Source::Scene if !self.of_scene.is_empty() => {
+                    let points = self.of_scene[random.below(self.of_scene.len() as u64) as usize];
+                    let points = points.map(|ends| ends.map(|x| x.map(S::from_f64)));
+                    of_motion(PairCase::new(kind, points), random)
+                }
+                Source::Adversarial => {
+                    if variants == 0 {
+                        base = PairCase::choose(kind, &mut Choices::new(&random.bytes()));
+                        variants = if is_wide(&base) { 1 } else { 32 };
+                    }
+                    variants -= 1;
+                    nudged(base, 1 + random.below(3), random)
+                }
+                Source::Random | Source::Scene => at_random(kind, random),
+            };
+            cases.push(case.map(S::made_finite));
+        }
+    }
+}
+
+/// Whether exact arithmetic takes a hundred times as long as with coordinates of one size: then one variant is enough.
+fn is_wide<S: Format>(case: &PairCase<S>) -> bool {
+    let sizes = case
+        .coordinates()
+        .map(|x| x.to_f64().abs())
+        .filter(|&x| x > 0.0);
+    let (low, high) = sizes.fold((f64::MAX, 0.0_f64), |(low, high), x| {
+        (low.min(x), high.max(x))
+    });
+    high / low > 1e60
+}
+
+/// Three in four pairs have coordinates of few enough bits for whole numbers of one word, which takes a fraction of the time.
+fn at_random<S: Format>(kind: Kind, random: &mut Random) -> PairCase<S> {
+    let bits = if random.below(4) > 0 { 26 } else { 52 };
+    let motion = [1.0, 0.5, 1.0 / 16.0, 1.0 / 4096.0, 1.0 / 4_194_304.0][random.below(5) as usize];
+    let points = std::array::from_fn(|_| {
+        let start: [f64; 3] = std::array::from_fn(|_| random.fraction(bits));
+        let end = start.map(|x| x + motion * random.fraction(bits));
+        [start, end].map(|x| x.map(S::from_f64))
+    });
+    let case = PairCase::new(kind, points);
+    if random.below(2) == 0 {
+        case
+    } else {
+        onto_the_plane(case, random)
+    }
+}
+
+/// As it is; or nudged; or far from the origin, where coordinates are rounded; or onto one another's plane.
+fn of_motion<S: Format>(case: PairCase<S>, random: &mut Random) -> PairCase<S> {
+    match random.below(4) {
+        0 => case,
+        1 => nudged(case, 8, random),
+        2 => {
+            let by: [S; 3] = std::array::from_fn(|_| {
+                S::from_f64(
+                    random.fraction(52) * [16.0, 1024.0, 65536.0, 1e7][random.below(4) as usize],
+                )
+            });
+            case.with_positions(|x| std::array::from_fn(|axis| x[axis] + by[axis]))
+        }
+        _ => nudged(onto_the_plane(case, random), 2, random),
+    }
+}
+
+/// The first point moved into the plane of the others, but for rounding, at the start, at the end or at both.
+fn onto_the_plane<S: Format>(mut case: PairCase<S>, random: &mut Random) -> PairCase<S> {
+    let ends = 1 + random.below(3);
+    let [p, a, b, c] = &mut case.points;
+    for end in (0..2).filter(|end| ends >> end & 1 != 0) {
+        let (s, t) = (
+            S::from_f64(random.fraction(20)),
+            S::from_f64(random.fraction(20)),
+        );
+        p[end] = std::array::from_fn(|axis| {
+            let from = a[end][axis];
+            from + (s * (b[end][axis] - from) + t * (c[end][axis] - from))
+        });
+    }
+    case
+}
+
+/// Some coordinates one or two units in the last place up or down. Zeros seldom: next to numbers of everyday size the smallest
+/// subnormal ones make exact arithmetic take a hundred times as long.
+fn nudged<S: Format>(mut case: PairCase<S>, count: u64, random: &mut Random) -> PairCase<S> {
+    for _ in 0..count {
+        let index = random.below(24) as usize;
+        let number = &mut case.points[index / 6][index / 3 % 2][index % 3];
+        if *number == S::ZERO && random.below(64) > 0 {
+            continue;
+        }
+        *number = match random.below(4) {
+            0 => number.down(),
+            1 => number.down().down(),
+            2 => number.up(),
+            _ => number.up().up(),
+        };
+    }
+    case
+}
+
+/// Small and fast (`SplitMix64`): most of the time is to go to the tests.
+pub(super) struct Random(u64);
+
+impl Random {
+    pub(super) const fn new(seed: u64, chunk: u64) -> Self {
+        let mut random = Self(seed);
+        let seed = random.next();
+        Self(seed ^ chunk.wrapping_mul(0xd134_2543_de82_ef95))
+    }
+
+    const fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    const fn below(&mut self, count: u64) -> u64 {
+        ((self.next() >> 32) * count) >> 32
+    }
+
+    /// From −1 to 1, in steps of 2^-`bits`; at most 52.
+    const fn fraction(&mut self, bits: u32) -> f64 {
+        (self.next().cast_signed() >> (63 - bits)) as f64 * (1.0 / (1_u64 << bits) as f64)
+    }
+
+    fn bytes(&mut self) -> [u8; Choices::ENOUGH] {
+        let mut bytes = [0; Choices::ENOUGH];
+        for word in bytes.chunks_exact_mut(8) {
+            word.copy_from_slice(&self.next().to_le_bytes());
+        }
+        bytes
+    }
+}
