@@ -11,6 +11,7 @@ use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
 use selvedge_verification::generator::{Format, MeshCase, check, meshes};
 use selvedge_verification::oracle::{collides, within};
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 type MeshPair = (PairKind, [u32; 2]);
@@ -216,6 +217,39 @@ fn what_rests_changes_nothing_for_what_moves_f32() {
         meshes::<f32>(),
         what_rests_changes_nothing_for_what_moves,
     );
+}
+
+/// Positions in `f32`, and the same in `f64`: the same contacts, with the same times but for rounding them down.
+#[test]
+fn the_format_of_the_positions_changes_no_contact() {
+    let compared = Cell::new(0);
+    check(250, meshes::<f32>(), |mesh| {
+        let wide = MeshCase::<f64> {
+            triangles: mesh.triangles.clone(),
+            positions: mesh
+                .positions
+                .iter()
+                .map(|ends| ends.map(|end| end.map(f64::from)))
+                .collect(),
+        };
+        let (mut narrow_detector, mut wide_detector) = (detector(mesh), detector(&wide));
+        let limits = Limits::<f32>::default();
+        let limits = Limits {
+            tolerance: f64::from(limits.tolerance),
+            separation: f64::from(limits.separation),
+        };
+        wide_detector.set_limits(limits).expect("lengths");
+        let found = by_pair(&contacts(&mut narrow_detector, mesh));
+        let wide_found = by_pair(&contacts(&mut wide_detector, &wide));
+        prop_assert!(found.keys().eq(wide_found.keys()));
+        for (pair, &time) in &found {
+            let exact = wide_found[pair];
+            prop_assert!(time <= exact && time >= exact * (1.0 - 1e-6), "{:?}", pair);
+        }
+        compared.set(compared.get() + found.len());
+        Ok(())
+    });
+    assert!(compared.get() > 100, "{compared:?}");
 }
 
 /// On a mesh of many chunks: the same contacts, bits and order.

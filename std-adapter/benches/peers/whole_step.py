@@ -8,6 +8,7 @@ import argparse
 import json
 import os
 import platform
+import resource
 import statistics
 import time
 from collections.abc import Callable
@@ -35,6 +36,11 @@ SHORT_QUESTIONS = {
 }
 TIGHT_INCLUSION_STEP = "ipctk LBVH + Tight-Inclusion"
 ADDITIVE_STEP = "ipctk LBVH + additive CCD"
+# How each step size is asked.
+TESTS = {
+    TIGHT_INCLUSION_STEP: lambda: ipctk.TightInclusionCCD(**TIGHT_INCLUSION),
+    ADDITIVE_STEP: lambda: ipctk.AdditiveCCD(**ADDITIVE),
+}
 
 T = TypeVar("T")
 
@@ -65,9 +71,10 @@ class Measurement:
 class Ipctk:
     """ipctk on one step. Its mesh (edges and adjacency) is built once, outside the timed part."""
 
-    def __init__(self, step: common.Step, threads: int) -> None:
+    def __init__(self, step: common.Step, threads: int, tests: list[str]) -> None:
         ipctk.set_num_threads(threads)
         self.step = step
+        self.tests = tests
         begin = time.perf_counter()
         edges = ipctk.edges(step.triangles)
         self.mesh = ipctk.CollisionMesh(step.start, edges, step.triangles)
@@ -75,23 +82,20 @@ class Ipctk:
         self.edges = len(edges)
 
     def run(self, rows: dict[str, Measurement], record: bool) -> None:
-        """One round: candidates, then both step sizes from those same candidates."""
+        """One round: candidates, then the step sizes from those same candidates."""
         motion = (self.mesh, self.step.start, self.step.end)
         candidates = ipctk.Candidates()
         _, build = timed(lambda: candidates.build(*motion, 0.0, ipctk.LBVH()))
-        tight = ipctk.TightInclusionCCD(**TIGHT_INCLUSION)
-        additive = ipctk.AdditiveCCD(**ADDITIVE)
         size = candidates.compute_collision_free_stepsize
-        tight_size, tight_time = timed(lambda: size(*motion, MINIMUM_DISTANCE, tight))
-        additive_size, additive_time = timed(lambda: size(*motion, MINIMUM_DISTANCE, additive))
+        counts = f"{len(candidates.fv_candidates):,} VF, {len(candidates.ee_candidates):,} EE pairs"
+        results = [(BROAD_PHASE, build, counts)]
+        for name in self.tests:
+            test = TESTS[name]()
+            found, seconds = timed(lambda: size(*motion, MINIMUM_DISTANCE, test))
+            results.append((name, add(build, seconds), f"step size {found:.4g}"))
         if not record:
             return
-        counts = f"{len(candidates.fv_candidates):,} VF, {len(candidates.ee_candidates):,} EE pairs"
-        for name, sample, result in (
-            (BROAD_PHASE, build, counts),
-            (TIGHT_INCLUSION_STEP, add(build, tight_time), f"step size {tight_size:.4g}"),
-            (ADDITIVE_STEP, add(build, additive_time), f"step size {additive_size:.4g}"),
-        ):
+        for name, sample, result in results:
             rows[name].samples.append(sample)
             rows[name].result = result
 
@@ -166,6 +170,11 @@ def ask_selvedge(arguments: argparse.Namespace, own: Own, row: Measurement) -> N
         common.fail(f"selvedge's report lacks or mistypes a field: {error}")
 
 
+def peak_bytes(who: int) -> int:
+    """The most memory that this process (or the largest of those it has started and waited for) has had."""
+    return 1024 * resource.getrusage(who).ru_maxrss
+
+
 def spread(values: list[float]) -> dict[str, float]:
     return {"median": statistics.median(values), "min": min(values), "max": max(values)}
 
@@ -178,10 +187,10 @@ def compare(
     for name in short:
         peers = [BROAD_PHASE]
         if "earliest" in name:
-            peers = [TIGHT_INCLUSION_STEP, ADDITIVE_STEP]
+            peers = [peer for peer in TESTS if peer in rows]
         ratios += [(peer, name, "whole question", rows[name].seconds()) for peer in peers]
     for pipeline, own_stages in stages.items():
-        for peer in (TIGHT_INCLUSION_STEP, ADDITIVE_STEP):
+        for peer in [peer for peer in TESTS if peer in rows]:
             ratios.append((peer, pipeline, "whole step", rows[pipeline].seconds()))
         if "broad-phase" in own_stages:
             ratios.append((BROAD_PHASE, pipeline, "broad-phase stage", own_stages["broad-phase"]))
@@ -197,6 +206,9 @@ def compare(
 
 
 def print_tables(settings: dict, rows: dict[str, Measurement], ratios: list[dict]) -> None:
+    def megabytes(process: str) -> str:
+        return f"{settings['peak_bytes'][process] / 1e6:.0f} MB"
+
     print(
         f"{settings['vertices']:,} vertices, {settings['edges']:,} edges,"
         f" {settings['triangles']:,} triangles; {settings['threads']} thread(s), f64,"
@@ -205,6 +217,9 @@ def print_tables(settings: dict, rows: dict[str, Measurement], ratios: list[dict
         f"additive CCD: {written_out(ADDITIVE)}\n"
         f"minimum distance {MINIMUM_DISTANCE:g}; ipctk's mesh, not timed below:"
         f" {settings['ipctk_mesh_seconds']:.3f} s\n"
+        f"peak memory: {megabytes('selvedge_process')} for the first selvedge cull, files included;"
+        f" ipctk's process {megabytes('ipctk_process')},"
+        f" of which {megabytes('ipctk_process_without_its_work')} before its mesh\n"
     )
     width = max(map(len, rows)) + 2
     print(f"{'seconds':<{width}} {'median':>8} {'min':>8} {'max':>8} {'cores':>6}  result")
@@ -233,6 +248,11 @@ def main() -> None:
         "--repeats", type=common.positive, default=5, help="rounds (default: %(default)s)"
     )
     parser.add_argument(
+        "--additive-only",
+        action="store_true",
+        help="leave out Tight-Inclusion, and ipctk's unmeasured round: for meshes on which they take minutes",
+    )
+    parser.add_argument(
         "--simd",
         metavar="NAME[,NAME…]",
         help="instruction sets to force in selvedge, one after the other (default: the machine's best)",
@@ -241,8 +261,15 @@ def main() -> None:
     arguments = parser.parse_args()
     names = common.pipelines(arguments) if arguments.selvedge else []
 
+    # The first process that is started, so that the most of all is its own.
+    if arguments.selvedge:
+        Own(names[0], None, []).run(arguments)
+    selvedge_bytes = peak_bytes(resource.RUSAGE_CHILDREN)
+
     step = common.read_step(arguments.START, arguments.END)
-    peer = Ipctk(step, arguments.threads)
+    before = peak_bytes(resource.RUSAGE_SELF)
+    tests = [ADDITIVE_STEP] if arguments.additive_only else list(TESTS)
+    peer = Ipctk(step, arguments.threads, tests)
     if ipctk.get_num_threads() != arguments.threads:
         common.fail(f"ipctk runs on {ipctk.get_num_threads()} threads, not {arguments.threads}")
     # What stands behind a row's name, and the instruction set.
@@ -256,12 +283,13 @@ def main() -> None:
         for question, options in SHORT_QUESTIONS.items()
         if "selvedge" in names
     }
-    all_rows = (BROAD_PHASE, TIGHT_INCLUSION_STEP, ADDITIVE_STEP, *own, *short)
+    all_rows = (BROAD_PHASE, *tests, *own, *short)
     rows = {name: Measurement() for name in all_rows}
     stages: dict[str, dict[str, list[float]]] = {name: {} for name in own}
 
-    # ipctk's first round is not measured; each run of selvedge is a new process that runs the step twice.
-    peer.run(rows, record=False)
+    # ipctk's first round is not measured; each run of selvedge is a new process that runs the step three times.
+    if not arguments.additive_only:
+        peer.run(rows, record=False)
     for number in range(arguments.repeats):
         turns: list[Callable[[], None]] = [lambda: peer.run(rows, record=True)]
         for row, what in own.items():
@@ -275,6 +303,7 @@ def main() -> None:
             turn()
 
     ratios = compare(rows, stages, short)
+    ipctk_bytes = peak_bytes(resource.RUSAGE_SELF)
     settings = {
         "start": os.fspath(arguments.START),
         "end": os.fspath(arguments.END),
@@ -288,6 +317,11 @@ def main() -> None:
         "processor": platform.processor() or platform.machine(),
         "ipctk_version": ipctk.__version__,
         "ipctk_mesh_seconds": peer.mesh_seconds,
+        "peak_bytes": {
+            "selvedge_process": selvedge_bytes,
+            "ipctk_process": ipctk_bytes,
+            "ipctk_process_without_its_work": before,
+        },
         "tight_inclusion": TIGHT_INCLUSION,
         "additive": ADDITIVE,
         "minimum_distance": MINIMUM_DISTANCE,

@@ -1,21 +1,19 @@
 //! The stages joined, on the threads of whoever calls.
 
+use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
 use super::given::PrimitiveBoxes;
-use super::sweep::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
-use super::{Bound, CandidateBoxes, Contact, Question, Wanted};
+use super::{Bound, CandidateBoxes, Contact, Question, Wanted, power_of_two, widened};
 use crate::PairKind;
 use crate::broad_phase::buffer::settle;
-use crate::broad_phase::moving::{CHUNK, Fit, MovingBroadPhase, Scratch};
+use crate::broad_phase::moving::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
 use crate::dispatch::Level;
 use crate::frame::{StepError, check_frames};
-use crate::glam::DVec3;
 use crate::mesh::Topology;
 use crate::pair_kind::PairCounts;
 use crate::parallel;
 use crate::pipeline::{Stage, StageReport, StepReport};
-use selvedge_core::batch::VertexRow;
+use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
-use selvedge_core::{Motion, Scalar};
 use std::cmp::Ordering;
 use std::sync::atomic::{self, AtomicBool};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -107,36 +105,34 @@ impl StepTally {
 pub(crate) struct Engine<S: Scalar> {
     broad_phase: MovingBroadPhase<S>,
     /// One for each share of the work.
-    workers: Vec<Worker<S>>,
+    workers: Vec<Worker>,
     /// One for each thread.
-    spaces: Vec<Mutex<Space<S>>>,
+    spaces: Vec<Mutex<Space>>,
     /// The motion of each vertex as the mesh numbers them, for pairs of the caller's.
-    rows: Vec<VertexRow<S>>,
+    rows: Rows,
     boxes: PrimitiveBoxes,
-    /// The rows in f64, for narrower formats.
-    wide_rows: Vec<VertexRow<f64>>,
     tally: StepTally,
 }
 
 /// What a thread works in.
 #[derive(Debug)]
-struct Space<S> {
+struct Space {
     scratch: Scratch,
-    chunk: Chunk<S>,
+    chunk: Chunk,
     /// A caller's pairs that boxes leave.
     near: Vec<[u32; 2]>,
 }
 
 /// One share of the work.
 #[derive(Debug)]
-struct Worker<S> {
-    found: Found<S>,
+struct Worker {
+    found: Found,
     kind: PairKind,
     tests: u64,
     seconds: f64,
 }
 
-impl<S: Scalar> Worker<S> {
+impl Worker {
     fn new() -> Self {
         Self {
             found: Found::nothing(),
@@ -153,9 +149,8 @@ impl<S: Scalar> Engine<S> {
             broad_phase: MovingBroadPhase::new(topology),
             workers: Vec::new(),
             spaces: Vec::new(),
-            rows: Vec::new(),
+            rows: Rows::default(),
             boxes: PrimitiveBoxes::default(),
-            wide_rows: Vec::new(),
             tally: StepTally::default(),
         }
     }
@@ -190,7 +185,7 @@ impl<S: Scalar> Engine<S> {
         is_exact: bool,
     ) -> Result<(), StepError> {
         let question = Question {
-            limits: Limits::default(),
+            limits: widened(&Limits::<S>::default()),
             wanted: Wanted::All,
             keeps_filtered,
             is_exact,
@@ -203,17 +198,17 @@ impl<S: Scalar> Engine<S> {
         &mut self,
         start: &[S::Vector],
         end: &[S::Vector],
-        question: &Question<S>,
+        question: &Question,
         probe: Probe,
     ) -> Result<(), StepError> {
         let begin = Instant::now();
         let fit = Fit {
-            separation: question.limits.separation,
+            separation: S::from_f64(question.limits.separation),
             until: S::from_f64(probe.until),
             is_swept: false,
         };
         self.broad_phase.hierarchies.update(start, end, &fit)?;
-        widen(self.broad_phase.hierarchies.rows(), &mut self.wide_rows);
+        self.broad_phase.hierarchies.narrow();
         let update = begin.elapsed().as_secs_f64();
 
         let hierarchies = &self.broad_phase.hierarchies;
@@ -224,7 +219,6 @@ impl<S: Scalar> Engine<S> {
             level: hierarchies.level(),
             numbers: Numbers::Positions(hierarchies),
             rows: hierarchies.rows(),
-            wide_rows: &self.wide_rows,
             question: *question,
             bound: &bound,
         };
@@ -267,21 +261,16 @@ impl<S: Scalar> Engine<S> {
         &mut self,
         start: &[S::Vector],
         end: &[S::Vector],
-        question: &Question<S>,
+        question: &Question,
         pairs: [&[[u32; 2]]; 2],
     ) -> Result<(), StepError> {
         let begin = Instant::now();
         let hierarchies = &self.broad_phase.hierarchies;
         let topology = hierarchies.topology();
         check_frames::<S>(start, end, topology.vertex_count())?;
-        self.rows.clear();
-        let moving = start
-            .iter()
-            .zip(end)
-            .map(|(&start, &end)| Motion::new(start, end));
-        self.rows.extend(moving.map(VertexRow::new));
-        let separation = question.limits.separation;
-        widen(&self.rows, &mut self.wide_rows);
+        self.rows.set::<S>(start, end);
+        self.rows.narrow();
+        let separation = S::from_f64(question.limits.separation);
         self.boxes.fit::<S>(topology, start, end, separation);
         let update = begin.elapsed().as_secs_f64();
 
@@ -294,9 +283,8 @@ impl<S: Scalar> Engine<S> {
         let bound = Bound::new(1.0);
         let step = StepInput {
             level: hierarchies.level(),
-            numbers: Numbers::Mesh(topology),
+            numbers: Numbers::<S>::Mesh(topology),
             rows: &self.rows,
-            wide_rows: &self.wide_rows,
             question: *question,
             bound: &bound,
         };
@@ -390,7 +378,8 @@ impl<S: Scalar> Engine<S> {
         let begin = Instant::now();
         contacts.clear();
         for worker in &mut self.workers {
-            contacts.extend_from_slice(&worker.found.contacts);
+            let found = &worker.found.contacts;
+            contacts.extend(found.iter().map(in_format_of_positions));
             settle(&mut worker.found.contacts);
         }
         settle(contacts);
@@ -403,10 +392,11 @@ impl<S: Scalar> Engine<S> {
             .workers
             .iter()
             .flat_map(|worker| &worker.found.contacts);
-        contacts.copied().min_by(|a, b| {
+        let earliest = contacts.min_by(|a, b| {
             let by_time = a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal);
             by_time.then((a.kind, a.pair).cmp(&(b.kind, b.pair)))
-        })
+        });
+        earliest.map(in_format_of_positions)
     }
 
     fn count(&mut self, begin: Instant, update: f64) {
@@ -438,23 +428,32 @@ impl<S: Scalar> Engine<S> {
     }
 }
 
-/// Replaces `wide` by the same rows in f64, exactly; by none if they are f64 already.
-fn widen<S: Scalar>(rows: &[VertexRow<S>], wide: &mut Vec<VertexRow<f64>>) {
-    wide.clear();
-    if S::UNIT_ROUNDOFF.to_f64() > f64::EPSILON {
-        let exactly = |position: S::Vector| -> DVec3 {
-            let numbers: [S; 3] = position.into();
-            DVec3::from_array(numbers.map(S::to_f64))
-        };
-        wide.extend(rows.iter().map(|row| {
-            let motion: Motion<S> = row.motion();
-            VertexRow::new(Motion::new(exactly(motion.start), exactly(motion.end)))
-        }));
+/// A contact with its time rounded down, so that it is no later.
+fn in_format_of_positions<S: Scalar>(contact: &Contact<f64>) -> Contact<S> {
+    let &Contact { kind, pair, time } = contact;
+    Contact {
+        kind,
+        pair,
+        time: rounded_down(time),
+    }
+}
+
+/// A time in another format, not later, in any direction of rounding, and by no more than 2⁻²² of it, or 2⁻¹⁰⁰, earlier.
+///
+/// Where the nearest number is later, what is 2⁻²² of it earlier has one that is not: rounding adds at most 2⁻²³ of it.
+fn rounded_down<S: Scalar>(time: f64) -> S {
+    let nearest = S::from_f64(time);
+    if nearest.to_f64() <= time {
+        nearest
+    } else if time < power_of_two(-100) {
+        S::ZERO
+    } else {
+        S::from_f64(time * (1.0 - power_of_two(-22)))
     }
 }
 
 /// Makes a space for each thread, if they are not there.
-fn spaces_for_threads<S: Scalar>(spaces: &mut Vec<Mutex<Space<S>>>) -> &[Mutex<Space<S>>] {
+fn spaces_for_threads(spaces: &mut Vec<Mutex<Space>>) -> &[Mutex<Space>] {
     let new = || {
         Mutex::new(Space {
             scratch: Scratch::new(),
@@ -469,7 +468,7 @@ fn spaces_for_threads<S: Scalar>(spaces: &mut Vec<Mutex<Space<S>>>) -> &[Mutex<S
 }
 
 /// The space of the thread that calls. Nobody else asks for it: a thread has one share at a time.
-fn own_space<S>(spaces: &[Mutex<Space<S>>]) -> MutexGuard<'_, Space<S>> {
+fn own_space(spaces: &[Mutex<Space>]) -> MutexGuard<'_, Space> {
     let space = &spaces[parallel::own_index() % spaces.len()];
     // What a panic has left behind is cleared before use.
     space.lock().unwrap_or_else(PoisonError::into_inner)
@@ -495,4 +494,20 @@ fn check_pairs(
     };
     bad(PairKind::VertexFace, vertex_face, [vertices, faces])?;
     bad(PairKind::EdgeEdge, edge_edge, [edges, edges])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded_down;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn rounding_down_makes_no_time_later_and_hardly_earlier(time in prop_oneof![0.0..=1.0, 1e-60..1e-30, 0.0..1e-300]) {
+            let rounded = f64::from(rounded_down::<f32>(time));
+            prop_assert!(rounded <= time && rounded >= 0.0);
+            prop_assert!(rounded >= time * (1.0 - 0.5_f64.powi(21)) || time <= 0.5_f64.powi(100));
+            prop_assert_eq!(rounded_down::<f64>(time), time);
+        }
+    }
 }

@@ -54,12 +54,15 @@
 //! * **No contact is missed** and no time is later than the exact one, rounding included, in every floating-point environment
 //!   ([`selvedge_core`](crate::core)). Pairs that come within the tolerance of the separation, or too close for
 //!   rounding to tell, count as contacts.
+//! * Positions in `f32` are computed with in `f64` where `f32` leaves a pair open: contacts are as sharp, and times, rounded
+//!   down, as late as if they were given in `f64`. Positions in `f64` that are all `f32` numbers are as fast as those in `f32`.
 //! * The same contacts with the same times in the same order, on any number of threads and every instruction set. (The order is
 //!   that of the hierarchies, which depends on the steps before; the set and the times do not.)
 //! * After the first step nothing is allocated, unless there are more pairs than ever or hierarchies are built anew. (With
 //!   several threads rayon may still allocate for its queues.)
 //! * Frames of the wrong length, and positions that are not finite, are errors.
 
+mod chunk;
 mod engine;
 mod given;
 mod sweep;
@@ -117,13 +120,27 @@ pub(crate) enum Wanted {
 
 /// What is asked of a step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Question<S> {
-    pub(crate) limits: Limits<S>,
+pub(crate) struct Question {
+    pub(crate) limits: Limits<f64>,
     pub(crate) wanted: Wanted,
     /// Whether pairs that the filter keeps are wanted as well.
     pub(crate) keeps_filtered: bool,
     /// Whether only pairs that truly touch are contacts, by the exact verdict. For separation zero.
     pub(crate) is_exact: bool,
+}
+
+/// Two to an exponent for which that is a normal number.
+const fn power_of_two(exponent: i64) -> f64 {
+    f64::from_bits(((1023 + exponent) as u64) << 52)
+}
+
+/// The same limits in `f64`, which decides in the end whatever the positions' format. A subnormal separation counts as the
+/// smallest normal number, as in all tests.
+fn widened<S: Scalar>(limits: &Limits<S>) -> Limits<f64> {
+    Limits {
+        tolerance: limits.tolerance.to_f64(),
+        separation: limits.separation.raised_to_normal().to_f64(),
+    }
 }
 
 /// How late a contact may be to be of interest: shared by all threads, lowered by each contact where only the earliest is wanted.
@@ -139,17 +156,17 @@ impl Bound {
         Self(AtomicU64::new(time.to_bits()))
     }
 
-    fn get<S: Scalar>(&self) -> S {
-        S::from_f64(f64::from_bits(self.0.load(Ordering::Relaxed)))
+    fn get(&self) -> f64 {
+        f64::from_bits(self.0.load(Ordering::Relaxed))
     }
 
     /// There is a contact at `time`.
-    fn lower<S: Scalar>(&self, wanted: Wanted, time: S) {
+    fn lower(&self, wanted: Wanted, time: f64) {
         match wanted {
             Wanted::All => {}
             Wanted::Earliest => {
                 // Adding zero makes a negative zero positive.
-                let bits = (time.to_f64() + 0.0).to_bits();
+                let bits = (time + 0.0).to_bits();
                 self.0.fetch_min(bits, Ordering::Relaxed);
             }
             Wanted::Any => self.0.store(0, Ordering::Relaxed),
@@ -260,7 +277,7 @@ impl<S: Scalar> CollisionDetector<S> {
     ///   in lengths a step, and goes on to come within s, the exact time is about δ/v later. But it need not: a pair that comes within
     ///   s + δ and turns back, a near miss, is a contact as any other, and then the exact first contact is that of another pair, or
     ///   there is none. A near miss at more than s + δ never is; the time may well come after it.
-    /// * **The exception**: a pair too close for rounding to tell, within some 20u (2⁻⁴⁸; `f32`: 2⁻¹⁹) of the size of its
+    /// * **The exception**: a pair too close for rounding to tell, within some 2⁻⁴⁸ of the size of its
     ///   differences, counts from when that cannot be excluded, which may be long before it touches, or though it never does.
     ///
     /// So it is not a proof of contact. Where a step without contact must not be cut short,
@@ -361,13 +378,13 @@ impl<S: Scalar> CollisionDetector<S> {
         self.threads.count()
     }
 
-    fn question(&self, wanted: Wanted) -> Question<S> {
-        let separation = self.limits.separation.raised_to_normal();
+    fn question(&self, wanted: Wanted) -> Question {
+        let limits = widened(&self.limits);
         Question {
-            limits: self.limits,
+            limits,
             wanted,
             keeps_filtered: false,
-            is_exact: self.is_exact && separation <= S::ZERO,
+            is_exact: self.is_exact && limits.separation <= 0.0,
         }
     }
 }

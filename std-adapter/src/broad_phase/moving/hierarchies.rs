@@ -3,6 +3,7 @@
 use super::MovingStatistics;
 use super::mapping::Mapping;
 use super::pairs::Sink;
+use super::rows::{Rows, row};
 use super::traversal::{BlockPair, Scratch, Trees};
 use super::tree::Tree;
 use crate::PairKind;
@@ -11,9 +12,8 @@ use crate::dispatch::{Level, best_level};
 use crate::frame::{StepError, check_frames};
 use crate::mesh::Topology;
 use crate::parallel;
-use selvedge_core::batch::VertexRow;
+use selvedge_core::Scalar;
 use selvedge_core::boxes::{Aabb, moving::MovingBox};
-use selvedge_core::{Motion, Scalar};
 use std::sync::Arc;
 
 /// An item is an edge; there are about as many vertices and faces together.
@@ -66,9 +66,12 @@ pub(crate) struct Hierarchies<S: Scalar> {
     vertices: Tree<1>,
     edges: Tree<2>,
     faces: Tree<3>,
+    /// For each edge by position the positions of its two ends, and the edge as the mesh numbers it: what makes an EE pair's
+    /// vertices, in one place.
+    edge_ends: Vec<EdgeEnds>,
     /// The position of each of the mesh's vertices; isolated ones have none.
     positions: Vec<u32>,
-    rows: Vec<VertexRow<S>>,
+    rows: Rows,
     boxes: Vec<MovingBox<f32>>,
     /// Which vertices move, if not all.
     moving: Option<Vec<bool>>,
@@ -94,8 +97,9 @@ impl<S: Scalar> Hierarchies<S> {
             vertices: Tree::default(),
             edges: Tree::default(),
             faces: Tree::default(),
+            edge_ends: Vec::new(),
             positions: Vec::new(),
-            rows: Vec::new(),
+            rows: Rows::default(),
             boxes: Vec::new(),
             moving: None,
             refit_all: false,
@@ -127,8 +131,13 @@ impl<S: Scalar> Hierarchies<S> {
     }
 
     /// The motion of each vertex, by position.
-    pub(crate) fn rows(&self) -> &[VertexRow<S>] {
+    pub(crate) const fn rows(&self) -> &Rows {
         &self.rows
+    }
+
+    /// Makes the rows in `f32` too, if they are exact.
+    pub(crate) fn narrow(&mut self) {
+        self.rows.narrow();
     }
 
     /// From the next update on only pairs with a vertex that moves are found; `None`: all. The others' positions are taken
@@ -204,6 +213,10 @@ impl<S: Scalar> Hierarchies<S> {
             .connect(|edge| edges[edge as usize].map(position));
         self.faces
             .connect(|face| faces[face as usize].map(position));
+        let edges = self.edges.vertices.iter().zip(&self.edges.primitives);
+        self.edge_ends.clear();
+        self.edge_ends
+            .extend(edges.map(|(&ends, &edge)| EdgeEnds { ends, edge }));
         self.rows.clear();
         self.boxes.clear();
         self.fitted = None;
@@ -229,21 +242,20 @@ impl<S: Scalar> Hierarchies<S> {
         // What rests keeps the rows and boxes that it has.
         let only_moving = self.moving.is_some() && !self.refit_all && self.fitted == Some(mapping);
         let vertices = &self.vertices.primitives;
-        let unknown = Motion::resting(S::Vector::default());
-        self.rows.resize(vertices.len(), VertexRow::new(unknown));
+        let rows = self.rows.resize(vertices.len());
         self.boxes.resize(vertices.len(), MovingBox::empty());
         let moving = self.moving.as_deref().filter(|_| only_moving);
         parallel::for_each_chunk_with_chunk(
-            &mut self.rows,
+            rows,
             &mut self.boxes,
             VERTICES,
             |first, rows, boxes| {
                 let own = rows.iter_mut().zip(boxes).zip(&vertices[first..]);
-                for ((row, moving_box), &vertex) in own {
+                for ((own_row, moving_box), &vertex) in own {
                     let vertex = vertex as usize;
                     if moving.is_none_or(|moving| moving[vertex]) {
                         let (start, end) = (start[vertex], end[vertex]);
-                        *row = VertexRow::new(Motion::new(start, end));
+                        *own_row = row::<S>(start, end);
                         *moving_box = mapping.vertex::<S>(start.into(), end.into());
                     }
                 }
@@ -349,14 +361,35 @@ impl<S: Scalar> Hierarchies<S> {
                 [first as u32, a, b, c]
             }
             PairKind::EdgeEdge => {
-                let is_in_order = self.edges.primitives[first] < self.edges.primitives[second];
-                let (first, second) = if is_in_order {
-                    (first, second)
+                let (first, second) = (&self.edge_ends[first], &self.edge_ends[second]);
+                let ([a, b], [c, d]) = (first.ends, second.ends);
+                if first.edge < second.edge {
+                    [a, b, c, d]
                 } else {
-                    (second, first)
-                };
-                let ([a, b], [c, d]) = (self.edges.vertices[first], self.edges.vertices[second]);
-                [a, b, c, d]
+                    [c, d, a, b]
+                }
+            }
+        }
+    }
+
+    /// The same of many pairs of a kind, which is asked about once.
+    pub(crate) fn vertices_of_all(
+        &self,
+        kind: PairKind,
+        pairs: &[[u32; 2]],
+        vertices: &mut [[u32; 4]],
+    ) {
+        let own = vertices.iter_mut().zip(pairs);
+        match kind {
+            PairKind::VertexFace => {
+                for (vertices, &pair) in own {
+                    *vertices = self.vertices(PairKind::VertexFace, pair);
+                }
+            }
+            PairKind::EdgeEdge => {
+                for (vertices, &pair) in own {
+                    *vertices = self.vertices(PairKind::EdgeEdge, pair);
+                }
             }
         }
     }
@@ -376,6 +409,14 @@ impl<S: Scalar> Hierarchies<S> {
             }
         }
     }
+}
+
+/// An edge by its vertices' positions, and its number in the mesh. Never on two cache lines.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(16))]
+struct EdgeEnds {
+    ends: [u32; 2],
+    edge: u32,
 }
 
 /// No position.

@@ -38,12 +38,14 @@
 mod hierarchies;
 mod mapping;
 mod pairs;
+mod rows;
 mod traversal;
 mod tree;
 
 pub(crate) use hierarchies::{Fit, Hierarchies, Share, extent};
 pub(crate) use mapping::Mapping;
 pub(crate) use pairs::{CHUNK, Sink};
+pub(crate) use rows::Rows;
 pub(crate) use traversal::Scratch;
 
 use super::buffer::settle;
@@ -53,6 +55,7 @@ use crate::frame::{StepError, check_length};
 use crate::mesh::Topology;
 use crate::parallel;
 use selvedge_core::Scalar;
+use std::mem::swap;
 use std::sync::Arc;
 
 /// What a [`MovingBroadPhase`] has done so far. Counts do not depend on the number of threads.
@@ -143,12 +146,19 @@ impl<S: Scalar> MovingBroadPhase<S> {
         let shares = self.hierarchies.shares();
         self.collectors.resize_with(shares, Collector::new);
         let hierarchies = &self.hierarchies;
+        // The first share of each kind goes straight into the caller's list; on one thread that is all.
+        let firsts = [0, shares / 2];
+        swap(&mut self.collectors[firsts[0]].pairs, vertex_face);
+        swap(&mut self.collectors[firsts[1]].pairs, edge_edge);
         parallel::for_each(&mut self.collectors, |index, collector| {
             collector.collect(hierarchies, hierarchies.share(index));
         });
-        vertex_face.clear();
-        edge_edge.clear();
+        swap(&mut self.collectors[firsts[0]].pairs, vertex_face);
+        swap(&mut self.collectors[firsts[1]].pairs, edge_edge);
         for (index, collector) in self.collectors.iter_mut().enumerate() {
+            if firsts.contains(&index) {
+                continue;
+            }
             let found = match self.hierarchies.share(index).kind {
                 PairKind::VertexFace => &mut *vertex_face,
                 PairKind::EdgeEdge => &mut *edge_edge,

@@ -1,0 +1,102 @@
+//! The motion of each vertex, as the lanes read it.
+//!
+//! In `f64` always, which holds positions of either format exactly; and in `f32` where that is exact for all of them: then what
+//! lanes of `f32` prove, sixteen in a register, holds for the positions themselves, and `f64` is for the pairs that they leave
+//! open.
+
+use crate::parallel;
+use selvedge_core::batch::VertexRow;
+use selvedge_core::{Motion, Scalar};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Rows of all vertices.
+#[derive(Debug, Default)]
+pub(crate) struct Rows {
+    double: Vec<VertexRow<f64>>,
+    single: Vec<VertexRow<f32>>,
+    has_single: bool,
+}
+
+impl Rows {
+    /// All vertices, exactly.
+    pub(crate) fn double(&self) -> &[VertexRow<f64>] {
+        &self.double
+    }
+
+    /// The same in `f32`, if that is exact too and [`narrow`](Self::narrow) has looked.
+    pub(crate) fn single(&self) -> Option<&[VertexRow<f32>]> {
+        self.has_single.then_some(&self.single)
+    }
+
+    /// Forgets all.
+    pub(crate) fn clear(&mut self) {
+        self.double.clear();
+        self.has_single = false;
+    }
+
+    /// Room for so many vertices, those that are new at the origin, for the caller to fill.
+    pub(crate) fn resize(&mut self, vertices: usize) -> &mut [VertexRow<f64>] {
+        let unknown = Motion::resting(Default::default());
+        self.double.resize(vertices, VertexRow::new(unknown));
+        self.has_single = false;
+        &mut self.double
+    }
+
+    /// Replaces all by these.
+    pub(crate) fn set<S: Scalar>(&mut self, start: &[S::Vector], end: &[S::Vector]) {
+        self.clear();
+        let ends = start.iter().zip(end);
+        self.double
+            .extend(ends.map(|(&start, &end)| row::<S>(start, end)));
+    }
+
+    /// Looks whether all positions are `f32` numbers, and makes their rows if so.
+    pub(crate) fn narrow(&mut self) {
+        let are_exact = AtomicBool::new(true);
+        let nowhere = VertexRow::new(Motion::resting(Default::default()));
+        self.single.resize(self.double.len(), nowhere);
+        parallel::for_each_chunk_with_chunk(
+            &mut self.single,
+            &mut self.double,
+            VERTICES,
+            |_, single, double| {
+                if are_exact.load(Ordering::Relaxed) && !narrowed(double, single) {
+                    are_exact.store(false, Ordering::Relaxed);
+                }
+            },
+        );
+        self.has_single = are_exact.into_inner();
+    }
+}
+
+/// Vertices that one thread narrows in one go.
+const VERTICES: usize = 4096;
+
+/// The row of a vertex.
+#[inline(always)]
+pub(super) fn row<S: Scalar>(start: S::Vector, end: S::Vector) -> VertexRow<f64> {
+    let exact = |position: S::Vector| {
+        let [x, y, z]: [S; 3] = position.into();
+        [x.to_f64(), y.to_f64(), z.to_f64()].into()
+    };
+    VertexRow::new(Motion::new(exact(start), exact(end)))
+}
+
+/// Replaces `single` by `double`, as long as it is exact: returns whether it always was. (Where a thread flushes subnormal numbers, it
+/// is not exact for those.)
+fn narrowed(double: &[VertexRow<f64>], single: &mut [VertexRow<f32>]) -> bool {
+    double.iter().zip(single).all(|(double, single)| {
+        let motion = double.motion();
+        let mut is_exact = true;
+        let mut narrow = |position: [f64; 3]| {
+            let narrow = position.map(f32::from_f64);
+            for axis in 0..3 {
+                is_exact &= narrow[axis].to_f64() == position[axis];
+            }
+            narrow.into()
+        };
+        let (start, end) = (narrow(motion.start.into()), narrow(motion.end.into()));
+        *single = VertexRow::new(Motion::new(start, end));
+        is_exact
+    })
+}
