@@ -471,3 +471,22 @@ fn a_subnormal_separation_counts_when_flushing_f32() {
 fn a_subnormal_separation_counts_when_flushing_f64() {
     keeps_within_a_subnormal_separation(3e-310, 4e-310);
 }
+
+/// Two edges on one line, one in the other, with coordinates of a few times the smallest subnormal number. The compiler added zero to
+/// what is compared, to make one vector operation of it and the sums beside: see "compilers" in `boxes`.
+fn keeps_edges_of_dust_on_one_line<S: Format>() {
+    let at = |height: i64| [[S::ZERO, S::ZERO, S::exact(height, S::MIN_EXPONENT)]; 2];
+    let pair = PairCase::new(Kind::EdgeEdge, [at(-4), at(8), at(3), at(2)]);
+    assert!(collides(&pair.question()).is_some());
+    nothing_culls(&pair, true).expect("kept");
+}
+
+#[test]
+fn edges_of_dust_on_one_line_are_kept_when_results_are_flushed_f32() {
+    keeps_edges_of_dust_on_one_line::<f32>();
+}
+
+#[test]
+fn edges_of_dust_on_one_line_are_kept_when_results_are_flushed_f64() {
+    keeps_edges_of_dust_on_one_line::<f64>();
+}

@@ -59,13 +59,9 @@ impl<S: Scalar> Dop18<S> {
     pub fn overlaps(&self, other: &Self) -> bool {
         let mut apart = false;
         for direction in 0..9 {
-            let (own, others) = (self.upper[direction], other.upper[direction]);
-            // The first three are coordinates, the others sums.
-            let (own, others) = if direction < 3 {
-                (own, others)
-            } else {
-                (own + S::SUM_GAP, others + S::SUM_GAP)
-            };
+            // Coordinates as if they were sums: see "compilers" in the documentation of `boxes`.
+            let own = self.upper[direction] + S::SUM_GAP;
+            let others = other.upper[direction] + S::SUM_GAP;
             apart |= self.lower[direction] > others;
             apart |= other.lower[direction] > own;
         }

@@ -23,6 +23,13 @@
 //!   sum of the others, as real numbers, is in the same strict order. They are multiples of a step far above λ, or differ
 //!   by one normal operand: by λ at least, which is more than what was flushed.
 //!
+//! **Compilers** assume that nothing is flushed. Where comparisons of coordinates stand beside sums they may make one vector operation
+//! of both and add zero to the coordinates, which changes nothing then; but in a thread that flushes results (without taking
+//! operands for zero) it makes one side of a comparison zero and leaves the other. LLVM did so to the tests along nine directions,
+//! which then culled pairs of subnormal coordinates that touch. So these ask coordinates for the gap as well. It is
+//! absorbed in the same way: with A > fl(Z + g) and A or Z flushed, A ≥ g/2 is normal and Z is off by λ at most. Tests along
+//! three axes have no sums that could be mixed with their comparisons.
+//!
 //! Box tests see motion as linear: a coordinate, or a sum of coordinates, lies between its values at both ends.
 
 /// Whether a test of the four points' values at the start and at the end holds along one of the axes.

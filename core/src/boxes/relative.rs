@@ -34,6 +34,8 @@ pub fn three_axes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
 }
 
 /// [`three_axes`], and the six diagonals x±y, x±z, y±z as well.
+///
+/// Of pairs as small as dust (sizes below [`Rounding::SUM_GAP`]) it may keep some that [`three_axes`] culls.
 #[inline(always)]
 pub fn nine_directions<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
     Verdict::culled_if(are_apart_along_nine_directions::<P::Shape, S>(
@@ -61,10 +63,12 @@ pub fn are_apart_along_nine_directions<P: PairShape, L: Lanes>(points: &PairPoin
             )
         };
     }
+    // Coordinates as if they were sums: see "compilers" in the documentation of `boxes`.
+    let axes = along!(p => p.x) | along!(p => p.y) | along!(p => p.z);
     let diagonals = (along!(p => p.x + p.y) | along!(p => p.x - p.y))
         | (along!(p => p.x + p.z) | along!(p => p.x - p.z))
         | (along!(p => p.y + p.z) | along!(p => p.y - p.z));
-    (along_axes!(points, keep_order::<P, L>) | diagonals) & points.is_finite()
+    (axes | diagonals) & points.is_finite()
 }
 
 /// Whether one set's values are all above the other's at the start, and at the end too.
