@@ -91,7 +91,7 @@ impl Accuracy {
         for (index, path) in paths.iter().enumerate() {
             OutputFiles::check(path)?;
             if paths[..index].contains(path) {
-                return Err(format!("{}: named for two outputs", path.display()).into());
+                return Err(format!("{}: two outputs name the same file", path.display()).into());
             }
         }
         for (file, part, option) in [
