@@ -106,7 +106,8 @@ fn nothing_certified_culls_nan_or_infinity_f32() {
     );
 }
 
-/// From loose to strong, as long as sums are finite: relative boxes keep the pair otherwise.
+/// From loose to strong, as long as sums are finite: relative boxes keep the pair otherwise. Tests along nine directions ask for a gap,
+/// which is nothing beside a coordinate of everyday size, but more than dust.
 fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(
     pair: &PairCase<S>,
 ) -> Result<(), TestCaseError> {
@@ -114,6 +115,8 @@ fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(
         return Ok(());
     }
     let culls = |test| verdict(test, pair).is_culled();
+    let is_dust = |x: S| x != S::ZERO && x.abs() + S::SUM_GAP != x.abs();
+    let has_dust = pair.coordinates().any(is_dust);
     for (weak, strong) in [
         (StoredSweptBoxes, SweptBoxes),
         (SweptBoxes, RelativeBoxes),
@@ -122,6 +125,10 @@ fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(
         (StoredDop18, RelativeBoxesNine),
         (SweptBoxes, SegmentBox),
     ] {
+        let needs_a_gap = matches!(strong, RelativeBoxesNine | StoredDop18);
+        if needs_a_gap && has_dust {
+            continue;
+        }
         prop_assert!(
             !culls(weak) || culls(strong),
             "{weak:?} culls, {strong:?} does not"
