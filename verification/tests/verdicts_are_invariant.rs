@@ -53,7 +53,11 @@ fn same<S: Format>(
     pair: &PairCase<S>,
     changed: &PairCase<S>,
 ) -> Result<(), TestCaseError> {
+    let has_dust = pair.has_dust() || changed.has_dust();
     for test in tests.filter(|&test| test == CertifiedNonCoplanarity || pair.sums_are_finite()) {
+        if has_dust && matches!(test, StoredDop18 | RelativeBoxesNine) {
+            continue;
+        }
         let (before, after): (Verdict, Verdict) = (verdict(test, pair), verdict(test, changed));
         prop_assert_eq!(before, after, "{:?}, changed to {:?}", test, changed);
     }

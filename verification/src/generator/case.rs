@@ -88,6 +88,14 @@ impl<S: Format> PairCase<S> {
         self.coordinates().all(|x| x.abs() < limit)
     }
 
+    /// Whether some are so small, but not zero, that the gap which tests along nine directions ask for is more than nothing beside them.
+    /// Those tests keep pairs that are apart by less, and rounding decides about half a gap.
+    #[must_use]
+    pub fn has_dust(&self) -> bool {
+        let is_dust = |x: S| x != S::ZERO && x.abs() + S::SUM_GAP != x.abs();
+        self.coordinates().any(is_dust)
+    }
+
     /// All 24.
     pub fn coordinates(&self) -> impl Iterator<Item = S> {
         self.points.into_iter().flatten().flatten()
