@@ -6,7 +6,7 @@ use selvedge::PairKind::{self, EdgeEdge, VertexFace};
 use selvedge::broad_phase::moving::MovingBroadPhase;
 use selvedge::mesh::Topology;
 use selvedge::pipeline::{
-    CullingTest, ElementaryTest, PairCounts, Pipeline, Preset, Redundancy, Source, Stage, Stages,
+    ElementaryTest, PairCounts, Pipeline, Preset, Redundancy, Source, Stage, Stages,
 };
 use selvedge::scene::ArmScene;
 use selvedge_core::elementary::advance::time_of_impact;

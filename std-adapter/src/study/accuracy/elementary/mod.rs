@@ -2,7 +2,7 @@
 //!
 //! # Pairs
 //! The [hard cases](crate::hard_cases), as far as a format holds them exactly; candidates of real steps and nearly coplanar pairs, as for
-//! the [filters](super), of which those are asked whose swept boxes overlap. A test that is slow is asked about fewer of them: in
+//! the filters, of which those are asked whose swept boxes overlap. A test that is slow is asked about fewer of them: in
 //! random order until [`BUDGET`] seconds are over. Its counts are of the pairs that it was asked about.
 //!
 //! # Truth

@@ -20,7 +20,7 @@ pub enum ExactAnswer {
     },
 }
 
-/// The exact answer, and an enclosure of the first time: see the [module](self).
+/// The exact answer, and an enclosure of the first time: see the module's documentation.
 ///
 /// A pair that is not finite is said to touch, at an unknown time.
 #[must_use]
