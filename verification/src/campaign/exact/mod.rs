@@ -5,9 +5,9 @@
 //! three [`Source`]s that cost little.
 //!
 //! # Who judges
-//! A cull by the volume's signs is right if the exact control values ([`control_value_signs`]) have one strict sign. A claim that the
+//! A cull by the volume's signs is right if the exact control values ([`control_value_signs`](selvedge_core::exact::control_value_signs)) have one strict sign. A claim that the
 //! sets stay apart is right if so; or if one axis keeps them in the same order at both ends, which comparisons of coordinates tell;
-//! or if [`touches`] says so, in whole numbers. Nothing else counts: what none of these proves is decided by the [`oracle`], and
+//! or if [`touches`](selvedge_core::exact::touches) says so, in whole numbers. Nothing else counts: what none of these proves is decided by the [`oracle`](crate::oracle), and
 //! every [`SAMPLE`]th claim that they do prove is put before the oracle as well.
 
 mod chunk;
@@ -28,17 +28,17 @@ pub const SAMPLE: u64 = 20_000;
 /// What claims that a pair need not be looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Claim {
-    /// [`Tier::Permanent`]: never coplanar.
+    /// [`Tier::Permanent`](selvedge_core::filter::Tier::Permanent): never coplanar.
     Filter,
-    /// [`Test::RelativeBoxesNine`]: never touches, as all below.
+    /// [`Test::RelativeBoxesNine`](selvedge_core::batch::Test::RelativeBoxesNine): never touches, as all below.
     RelativeBoxes,
-    /// [`Test::NormalDirection`].
+    /// [`Test::NormalDirection`](selvedge_core::batch::Test::NormalDirection).
     NormalDirection,
-    /// [`Test::SegmentBox`].
+    /// [`Test::SegmentBox`](selvedge_core::batch::Test::SegmentBox).
     SegmentBox,
-    /// [`time_of_impact`] without a separation, tolerance zero or the default.
+    /// [`time_of_impact`](selvedge_core::elementary::advance::time_of_impact) without a separation, tolerance zero or the default.
     TimeOfImpact,
-    /// [`Test::PlainNonCoplanarity`]: **not certified**, to show that false culls are found.
+    /// [`Test::PlainNonCoplanarity`](selvedge_core::batch::Test::PlainNonCoplanarity): **not certified**, to show that false culls are found.
     Plain,
 }
 
