@@ -163,9 +163,11 @@ fn advanced<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Option<S> {
 }
 
 /// An eleventh: that the exact verdict, in whole numbers alone too, the certified time of impact, its confirmation, or one of the
-/// two baselines for it disagrees with `touches`.
+/// three baselines for it disagrees with `touches`.
 fn times_differ<S: Scalar, P: PrimitivePair<S>>(pair: &P, touches: bool) -> u32 {
-    use elementary::{Contact, Limits, additive, advance, bernstein_sign, contact, tight_inclusion};
+    use elementary::{
+        Contact, Limits, additive, advance, bernstein_sign, contact, tight_inclusion,
+    };
     let limits = Limits::default();
     let time = advance::time_of_impact(pair, &limits).time();
     let confirmed = time.and_then(|time| advance::confirm::certain_contact(pair, time));
