@@ -3,8 +3,6 @@
 //!
 //! Random tests do not pin the constants; named pairs show what each of them is there for.
 
-mod support;
-
 use proptest::prelude::*;
 use selvedge::dispatch::available_levels;
 use selvedge_core::batch::{BatchTest, Level, Test, Tile, culled_from_tiles};
@@ -20,7 +18,7 @@ use selvedge_verification::generator::{
 };
 use selvedge_verification::oracle::{Kind, collides};
 use std::hint::black_box;
-use support::environment::Environment;
+use crate::support::environment::Environment;
 
 const BOX_TESTS: [Test; 6] = [
     Test::SweptBoxes,
