@@ -5,7 +5,7 @@ cargo fuzz build -O --debug-assertions
 host=$(rustc -vV | sed -n 's/^host: //p')
 for source in fuzz_targets/*.rs; do
     target=$(basename "$source" .rs)
-    cp "target/$host/release/$target" "$OUT/"
+    cp "../target/$host/release/$target" "$OUT/"
     folders=("corpus/$target")
     [ ! -d "regressions/$target" ] || folders+=("regressions/$target")
     zip -q -j -r "$OUT/${target}_seed_corpus.zip" "${folders[@]}"

@@ -33,7 +33,7 @@ cargo +nightly fuzz build -s none
 host=$(rustc +nightly -vV | sed -n 's/^host: //p')
 mkdir -p "$work/programs"
 for target in "${targets[@]}"; do
-    cp "${CARGO_TARGET_DIR:-target}/$host/release/$target" "$work/programs/"
+    cp "${CARGO_TARGET_DIR:-../target}/$host/release/$target" "$work/programs/"
 done
 
 options() {

@@ -1,8 +1,7 @@
 //! What each tier promises, one pair at a time: whom it never culls, and which of two culls more.
 
-#[macro_use]
-mod support;
-
+use crate::support::distance::distance;
+use crate::support::rationals::{InRationals, separations};
 use proptest::prelude::*;
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::{Depth, Filter, Tier};
@@ -11,8 +10,6 @@ use selvedge_verification::generator::{
     pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides, coplanar, within};
-use support::distance::distance;
-use support::rationals::{InRationals, separations};
 
 const DEPTHS: [Depth; 4] = [Depth::One, Depth::Two, Depth::Three, Depth::Four];
 
@@ -221,7 +218,7 @@ property!(
             prop_assert!(!within, "{culling:?} by {separation}");
             for tier in culling {
                 prop_assert!(
-                    is_subdivided(tier) || exact.are_beyond(&support::rationals::rational(separation)),
+                    is_subdivided(tier) || exact.are_beyond(&crate::support::rationals::rational(separation)),
                     "{tier:?} by {separation}, nearer to the plane or the line"
                 );
             }

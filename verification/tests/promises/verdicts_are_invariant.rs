@@ -24,9 +24,6 @@
 //!
 //! The *plain* filter is not symmetric in time, since it computes from velocities; nothing is promised for it.
 
-#[macro_use]
-mod support;
-
 use proptest::prelude::*;
 use selvedge::pipeline::CullingTest::{
     self, CertifiedNonCoplanarity, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18,

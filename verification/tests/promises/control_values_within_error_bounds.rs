@@ -1,8 +1,5 @@
 //! The coplanarity cubic: its control values are the right polynomial, and rounding moves them no further than proven.
 
-#[macro_use]
-mod support;
-
 use proptest::prelude::*;
 use rug::{Float, Rational, ops::Pow};
 use selvedge::pipeline::CullingTest::PlainNonCoplanarity;

@@ -1,10 +1,8 @@
-//! What several test files use; here, a second opinion on contact at rest: convex sets clipped by half-spaces in rational
+//! What several modules use; here, a second opinion on contact at rest: convex sets clipped by half-spaces in rational
 //! arithmetic.
 //!
 //! The oracle decides by signs and never constructs a point; this constructs every corner of the
 //! common part.
-
-#![allow(dead_code, reason = "each test file uses a part")]
 
 pub(crate) mod distance;
 pub(crate) mod environment;
@@ -13,9 +11,7 @@ pub(crate) mod widths;
 
 use rug::Rational;
 
-/// A property of pairs of format `S`, or of other inputs, and a test for each format. For the files that say
-/// `#[macro_use] mod support;`.
-#[allow(unused_macros, reason = "each test file uses a part")]
+/// A property of pairs of format `S`, or of other inputs, and a test for each format.
 macro_rules! property {
     ($(#[$about:meta])* $name:ident, $cases:expr, $strategy:expr, |$pair:ident| $property:expr) => {
         property!($(#[$about])* $name, $cases, $strategy, |$pair: PairCase| $property);

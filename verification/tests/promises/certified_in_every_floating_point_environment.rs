@@ -3,8 +3,7 @@
 //!
 //! Random tests do not pin the constants; named pairs show what each of them is there for.
 
-mod support;
-
+use crate::support::environment::Environment;
 use proptest::prelude::*;
 use selvedge::dispatch::available_levels;
 use selvedge_core::batch::{BatchTest, Level, Test, Tile, culled_from_tiles};
@@ -20,7 +19,6 @@ use selvedge_verification::generator::{
 };
 use selvedge_verification::oracle::{Kind, collides};
 use std::hint::black_box;
-use support::environment::Environment;
 
 const BOX_TESTS: [Test; 6] = [
     Test::SweptBoxes,

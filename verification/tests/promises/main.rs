@@ -1,0 +1,37 @@
+//! Every promise of `selvedge-core` and `selvedge` against the exact oracle, and the oracle against brute force; a module a promise.
+//!
+//! One program, because each one would compile the lane kernels and the oracle anew.
+//! `cargo test -p selvedge-verification --test promises box_tests` runs the modules whose names have that in them.
+
+#[macro_use]
+mod support;
+
+mod arm_scene_starts_free;
+mod baselines_are_no_straw_men;
+mod batches_agree_with_one_pair;
+mod box_tests_never_cull_what_touches;
+mod certified_filter_never_culls_coplanar;
+mod certified_in_every_floating_point_environment;
+mod collision_detector_keeps_its_promises;
+mod contact_is_decided_exactly;
+mod control_values_within_error_bounds;
+mod exact_answers_enclose_the_first_time;
+mod exact_campaign_finds_what_is_wrong;
+mod exact_signs_are_those_of_rationals;
+mod false_culls_are_counted;
+mod generator_makes_what_it_promises;
+mod hard_cases_have_exact_answers;
+mod inside_functions_never_cull_what_touches;
+mod known_examples;
+mod minifloat_exhaustive;
+mod moving_boxes_find_what_relative_boxes_leave;
+mod oracle_collision;
+mod oracle_coplanarity;
+mod oracle_hard_cases;
+mod oracle_mesh;
+mod pipeline_distributes_each_pair_once;
+mod proofs_are_about_the_code;
+mod simulation_is_free_of_intersections;
+mod tiers_keep_their_promises;
+mod time_of_impact_is_never_late;
+mod verdicts_are_invariant;
