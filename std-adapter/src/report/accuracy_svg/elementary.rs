@@ -77,7 +77,7 @@ pub fn elementary_svg(accuracy: &ElementaryAccuracy) -> String {
     });
     let size = [PLOT.names_from() + widest, PLOT.panel_height()];
     picture(&head, size, &panels, |group, panel| {
-        panel.draw(group, &axis)
+        panel.draw(group, &axis);
     })
 }
 
