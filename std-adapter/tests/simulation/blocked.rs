@@ -1,7 +1,7 @@
 //! What happens where bodies leave the cloth no room.
 
-use crate::scene_file;
-use selvedge::simulation::{Scene, Simulation};
+use crate::set_up;
+use selvedge::simulation::Simulation;
 
 /// A ball comes down on another one, with the cloth in between, and goes up again.
 fn press(on_blocked: &str) -> Simulation {
@@ -40,8 +40,7 @@ fn press(on_blocked: &str) -> Simulation {
         thickness = "3 mm"
         "#
     );
-    let scene = Scene::parse(&text, &scene_file("press.toml")).unwrap();
-    Simulation::new(scene, 1).unwrap()
+    set_up(&text, "press.toml", 1)
 }
 
 #[test]

@@ -4,7 +4,7 @@
 //! keeps its order, and more than a reach, between the start and the end of the step. [Neighbours](super::neighbours) have a
 //! smaller reach.
 
-use super::neighbours::{Neighbours, keep_apart};
+use super::neighbours::Neighbours;
 use super::pair::Pair;
 use crate::PairKind;
 use crate::broad_phase::moving::MovingBroadPhase;
@@ -33,8 +33,7 @@ pub(super) struct Detector {
     /// Vertices from here on are bodies'.
     cloth_vertices: usize,
     broad_phase: MovingBroadPhase<f64>,
-    /// With their reach.
-    neighbours: Option<(Neighbours, f64)>,
+    neighbours: Option<Neighbours>,
     vertex_face: Vec<[u32; 2]>,
     edge_edge: Vec<[u32; 2]>,
     sorted: Vec<[u32; 2]>,
@@ -70,9 +69,9 @@ impl Detector {
         }
     }
 
-    /// These pairs will be candidates only if they come within their own reach.
-    pub(super) fn set_neighbours(&mut self, neighbours: Neighbours, reach: f64) {
-        self.neighbours = Some((neighbours, reach));
+    /// Neighbours will be candidates only if they come within their own reach.
+    pub(super) fn set_neighbours(&mut self, neighbours: Neighbours) {
+        self.neighbours = Some(neighbours);
     }
 
     /// Replaces `pairs` by the candidates of the motion from `start` to `end`, in ascending order of their keys: whatever order
@@ -89,7 +88,8 @@ impl Detector {
         self.find(motion, pairs);
     }
 
-    /// Replaces `pairs` by those with a vertex that is in `only`. Returns whether it is so; else all are there.
+    /// Replaces `pairs` by those with a vertex that is in `only`, the only ones whose motion is not that of the last search. Returns
+    /// whether it is so; else all are there.
     ///
     /// # Panics
     /// If a position is not finite.
@@ -100,7 +100,7 @@ impl Detector {
         pairs: &mut Vec<Pair>,
     ) -> bool {
         let builds = self.broad_phase.statistics().builds;
-        self.broad_phase.set_wanted(only.to_vec());
+        self.broad_phase.narrow_to(only.to_vec());
         self.is_narrowed = true;
         self.update(motion);
         // After a build the broad phase takes what a traversal costs for the measure of later ones: so that must be a whole one.
@@ -130,15 +130,17 @@ impl Detector {
             ..
         } = self;
         broad_phase.candidates(vertex_face, edge_edge);
+        if let Some(neighbours) = neighbours {
+            neighbours.set_motion(motion);
+        }
         let counts = [topology.vertex_count(), topology.edges().len()];
         for (kind, found, count) in [
             (PairKind::VertexFace, &mut *vertex_face, counts[0]),
             (PairKind::EdgeEdge, &mut *edge_edge, counts[1]),
         ] {
-            if let Some((neighbours, reach)) = neighbours {
+            if let Some(neighbours) = neighbours {
                 parallel::retain(found, |&pair| {
-                    let vertices = kind.vertices(pair, topology);
-                    !keep_apart(kind, vertices, motion, *reach) || !neighbours.contain(kind, pair)
+                    !neighbours.keep_apart(kind, kind.vertices(pair, topology))
                 });
             }
             sort(found, count, sorted, places);
