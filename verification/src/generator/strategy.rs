@@ -113,10 +113,19 @@ impl<T: Simplify> ValueTree for Simplification<T> {
 /// no seeds are kept.
 pub fn check<T: Simplify>(
     cases: u32,
-    strategy: impl Strategy<Value = T>,
+    strategy: impl Strategy<Value = T> + 'static,
     property: impl Fn(&T) -> TestCaseResult,
 ) {
-    match TestRunner::new(settings(cases)).run(&strategy, |case| property(&case)) {
+    check_dynamically(cases, &strategy.boxed(), &property);
+}
+
+/// Compiled once for each type of case, not for each property: proptest's runner was half of the tests' code.
+fn check_dynamically<T: Simplify>(
+    cases: u32,
+    strategy: &BoxedStrategy<T>,
+    property: &dyn Fn(&T) -> TestCaseResult,
+) {
+    match TestRunner::new(settings(cases)).run(strategy, |case| property(&case)) {
         Ok(()) => {}
         Err(TestError::Fail(reason, case)) => {
             panic!("{reason}\nThe simplest case found:\n{case:?}")

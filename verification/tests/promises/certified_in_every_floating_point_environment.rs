@@ -3,6 +3,7 @@
 //!
 //! Random tests do not pin the constants; named pairs show what each of them is there for.
 
+use crate::support::environment::Environment;
 use proptest::prelude::*;
 use selvedge::dispatch::available_levels;
 use selvedge_core::batch::{BatchTest, Level, Test, Tile, culled_from_tiles};
@@ -18,7 +19,6 @@ use selvedge_verification::generator::{
 };
 use selvedge_verification::oracle::{Kind, collides};
 use std::hint::black_box;
-use crate::support::environment::Environment;
 
 const BOX_TESTS: [Test; 6] = [
     Test::SweptBoxes,

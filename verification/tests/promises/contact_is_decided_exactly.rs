@@ -1,5 +1,7 @@
 //! `selvedge_core::elementary::contact` and `selvedge_core::exact::touches` say what the oracle says, for every finite pair.
 
+use crate::support::environment::Environment;
+use crate::support::widths::at_the_limit_of_a_width;
 use proptest::prelude::*;
 use selvedge_core::PrimitivePair;
 use selvedge_core::elementary::Contact;
@@ -12,8 +14,6 @@ use selvedge_verification::generator::{
 };
 use selvedge_verification::oracle::{Kind, collides};
 use std::cell::Cell;
-use crate::support::environment::Environment;
-use crate::support::widths::at_the_limit_of_a_width;
 
 const KINDS: [Kind; 2] = [Kind::VertexFace, Kind::EdgeEdge];
 

@@ -1,5 +1,8 @@
 //! `selvedge_core::exact` says what rational arithmetic says, for every finite pair.
 
+use crate::support::environment::Environment;
+use crate::support::rationals::{InRationals, rational, separations};
+use crate::support::widths::at_the_limit_of_a_width;
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge::pipeline::CullingTest;
@@ -16,9 +19,6 @@ use selvedge_verification::generator::{
 };
 use selvedge_verification::oracle::{Kind, coplanar, within};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
-use crate::support::environment::Environment;
-use crate::support::rationals::{InRationals, rational, separations};
-use crate::support::widths::at_the_limit_of_a_width;
 
 fn signs<S: Format>(pair: &PairCase<S>) -> Option<[Ordering; 4]> {
     match pair.kind {

@@ -1,12 +1,12 @@
 //! Contact and separation of primitive pairs in motion, against clipping and against stepping.
 
+use crate::support::distance::{SLACK, advance, distance};
+use crate::support::{at, common_part};
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge_verification::oracle::{
     Kind, Pair, collides, first_within, touches_at, within, within_at,
 };
-use crate::support::distance::{SLACK, advance, distance};
-use crate::support::{at, common_part};
 
 fn kind() -> impl Strategy<Value = Kind> {
     prop_oneof![Just(Kind::VertexFace), Just(Kind::EdgeEdge)]

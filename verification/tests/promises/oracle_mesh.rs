@@ -1,8 +1,8 @@
 //! Triangle intersections at rest, against clipping.
 
+use crate::support::{common_part, contains, point};
 use proptest::prelude::*;
 use selvedge_verification::oracle::{mesh_self_intersections, triangles_intersect};
-use crate::support::{common_part, contains, point};
 
 type Triangle = [[f64; 3]; 3];
 

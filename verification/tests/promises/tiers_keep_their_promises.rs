@@ -1,5 +1,7 @@
 //! What each tier promises, one pair at a time: whom it never culls, and which of two culls more.
 
+use crate::support::distance::distance;
+use crate::support::rationals::{InRationals, separations};
 use proptest::prelude::*;
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::{Depth, Filter, Tier};
@@ -8,8 +10,6 @@ use selvedge_verification::generator::{
     pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides, coplanar, within};
-use crate::support::distance::distance;
-use crate::support::rationals::{InRationals, separations};
 
 const DEPTHS: [Depth; 4] = [Depth::One, Depth::Two, Depth::Three, Depth::Four];
 

@@ -1,6 +1,7 @@
 //! The certified time of impact never misses, is never later than the exact time, is as tight as it says, and takes no
 //! more work than it says; in every floating-point environment.
 
+use crate::support::environment::Environment;
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge::dispatch::{available_levels, best_level};
@@ -19,7 +20,6 @@ use selvedge_verification::generator::{
 };
 use selvedge_verification::oracle::{Kind, collides, first_within, within, within_at};
 use std::cell::Cell;
-use crate::support::environment::Environment;
 
 /// A pair, and lengths on its own scale.
 #[derive(Clone, Debug)]

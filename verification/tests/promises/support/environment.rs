@@ -23,7 +23,6 @@ impl Environment {
     pub(crate) const DEFAULT: Self = Self::new(0, false, false);
     pub(crate) const DOWNWARD: Self = Self::new(1, false, false);
     pub(crate) const UPWARD: Self = Self::new(2, false, false);
-    pub(crate) const TOWARDS_ZERO: Self = Self::new(3, false, false);
     /// To nearest, and neither subnormal results nor subnormal operands.
     pub(crate) const FLUSHING: Self = Self::new(0, true, true);
 
