@@ -1,11 +1,12 @@
 use super::message;
 use selvedge::simulation::{Scene, Simulation};
 use std::path::Path;
+use toml::de::{DeTable, DeValue};
 
 /// Larger cloth and bodies are read, not simulated.
 const LARGEST: usize = 500;
 /// Numbers of cells and the like from here on are left out: they would only take time and memory.
-const FINEST: i64 = 13;
+const FINEST: u64 = 13;
 
 /// A scene file is refused with a readable message that names the line and the column; or it makes a scene of which everything is
 /// finite after two steps. A scene that cannot be set up, or is blocked, says so in one line too.
@@ -13,10 +14,7 @@ pub fn scene(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else {
         return;
     };
-    if text
-        .parse()
-        .is_ok_and(|table| is_large(&toml::Value::Table(table)))
-    {
+    if DeTable::parse(text).is_ok_and(|table| has_large(table.get_ref())) {
         return;
     }
     let path = Path::new("no-such-folder/fuzz.toml");
@@ -46,23 +44,30 @@ pub fn scene(data: &[u8]) {
     }
 }
 
-/// Whether the mesh would be large, or read from a file.
-fn is_large(value: &toml::Value) -> bool {
+/// Whether a mesh would be large, or read from a file.
+fn has_large(table: &DeTable<'_>) -> bool {
+    let mut entries = table.iter();
+    entries.any(|(key, value)| match key.get_ref().as_ref() {
+        "cells" | "refinement" | "around" | "sweeps" => has_large_number(value.get_ref()),
+        "file" => true,
+        _ => is_large(value.get_ref()),
+    })
+}
+
+fn is_large(value: &DeValue<'_>) -> bool {
     match value {
-        toml::Value::Array(values) => values.iter().any(is_large),
-        toml::Value::Table(table) => table.iter().any(|(key, value)| match key.as_str() {
-            "cells" | "refinement" | "around" | "sweeps" => has_large_number(value),
-            "file" => true,
-            _ => is_large(value),
-        }),
+        DeValue::Array(values) => values.iter().any(|value| is_large(value.get_ref())),
+        DeValue::Table(table) => has_large(table),
         _ => false,
     }
 }
 
-fn has_large_number(value: &toml::Value) -> bool {
+fn has_large_number(value: &DeValue<'_>) -> bool {
     match value {
-        toml::Value::Array(values) => values.iter().any(has_large_number),
-        toml::Value::Integer(number) => *number >= FINEST,
+        DeValue::Array(values) => values.iter().any(|value| has_large_number(value.get_ref())),
+        DeValue::Integer(number) => {
+            u64::from_str_radix(number.as_str(), number.radix()).is_ok_and(|n| n >= FINEST)
+        }
         _ => false,
     }
 }

@@ -121,7 +121,7 @@ fn a_scene_is_simulated_and_compared_on_steps_of_its_own() {
     let document = place.json(&arguments);
     assert_eq!(
         (&document["steps"], &document["triangles"]),
-        (&4.into(), &288.into())
+        (&4.into(), &128.into())
     );
     let name = "a </script> sheet, 4 of its 20 simulated steps";
     assert_eq!(document["scene"], name);

@@ -6,6 +6,7 @@
 
 use super::neighbours::Neighbours;
 use super::pair::Pair;
+use super::start::first_crossing;
 use crate::PairKind;
 use crate::broad_phase::moving::MovingBroadPhase;
 use crate::mesh::Topology;
@@ -162,11 +163,7 @@ impl Detector {
             PairKind::VertexFace => vertices[0],
             PairKind::EdgeEdge => vertices[1],
         };
-        let body = match (self.body(last_of_first), self.body(vertices[3])) {
-            (FREE, FREE) if self.wanted.cloth => FREE,
-            (FREE, body) | (body, FREE) if body != FREE && self.wanted.bodies => body,
-            _ => return None,
-        };
+        let body = self.body_of_pair(last_of_first, vertices[3])?;
         let [a, b, c, d] = vertices.map(|v| self.carriers[v as usize]);
         if a != FREE && a == b && a == c && a == d {
             return None;
@@ -175,6 +172,22 @@ impl Detector {
             | u64::from(first) << 32
             | u64::from(second);
         Some(Pair::new(key, kind, vertices, body))
+    }
+
+    /// An edge that passes through a face, of those that are to be kept apart; in words.
+    pub(super) fn first_crossing(&self, positions: &[DVec3]) -> Option<String> {
+        let are_asked = |a: &[u32; 3], b: &[u32; 3]| self.body_of_pair(a[0], b[0]).is_some();
+        first_crossing(self.topology.triangles(), positions, are_asked)
+    }
+
+    /// The body of two vertices that are to be kept apart, [`FREE`] for cloth and cloth; `None` if nobody asked for that.
+    #[inline(always)]
+    fn body_of_pair(&self, one: u32, other: u32) -> Option<Frame> {
+        match (self.body(one), self.body(other)) {
+            (FREE, FREE) if self.wanted.cloth => Some(FREE),
+            (FREE, body) | (body, FREE) if body != FREE && self.wanted.bodies => Some(body),
+            _ => None,
+        }
     }
 
     /// The body of a vertex; [`FREE`] for cloth, pinned or not.

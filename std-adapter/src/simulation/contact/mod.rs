@@ -8,6 +8,7 @@
 //! | `pair` | one pair: the direction that keeps it apart, the certified time of impact |
 //! | `rows` | contacts as constraints of the solver |
 //! | `pass`, `zones` | no step is accepted that is not certified |
+//! | `start` | whether triangles pass through each other where a simulation starts |
 //!
 //! Pairs may be left out of forces, never out of certificates: neighbours on the mesh are pairs like any other.
 
@@ -18,6 +19,7 @@ mod neighbours;
 mod pair;
 mod pass;
 mod rows;
+mod start;
 mod zones;
 
 pub use pass::ContactCounts;
@@ -269,14 +271,16 @@ impl Contact {
         self.horizon.forget();
     }
 
-    /// The first pair that touches, after [`refresh`](Self::refresh).
+    /// The first pair that touches, after [`refresh`](Self::refresh), or the first edge that passes through a face.
     pub(crate) fn first_touching(&self, positions: &[DVec3]) -> Option<String> {
         let error = pass::error(positions, positions);
         let touching = self.pairs.iter().find(|pair| {
             pair.distance_from_below(positions, error) == 0.0
                 && pair.time_of_impact([positions, positions], 0.0).is_some()
-        })?;
-        Some(pass::described(touching.kind, touching.vertices))
+        });
+        touching
+            .map(|pair| pass::described(pair.kind, pair.vertices))
+            .or_else(|| self.detector.first_crossing(positions))
     }
 
     /// Sets up the contacts of a step of `h` seconds that so far leads to `predicted`.
