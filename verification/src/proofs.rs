@@ -6,7 +6,8 @@
 use crate::traced::{Step, Trace, Traced, trace};
 use selvedge_core::Vector;
 use selvedge_core::coplanarity::MovingTetrahedron;
-use selvedge_core::points::Shape;
+use selvedge_core::filter::inside::is_outside_of_one_side;
+use selvedge_core::points::{PairPoints, PairShape, Shape};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -87,6 +88,31 @@ pub fn tetrahedron() -> MovingTetrahedron<Traced> {
         c: edge("c"),
         p: edge("p"),
     }
+}
+
+/// The five control values of the inside function of a pair's first side, each with what it must be less than, computed from
+/// differences of points.
+#[must_use]
+pub fn inside<P: PairShape>() -> ([[Traced; 2]; 5], Trace) {
+    let (_, mut steps) = trace(|| {
+        let points = |end: u32| {
+            ["p", "a", "b", "c"].map(|name| {
+                Vector::from(
+                    ["x", "y", "z"].map(|axis| Traced::input(format!("{name}{end}{axis}"))),
+                )
+            })
+        };
+        let points = PairPoints {
+            start: points(0),
+            end: points(1),
+        };
+        is_outside_of_one_side::<P, Traced>(&points)
+    });
+    steps.begin_with_differences();
+    // The bound comes first in each comparison, and those of the first side before all others.
+    let mut comparisons = steps.comparisons.iter();
+    let values = [(); 5].map(|()| comparisons.next().expect("five control values"));
+    (values.map(|&[bound, value]| [value, bound]), steps)
 }
 
 fn control_value(claim: &Claim, value: Traced, trace: &Trace) -> Script {
@@ -172,45 +198,31 @@ fn normal(name: &str, length: Traced, trace: &Trace) -> Script {
 
 /// From (√(larger(larger(n₀·n₀, ¼ h·h), n₁·n₁) + η) + …)·…: the components of n₀, h and n₁.
 fn normal_components(length: Traced, trace: &Trace) -> [[Traced; 3]; 3] {
+    use Step::{Larger, Product, Root, Sum};
     let step = |x: Traced| match x {
         Traced::Step(index) => trace.steps[index].clone(),
         other => panic!("{other:?} is no step"),
     };
-    let Step::Product(sum, _) = step(length) else {
-        panic!("not the length that was proven")
-    };
-    let Step::Sum(root, _) = step(sum) else {
-        panic!("not the length that was proven")
-    };
-    let Step::Root(squared) = step(root) else {
-        panic!("not the length that was proven")
-    };
-    let Step::Sum(largest, Traced::Underflow) = step(squared) else {
-        panic!("not the length that was proven")
-    };
-    let Step::Larger(first_two, third) = step(largest) else {
-        panic!("not the length that was proven")
-    };
-    let Step::Larger(first, halved) = step(first_two) else {
-        panic!("not the length that was proven")
-    };
-    let Step::Product(Traced::Half, halved) = step(halved) else {
-        panic!("not the length that was proven")
-    };
-    let Step::Product(Traced::Half, second) = step(halved) else {
-        panic!("not the length that was proven")
-    };
+    macro_rules! taken_apart {
+        ($x:expr, $shape:pat $(if $condition:expr)? => $parts:expr) => {
+            match step($x) {
+                $shape $(if $condition)? => $parts,
+                other => panic!("{other:?} is not the length that was proven"),
+            }
+        };
+    }
+    let sum = taken_apart!(length, Product(sum, _) => sum);
+    let root = taken_apart!(sum, Sum(root, _) => root);
+    let squared = taken_apart!(root, Root(squared) => squared);
+    let largest = taken_apart!(squared, Sum(largest, Traced::Underflow) => largest);
+    let (first_two, third) = taken_apart!(largest, Larger(two, one) => (two, one));
+    let (first, halved) = taken_apart!(first_two, Larger(one, other) => (one, other));
+    let halved = taken_apart!(halved, Product(Traced::Half, halved) => halved);
+    let second = taken_apart!(halved, Product(Traced::Half, second) => second);
     [first, second, third].map(|dot| {
-        let Step::Sum(two, z) = step(dot) else {
-            panic!("not a square")
-        };
-        let Step::Sum(x, y) = step(two) else {
-            panic!("not a square")
-        };
-        [x, y, z].map(|square| match step(square) {
-            Step::Product(a, b) if a == b => a,
-            other => panic!("{other:?} is no square"),
-        })
+        let (two, z) = taken_apart!(dot, Sum(two, z) => (two, z));
+        let (x, y) = taken_apart!(two, Sum(x, y) => (x, y));
+        [x, y, z].map(|square| taken_apart!(square, Product(a, b) if a == b => a))
     })
 }
 

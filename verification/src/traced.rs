@@ -171,6 +171,27 @@ pub type Monomial = Vec<String>;
 pub type Paths = BTreeMap<Monomial, u32>;
 
 impl Trace {
+    /// Takes each difference of two inputs for an input itself, with both names: what follows is computed from differences of points.
+    pub fn begin_with_differences(&mut self) {
+        let name = |number: &Traced| match number {
+            Traced::Step(index) => match &self.steps[*index] {
+                Step::Input(name) => Some(name.as_str()),
+                _ => None,
+            },
+            _ => None,
+        };
+        let differences = self.steps.iter().map(|step| match step {
+            Step::Difference(a, b) => Some(format!("{}_{}", name(a)?, name(b)?)),
+            _ => None,
+        });
+        let differences: Vec<_> = differences.collect();
+        for (step, difference) in self.steps.iter_mut().zip(differences) {
+            if let Some(name) = difference {
+                *step = Step::Input(name);
+            }
+        }
+    }
+
     /// Of a result as it is.
     ///
     /// # Panics

@@ -35,7 +35,9 @@ pub fn three_axes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
 
 /// [`three_axes`], and the six diagonals x±y, x±z, y±z as well.
 ///
-/// Of pairs as small as dust (sizes below [`Rounding::SUM_GAP`]) it may keep some that [`three_axes`] culls.
+/// Along every one of the nine, axes included, one value must exceed the other by [`Rounding::SUM_GAP`] (see "compilers" in the
+/// documentation of [`boxes`](super)); anything but dust absorbs it. So of pairs whose coordinates are as small as that it keeps
+/// some that [`three_axes`] culls.
 #[inline(always)]
 pub fn nine_directions<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
     Verdict::culled_if(are_apart_along_nine_directions::<P::Shape, S>(
@@ -63,7 +65,7 @@ pub fn are_apart_along_nine_directions<P: PairShape, L: Lanes>(points: &PairPoin
             )
         };
     }
-    // Coordinates as if they were sums: see "compilers" in the documentation of `boxes`.
+    // Coordinates with the gap, as if they were sums: see "compilers" in the documentation of `boxes`.
     let axes = along!(p => p.x) | along!(p => p.y) | along!(p => p.z);
     let diagonals = (along!(p => p.x + p.y) | along!(p => p.x - p.y))
         | (along!(p => p.x + p.z) | along!(p => p.x - p.z))

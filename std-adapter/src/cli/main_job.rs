@@ -5,7 +5,7 @@ use super::compare::{Run, add_report};
 use super::output::{self, OutputFiles};
 use super::simulate::{effect_costs, run_steps};
 use selvedge::pipeline::Preset;
-use selvedge::report::{SimulationRecorder, Subject, added, json, page, tables};
+use selvedge::report::{SimulationRecorder, Subject, costs_of_added_effects, json, page, tables};
 use selvedge::scene::ArmScene;
 use selvedge::simulation::{Scene, Simulation};
 use selvedge::study::SimulatedSteps;
@@ -52,7 +52,7 @@ impl MainJob {
         let seconds = begin.elapsed().as_secs_f64();
         let costs = effect_costs(read, steps, self.run.threads.get())?;
         let mut recording = recorder.finish(seconds);
-        recording.added = added(&costs);
+        recording.added = costs_of_added_effects(&costs);
 
         let comparison = self.run.compare(&frames, &Preset::ALL)?;
         let mut files = OutputFiles::default();

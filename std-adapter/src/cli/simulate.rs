@@ -5,7 +5,9 @@ use super::options::Threads;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge::mesh::{self, Mesh};
-use selvedge::report::{SimulationRecorder, Subject, added, gltf, json, page, tables};
+use selvedge::report::{
+    SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, tables,
+};
 use selvedge::simulation::{CheckpointError, Scene, SceneError, Simulation};
 use selvedge::study::{EffectCost, effects_one_by_one};
 use std::io::Write;
@@ -148,7 +150,7 @@ impl Simulate {
             true => effect_costs(|| Scene::read(&self.scene), steps, self.threads.get())?,
             false => Vec::new(),
         };
-        recording.added = added(&costs);
+        recording.added = costs_of_added_effects(&costs);
 
         let mut files = OutputFiles::default();
         files.add_bytes(self.file("html"), page::html(&recording).as_bytes())?;

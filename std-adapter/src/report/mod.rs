@@ -35,7 +35,7 @@ pub use recording::{
     About, Added, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind,
 };
 #[cfg(feature = "simulation")]
-pub use recording::{SimulationRecorder, Subject, added};
+pub use recording::{SimulationRecorder, Subject, costs_of_added_effects};
 pub use step::{StepQuestion, StepSummary};
 pub use table_svg::comparison_svg;
 

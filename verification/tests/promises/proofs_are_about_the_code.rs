@@ -1,8 +1,9 @@
 //! The proofs in `gappa/` are about core as it is: scripts are what its code gives, constants and counts of roundings in them
 //! are its own. That the proofs hold is checked by `gappa/check.sh`.
 
+use selvedge_core::points::{EdgeAndEdge, PairShape, VertexAndFace};
 use selvedge_core::{Rounding, Scalar};
-use selvedge_verification::proofs::{scripts, tetrahedron};
+use selvedge_verification::proofs::{inside, scripts, tetrahedron};
 use selvedge_verification::traced::{Paths, Traced, trace};
 use std::collections::BTreeMap;
 use std::fs;
@@ -75,7 +76,8 @@ fn constants_of_the_scripts_are_those_of_the_code() {
             if line[mark..].starts_with("#!") {
                 let (_, number) = line[..mark].split_once('=').expect("a definition");
                 let number = number.trim().trim_end_matches(';');
-                let called = [format!("small({number})"), format!("roundoffs({number})")];
+                let called =
+                    ["small", "roundoffs", "constant"].map(|name| format!("{name}({number})"));
                 assert!(
                     called.iter().any(|call| code.contains(call)),
                     "{name}: {number} is not the constant of `{code}`"
@@ -144,23 +146,24 @@ fn most(paths: &Paths) -> u32 {
     paths.values().max().expect("a monomial") + OF_DIFFERENCES
 }
 
-/// `#= NAME COUNT OF_BOUND` in coplanarity.g: roundings of a control value but for its last addition, and of its bound.
+/// `#= NAME COUNT OF_BOUND` in a script: roundings of a control value but for its last addition, and of its bound.
+fn counts_in(script: &str, name: &str) -> [u32; 2] {
+    let script = read(&folder().join(script));
+    let prefix = format!("#= {name} ");
+    let line = script.lines().find_map(|line| line.strip_prefix(&prefix));
+    let mut counts = line
+        .expect("a line of counts")
+        .split(' ')
+        .map(|count| count.parse().expect("a count"));
+    [counts.next(), counts.next()].map(|count| count.expect("two counts"))
+}
+
 #[test]
 fn roundings_are_as_many_as_the_scripts_say() {
     let (values, of_values) = trace(|| tetrahedron().control_values().0);
     let (bounds, of_bounds) = trace(|| tetrahedron().error_bounds());
-    let script = read(&folder().join("coplanarity.g"));
-    let line = |name: &str| {
-        let prefix = format!("#= {name} ");
-        let line = script.lines().find_map(|line| line.strip_prefix(&prefix));
-        let mut counts = line
-            .expect("a line of counts")
-            .split(' ')
-            .map(|count| count.parse().expect("a count"));
-        [counts.next(), counts.next()].map(|count| count.expect("two counts"))
-    };
     for (index, name, monomials) in [(0, "k0", 6), (1, "3k1", 18), (2, "3k1", 18), (3, "k0", 6)] {
-        let [of_value, of_bound]: [u32; 2] = line(name);
+        let [of_value, of_bound] = counts_in("coplanarity.g", name);
         let paths = of_values.paths_but_last(values[index]);
         assert_eq!(paths.len(), monomials);
         assert_eq!(most(&paths), of_value, "{name}");
@@ -191,5 +194,39 @@ fn roundings_are_as_many_as_the_scripts_say() {
             !counts.is_empty() && counts.iter().all(|&count| count < 6),
             "{counts:?}"
         );
+    }
+}
+
+/// Of one kind of pair: the monomials of each control value of an inside function have at most as many roundings as `inside.g` says.
+fn roundings_of_inside_functions<P: PairShape>() -> [[u32; 2]; 5] {
+    // Each monomial has four differences of points.
+    const OF_FOUR_DIFFERENCES: u32 = 4;
+    let (values, trace) = inside::<P>();
+    let names = ["first", "second", "third", "second", "first"];
+    let mut counts = [[0; 2]; 5];
+    for (index, ([value, bound], name)) in values.into_iter().zip(names).enumerate() {
+        let [of_value, of_bound] = counts_in("inside.g", name);
+        let value = trace.paths_but_last(value);
+        // A multiple of every product of two components of A.
+        let bound = trace.paths(bound);
+        let most = |paths: &Paths| *paths.values().max().expect("a monomial");
+        counts[index] = [most(&value) + OF_FOUR_DIFFERENCES, most(&bound)];
+        assert!(counts[index][0] <= of_value, "{name}: {counts:?}");
+        assert!(counts[index][1] <= of_bound, "{name}: {counts:?}");
+    }
+    counts
+}
+
+#[test]
+fn roundings_of_inside_functions_are_as_many_as_the_script_says() {
+    let (faces, edges) = (
+        roundings_of_inside_functions::<VertexAndFace>(),
+        roundings_of_inside_functions::<EdgeAndEdge>(),
+    );
+    // No more than that: a script that said too many would prove less than it could.
+    let most = |[a, b]: [u32; 2], [c, d]: [u32; 2]| [a.max(c), b.max(d)];
+    for (index, name) in ["first", "second", "third"].into_iter().enumerate() {
+        let counted = most(faces[index], edges[index]);
+        assert_eq!(counted, counts_in("inside.g", name), "{name}");
     }
 }

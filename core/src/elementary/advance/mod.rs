@@ -211,27 +211,31 @@ struct Snapshot<S, const N: usize> {
     time: S,
     positions: [Vector<S>; N],
     closest: Closest<S>,
-    /// Away from the origin: in it the hull is beyond the closest point.
-    direction: Vector<S>,
 }
 
 impl<S: Scalar, const N: usize> Snapshot<S, N> {
     #[inline(always)]
     fn new(corners: &Corners<S, N>, time: S) -> Self {
         let positions = corners.at(time);
-        let closest = closest(&positions);
         Self {
             time,
             positions,
-            closest,
-            direction: closest.direction(&positions, corners.extent.largest()),
+            closest: closest(&positions),
         }
+    }
+
+    /// Away from the origin: in it the hull is beyond the closest point. Takes longest where that is very near, so that it is best asked
+    /// for after the tolerance.
+    #[inline(always)]
+    fn direction(&self, corners: &Corners<S, N>) -> Vector<S> {
+        let extent = corners.extent.largest();
+        self.closest.direction(&self.positions, extent)
     }
 
     /// The direction, of unit length but for rounding.
     #[inline(always)]
-    fn unit(&self) -> Vector<S> {
-        let direction = self.direction;
+    fn unit(&self, corners: &Corners<S, N>) -> Vector<S> {
+        let direction = self.direction(corners);
         direction.scaled(S::ONE / direction.dot(direction).sqrt())
     }
 }
@@ -283,7 +287,8 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
     #[inline(always)]
     fn apart_along(&self, now: &Snapshot<S, N>) -> Apart<S> {
         let separation = self.limits.separation;
-        let direction = self.corners.direction(now.direction, separation);
+        let direction = now.direction(self.corners);
+        let direction = self.corners.direction(direction, separation);
         self.corners.apart_along(&direction, &now.positions)
     }
 
@@ -300,14 +305,16 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
             let contact = step * gap_next / (gap_now - gap_next);
             goal = (next.time + contact * S::from_f64(0.9)).smaller(S::ONE);
         }
-        let before = self.corners.direction(next.unit(), separation);
+        let before = next.unit(self.corners);
+        let before = self.corners.direction(before, separation);
         for widest in [32, 4, 4] {
             if !(goal > next.time) {
                 return;
             }
             self.work.turns += 1;
             let later = Snapshot::new(self.corners, goal);
-            let after = self.corners.direction(later.unit(), separation);
+            let after = later.unit(self.corners);
+            let after = self.corners.direction(after, separation);
             if are_apart_turning(&before, &next.positions, &after, &later.positions) {
                 *next = later;
                 return;

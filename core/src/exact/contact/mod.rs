@@ -38,7 +38,7 @@
 //! * 3·24·10 + 2·(24 + 1) = 770 signs where K is not zero throughout (three crossings, two turning points),
 //! * 36·24 = 864 signs where it is (12 roots of linear polynomials, 24 of quadratics).
 //!
-//! Along one axis alone nearly every contact is settled, with a handful of signs.
+//! Along one axis alone nearly every contact is settled, with a handful of signs. (A polynomial that is zero throughout takes none.)
 
 mod moment;
 mod rounded;

@@ -20,6 +20,17 @@
 //!
 //! With 32, 64 and 512 in place of 18, 59 and 384 what is of second order, less than 2⁻⁴⁰ of it, is covered too. A polynomial of lower degree has less.
 //! No number exceeds 64·2⁵⁶ = 2⁶².
+//!
+//! At the root −a/b of a linear polynomial, [`value_at_quotient`](super::moment) of a cubic:
+//!
+//! | number | magnitude ≤ | error, in δ |
+//! |---|---|---|
+//! | b², b³ | 1, 1 | 3, 5 |
+//! | v after a first step: k·b − v·a | 2 | 3 + 3 = 6 |
+//! | k·b² − v·a | 3 | 5 + 9 = 14 |
+//! | k·b³ − v·a | 4 | 7 + 18 = 25 |
+//!
+//! Here 32 in place of 25 will do.
 
 use super::whole::Whole;
 use core::cmp::Ordering;

@@ -78,7 +78,7 @@ pub fn html(recording: &Recording) -> String {
                     @if !recording.added.is_empty() {
                         section {
                             h2 { "Effects added one at a time" }
-                            (tables::added(recording))
+                            (tables::added_effects(recording))
                         }
                     }
                     @if has(|kind| matches!(kind, SeriesKind::Gauge(_))) {

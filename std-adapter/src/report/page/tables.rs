@@ -85,7 +85,7 @@ pub(super) fn times(recording: &Recording) -> Markup {
 }
 
 /// What a step costs with the first effect, with the first two, and so on: a bar each.
-pub(super) fn added(recording: &Recording) -> Markup {
+pub(super) fn added_effects(recording: &Recording) -> Markup {
     let most = { recording.added.iter() }.fold(0.0, |most: f64, added| most.max(added.seconds));
     let before = |index: usize| {
         let before = index.checked_sub(1).map(|index| &recording.added[index]);

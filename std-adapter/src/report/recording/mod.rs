@@ -43,7 +43,7 @@ mod tests;
 
 pub use recorder::{FrameError, Recorder};
 #[cfg(feature = "simulation")]
-pub use simulated::{SimulationRecorder, Subject, added};
+pub use simulated::{SimulationRecorder, Subject, costs_of_added_effects};
 
 use crate::mesh::Mesh;
 use selvedge_core::glam::DVec3;

@@ -12,9 +12,9 @@ pub struct Subject {
     parts: Vec<Part>,
 }
 
-/// What was measured, for a [`Recording`]'s `added`.
+/// What a step costs with each effect added, as measured: for a [`Recording`]'s `added`.
 #[must_use]
-pub fn added(costs: &[EffectCost]) -> Vec<Added> {
+pub fn costs_of_added_effects(costs: &[EffectCost]) -> Vec<Added> {
     let named = |cost: &EffectCost| Added {
         name: cost.added.unwrap_or("no effect").to_owned(),
         seconds: cost.seconds,
