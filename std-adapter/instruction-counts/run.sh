@@ -39,8 +39,8 @@ count() {
     cp "$work/build/release/steps" "$program"
     env -i "$(command -v valgrind)" --tool=callgrind --callgrind-out-file="$work/$1.out" --collect-atstart=no \
         --toggle-collect='*counted_steps*' "$program" "$scene" "$before" "$steps" 2>/dev/null >"$work/$1.positions"
-    callgrind_annotate --threshold=100 --show=Ir "$work/$1.out" >"$work/$1.txt"
-    awk '$1 ~ /^[0-9,]+$/ && /:/ && !/std::time|std::sys::.*time|clock_gettime|vdso/ { gsub(",", "", $1); sum += $1 }
+    callgrind_annotate --auto=no --threshold=100 --show=Ir "$work/$1.out" >"$work/$1.txt" 2>/dev/null
+    awk '$1 ~ /^[0-9,]+$/ && /:/ && !/std::time|Timespec|clock_gettime|vdso/ { gsub(",", "", $1); sum += $1 }
         END { printf "%.0f\n", sum }' "$work/$1.txt"
 }
 
