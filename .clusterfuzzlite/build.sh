@@ -12,7 +12,7 @@ for source in fuzz_targets/*.rs; do
     [ ! -f "dictionaries/$target.dict" ] || cp "dictionaries/$target.dict" "$OUT/"
     case $target in
     obj | ply) longest=2048 ;;
-    query_csv) longest=4096 ;;
+    query_csv | scene) longest=4096 ;;
     *) longest=700 ;;
     esac
     printf '[libfuzzer]\nmax_len = %s\n' "$longest" >"$OUT/$target.options"

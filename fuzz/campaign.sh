@@ -39,6 +39,7 @@ done
 options() {
     case $1 in
     obj | ply) echo "-max_len=2048 -dict=dictionaries/$1.dict -malloc_limit_mb=256" ;;
+    scene) echo "-max_len=4096 -dict=dictionaries/$1.dict -malloc_limit_mb=1024" ;;
     query_csv) echo "-max_len=4096 -dict=dictionaries/$1.dict" ;;
     *) echo "-max_len=700 -len_control=0" ;;
     esac

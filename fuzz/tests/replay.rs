@@ -78,6 +78,11 @@ fn query_csv_keeps_its_promises_on_the_kept_inputs() {
 }
 
 #[test]
+fn scene_keeps_its_promises_on_the_kept_inputs() {
+    replay("scene");
+}
+
+#[test]
 fn every_folder_of_inputs_belongs_to_a_target() {
     for folder in ["corpus", "regressions"] {
         for path in files(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)) {

@@ -43,6 +43,10 @@ pub mod scene;
 pub mod simulation;
 pub mod step;
 pub mod study;
+// For the command.
+#[cfg(feature = "files")]
+#[doc(hidden)]
+pub mod unnamed;
 
 pub use pair_kind::{PairKind, ParsePairKindError};
 pub use selvedge_core as core;

@@ -90,7 +90,14 @@ pub(crate) fn retain<T: Copy + Send + Sync>(
             .iter()
             .for_each(|chunk| items.extend_from_slice(chunk));
     } else {
-        items.retain(keep);
+        // Without a branch that nobody could foretell.
+        let mut kept = 0;
+        for index in 0..items.len() {
+            let item = items[index];
+            items[kept] = item;
+            kept += usize::from(keep(&item));
+        }
+        items.truncate(kept);
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! Core's kernels are generic over [`Lanes`]: the source that runs on `f32` and `f64` runs on this unchanged.
 
+use crate::generator::power_of_two;
 use selvedge_core::{Lanes, Rounding};
 use std::fmt;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -143,11 +144,6 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
         let all: Vec<Self> = negative.chain(all.iter().copied()).collect();
         all
     }
-}
-
-/// 2^`exponent`, for exponents near 0.
-fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(u64::from((1023 + exponent).cast_unsigned()) << 52)
 }
 
 impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Add for Minifloat<E, F, ENVIRONMENT> {

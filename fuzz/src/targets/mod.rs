@@ -9,6 +9,7 @@ mod meshes;
 mod message;
 mod pair;
 mod query_csv;
+mod scene;
 mod time_of_impact;
 
 pub use box_tests::box_tests;
@@ -18,13 +19,14 @@ pub use exact_signs::exact_signs;
 pub use exact_verdict::exact_verdict;
 pub use meshes::{obj, ply};
 pub use query_csv::query_csv;
+pub use scene::scene;
 pub use time_of_impact::time_of_impact;
 
 /// A target by name.
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every target there is.
-pub const ALL: [Target; 9] = [
+pub const ALL: [Target; 10] = [
     ("certified_filter", certified_filter),
     ("box_tests", box_tests),
     ("exact_signs", exact_signs),
@@ -34,4 +36,5 @@ pub const ALL: [Target; 9] = [
     ("obj", obj),
     ("ply", ply),
     ("query_csv", query_csv),
+    ("scene", scene),
 ];

@@ -1,6 +1,7 @@
 //! Where the answer goes: standard output and files, in one piece or not at all.
 
 use super::Failure;
+use selvedge::unnamed;
 use std::fmt;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -97,22 +98,11 @@ impl OutputFiles {
 }
 
 fn temporary(path: &Path) -> Result<NamedTempFile, Failure> {
-    // A path without a folder is in the current one.
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    // Temporary files are private to their user; ours become ordinary files.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder
-        .tempfile_in(folder)
-        .map_err(|error| match error.kind() {
-            ErrorKind::NotFound => unwritable(path, "there is no such folder"),
-            // Without the temporary file's own name, which tells the user nothing.
-            kind => unwritable(path, io::Error::from(kind)),
-        })
+    unnamed::file_for(path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => unwritable(path, "there is no such folder"),
+        // Without the temporary file's own name, which tells the user nothing.
+        kind => unwritable(path, io::Error::from(kind)),
+    })
 }
 
 fn unwritable(path: &Path, reason: impl fmt::Display) -> Failure {

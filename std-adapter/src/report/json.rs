@@ -243,15 +243,17 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value
 pub fn accuracy(accuracy: &Accuracy) -> Value {
     let options = accuracy.options;
     let sets = accuracy.sets.iter().map(|set| {
-        json!({
-            "set": set.name,
-            "scalar": set.scalar,
-            "vertex_face": set.vertex_face,
-            "edge_edge": set.edge_edge,
-            "drawn_from": set.drawn_from,
-            "timed": set.timed,
-            "cullable": set.cullable,
-        })
+        let more = [
+            ("drawn_from", set.drawn_from),
+            ("timed", set.timed),
+            ("cullable", set.cullable),
+        ];
+        pairs_of(
+            &set.name,
+            set.scalar,
+            [set.vertex_face, set.edge_edge],
+            &more,
+        )
     });
     json!({
         "seed": options.seed,
@@ -260,6 +262,22 @@ pub fn accuracy(accuracy: &Accuracy) -> Value {
         "sets": sets.collect::<Vec<_>>(),
         "rows": accuracy.sets.iter().flat_map(accuracy_rows).collect::<Vec<_>>(),
     })
+}
+
+/// A set of pairs: how many of each kind, and what else was counted.
+#[cfg(feature = "accuracy")]
+fn pairs_of(name: &str, scalar: &str, pairs: [usize; 2], more: &[(&str, usize)]) -> Value {
+    let [vertex_face, edge_edge] = pairs;
+    let mut set = json!({
+        "set": name,
+        "scalar": scalar,
+        "vertex_face": vertex_face,
+        "edge_edge": edge_edge,
+    });
+    for &(key, count) in more {
+        set[key] = count.into();
+    }
+    set
 }
 
 #[cfg(feature = "accuracy")]
@@ -295,14 +313,13 @@ fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
 #[must_use]
 pub fn elementary(accuracy: &ElementaryAccuracy) -> Value {
     let sets = accuracy.sets.iter().map(|set| {
-        json!({
-            "set": set.name,
-            "scalar": set.scalar,
-            "vertex_face": set.vertex_face,
-            "edge_edge": set.edge_edge,
-            "touching": set.touching,
-            "with_time": set.with_time,
-        })
+        let more = [("touching", set.touching), ("with_time", set.with_time)];
+        pairs_of(
+            &set.name,
+            set.scalar,
+            [set.vertex_face, set.edge_edge],
+            &more,
+        )
     });
     let rows = accuracy.sets.iter().flat_map(|set| {
         set.rows.iter().map(|row| {

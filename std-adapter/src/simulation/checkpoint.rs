@@ -59,8 +59,20 @@ impl Checkpoint {
         bytes.extend(numbers.flat_map(f64::to_le_bytes));
         bytes.extend(self.yielding.iter().map(|&yields| u8::from(yields)));
         bytes.extend(self.effects.iter().flat_map(|x| x.to_le_bytes()));
-        bytes.extend(counters(self.counts).into_iter().flat_map(u64::to_le_bytes));
-        bytes.extend(seconds(self.stages).into_iter().flat_map(f64::to_le_bytes));
+        let ContactCounts {
+            candidates,
+            looked_at,
+            pushed,
+            violated,
+            zone_rounds,
+            held,
+            cuts,
+        } = self.counts;
+        let pairs = [candidates, looked_at, pushed, violated];
+        let counts = pairs.into_iter().chain([zone_rounds, held, cuts]);
+        bytes.extend(counts.flat_map(u64::to_le_bytes));
+        let stages = self.stages.stages().map(|(_, seconds)| seconds);
+        bytes.extend(stages.into_iter().flat_map(f64::to_le_bytes));
         bytes
     }
 
@@ -128,37 +140,6 @@ impl Checkpoint {
             },
         })
     }
-}
-
-fn counters(counts: ContactCounts) -> [u64; 7] {
-    let ContactCounts {
-        candidates,
-        looked_at,
-        pushed,
-        violated,
-        zone_rounds,
-        held,
-        cuts,
-    } = counts;
-    [
-        candidates,
-        looked_at,
-        pushed,
-        violated,
-        zone_rounds,
-        held,
-        cuts,
-    ]
-}
-
-fn seconds(stages: ContactSeconds) -> [f64; 4] {
-    let ContactSeconds {
-        candidates,
-        rows,
-        certificates,
-        repairs,
-    } = stages;
-    [candidates, rows, certificates, repairs]
 }
 
 #[cfg(test)]

@@ -13,6 +13,11 @@ use std::ops::Range;
 pub(crate) trait Local<const N: usize>: Debug + Send + Sync {
     fn vertices(&self) -> [u32; N];
 
+    /// Whether all corrections are certainly zero there: a quick test, where there is one.
+    fn moves_nothing(&self, _positions: [DVec3; N]) -> bool {
+        false
+    }
+
     /// By how much each vertex has to move. `stiffening` is 1/h²: what a compliance is multiplied by.
     fn corrections(
         &self,

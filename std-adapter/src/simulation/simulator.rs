@@ -135,6 +135,7 @@ impl Simulation {
         let mut plan = Plan::new(World {
             cloth: &cloth,
             bodies: &bodies,
+            time_step,
         });
         let mut times = Vec::with_capacity(effects.len());
         for (index, (name, effect)) in effects.into_iter().enumerate() {

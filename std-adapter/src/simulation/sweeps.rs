@@ -1,7 +1,7 @@
 //! Several sweeps over coloured constraints, at little more than the price of one.
 //!
-//! A constraint that moved nothing when it was last visited moves nothing again until one of its vertices moves. So after the first
-//! sweep only those are visited around which something moved: the same bits as if all were.
+//! A constraint that would move nothing moves nothing until one of its vertices moves. So only those are visited that may have something
+//! to move at the beginning, or around which something moved: the same bits as if all were.
 
 use super::colour::{Coloured, Local};
 use super::plan::{Constraint, StepInput, Touches};
@@ -46,6 +46,18 @@ impl<C: Local<N>, const N: usize> Sweeps<C, N> {
             around,
             pending: vec![0; all.len().div_ceil(64)],
             constraints,
+        }
+    }
+
+    /// Those that may move something where things are now.
+    fn find_pending(&mut self, positions: &[DVec3]) {
+        let groups = self.constraints.all().chunks(64);
+        for (pending, group) in self.pending.iter_mut().zip(groups) {
+            *pending = 0;
+            for (bit, constraint) in group.iter().enumerate() {
+                let at = constraint.vertices().map(|v| positions[v as usize]);
+                *pending |= u64::from(!constraint.moves_nothing(at)) << bit;
+            }
         }
     }
 
@@ -104,7 +116,7 @@ fn below(count: usize) -> u64 {
 impl<C: Local<N>, const N: usize> Constraint for Sweeps<C, N> {
     fn project(&mut self, step: &StepInput<'_>, positions: &mut [DVec3], _: &mut Touches) {
         let count = self.constraints.all().len();
-        self.pending.fill(!0);
+        self.find_pending(positions);
         for colour in 0..self.constraints.colour_count() {
             let range = self.constraints.colour(colour);
             if Coloured::<C, N>::is_worth_threads(&range) {
@@ -143,6 +155,10 @@ mod tests {
             }
             let half = way * (0.5 * (length - 1.0) / length);
             [half, -half]
+        }
+
+        fn moves_nothing(&self, [a, b]: [DVec3; 2]) -> bool {
+            (b - a).length() <= 0.9
         }
     }
 

@@ -1,6 +1,6 @@
 //! `selvedge`, `selvedge compare` and `selvedge scaling`.
 
-use crate::support::{Workplace, keys};
+use crate::support::{SHEET, Workplace, keys};
 use selvedge::pipeline::Preset;
 
 /// Small enough for a test.
@@ -115,29 +115,15 @@ fn two_meshes_are_compared_as_one_step() {
 #[test]
 fn a_scene_is_simulated_and_compared_on_steps_of_its_own() {
     let place = Workplace::new();
-    place.write(
-        "sheet.toml",
-        r#"
-        name = "falling sheet"
-        time_step = "5 ms"
-        duration = "0.1 s"
-        [cloth]
-        shape = "sheet"
-        sides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }
-        cells = [8, 8]
-        density = "200 g/m2"
-        [effects.gravity]
-        [effects.self_collision]
-        thickness = "5 mm"
-        "#,
-    );
+    let short = SHEET.replace("duration = \"1 s\"", "duration = \"40 ms\"");
+    place.write("sheet.toml", short);
     let arguments = ["compare", "sheet.toml", "--json", "--steps", "4"];
     let document = place.json(&arguments);
     assert_eq!(
         (&document["steps"], &document["triangles"]),
         (&4.into(), &128.into())
     );
-    let name = "falling sheet, 4 of its 20 simulated steps";
+    let name = "a </script> sheet, 4 of its 20 simulated steps";
     assert_eq!(document["scene"], name);
     // More steps than the scene has: all of them.
     let document = place.json(&["compare", "sheet.toml", "--json", "--steps", "99"]);

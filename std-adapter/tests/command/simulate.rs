@@ -1,43 +1,11 @@
 //! `selvedge simulate`.
 
-use crate::support::{Workplace, keys};
+use crate::support::{SHEET, Workplace, keys};
 use std::fs;
-
-const SCENE: &str = r#"
-name = "a </script> sheet"
-time_step = "2 ms"
-duration = "1 s"
-frames_per_second = 10
-
-[cloth]
-shape = "sheet"
-corner = [-0.2, -0.2, 0.13]
-sides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }
-cells = [8, 8]
-density = "200 g/m2"
-
-[[body]]
-name = "ball"
-shape = "ball"
-centre = [0, 0, 0]
-radius = "10 cm"
-around = 10
-
-[effects.gravity]
-
-[effects.stretch]
-stiffness = "200 N/m"
-
-[effects.body_contact]
-thickness = "5 mm"
-
-[effects.self_collision]
-thickness = "5 mm"
-"#;
 
 fn place() -> Workplace {
     let place = Workplace::new();
-    place.write("sheet.toml", SCENE);
+    place.write("sheet.toml", SHEET);
     place
 }
 
@@ -104,7 +72,7 @@ fn effects_one_by_one_has_a_row_for_each_and_one_without() {
 #[test]
 fn without_contact_effects_no_stage_is_reported_and_nothing_is_promised() {
     let place = Workplace::new();
-    let (without, _) = SCENE.split_once("[effects.body_contact]").unwrap();
+    let (without, _) = SHEET.split_once("[effects.body_contact]").unwrap();
     place.write("sheet.toml", without);
     let document = place.json(&["simulate", "sheet.toml", "--json"]);
     assert_eq!(document["stages"].as_array().unwrap().len(), 0);
@@ -197,20 +165,20 @@ fn what_is_wrong_with_a_scene_is_said_with_its_place() {
     let place = Workplace::new();
     place.write(
         "wrong.toml",
-        SCENE.replace("[effects.gravity]", "[effects.gravty]"),
+        SHEET.replace("[effects.gravity]", "[effects.gravty]"),
     );
     assert_eq!(
         place.refusal(1, &["simulate", "wrong.toml"]),
         "error: wrong.toml:21:10: there is no effect 'gravty'; did you mean 'gravity'?\n"
     );
-    place.write("sheet.toml", SCENE);
+    place.write("sheet.toml", SHEET);
     fs::create_dir(place.path("selvedge-out")).unwrap();
     let message = place.refusal(1, &["simulate", "sheet.toml", "--resume"]);
     assert!(
         message.contains("sheet.checkpoint: cannot be read"),
         "{message}"
     );
-    place.write("sheet.toml", SCENE.replace("0.13", "0.1"));
+    place.write("sheet.toml", SHEET.replace("0.13", "0.1"));
     let message = place.refusal(1, &["simulate", "sheet.toml"]);
     assert!(message.contains("starts with an intersection"), "{message}");
 }

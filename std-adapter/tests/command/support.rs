@@ -28,6 +28,39 @@ pub(crate) fn moved_by(z: f64) -> String {
     lines.join("\n") + "\n"
 }
 
+/// A scene: a sheet that falls on a ball, in 500 steps.
+pub(crate) const SHEET: &str = r#"
+name = "a </script> sheet"
+time_step = "2 ms"
+duration = "1 s"
+frames_per_second = 10
+
+[cloth]
+shape = "sheet"
+corner = [-0.2, -0.2, 0.13]
+sides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }
+cells = [8, 8]
+density = "200 g/m2"
+
+[[body]]
+name = "ball"
+shape = "ball"
+centre = [0, 0, 0]
+radius = "10 cm"
+around = 10
+
+[effects.gravity]
+
+[effects.stretch]
+stiffness = "200 N/m"
+
+[effects.body_contact]
+thickness = "5 mm"
+
+[effects.self_collision]
+thickness = "5 mm"
+"#;
+
 /// A folder of its own for each test, and the program run in it.
 pub(crate) struct Workplace {
     folder: TempDir,

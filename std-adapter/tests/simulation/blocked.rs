@@ -1,6 +1,6 @@
 //! What happens where bodies leave the cloth no room.
 
-use crate::scene_file;
+use crate::{scene_file, set_up};
 use selvedge::simulation::{Scene, Simulation};
 
 /// A ball comes down on another one, with the cloth in between, and goes up again.
@@ -40,8 +40,7 @@ fn press(on_blocked: &str) -> Simulation {
         thickness = "3 mm"
         "#
     );
-    let scene = Scene::parse(&text, &scene_file("press.toml")).unwrap();
-    Simulation::new(scene, 1).unwrap()
+    set_up(&text, "press.toml", 1)
 }
 
 #[test]
@@ -80,4 +79,31 @@ fn yield_lets_the_body_pass_and_takes_it_back_when_it_is_apart() {
     assert!(has_yielded);
     assert_eq!(simulation.lag(), 0.0);
     assert!(simulation.positions().iter().all(|p| p.is_finite()));
+}
+
+/// Edges of a coarse sheet through faces of a coarse ball: no vertex is near a face, and hardly an edge near an edge.
+#[test]
+fn a_start_that_passes_through_a_body_is_refused_with_the_pair_named() {
+    let text = r#"
+        time_step = "1 ms"
+        duration = "1 s"
+        [cloth]
+        shape = "sheet"
+        corner = [-0.21, -0.19, 0.05]
+        sides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }
+        cells = [4, 4]
+        density = "200 g/m2"
+        [[body]]
+        name = "ball"
+        shape = "ball"
+        centre = [0, 0, 0]
+        radius = "10 cm"
+        around = 8
+        [effects.body_contact]
+        thickness = "1 mm"
+    "#;
+    let scene = Scene::parse(text, &scene_file("through.toml")).unwrap();
+    let error = Simulation::new(scene, 1).unwrap_err().to_string();
+    let named = "the scene starts with an intersection: the pair of the edge ";
+    assert!(error.starts_with(named), "{error}");
 }

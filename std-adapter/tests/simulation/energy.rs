@@ -1,7 +1,8 @@
 //! Where nothing does work, energy does not grow.
 
-use crate::scene_file;
-use selvedge::simulation::{Scene, Simulation};
+use crate::set_up;
+use selvedge::glam::DVec3;
+use selvedge::simulation::Simulation;
 
 /// A sheet that is thrown, held at one side that rests, against a ball that rests, without gravity and without air.
 const THROWN: &str = r#"
@@ -35,50 +36,107 @@ thickness = "3 mm"
 coefficient = 0.2
 "#;
 
+/// A tube that is twisted by a whole turn in 0.3 s, and then held: folds upon folds, and nothing that does work any more.
+const TWISTED: &str = r#"
+time_step = "1 ms"
+duration = "2 s"
+[cloth]
+shape = "tube"
+from = [-0.15, 0, 0]
+to = [0.15, 0, 0]
+radius = "50 mm"
+cells = [16, 16]
+density = "200 g/m2"
+[[effects.pins.group]]
+part = "start"
+axis = [1, 0, 0]
+keyframes = [{ time = 0 }, { time = "0.3 s", angle = "-180 deg" }]
+[[effects.pins.group]]
+part = "end"
+axis = [1, 0, 0]
+keyframes = [{ time = 0 }, { time = "0.3 s", angle = "180 deg" }]
+[effects.stretch]
+stiffness = "300 N/m"
+[effects.shear]
+stiffness = "100 N/m"
+[effects.bend]
+stiffness = "10 uN m"
+[effects.self_collision]
+thickness = "3 mm"
+[effects.friction]
+coefficient = 0.2
+"#;
+
+/// Steps of a millisecond, and the energy of motion that the cloth has in each.
+struct Steps {
+    simulation: Simulation,
+    /// A vertex's mass is a third of its triangles', all of one area but for rounding: so many.
+    shares: Vec<f64>,
+}
+
+impl Steps {
+    fn of(scene: &str) -> Self {
+        let simulation = set_up(scene, "scene.toml", 1);
+        let mut shares = vec![0.0; simulation.cloth_vertices()];
+        let cloth = &simulation.triangles()[..simulation.cloth_triangles()];
+        for &vertex in cloth.iter().flatten() {
+            shares[vertex as usize] += 1.0;
+        }
+        Self { simulation, shares }
+    }
+
+    fn energies(&mut self, steps: usize) -> Vec<f64> {
+        let mut before = self.simulation.positions().to_vec();
+        let mut energies = Vec::new();
+        for step in 0..steps {
+            let done = self.simulation.step();
+            done.unwrap_or_else(|blocked| panic!("{blocked}"));
+            let now = self.simulation.positions();
+            let squared = |vertex: usize| ((now[vertex] - before[vertex]) / 1e-3).length_squared();
+            let energy = |(vertex, share): (usize, &f64)| 0.5 * share * squared(vertex);
+            let all: f64 = self.shares.iter().enumerate().map(energy).sum();
+            assert!(all.is_finite(), "step {step}");
+            energies.push(all);
+            before = now.to_vec();
+        }
+        energies
+    }
+}
+
+fn most(energies: &[f64]) -> f64 {
+    energies.iter().copied().fold(0.0, f64::max)
+}
+
 /// Energy starts as energy of motion, and can only become elastic energy, which is not negative, and heat. So the energy of motion
 /// never exceeds that of the start.
 #[test]
 fn a_thrown_sheet_never_moves_faster_than_it_was_thrown() {
-    let scene = Scene::parse(THROWN, &scene_file("thrown.toml")).unwrap();
-    let (steps, h) = (scene.steps(), scene.time_step);
-    let mut simulation = Simulation::new(scene, 1).unwrap();
-    let cloth = simulation.cloth_vertices();
-    // A vertex's mass is a third of its triangles', all of one area but for rounding: count them.
-    let mut shares = vec![0.0; cloth];
-    for &vertex in simulation.triangles()[..simulation.cloth_triangles()]
-        .iter()
-        .flatten()
-    {
-        shares[vertex as usize] += 1.0;
-    }
-    let mut before = simulation.positions()[..cloth].to_vec();
-    let mut energies = Vec::new();
-    for step in 0..steps {
-        simulation
-            .step()
-            .unwrap_or_else(|blocked| panic!("{blocked}"));
-        let now = &simulation.positions()[..cloth];
-        let squared = now
-            .iter()
-            .zip(&before)
-            .map(|(now, before)| ((*now - *before) / h).length_squared());
-        let energy: f64 = squared
-            .zip(&shares)
-            .map(|(squared, share)| 0.5 * share * squared)
-            .sum();
-        energies.push(energy);
-        assert!(energy.is_finite(), "step {step}");
-        before = now.to_vec();
-    }
+    let mut steps = Steps::of(THROWN);
+    let energies = steps.energies(2000);
     // All vertices but the seventeen that are held, of which fifteen have three triangles, one two and one one.
-    let all: f64 = shares.iter().sum();
-    let thrown = 0.5 * (all - 48.0) * (0.4 * 0.4 + 0.3 * 0.3 + 2.0 * 2.0);
-    let most = energies
-        .iter()
-        .fold(0.0, |most: f64, &energy| most.max(energy));
+    let all: f64 = steps.shares.iter().sum();
+    let thrown = 0.5 * (all - 48.0) * DVec3::new(0.4, 0.3, -2.0).length_squared();
     // A billionth for the rounding of differences.
+    let most = most(&energies);
     assert!(most <= thrown * (1.0 + 1e-9), "{most} of {thrown}");
     // It did hit the ball, and has lost energy by the end.
-    assert!(simulation.contact_counts().unwrap().pushed > 1000);
+    assert!(steps.simulation.contact_counts().unwrap().pushed > 1000);
     assert!(energies[energies.len() - 1] < 0.5 * thrown);
+}
+
+/// The pins have done work, and stop: from then on motion dies away, however many contacts push.
+#[test]
+fn a_twisted_tube_comes_to_rest_when_its_pins_do() {
+    let mut steps = Steps::of(TWISTED);
+    let twisting = most(&steps.energies(300));
+    let pushed = |steps: &Steps| steps.simulation.contact_counts().unwrap().pushed;
+    let before = pushed(&steps);
+    let after = [(); 4].map(|()| most(&steps.energies(300)));
+    assert!(pushed(&steps) - before > 10_000);
+    assert!(after[0] <= twisting, "{after:?} after {twisting}");
+    assert!(
+        after.is_sorted_by(|earlier, later| earlier >= later),
+        "{after:?}"
+    );
+    assert!(after[3] < 0.1 * twisting, "{after:?} after {twisting}");
 }

@@ -21,5 +21,11 @@ fn scene_file(name: &str) -> PathBuf {
 fn load(name: &str, change: impl Fn(String) -> String, threads: usize) -> Simulation {
     let path = scene_file(name);
     let text = change(std::fs::read_to_string(&path).unwrap());
-    Simulation::new(Scene::parse(&text, &path).unwrap(), threads).unwrap()
+    set_up(&text, name, threads)
+}
+
+/// A scene as if it were in a file beside those that come with the program.
+fn set_up(text: &str, name: &str, threads: usize) -> Simulation {
+    let scene = Scene::parse(text, &scene_file(name)).unwrap();
+    Simulation::new(scene, threads).unwrap()
 }

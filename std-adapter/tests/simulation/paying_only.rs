@@ -1,7 +1,7 @@
 //! An effect that a scene does not name costs nothing.
 
-use crate::{load, scene_file};
-use selvedge::simulation::{Scene, Simulation, effect_names};
+use crate::{load, set_up};
+use selvedge::simulation::{Simulation, effect_names};
 
 const HEAD: &str = r#"
 time_step = "1 ms"
@@ -38,8 +38,7 @@ fn scene(effects: &[(&str, &str)]) -> Simulation {
         .iter()
         .map(|(name, keys)| format!("[effects.{name}]\n{keys}\n"));
     let text = HEAD.to_owned() + &tables.collect::<String>();
-    let scene = Scene::parse(&text, &scene_file("sheet.toml")).unwrap();
-    Simulation::new(scene, 1).unwrap()
+    set_up(&text, "sheet.toml", 1)
 }
 
 fn names(simulation: &Simulation) -> Vec<&str> {

@@ -149,6 +149,17 @@ fn twenty_mistakes_get_twenty_messages_that_say_what_to_do() {
             "{ time = 0,",
             "s.toml:16:37: keyframes must be in order: each `time` a microsecond or more later than the one before",
         ),
+        (
+            "translation = [0, 0, 0.5]",
+            "angle = 1e4",
+            "s.toml:16:52: up to this keyframe it turns by 30.0 rad in a time step, but must not by more than 6; take a shorter `time_step`, or more time",
+        ),
+        // What would write over a terminal.
+        (
+            "name = \"ball\"",
+            "name = \"a\\u001b[2Jb\"",
+            "s.toml:12:8: `name` must be text without control characters, line breaks included, but is the text 'a\\u{1b}[2Jb'",
+        ),
         // Effects that contradict each other or the scene.
         (
             "[effects.body_contact]\nthickness = \"3 mm\"\n",

@@ -21,6 +21,7 @@ pub use choices::Choices;
 pub use mesh::MeshCase;
 pub use moment::{Meeting, Moment};
 pub use numbers::Format;
+pub(crate) use numbers::power_of_two;
 pub use strategy::{FromChoices, Simplification, Simplify, check, from_choices};
 
 use crate::oracle::Kind;

@@ -76,8 +76,11 @@ pub trait Format: Scalar {
     }
 }
 
-/// 2^`exponent`, for a normal result.
-fn power_of_two(exponent: i32) -> f64 {
+/// 2^`exponent`.
+///
+/// # Panics
+/// If that is no normal number.
+pub(crate) fn power_of_two(exponent: i32) -> f64 {
     assert!(
         (-1022..1024).contains(&exponent),
         "2^{exponent} is not normal"

@@ -154,6 +154,15 @@ impl<S: Scalar> Hierarchies<S> {
         self.set_moving(Some(wanted));
     }
 
+    /// From the next update on only pairs with a wanted vertex are found, and only wanted vertices are looked at: the boxes of the
+    /// others stay as the last update left them.
+    #[cfg(feature = "simulation")]
+    pub(crate) fn narrow_to(&mut self, wanted: Vec<bool>) {
+        self.refit_all = false;
+        self.moving = Some(wanted);
+        self.mark();
+    }
+
     /// Takes the positions of a step and finds where to look for pairs.
     pub(crate) fn update(
         &mut self,

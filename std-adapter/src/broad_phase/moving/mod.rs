@@ -128,6 +128,13 @@ impl<S: Scalar> MovingBroadPhase<S> {
         self.hierarchies.set_wanted(wanted);
     }
 
+    /// From the next update on only pairs with a `wanted` vertex are candidates, and only such vertices have moved since the last
+    /// update.
+    #[cfg(feature = "simulation")]
+    pub(crate) fn narrow_to(&mut self, wanted: Vec<bool>) {
+        self.hierarchies.narrow_to(wanted);
+    }
+
     /// Takes the positions of a step. Builds the hierarchies in the first step and when they have degraded, refits them
     /// otherwise.
     ///

@@ -17,6 +17,7 @@ pub use ply::PlyEncoding;
 pub use step::{MeshStep, read_step};
 
 use super::{Mesh, Topology, TopologyError, TopologyStatistics};
+use crate::unnamed;
 use selvedge_core::glam::DVec3;
 use std::fmt;
 use std::io::{self, BufWriter, Write};
@@ -247,16 +248,7 @@ fn check_finite(vertex: usize, position: DVec3, line: Option<usize>) -> Result<(
 }
 
 fn save(path: &Path, mesh: &Mesh, format: FileFormat) -> io::Result<()> {
-    // A path without a folder is in the current one.
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    // Temporary files are private to their user; a mesh gets the permissions of any new file.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut out = BufWriter::new(builder.tempfile_in(folder)?);
+    let mut out = BufWriter::new(unnamed::file_for(path)?);
     write_to(&mut out, mesh, format)?;
     out.flush()?;
     let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;

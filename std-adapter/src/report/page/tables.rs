@@ -15,13 +15,7 @@ pub(super) fn pairs(recording: &Recording) -> Markup {
     };
     html! {
         div.scroll { table {
-            thead { tr {
-                th scope="col" { "stage" }
-                th scope="col" { "pairs a step" }
-                th scope="col" { "of the stage before" }
-                th scope="col" { "most in a step" }
-                th scope="col" { "all steps" }
-            } }
+            (head(&["stage", "pairs a step", "of the stage before", "most in a step", "all steps"]))
             tbody { @for (index, series) in rows.iter().enumerate() { tr {
                 th scope="row" { (series.name) }
                 td { (few(series.total / recording.steps as f64)) }
@@ -37,12 +31,7 @@ pub(super) fn pairs(recording: &Recording) -> Markup {
 pub(super) fn events(recording: &Recording) -> Markup {
     html! {
         div.scroll { table {
-            thead { tr {
-                th scope="col" { "event" }
-                th scope="col" { "a step" }
-                th scope="col" { "most in a step" }
-                th scope="col" { "all steps" }
-            } }
+            (head(&["event", "a step", "most in a step", "all steps"]))
             tbody { @for series in recording.series_of(|kind| kind == SeriesKind::Events) { tr {
                 th scope="row" { (series.name) }
                 td { (few(series.total / recording.steps as f64)) }
@@ -84,13 +73,7 @@ pub(super) fn times(recording: &Recording) -> Markup {
     };
     html! {
         div.scroll { table {
-            thead { tr {
-                th scope="col" { "" }
-                th scope="col" { "a step" }
-                th scope="col" { "share" }
-                th scope="col" { "most in a step" }
-                th scope="col" { "all steps" }
-            } }
+            (head(&["", "a step", "share", "most in a step", "all steps"]))
             (group("effects", SeriesKind::Effect))
             (group("stages that effects share", SeriesKind::Stage))
             @if let Some(wall) = recording.wall_seconds { tbody {
@@ -111,12 +94,7 @@ pub(super) fn added_effects(recording: &Recording) -> Markup {
     html! {
         p { "Each row is a simulation of its own, with all effects down to that row. The cloth moves otherwise without the rest, so a difference is not only the effect's own work." }
         div.scroll { table {
-            thead { tr {
-                th scope="col" { "effect added" }
-                th scope="col" { "a step" }
-                th scope="col" { "" }
-                th scope="col" { "more than before" }
-            } }
+            (head(&["effect added", "a step", "", "more than before"]))
             tbody { @for (index, added) in recording.added.iter().enumerate() { tr {
                 th scope="row" { (added.name) }
                 td { (time(added.seconds)) }
@@ -146,13 +124,7 @@ pub(super) fn gauges(recording: &Recording) -> Markup {
         });
     html! {
         div.scroll { table {
-            thead { tr {
-                th scope="col" { "quantity" }
-                th scope="col" { "least" }
-                th scope="col" { "mean" }
-                th scope="col" { "most" }
-                th scope="col" { "unit" }
-            } }
+            (head(&["quantity", "least", "mean", "most", "unit"]))
             tbody { @for (series, unit) in gauges { tr {
                 th scope="row" { (series.name) }
                 td { (extreme(series.smallest, few)) }
@@ -168,13 +140,18 @@ pub(super) fn gauges(recording: &Recording) -> Markup {
 pub(super) fn knobs(recording: &Recording) -> Markup {
     html! {
         div.scroll { table.knobs {
-            thead { tr { th scope="col" { "setting" } th scope="col" { "value" } } }
+            (head(&["setting", "value"]))
             tbody { @for knob in &recording.about.knobs { tr {
                 th scope="row" { (knob.name) }
                 td { (knob.value) }
             } } }
         } }
     }
+}
+
+/// A table's first row.
+fn head(columns: &[&str]) -> Markup {
+    html! { thead { tr { @for column in columns { th scope="col" { (column) } } } } }
 }
 
 /// A number with three figures or so, however small: `0.00123`; a dash if it is not finite.

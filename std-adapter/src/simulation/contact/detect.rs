@@ -4,8 +4,9 @@
 //! keeps its order, and more than a reach, between the start and the end of the step. [Neighbours](super::neighbours) have a
 //! smaller reach.
 
-use super::neighbours::{Neighbours, keep_apart};
+use super::neighbours::Neighbours;
 use super::pair::Pair;
+use super::start::first_crossing;
 use crate::PairKind;
 use crate::broad_phase::moving::MovingBroadPhase;
 use crate::mesh::Topology;
@@ -33,8 +34,7 @@ pub(super) struct Detector {
     /// Vertices from here on are bodies'.
     cloth_vertices: usize,
     broad_phase: MovingBroadPhase<f64>,
-    /// With their reach.
-    neighbours: Option<(Neighbours, f64)>,
+    neighbours: Option<Neighbours>,
     vertex_face: Vec<[u32; 2]>,
     edge_edge: Vec<[u32; 2]>,
     sorted: Vec<[u32; 2]>,
@@ -70,9 +70,9 @@ impl Detector {
         }
     }
 
-    /// These pairs will be candidates only if they come within their own reach.
-    pub(super) fn set_neighbours(&mut self, neighbours: Neighbours, reach: f64) {
-        self.neighbours = Some((neighbours, reach));
+    /// Neighbours will be candidates only if they come within their own reach.
+    pub(super) fn set_neighbours(&mut self, neighbours: Neighbours) {
+        self.neighbours = Some(neighbours);
     }
 
     /// Replaces `pairs` by the candidates of the motion from `start` to `end`, in ascending order of their keys: whatever order
@@ -89,7 +89,8 @@ impl Detector {
         self.find(motion, pairs);
     }
 
-    /// Replaces `pairs` by those with a vertex that is in `only`. Returns whether it is so; else all are there.
+    /// Replaces `pairs` by those with a vertex that is in `only`, the only ones whose motion is not that of the last search. Returns
+    /// whether it is so; else all are there.
     ///
     /// # Panics
     /// If a position is not finite.
@@ -100,7 +101,7 @@ impl Detector {
         pairs: &mut Vec<Pair>,
     ) -> bool {
         let builds = self.broad_phase.statistics().builds;
-        self.broad_phase.set_wanted(only.to_vec());
+        self.broad_phase.narrow_to(only.to_vec());
         self.is_narrowed = true;
         self.update(motion);
         // After a build the broad phase takes what a traversal costs for the measure of later ones: so that must be a whole one.
@@ -130,15 +131,17 @@ impl Detector {
             ..
         } = self;
         broad_phase.candidates(vertex_face, edge_edge);
+        if let Some(neighbours) = neighbours {
+            neighbours.set_motion(motion);
+        }
         let counts = [topology.vertex_count(), topology.edges().len()];
         for (kind, found, count) in [
             (PairKind::VertexFace, &mut *vertex_face, counts[0]),
             (PairKind::EdgeEdge, &mut *edge_edge, counts[1]),
         ] {
-            if let Some((neighbours, reach)) = neighbours {
+            if let Some(neighbours) = neighbours {
                 parallel::retain(found, |&pair| {
-                    let vertices = kind.vertices(pair, topology);
-                    !keep_apart(kind, vertices, motion, *reach) || !neighbours.contain(kind, pair)
+                    !neighbours.keep_apart(kind, kind.vertices(pair, topology))
                 });
             }
             sort(found, count, sorted, places);
@@ -160,11 +163,7 @@ impl Detector {
             PairKind::VertexFace => vertices[0],
             PairKind::EdgeEdge => vertices[1],
         };
-        let body = match (self.body(last_of_first), self.body(vertices[3])) {
-            (FREE, FREE) if self.wanted.cloth => FREE,
-            (FREE, body) | (body, FREE) if body != FREE && self.wanted.bodies => body,
-            _ => return None,
-        };
+        let body = self.body_of_pair(last_of_first, vertices[3])?;
         let [a, b, c, d] = vertices.map(|v| self.carriers[v as usize]);
         if a != FREE && a == b && a == c && a == d {
             return None;
@@ -173,6 +172,22 @@ impl Detector {
             | u64::from(first) << 32
             | u64::from(second);
         Some(Pair::new(key, kind, vertices, body))
+    }
+
+    /// An edge that passes through a face, of those that are to be kept apart; in words.
+    pub(super) fn first_crossing(&self, positions: &[DVec3]) -> Option<String> {
+        let are_asked = |a: &[u32; 3], b: &[u32; 3]| self.body_of_pair(a[0], b[0]).is_some();
+        first_crossing(self.topology.triangles(), positions, are_asked)
+    }
+
+    /// The body of two vertices that are to be kept apart, [`FREE`] for cloth and cloth; `None` if nobody asked for that.
+    #[inline(always)]
+    fn body_of_pair(&self, one: u32, other: u32) -> Option<Frame> {
+        match (self.body(one), self.body(other)) {
+            (FREE, FREE) if self.wanted.cloth => Some(FREE),
+            (FREE, body) | (body, FREE) if body != FREE && self.wanted.bodies => Some(body),
+            _ => None,
+        }
     }
 
     /// The body of a vertex; [`FREE`] for cloth, pinned or not.

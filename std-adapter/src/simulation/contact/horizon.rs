@@ -19,8 +19,6 @@ pub(super) struct Horizon {
     origin: Vec<DVec3>,
     /// In metres a second.
     drift: Vec<DVec3>,
-    /// Where the motion is now, if some vertices have strayed.
-    now: Vec<DVec3>,
     /// The end of the motion.
     far: Vec<DVec3>,
     /// In seconds; zero if there is no motion.
@@ -100,25 +98,21 @@ impl Horizon {
     }
 
     /// Gives the vertices that have strayed the way from `start` to `end`, on which they are now, for the rest of the motion. Returns
-    /// what is left of it, for all vertices.
-    pub(super) fn lead_back<'a>(
-        &'a mut self,
+    /// the motion that all vertices have now, as if the new ways had been theirs from its beginning: that of the others stays.
+    pub(super) fn lead_back(
+        &mut self,
         strayed: &[bool],
         start: &[DVec3],
         end: &[DVec3],
         h: f64,
-    ) -> [&'a [DVec3]; 2] {
+    ) -> [&[DVec3]; 2] {
         for vertex in (0..strayed.len()).filter(|&vertex| strayed[vertex]) {
             let drift = (end[vertex] - start[vertex]) / h;
             self.drift[vertex] = drift;
             self.origin[vertex] = start[vertex] - drift * self.elapsed;
             self.far[vertex] = start[vertex] + drift * (self.span - self.elapsed);
         }
-        let ways = self.origin.iter().zip(&self.drift);
-        self.now.clear();
-        self.now
-            .extend(ways.map(|(&origin, &drift)| origin + drift * self.elapsed));
-        [&self.now, &self.far]
+        [&self.origin, &self.far]
     }
 
     /// A step of `h` seconds was made.
@@ -160,8 +154,8 @@ mod tests {
         let mut strayed = Vec::new();
         assert_eq!(horizon.find_strayed(&end, 1.0, 0.1, &mut strayed), 1);
         assert_eq!(strayed, [false, true]);
-        let [now, far] = horizon.lead_back(&strayed, &start, &end, 1.0);
-        assert_eq!(now, [DVec3::X; 2]);
+        let [origin, far] = horizon.lead_back(&strayed, &start, &end, 1.0);
+        assert_eq!(origin, [DVec3::ZERO, DVec3::X]);
         assert_eq!(far, [DVec3::X * 4.0, DVec3::X]);
         assert!(horizon.covers(&end, 1.0, 0.1));
         horizon.advance(1.0);

@@ -8,6 +8,7 @@
 //! | `pair` | one pair: the direction that keeps it apart, the certified time of impact |
 //! | `rows` | contacts as constraints of the solver |
 //! | `pass`, `zones` | no step is accepted that is not certified |
+//! | `start` | whether triangles pass through each other where a simulation starts |
 //!
 //! Pairs may be left out of forces, never out of certificates: neighbours on the mesh are pairs like any other.
 
@@ -18,6 +19,7 @@ mod neighbours;
 mod pair;
 mod pass;
 mod rows;
+mod start;
 mod zones;
 
 pub use pass::ContactCounts;
@@ -121,12 +123,11 @@ impl ContactSettings {
         if pair.is_with_body() {
             return thickness;
         }
-        let at_rest = pair.closest(rest).distance();
-        if at_rest < NEIGHBOURS_AT_REST * thickness {
-            self.neighbours.unwrap_or(thickness).min(0.5 * at_rest)
-        } else {
-            thickness
-        }
+        let own = match self.neighbours {
+            Some(smaller) if pair.are_neighbours(rest, NEIGHBOURS_AT_REST * thickness) => smaller,
+            _ => thickness,
+        };
+        own.min(0.5 * pair.closest(rest).distance())
     }
 
     fn all(&self) -> impl Iterator<Item = Thickness> {
@@ -140,8 +141,8 @@ impl ContactSettings {
 /// How far beyond the thickness candidates are looked for, in thicknesses: more makes longer lists that last longer. Measured on the
 /// arm sleeve: from 0.2 to 0.7, and looking 2 to 8 steps ahead, a step costs the same within a tenth.
 const REACH: f64 = 0.3;
-/// Pairs of cloth are neighbours if they are nearer at rest than this, in thicknesses: those whose thickness is half their distance
-/// at rest.
+/// Pairs of cloth are neighbours if their boxes are nearer at rest than this, in thicknesses: among them are all whose thickness is
+/// half their distance at rest.
 const NEIGHBOURS_AT_REST: f64 = 2.0;
 /// Where the largest thickness of neighbours lies, between the separation and the thickness. On a sleeve of 134,000 triangles
 /// three quarters of the pairs within the reach are neighbours that are not within theirs.
@@ -193,8 +194,6 @@ pub(crate) struct Contact {
     pairs: Vec<Pair>,
     /// Where new ones are put.
     found: Vec<Pair>,
-    /// Where those are joined with the others.
-    merged: Vec<Pair>,
     rows: Vec<Row>,
     moved: Vec<bool>,
     strayed: Vec<bool>,
@@ -234,13 +233,12 @@ impl Contact {
         let mut detector = Detector::new(shared, carriers, cloth_vertices, reach, wanted);
         if let Some((_, own)) = settings.cloth {
             let at_rest = NEIGHBOURS_AT_REST * own.thickness;
-            let neighbours = Neighbours::new(&topology, rest, cloth_vertices, at_rest);
-            // Where they are few, looking them up costs more than it saves.
-            if neighbours.count() > topology.edges().len() {
+            if neighbours::are_many(&topology, rest, cloth_vertices, at_rest) {
                 let smaller = own.separation + NEIGHBOURS * (own.thickness - own.separation);
                 settings.neighbours = Some(smaller);
                 room = room.min(0.5 * (smaller + beyond - own.separation));
-                detector.set_neighbours(neighbours, smaller + beyond);
+                let reach = smaller + beyond;
+                detector.set_neighbours(Neighbours::new(rest, cloth_vertices, at_rest, reach));
             }
         }
         Ok(Some(Self {
@@ -255,7 +253,6 @@ impl Contact {
             error: 0.0,
             pairs: Vec::new(),
             found: Vec::new(),
-            merged: Vec::new(),
             rows: Vec::new(),
             moved: vec![false; rest.len()],
             strayed: Vec::new(),
@@ -274,14 +271,16 @@ impl Contact {
         self.horizon.forget();
     }
 
-    /// The first pair that touches, after [`refresh`](Self::refresh).
+    /// The first pair that touches, after [`refresh`](Self::refresh), or the first edge that passes through a face.
     pub(crate) fn first_touching(&self, positions: &[DVec3]) -> Option<String> {
         let error = pass::error(positions, positions);
         let touching = self.pairs.iter().find(|pair| {
             pair.distance_from_below(positions, error) == 0.0
                 && pair.time_of_impact([positions, positions], 0.0).is_some()
-        })?;
-        Some(pass::described(touching.kind, touching.vertices))
+        });
+        touching
+            .map(|pair| pass::described(pair.kind, pair.vertices))
+            .or_else(|| self.detector.first_crossing(positions))
     }
 
     /// Sets up the contacts of a step of `h` seconds that so far leads to `predicted`.

@@ -10,6 +10,7 @@
 //! flush subnormal numbers (16 operations lose at most one smallest normal number each).
 
 use super::closest::Closest;
+use super::neighbours::are_neighbours;
 use crate::PairKind;
 use crate::simulation::plan::{FREE, Frame};
 use selvedge_core::elementary::Limits;
@@ -69,6 +70,10 @@ impl Pair {
 
     pub(super) fn closest(&self, positions: &[DVec3]) -> Closest {
         Closest::of(self.kind, self.points(positions))
+    }
+
+    pub(super) fn are_neighbours(&self, rest: &[DVec3], distance: f64) -> bool {
+        are_neighbours(self.kind, self.points(rest), distance)
     }
 
     /// By how much the first set is ahead of the second along a direction.

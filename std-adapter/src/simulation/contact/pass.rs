@@ -148,18 +148,7 @@ impl Contact {
         if !is_narrow {
             return self.take_found();
         }
-        // Both lists ascend by key.
-        self.merged.clear();
-        let mut found = self.found.iter().peekable();
-        for known in &self.pairs {
-            while let Some(&new) = found.next_if(|new| new.key < known.key) {
-                self.merged.push(new);
-            }
-            found.next_if(|new| new.key == known.key);
-            self.merged.push(*known);
-        }
-        self.merged.extend(found);
-        std::mem::swap(&mut self.pairs, &mut self.merged);
+        add(&mut self.pairs, &mut self.found);
     }
 
     /// Candidates for a motion.
@@ -386,6 +375,28 @@ impl ContactSettings {
     }
 }
 
+/// Adds to `pairs` those of `found` that are not there yet. Both ascend by key, and do so afterwards.
+fn add(pairs: &mut Vec<Pair>, found: &mut Vec<Pair>) {
+    found.retain(|new| {
+        pairs
+            .binary_search_by_key(&new.key, |known| known.key)
+            .is_err()
+    });
+    // From the end, so that every pair is moved at most once, and those before the first new one not at all.
+    let mut known = pairs.len();
+    pairs.extend_from_slice(found);
+    while let Some(&new) = found.last() {
+        let place = known + found.len() - 1;
+        if known > 0 && pairs[known - 1].key > new.key {
+            known -= 1;
+            pairs[place] = pairs[known];
+        } else {
+            pairs[place] = new;
+            found.pop();
+        }
+    }
+}
+
 /// What came of looking at pairs that their remembered directions did not settle.
 #[derive(Default)]
 struct LookedAt {
@@ -413,7 +424,7 @@ pub(super) fn error(start: &[DVec3], end: &[DVec3]) -> f64 {
     rounding_error(largest(start).max(largest(end)))
 }
 
-fn largest(positions: &[DVec3]) -> f64 {
+pub(super) fn largest(positions: &[DVec3]) -> f64 {
     positions
         .iter()
         .fold(0.0, |largest: f64, p| largest.max(p.abs().max_element()))
@@ -423,4 +434,29 @@ fn largest(positions: &[DVec3]) -> f64 {
 pub(super) fn described(kind: PairKind, vertices: [u32; 4]) -> String {
     let [a, b, c, d] = vertices;
     format!("the {kind} pair of vertices {a}, {b}, {c}, {d}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn pairs(keys: &std::collections::BTreeSet<u64>, body: Frame) -> Vec<Pair> {
+        let pair = |&key: &u64| Pair::new(key, PairKind::EdgeEdge, [0; 4], body);
+        keys.iter().map(pair).collect()
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_new_is_added_in_order_and_what_is_known_stays(
+            known in prop::collection::btree_set(0..60_u64, 0..30),
+            found in prop::collection::btree_set(0..60_u64, 0..30),
+        ) {
+            let mut all = pairs(&known, 1);
+            add(&mut all, &mut pairs(&found, 2));
+            let keys: Vec<_> = all.iter().map(|pair| pair.key).collect();
+            prop_assert_eq!(keys, known.union(&found).copied().collect::<Vec<_>>());
+            prop_assert!(all.iter().all(|pair| (pair.body == 1) == known.contains(&pair.key)));
+        }
+    }
 }

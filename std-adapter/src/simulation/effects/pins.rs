@@ -94,7 +94,7 @@ fn read_group(
         }
     }
     let carrier = match table.text("follow")? {
-        None => Carrier::Own(RigidMotion::read(table)?),
+        None => Carrier::Own(RigidMotion::read(table, world.time_step)?),
         Some(_) if table.has("keyframes") => {
             let message = "pins that `follow` a body have no keyframes of their own".to_owned();
             return Err(table.error("keyframes", message));

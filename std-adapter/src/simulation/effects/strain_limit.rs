@@ -61,16 +61,25 @@ impl Local<3> for Limit {
         self.membrane.vertices
     }
 
+    /// Most are far below the limit, and a length is no more than the sum of its parts.
     #[inline(always)]
-    fn corrections(&self, x: [DVec3; 3], w: [f64; 3], _: f64) -> [DVec3; 3] {
+    fn moves_nothing(&self, x: [DVec3; 3]) -> bool {
         let Membrane { a, b, .. } = self.membrane;
         let (warp, weft) = (image(a, x), image(b, x));
         let (uu, uv, vv) = (warp.dot(warp), warp.dot(weft), weft.dot(weft));
         let (middle, half) = (0.5 * (uu + vv), 0.5 * (uu - vv));
-        // Most are far below, and a length is no more than the sum of its parts.
-        if middle + half.abs() + uv.abs() < self.limit * self.limit {
+        middle + half.abs() + uv.abs() < self.limit * self.limit
+    }
+
+    #[inline(always)]
+    fn corrections(&self, x: [DVec3; 3], w: [f64; 3], _: f64) -> [DVec3; 3] {
+        if self.moves_nothing(x) {
             return [DVec3::ZERO; 3];
         }
+        let Membrane { a, b, .. } = self.membrane;
+        let (warp, weft) = (image(a, x), image(b, x));
+        let (uu, uv, vv) = (warp.dot(warp), warp.dot(weft), weft.dot(weft));
+        let (middle, half) = (0.5 * (uu + vv), 0.5 * (uu - vv));
         let spread = (half * half + uv * uv).sqrt();
         let largest = (middle + spread).sqrt();
         if !(largest > self.limit) {

@@ -35,7 +35,7 @@ const SHAPES: [(&str, Shape); 3] = [
 ];
 
 impl Body {
-    pub(super) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
+    pub(super) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         let own: &[&str] = match table.required_choice("shape", &SHAPES)? {
             Shape::Capsule => &["from", "to", "radius", "around"],
             Shape::Ball => &["centre", "radius", "around"],
@@ -78,7 +78,7 @@ impl Body {
         Ok(Self {
             name: name.to_owned(),
             mesh,
-            motion: RigidMotion::read(table)?,
+            motion: RigidMotion::read(table, time_step)?,
             capsule,
         })
     }

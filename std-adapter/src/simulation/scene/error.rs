@@ -1,5 +1,6 @@
 //! What is wrong with a scene, and where.
 
+use crate::excerpt::excerpt;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -15,6 +16,18 @@ pub struct SceneError {
     pub message: String,
 }
 
+/// A message has at most so many characters, whatever the names are that it quotes.
+const LONGEST: usize = 600;
+
+/// The message itself, but for control characters and endless lists.
+fn readable(message: String) -> String {
+    if message.len() <= LONGEST && !message.chars().any(char::is_control) {
+        message
+    } else {
+        excerpt(&message, LONGEST)
+    }
+}
+
 impl SceneError {
     /// An error about the bytes `span` of `text`.
     pub(crate) fn at(path: &Path, text: &str, span: &Range<usize>, message: String) -> Self {
@@ -25,7 +38,7 @@ impl SceneError {
         Self {
             path: path.to_owned(),
             place: Some((line, column)),
-            message,
+            message: readable(message),
         }
     }
 
@@ -34,7 +47,7 @@ impl SceneError {
         Self {
             path: path.to_owned(),
             place: None,
-            message,
+            message: readable(message),
         }
     }
 }

@@ -46,6 +46,7 @@ pub(crate) use quantity::{
 };
 
 use super::effects::{self, Named};
+use crate::excerpt::excerpt;
 use crate::mesh::{self, Mesh};
 use quantity::TIME;
 use selvedge_core::glam::DVec3;
@@ -101,6 +102,8 @@ pub struct Scene {
 pub(crate) struct World<'a> {
     pub(crate) cloth: &'a Cloth,
     pub(crate) bodies: &'a [Body],
+    /// Seconds.
+    pub(crate) time_step: f64,
 }
 
 impl Scene {
@@ -146,10 +149,11 @@ impl Scene {
         let time_step = root.required_number("time_step", TIME, 1e-6..=0.1)?;
         let duration = root.required_number("duration", TIME, time_step..=LARGEST_TIME)?;
         let cloth = Cloth::read(&root.required_table("cloth")?)?;
-        let bodies = read_bodies(&root)?;
+        let bodies = read_bodies(&root, time_step)?;
         let world = World {
             cloth: &cloth,
             bodies: &bodies,
+            time_step,
         };
         let effects = match root.table("effects")? {
             Some(table) => effects::read(&table, &world)?,
@@ -248,12 +252,12 @@ fn fingerprint(text: &str, cloth: &Cloth, bodies: &[Body]) -> u64 {
     hash
 }
 
-fn read_bodies(root: &Table<'_>) -> Result<Vec<Body>, SceneError> {
+fn read_bodies(root: &Table<'_>, time_step: f64) -> Result<Vec<Body>, SceneError> {
     let mut bodies: Vec<Body> = Vec::new();
     for table in root.tables("body")? {
-        let body = Body::read(&table)?;
+        let body = Body::read(&table, time_step)?;
         if bodies.iter().any(|other| other.name == body.name) {
-            let message = format!("there are two bodies named '{}'", body.name);
+            let message = format!("there are two bodies named '{}'", excerpt(&body.name, 40));
             return Err(table.error("name", message));
         }
         bodies.push(body);

@@ -19,6 +19,9 @@ pub struct RigidMotion {
 /// In seconds: far above the resolution of the clock.
 const CLOSEST_KEYS: f64 = 1e-6;
 
+/// In radians a time step, nearly a whole turn: steps with contact are cut until a part turns by a thousandth of it.
+const FASTEST_TURN: f64 = 6.0;
+
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Key {
     time: f64,
@@ -50,7 +53,9 @@ impl RigidMotion {
     }
 
     /// Reads `pivot`, `axis` and `[[keyframes]]`, each with a time and perhaps an angle and a translation.
-    pub(crate) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
+    ///
+    /// What turns by more than [`FASTEST_TURN`] in `time_step` seconds is refused.
+    pub(crate) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         let pivot = table.vector("pivot", LENGTH, WORLD)?.unwrap_or_default();
         let axis = table.vector("axis", RATIO, WORLD)?.unwrap_or(DVec3::Z);
         let Some(axis) = axis.try_normalize() else {
@@ -68,13 +73,25 @@ impl RigidMotion {
                 let message = "keyframes must be in order: each `time` a microsecond or more later than the one before";
                 return Err(key.error("time", message.to_owned()));
             }
-            keys.push(Key {
+            let next = Key {
                 time,
                 angle: key.number("angle", ANGLE, -1e4..=1e4)?.unwrap_or(0.0),
                 translation: key
                     .vector("translation", LENGTH, WORLD)?
                     .unwrap_or_default(),
-            });
+            };
+            if let Some(last) = keys.last() {
+                // Half-way it is half as fast again as on average.
+                let turn = (next.angle - last.angle).abs();
+                let in_a_step = turn.min(1.5 * turn * time_step / (next.time - last.time));
+                if in_a_step > FASTEST_TURN {
+                    let message = format!(
+                        "up to this keyframe it turns by {in_a_step:.1} rad in a time step, but must not by more than {FASTEST_TURN}; take a shorter `time_step`, or more time"
+                    );
+                    return Err(key.error("angle", message));
+                }
+            }
+            keys.push(next);
         }
         Ok(Self { pivot, axis, keys })
     }

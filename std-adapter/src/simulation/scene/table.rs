@@ -171,11 +171,16 @@ impl<'a> Table<'a> {
             .ok_or_else(|| self.missing(key, "[0, 0, 1]"))
     }
 
-    /// Text, if the key is there.
+    /// Text in one line, if the key is there. It may be shown on a terminal, over which it must not be able to write.
     pub(crate) fn text(&self, key: &str) -> Result<Option<&'a str>, SceneError> {
         match self.get(key) {
             None => Ok(None),
             Some(value) => match value.get_ref() {
+                DeValue::String(text) if text.chars().any(char::is_control) => Err(self.wrong(
+                    key,
+                    value,
+                    "text without control characters, line breaks included",
+                )),
                 DeValue::String(text) => Ok(Some(text.as_ref())),
                 _ => Err(self.wrong(key, value, "text in quotation marks")),
             },

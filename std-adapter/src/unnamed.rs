@@ -1,0 +1,22 @@
+//! Files that get their name once they are complete.
+
+use std::io;
+use std::path::Path;
+use tempfile::NamedTempFile;
+
+/// A new file in the folder of `path`, which is deleted unless it is given that name. It gets the permissions of any new file.
+///
+/// # Errors
+/// If it cannot be made there.
+pub fn file_for(path: &Path) -> io::Result<NamedTempFile> {
+    // A path without a folder is in the current one.
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    // Temporary files are private to their user.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
+}
