@@ -4,8 +4,6 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
-# The fuzz targets are a workspace of their own; one build folder lets them use what the others have built.
-export CARGO_TARGET_DIR="${CARGO_TARGET_DIR:-$PWD/target}"
 export CARGO_TERM_COLOR=never
 
 say() { printf '\n== %s\n' "$*"; }
@@ -56,14 +54,11 @@ is_there cargo || give_up "Rust is missing; install it from https://rustup.rs an
 is_there make || give_up "make is missing; install it and start again"
 is_there m4 || install_m4
 
-say "core: selvedge-core"
-cargo test --package selvedge-core
-say "adapter: selvedge"
-cargo test --package selvedge
-say "exact oracle and properties: selvedge-verification"
-cargo test --package selvedge-verification
-say "kept inputs of the fuzz targets: selvedge-fuzz"
-cargo test --manifest-path fuzz/Cargo.toml
+say "every crate: its own tests, exact oracle and properties, kept inputs of the fuzz targets"
+# Examples and benchmarks are compiled by .ci/run's lints.
+cargo test --workspace --tests
+say "the documentation's examples"
+cargo test --workspace --doc
 
 say "rounding constants: Gappa's proofs, where it is installed"
 verification/gappa/check.sh --present --gappa
