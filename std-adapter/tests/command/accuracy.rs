@@ -209,7 +209,7 @@ fn elementary_tests_are_measured_at_every_tolerance_and_the_unsafe_ones_are_caug
     for label in [
         "Hard cases, f32",
         "Arm scene, f64",
-        "certified 1e-9",
+        "certified 1e-12",
         "cubic",
     ] {
         assert!(plot.contains(label), "{label}");
