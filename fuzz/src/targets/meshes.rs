@@ -8,12 +8,12 @@ const FORMATS: [FileFormat; 4] = [
     FileFormat::Ply(PlyEncoding::BigEndian),
 ];
 
-/// OBJ: see [`check`].
+/// OBJ: see `check`.
 pub fn obj(data: &[u8]) {
     check(data, FileFormat::Obj);
 }
 
-/// PLY, in the encoding that the bytes declare: see [`check`].
+/// PLY, in the encoding that the bytes declare: see `check`.
 pub fn ply(data: &[u8]) {
     check(data, FileFormat::Ply(PlyEncoding::default()));
 }
