@@ -19,7 +19,7 @@ command -v valgrind >/dev/null 2>&1 || {
 work=${CARGO_TARGET_DIR:-$PWD/../../target}/instruction-counts
 registry=$(sed -n '/= registry!\[/,/^\];/s/^ .*"\(.*\)"$/\1/p' ../src/simulation/effects/mod.rs)
 named=$(sed -n 's/^\[*effects\.\([a-z_]*\).*/\1/p' "$scene")
-flags=
+flags="-Adead_code"
 out=
 for effect in $registry; do
     if ! grep -qx "$effect" <<<"$named"; then
