@@ -46,7 +46,7 @@ pub mod study;
 // For the command.
 #[cfg(feature = "files")]
 #[doc(hidden)]
-pub mod unnamed;
+pub mod temporary_file;
 
 pub use pair_kind::{PairKind, ParsePairKindError};
 pub use selvedge_core as core;

@@ -1,7 +1,7 @@
 //! Where the answer goes: standard output and files, in one piece or not at all.
 
 use super::Failure;
-use selvedge::unnamed;
+use selvedge::temporary_file;
 use std::fmt;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -98,7 +98,7 @@ impl OutputFiles {
 }
 
 fn temporary(path: &Path) -> Result<NamedTempFile, Failure> {
-    unnamed::file_for(path).map_err(|error| match error.kind() {
+    temporary_file::beside(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => unwritable(path, "there is no such folder"),
         // Without the temporary file's own name, which tells the user nothing.
         kind => unwritable(path, io::Error::from(kind)),

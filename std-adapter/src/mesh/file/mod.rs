@@ -17,7 +17,7 @@ pub use ply::PlyEncoding;
 pub use step::{MeshStep, read_step};
 
 use super::{Mesh, Topology, TopologyError, TopologyStatistics};
-use crate::unnamed;
+use crate::temporary_file;
 use selvedge_core::glam::DVec3;
 use std::fmt;
 use std::io::{self, BufWriter, Write};
@@ -248,7 +248,7 @@ fn check_finite(vertex: usize, position: DVec3, line: Option<usize>) -> Result<(
 }
 
 fn save(path: &Path, mesh: &Mesh, format: FileFormat) -> io::Result<()> {
-    let mut out = BufWriter::new(unnamed::file_for(path)?);
+    let mut out = BufWriter::new(temporary_file::beside(path)?);
     write_to(&mut out, mesh, format)?;
     out.flush()?;
     let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;

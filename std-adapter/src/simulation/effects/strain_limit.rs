@@ -55,31 +55,42 @@ struct Limit {
     limit: f64,
 }
 
+impl Limit {
+    /// The squared stretch is middle ± √(half² + shear²): these three.
+    #[inline(always)]
+    fn squared_stretch(&self, x: [DVec3; 3]) -> [f64; 3] {
+        let Membrane { a, b, .. } = self.membrane;
+        let (warp, weft) = (image(a, x), image(b, x));
+        let (uu, uv, vv) = (warp.dot(warp), warp.dot(weft), weft.dot(weft));
+        [0.5 * (uu + vv), 0.5 * (uu - vv), uv]
+    }
+
+    /// Most are: a length is no more than the sum of its parts.
+    #[inline(always)]
+    fn is_far_below(&self, [middle, half, shear]: [f64; 3]) -> bool {
+        middle + half.abs() + shear.abs() < self.limit * self.limit
+    }
+}
+
 impl Local<3> for Limit {
     #[inline(always)]
     fn vertices(&self) -> [u32; 3] {
         self.membrane.vertices
     }
 
-    /// Most are far below the limit, and a length is no more than the sum of its parts.
     #[inline(always)]
     fn moves_nothing(&self, x: [DVec3; 3]) -> bool {
-        let Membrane { a, b, .. } = self.membrane;
-        let (warp, weft) = (image(a, x), image(b, x));
-        let (uu, uv, vv) = (warp.dot(warp), warp.dot(weft), weft.dot(weft));
-        let (middle, half) = (0.5 * (uu + vv), 0.5 * (uu - vv));
-        middle + half.abs() + uv.abs() < self.limit * self.limit
+        self.is_far_below(self.squared_stretch(x))
     }
 
     #[inline(always)]
     fn corrections(&self, x: [DVec3; 3], w: [f64; 3], _: f64) -> [DVec3; 3] {
-        if self.moves_nothing(x) {
+        let stretch = self.squared_stretch(x);
+        if self.is_far_below(stretch) {
             return [DVec3::ZERO; 3];
         }
         let Membrane { a, b, .. } = self.membrane;
-        let (warp, weft) = (image(a, x), image(b, x));
-        let (uu, uv, vv) = (warp.dot(warp), warp.dot(weft), weft.dot(weft));
-        let (middle, half) = (0.5 * (uu + vv), 0.5 * (uu - vv));
+        let [middle, half, uv] = stretch;
         let spread = (half * half + uv * uv).sqrt();
         let largest = (middle + spread).sqrt();
         if !(largest > self.limit) {

@@ -8,7 +8,7 @@ use tempfile::NamedTempFile;
 ///
 /// # Errors
 /// If it cannot be made there.
-pub fn file_for(path: &Path) -> io::Result<NamedTempFile> {
+pub fn beside(path: &Path) -> io::Result<NamedTempFile> {
     // A path without a folder is in the current one.
     let folder = match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
