@@ -7,7 +7,7 @@
 
 use selvedge_core::PrimitivePair;
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
-use selvedge_core::boxes::{Aabb, direction, segment, swept_boxes};
+use selvedge_core::boxes::{Aabb, direction, relative, segment, swept_boxes};
 use selvedge_core::coplanarity::{error_bound_by_magnitudes, is_in_range};
 use selvedge_core::elementary::advance::confirm::certain_contact;
 use selvedge_core::elementary::advance::{
@@ -29,6 +29,10 @@ use selvedge_verification::oracle::Kind;
 struct Digest(u64);
 
 impl Digest {
+    const fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+
     fn add(&mut self, answer: u64) {
         for byte in answer.to_le_bytes() {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
@@ -58,7 +62,22 @@ impl Digest {
     }
 }
 
-/// Random and adversarial pairs; one in sixteen has a coordinate that no mesh should have.
+/// A pair of whole numbers so small that values are often equal, and often zero.
+fn on_a_grid<S: Format>(kind: Kind, index: usize) -> PairCase<S> {
+    let mut coordinate = 0;
+    let mut next = || {
+        coordinate += 1;
+        let mut digest = Digest::new();
+        digest.add((24 * index + coordinate) as u64);
+        S::from_f64((digest.0 % 5) as f64 - 2.0)
+    };
+    PairCase::new(
+        kind,
+        [(); 4].map(|()| [(); 2].map(|()| [(); 3].map(|()| next()))),
+    )
+}
+
+/// Random and adversarial pairs, of which one in sixteen has a coordinate that no mesh should have, and pairs on a grid.
 fn cases<S: Format>(kind: Kind, count: usize) -> Vec<PairCase<S>> {
     let mut cases = sample(Source::Random, kind, 1, count);
     cases.append(&mut sample(Source::Adversarial, kind, 2, count));
@@ -76,6 +95,7 @@ fn cases<S: Format>(kind: Kind, count: usize) -> Vec<PairCase<S>> {
         let place = index % 24;
         case.points[place / 6][place / 3 % 2][place % 3] = odd[index / 24 % odd.len()];
     }
+    cases.extend((0..count).map(|index| on_a_grid(kind, index)));
     cases
 }
 
@@ -85,7 +105,7 @@ trait Question {
 }
 
 fn digest<S: Format, Q: Question>(kind: Kind, count: usize) -> u64 {
-    let mut digest = Digest(0xcbf2_9ce4_8422_2325);
+    let mut digest = Digest::new();
     for case in cases::<S>(kind, count) {
         match kind {
             Kind::VertexFace => Q::ask(&case, &case.vertex_face(), &mut digest),
@@ -135,7 +155,7 @@ impl Question for Filters {
 fn filters() {
     assert_eq!(
         digests::<Filters>(10_000),
-        "cd017e3776ebc994 80de981605a8a825 54d04b8bb6546cd9 0a72743d10fdb8d2"
+        "e0da8e895e2bcacf a1119f6fec2817fe 8877656d6b16b356 0b9962d0504ebea1"
     );
 }
 
@@ -162,7 +182,7 @@ impl Question for Volume {
 fn control_values_and_their_bounds() {
     assert_eq!(
         digests::<Volume>(10_000),
-        "41a0d454fcccab0d 31724f339a9c26f6 6797d2ebc8b1c82b e3c824fc089f6ea6"
+        "9a9a03c54947563f 601e9a6776cef4a6 b338e08fa303fb0c 5a2ae9cddd136c28"
     );
 }
 
@@ -192,7 +212,7 @@ impl Question for Boxes {
 fn boxes() {
     assert_eq!(
         digests::<Boxes>(10_000),
-        "da606488cb6e0da3 ca181c924c51259a 164625d50d982e99 02459708fa2836f0"
+        "936f6b3ee7598aa4 bf37f90efb4e9e51 2e3466693471a15c c0aa3308262782b5"
     );
 }
 
@@ -224,7 +244,7 @@ impl Question for Blocks {
 fn blocks_of_moving_boxes() {
     assert_eq!(
         digests::<Blocks>(4000),
-        "aff0600662443cba e50cbf388cdf7a68 ee5fd7bd97ec7a07 216809e60c381d79"
+        "f3a39967bd5dc28b 9ae9998a5d8227a9 1f3343b5d8ec0096 d5a2607a7927e718"
     );
 }
 
@@ -259,7 +279,7 @@ impl Question for Signs {
 fn exact_signs() {
     assert_eq!(
         digests::<Signs>(10_000),
-        "36a348c9db5018b8 1101cc70ec9252d0 8368961d363d15a9 5a7da4b285c5ec0a"
+        "5e21bf038e567dbe 4c704bf4774a9856 758d61a0c4973a89 a03fa182e5797942"
     );
 }
 
@@ -307,7 +327,7 @@ impl Question for Times {
 fn times_of_impact() {
     assert_eq!(
         digests::<Times>(8000),
-        "9d9e06623489e73e ddaa6f0cde7bb15b 51ae2e707b60fc0d afa515bd05f6307a"
+        "2cc9a7336c092ecc 0502d6b2ef2ff602 66dc9e8efcc4892a 585466251acda45a"
     );
 }
 
@@ -327,6 +347,76 @@ impl Question for Contacts {
 fn exact_verdicts() {
     assert_eq!(
         digests::<Contacts>(4000),
-        "200a190f66ae44e7 d6d5261c9dead584 8bbc5ae65411a805 37e432f1d506d667"
+        "78f4081336387484 34865452c1b099e7 924d9fac8157a007 9379674c9fcac165"
+    );
+}
+
+/// Where answers change: how far the first point has to be moved, and which separation is too large. On a grid, values meet their
+/// bounds exactly there.
+struct Thresholds;
+
+/// Halves until nothing lies between; `None` if both ends have the same answer.
+fn threshold<S: Format>(mut low: S, mut high: S, holds: impl Fn(S) -> bool) -> Option<S> {
+    let at_low = holds(low);
+    if at_low == holds(high) {
+        return None;
+    }
+    for _ in 0..80 {
+        let middle = S::HALF * (low + high);
+        if holds(middle) == at_low {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(high)
+}
+
+fn answers_yes<S: Format>(test: usize, pair: &impl PrimitivePair<S>, separation: S) -> bool {
+    let limits = Limits {
+        tolerance: S::ZERO,
+        separation,
+    };
+    if let Some(&tier) = Tier::ALL.get(test) {
+        let filter = Filter::new(tier).with_separation(separation);
+        return filter.expect("positive").verdict(pair).is_culled();
+    }
+    match test - Tier::ALL.len() {
+        0 => direction::normal(pair).is_culled(),
+        1 => relative::nine_directions(pair).is_culled(),
+        2 => inside::never_inside(pair).is_culled(),
+        3 => certain_contact(pair, S::HALF).is_some(),
+        4 => time_of_impact_within(pair, &limits, S::ZERO, S::HALF) == Impact::Never,
+        _ => time_of_impact_and_work(pair, &limits).0 == Impact::Never,
+    }
+}
+
+impl Question for Thresholds {
+    fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, pair: &P, digest: &mut Digest) {
+        for test in 0..Tier::ALL.len() + 6 {
+            let (zero, far) = (S::ZERO, S::from_f64(8.0));
+            let separation = threshold(zero, far, |separation| answers_yes(test, pair, separation));
+            let moved = threshold(zero, far, |by| {
+                let mut case = *case;
+                for end in &mut case.points[0] {
+                    end[0] = end[0] + by;
+                }
+                match case.kind {
+                    Kind::VertexFace => answers_yes(test, &case.vertex_face(), zero),
+                    Kind::EdgeEdge => answers_yes(test, &case.edge_edge(), zero),
+                }
+            });
+            for found in [separation, moved] {
+                digest.add_number(found.unwrap_or(-far));
+            }
+        }
+    }
+}
+
+#[test]
+fn thresholds() {
+    assert_eq!(
+        digests::<Thresholds>(200),
+        "4da758a16bc0bf89 9925562719cfd007 4c5ffe3345b9d471 a3c861cbc2d6c38f"
     );
 }
