@@ -15,6 +15,7 @@ mod certified_in_every_floating_point_environment;
 mod collision_detector_keeps_its_promises;
 mod contact_is_decided_exactly;
 mod control_values_within_error_bounds;
+mod decisions_are_the_same_everywhere;
 mod exact_answers_enclose_the_first_time;
 mod exact_campaign_finds_what_is_wrong;
 mod exact_signs_are_those_of_rationals;

@@ -14,7 +14,7 @@ mod chunk;
 mod judge;
 mod pairs;
 
-pub use pairs::{Points, Scenes, Source};
+pub use pairs::{Points, Scenes, Source, sample};
 
 use super::{Findings, run as run_chunks};
 use chunk::Chunk;

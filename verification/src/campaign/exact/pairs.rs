@@ -79,6 +79,14 @@ impl<'a> Maker<'a> {
     }
 }
 
+/// The first `count` pairs of `source` ([`Source::Scene`] has none here, and gives random ones): the same on every machine.
+#[must_use]
+pub fn sample<S: Format>(source: Source, kind: Kind, seed: u64, count: usize) -> Vec<PairCase<S>> {
+    let (scenes, mut cases) = (Scenes::default(), Vec::new());
+    Maker::new(source, kind, &scenes, Random::new(seed, 0)).make(count, &mut cases);
+    cases
+}
+
 /// Whether exact arithmetic takes a hundred times as long as with coordinates of one size: then one variant is enough.
 fn is_wide<S: Format>(case: &PairCase<S>) -> bool {
     let sizes = case
