@@ -75,39 +75,9 @@ impl<C: Local<N>, const N: usize> Coloured<C, N> {
         }
     }
 
-    /// In the order in which they run.
-    pub(crate) fn all(&self) -> &[C] {
-        &self.constraints
-    }
-
-    pub(crate) fn colour_count(&self) -> usize {
-        self.colours.len()
-    }
-
-    /// Which ones have a colour.
-    pub(crate) fn colour(&self, colour: usize) -> Range<usize> {
-        self.colours[colour].clone()
-    }
-
-    /// Which ones have none.
-    pub(crate) fn without_colour(&self) -> Range<usize> {
-        self.coloured..self.constraints.len()
-    }
-
     /// Whether the constraints of one colour should be done [at once](Self::at_once).
-    pub(crate) fn is_worth_threads(colour: &Range<usize>) -> bool {
+    fn is_worth_threads(colour: &Range<usize>) -> bool {
         parallel::has_many_threads() && colour.len() >= WORTH_A_THREAD
-    }
-
-    /// By how much a constraint's vertices have to move.
-    #[inline(always)]
-    pub(crate) fn corrections(
-        &self,
-        index: usize,
-        step: &StepInput<'_>,
-        positions: &[DVec3],
-    ) -> [DVec3; N] {
-        corrections(&self.constraints[index], step, positions, stiffening(step))
     }
 
     fn in_turn(&self, range: Range<usize>, step: &StepInput<'_>, positions: &mut [DVec3]) {
@@ -119,27 +89,17 @@ impl<C: Local<N>, const N: usize> Coloured<C, N> {
         }
     }
 
-    /// The constraints of a colour, and by how much the vertices of each have to move, found on all threads. The buffer is to be
-    /// [given back](Self::give_back).
-    pub(crate) fn at_once(
-        &mut self,
-        colour: usize,
-        step: &StepInput<'_>,
-        positions: &[DVec3],
-    ) -> (Range<usize>, Vec<[DVec3; N]>) {
+    /// The constraints of a colour, found on all threads.
+    fn at_once(&mut self, range: Range<usize>, step: &StepInput<'_>, positions: &mut [DVec3]) {
         let stiffening = stiffening(step);
-        let range = self.colour(colour);
-        let mut buffer = std::mem::take(&mut self.buffer);
-        parallel::fill(
-            &mut buffer,
-            &self.constraints[range.clone()],
-            |constraint| corrections(constraint, step, positions, stiffening),
-        );
-        (range, buffer)
-    }
-
-    pub(crate) fn give_back(&mut self, buffer: Vec<[DVec3; N]>) {
-        self.buffer = buffer;
+        let constraints = &self.constraints[range];
+        let read = &*positions;
+        parallel::fill(&mut self.buffer, constraints, |constraint| {
+            corrections(constraint, step, read, stiffening)
+        });
+        for (constraint, &moves) in constraints.iter().zip(&self.buffer) {
+            add(positions, constraint.vertices(), moves);
+        }
     }
 }
 
@@ -171,18 +131,14 @@ fn add<const N: usize>(positions: &mut [DVec3], vertices: [u32; N], moves: [DVec
 impl<C: Local<N>, const N: usize> Constraint for Coloured<C, N> {
     fn project(&mut self, step: &StepInput<'_>, positions: &mut [DVec3], _: &mut Touches) {
         for colour in 0..self.colours.len() {
-            let range = self.colour(colour);
+            let range = self.colours[colour].clone();
             if Self::is_worth_threads(&range) {
-                let (range, buffer) = self.at_once(colour, step, positions);
-                for (constraint, &moves) in self.constraints[range].iter().zip(&buffer) {
-                    add(positions, constraint.vertices(), moves);
-                }
-                self.give_back(buffer);
+                self.at_once(range, step, positions);
             } else {
                 self.in_turn(range, step, positions);
             }
         }
-        self.in_turn(self.without_colour(), step, positions);
+        self.in_turn(self.coloured..self.constraints.len(), step, positions);
     }
 }
 

@@ -1,10 +1,13 @@
 //! Intersections of the triangles of a mesh at rest.
+//!
+//! [Signs of volumes](super::signs) settle nearly all pairs of a mesh in general position; integers of any length decide the rest.
 
 use super::geometry::{
     AtRest, EDGES, Point, Signs, cross, dot, is_zero, normal, point_on_segment,
     segment_meets_triangle, subtract,
 };
 use super::motion::scale_to_integers;
+use super::signs::triangles_intersect_by_signs;
 use rug::Integer;
 use std::cmp::Ordering;
 
@@ -51,15 +54,34 @@ pub fn triangles_intersect(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], shared: &[[usiz
 /// If a coordinate is NaN or infinite, or an index is out of range.
 #[must_use]
 pub fn mesh_self_intersections(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
-    let integers = scale_to_integers(positions);
-    let mut found = Vec::new();
-    for [i, j] in overlapping_boxes(positions, triangles) {
-        let pair = [triangles[i as usize], triangles[j as usize]];
-        let [a, b] = pair.map(|corners| corners.map(|vertex| &integers[vertex as usize]));
-        if intersect(a, b, &shared_corners(pair)) {
-            found.push([i, j]);
+    mesh_intersections(positions, triangles, triangles.len())
+}
+
+/// Those of [`mesh_self_intersections`] of which at least one triangle is among the first `count`.
+///
+/// # Panics
+/// If a coordinate is NaN or infinite, or an index is out of range.
+#[must_use]
+pub fn mesh_intersections(
+    positions: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+    count: usize,
+) -> Vec<[u32; 2]> {
+    assert!(
+        positions.iter().flatten().all(|x| x.is_finite()),
+        "positions are numbers"
+    );
+    let mut found = overlapping_boxes(positions, triangles);
+    found.retain(|&[i, j]| {
+        if i as usize >= count {
+            return false;
         }
-    }
+        let pair = [i, j].map(|triangle| triangles[triangle as usize]);
+        let [a, b] = pair.map(|corners| corners.map(|vertex| positions[vertex as usize]));
+        let shared = shared_corners(pair);
+        triangles_intersect_by_signs(&a, &b, &shared)
+            .unwrap_or_else(|| triangles_intersect(&a, &b, &shared))
+    });
     found.sort_unstable();
     found
 }
@@ -99,24 +121,21 @@ fn overlapping_boxes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u32
         .max_by(|&i, &j| extent(i).total_cmp(&extent(j)))
         .expect("three axes");
 
-    let mut order: Vec<usize> = (0..boxes.len()).collect();
-    order.sort_by(|&i, &j| boxes[i][sweep][0].total_cmp(&boxes[j][sweep][0]));
-    let mut open: Vec<usize> = Vec::new();
+    let index = |i: usize| u32::try_from(i).expect("a mesh has fewer than 2^32 triangles");
+    let mut order: Vec<_> = (0..).map(index).zip(boxes).collect();
+    order.sort_by(|(_, a), (_, b)| a[sweep][0].total_cmp(&b[sweep][0]));
     let mut pairs = Vec::new();
-    for i in order {
-        open.retain(|&j| boxes[j][sweep][1] >= boxes[i][sweep][0]);
-        for &j in &open {
-            let overlap = boxes[i]
+    for (place, (i, one)) in order.iter().enumerate() {
+        let following = order[place + 1..].iter();
+        for (j, other) in following.take_while(|(_, other)| other[sweep][0] <= one[sweep][1]) {
+            let overlap = one
                 .iter()
-                .zip(&boxes[j])
+                .zip(other)
                 .all(|(a, b)| a[0] <= b[1] && b[0] <= a[1]);
             if overlap {
-                let index =
-                    |i: usize| u32::try_from(i).expect("a mesh has fewer than 2^32 triangles");
-                pairs.push([index(i.min(j)), index(i.max(j))]);
+                pairs.push([*i.min(j), *i.max(j)]);
             }
         }
-        open.push(i);
     }
     pairs
 }

@@ -12,12 +12,13 @@
 //! | does it come within a distance, and when first? | [`within`], [`first_within`] |
 //! | is it within a distance at some time? | [`within_at`] |
 //! | do two triangles at rest intersect? | [`triangles_intersect`] |
-//! | which triangles of a mesh intersect? | [`mesh_self_intersections`] |
+//! | which triangles of a mesh intersect? | [`mesh_self_intersections`], [`mesh_intersections`] |
 //!
 //! The method is kept apart from that of `selvedge-core`: coordinates are scaled to integers, motions
 //! are polynomials in the time `t` by powers of `t`, roots are counted with Sturm's theorem, and a
 //! time that is irrational is a polynomial together with an interval that holds one of its roots
-//! ([`AlgebraicTime`]).
+//! ([`AlgebraicTime`]). Of meshes at rest most pairs are settled by Shewchuk's exact signs first
+//! ([`triangles_intersect_by_signs`]).
 
 mod algebraic;
 mod collision;
@@ -26,10 +27,12 @@ mod mesh;
 mod motion;
 mod polynomial;
 mod separation;
+mod signs;
 
 pub use algebraic::AlgebraicTime;
 pub use collision::{collides, coplanar, touches_at};
-pub use mesh::{mesh_self_intersections, triangles_intersect};
+pub use mesh::{mesh_intersections, mesh_self_intersections, triangles_intersect};
 pub use motion::{Kind, Pair};
 pub use polynomial::Polynomial;
 pub use separation::{first_within, within, within_at};
+pub use signs::triangles_intersect_by_signs;

@@ -2,7 +2,9 @@
 
 use crate::support::{common_part, contains, point};
 use proptest::prelude::*;
-use selvedge_verification::oracle::{mesh_self_intersections, triangles_intersect};
+use selvedge_verification::oracle::{
+    mesh_intersections, mesh_self_intersections, triangles_intersect, triangles_intersect_by_signs,
+};
 
 type Triangle = [[f64; 3]; 3];
 
@@ -61,6 +63,47 @@ proptest! {
         );
     }
 
+    /// Touching, coplanar, an ulp beside it; large, small, and beyond the range of signs.
+    #[test]
+    fn signs_of_volumes_agree_with_integers_wherever_they_answer(
+        a in triangle(), mut b in triangle(), shared in shared(),
+        ulps in prop::array::uniform6(prop::array::uniform3(-1..=1_i8)),
+        exponent in prop_oneof![Just(0), -310..310_i32],
+        offset in prop_oneof![Just(0.0), Just(0.1), Just(3.7e5)],
+    ) {
+        for &[i, j] in &shared {
+            b[j] = a[i];
+        }
+        let nudged = |corner: [f64; 3], ulps: [i8; 3]| [0, 1, 2].map(|axis| {
+            let at = (corner[axis] + offset) * f64::powi(2.0, exponent);
+            match ulps[axis] {
+                -1 => at.next_down(),
+                0 => at,
+                _ => at.next_up(),
+            }
+        });
+        let a: Triangle = std::array::from_fn(|i| nudged(a[i], ulps[i]));
+        let mut b: Triangle = std::array::from_fn(|j| nudged(b[j], ulps[3 + j]));
+        for &[i, j] in &shared {
+            b[j] = a[i];
+        }
+        if let Some(answer) = triangles_intersect_by_signs(&a, &b, &shared) {
+            prop_assert_eq!(answer, triangles_intersect(&a, &b, &shared));
+        }
+    }
+
+    #[test]
+    fn signs_of_volumes_settle_pairs_in_general_position(
+        a in prop::array::uniform3(prop::array::uniform3(-1.0..1.0_f64)),
+        mut b in prop::array::uniform3(prop::array::uniform3(-1.0..1.0_f64)),
+        shared in shared(),
+    ) {
+        for &[i, j] in &shared {
+            b[j] = a[i];
+        }
+        let answer = triangles_intersect_by_signs(&a, &b, &shared);
+        prop_assert_eq!(answer, Some(triangles_intersect(&a, &b, &shared)));
+    }
 }
 
 proptest! {
@@ -92,7 +135,10 @@ proptest! {
             }
         }
         expected.sort_unstable();
-        prop_assert_eq!(mesh_self_intersections(&positions, &triangles), expected);
+        prop_assert_eq!(mesh_self_intersections(&positions, &triangles), expected.clone());
+        let count = triangles.len() / 2;
+        expected.retain(|&[i, _]| (i as usize) < count);
+        prop_assert_eq!(mesh_intersections(&positions, &triangles, count), expected);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Every state that a simulation accepts is free of intersections, exactly: cloth with itself and cloth with bodies.
 
 use selvedge::simulation::{Scene, Simulation};
-use selvedge_verification::oracle::mesh_self_intersections;
+use selvedge_verification::oracle::mesh_intersections;
 use std::path::{Path, PathBuf};
 
 fn scene_file(name: &str) -> PathBuf {
@@ -25,9 +25,11 @@ fn intersections(simulation: &Simulation) -> Vec<[u32; 2]> {
         .iter()
         .map(|p| p.to_array())
         .collect();
-    let found = mesh_self_intersections(&positions, simulation.triangles());
-    let cloth = simulation.cloth_triangles() as u32;
-    found.into_iter().filter(|pair| pair[0] < cloth).collect()
+    mesh_intersections(
+        &positions,
+        simulation.triangles(),
+        simulation.cloth_triangles(),
+    )
 }
 
 /// Looks at every state that is a multiple of `every`; the number of steps that were done.

@@ -1,11 +1,10 @@
 //! Which primitive pairs may come close in a step: the only place that knows how candidates are found.
 //!
-//! They come from [hierarchies of moving boxes](crate::broad_phase::moving): along each axis every pair that is no candidate
-//! keeps its order, and more than a reach, between the start and the end of the step. [Neighbours](super::neighbours) have a
-//! smaller reach.
+//! They come from [hierarchies of moving boxes](crate::broad_phase::moving) and, on a fine mesh, through a [sieve](super::sieve): every
+//! pair that is no candidate keeps its order, and more than a reach, along some direction between the start and the end of the motion.
 
-use super::neighbours::Neighbours;
 use super::pair::Pair;
+use super::sieve::Sieve;
 use super::start::first_crossing;
 use crate::PairKind;
 use crate::broad_phase::moving::MovingBroadPhase;
@@ -34,7 +33,7 @@ pub(super) struct Detector {
     /// Vertices from here on are bodies'.
     cloth_vertices: usize,
     broad_phase: MovingBroadPhase<f64>,
-    neighbours: Option<Neighbours>,
+    sieve: Option<Sieve>,
     vertex_face: Vec<[u32; 2]>,
     edge_edge: Vec<[u32; 2]>,
     sorted: Vec<[u32; 2]>,
@@ -43,12 +42,13 @@ pub(super) struct Detector {
 
 impl Detector {
     /// Of each vertex its motion is in `carriers`; vertices from `cloth_vertices` on are bodies'. Pairs that come within `reach` along
-    /// every axis will be candidates.
+    /// every axis will be candidates, but for those that the sieve leaves out.
     pub(super) fn new(
         topology: Arc<Topology>,
         carriers: &[Frame],
         cloth_vertices: usize,
         reach: f64,
+        sieve: Option<Sieve>,
         wanted: Wanted,
     ) -> Self {
         let mut broad_phase = MovingBroadPhase::new(Arc::clone(&topology));
@@ -56,7 +56,7 @@ impl Detector {
         debug_assert!(accepted.is_ok(), "scenes give a positive thickness");
         broad_phase.set_wanted(cloth(carriers.len(), cloth_vertices));
         Self {
-            neighbours: None,
+            sieve,
             topology,
             wanted,
             is_narrowed: false,
@@ -70,11 +70,6 @@ impl Detector {
         }
     }
 
-    /// Neighbours will be candidates only if they come within their own reach.
-    pub(super) fn set_neighbours(&mut self, neighbours: Neighbours) {
-        self.neighbours = Some(neighbours);
-    }
-
     /// Replaces `pairs` by the candidates of the motion from `start` to `end`, in ascending order of their keys: whatever order
     /// the hierarchies find them in, which depends on the steps before.
     ///
@@ -86,7 +81,7 @@ impl Detector {
             self.broad_phase.set_wanted(all);
         }
         self.update(motion);
-        self.find(motion, pairs);
+        self.find(motion, None, pairs);
     }
 
     /// Replaces `pairs` by those with a vertex that is in `only`, the only ones whose motion is not that of the last search. Returns
@@ -107,7 +102,7 @@ impl Detector {
         // After a build the broad phase takes what a traversal costs for the measure of later ones: so that must be a whole one.
         let is_narrow = self.broad_phase.statistics().builds == builds;
         if is_narrow {
-            self.find(motion, pairs);
+            self.find(motion, Some(only), pairs);
         } else {
             self.candidates(motion, pairs);
         }
@@ -119,11 +114,11 @@ impl Detector {
         updated.expect("the solver keeps every position finite");
     }
 
-    fn find(&mut self, motion: [&[DVec3]; 2], pairs: &mut Vec<Pair>) {
+    fn find(&mut self, motion: [&[DVec3]; 2], only: Option<&[bool]>, pairs: &mut Vec<Pair>) {
         let Self {
             topology,
             broad_phase,
-            neighbours,
+            sieve,
             vertex_face,
             edge_edge,
             sorted,
@@ -131,17 +126,17 @@ impl Detector {
             ..
         } = self;
         broad_phase.candidates(vertex_face, edge_edge);
-        if let Some(neighbours) = neighbours {
-            neighbours.set_motion(motion);
+        if let Some(sieve) = sieve {
+            sieve.set_motion(motion, only);
         }
         let counts = [topology.vertex_count(), topology.edges().len()];
         for (kind, found, count) in [
             (PairKind::VertexFace, &mut *vertex_face, counts[0]),
             (PairKind::EdgeEdge, &mut *edge_edge, counts[1]),
         ] {
-            if let Some(neighbours) = neighbours {
+            if let Some(sieve) = sieve {
                 parallel::retain(found, |&pair| {
-                    !neighbours.keep_apart(kind, kind.vertices(pair, topology))
+                    !sieve.keep_apart(kind, kind.vertices(pair, topology))
                 });
             }
             sort(found, count, sorted, places);

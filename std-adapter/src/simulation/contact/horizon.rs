@@ -1,8 +1,8 @@
 //! For how long candidates stay good.
 //!
 //! Candidates are found for a motion straight on from the present one, several steps ahead: whatever is no candidate keeps more
-//! than the reach of the search along an axis, on all of that way. As long as every vertex stays within some room of it, a pair
-//! that is no candidate keeps the reach less twice the room.
+//! than the reach of the search along an axis, on all of that way. As long as every vertex stays within some room of it along each axis, a
+//! pair that is no candidate keeps the reach less twice the room. (Pairs that a [sieve](super::sieve) leaves out keep more.)
 //!
 //! Where few vertices leave that room, as in a crease, they alone get a [new way](Horizon::lead_back) for the rest of the time, and
 //! candidates are looked for with what they belong to.
@@ -11,6 +11,8 @@ use selvedge_core::glam::DVec3;
 
 /// Most steps to look ahead.
 const FARTHEST: u32 = 4;
+/// The same on a fine mesh, of whose candidates a sieve leaves few.
+const FARTHEST_OF_FINE: u32 = 8;
 
 /// The motion that candidates were found for.
 #[derive(Debug, Default)]
@@ -27,9 +29,19 @@ pub(super) struct Horizon {
     elapsed: f64,
     /// How many steps the span was meant to last.
     steps: u32,
+    /// Whether the mesh is a fine one.
+    is_fine: bool,
 }
 
 impl Horizon {
+    /// On a fine mesh or another.
+    pub(super) fn new(is_fine: bool) -> Self {
+        Self {
+            is_fine,
+            ..Self::default()
+        }
+    }
+
     /// Begins anew, and learns nothing from the past.
     pub(super) fn forget(&mut self) {
         self.span = 0.0;
@@ -47,7 +59,12 @@ impl Horizon {
     ) -> [&'a [DVec3]; 2] {
         if self.span > 0.0 {
             if self.elapsed > 0.9 * self.span {
-                self.steps = (2 * self.steps).min(FARTHEST);
+                let farthest = if self.is_fine {
+                    FARTHEST_OF_FINE
+                } else {
+                    FARTHEST
+                };
+                self.steps = (2 * self.steps).min(farthest);
             } else if self.elapsed < 0.5 * self.span {
                 self.steps = (self.steps / 2).max(1);
             }
@@ -68,6 +85,7 @@ impl Horizon {
     }
 
     /// Whether, `h` seconds on, all vertices are within `room` of the motion along each axis, and it has not ended.
+    #[cfg(test)]
     pub(super) fn covers(&self, end: &[DVec3], h: f64, room: f64) -> bool {
         self.lasts(h) && (0..end.len()).all(|vertex| self.has_room(vertex, end[vertex], h, room))
     }

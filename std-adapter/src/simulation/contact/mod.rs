@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `detect` | candidate pairs: the one place that knows the broad phase |
 //! | `horizon` | for how many steps they are good |
-//! | `neighbours` | pairs that are near at rest already, which have a smaller thickness |
+//! | `sieve` | candidates that keep apart until the next search, neighbours on the mesh among them |
 //! | `pair` | one pair: the direction that keeps it apart, the certified time of impact |
 //! | `rows` | contacts as constraints of the solver |
 //! | `pass`, `zones` | no step is accepted that is not certified |
@@ -15,10 +15,10 @@
 mod closest;
 mod detect;
 mod horizon;
-mod neighbours;
 mod pair;
 mod pass;
 mod rows;
+mod sieve;
 mod start;
 mod zones;
 
@@ -33,10 +33,10 @@ use crate::PairKind;
 use crate::mesh::{Topology, TopologyError};
 use detect::{Detector, Wanted};
 use horizon::Horizon;
-use neighbours::Neighbours;
 use pair::Pair;
 use rows::Row;
 use selvedge_core::glam::DVec3;
+use sieve::{Neighbours, Sieve};
 use std::sync::Arc;
 use std::time::Instant;
 use zones::Zones;
@@ -48,7 +48,7 @@ pub(crate) struct ContactSettings {
     pub(crate) cloth: Option<(usize, Thickness)>,
     /// Cloth with bodies.
     pub(crate) bodies: Option<(usize, Thickness)>,
-    /// The largest thickness of [neighbours](neighbours), in metres, if they have one of their own.
+    /// The largest thickness of [neighbours](sieve), in metres, if they have one of their own.
     pub(crate) neighbours: Option<f64>,
 }
 
@@ -139,8 +139,10 @@ impl ContactSettings {
 }
 
 /// How far beyond the thickness candidates are looked for, in thicknesses: more makes longer lists that last longer. Measured on the
-/// arm sleeve: from 0.2 to 0.7, and looking 2 to 8 steps ahead, a step costs the same within a tenth.
+/// arm sleeve: from 0.2 to 0.7 a step costs the same within a tenth.
 const REACH: f64 = 0.3;
+/// The same on a fine mesh, which has a small thickness for the way that a vertex goes in a step.
+const REACH_OF_FINE: f64 = 0.6;
 /// Pairs of cloth are neighbours if their boxes are nearer at rest than this, in thicknesses: among them are all whose thickness is
 /// half their distance at rest.
 const NEIGHBOURS_AT_REST: f64 = 2.0;
@@ -219,37 +221,40 @@ impl Contact {
         }
         let largest = |pick: fn(Thickness) -> f64| settings.all().map(pick).fold(0.0, f64::max);
         let thickness = largest(|thickness| thickness.thickness);
-        let beyond = thickness * REACH;
         let separation = largest(|thickness| thickness.separation);
         let wanted = Wanted {
             cloth: settings.cloth.is_some(),
             bodies: settings.bodies.is_some(),
         };
         let topology = Arc::new(Topology::new(rest.len(), triangles.to_vec())?);
-        let reach = thickness + beyond;
-        // From where vertices were expected, along an axis: until a pair that is no candidate comes within its separation.
-        let mut room = 0.5 * (reach - separation);
-        let shared = Arc::clone(&topology);
-        let mut detector = Detector::new(shared, carriers, cloth_vertices, reach, wanted);
+        let mut beyond = thickness * REACH;
+        let mut neighbours = None;
         if let Some((_, own)) = settings.cloth {
             let at_rest = NEIGHBOURS_AT_REST * own.thickness;
-            if neighbours::are_many(&topology, rest, cloth_vertices, at_rest) {
+            if sieve::are_many(&topology, rest, cloth_vertices, at_rest) {
+                beyond = thickness * REACH_OF_FINE;
                 let smaller = own.separation + NEIGHBOURS * (own.thickness - own.separation);
                 settings.neighbours = Some(smaller);
-                room = room.min(0.5 * (smaller + beyond - own.separation));
                 let reach = smaller + beyond;
-                detector.set_neighbours(Neighbours::new(rest, cloth_vertices, at_rest, reach));
+                neighbours = Some(Neighbours { at_rest, reach });
             }
         }
+        let reach = thickness + beyond;
+        // From where vertices were expected, along an axis: until a pair that is no candidate comes within its separation.
+        let least = settings.neighbours.unwrap_or(thickness);
+        let room = 0.5 * (least + beyond - separation);
+        let is_fine = neighbours.is_some();
+        let sieve =
+            neighbours.map(|neighbours| Sieve::new(rest, cloth_vertices, reach, neighbours));
         Ok(Some(Self {
-            detector,
+            detector: Detector::new(topology, carriers, cloth_vertices, reach, sieve, wanted),
             settings,
             // A hundredth less than what geometry allows: far above rounding.
             slack: 0.99 * 0.5 * beyond,
             room: 0.99 * room,
             carriers: carriers.to_vec(),
             rest: rest.to_vec(),
-            horizon: Horizon::default(),
+            horizon: Horizon::new(is_fine),
             error: 0.0,
             pairs: Vec::new(),
             found: Vec::new(),

@@ -10,7 +10,7 @@
 //! flush subnormal numbers (16 operations lose at most one smallest normal number each).
 
 use super::closest::Closest;
-use super::neighbours::are_neighbours;
+use super::sieve::are_neighbours;
 use crate::PairKind;
 use crate::simulation::plan::{FREE, Frame};
 use selvedge_core::elementary::Limits;

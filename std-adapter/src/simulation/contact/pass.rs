@@ -134,21 +134,25 @@ impl Contact {
             .find_strayed(end, h, self.slack, &mut self.strayed);
         match strayed {
             0 => {}
-            few if few < end.len() / MANY => self.find_candidates_of_strayed(start, end, h),
+            few if few < end.len() / MANY => {
+                self.find_candidates_of_strayed(start, end, h);
+            }
             _ => self.find_candidates(start, end, h),
         }
     }
 
-    /// Adds the candidates that vertices have which have strayed.
-    fn find_candidates_of_strayed(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
+    /// Adds the candidates that vertices have which have strayed. Returns whether it is so; else all were found anew.
+    fn find_candidates_of_strayed(&mut self, start: &[DVec3], end: &[DVec3], h: f64) -> bool {
         let motion = self.horizon.lead_back(&self.strayed, start, end, h);
         let is_narrow = self
             .detector
             .candidates_of(&self.strayed, motion, &mut self.found);
-        if !is_narrow {
-            return self.take_found();
+        if is_narrow {
+            add(&mut self.pairs, &mut self.found);
+        } else {
+            self.take_found();
         }
-        add(&mut self.pairs, &mut self.found);
+        is_narrow
     }
 
     /// Candidates for a motion.
@@ -218,7 +222,12 @@ impl Contact {
     /// vertices. Clears the marks.
     fn check_moved(&mut self, open: &[usize], step: &StepInput<'_>, end: &[DVec3]) -> Vec<usize> {
         let start = step.start;
-        if !self.horizon.covers(end, step.h, self.room) {
+        let strayed = self
+            .horizon
+            .find_strayed(end, step.h, self.room, &mut self.strayed);
+        let mut open = open.to_vec();
+        if strayed > 0 && !self.add_candidates_of_strayed(strayed, &mut open, [start, end], step.h)
+        {
             self.forget_gaps();
             self.find_candidates(start, end, step.h);
             self.moved.fill(false);
@@ -244,6 +253,32 @@ impl Contact {
         }
         self.moved.fill(false);
         still_open
+    }
+
+    /// Adds the candidates of vertices that have strayed in the course of repairs, and lets `open` name the same pairs as before.
+    /// Returns whether that was possible: not if many have strayed, or the motion has ended.
+    fn add_candidates_of_strayed(
+        &mut self,
+        strayed: usize,
+        open: &mut [usize],
+        [start, end]: [&[DVec3]; 2],
+        h: f64,
+    ) -> bool {
+        if strayed >= end.len() / MANY || !self.horizon.lasts(h) {
+            return false;
+        }
+        let keys: Vec<u64> = open.iter().map(|&index| self.pairs[index].key).collect();
+        if !self.find_candidates_of_strayed(start, end, h) {
+            return false;
+        }
+        // What is new has a vertex that has strayed.
+        let all = self.moved.iter_mut().zip(&self.strayed);
+        all.for_each(|(moved, &strayed)| *moved |= strayed);
+        for (index, key) in open.iter_mut().zip(keys) {
+            // Those that were there still are.
+            *index = self.pairs.partition_point(|pair| pair.key < key);
+        }
+        true
     }
 
     /// Projects each open pair, in order, to a little more than the separation that it keeps.

@@ -3,7 +3,7 @@
 //! A row is C = n·Σwᵢxᵢ − h ≥ 0 with the direction n and the weights w of the closest points at the start of the step. A pair that
 //! starts nearer than that comes apart at [`RECOVERY`] at most, whatever the length of the step: a push must not become a
 //! velocity. On a fine mesh neighbours at rest may be nearer than the thickness; such a pair's is at most half its distance at rest,
-//! or the mesh would lock, and [less](super::neighbours).
+//! or the mesh would lock, and [less](super::sieve).
 
 use super::pair::Pair;
 use super::{ContactSettings, Thickness};

@@ -7,7 +7,7 @@
 
 use super::membrane::{Membrane, all, image, membranes};
 use super::{Effect, Registration};
-use crate::simulation::colour::{Coloured, Local};
+use crate::simulation::colour::Local;
 use crate::simulation::plan::Plan;
 use crate::simulation::scene::RATIO;
 use crate::simulation::sweeps::Sweeps;
@@ -43,9 +43,7 @@ impl Effect for StrainLimit {
             .into_iter()
             .map(|(membrane, _)| Limit { membrane, limit })
             .collect();
-        let vertex_count = cloth.mesh.positions.len();
-        let limits = Coloured::new(limits, vertex_count);
-        plan.add_constraint(Sweeps::new(limits, vertex_count, self.sweeps));
+        plan.add_constraint(Sweeps::new(limits, &cloth.mesh.positions, self.sweeps));
     }
 }
 
@@ -93,20 +91,14 @@ impl Local<3> for Limit {
         let [middle, half, uv] = stretch;
         let spread = (half * half + uv * uv).sqrt();
         let largest = (middle + spread).sqrt();
-        if !(largest > self.limit) {
-            return [DVec3::ZERO; 3];
-        }
-        // The eigenvector of the larger eigenvalue, by whichever of its two forms does not cancel.
-        let (du, dv) = if half >= 0.0 {
-            (half + spread, uv)
-        } else {
-            (uv, spread - half)
-        };
-        let length = (du * du + dv * dv).sqrt();
-        let (du, dv) = if length > 0.0 {
-            (du / length, dv / length)
-        } else {
-            (1.0, 0.0)
+        // No branch: nobody could foretell it. Not a number becomes zero.
+        let excess = (largest - self.limit).max(0.0);
+        // The eigenvector of the larger eigenvalue, by whichever of its two forms does not cancel. Its length does not matter: the
+        // correction is a product with it, divided by its square.
+        let (du, dv) = match (half >= 0.0, spread > 0.0) {
+            (_, false) => (1.0, 0.0),
+            (true, _) => (half + spread, uv),
+            (false, _) => (uv, spread - half),
         };
         let two = [du * a[0] + dv * b[0], du * a[1] + dv * b[1]];
         let c = all(two);
@@ -114,7 +106,7 @@ impl Local<3> for Limit {
         if !(weight > 0.0) {
             return [DVec3::ZERO; 3];
         }
-        let along = image(two, x) * ((self.limit - largest) / (weight * largest));
+        let along = image(two, x) * (-excess / (weight * largest));
         [0, 1, 2].map(|k| along * (w[k] * c[k]))
     }
 }

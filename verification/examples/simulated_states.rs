@@ -1,0 +1,183 @@
+//! Looks at the states of a simulation with the exact oracle: none may hold an intersection or a number that is not finite.
+//!
+//! `cargo run --release -p selvedge-verification --example simulated_states -- SCENE.toml [--steps N] [--every N]
+//!     [--time-step FACTOR] [--stiffness FACTOR] [--without EFFECT]`
+//!
+//! Does N steps (10,000; later than the scene's end its bodies and pins rest) and looks at every state, or at one in so many. Factors
+//! multiply the scene's time step and all its stiffnesses. Without `self_collision` the run must fail, which shows that it can. Prints
+//! a row for the table of long runs; exit status 1 if a state is at fault, the step could not be made, or the scene cannot be read.
+
+use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};
+use selvedge::simulation::{Scene, Simulation};
+use selvedge_verification::oracle::mesh_intersections;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+const USAGE: &str = "usage: simulated_states SCENE.toml [--steps N] [--every N] [--time-step FACTOR] [--stiffness FACTOR] [--without EFFECT]";
+
+type Failure = Box<dyn std::error::Error>;
+
+struct Options {
+    scene: PathBuf,
+    steps: u64,
+    every: u64,
+    time_step: f64,
+    stiffness: f64,
+    without: Option<String>,
+}
+
+impl Options {
+    fn parse(mut arguments: impl Iterator<Item = String>) -> Option<Self> {
+        let mut options = Self {
+            scene: arguments.next()?.into(),
+            steps: 10_000,
+            every: 1,
+            time_step: 1.0,
+            stiffness: 1.0,
+            without: None,
+        };
+        while let Some(option) = arguments.next() {
+            let value = arguments.next()?;
+            let factor = || value.parse().ok();
+            let count = || value.replace('_', "").parse().ok().filter(|&n| n > 0);
+            match option.as_str() {
+                "--steps" => options.steps = count()?,
+                "--every" => options.every = count()?,
+                "--time-step" => options.time_step = factor()?,
+                "--stiffness" => options.stiffness = factor()?,
+                "--without" => options.without = Some(value),
+                _ => return None,
+            }
+        }
+        Some(options)
+    }
+
+    fn load(&self) -> Result<Simulation, Failure> {
+        let mut table = None;
+        let mut text = String::new();
+        for line in std::fs::read_to_string(&self.scene)?.lines() {
+            if let Some(name) = line.strip_prefix('[') {
+                table = name
+                    .strip_prefix("effects.")
+                    .and_then(|name| name.strip_suffix(']'));
+            }
+            if self.without.is_some() && table == self.without.as_deref() {
+                continue;
+            }
+            let factor = match line.split_once(" = ") {
+                Some(("time_step", _)) => self.time_step,
+                Some(("stiffness" | "weft_stiffness", _)) => self.stiffness,
+                _ => 1.0,
+            };
+            text += &scaled(line, factor)?;
+            text.push('\n');
+        }
+        Ok(Simulation::new(Scene::parse(&text, &self.scene)?, 1)?)
+    }
+}
+
+/// A line `key = "number unit"` with the number times a factor; as it is if that is one.
+#[expect(clippy::float_cmp, reason = "exactly one where nothing was asked for")]
+fn scaled(line: &str, factor: f64) -> Result<String, Failure> {
+    if factor == 1.0 {
+        return Ok(line.to_owned());
+    }
+    let parts = line.split_once('"').and_then(|(key, value)| {
+        let (number, unit) = value.split_once(' ')?;
+        Some((key, number.parse::<f64>().ok()?, unit))
+    });
+    let (key, number, unit) = parts.ok_or_else(|| format!("no text with a unit: {line}"))?;
+    Ok(format!("{key}\"{} {unit}", number * factor))
+}
+
+/// What was seen.
+#[derive(Default)]
+struct Seen {
+    states: u64,
+    largest_speed: f64,
+    in_oracle: Duration,
+}
+
+impl Seen {
+    fn look_at(&mut self, simulation: &Simulation) -> Result<(), Failure> {
+        let step = simulation.steps_done();
+        let positions: Vec<_> = simulation
+            .positions()
+            .iter()
+            .map(|p| p.to_array())
+            .collect();
+        if let Some(vertex) = positions
+            .iter()
+            .position(|p| !p.iter().all(|x| x.is_finite()))
+        {
+            return Err(format!("after step {step}: vertex {vertex} is not finite").into());
+        }
+        let begin = Instant::now();
+        let cloth = simulation.cloth_triangles();
+        let found = mesh_intersections(&positions, simulation.triangles(), cloth);
+        self.in_oracle += begin.elapsed();
+        self.states += 1;
+        if !found.is_empty() {
+            return Err(format!("after step {step}: these triangles intersect: {found:?}").into());
+        }
+        Ok(())
+    }
+}
+
+fn run(options: &Options) -> Result<(), Failure> {
+    let mut simulation = options.load()?;
+    let style =
+        ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} steps, {eta} left{msg}")?;
+    let bar = ProgressBar::new(options.steps).with_style(style);
+    let mut seen = Seen::default();
+    let begin = Instant::now();
+    for step in (1..=options.steps).progress_with(bar.clone()) {
+        let before = simulation.positions().to_vec();
+        simulation.step()?;
+        let moved = before.iter().zip(simulation.positions());
+        let farthest = moved.fold(0.0, |most: f64, (a, b)| most.max((*b - *a).length()));
+        let time_step = simulation.time() / step as f64;
+        seen.largest_speed = seen.largest_speed.max(farthest / time_step);
+        if step % options.every == 0 {
+            seen.look_at(&simulation)?;
+        }
+        if step % 100 == 0 {
+            bar.set_message(format!(", {} blocked", simulation.blocked_steps()));
+        }
+        // Whoever is late has been blocked, and the other way round: nothing is made up for.
+        if (simulation.blocked_steps() > 0) != (simulation.lag() > 0.0) {
+            return Err(format!("after step {step}: behind, but not reported as blocked").into());
+        }
+    }
+    let counts = simulation.contact_counts().copied().unwrap_or_default();
+    println!(
+        "| {} | {} ms, × {:e} | {} | {} | 0 | {} ({:.3} s) | {} | {:.1} m/s | {:.0} s, {:.0} s |",
+        simulation.name(),
+        1e3 * simulation.time() / options.steps as f64,
+        options.stiffness,
+        options.steps,
+        seen.states,
+        simulation.blocked_steps(),
+        simulation.lag(),
+        counts.violated,
+        seen.largest_speed,
+        begin.elapsed().as_secs_f64(),
+        seen.in_oracle.as_secs_f64(),
+    );
+    Ok(())
+}
+
+fn main() -> ExitCode {
+    let Some(options) = Options::parse(std::env::args().skip(1)) else {
+        eprintln!("{USAGE}");
+        return ExitCode::from(2);
+    };
+    match run(&options) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{}: {failure}", options.scene.display());
+            ExitCode::FAILURE
+        }
+    }
+}
