@@ -77,7 +77,8 @@ fn on_a_grid<S: Format>(kind: Kind, index: usize) -> PairCase<S> {
     )
 }
 
-/// Random and adversarial pairs, of which one in sixteen has a coordinate that no mesh should have, and pairs on a grid.
+/// Random and adversarial pairs, of which one in sixteen has a coordinate that no mesh should have, random ones so large or small
+/// that products nearly overflow or underflow, and pairs on a grid.
 fn cases<S: Format>(kind: Kind, count: usize) -> Vec<PairCase<S>> {
     let mut cases = sample(Source::Random, kind, 1, count);
     cases.append(&mut sample(Source::Adversarial, kind, 2, count));
@@ -95,6 +96,13 @@ fn cases<S: Format>(kind: Kind, count: usize) -> Vec<PairCase<S>> {
         let place = index % 24;
         case.points[place / 6][place / 3 % 2][place % 3] = odd[index / 24 % odd.len()];
     }
+    let sized = sample(Source::Random, kind, 3, count);
+    cases.extend(sized.iter().enumerate().map(|(index, case)| {
+        let part = [5, 6, 7, 9, 12, 16][index % 6];
+        let exponents = [S::MAX_EXPONENT, S::MIN_EXPONENT];
+        let scale = S::exact(1, exponents[index / 6 % 2] / part);
+        case.map(|x| x * scale)
+    }));
     cases.extend((0..count).map(|index| on_a_grid(kind, index)));
     cases
 }
@@ -137,6 +145,10 @@ struct Filters;
 
 impl Question for Filters {
     fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, pair: &P, digest: &mut Digest) {
+        for odd in [S::NAN, S::INFINITY, -S::ONE] {
+            let separated = Filter::new(Tier::Permanent).with_separation(odd);
+            digest.add(u64::from(separated.is_some()));
+        }
         let mut bits = u64::from(plain::non_coplanarity(pair).is_culled());
         bits |= u64::from(inside::never_inside(pair).is_culled()) << 1;
         for tier in Tier::ALL {
@@ -155,7 +167,7 @@ impl Question for Filters {
 fn filters() {
     assert_eq!(
         digests::<Filters>(10_000),
-        "e0da8e895e2bcacf a1119f6fec2817fe 8877656d6b16b356 0b9962d0504ebea1"
+        "06560264ecc213d5 6c5927e0f3ca26d5 c37687e7e427dbc6 5e8ff68a5ecf6af7"
     );
 }
 
@@ -182,7 +194,7 @@ impl Question for Volume {
 fn control_values_and_their_bounds() {
     assert_eq!(
         digests::<Volume>(10_000),
-        "9a9a03c54947563f 601e9a6776cef4a6 b338e08fa303fb0c 5a2ae9cddd136c28"
+        "6e2f314f220e4efd 152741d0f6f57949 f74cc2d427cd6442 7d01b4f5fefa5509"
     );
 }
 
@@ -212,7 +224,7 @@ impl Question for Boxes {
 fn boxes() {
     assert_eq!(
         digests::<Boxes>(10_000),
-        "936f6b3ee7598aa4 bf37f90efb4e9e51 2e3466693471a15c c0aa3308262782b5"
+        "4c099e3b9770fefd 8f5801c2bca2abc5 5a187198a75e9988 65313cbb1bed122c"
     );
 }
 
@@ -244,7 +256,7 @@ impl Question for Blocks {
 fn blocks_of_moving_boxes() {
     assert_eq!(
         digests::<Blocks>(4000),
-        "f3a39967bd5dc28b 9ae9998a5d8227a9 1f3343b5d8ec0096 d5a2607a7927e718"
+        "8a86cf97b9eb16de 3423ce3eeadc7b75 ff0fde85066139bb 0d138a6175dfcf34"
     );
 }
 
@@ -279,7 +291,7 @@ impl Question for Signs {
 fn exact_signs() {
     assert_eq!(
         digests::<Signs>(10_000),
-        "5e21bf038e567dbe 4c704bf4774a9856 758d61a0c4973a89 a03fa182e5797942"
+        "e6237934e9213cec 2223f37cef4297c6 b1039403865db81a de66eea94085a974"
     );
 }
 
@@ -314,7 +326,7 @@ impl Question for Times {
             digest.add_impact(time_of_impact_within(pair, &tight, from, until));
         }
         digest.add_impact(uncertified::time_of_impact(pair, &separated));
-        for near in [S::ZERO, early, S::ONE] {
+        for near in [S::ZERO, early, S::ONE, never, S::ONE + S::ONE, S::NAN] {
             match certain_contact(pair, near) {
                 None => digest.add(0),
                 Some(times) => digest.add_numbers(times),
@@ -327,7 +339,7 @@ impl Question for Times {
 fn times_of_impact() {
     assert_eq!(
         digests::<Times>(8000),
-        "2cc9a7336c092ecc 0502d6b2ef2ff602 66dc9e8efcc4892a 585466251acda45a"
+        "87dab8de94764113 b0048a5388109890 1aaa10bc3fa3447a c2f24f123031ccde"
     );
 }
 
@@ -347,7 +359,7 @@ impl Question for Contacts {
 fn exact_verdicts() {
     assert_eq!(
         digests::<Contacts>(4000),
-        "78f4081336387484 34865452c1b099e7 924d9fac8157a007 9379674c9fcac165"
+        "587079c33df518e4 b2be78c51692e8c7 088a11e8cd6f6727 08fb7c00998ff7a7"
     );
 }
 
@@ -417,6 +429,6 @@ impl Question for Thresholds {
 fn thresholds() {
     assert_eq!(
         digests::<Thresholds>(200),
-        "4da758a16bc0bf89 9925562719cfd007 4c5ffe3345b9d471 a3c861cbc2d6c38f"
+        "ce959f2e2bef01cd cfba4a24f1d44eca a0831105e89dcd62 46f12436da5620a9"
     );
 }
