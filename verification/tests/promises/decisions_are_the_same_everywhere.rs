@@ -5,6 +5,8 @@
 //! notice; here one does. A change that is meant changes a digest: the failure prints the new ones; put them in place of the old ones, and say in the
 //! commit what became sharper, or blunter, and why.
 
+use fearless_simd::dispatch;
+use selvedge::dispatch::available_levels;
 use selvedge_core::PrimitivePair;
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, direction, relative, segment, swept_boxes};
@@ -241,9 +243,14 @@ impl Question for Blocks {
         for (lane, moving) in boxes.iter().enumerate() {
             block.set(5 * lane, moving);
         }
-        boxes
-            .iter()
-            .for_each(|moving| digest.add(block.near(moving).into()));
+        for moving in &boxes {
+            let near = block.near(moving);
+            for (name, level) in available_levels() {
+                let in_lanes = dispatch!(level, simd => block.near_in_lanes(simd, moving));
+                assert_eq!(in_lanes, near, "{name} {case:?}");
+            }
+            digest.add(near.into());
+        }
         let merged = block.merged();
         for Aabb { lower, upper } in [merged.start, merged.end, block.get(5).start] {
             digest.add_numbers(lower);
