@@ -2,8 +2,8 @@
 //! purpose: a digest of the answers to questions that are the same each time.
 //!
 //! The other promises say what an answer must not be. Within that, a test may become blunter, or a time earlier, and nobody would
-//! notice; here one does. A change that is meant changes a digest: the failure prints the new ones; put them in place of the old ones, and say in the
-//! commit what became sharper, or blunter, and why.
+//! notice; here one does. A change that is meant changes a digest: the failure prints the new ones; put them in place of the old ones,
+//! and say in the commit what became sharper, or blunter, and why.
 
 use fearless_simd::dispatch;
 use selvedge::dispatch::available_levels;
@@ -230,7 +230,7 @@ fn boxes() {
     );
 }
 
-/// The moving boxes of four points at a time, in lanes, against those of the pair before.
+/// The moving boxes of a pair's four points, in a block with empty lanes between, against each of them; on every instruction set.
 struct Blocks;
 
 impl Question for Blocks {

@@ -91,7 +91,7 @@ impl Local<3> for Limit {
         let [middle, half, uv] = stretch;
         let spread = (half * half + uv * uv).sqrt();
         let largest = (middle + spread).sqrt();
-        // No branch: nobody could foretell it. Not a number becomes zero.
+        // No branch: nobody could foretell it.
         let excess = (largest - self.limit).max(0.0);
         // The eigenvector of the larger eigenvalue, by whichever of its two forms does not cancel. Its length does not matter: the
         // correction is a product with it, divided by its square.
@@ -103,10 +103,52 @@ impl Local<3> for Limit {
         let two = [du * a[0] + dv * b[0], du * a[1] + dv * b[1]];
         let c = all(two);
         let weight = w[0] * c[0] * c[0] + w[1] * c[1] * c[1] + w[2] * c[2] * c[2];
-        if !(weight > 0.0) {
+        // What is too large to square is left as it is.
+        if !(weight > 0.0 && largest.is_finite()) {
             return [DVec3::ZERO; 3];
         }
         let along = image(two, x) * (-excess / (weight * largest));
         [0, 1, 2].map(|k| along * (w[k] * c[k]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moved(x: [DVec3; 3]) -> [DVec3; 3] {
+        let membrane = Membrane {
+            vertices: [0, 1, 2],
+            a: [1.0, 0.0],
+            b: [0.0, 1.0],
+        };
+        let limit = Limit {
+            membrane,
+            limit: 1.1,
+        };
+        let moves = limit.corrections(x, [1.0; 3], 0.0);
+        [0, 1, 2].map(|k| x[k] + moves[k])
+    }
+
+    #[test]
+    fn a_stretched_triangle_comes_back_to_its_limit() {
+        let [a, b, c] = moved([DVec3::ZERO, 2.0 * DVec3::X, DVec3::Y]);
+        assert!(((b - a).length() - 1.1).abs() < 1e-12);
+        let before = 2.0 * DVec3::X + DVec3::Y;
+        assert!(
+            (a + b + c - before).length() < 1e-12,
+            "the middle stays where it is"
+        );
+    }
+
+    #[test]
+    fn a_triangle_too_large_to_square_stays_as_it_is() {
+        for x in [
+            [DVec3::ZERO, 1e160 * DVec3::X, DVec3::Y],
+            [DVec3::ZERO, DVec3::X, 1e160 * DVec3::Y],
+            [DVec3::ZERO, 1e160 * DVec3::X, 1e160 * DVec3::Y],
+        ] {
+            assert_eq!(moved(x), x);
+        }
     }
 }
