@@ -107,6 +107,25 @@ def numbers_in(copy, message):
     return found
 
 
+def callers_of_constant_functions(work):
+    """Functions outside of core that are `const` and call one that its mutants no longer let be: they lose the word too."""
+    lost = []
+    while True:
+        messages, succeeded = work.cargo("check", "-p", "selvedge-verification", "--test", "promises")
+        errors = [m["message"] for m in messages if m["reason"] == "compiler-message" and m["message"]["level"] == "error"]
+        places = [span for error in errors for span in error["spans"] if span["is_primary"]]
+        if succeeded or not places:
+            return lost
+        for place in sorted(places, key=lambda place: -place["byte_start"]):
+            path = work.copy / place["file_name"]
+            before, after = path.read_bytes()[: place["byte_start"]], path.read_bytes()[place["byte_start"] :]
+            if place["file_name"].startswith("core/") or b"const fn" not in before:
+                sys.exit(f"{place['file_name']}, line {place['line_start']}, does not compile with core's mutants")
+            head, tail = before.rsplit(b"const fn", 1)
+            path.write_bytes(head + b"fn" + tail + after)
+            lost.append(f"{place['file_name']}:{place['line_start']}")
+
+
 def built(work):
     """The programs of tests: core's own, and the promises."""
     programs = {}
@@ -243,6 +262,7 @@ def main():
     mutants = work.kept("mutants.json", all_mutants)
     work.kept("copied.json", lambda: copy_of_sources(work))
     fit = work.kept("fit.json", lambda: fitted(work, mutants))
+    work.kept("no-longer-constant.json", lambda: callers_of_constant_functions(work))
     if not chosen.report:
         tests = Tests(work, work.kept("programs.json", lambda: built(work)), chosen.cases)
         times = work.kept(
