@@ -202,6 +202,23 @@ pub fn is_in_range<L: Lanes>(largest: L) -> L::Mask {
     largest.splat(L::Scalar::LARGEST_EDGE).greater(largest)
 }
 
+/// Zero, or NaN if a value is infinite or no number: a bound that it is added to becomes one that nothing exceeds. The smallest and
+/// the largest value would not tell, as the vector minimum of most machines drops NaN. Values near the largest number may
+/// count as infinite, as their sum may.
+#[inline(always)]
+pub(crate) fn zero_if_finite<L: Lanes>([a, b, c, d]: [L; 4]) -> L {
+    let sum = (a + b) + (c + d);
+    #[allow(clippy::eq_op, reason = "infinity minus infinity is no number")]
+    let zero = sum - sum;
+    zero
+}
+
+/// Whether all values from `least` to `greatest` are above `bound`, or all below its negative. False with NaN in the bound.
+#[inline(always)]
+pub(crate) fn are_beyond<L: Lanes>(least: L, greatest: L, bound: L) -> L::Mask {
+    least.greater(bound) | (-bound).greater(greatest)
+}
+
 /// (1 + M)²·η.
 #[inline(always)]
 fn underflow<L: Lanes>(largest: L) -> L {
@@ -228,5 +245,23 @@ impl<L: Lanes> ControlValues<L> {
         let below =
             ((-e0).greater(k0) & (-e1).greater(k1)) & ((-e2).greater(k2) & (-e3).greater(k3));
         above | below
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::zero_if_finite;
+
+    #[test]
+    fn whatever_is_not_finite_shows_and_what_is_does_not() {
+        assert_eq!(zero_if_finite([1e300, -1e300, 1e-300, 1e300]), 0.0);
+        assert_eq!(zero_if_finite([1e300_f64; 4]), 0.0);
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for place in 0..4 {
+                let mut values = [1.0; 4];
+                values[place] = value;
+                assert!(zero_if_finite(values).is_nan(), "{value} in place {place}");
+            }
+        }
     }
 }

@@ -7,7 +7,7 @@
 # 3. Underflow: 3 lambda in each of three differences, times W; five operations, and six of the bound: 9W + 11, of 1 + W.
 
 of_sizes = 8; #! core/src/boxes/direction.rs: let roundoff = constant(L::Scalar::small(8)) * constant(L::Scalar::UNIT_ROUNDOFF);
-#~ core/src/boxes/direction.rs: let bound = roundoff * sizes + underflow + (sum - sum);
+#~ core/src/boxes/direction.rs: let bound = roundoff * sizes + underflow + zero;
 #~ core/src/boxes/direction.rs: (along.abs().largest() + constant(L::Scalar::ONE)) * constant(L::Scalar::UNDERFLOW);
 eta = 1b@eta@;
 lambda = 1b@lambda@;

@@ -15,7 +15,7 @@
 //! subnormal numbers are flushed a difference is off by 3λ at most, and the dot product by 9W·λ + 5λ; η ≥ 512·λ.
 //! Only M < [`Rounding::LARGEST_EDGE`] culls; W is then at most 8·M².
 
-use crate::coplanarity::{self, MovingTetrahedron};
+use crate::coplanarity::{MovingTetrahedron, are_beyond, is_in_range, zero_if_finite};
 use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape, Shape};
@@ -76,12 +76,9 @@ fn are_apart_along<L: Lanes>(
     let (e, f, g, h) = (e.dot(along), f.dot(along), g.dot(along), h.dot(along));
     let least = (a.smaller(b).smaller(c.smaller(d))).smaller(e.smaller(f).smaller(g.smaller(h)));
     let greatest = (a.larger(b).larger(c.larger(d))).larger(e.larger(f).larger(g.larger(h)));
-    // Zero, or NaN if one of them is: smallest and largest values drop it.
-    let sum = ((a + b) + (c + d)) + ((e + f) + (g + h));
-    #[allow(clippy::eq_op, reason = "infinity minus infinity is no number")]
-    let bound = roundoff * sizes + underflow + (sum - sum);
-    (least.greater(bound) | (-bound).greater(greatest))
-        & coplanarity::is_in_range(largest.largest())
+    let zero = zero_if_finite([a, b, c, d]) + zero_if_finite([e, f, g, h]);
+    let bound = roundoff * sizes + underflow + zero;
+    are_beyond(least, greatest, bound) & is_in_range(largest.largest())
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@
 //! Strict inequalities: what touches is kept, and d = 0 gives 0 > η, which is false.
 
 use super::Aabb;
+use crate::coplanarity::are_beyond;
 use crate::lanes::{Lanes, Rounding};
 use crate::motion::{Motion, PrimitivePair, VertexFace};
 use crate::points::PairPoints;
@@ -96,8 +97,7 @@ fn separates<L: Lanes>(
     let roundoff = constant(L::Scalar::small(8)) * constant(L::Scalar::UNIT_ROUNDOFF);
     let underflow = (reach + constant(L::Scalar::ONE)) * constant(L::Scalar::UNDERFLOW);
     let bound = roundoff * sizes + underflow;
-    (least.greater(bound) | (-bound).greater(largest))
-        & constant(L::Scalar::LARGEST_EDGE).greater(reach)
+    are_beyond(least, largest, bound) & constant(L::Scalar::LARGEST_EDGE).greater(reach)
 }
 
 #[cfg(test)]

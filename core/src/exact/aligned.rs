@@ -199,3 +199,19 @@ impl AlignedPair {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{bias, take_apart};
+
+    #[test]
+    fn the_top_is_one_above_the_highest_bit_of_a_normal_number() {
+        for power in [-1022, -1, 0, 1, 52, 1023] {
+            let number = 2.0_f64.powi(power);
+            let expected = power + bias::<f64>() + 1;
+            for number in [number, -number, number * 1.75] {
+                assert_eq!(take_apart(number).top.cast_signed(), expected, "{number}");
+            }
+        }
+    }
+}

@@ -54,9 +54,7 @@ impl<const N: usize> Integer<N> {
         let mut sum = self.0;
         let mut carry = false;
         for (word, &added) in sum.iter_mut().zip(&other.0) {
-            let (partial, first) = word.overflowing_add(added);
-            let (whole, second) = partial.overflowing_add(carry.into());
-            (*word, carry) = (whole, first | second);
+            (*word, carry) = add_with_carry(*word, added, carry);
         }
         Self(sum)
     }
@@ -193,6 +191,23 @@ impl<const N: usize> Integer<N> {
     }
 }
 
+/// x + y + `carry` without what the word cannot hold, and whether there is such. (The standard library's `carrying_add` is younger than
+/// the oldest compiler we support.)
+#[inline(always)]
+pub(super) const fn add_with_carry(x: u64, y: u64, carry: bool) -> (u64, bool) {
+    let (partial, first) = x.overflowing_add(y);
+    let (whole, second) = partial.overflowing_add(carry as u64);
+    (whole, first | second)
+}
+
+/// x − y − `borrow`, with 2⁶⁴ more where that is negative, and whether it is.
+#[inline(always)]
+pub(super) const fn subtract_with_borrow(x: u64, y: u64, borrow: bool) -> (u64, bool) {
+    let (partial, first) = x.overflowing_sub(y);
+    let (whole, second) = partial.overflowing_sub(borrow as u64);
+    (whole, first | second)
+}
+
 /// All ones if the number of these words, the lowest first, is negative, else zero.
 #[inline(always)]
 fn sign_word(words: &[u64]) -> u64 {
@@ -229,9 +244,7 @@ fn multiply_signed(a: &[u64], b: &[u64], product: &mut [u64]) {
 fn subtract<'a>(from: impl Iterator<Item = &'a mut u64>, other: &[u64], mask: u64) {
     let mut borrow = false;
     for (&subtracted, word) in other.iter().zip(from) {
-        let (partial, first) = word.overflowing_sub(subtracted & mask);
-        let (whole, second) = partial.overflowing_sub(borrow.into());
-        (*word, borrow) = (whole, first | second);
+        (*word, borrow) = subtract_with_borrow(*word, subtracted & mask, borrow);
     }
 }
 

@@ -9,7 +9,7 @@
 //! cheap bound is asked first.
 
 use crate::coplanarity::{
-    ControlValues, MovingTetrahedron, error_bound_by_magnitudes, is_in_range,
+    ControlValues, MovingTetrahedron, error_bound_by_magnitudes, is_in_range, zero_if_finite,
 };
 use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
@@ -133,13 +133,10 @@ fn by_permanent<L: Lanes>(
     let largest = tetrahedron.largest_by_axis();
     let in_range = is_in_range(largest.largest());
 
-    // One bound, the largest of the four, so that the least and the greatest value tell all. They drop NaN on most
-    // machines, but a sum does not: the bound becomes NaN, too, and what is compared with it does not exceed it.
+    // One bound, the largest of the four, so that the least and the greatest value tell all.
     let [k0, k1, k2, k3] = values.0;
-    let sum = (k0 + k1) + (k2 + k3);
     let inner = error_bound_by_magnitudes(largest) * largest.x.splat(L::Scalar::small(4));
-    #[allow(clippy::eq_op, reason = "infinity minus infinity is no number")]
-    let inner = inner + (sum - sum);
+    let inner = inner + zero_if_finite(values.0);
     let [_, bound, ..] = with_clearance([inner; 4], clearance);
     let least = k0.smaller(k1).smaller(k2.smaller(k3));
     let greatest = k0.larger(k1).larger(k2.larger(k3));

@@ -206,4 +206,20 @@ mod tests {
         flat.face = [DVec3::ZERO, DVec3::X, 2.0 * DVec3::X].map(Motion::resting);
         assert_eq!(never_inside(&flat), Verdict::Kept);
     }
+
+    #[test]
+    fn beyond_half_of_the_largest_edge_everything_is_kept() {
+        // The corners' largest coordinate is twice the size.
+        let sized = |size: f64| {
+            let VertexFace { vertex, face } = fall(-1.0, -1.0);
+            let scaled = |motion: Motion<f64>| Motion::new(motion.start * size, motion.end * size);
+            VertexFace {
+                vertex: scaled(vertex),
+                face: face.map(scaled),
+            }
+        };
+        let half = 2.0_f64.powi(249);
+        assert_eq!(never_inside(&sized(0.49 * half)), Verdict::Culled);
+        assert_eq!(never_inside(&sized(0.51 * half)), Verdict::Kept);
+    }
 }

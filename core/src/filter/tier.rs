@@ -189,8 +189,8 @@ impl<S: Scalar> Filter<S> {
 
     /// By the exact signs, of which those that rounding leaves certain are not computed again.
     fn culls_exactly<P: PairShape>(&self, points: &PairPoints<S>) -> bool {
-        if self.separation > S::ZERO {
-            return exact::is_never_within::<P, S>(points, self.separation, exact::UNKNOWN);
+        if let Some(separation) = self.positive_separation() {
+            return exact::is_never_within::<P, S>(points, separation, exact::UNKNOWN);
         }
         let tetrahedron = points.tetrahedron::<P>();
         let known = if is_in_range(tetrahedron.largest_by_axis().largest()) {
@@ -199,5 +199,30 @@ impl<S: Scalar> Filter<S> {
             exact::UNKNOWN
         };
         exact::is_never_coplanar::<P, S>(points, known)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Filter, Tier};
+
+    #[test]
+    fn a_separation_is_a_length() {
+        let filter = Filter::<f64>::new(Tier::Permanent);
+        for wrong in [
+            -1.0,
+            -f64::MIN_POSITIVE,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            f64::NAN,
+        ] {
+            assert!(filter.with_separation(wrong).is_none(), "{wrong}");
+        }
+        for right in [0.0, -0.0, f64::MIN_POSITIVE, 1.0, f64::MAX] {
+            let separation = filter
+                .with_separation(right)
+                .map(|filter| filter.separation());
+            assert_eq!(separation, Some(right));
+        }
     }
 }

@@ -132,3 +132,47 @@ fn contains_origin<S: Scalar, const N: usize>(
     }
     all_left || all_right
 }
+
+#[cfg(test)]
+mod tests {
+    use super::certain_contact;
+    use crate::lanes::Rounding;
+    use crate::{Motion, VertexFace};
+    use glam::DVec3;
+
+    /// Through the middle of a face with sides `a` and `b` in the plane z = 0, which it crosses at half of the step.
+    fn fall(a: f64, b: f64, height: f64) -> VertexFace<f64> {
+        let at = |z| DVec3::new(a / 4.0, b / 4.0, z);
+        VertexFace {
+            vertex: Motion::new(at(height), at(-height)),
+            face: [DVec3::ZERO, a * DVec3::X, b * DVec3::Y].map(Motion::resting),
+        }
+    }
+
+    #[test]
+    fn nothing_is_proven_of_times_outside_of_the_step_or_without_numbers() {
+        let early = VertexFace {
+            vertex: Motion::new(DVec3::new(0.25, 0.25, 1e-9), DVec3::new(0.25, 0.25, -1.0)),
+            ..fall(1.0, 1.0, 1.0)
+        };
+        assert!(certain_contact(&early, 1e-9).is_some());
+        for wrong in [-1e-9, 1.0 + 1e-9, f64::NAN] {
+            assert_eq!(certain_contact(&early, wrong), None, "{wrong}");
+        }
+        let mut broken = early;
+        broken.face[0].end.x = f64::NAN;
+        assert_eq!(certain_contact(&broken, 1e-9), None);
+    }
+
+    /// The turns of the middle's three neighbours are a quarter of `a` times `b`; η(1 + M)² is all that counts beside them.
+    #[test]
+    fn a_face_so_small_that_underflow_could_turn_it_proves_nothing() {
+        for height in [0.5, 1.0, 2.0] {
+            let least = 4.0 * (1.0 + height) * (1.0 + height) * f64::UNDERFLOW;
+            let a = 2.0_f64.powi(-500);
+            let is_certain = |area: f64| certain_contact(&fall(a, area / a, height), 0.5).is_some();
+            assert!(is_certain(1.02 * least), "{height}");
+            assert!(!is_certain(0.98 * least), "{height}");
+        }
+    }
+}

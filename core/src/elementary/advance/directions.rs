@@ -127,3 +127,26 @@ fn length_above<S: Scalar>(w: Vector<S>) -> S {
         (magnitudes.x + magnitudes.y) + magnitudes.z
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::length_above;
+    use crate::vector::Vector;
+
+    #[test]
+    fn where_squares_underflow_the_length_is_at_most_the_sum_of_the_components() {
+        let tiny = 2.0_f32.powi(-70);
+        let vector = Vector {
+            x: tiny,
+            y: -2.0 * tiny,
+            z: 4.0 * tiny,
+        };
+        assert_eq!(length_above(vector), 7.0 * tiny);
+        let vector = Vector {
+            x: 3.0_f32,
+            y: -4.0,
+            z: 12.0,
+        };
+        assert_eq!(length_above(vector), 13.0);
+    }
+}

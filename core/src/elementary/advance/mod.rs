@@ -265,8 +265,8 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
                 let steps = &mut self.work.volume_steps;
                 match self.volume.apart_from(now.time, steps) {
                     Apart::ToTheEnd => return Impact::Never,
-                    Apart::Until(later) if later > until => until = later,
-                    _ => {}
+                    Apart::Until(later) => until = later.larger(until),
+                    Apart::Unproven => {}
                 }
             }
             if until > end {

@@ -247,3 +247,81 @@ fn looking_ahead<S: Scalar>([b0, b1, b2, b3]: [S; 4], first_zero: S) -> S {
     }
     first_zero
 }
+
+/// What lies on the bound is not beyond it.
+#[cfg(test)]
+mod tests {
+    use super::{SignedVolume, first_zero_of_hull, looking_ahead};
+    use crate::elementary::advance::directions::Apart;
+
+    fn volume(values: [f64; 4], error: f64) -> SignedVolume<f64> {
+        SignedVolume {
+            values,
+            error,
+            normal: None,
+        }
+    }
+
+    #[test]
+    fn a_control_value_at_the_bound_proves_nothing() {
+        assert!(volume([2.0; 4], 1.0).proves_apart_throughout());
+        for place in 0..4 {
+            let mut values = [2.0; 4];
+            values[place] = 1.0;
+            assert!(!volume(values, 1.0).proves_apart_throughout(), "{place}");
+        }
+    }
+
+    #[test]
+    fn a_value_at_the_bound_has_no_sign() {
+        let falls = |from: f64, to: f64| volume([from, 0.0, 0.0, to], 1.0);
+        for (from, to, are_opposite) in [(2.0, -2.0, true), (1.0, -2.0, false), (2.0, -1.0, false)]
+        {
+            assert_eq!(
+                falls(from, to).has_opposite_signs_at(0.0, 1.0),
+                are_opposite
+            );
+            assert_eq!(
+                falls(-from, -to).has_opposite_signs_at(0.0, 1.0),
+                are_opposite
+            );
+        }
+    }
+
+    #[test]
+    fn a_hull_that_comes_down_to_zero_has_a_first_zero_there() {
+        assert_eq!(first_zero_of_hull([1.0; 4]), None);
+        let near = |values: [f64; 4], expected: f64| {
+            let found = first_zero_of_hull(values);
+            assert!(
+                found.is_some_and(|found| (found - expected).abs() < 1e-15),
+                "{found:?}"
+            );
+        };
+        near([1.0, 0.0, 1.0, 1.0], 1.0 / 3.0);
+        near([1.0, 1.0, 0.0, 1.0], 2.0 / 3.0);
+        near([1.0, 1.0, 1.0, 0.0], 1.0);
+    }
+
+    /// The first zero of the hull, so small that it is no number any more.
+    #[test]
+    fn where_time_stands_still_nothing_is_proven() {
+        let found = volume([5e-324, -1.0, -1.0, -1.0], 0.0).apart_from(0.0, &mut 0);
+        assert_eq!(found, Apart::Unproven);
+    }
+
+    #[test]
+    fn a_part_with_a_control_value_of_zero_is_not_taken() {
+        // The whole is no part that can be left.
+        assert_eq!(looking_ahead([1.0; 4], 1.0 / 16.0), 0.25);
+        // Control values of the first half: 1, 0, ½, …; 1, ½, 0, …; 1, ½, ½, 0.
+        for values in [
+            [1.0, -1.0, 3.0, 3.0],
+            [1.0, 0.0, -1.0, 9.0],
+            [1.0, 0.0, 1.0, -4.0],
+        ] {
+            assert_eq!(looking_ahead(values, 1.0 / 32.0), 0.125, "{values:?}");
+        }
+        assert_eq!(looking_ahead([1.0, 0.0, 1.0, -3.0], 1.0 / 32.0), 0.5);
+    }
+}

@@ -350,7 +350,7 @@ impl<const C: usize, const R: usize> Moment<C> for Crossing<'_, C, R> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Number, Scale, Whole, terms, value_at_quotient};
+    use super::{Number, Root, Scale, Whole, terms, value_at_quotient};
     use crate::exact::integer::Integer;
 
     impl Number for i128 {
@@ -366,6 +366,37 @@ mod tests {
 
         fn times(&self, other: &Self) -> Self {
             self * other
+        }
+    }
+
+    #[test]
+    fn roots_compare_as_the_numbers_that_they_are() {
+        // Each polynomial, from the constant term up, with its positive roots.
+        let polynomials = [
+            ([2, -3, 1], [Some(1), Some(2)]),
+            ([10, -7, 1], [Some(2), Some(5)]),
+            ([4, -4, 1], [Some(2), Some(2)]),
+            ([-10, 3, 1], [None, Some(2)]),
+            ([-2, 1, 0], [None, Some(2)]),
+            ([-5, 1, 0], [None, Some(5)]),
+        ];
+        let whole = |x: i64| Whole::<2>::new(&Integer::<1>::shifted(x, 0));
+        let roots = polynomials.map(|(polynomial, values)| {
+            let roots = Root::<2, 16>::positive(&polynomial.map(whole));
+            assert_eq!(
+                roots.each_ref().map(Option::is_some),
+                values.map(|value| value.is_some())
+            );
+            [0, 1].map(|k| roots[k].zip(values[k]))
+        });
+        for (root, value) in roots.iter().flatten().flatten() {
+            for (other, other_value) in roots.iter().flatten().flatten() {
+                assert_eq!(
+                    root.compare(other),
+                    value.cmp(other_value),
+                    "{value}, {other_value}"
+                );
+            }
         }
     }
 

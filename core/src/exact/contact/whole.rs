@@ -1,6 +1,6 @@
 //! Whole numbers of no more words than they need, up to a capacity.
 
-use crate::exact::integer::Integer;
+use crate::exact::integer::{Integer, add_with_carry, subtract_with_borrow};
 use core::cmp::Ordering;
 
 /// A whole number of at most `C` words: sign and magnitude.
@@ -194,9 +194,7 @@ fn sum_of_magnitudes<const R: usize>(
     let digits = larger.iter().chain(&[0]);
     let others = smaller.iter().chain(core::iter::repeat(&0));
     for ((word, &x), &y) in words.iter_mut().zip(digits).zip(others) {
-        let (partial, first) = x.overflowing_add(y);
-        let (whole, second) = partial.overflowing_add(carry.into());
-        (*word, carry) = (whole, first | second);
+        (*word, carry) = add_with_carry(x, y, carry);
     }
     Whole::trimmed(is_negative, words, larger.len() + 1)
 }
@@ -211,9 +209,7 @@ fn difference_of_magnitudes<const R: usize>(
     let mut borrow = false;
     let others = smaller.iter().chain(core::iter::repeat(&0));
     for ((word, &x), &y) in words.iter_mut().zip(larger).zip(others) {
-        let (partial, first) = x.overflowing_sub(y);
-        let (whole, second) = partial.overflowing_sub(borrow.into());
-        (*word, borrow) = (whole, first | second);
+        (*word, borrow) = subtract_with_borrow(x, y, borrow);
     }
     Whole::trimmed(is_negative, words, larger.len())
 }
@@ -268,6 +264,25 @@ mod tests {
                 &whole(a / 6).times_small(6),
                 &whole(a / 6 * 6),
                 &format!("6 · {}", a / 6),
+            );
+        }
+    }
+
+    #[test]
+    fn zero_is_not_negative() {
+        assert!(!Whole::<4>::ZERO.negated().is_negative);
+        assert!(!Whole::<4>::trimmed(true, [0; 4], 4).is_negative);
+    }
+
+    #[test]
+    fn the_lowest_word_of_what_is_left_is_that_of_the_shifted_magnitude() {
+        let number = 0x0123_4567_89ab_cdef_0edc_ba98_7654_3210_i128;
+        for dropped in (0..128).step_by(3) {
+            let expected = (number >> dropped) as u64;
+            assert_eq!(
+                whole(number).magnitude_without(dropped),
+                expected,
+                "{dropped}"
             );
         }
     }
