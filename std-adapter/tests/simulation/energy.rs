@@ -127,7 +127,19 @@ fn a_thrown_sheet_never_moves_faster_than_it_was_thrown() {
 /// The pins have done work, and stop: from then on motion dies away, however many contacts push.
 #[test]
 fn a_twisted_tube_comes_to_rest_when_its_pins_do() {
-    let mut steps = Steps::of(TWISTED);
+    comes_to_rest(TWISTED);
+}
+
+/// With so many neighbours within the thickness that they have one of their own, and candidates that last longer.
+#[test]
+fn a_twisted_tube_of_a_fine_mesh_comes_to_rest_when_its_pins_do() {
+    let fine = TWISTED.replace("[16, 16]", "[56, 56]");
+    assert_ne!(fine, TWISTED);
+    comes_to_rest(&fine);
+}
+
+fn comes_to_rest(scene: &str) {
+    let mut steps = Steps::of(scene);
     let twisting = most(&steps.energies(300));
     let pushed = |steps: &Steps| steps.simulation.contact_counts().unwrap().pushed;
     let before = pushed(&steps);
