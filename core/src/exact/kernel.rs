@@ -107,3 +107,17 @@ fn sum<const N: usize>(
 ) -> [Integer<N>; 3] {
     [ax.plus(bx), ay.plus(by), az.plus(bz)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::bits_in;
+
+    /// The smallest width that serves is taken: more would only take longer.
+    #[test]
+    fn a_width_serves_for_all_its_bits_but_the_head_room() {
+        assert_eq!(
+            [bits_in::<1>(), bits_in::<2>(), bits_in::<5>()],
+            [61, 125, 317]
+        );
+    }
+}

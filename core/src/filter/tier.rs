@@ -204,7 +204,17 @@ impl<S: Scalar> Filter<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Filter, Tier};
+    use super::{Depth, Filter, Tier};
+
+    /// A lane that is culled, one that is settled, one that is both and one that is neither.
+    #[test]
+    fn what_is_settled_or_culled_is_not_looked_at_again() {
+        let open = |tier: Tier| tier.open(0b0101, 0b0110) & 0b1111;
+        assert_eq!(open(Tier::Permanent), 0);
+        assert_eq!(open(Tier::Widened), 0b1000);
+        assert_eq!(open(Tier::Exact), 0b1000);
+        assert_eq!(open(Tier::Subdivided(Depth::One)), 0b1010);
+    }
 
     #[test]
     fn a_separation_is_a_length() {

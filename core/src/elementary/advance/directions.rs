@@ -148,5 +148,14 @@ mod tests {
             z: 12.0,
         };
         assert_eq!(length_above(vector), 13.0);
+        // Squared and rounded this is the bound itself.
+        let bound = 2.0_f32.powi(-50);
+        let vector = Vector {
+            x: 0.6 * bound,
+            y: 0.8 * bound,
+            z: 0.0,
+        };
+        assert_eq!(vector.dot(vector), bound * bound);
+        assert!(length_above(vector) > 1.3 * bound);
     }
 }

@@ -352,6 +352,7 @@ impl<const C: usize, const R: usize> Moment<C> for Crossing<'_, C, R> {
 mod tests {
     use super::{Number, Root, Scale, Whole, terms, value_at_quotient};
     use crate::exact::integer::Integer;
+    use core::cmp::Ordering;
 
     impl Number for i128 {
         const ZERO: Self = 0;
@@ -396,6 +397,20 @@ mod tests {
                     value.cmp(other_value),
                     "{value}, {other_value}"
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn rounded_numbers_tell_a_sign_that_is_clear() {
+        let whole = |x: i64| Whole::<2>::new(&Integer::<1>::shifted(x, 0));
+        // 5 + s and −5 + s at s = 1 and 2.
+        for root in Root::<2, 16>::positive(&[2, -3, 1].map(whole))
+            .iter()
+            .flatten()
+        {
+            for (constant, sign) in [(5, Ordering::Greater), (-5, Ordering::Less)] {
+                assert_eq!(root.estimated_sign(&[constant, 1].map(whole)), Some(sign));
             }
         }
     }

@@ -98,3 +98,22 @@ impl Rounded {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Rounded;
+    use core::cmp::Ordering;
+
+    #[test]
+    fn a_sign_is_told_beyond_the_error_and_not_at_it() {
+        for (number, sign) in [
+            (33, Some(Ordering::Greater)),
+            (32, None),
+            (0, None),
+            (-32, None),
+            (-33, Some(Ordering::Less)),
+        ] {
+            assert_eq!(Rounded(number).sign_if_beyond(32), sign, "{number}");
+        }
+    }
+}
