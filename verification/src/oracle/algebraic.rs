@@ -103,8 +103,16 @@ impl AlgebraicTime {
 
     /// Makes the interval no wider than `2^-bits`.
     pub fn refine(&mut self, bits: u32) {
-        while matches!(self.place, Place::Isolated { bits: known, .. } if known < bits) {
+        while self.bits() < bits {
             self.narrow();
+        }
+    }
+
+    /// How narrow the interval is: no wider than `2^-bits`.
+    fn bits(&self) -> u32 {
+        match self.place {
+            Place::Exact(_) => u32::MAX,
+            Place::Isolated { bits, .. } => bits,
         }
     }
 
@@ -305,8 +313,13 @@ impl Ord for AlgebraicTime {
             {
                 return Ordering::Equal;
             }
-            a.narrow();
-            b.narrow();
+            // The wider one alone: where one converges by doubling its bits and the other still by one at a time, both together
+            // would give the first as many bits as two to the power of what the second needs.
+            if a.bits() <= b.bits() {
+                a.narrow();
+            } else {
+                b.narrow();
+            }
         }
     }
 }

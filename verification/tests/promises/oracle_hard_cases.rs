@@ -247,6 +247,35 @@ fn times_have_the_order_of_their_numbers() {
     assert_eq!(sorted, [half, root, three_quarters]);
 }
 
+/// Found by a property test, which never came back: two edges in one plane, of which one comes down from the largest number. The
+/// times that are compared lie next to one another at the end of the step, and of one the next bits were sought one by one while
+/// those of the other doubled each time.
+#[test]
+fn times_next_to_one_another_at_the_end_of_the_step_are_told_apart() {
+    let (x, y, z) = (
+        -9_007_199_254_740_967.0,
+        4_503_599_627_370_484.0,
+        -9_007_199_254_740_967.0,
+    );
+    let pair = edge_edge(
+        [
+            [x, y, z + 8.0],
+            [x, y, z - 8.0],
+            [x, y + 8.0, f64::MAX],
+            [x, y - 8.0, z],
+        ],
+        [
+            [x, y - 24.0, z + 8.0],
+            [x, y - 8.0, z - 8.0],
+            [x, y + 16.0, z],
+            [x, y - 24.0, z],
+        ],
+    );
+    let time = collides(&pair).expect("the second edge ends upright, in the middle of the first");
+    assert_eq!(time.to_f64_down(), 1.0_f64.next_down());
+    assert_eq!(time.cmp_f64(1.0), Ordering::Less);
+}
+
 #[test]
 fn a_time_below_the_normal_numbers_is_rounded_down() {
     // The vertex falls from a height of 1e-20 by 1e300 in the step.
