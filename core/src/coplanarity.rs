@@ -213,12 +213,6 @@ pub(crate) fn zero_if_finite<L: Lanes>([a, b, c, d]: [L; 4]) -> L {
     zero
 }
 
-/// Whether all values from `least` to `greatest` are above `bound`, or all below its negative. False with NaN in the bound.
-#[inline(always)]
-pub(crate) fn are_beyond<L: Lanes>(least: L, greatest: L, bound: L) -> L::Mask {
-    least.greater(bound) | (-bound).greater(greatest)
-}
-
 /// (1 + M)²·η.
 #[inline(always)]
 fn underflow<L: Lanes>(largest: L) -> L {

@@ -4,8 +4,8 @@
 //! every p and x, or negative for all, the sets are apart throughout. [Relative boxes](super::relative) are the case of w
 //! along a coordinate axis. w may come from anywhere, rounded as it likes: the proof is in the signs, computed from the points.
 //!
-//! [`are_apart_along_normal`] takes the pair's own normal in the middle of the step, n₀ + n₁ of [`coplanarity`](crate::coplanarity): that of the face,
-//! or of the two edges. It culls what non-coplanarity culls while the normal hardly turns, also where the points do become
+//! [`are_apart_along_normal`] takes the pair's own normal in the middle of the step, n₀ + n₁ of
+//! [`coplanarity`](crate::coplanarity): that of the face, or of the two edges. It culls what non-coplanarity culls while the normal hardly turns, also where the points do become
 //! coplanar outside of the face.
 //!
 //! # Rounding
@@ -15,7 +15,8 @@
 //! subnormal numbers are flushed a difference is off by 3λ at most, and the dot product by 9W·λ + 5λ; η ≥ 512·λ.
 //! Only M < [`Rounding::LARGEST_EDGE`] culls; W is then at most 8·M².
 
-use crate::coplanarity::{MovingTetrahedron, are_beyond, is_in_range, zero_if_finite};
+use super::are_beyond;
+use crate::coplanarity::{MovingTetrahedron, is_in_range, zero_if_finite};
 use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape, Shape};

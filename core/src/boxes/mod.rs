@@ -121,6 +121,12 @@ fn are_disjoint_intervals<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) ->
             .greater(high_0.larger(high_1))
 }
 
+/// Whether all values from `least` to `greatest` are above `bound`, or all below its negative. False with NaN in the bound.
+#[inline(always)]
+fn are_beyond<L: Lanes>(least: L, greatest: L, bound: L) -> L::Mask {
+    least.greater(bound) | (-bound).greater(greatest)
+}
+
 /// The nine directions of an 18-DOP, as values of one point: x, y, z, x±y, x±z, y±z. The sums are rounded.
 #[inline(always)]
 fn along_nine_directions<S: Scalar>([x, y, z]: [S; 3]) -> [S; 9] {

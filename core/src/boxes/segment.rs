@@ -19,8 +19,8 @@
 //!
 //! Strict inequalities: what touches is kept, and d = 0 gives 0 > η, which is false.
 
-use super::Aabb;
-use crate::coplanarity::are_beyond;
+use super::{Aabb, are_beyond};
+use crate::coplanarity::is_in_range;
 use crate::lanes::{Lanes, Rounding};
 use crate::motion::{Motion, PrimitivePair, VertexFace};
 use crate::points::PairPoints;
@@ -97,7 +97,7 @@ fn separates<L: Lanes>(
     let roundoff = constant(L::Scalar::small(8)) * constant(L::Scalar::UNIT_ROUNDOFF);
     let underflow = (reach + constant(L::Scalar::ONE)) * constant(L::Scalar::UNDERFLOW);
     let bound = roundoff * sizes + underflow;
-    are_beyond(least, largest, bound) & constant(L::Scalar::LARGEST_EDGE).greater(reach)
+    are_beyond(least, largest, bound) & is_in_range(reach)
 }
 
 #[cfg(test)]

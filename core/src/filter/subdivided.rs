@@ -18,7 +18,7 @@
 //! larger. It must exceed the separation, and the bound's own two sums lose 4u of that; the test asks for 12u, plus the
 //! separation, plus η.
 
-use crate::coplanarity::{is_in_range, zero_if_finite};
+use crate::coplanarity::is_in_range;
 use crate::lanes::Lanes;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
@@ -66,7 +66,7 @@ pub(super) fn never_touches<P: PairShape, S: Scalar>(
     };
     // NaN anywhere makes a control value NaN, whose size may drop it: hence the second condition.
     is_in_range(largest)
-        && zero_if_finite([k0, k1, k2, k3]).is_finite()
+        && volumes.iter().all(|volume| volume.is_finite())
         && step.is_clear(volumes, [S::ZERO, S::ONE], depth as u8)
 }
 
