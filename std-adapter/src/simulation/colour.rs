@@ -123,8 +123,9 @@ fn corrections<C: Local<N>, const N: usize>(
 
 #[inline(always)]
 fn add<const N: usize>(positions: &mut [DVec3], vertices: [u32; N], moves: [DVec3; N]) {
-    for (vertex, by) in vertices.into_iter().zip(moves) {
-        positions[vertex as usize] += by;
+    // By index: with an iterator the moves go through memory, and wait there.
+    for k in 0..N {
+        positions[vertices[k] as usize] += moves[k];
     }
 }
 

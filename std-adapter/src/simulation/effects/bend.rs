@@ -93,7 +93,9 @@ impl Local<4> for Hinge {
             weight += w[i] * k[i] * k[i];
         }
         let multiplier = bent * (-1.0 / weight);
-        [0, 1, 2, 3].map(|i| multiplier * (w[i] * k[i]))
+        // Written out: `map` would not be inlined here.
+        let by = |i: usize| multiplier * (w[i] * k[i]);
+        [by(0), by(1), by(2), by(3)]
     }
 }
 
