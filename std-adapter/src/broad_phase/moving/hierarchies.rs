@@ -151,7 +151,8 @@ impl<S: Scalar> Hierarchies<S> {
     /// From the next update on only pairs with a wanted vertex are found. All vertices may move.
     pub(crate) fn set_wanted(&mut self, wanted: Vec<bool>) {
         self.refit_all = true;
-        self.set_moving(Some(wanted));
+        let are_all = wanted.iter().all(|&wanted| wanted);
+        self.set_moving((!are_all).then_some(wanted));
     }
 
     /// From the next update on only pairs with a wanted vertex are found, and only wanted vertices are looked at: the boxes of the
@@ -235,12 +236,14 @@ impl<S: Scalar> Hierarchies<S> {
     }
 
     fn mark(&mut self) {
-        let (vertices, moving) = (&self.vertices.primitives, self.moving.as_ref());
-        let moves = |position: u32| {
-            let vertex = vertices.get(position as usize);
-            moving.is_none_or(|moving| vertex.is_none_or(|&vertex| moving[vertex as usize]))
+        let Some(moving) = &self.moving else {
+            self.vertices.mark_all();
+            self.edges.mark_all();
+            self.faces.mark_all();
+            return;
         };
-        let of_vertices: Vec<bool> = (0..vertices.len() as u32).map(moves).collect();
+        let vertices = self.vertices.primitives.iter();
+        let of_vertices: Vec<bool> = vertices.map(|&vertex| moving[vertex as usize]).collect();
         let moves = |position: u32| of_vertices[position as usize];
         self.vertices.mark(moves);
         self.edges.mark(moves);

@@ -136,6 +136,12 @@ impl<const N: usize> Tree<N> {
         }
     }
 
+    /// Marks all primitives.
+    pub(super) fn mark_all(&mut self) {
+        let nodes = self.levels.iter_mut().flat_map(|level| &mut level.nodes);
+        nodes.for_each(|node| node.moving = node.present);
+    }
+
     /// Gives all blocks the boxes of what they hold; with `only_moving`, those in which something moves.
     pub(super) fn refit(&mut self, boxes: &[MovingBox<f32>], only_moving: bool) {
         let Some((leaves, upper)) = self.levels.split_first_mut() else {

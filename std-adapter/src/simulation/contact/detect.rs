@@ -1,10 +1,10 @@
 //! Which primitive pairs may come close in a step: the only place that knows how candidates are found.
 //!
-//! They come from [hierarchies of moving boxes](crate::broad_phase::moving) and, on a fine mesh, through a [sieve](super::sieve): every
-//! pair that is no candidate keeps its order, and more than a reach, along some direction between the start and the end of the motion.
+//! They come from [hierarchies of moving boxes](crate::broad_phase::moving), through a [sieve](super::sieve): every pair that is no
+//! candidate keeps its order, and more than a distance, along some direction between the start and the end of the motion.
 
 use super::pair::Pair;
-use super::sieve::Sieve;
+use super::sieve::{Distances, Sieve};
 use super::start::first_crossing;
 use crate::PairKind;
 use crate::broad_phase::moving::MovingBroadPhase;
@@ -33,7 +33,7 @@ pub(super) struct Detector {
     /// Vertices from here on are bodies'.
     cloth_vertices: usize,
     broad_phase: MovingBroadPhase<f64>,
-    sieve: Option<Sieve>,
+    sieve: Sieve,
     vertex_face: Vec<[u32; 2]>,
     edge_edge: Vec<[u32; 2]>,
     sorted: Vec<[u32; 2]>,
@@ -41,22 +41,23 @@ pub(super) struct Detector {
 }
 
 impl Detector {
-    /// Of each vertex its motion is in `carriers`; vertices from `cloth_vertices` on are bodies'. Pairs that come within `reach` along
-    /// every axis will be candidates, but for those that the sieve leaves out.
+    /// Of each vertex its place at rest is in `rest`, its motion in `carriers`; vertices from `cloth_vertices` on are bodies'. Pairs that
+    /// come within their thickness and what is looked for beyond it, along every direction, will be candidates.
     pub(super) fn new(
         topology: Arc<Topology>,
+        rest: &[DVec3],
         carriers: &[Frame],
         cloth_vertices: usize,
-        reach: f64,
-        sieve: Option<Sieve>,
+        distances: Distances,
         wanted: Wanted,
     ) -> Self {
         let mut broad_phase = MovingBroadPhase::new(Arc::clone(&topology));
+        let reach = distances.thickness + distances.beyond;
         let accepted = broad_phase.set_separation(reach);
         debug_assert!(accepted.is_ok(), "scenes give a positive thickness");
         broad_phase.set_wanted(cloth(carriers.len(), cloth_vertices));
         Self {
-            sieve,
+            sieve: Sieve::new(rest, cloth_vertices, distances),
             topology,
             wanted,
             is_narrowed: false,
@@ -126,19 +127,15 @@ impl Detector {
             ..
         } = self;
         broad_phase.candidates(vertex_face, edge_edge);
-        if let Some(sieve) = sieve {
-            sieve.set_motion(motion, only);
-        }
+        sieve.set_motion(motion, only);
         let counts = [topology.vertex_count(), topology.edges().len()];
         for (kind, found, count) in [
             (PairKind::VertexFace, &mut *vertex_face, counts[0]),
             (PairKind::EdgeEdge, &mut *edge_edge, counts[1]),
         ] {
-            if let Some(sieve) = sieve {
-                parallel::retain(found, |&pair| {
-                    !sieve.keep_apart(kind, kind.vertices(pair, topology))
-                });
-            }
+            parallel::retain(found, |&pair| {
+                !sieve.keep_apart(kind, kind.vertices(pair, topology))
+            });
             sort(found, count, sorted, places);
         }
         pairs.clear();

@@ -1,8 +1,8 @@
 //! For how long candidates stay good.
 //!
 //! Candidates are found for a motion straight on from the present one, several steps ahead: whatever is no candidate keeps more
-//! than the reach of the search along an axis, on all of that way. As long as every vertex stays within some room of it along each axis, a
-//! pair that is no candidate keeps the reach less twice the room. (Pairs that a [sieve](super::sieve) leaves out keep more.)
+//! than a distance along some direction, on all of that way. As long as every vertex stays within some room of it along each axis, a
+//! pair that is no candidate keeps the rest of that distance ([`pass`](super::pass)).
 //!
 //! Where few vertices leave that room, as in a crease, they alone get a [new way](Horizon::lead_back) for the rest of the time, and
 //! candidates are looked for with what they belong to.

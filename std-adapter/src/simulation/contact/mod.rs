@@ -36,7 +36,7 @@ use horizon::Horizon;
 use pair::Pair;
 use rows::Row;
 use selvedge_core::glam::DVec3;
-use sieve::{Neighbours, Sieve};
+use sieve::{Distances, Neighbours};
 use std::sync::Arc;
 use std::time::Instant;
 use zones::Zones;
@@ -235,26 +235,30 @@ impl Contact {
                 beyond = thickness * REACH_OF_FINE;
                 let smaller = own.separation + NEIGHBOURS * (own.thickness - own.separation);
                 settings.neighbours = Some(smaller);
-                let reach = smaller + beyond;
-                neighbours = Some(Neighbours { at_rest, reach });
+                neighbours = Some(Neighbours {
+                    at_rest,
+                    thickness: smaller,
+                });
             }
         }
-        let reach = thickness + beyond;
-        // From where vertices were expected, along an axis: until a pair that is no candidate comes within its separation.
+        let distances = Distances {
+            thickness,
+            beyond,
+            neighbours,
+        };
+        // From where vertices were expected, along an axis: until a pair that is no candidate comes within its separation. Along a
+        // direction they come √3 times as much nearer to each other.
         let least = settings.neighbours.unwrap_or(thickness);
-        let room = 0.5 * (least + beyond - separation);
-        let is_fine = neighbours.is_some();
-        let sieve =
-            neighbours.map(|neighbours| Sieve::new(rest, cloth_vertices, reach, neighbours));
+        let room = 0.5 * (beyond + (least - separation) / 3.0_f64.sqrt());
         Ok(Some(Self {
-            detector: Detector::new(topology, carriers, cloth_vertices, reach, sieve, wanted),
+            detector: Detector::new(topology, rest, carriers, cloth_vertices, distances, wanted),
             settings,
             // A hundredth less than what geometry allows: far above rounding.
             slack: 0.99 * 0.5 * beyond,
             room: 0.99 * room,
             carriers: carriers.to_vec(),
             rest: rest.to_vec(),
-            horizon: Horizon::new(is_fine),
+            horizon: Horizon::new(neighbours.is_some()),
             error: 0.0,
             pairs: Vec::new(),
             found: Vec::new(),

@@ -13,9 +13,11 @@
 //! **It ends.** Each pair that is not free merges zones, gives a zone a frame, raises a zone's level, or cuts the step; there are
 //! finitely many of each. [`ROUNDS`] is for certainty.
 //!
-//! **Candidates** are found for several steps at once ([`horizon`](super::horizon)), with a reach R beyond the thickness h. While no
-//! vertex strays from the motion they were found for by more than (R − h)/2 along any axis, they hold every pair within h; while
-//! repairs take none farther than (R − m)/2, every pair that may come within m. If few stray farther, the candidates of these are found
+//! **Candidates** are found for several steps at once ([`horizon`](super::horizon)): whatever is none keeps, along a direction d of length one,
+//! h + b·(|d₁| + |d₂| + |d₃|), h the thickness and b what is looked for beyond it ([`sieve`](super::sieve)). While no vertex strays from the
+//! motion they were found for by more than b/2 along any axis, they hold every pair within h; while repairs take none farther than
+//! b/2 + (h − m)/(2√3), which along d is at most half of b·(|d₁| + |d₂| + |d₃|) + h − m, every pair that may come within m. If few stray
+//! farther, the candidates of these are found
 //! again and added; else all are found anew.
 
 use super::pair::{Pair, rounding_error};

@@ -12,7 +12,7 @@ use crate::simulation::plan::{StepInput, Touch, Touches};
 use selvedge_core::glam::DVec3;
 
 /// Pairs that start this much farther apart than their thickness get a row too if they come near.
-const MARGIN: f64 = 2.0 / 3.0;
+pub(super) const MARGIN: f64 = 2.0 / 3.0;
 /// How fast what is too near comes apart, in m/s.
 pub(in crate::simulation) const RECOVERY: f64 = 1.0;
 
