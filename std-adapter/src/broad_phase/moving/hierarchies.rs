@@ -151,6 +151,7 @@ impl<S: Scalar> Hierarchies<S> {
     /// From the next update on only pairs with a wanted vertex are found. All vertices may move.
     pub(crate) fn set_wanted(&mut self, wanted: Vec<bool>) {
         self.refit_all = true;
+        // Then nobody has to be asked.
         let are_all = wanted.iter().all(|&wanted| wanted);
         self.set_moving((!are_all).then_some(wanted));
     }

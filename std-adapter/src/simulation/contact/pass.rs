@@ -17,8 +17,7 @@
 //! h + b·(|d₁| + |d₂| + |d₃|), h the thickness and b what is looked for beyond it ([`sieve`](super::sieve)). While no vertex strays from the
 //! motion they were found for by more than b/2 along any axis, they hold every pair within h; while repairs take none farther than
 //! b/2 + (h − m)/(2√3), which along d is at most half of b·(|d₁| + |d₂| + |d₃|) + h − m, every pair that may come within m. If few stray
-//! farther, the candidates of these are found
-//! again and added; else all are found anew.
+//! farther, the candidates of these are found again and added; else all are found anew.
 
 use super::pair::{Pair, rounding_error};
 use super::zones::{Cut, Motions};
