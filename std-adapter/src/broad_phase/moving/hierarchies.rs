@@ -86,6 +86,8 @@ pub(crate) struct Hierarchies<S: Scalar> {
     task_tests: u64,
     scratch: Scratch,
     degradation: Degradation,
+    /// Whether the next update builds, whatever they have cost.
+    must_build: bool,
     statistics: MovingStatistics,
 }
 
@@ -110,6 +112,7 @@ impl<S: Scalar> Hierarchies<S> {
             task_tests: 0,
             scratch: Scratch::new(),
             degradation: Degradation::default(),
+            must_build: true,
             statistics: MovingStatistics::default(),
         }
     }
@@ -165,6 +168,12 @@ impl<S: Scalar> Hierarchies<S> {
         self.mark();
     }
 
+    /// The next update builds: what is found then, and in what order, does not depend on the steps before.
+    #[cfg(feature = "simulation")]
+    pub(crate) fn forget(&mut self) {
+        self.must_build = true;
+    }
+
     /// Takes the positions of a step and finds where to look for pairs.
     pub(crate) fn update(
         &mut self,
@@ -174,7 +183,7 @@ impl<S: Scalar> Hierarchies<S> {
     ) -> Result<(), StepError> {
         check_frames::<S>(start, end, self.topology.vertex_count())?;
         let items = self.edges.len();
-        if self.statistics.builds == 0 || self.degradation.is_worth_a_build(PRICES, items) {
+        if self.must_build || self.degradation.is_worth_a_build(PRICES, items) {
             self.build(start, end);
         }
         let mapping = Mapping::new(&self.extent, fit.separation, fit.until, fit.is_swept);
@@ -233,6 +242,7 @@ impl<S: Scalar> Hierarchies<S> {
         self.fitted = None;
         self.mark();
         self.degradation = Degradation::default();
+        self.must_build = false;
         self.statistics.builds += 1;
     }
 

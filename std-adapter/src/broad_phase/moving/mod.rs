@@ -135,6 +135,12 @@ impl<S: Scalar> MovingBroadPhase<S> {
         self.hierarchies.narrow_to(wanted);
     }
 
+    /// The next update builds the hierarchies: from there on all is as in a broad phase that has seen no step yet.
+    #[cfg(feature = "simulation")]
+    pub(crate) fn forget(&mut self) {
+        self.hierarchies.forget();
+    }
+
     /// Takes the positions of a step. Builds the hierarchies in the first step and when they have degraded, refits them
     /// otherwise.
     ///

@@ -275,6 +275,7 @@ impl Contact {
     /// Forgets everything but the positions: a simulation that goes on from here, and one that is resumed here, are alike.
     pub(crate) fn refresh(&mut self, positions: &[DVec3]) {
         self.pairs.clear();
+        self.detector.forget();
         self.horizon.forget();
         self.find_candidates(positions, positions, 1.0);
         self.horizon.forget();
