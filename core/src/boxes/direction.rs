@@ -5,8 +5,8 @@
 //! along a coordinate axis. w may come from anywhere, rounded as it likes: the proof is in the signs, computed from the points.
 //!
 //! [`are_apart_along_normal`] takes the pair's own normal in the middle of the step, n₀ + n₁ of
-//! [`coplanarity`](crate::coplanarity): that of the face, or of the two edges. It culls what non-coplanarity culls while the normal hardly turns, also where the points do become
-//! coplanar outside of the face.
+//! [`coplanarity`](crate::coplanarity): that of the face, or of the two edges. It culls what non-coplanarity culls while the
+//! normal hardly turns, also where the points do become coplanar outside of the face.
 //!
 //! # Rounding
 //! (Any direction: 2u an operation.) e = p − x is rounded once; w·e takes a product and two additions, the last of which

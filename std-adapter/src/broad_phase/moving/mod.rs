@@ -227,3 +227,41 @@ impl<S: Scalar> Sink for Collected<'_, S> {
         true
     }
 }
+
+#[cfg(all(test, feature = "simulation"))]
+mod tests {
+    use super::*;
+    use selvedge_core::glam::DVec3;
+
+    /// Two rows of points, as near each other as their curve is tight.
+    fn strip(radius: f64) -> Vec<DVec3> {
+        let at = |k: u32| {
+            let (angle, side) = (f64::from(k / 2) / radius, f64::from(k % 2));
+            DVec3::new(radius * angle.cos(), radius * angle.sin(), side)
+        };
+        (0..400).map(at).collect()
+    }
+
+    #[test]
+    fn what_is_found_after_forgetting_does_not_depend_on_the_steps_before() {
+        let triangles = (0..398).map(|k| [k, k + 1, k + 2]).collect();
+        let topology = Arc::new(Topology::new(400, triangles).unwrap());
+        let found = |broad_phase: &mut MovingBroadPhase<f64>, positions: &[DVec3]| {
+            let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+            broad_phase.update(positions, positions).unwrap();
+            broad_phase.candidates(&mut vertex_face, &mut edge_edge);
+            (vertex_face, edge_edge)
+        };
+        let (wide, tight) = (strip(100.0), strip(2.5));
+        let fresh = found(&mut MovingBroadPhase::new(Arc::clone(&topology)), &tight);
+        assert!(!fresh.0.is_empty() && !fresh.1.is_empty());
+        let mut old = MovingBroadPhase::new(topology);
+        found(&mut old, &wide);
+        assert!(
+            found(&mut old, &tight) != fresh,
+            "hierarchies of the wide one"
+        );
+        old.forget();
+        assert!(found(&mut old, &tight) == fresh);
+    }
+}

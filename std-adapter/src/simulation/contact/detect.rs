@@ -234,41 +234,8 @@ fn sort(
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::sort;
     use proptest::prelude::*;
-
-    /// Two rows of points, and triangles between them.
-    fn strip(bend: f64) -> Vec<DVec3> {
-        let at = |k: u32| {
-            let (along, side) = (f64::from(k / 2), f64::from(k % 2));
-            DVec3::new((bend * along).cos(), (bend * along).sin(), 0.3 * side) / bend.max(0.1)
-        };
-        (0..400).map(at).collect()
-    }
-
-    #[test]
-    fn what_is_found_after_forgetting_does_not_depend_on_the_steps_before() {
-        let triangles = (0..398).map(|k| [k, k + 1, k + 2]).collect();
-        let topology = Arc::new(Topology::new(400, triangles).unwrap());
-        let mut fresh = MovingBroadPhase::<f64>::new(Arc::clone(&topology));
-        let mut old = MovingBroadPhase::<f64>::new(topology);
-        let now = strip(0.4);
-        let found = |broad_phase: &mut MovingBroadPhase<f64>| {
-            let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
-            broad_phase.update(&now, &now).unwrap();
-            broad_phase.candidates(&mut vertex_face, &mut edge_edge);
-            (vertex_face, edge_edge)
-        };
-        let fresh = found(&mut fresh);
-        let before = strip(0.01);
-        old.update(&before, &before).unwrap();
-        assert!(
-            found(&mut old) != fresh,
-            "the order depends on the hierarchies"
-        );
-        old.forget();
-        assert!(found(&mut old) == fresh);
-    }
 
     proptest! {
         #[test]
