@@ -25,10 +25,7 @@ fn measure<S: Scalar>(criterion: &mut Criterion, set: &str, pairs: &[PairPoints<
     }
     bench(
         "certified",
-        count!(|pair| certified::is_never_coplanar(
-            certified::Bound::Permanent,
-            &pair.tetrahedron::<VertexAndFace>()
-        )),
+        count!(|pair| certified::is_never_coplanar(certified::Bound::Permanent, &pair.tetrahedron::<VertexAndFace>())),
     );
     bench(
         "one_sign",

@@ -5,9 +5,7 @@
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
-use selvedge_core::batch::{
-    BatchTest, LANES, Level, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles,
-};
+use selvedge_core::batch::{BatchTest, LANES, Level, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::filter::{Depth, Filter, Tier};
 use selvedge_core::points::Shape;
 use selvedge_core::{Motion, PrimitivePair, Scalar, VertexFace, filter};
@@ -45,10 +43,7 @@ impl<S: Scalar> Sheets<S> {
 
     fn pair(&self, indices: [u32; 4]) -> VertexFace<S> {
         let [vertex, a, b, c] = indices.map(|index| self.rows[index as usize].motion());
-        VertexFace {
-            vertex,
-            face: [a, b, c],
-        }
+        VertexFace { vertex, face: [a, b, c] }
     }
 }
 
@@ -99,41 +94,36 @@ impl<S: Scalar> Bench<'_, S> {
         let Sheets { rows, indices } = &self.sheets;
         let mut masks: Vec<Mask> = vec![0; indices.len().div_ceil(LANES)];
         for (level_name, level) in levels() {
-            self.group
-                .bench_function(format!("{name}/{level_name}"), |bencher| {
-                    bencher.iter(|| {
-                        let masks = black_box(&mut masks);
-                        if self.place == Place::Cache {
-                            let tiles = black_box(&self.tiles);
-                            culled_from_tiles(level, Shape::VertexFace, test, tiles, masks);
-                        } else {
-                            let (rows, indices) = (black_box(rows), black_box(indices));
-                            culled_from_rows(level, Shape::VertexFace, test, rows, indices, masks);
-                        }
-                    });
-                });
-        }
-        let culled: u32 = masks.iter().map(|mask| mask.count_ones()).sum();
-        println!(
-            "  culls {:.4} of the pairs",
-            f64::from(culled) / indices.len() as f64
-        );
-    }
-
-    fn one_by_one(&mut self, name: &str, culls: impl Fn(&VertexFace<S>) -> bool) {
-        self.group
-            .bench_function(format!("{name}/one by one"), |bencher| {
+            self.group.bench_function(format!("{name}/{level_name}"), |bencher| {
                 bencher.iter(|| {
+                    let masks = black_box(&mut masks);
                     if self.place == Place::Cache {
-                        let pairs = black_box(&self.pairs);
-                        pairs.iter().filter(|pair| culls(pair)).count()
+                        let tiles = black_box(&self.tiles);
+                        culled_from_tiles(level, Shape::VertexFace, test, tiles, masks);
                     } else {
-                        let sheets = black_box(&self.sheets);
-                        let pairs = sheets.indices.iter().map(|&indices| sheets.pair(indices));
-                        pairs.filter(|pair| culls(pair)).count()
+                        let (rows, indices) = (black_box(rows), black_box(indices));
+                        culled_from_rows(level, Shape::VertexFace, test, rows, indices, masks);
                     }
                 });
             });
+        }
+        let culled: u32 = masks.iter().map(|mask| mask.count_ones()).sum();
+        println!("  culls {:.4} of the pairs", f64::from(culled) / indices.len() as f64);
+    }
+
+    fn one_by_one(&mut self, name: &str, culls: impl Fn(&VertexFace<S>) -> bool) {
+        self.group.bench_function(format!("{name}/one by one"), |bencher| {
+            bencher.iter(|| {
+                if self.place == Place::Cache {
+                    let pairs = black_box(&self.pairs);
+                    pairs.iter().filter(|pair| culls(pair)).count()
+                } else {
+                    let sheets = black_box(&self.sheets);
+                    let pairs = sheets.indices.iter().map(|&indices| sheets.pair(indices));
+                    pairs.filter(|pair| culls(pair)).count()
+                }
+            });
+        });
     }
 }
 
@@ -151,11 +141,7 @@ fn bench<S: Scalar>(criterion: &mut Criterion) {
             .warm_up_time(Duration::from_millis(300))
             .measurement_time(Duration::from_secs(1))
             .sample_size(20);
-        let pairs: Vec<_> = sheets
-            .indices
-            .iter()
-            .map(|&indices| sheets.pair(indices))
-            .collect();
+        let pairs: Vec<_> = sheets.indices.iter().map(|&indices| sheets.pair(indices)).collect();
         let tiles = pairs
             .chunks(LANES)
             .map(|pairs| Tile::new(pairs.iter().map(PrimitivePair::motions)))
@@ -191,12 +177,8 @@ fn bench<S: Scalar>(criterion: &mut Criterion) {
         }
         let separated = Filter::new(Tier::Permanent).with_separation(S::from_f64(0.001));
         bench.batched("permanent, separation", separated.expect("is finite"));
-        bench.one_by_one("the paper's filter", |pair| {
-            filter::plain::non_coplanarity(pair).is_culled()
-        });
-        bench.one_by_one("permanent", |pair| {
-            filter::certified::non_coplanarity(pair).is_culled()
-        });
+        bench.one_by_one("the paper's filter", |pair| filter::plain::non_coplanarity(pair).is_culled());
+        bench.one_by_one("permanent", |pair| filter::certified::non_coplanarity(pair).is_culled());
         bench.group.finish();
     }
 }

@@ -101,12 +101,7 @@ impl<L: Lanes> MovingTetrahedron<L> {
     pub fn control_values(&self) -> ControlValues<L> {
         let [p0, p1] = self.p;
         let [n0, h, n1] = products(self.b, self.c);
-        ControlValues([
-            p0.dot(n0),
-            p0.dot(h) + p1.dot(n0),
-            p1.dot(h) + p0.dot(n1),
-            p1.dot(n1),
-        ])
+        ControlValues([p0.dot(n0), p0.dot(h) + p1.dot(n0), p1.dot(h) + p0.dot(n1), p1.dot(n1)])
     }
 
     /// The largest magnitude along each axis, over the six differences. NaN may be dropped.
@@ -173,10 +168,7 @@ impl<L: Lanes> MovingTetrahedron<L> {
         let largest = self.largest_by_axis().largest();
         let constant = |value| largest.splat(value);
         let half = constant(L::Scalar::HALF);
-        let squared = n0
-            .dot(n0)
-            .larger(half * (half * h.dot(h)))
-            .larger(n1.dot(n1));
+        let squared = n0.dot(n0).larger(half * (half * h.dot(h))).larger(n1.dot(n1));
         let roundoff = constant(L::Scalar::UNIT_ROUNDOFF);
         let length = (squared + constant(L::Scalar::UNDERFLOW)).sqrt();
         let slack = constant(L::Scalar::ONE) + constant(L::Scalar::small(32)) * roundoff;
@@ -236,8 +228,7 @@ impl<L: Lanes> ControlValues<L> {
         // Eight ordered comparisons rather than a smallest and a largest value: a comparison is false on NaN,
         // while the vector minimum of most machines drops it.
         let above = (k0.greater(e0) & k1.greater(e1)) & (k2.greater(e2) & k3.greater(e3));
-        let below =
-            ((-e0).greater(k0) & (-e1).greater(k1)) & ((-e2).greater(k2) & (-e3).greater(k3));
+        let below = ((-e0).greater(k0) & (-e1).greater(k1)) & ((-e2).greater(k2) & (-e3).greater(k3));
         above | below
     }
 }

@@ -39,10 +39,7 @@ pub struct Distribution<I> {
 /// ```
 #[inline]
 #[must_use]
-pub fn distribute<I: Copy + PartialEq>(
-    a: &FeatureTriangle<I>,
-    b: &FeatureTriangle<I>,
-) -> Distribution<I> {
+pub fn distribute<I: Copy + PartialEq>(a: &FeatureTriangle<I>, b: &FeatureTriangle<I>) -> Distribution<I> {
     let mut pairs = Distribution {
         vertex_face: ArrayVec::new(),
         edge_edge: ArrayVec::new(),

@@ -51,16 +51,11 @@ pub trait Rounding: Copy {
 ///
 /// Every operation rounds on its own: no fused multiply-add, no reassociation. That is what makes
 /// verdicts the same for every number of lanes.
-pub trait Lanes:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
-{
+pub trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
     /// The number format of each lane.
     type Scalar: Rounding;
     /// One truth value per lane: `bool`, or a mask.
-    type Mask: Copy
-        + BitAnd<Output = Self::Mask>
-        + BitOr<Output = Self::Mask>
-        + BitXor<Output = Self::Mask>;
+    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + BitXor<Output = Self::Mask>;
 
     /// The same value in each lane. It takes `self` (and ignores its value) because a vector type may need a
     /// witness that the machine has its instructions.

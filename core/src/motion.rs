@@ -50,12 +50,7 @@ impl<S: Scalar> Motion<S> {
     pub(crate) fn is_finite(&self) -> bool {
         let [[x, y, z], [u, v, w]] = self.ends();
         // `&`, not `&&`: six tests without a branch.
-        x.is_finite()
-            & y.is_finite()
-            & z.is_finite()
-            & u.is_finite()
-            & v.is_finite()
-            & w.is_finite()
+        x.is_finite() & y.is_finite() & z.is_finite() & u.is_finite() & v.is_finite() & w.is_finite()
     }
 }
 

@@ -53,10 +53,7 @@ impl PairShape for VertexAndFace {
 
     #[inline(always)]
     fn ranges<L: Lanes>([vertex, a, b, c]: [L; 4]) -> [[L; 2]; 2] {
-        [
-            [vertex; 2],
-            [a.smaller(b).smaller(c), a.larger(b).larger(c)],
-        ]
+        [[vertex; 2], [a.smaller(b).smaller(c), a.larger(b).larger(c)]]
     }
 
     /// a, b, c are the face and p the vertex.

@@ -55,9 +55,7 @@ pub trait Scalar:
 }
 
 /// [`glam::Vec3`] or [`glam::DVec3`]: a position, from which its [`Scalar`] can be inferred. Sealed with it.
-pub trait Position:
-    Copy + Debug + Default + PartialEq + Send + Sync + From<[Self::Scalar; 3]> + Into<[Self::Scalar; 3]>
-{
+pub trait Position: Copy + Debug + Default + PartialEq + Send + Sync + From<[Self::Scalar; 3]> + Into<[Self::Scalar; 3]> {
     /// The format of the three coordinates.
     type Scalar: Scalar<Vector = Self>;
 }
@@ -80,10 +78,7 @@ macro_rules! scalar {
             }
 
             #[inline(always)]
-            #[allow(
-                clippy::cast_possible_truncation,
-                reason = "rounding to nearest is the purpose"
-            )]
+            #[allow(clippy::cast_possible_truncation, reason = "rounding to nearest is the purpose")]
             fn from_f64(value: f64) -> Self {
                 value as $scalar
             }
@@ -100,13 +95,8 @@ macro_rules! scalar {
 
             #[inline(always)]
             fn raised_to_normal(self) -> Self {
-                let is_subnormal =
-                    self.to_bits().wrapping_sub(1) < <$scalar>::MIN_POSITIVE.to_bits() - 1;
-                if is_subnormal {
-                    <$scalar>::MIN_POSITIVE
-                } else {
-                    self
-                }
+                let is_subnormal = self.to_bits().wrapping_sub(1) < <$scalar>::MIN_POSITIVE.to_bits() - 1;
+                if is_subnormal { <$scalar>::MIN_POSITIVE } else { self }
             }
         }
     };
@@ -122,11 +112,7 @@ fn widened(value: f32) -> f64 {
     let magnitude = value.to_bits() & 0x7fff_ffff;
     if magnitude < 1 << 23 {
         let digits = f64::from(magnitude) * SMALLEST_SUBNORMAL;
-        if value.is_sign_negative() {
-            -digits
-        } else {
-            digits
-        }
+        if value.is_sign_negative() { -digits } else { digits }
     } else {
         value.into()
     }
@@ -138,16 +124,7 @@ mod tests {
 
     #[test]
     fn widening_is_exact() {
-        for bits in [
-            0,
-            1,
-            2,
-            0x007f_ffff,
-            0x0080_0000,
-            0x3f80_0001,
-            0x7f7f_ffff,
-            0x7f80_0000,
-        ] {
+        for bits in [0, 1, 2, 0x007f_ffff, 0x0080_0000, 0x3f80_0001, 0x7f7f_ffff, 0x7f80_0000] {
             for value in [f32::from_bits(bits), -f32::from_bits(bits)] {
                 assert_eq!(value.to_f64().to_bits(), f64::from(value).to_bits());
             }

@@ -64,22 +64,14 @@ impl<L: Lanes> Vector<L> {
     #[inline(always)]
     #[must_use]
     pub fn larger(self, other: Self) -> Self {
-        Self::new(
-            self.x.larger(other.x),
-            self.y.larger(other.y),
-            self.z.larger(other.z),
-        )
+        Self::new(self.x.larger(other.x), self.y.larger(other.y), self.z.larger(other.z))
     }
 
     /// The smaller of two vectors, component by component. NaN may be dropped: see [`Lanes::larger`].
     #[inline(always)]
     #[must_use]
     pub fn smaller(self, other: Self) -> Self {
-        Self::new(
-            self.x.smaller(other.x),
-            self.y.smaller(other.y),
-            self.z.smaller(other.z),
-        )
+        Self::new(self.x.smaller(other.x), self.y.smaller(other.y), self.z.smaller(other.z))
     }
 
     /// The largest component. NaN may be dropped: see [`Lanes::larger`].

@@ -29,17 +29,9 @@ fn measure(boxes: &[SweptBox]) {
     let repeats = (4_000_000 / boxes.len()).clamp(3, 100);
     let mut pairs = Vec::new();
     for threads in [1, 2] {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("threads");
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
         let figures = pool.install(|| measure_ours(boxes, repeats, &mut pairs));
-        print_row(
-            boxes.len(),
-            pairs.len(),
-            &format!("ours, threads: {threads}"),
-            figures,
-        );
+        print_row(boxes.len(), pairs.len(), &format!("ours, threads: {threads}"), figures);
     }
     for (name, strategy) in [
         ("parry3d binned", BvhBuildStrategy::Binned),
@@ -70,12 +62,7 @@ fn measure_ours(boxes: &[SweptBox], repeats: usize, pairs: &mut Vec<[u32; 2]>) -
 }
 
 /// Prints what it takes to put parry3d's pairs in order, as ours are, in a line of its own.
-fn measure_parry(
-    boxes: &[SweptBox],
-    repeats: usize,
-    strategy: BvhBuildStrategy,
-    pairs: &mut Vec<[u32; 2]>,
-) -> [f64; 3] {
+fn measure_parry(boxes: &[SweptBox], repeats: usize, strategy: BvhBuildStrategy, pairs: &mut Vec<[u32; 2]>) -> [f64; 3] {
     let boxes: Vec<Aabb> = boxes
         .iter()
         .map(|b| Aabb::new(Vector::from_array(b.lower), Vector::from_array(b.upper)))
@@ -116,10 +103,7 @@ fn shortest(repeats: usize, mut action: impl FnMut()) -> f64 {
 
 fn read_boxes(bytes: &[u8]) -> Vec<SweptBox> {
     let (numbers, _) = bytes.as_chunks::<4>();
-    let numbers: Vec<f32> = numbers
-        .iter()
-        .map(|bytes| f32::from_le_bytes(*bytes))
-        .collect();
+    let numbers: Vec<f32> = numbers.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect();
     let (boxes, _) = numbers.as_chunks::<6>();
     boxes
         .iter()
@@ -146,12 +130,7 @@ fn tube(rings: usize, phase: f32) -> Vec<SweptBox> {
     let mut boxes = Vec::new();
     for ring in 0..rings {
         for around in 0..rings {
-            let corners = [
-                (ring, around),
-                (ring, around + 1),
-                (ring + 1, around),
-                (ring + 1, around + 1),
-            ];
+            let corners = [(ring, around), (ring, around + 1), (ring + 1, around), (ring + 1, around + 1)];
             for triangle in [[0, 1, 2], [1, 3, 2]] {
                 let points = triangle.iter().flat_map(|&corner| {
                     let (ring, around) = corners[corner];

@@ -34,29 +34,14 @@ fn main() -> Result<(), Box<dyn Error>> {
             Knob::new("numbers", "f64"),
         ],
     };
-    let sleeve = Part::new(
-        "sleeve",
-        PartKind::Cloth,
-        vertices,
-        topology.triangles().to_vec(),
-    );
+    let sleeve = Part::new("sleeve", PartKind::Cloth, vertices, topology.triangles().to_vec());
     // The stages of a method are known once it has run a step: one that leads from the start to the start.
     pipeline.step(&scene.frame(0), &scene.frame(0))?;
-    let names: Vec<Stage> = pipeline
-        .report()
-        .stages
-        .iter()
-        .map(|stage| stage.stage)
-        .collect();
+    let names: Vec<Stage> = pipeline.report().stages.iter().map(|stage| stage.stage).collect();
     let series: Vec<(&str, SeriesKind)> = [Stage::BroadPhase]
         .iter()
         .chain(&names)
-        .flat_map(|stage| {
-            [
-                (stage.name(), SeriesKind::Pairs),
-                (stage.name(), SeriesKind::Stage),
-            ]
-        })
+        .flat_map(|stage| [(stage.name(), SeriesKind::Pairs), (stage.name(), SeriesKind::Stage)])
         .collect();
 
     let mut recorder = Recorder::new(about, vec![sleeve], &series, &vec![0.0; series.len()]);

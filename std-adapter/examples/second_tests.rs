@@ -18,9 +18,7 @@ use selvedge::glam::DVec3;
 use selvedge::mesh::read_step;
 use selvedge::scene::ArmScene;
 use selvedge::study::{ArmFrames, Frames, PairSet, TwoFrames};
-use selvedge_core::batch::{
-    LANES, Mask, Round, RoundQuestion, Test, VertexRow, advance_from_rows, culled_from_rows,
-};
+use selvedge_core::batch::{LANES, Mask, Round, RoundQuestion, Test, VertexRow, advance_from_rows, culled_from_rows};
 use selvedge_core::elementary::Limits;
 use selvedge_core::filter::{Depth, Filter, Tier};
 use selvedge_core::points::Shape;
@@ -48,22 +46,13 @@ enum Candidate {
 const TESTS: [(&str, Candidate); 9] = [
     ("swept boxes", Candidate::Test(Test::SweptBoxes)),
     ("paper's box test", Candidate::Test(Test::SegmentBox)),
-    (
-        "relative boxes, 3 axes",
-        Candidate::Test(Test::RelativeBoxes),
-    ),
-    (
-        "relative boxes, 9 directions",
-        Candidate::Test(Test::RelativeBoxesNine),
-    ),
+    ("relative boxes, 3 axes", Candidate::Test(Test::RelativeBoxes)),
+    ("relative boxes, 9 directions", Candidate::Test(Test::RelativeBoxesNine)),
     ("direction: normal", Candidate::Test(Test::NormalDirection)),
     ("direction: closest points", Candidate::ClosestDirection),
     ("inside functions", Candidate::Test(Test::InsideFunctions)),
     ("non-coplanarity", Candidate::Filter(Tier::Permanent)),
-    (
-        "subdivided in time",
-        Candidate::Filter(Tier::Subdivided(Depth::One)),
-    ),
+    ("subdivided in time", Candidate::Filter(Tier::Subdivided(Depth::One))),
 ];
 
 /// What a test did to a set of pairs.
@@ -135,10 +124,7 @@ fn report(set: &PairSet) {
             "  {:<30}{:>8}{:>9}{:>10} |{:>8}{:>9}{:>10}",
             "", "culls", "ns", "pays from", "culls", "ns", "pays from"
         );
-        println!(
-            "  {:<30}{:>27} |{:>27}",
-            "", "of all", "of those whose boxes overlap"
-        );
+        println!("  {:<30}{:>27} |{:>27}", "", "of all", "of those whose boxes overlap");
         for (((name, _), all), after) in TESTS.iter().zip(&all).zip(&after) {
             println!("  {name:<30}{} |{}", cells(all), cells(after));
         }
@@ -155,11 +141,7 @@ fn cells(outcome: &Outcome) -> String {
     } else {
         "–".to_owned()
     };
-    format!(
-        "{:>6.1} %{:>9.1}{pays:>10}",
-        100.0 * share,
-        outcome.nanoseconds
-    )
+    format!("{:>6.1} %{:>9.1}{pays:>10}", 100.0 * share, outcome.nanoseconds)
 }
 
 /// One test after another, each time the one that pays first.
@@ -188,22 +170,12 @@ fn print_order(shape: Shape, rows: &[VertexRow<f64>], pairs: &[[u32; 4]]) {
 /// Of what nine directions cull where the tests that always pay have been before.
 fn print_what_the_first_round_culls(shape: Shape, rows: &[VertexRow<f64>], pairs: &[[u32; 4]]) {
     let mut pairs = pairs.to_vec();
-    for test in [
-        Candidate::Filter(Tier::Permanent),
-        Candidate::Test(Test::RelativeBoxes),
-    ] {
+    for test in [Candidate::Filter(Tier::Permanent), Candidate::Test(Test::RelativeBoxes)] {
         pairs = left(&pairs, &measured(test, shape, rows, &pairs));
     }
-    let nine = measured(
-        Candidate::Test(Test::RelativeBoxesNine),
-        shape,
-        rows,
-        &pairs,
-    );
+    let nine = measured(Candidate::Test(Test::RelativeBoxesNine), shape, rows, &pairs);
     let round = measured(Candidate::ClosestDirection, shape, rows, &pairs);
-    let by_nine: Vec<_> = { nine.culled.iter().zip(&round.culled) }
-        .filter(|(nine, _)| **nine)
-        .collect();
+    let by_nine: Vec<_> = { nine.culled.iter().zip(&round.culled) }.filter(|(nine, _)| **nine).collect();
     let by_both = by_nine.iter().filter(|(_, round)| **round).count();
     println!(
         "  non-coplanarity and 3 axes leave {} pairs: 9 directions cull {:.1} % of them, the first round {:.1} %, and {:.1} % of those that 9 directions cull",
@@ -216,17 +188,10 @@ fn print_what_the_first_round_culls(shape: Shape, rows: &[VertexRow<f64>], pairs
 
 fn left(pairs: &[[u32; 4]], outcome: &Outcome) -> Vec<[u32; 4]> {
     let both = pairs.iter().zip(&outcome.culled);
-    both.filter(|(_, culled)| !**culled)
-        .map(|(&pair, _)| pair)
-        .collect()
+    both.filter(|(_, culled)| !**culled).map(|(&pair, _)| pair).collect()
 }
 
-fn measured(
-    candidate: Candidate,
-    shape: Shape,
-    rows: &[VertexRow<f64>],
-    pairs: &[[u32; 4]],
-) -> Outcome {
+fn measured(candidate: Candidate, shape: Shape, rows: &[VertexRow<f64>], pairs: &[[u32; 4]]) -> Outcome {
     let mut culled = Vec::with_capacity(pairs.len());
     let mut seconds = 0.0;
     let mut masks = [0; CHUNK / LANES];
@@ -247,13 +212,7 @@ fn measured(
     }
 }
 
-fn ask(
-    candidate: Candidate,
-    shape: Shape,
-    rows: &[VertexRow<f64>],
-    pairs: &[[u32; 4]],
-    masks: &mut [Mask; CHUNK / LANES],
-) {
+fn ask(candidate: Candidate, shape: Shape, rows: &[VertexRow<f64>], pairs: &[[u32; 4]], masks: &mut [Mask; CHUNK / LANES]) {
     let level = best_level();
     match candidate {
         Candidate::Test(test) => culled_from_rows(level, shape, test, rows, pairs, masks),
@@ -268,15 +227,7 @@ fn ask(
             };
             let mut times = [0.0; CHUNK];
             let mut rounds = [Round::default(); CHUNK / LANES];
-            advance_from_rows(
-                level,
-                shape,
-                &question,
-                rows,
-                pairs,
-                &mut times,
-                &mut rounds,
-            );
+            advance_from_rows(level, shape, &question, rows, pairs, &mut times, &mut rounds);
             for (mask, round) in masks.iter_mut().zip(&rounds) {
                 *mask = round.apart;
             }

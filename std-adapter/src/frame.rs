@@ -18,9 +18,7 @@ pub enum StepError {
         expected: usize,
     },
     /// A position is NaN or infinite. (Culling would keep every pair of that vertex; better to say so.)
-    #[error(
-        "the {frame} frame has a coordinate that is not a finite number: vertex {vertex} is at {position}"
-    )]
+    #[error("the {frame} frame has a coordinate that is not a finite number: vertex {vertex} is at {position}")]
     NotFinite {
         /// `"start"` or `"end"`.
         frame: &'static str,
@@ -30,9 +28,7 @@ pub enum StepError {
         position: String,
     },
     /// A separation or a tolerance is negative, infinite or NaN.
-    #[error(
-        "{length} is no separation, and no tolerance: it must be a finite length, not negative"
-    )]
+    #[error("{length} is no separation, and no tolerance: it must be a finite length, not negative")]
     BadLimit {
         /// What was given.
         length: String,
@@ -59,20 +55,12 @@ pub(crate) fn check_length<S: Scalar>(length: S) -> Result<(), StepError> {
 }
 
 /// Both frames must have a finite position for each vertex.
-pub(crate) fn check_frames<S: Scalar>(
-    start: &[S::Vector],
-    end: &[S::Vector],
-    vertex_count: usize,
-) -> Result<(), StepError> {
+pub(crate) fn check_frames<S: Scalar>(start: &[S::Vector], end: &[S::Vector], vertex_count: usize) -> Result<(), StepError> {
     check_frame::<S>("start", start, vertex_count)?;
     check_frame::<S>("end", end, vertex_count)
 }
 
-fn check_frame<S: Scalar>(
-    frame: &'static str,
-    positions: &[S::Vector],
-    expected: usize,
-) -> Result<(), StepError> {
+fn check_frame<S: Scalar>(frame: &'static str, positions: &[S::Vector], expected: usize) -> Result<(), StepError> {
     if positions.len() != expected {
         return Err(StepError::WrongLength {
             frame,

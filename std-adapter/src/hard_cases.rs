@@ -61,12 +61,9 @@ pub fn hard_cases() -> &'static [HardCase] {
     static CASES: OnceLock<Vec<HardCase>> = OnceLock::new();
     CASES.get_or_init(|| {
         let text = include_str!("../data/hard-cases.csv");
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_reader(text.as_bytes());
+        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
         let rows = reader.records().map(|row| row.ok().as_ref().and_then(case));
-        rows.map(|case| case.expect("the built-in file is well-formed"))
-            .collect()
+        rows.map(|case| case.expect("the built-in file is well-formed")).collect()
     })
 }
 
@@ -76,8 +73,7 @@ fn case(row: &csv::StringRecord) -> Option<HardCase> {
     let [name, placement, kind, first, from, to, coordinates @ ..] = fields.as_slice() else {
         return None;
     };
-    let coordinates: Result<Vec<f64>, _> =
-        coordinates.iter().map(|number| number.parse()).collect();
+    let coordinates: Result<Vec<f64>, _> = coordinates.iter().map(|number| number.parse()).collect();
     let coordinates = coordinates.ok()?;
     let points: Vec<DVec3> = coordinates.chunks_exact(3).map(DVec3::from_slice).collect();
     let (start, end) = points.split_at_checked(4)?;
@@ -108,10 +104,7 @@ mod tests {
     fn the_built_in_file_is_read_and_each_case_has_a_name_of_its_own() {
         let cases = hard_cases();
         assert!(cases.len() > 300, "only {}", cases.len());
-        let names: HashSet<_> = cases
-            .iter()
-            .map(|case| (&case.name, &case.placement, case.kind))
-            .collect();
+        let names: HashSet<_> = cases.iter().map(|case| (&case.name, &case.placement, case.kind)).collect();
         assert_eq!(names.len(), cases.len());
         for contact in [Contact::Never, Contact::Undefined] {
             assert!(cases.iter().any(|case| case.contact == contact));

@@ -60,9 +60,7 @@ impl PairKind {
         // Made absolute so that `data.csv` inside `vertex-face` is recognised from there.
         let absolute = std::path::absolute(path);
         let folder = absolute.as_deref().unwrap_or(path).parent();
-        let folder_name = folder
-            .and_then(Path::file_name)
-            .and_then(|name| name.to_str());
+        let folder_name = folder.and_then(Path::file_name).and_then(|name| name.to_str());
         folder_name
             .and_then(|name| name.parse().ok())
             .or_else(|| Self::from_stem(path.file_stem()?.to_str()?))

@@ -29,9 +29,7 @@ impl Threads {
     }
 
     pub(crate) fn count(&self) -> usize {
-        self.0
-            .as_ref()
-            .map_or(1, rayon::ThreadPool::current_num_threads)
+        self.0.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
     }
 
     /// Runs `action`, whose loops are then split between the threads.
@@ -51,10 +49,7 @@ pub(crate) fn has_many_threads() -> bool {
 /// Calls `action` with each item and its index.
 pub(crate) fn for_each<T: Send>(items: &mut [T], action: impl Fn(usize, &mut T) + Sync) {
     if items.len() > 1 && has_many_threads() {
-        items
-            .par_iter_mut()
-            .enumerate()
-            .for_each(|(index, item)| action(index, item));
+        items.par_iter_mut().enumerate().for_each(|(index, item)| action(index, item));
     } else {
         for (index, item) in items.iter_mut().enumerate() {
             action(index, item);
@@ -63,11 +58,7 @@ pub(crate) fn for_each<T: Send>(items: &mut [T], action: impl Fn(usize, &mut T) 
 }
 
 /// Replaces `output` by `make` of each input.
-pub(crate) fn fill<I: Sync, O: Send>(
-    output: &mut Vec<O>,
-    input: &[I],
-    make: impl Fn(&I) -> O + Sync + Send,
-) {
+pub(crate) fn fill<I: Sync, O: Send>(output: &mut Vec<O>, input: &[I], make: impl Fn(&I) -> O + Sync + Send) {
     if has_many_threads() {
         input.par_iter().map(make).collect_into_vec(output);
     } else {
@@ -78,17 +69,12 @@ pub(crate) fn fill<I: Sync, O: Send>(
 
 #[cfg(feature = "simulation")]
 /// Keeps the items for which `keep` is true, in their order.
-pub(crate) fn retain<T: Copy + Send + Sync>(
-    items: &mut Vec<T>,
-    keep: impl Fn(&T) -> bool + Sync + Send,
-) {
+pub(crate) fn retain<T: Copy + Send + Sync>(items: &mut Vec<T>, keep: impl Fn(&T) -> bool + Sync + Send) {
     if has_many_threads() {
         let kept = |chunk: &[T]| -> Vec<T> { chunk.iter().copied().filter(&keep).collect() };
         let chunks: Vec<_> = items.par_chunks(CHUNK).map(kept).collect();
         items.clear();
-        chunks
-            .iter()
-            .for_each(|chunk| items.extend_from_slice(chunk));
+        chunks.iter().for_each(|chunk| items.extend_from_slice(chunk));
     } else {
         // Without a branch that nobody could foretell.
         let mut kept = 0;
@@ -186,9 +172,5 @@ pub(crate) fn own_index() -> usize {
 
 /// How many threads work is split between.
 pub(crate) fn threads() -> usize {
-    if has_many_threads() {
-        rayon::current_num_threads()
-    } else {
-        1
-    }
+    if has_many_threads() { rayon::current_num_threads() } else { 1 }
 }

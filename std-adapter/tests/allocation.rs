@@ -15,18 +15,14 @@ fn allocations(pipeline: &mut Pipeline<f64>, frames: &[Vec<DVec3>]) -> Vec<u64> 
         })
         .count_total
     };
-    frames
-        .windows(2)
-        .map(|pair| step(&pair[0], &pair[1]))
-        .collect()
+    frames.windows(2).map(|pair| step(&pair[0], &pair[1])).collect()
 }
 
 /// The mesh in waves that run along it.
 fn waves(mesh: &Mesh, count: usize) -> Vec<Vec<DVec3>> {
     let frame = |index: usize| {
         let phase = index as f64 * 0.1;
-        let displaced =
-            |&position: &DVec3| position * (1.0 + 0.02 * (phase + 20.0 * position.x).sin());
+        let displaced = |&position: &DVec3| position * (1.0 + 0.02 * (phase + 20.0 * position.x).sin());
         mesh.positions.iter().map(displaced).collect()
     };
     (0..count).map(frame).collect()
@@ -78,9 +74,7 @@ fn a_detector_allocates_in_its_first_step_only() {
 #[test]
 fn the_arm_bent_again_and_again_hardly_allocates_after_the_first_time() {
     let scene = ArmScene::new(1).expect("a refinement in range");
-    let frames: Vec<_> = (40..=ArmScene::STEPS)
-        .map(|frame| scene.frame(frame))
-        .collect();
+    let frames: Vec<_> = (40..=ArmScene::STEPS).map(|frame| scene.frame(frame)).collect();
     for preset in Preset::ALL {
         let topology = scene.topology().clone();
         let mut pipeline = Pipeline::new(topology, preset.stages(), 1).expect("one thread");

@@ -19,8 +19,7 @@ use selvedge_verification::campaign::exact::{Claim, Progress, Scenes, run};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-const USAGE: &str =
-    "usage: exact_campaign [PAIRS] [--seed N] [--state FILE] [--threads N] [--mesh START END]...";
+const USAGE: &str = "usage: exact_campaign [PAIRS] [--seed N] [--state FILE] [--threads N] [--mesh START END]...";
 const PAIRS_PER_CHUNK: u64 = 1 << 20;
 /// From each scene, evenly spaced runs.
 const SCENE_PAIRS: usize = 400_000;
@@ -45,15 +44,7 @@ fn main() -> ExitCode {
     let (level, threads) = (best_level(), options.threads);
     campaign::exit(
         &options,
-        |seed| {
-            Progress::new(
-                seed,
-                options.pairs,
-                PAIRS_PER_CHUNK,
-                &scenes,
-                &Claim::CERTIFIED,
-            )
-        },
+        |seed| Progress::new(seed, options.pairs, PAIRS_PER_CHUNK, &scenes, &Claim::CERTIFIED),
         |progress, after_chunk| run(progress, &scenes, level, threads, after_chunk, || false),
     )
 }
@@ -85,11 +76,7 @@ fn scenes(meshes: &[[PathBuf; 2]]) -> Result<Scenes, Failure> {
 }
 
 fn add(scenes: &mut Scenes, set: &PairSet) {
-    let points = |indices: &[u32; 4]| {
-        indices.map(|index| set.points[index as usize].map(|position| position.to_array()))
-    };
-    scenes
-        .vertex_face
-        .extend(set.vertex_face.iter().map(points));
+    let points = |indices: &[u32; 4]| indices.map(|index| set.points[index as usize].map(|position| position.to_array()));
+    scenes.vertex_face.extend(set.vertex_face.iter().map(points));
     scenes.edge_edge.extend(set.edge_edge.iter().map(points));
 }

@@ -115,10 +115,7 @@ fn describe(time: &AlgebraicTime) -> String {
 /// The queries of a file with their truth.
 fn read(path: &Path) -> Result<Vec<(Pair, bool)>> {
     let at = |what: &dyn std::fmt::Display| format!("{}: {what}", path.display());
-    let folder = path
-        .parent()
-        .and_then(Path::file_name)
-        .and_then(|name| name.to_str());
+    let folder = path.parent().and_then(Path::file_name).and_then(|name| name.to_str());
     let kind = match folder {
         Some("vertex-face") => Kind::VertexFace,
         Some("edge-edge") => Kind::EdgeEdge,

@@ -51,18 +51,14 @@ fn compare(scene: &Scene, pairs_path: &str, truth_path: &str) -> Result<usize> {
     let truth: Vec<bool> = json(truth_path)?;
     if pairs.len() != truth.len() {
         let (p, t) = (pairs.len(), truth.len());
-        return Err(format!(
-            "{pairs_path} has {p} pairs, but {truth_path} has {t} entries"
-        ));
+        return Err(format!("{pairs_path} has {p} pairs, but {truth_path} has {t} entries"));
     }
     let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} pairs, {eta} left");
     let progress = ProgressBar::new(pairs.len() as u64).with_style(style.expect("valid template"));
     let begin = Instant::now();
     let (mut colliding, mut disagreements) = (0, 0);
     for (ids, expected) in pairs.iter().zip(&truth).progress_with(progress.clone()) {
-        let pair = scene
-            .pair(*ids)
-            .map_err(|what| format!("{pairs_path}: {what}"))?;
+        let pair = scene.pair(*ids).map_err(|what| format!("{pairs_path}: {what}"))?;
         let time = collides(&pair);
         colliding += usize::from(time.is_some());
         if time.is_some() != *expected {
@@ -111,10 +107,7 @@ impl Scene {
         let edges_from = self.start.positions.len();
         let faces_from = edges_from + self.edges.len();
         let edge = |id: usize| id.checked_sub(edges_from).and_then(|i| self.edges.get(i));
-        let face = |id: usize| {
-            id.checked_sub(faces_from)
-                .and_then(|i| self.start.triangles.get(i))
-        };
+        let face = |id: usize| id.checked_sub(faces_from).and_then(|i| self.start.triangles.get(i));
         let (kind, vertices) = match (edge(first), edge(second), face(second)) {
             (Some([a, b]), Some([c, d]), _) => (Kind::EdgeEdge, [*a, *b, *c, *d]),
             (None, _, Some([a, b, c])) if first < edges_from => {
@@ -122,13 +115,10 @@ impl Scene {
                 (Kind::VertexFace, [vertex, *a, *b, *c])
             }
             _ => {
-                return Err(format!(
-                    "[{first}, {second}] is no vertex and face, nor two edges"
-                ));
+                return Err(format!("[{first}, {second}] is no vertex and face, nor two edges"));
             }
         };
-        let [start, end] = [&self.start, &self.end]
-            .map(|mesh| vertices.map(|v| mesh.positions[v as usize].to_array()));
+        let [start, end] = [&self.start, &self.end].map(|mesh| vertices.map(|v| mesh.positions[v as usize].to_array()));
         Ok(Pair { kind, start, end })
     }
 }

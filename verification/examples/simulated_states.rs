@@ -14,7 +14,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-const USAGE: &str = "usage: simulated_states SCENE.toml [--steps N] [--every N] [--time-step FACTOR] [--stiffness FACTOR] [--without EFFECT]";
+const USAGE: &str =
+    "usage: simulated_states SCENE.toml [--steps N] [--every N] [--time-step FACTOR] [--stiffness FACTOR] [--without EFFECT]";
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -58,9 +59,7 @@ impl Options {
         let mut text = String::new();
         for line in std::fs::read_to_string(&self.scene)?.lines() {
             if let Some(name) = line.strip_prefix('[') {
-                table = name
-                    .strip_prefix("effects.")
-                    .and_then(|name| name.strip_suffix(']'));
+                table = name.strip_prefix("effects.").and_then(|name| name.strip_suffix(']'));
             }
             if self.without.is_some() && table == self.without.as_deref() {
                 continue;
@@ -102,15 +101,8 @@ struct Seen {
 impl Seen {
     fn look_at(&mut self, simulation: &Simulation) -> Result<(), Failure> {
         let step = simulation.steps_done();
-        let positions: Vec<_> = simulation
-            .positions()
-            .iter()
-            .map(|p| p.to_array())
-            .collect();
-        if let Some(vertex) = positions
-            .iter()
-            .position(|p| !p.iter().all(|x| x.is_finite()))
-        {
+        let positions: Vec<_> = simulation.positions().iter().map(|p| p.to_array()).collect();
+        if let Some(vertex) = positions.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
             return Err(format!("after step {step}: vertex {vertex} is not finite").into());
         }
         let begin = Instant::now();
@@ -127,8 +119,7 @@ impl Seen {
 
 fn run(options: &Options) -> Result<(), Failure> {
     let mut simulation = options.load()?;
-    let style =
-        ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} steps, {eta} left{msg}")?;
+    let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} steps, {eta} left{msg}")?;
     let bar = ProgressBar::new(options.steps).with_style(style);
     let mut seen = Seen::default();
     let begin = Instant::now();

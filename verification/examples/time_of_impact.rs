@@ -38,9 +38,7 @@ fn main() -> ExitCode {
         ["stress", count] => stress_of(count, "1"),
         ["stress", count, seed] => stress_of(count, seed),
         ["queries", files @ ..] if !files.is_empty() => queries(files),
-        ["scene", start, end, lists @ ..] if !lists.is_empty() && lists.len() % 2 == 0 => {
-            scene(start, end, lists)
-        }
+        ["scene", start, end, lists @ ..] if !lists.is_empty() && lists.len() % 2 == 0 => scene(start, end, lists),
         _ => {
             eprintln!(
                 "usage: time_of_impact queries FILE.csv… | scene START.ply END.ply PAIRS.json TRUTH.json… | stress COUNT [SEED]"
@@ -105,11 +103,8 @@ fn queries(files: &[&str]) -> Result<usize> {
         for query in &queries.queries {
             let points = |k: usize| [query.start[k].to_array(), query.end[k].to_array()];
             set.points.push([0, 1, 2, 3].map(points));
-            set.truth.push(
-                query
-                    .collides
-                    .ok_or_else(|| format!("{file}: a query without truth"))?,
-            );
+            set.truth
+                .push(query.collides.ok_or_else(|| format!("{file}: a query without truth"))?);
         }
     }
     Ok(sets.iter().map(measure_all).sum())
@@ -117,8 +112,7 @@ fn queries(files: &[&str]) -> Result<usize> {
 
 /// All pairs whose swept boxes overlap; those of the lists that are true collide.
 fn scene(start: &str, end: &str, lists: &[&str]) -> Result<usize> {
-    let step = selvedge::mesh::read_step(Path::new(start), Path::new(end))
-        .map_err(|error| error.to_string())?;
+    let step = selvedge::mesh::read_step(Path::new(start), Path::new(end)).map_err(|error| error.to_string())?;
     let (start, end) = (&step.start, &step.end);
     let edges_from = start.len();
     let mut edges = step.topology.edges().to_vec();
@@ -148,27 +142,20 @@ fn scene(start: &str, end: &str, lists: &[&str]) -> Result<usize> {
         tests: &[CullingTest::StoredSweptBoxes],
         elementary: ElementaryTest::Cubic,
     };
-    let mut pipeline = Pipeline::<f64>::new(step.topology.clone(), stages, 1)
-        .map_err(|error| error.to_string())?;
+    let mut pipeline = Pipeline::<f64>::new(step.topology.clone(), stages, 1).map_err(|error| error.to_string())?;
     pipeline.keep_candidates(true);
-    pipeline
-        .step(start, end)
-        .map_err(|error| error.to_string())?;
+    pipeline.step(start, end).map_err(|error| error.to_string())?;
     let mut misses = 0;
     for (kind, pair_kind, colliding) in [
         (Kind::VertexFace, PairKind::VertexFace, &colliding[0]),
         (Kind::EdgeEdge, PairKind::EdgeEdge, &colliding[1]),
     ] {
         let candidates = pipeline.candidates(pair_kind).iter();
-        let vertices: Vec<[u32; 4]> = candidates
-            .map(|&pair| pair_kind.vertices(pair, &step.topology))
-            .collect();
+        let vertices: Vec<[u32; 4]> = candidates.map(|&pair| pair_kind.vertices(pair, &step.topology)).collect();
         let points = vertices
             .iter()
             .map(|vertices| vertices.map(|v| [start, end].map(|at| at[v as usize].to_array())));
-        let truth = vertices
-            .iter()
-            .map(|&vertices| colliding.contains(&sorted(vertices, kind)));
+        let truth = vertices.iter().map(|&vertices| colliding.contains(&sorted(vertices, kind)));
         let set = Set {
             name: "scene".into(),
             kind,
@@ -197,10 +184,7 @@ fn sorted([a, b, c, d]: [u32; 4], kind: Kind) -> [u32; 4] {
 }
 
 fn stress_of(count: &str, seed: &str) -> Result<usize> {
-    let number = |text: &str| {
-        text.parse::<u64>()
-            .map_err(|error| format!("{text}: {error}"))
-    };
+    let number = |text: &str| text.parse::<u64>().map_err(|error| format!("{text}: {error}"));
     Ok(stress(number(count)? as usize, number(seed)?))
 }
 
@@ -265,36 +249,21 @@ impl Random {
         };
         // The second set is this far below the first, and moves so much in the plane and across it.
         let gap = self.of_any_size().abs();
-        let across = gap
-            * if self.number() < 0.3 {
-                1.0
-            } else {
-                self.of_any_size().abs()
-            };
-        let within = if self.number() < 0.5 {
-            1.0
-        } else {
-            self.of_any_size().abs()
-        };
+        let across = gap * if self.number() < 0.3 { 1.0 } else { self.of_any_size().abs() };
+        let within = if self.number() < 0.5 { 1.0 } else { self.of_any_size().abs() };
         let spins = self.number() < 0.3;
         let axes = [self.direction(), self.direction(), self.direction()];
         let mut points = [[[0.0; 3]; 2]; 4];
         for (index, point) in points.iter_mut().enumerate() {
             let height = if index < first { gap } else { 0.0 };
-            let start = [
-                self.signed(),
-                self.signed(),
-                height + 0.1 * across * self.signed(),
-            ];
+            let start = [self.signed(), self.signed(), height + 0.1 * across * self.signed()];
             let turn = if spins { -1.0 } else { 1.0 };
             let end = [
                 turn * start[0] + within * self.signed(),
                 turn * start[1] + within * self.signed(),
                 height + across * self.signed(),
             ];
-            *point = [start, end].map(|local| {
-                std::array::from_fn(|axis| (0..3).map(|k| local[k] * axes[k][axis]).sum::<f64>())
-            });
+            *point = [start, end].map(|local| std::array::from_fn(|axis| (0..3).map(|k| local[k] * axes[k][axis]).sum::<f64>()));
         }
         points
     }
@@ -335,11 +304,7 @@ fn measure_format<S: Format>(set: &Set) -> usize {
     }
 }
 
-fn measure<S: Format, P: PrimitivePair<S>>(
-    set: &Set,
-    cases: &[PairCase<S>],
-    to_pair: impl Fn(&PairCase<S>) -> P,
-) -> usize {
+fn measure<S: Format, P: PrimitivePair<S>>(set: &Set, cases: &[PairCase<S>], to_pair: impl Fn(&PairCase<S>) -> P) -> usize {
     let pairs: Vec<P> = cases.iter().map(to_pair).collect();
     let separation: f64 = std::env::var("SEPARATION").map_or(0.0, |s| s.parse().expect("a number"));
     let mut all_misses = 0;
@@ -436,11 +401,7 @@ fn measure<S: Format, P: PrimitivePair<S>>(
 }
 
 /// The exact verdict: prints and counts what it says wrongly, either way.
-fn measure_verdict<S: Format, P: PrimitivePair<S>>(
-    set: &Set,
-    cases: &[PairCase<S>],
-    pairs: &[P],
-) -> usize {
+fn measure_verdict<S: Format, P: PrimitivePair<S>>(set: &Set, cases: &[PairCase<S>], pairs: &[P]) -> usize {
     let nanoseconds = least_of_three(|| {
         for pair in pairs {
             let _ = black_box(contact(black_box(pair)));

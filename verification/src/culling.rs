@@ -29,20 +29,14 @@ pub fn certified() -> impl Iterator<Item = CullingTest> {
 /// What `test` says of `case`.
 pub fn verdict<S: Format>(test: CullingTest, case: &PairCase<S>) -> Verdict {
     match case.kind {
-        Kind::VertexFace if test == CullingTest::SegmentBox => {
-            segment::vertex_face(&case.vertex_face())
-        }
+        Kind::VertexFace if test == CullingTest::SegmentBox => segment::vertex_face(&case.vertex_face()),
         Kind::VertexFace => of_either_kind(test, &case.vertex_face(), 1),
         Kind::EdgeEdge => of_either_kind(test, &case.edge_edge(), 2),
     }
 }
 
 /// `first` is how many of the four points are the first set's.
-fn of_either_kind<S: Format>(
-    test: CullingTest,
-    pair: &impl PrimitivePair<S>,
-    first: usize,
-) -> Verdict {
+fn of_either_kind<S: Format>(test: CullingTest, pair: &impl PrimitivePair<S>, first: usize) -> Verdict {
     match test {
         CullingTest::SweptBoxes | CullingTest::SegmentBox => swept_boxes(pair),
         CullingTest::StoredSweptBoxes => {
@@ -60,9 +54,7 @@ fn of_either_kind<S: Format>(
             Verdict::culled_if(!first.overlaps(&second))
         }
         CullingTest::RelativeBoxes | CullingTest::SubspaceThree => relative::three_axes(pair),
-        CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => {
-            relative::nine_directions(pair)
-        }
+        CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => relative::nine_directions(pair),
         CullingTest::PlainNonCoplanarity => filter::plain::non_coplanarity(pair),
         CullingTest::CertifiedNonCoplanarity => filter::certified::non_coplanarity(pair),
     }

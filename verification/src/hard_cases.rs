@@ -62,13 +62,7 @@ const PLACEMENTS: [Placement; 6] = [
     Placement {
         name: "1 um, far",
         is_exact: true,
-        place: |[x, y, z]| {
-            [
-                x * MICROMETRE + FAR,
-                y * MICROMETRE - FAR,
-                z * MICROMETRE + FAR,
-            ]
-        },
+        place: |[x, y, z]| [x * MICROMETRE + FAR, y * MICROMETRE - FAR, z * MICROMETRE + FAR],
     },
     // Turned by a matrix of thirds: whatever touched does so but for rounding.
     Placement {
@@ -95,11 +89,7 @@ fn moves([x, y, z]: [f64; 3], by: [f64; 3]) -> Ends {
 }
 
 /// Corners of a floor.
-const FLOOR: [Ends; 3] = [
-    [[0.0, 0.0, 0.0]; 2],
-    [[4.0, 0.0, 0.0]; 2],
-    [[0.0, 4.0, 0.0]; 2],
-];
+const FLOOR: [Ends; 3] = [[[0.0, 0.0, 0.0]; 2], [[4.0, 0.0, 0.0]; 2], [[0.0, 4.0, 0.0]; 2]];
 
 /// From 1 above to 1 below.
 const FALL: [f64; 3] = [0.0, 0.0, -2.0];
@@ -119,42 +109,17 @@ fn shapes() -> Vec<Shape> {
     };
     let half = First::At(1, 2);
 
-    vf(
-        "vertex falls through a face",
-        falls([1.0, 1.0, 0.0]),
-        FLOOR,
-        half,
-    );
-    vf(
-        "vertex falls onto a corner",
-        falls([0.0, 0.0, 0.0]),
-        FLOOR,
-        half,
-    );
-    vf(
-        "vertex falls onto a side",
-        falls([2.0, 2.0, 0.0]),
-        FLOOR,
-        half,
-    );
-    vf(
-        "vertex falls past a side",
-        falls([2.25, 2.0, 0.0]),
-        FLOOR,
-        First::Never,
-    );
+    vf("vertex falls through a face", falls([1.0, 1.0, 0.0]), FLOOR, half);
+    vf("vertex falls onto a corner", falls([0.0, 0.0, 0.0]), FLOOR, half);
+    vf("vertex falls onto a side", falls([2.0, 2.0, 0.0]), FLOOR, half);
+    vf("vertex falls past a side", falls([2.25, 2.0, 0.0]), FLOOR, First::Never);
     vf(
         "contact at t = 0",
         moves([1.0, 1.0, 0.0], [0.0, 0.0, 2.0]),
         FLOOR,
         First::At(0, 1),
     );
-    vf(
-        "contact at t = 1",
-        moves([1.0, 1.0, 2.0], FALL),
-        FLOOR,
-        First::At(1, 1),
-    );
+    vf("contact at t = 1", moves([1.0, 1.0, 2.0], FALL), FLOOR, First::At(1, 1));
     let short = 0.5_f64.powi(8);
     vf(
         "stops short of the face",
@@ -162,18 +127,8 @@ fn shapes() -> Vec<Shape> {
         FLOOR,
         First::Never,
     );
-    vf(
-        "no motion, touching",
-        rests([1.0, 1.0, 0.0]),
-        FLOOR,
-        First::At(0, 1),
-    );
-    vf(
-        "no motion, apart",
-        rests([1.0, 1.0, 0.25]),
-        FLOOR,
-        First::Never,
-    );
+    vf("no motion, touching", rests([1.0, 1.0, 0.0]), FLOOR, First::At(0, 1));
+    vf("no motion, apart", rests([1.0, 1.0, 0.25]), FLOOR, First::Never);
     vf(
         "coplanar throughout, slides in",
         moves([-2.0, 1.0, 0.0], [4.0, 0.0, 0.0]),
@@ -195,36 +150,12 @@ fn shapes() -> Vec<Shape> {
         floor_together,
         First::At(0, 1),
     );
-    vf(
-        "together apart",
-        together([1.0, 1.0, 0.25]),
-        floor_together,
-        First::Never,
-    );
+    vf("together apart", together([1.0, 1.0, 0.25]), floor_together, First::Never);
     let segment = [0.0, 1.0, 2.0].map(|x| rests([x, 0.0, 0.0]));
-    vf(
-        "zero-area triangle, a segment",
-        falls([0.5, 0.0, 0.0]),
-        segment,
-        half,
-    );
-    vf(
-        "zero-area triangle, missed",
-        falls([0.5, 0.25, 0.0]),
-        segment,
-        First::Never,
-    );
-    vf(
-        "zero-area triangle, a point",
-        falls([0.0; 3]),
-        [rests([0.0; 3]); 3],
-        half,
-    );
-    let closing = [
-        rests([0.0; 3]),
-        rests([2.0, 0.0, 0.0]),
-        [[0.0, 2.0, 0.0], [0.0; 3]],
-    ];
+    vf("zero-area triangle, a segment", falls([0.5, 0.0, 0.0]), segment, half);
+    vf("zero-area triangle, missed", falls([0.5, 0.25, 0.0]), segment, First::Never);
+    vf("zero-area triangle, a point", falls([0.0; 3]), [rests([0.0; 3]); 3], half);
+    let closing = [rests([0.0; 3]), rests([2.0, 0.0, 0.0]), [[0.0, 2.0, 0.0], [0.0; 3]]];
     vf(
         "face closes to zero area",
         [[1.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
@@ -232,33 +163,13 @@ fn shapes() -> Vec<Shape> {
         First::At(1, 1),
     );
     // K = 8(t - 1/2)^2 + a multiple of the height.
-    let tipping = [
-        rests([0.0; 3]),
-        [[4.0, 0.0, -1.0], [4.0, 0.0, 1.0]],
-        rests([0.0, 4.0, 0.0]),
-    ];
+    let tipping = [rests([0.0; 3]), [[4.0, 0.0, -1.0], [4.0, 0.0, 1.0]], rests([0.0, 4.0, 0.0])];
     let graze = |z: f64| [[0.5, 0.5, z], [-0.5, 0.5, z]];
     vf("double root, grazes", graze(0.0), tipping, half);
-    vf(
-        "double root, just apart",
-        graze(short),
-        tipping,
-        First::Never,
-    );
-    vf(
-        "two roots close together",
-        graze(-1.0 / 128.0),
-        tipping,
-        First::At(3, 8),
-    );
+    vf("double root, just apart", graze(short), tipping, First::Never);
+    vf("two roots close together", graze(-1.0 / 128.0), tipping, First::At(3, 8));
     let gather = |[x, y, z]: [f64; 3]| [[x, y, z], [-x, -y, -z]];
-    let [p, a, b, c] = [
-        [1.0, 2.0, 3.0],
-        [-2.0, 1.0, 0.5],
-        [0.25, -1.0, 4.0],
-        [3.0, 3.0, -1.0],
-    ]
-    .map(gather);
+    let [p, a, b, c] = [[1.0, 2.0, 3.0], [-2.0, 1.0, 0.5], [0.25, -1.0, 4.0], [3.0, 3.0, -1.0]].map(gather);
     vf("triple root, all meet", p, [a, b, c], half);
     // The vertex (t, 1/2) meets the segment from (0, 0) to (1, t) at t = 1/sqrt(2).
     let side = [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
@@ -274,24 +185,14 @@ fn shapes() -> Vec<Shape> {
         FLOOR,
         half,
     );
-    vf(
-        "large motion through",
-        [[1.0, 1.0, 512.0], [1.0, 1.0, -512.0]],
-        FLOOR,
-        half,
-    );
+    vf("large motion through", [[1.0, 1.0, 512.0], [1.0, 1.0, -512.0]], FLOOR, half);
 
     // Erleben's shapes. A spike points down, its slopes are 1/2; a wedge's ridge runs along y.
     let apex = [0.0, 0.0, 0.0];
     let spike_face = [apex, [1.0, 1.0, -2.0], [-1.0, 1.0, -2.0]].map(rests);
     let wedge_face = [[0.0, -2.0, 0.0], [0.0, 2.0, 0.0], [1.0, 2.0, -2.0]].map(rests);
     vf("spikes: apex on apex", falls(apex), spike_face, half);
-    vf(
-        "spike on wedge: apex on ridge",
-        falls(apex),
-        wedge_face,
-        half,
-    );
+    vf("spike on wedge: apex on ridge", falls(apex), wedge_face, half);
     let fall_far = |[x, y, z]: [f64; 3]| moves([x, y, z + 1.0], [0.0, 0.0, -4.0]);
     let spike_side = [apex, [1.0, 1.0, 2.0], [-1.0, 1.0, 2.0]].map(fall_far);
     vf(
@@ -300,25 +201,10 @@ fn shapes() -> Vec<Shape> {
         spike_side,
         half,
     );
-    vf(
-        "spike in a crack: rim on side",
-        rests([0.25, 0.5, 0.0]),
-        spike_side,
-        half,
-    );
+    vf("spike in a crack: rim on side", rests([0.25, 0.5, 0.0]), spike_side, half);
     let wedge_side = [[0.0, -1.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 2.0]].map(fall_far);
-    vf(
-        "wedge in a crack: rim on side",
-        rests([0.5, 0.5, 0.0]),
-        wedge_side,
-        half,
-    );
-    vf(
-        "wedges: ridge end on side",
-        falls([0.5, 1.0, -1.0]),
-        wedge_face,
-        half,
-    );
+    vf("wedge in a crack: rim on side", rests([0.5, 0.5, 0.0]), wedge_side, half);
+    vf("wedges: ridge end on side", falls([0.5, 1.0, -1.0]), wedge_face, half);
     let slide = [8.0, 0.0, 0.0];
     vf(
         "sliding spike: apex over a side",
@@ -332,33 +218,19 @@ fn shapes() -> Vec<Shape> {
         FLOOR,
         First::At(3, 8),
     );
-    vf(
-        "cliff edges: corner on the brink",
-        falls([0.0, 2.0, 0.0]),
-        FLOOR,
-        half,
-    );
+    vf("cliff edges: corner on the brink", falls([0.0, 2.0, 0.0]), FLOOR, half);
     vf(
         "cliff edges: corner beyond the brink",
         falls([-0.25, 2.0, 0.0]),
         FLOOR,
         First::Never,
     );
-    vf(
-        "internal edges: corner on an edge",
-        falls([2.0, 2.0, 0.0]),
-        FLOOR,
-        half,
-    );
+    vf("internal edges: corner on an edge", falls([2.0, 2.0, 0.0]), FLOOR, half);
 
     let mut ee = |name, first: [Ends; 2], second: [Ends; 2], when| {
         let ([u, v], [k, l]) = (first, second);
         let pair = PairCase::new(Kind::EdgeEdge, [u, v, k, l]);
-        shapes.push(Shape {
-            name,
-            pair,
-            first: when,
-        });
+        shapes.push(Shape { name, pair, first: when });
     };
     let along_x = [rests([-1.0, 0.0, 0.0]), rests([1.0, 0.0, 0.0])];
     let along_y = |z: f64| [[0.0, -1.0, z], [0.0, 1.0, z]];
@@ -444,18 +316,8 @@ fn shapes() -> Vec<Shape> {
         [[k0, k1], [l0, l1]]
     };
     ee("edges graze, double root", along_x, turning(0.0), half);
-    ee(
-        "edges graze, just apart",
-        along_x,
-        turning(short),
-        First::Never,
-    );
-    ee(
-        "edges cross twice",
-        along_x,
-        turning(-0.25),
-        First::At(1, 4),
-    );
+    ee("edges graze, just apart", along_x, turning(short), First::Never);
+    ee("edges cross twice", along_x, turning(-0.25), First::At(1, 4));
     ee("edges, triple root, all meet", [p, a], [b, c], half);
     ee(
         "edges coplanar throughout, meet",
@@ -478,26 +340,11 @@ fn shapes() -> Vec<Shape> {
         [apex, [1.0, -1.0, -2.0]].map(rests),
         half,
     );
-    ee(
-        "spike on wedge: edge on ridge",
-        spike_edge.map(falls),
-        ridge,
-        half,
-    );
+    ee("spike on wedge: edge on ridge", spike_edge.map(falls), ridge, half);
     let rim = [rests([-0.5, 0.5, 0.0]), rests([0.5, 0.5, 0.0])];
-    ee(
-        "spike in a hole: edge on rim corner",
-        spike_edge.map(fall_far),
-        rim,
-        half,
-    );
+    ee("spike in a hole: edge on rim corner", spike_edge.map(fall_far), rim, half);
     let crack = [rests([0.5, -2.0, 0.0]), rests([0.5, 2.0, 0.0])];
-    ee(
-        "spike in a crack: edge on rim",
-        spike_edge.map(fall_far),
-        crack,
-        half,
-    );
+    ee("spike in a crack: edge on rim", spike_edge.map(fall_far), crack, half);
     ee(
         "wedge in a crack: edge on rim",
         [[0.0, 1.0, 0.0], [1.0, 1.0, 2.0]].map(fall_far),
@@ -587,38 +434,17 @@ fn extremes() -> Vec<(&'static str, Shape)> {
     let (subnormal, huge) = (f64::from_bits(1), f64::MAX / 8.0);
     let half = First::At(1, 2);
     let mut extremes = Vec::new();
-    for (place, factor) in [
-        ("2^-1074", subnormal),
-        ("2^-1021", 2.0 * f64::MIN_POSITIVE),
-        ("2^1021", huge),
-    ] {
-        extremes.push((
-            place,
-            scaled("vertex falls through a face", factor, [1.0, -1.0], half),
-        ));
-        extremes.push((
-            place,
-            scaled(
-                "vertex stops above a face",
-                factor,
-                [3.0, 1.0],
-                First::Never,
-            ),
-        ));
+    for (place, factor) in [("2^-1074", subnormal), ("2^-1021", 2.0 * f64::MIN_POSITIVE), ("2^1021", huge)] {
+        extremes.push((place, scaled("vertex falls through a face", factor, [1.0, -1.0], half)));
+        extremes.push((place, scaled("vertex stops above a face", factor, [3.0, 1.0], First::Never)));
         extremes.push((place, crossing("edges cross", factor, [1.0, -1.0], half)));
-        extremes.push((
-            place,
-            crossing("edges pass at a distance", factor, [3.0, 1.0], First::Never),
-        ));
+        extremes.push((place, crossing("edges pass at a distance", factor, [3.0, 1.0], First::Never)));
     }
     // A subnormal height over a face of everyday size, and over the largest.
     for (place, factor) in [("1 m", 1.0), ("2^1021", huge)] {
         let short = subnormal / factor;
         if short > 0.0 {
-            extremes.push((
-                place,
-                scaled("stops 2^-1074 short", factor, [1.0, short], First::Never),
-            ));
+            extremes.push((place, scaled("stops 2^-1074 short", factor, [1.0, short], First::Never)));
         }
         let mut thin = scaled("falls from 2^-1074", factor, [1.0, -1.0], half);
         (thin.pair.points[0][0][2], thin.pair.points[0][1][2]) = (subnormal, -subnormal);
@@ -680,23 +506,13 @@ pub fn table() -> String {
     text
 }
 
-fn row(
-    text: &mut String,
-    name: &str,
-    placement: &str,
-    pair: &PairCase<f64>,
-    expected: Option<First>,
-) {
+fn row(text: &mut String, name: &str, placement: &str, pair: &PairCase<f64>, expected: Option<First>) {
     let kind = match pair.kind {
         Kind::VertexFace => "vertex-face",
         Kind::EdgeEdge => "edge-edge",
     };
     let (first, from, to) = answer(pair, expected, name, placement);
-    write!(
-        text,
-        "\"{name}\",\"{placement}\",{kind},{first},{from},{to}"
-    )
-    .expect("a string has room");
+    write!(text, "\"{name}\",\"{placement}\",{kind},{first},{from},{to}").expect("a string has room");
     for end in 0..2 {
         for coordinate in pair.points.iter().flat_map(|point| point[end]) {
             write!(text, ",{coordinate:?}").expect("a string has room");
@@ -705,29 +521,17 @@ fn row(
     text.push('\n');
 }
 
-fn answer(
-    pair: &PairCase<f64>,
-    expected: Option<First>,
-    name: &str,
-    placement: &str,
-) -> (String, String, String) {
+fn answer(pair: &PairCase<f64>, expected: Option<First>, name: &str, placement: &str) -> (String, String, String) {
     let nothing = |word: &str| (word.to_owned(), String::new(), String::new());
     if !pair.is_finite() {
-        assert!(
-            matches!(expected, Some(First::Undefined)),
-            "{name}, {placement}"
-        );
+        assert!(matches!(expected, Some(First::Undefined)), "{name}, {placement}");
         return nothing("undefined");
     }
     let contact = collides(&pair.question());
     match (expected, &contact) {
         (None, _) | (Some(First::Never), None) => {}
         (Some(First::At(p, q)), Some(time)) => {
-            assert_eq!(
-                time.as_rational(),
-                Some(&Rational::from((p, q))),
-                "{name}, {placement}"
-            );
+            assert_eq!(time.as_rational(), Some(&Rational::from((p, q))), "{name}, {placement}");
         }
         (Some(First::Irrational), Some(time)) => {
             assert_eq!(time.as_rational(), None, "{name}, {placement}");
@@ -738,11 +542,7 @@ fn answer(
         return nothing("never");
     };
     let from = time.to_f64_down();
-    let to = if time.cmp_f64(from).is_eq() {
-        from
-    } else {
-        from.up()
-    };
+    let to = if time.cmp_f64(from).is_eq() { from } else { from.up() };
     let first = match time.as_rational() {
         Some(ratio) if *ratio.denom() < 1000 => ratio.to_string(),
         Some(_) => format!("about {from:.6}"),

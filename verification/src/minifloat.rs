@@ -65,36 +65,23 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
                 DOWNWARD => false,
                 _ => value < 0.0,
             };
-            let largest =
-                power_of_two(Self::HIGHEST_NORMAL) * (2.0 - power_of_two(-F.cast_signed()));
+            let largest = power_of_two(Self::HIGHEST_NORMAL) * (2.0 - power_of_two(-F.cast_signed()));
             // From the nearest number, one step further where it lies on the wrong side.
             if number.0.is_infinite() {
                 let goes_on = upwards == (value > 0.0);
-                number.0 = if goes_on {
-                    number.0
-                } else {
-                    largest.copysign(value)
-                };
+                number.0 = if goes_on { number.0 } else { largest.copysign(value) };
             } else if upwards && number.0 < value {
                 number = Self::nearest(number.0 + Self::step(value));
             } else if !upwards && number.0 > value {
                 number = Self::nearest(number.0 - Self::step(value));
             }
         }
-        if Self::FLUSHES {
-            number.flushed()
-        } else {
-            number
-        }
+        if Self::FLUSHES { number.flushed() } else { number }
     }
 
     /// As an operation sees it.
     fn operand(self) -> f64 {
-        if Self::FLUSHES {
-            self.flushed().0
-        } else {
-            self.0
-        }
+        if Self::FLUSHES { self.flushed().0 } else { self.0 }
     }
 
     fn flushed(self) -> Self {
@@ -133,11 +120,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
         let mut all = Vec::new();
         for exponent in Self::LOWEST_NORMAL..=Self::HIGHEST_NORMAL {
             let step = power_of_two(exponent - F.cast_signed());
-            let first = if exponent == Self::LOWEST_NORMAL {
-                0
-            } else {
-                1 << F
-            };
+            let first = if exponent == Self::LOWEST_NORMAL { 0 } else { 1 << F };
             all.extend((first..2 << F).map(|mantissa| Self(f64::from(mantissa) * step)));
         }
         let negative = all[1..].iter().rev().map(|&number| -number);
@@ -247,9 +230,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Lanes for Minifloat<E, 
     }
 }
 
-impl<const E: u32, const F: u32, const ENVIRONMENT: u32> fmt::Debug
-    for Minifloat<E, F, ENVIRONMENT>
-{
+impl<const E: u32, const F: u32, const ENVIRONMENT: u32> fmt::Debug for Minifloat<E, F, ENVIRONMENT> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Debug::fmt(&self.0, f)
     }
@@ -313,11 +294,7 @@ mod tests {
         type Directed<const ENVIRONMENT: u32> = Minifloat<4, 3, ENVIRONMENT>;
         let flushes = ENVIRONMENT & FLUSHING != 0;
         let flushed = |x: f64| {
-            if flushes && x.abs() < 1.0 / 64.0 {
-                0.0
-            } else {
-                x
-            }
+            if flushes && x.abs() < 1.0 / 64.0 { 0.0 } else { x }
         };
         let all = Directed::<ENVIRONMENT>::all();
         let neighbour = |exact: f64| {
@@ -328,8 +305,7 @@ mod tests {
             };
             let number = if upwards {
                 let after = all.partition_point(|number| number.value() < exact);
-                all.get(after)
-                    .map_or(f64::INFINITY, |number| number.value())
+                all.get(after).map_or(f64::INFINITY, |number| number.value())
             } else {
                 let after = all.partition_point(|number| number.value() <= exact);
                 let before = after.checked_sub(1).map(|before| all[before].value());
@@ -376,14 +352,8 @@ mod tests {
         type Flushing = Minifloat<5, 8, { TOWARDS_ZERO | FLUSHING }>;
         assert_eq!(Flushing::UNDERFLOW.value(), 512.0 / 16_384.0);
         assert_eq!(Flushing::LARGEST_EDGE.value(), 8.0);
-        assert_eq!(
-            Flushing::SUM_GAP * Flushing::UNIT_ROUNDOFF,
-            Flushing::UNDERFLOW
-        );
-        assert_eq!(
-            (Small::small(16).value(), Small::small(20).value()),
-            (16.0, 20.0)
-        );
+        assert_eq!(Flushing::SUM_GAP * Flushing::UNIT_ROUNDOFF, Flushing::UNDERFLOW);
+        assert_eq!((Small::small(16).value(), Small::small(20).value()), (16.0, 20.0));
         assert_eq!(Minifloat::<4, 1>::small(20).value(), 24.0);
         for number in Small::all() {
             assert_eq!(number.units() as f64 / 512.0, number.value());

@@ -78,11 +78,8 @@ pub fn scripts() -> Vec<Script> {
 /// With 18 inputs: the differences of points, as computed.
 #[must_use]
 pub fn tetrahedron() -> MovingTetrahedron<Traced> {
-    let edge = |name: &str| {
-        [0, 1].map(|end| {
-            Vector::from(["x", "y", "z"].map(|axis| Traced::input(format!("{name}{end}{axis}"))))
-        })
-    };
+    let edge =
+        |name: &str| [0, 1].map(|end| Vector::from(["x", "y", "z"].map(|axis| Traced::input(format!("{name}{end}{axis}")))));
     MovingTetrahedron {
         b: edge("b"),
         c: edge("c"),
@@ -96,11 +93,7 @@ pub fn tetrahedron() -> MovingTetrahedron<Traced> {
 pub fn inside<P: PairShape>() -> ([[Traced; 2]; 5], Trace) {
     let (_, mut steps) = trace(|| {
         let points = |end: u32| {
-            ["p", "a", "b", "c"].map(|name| {
-                Vector::from(
-                    ["x", "y", "z"].map(|axis| Traced::input(format!("{name}{end}{axis}"))),
-                )
-            })
+            ["p", "a", "b", "c"].map(|name| Vector::from(["x", "y", "z"].map(|axis| Traced::input(format!("{name}{end}{axis}")))))
         };
         let points = PairPoints {
             start: points(0),
@@ -118,9 +111,7 @@ pub fn inside<P: PairShape>() -> ([[Traced; 2]; 5], Trace) {
 fn control_value(claim: &Claim, value: Traced, trace: &Trace) -> Script {
     let script = Writer::new(trace, value);
     let name = claim.name;
-    let Traced::Step(last) = value else {
-        unreachable!("a sum")
-    };
+    let Traced::Step(last) = value else { unreachable!("a sum") };
     let Step::Sum(a, b) = trace.steps[last] else {
         unreachable!("a sum")
     };
@@ -173,9 +164,7 @@ fn normal(name: &str, length: Traced, trace: &Trace) -> Script {
         let bound = if control_point == 1 { 120 } else { 60 };
         for &component in of_point {
             let (rounded, exact) = (rounded(component, trace), exact(component, trace));
-            goals.push(format!(
-                "{rounded} - {exact} in [-{bound}b@u@, {bound}b@u@]"
-            ));
+            goals.push(format!("{rounded} - {exact} in [-{bound}b@u@, {bound}b@u@]"));
         }
     }
     let text = format!(
@@ -245,16 +234,12 @@ impl Writer {
             script.add(trace, a);
             script.add(trace, b);
         }
-        script
-            .underflow_hypotheses
-            .push_str("\n/\\ L in [0, 1b@lambda@]");
+        script.underflow_hypotheses.push_str("\n/\\ L in [0, 1b@lambda@]");
         script
     }
 
     fn add(&mut self, trace: &Trace, number: Traced) {
-        let Traced::Step(index) = number else {
-            panic!("a constant")
-        };
+        let Traced::Step(index) = number else { panic!("a constant") };
         if !self.done.insert(index) {
             return;
         }
@@ -291,10 +276,7 @@ impl Writer {
             )
         });
         writeln!(self.definitions, "{whole} = {exact_a} {sign} {exact_b};")?;
-        write!(
-            self.hypotheses,
-            "\n/\\ {name} -/ ({a} {sign} {b}) in [-2b@u@, 2b@u@]"
-        )?;
+        write!(self.hypotheses, "\n/\\ {name} -/ ({a} {sign} {b}) in [-2b@u@, 2b@u@]")?;
         let error = format!("e{q}");
         let loss = format!("l{q}");
         write!(
@@ -316,20 +298,13 @@ impl Writer {
             if terms.is_empty() {
                 terms.push("0".to_owned());
             }
-            writeln!(
-                self.underflow,
-                "{q} = ({}) * (1 + {error}) + {loss};",
-                terms.join(" + ")
-            )?;
+            writeln!(self.underflow, "{q} = ({}) * (1 + {error}) + {loss};", terms.join(" + "))?;
             writeln!(
                 self.underflow,
                 "{x} = ({x_a} * {exact_b} + {exact_a} * {x_b}) + L * ({x_a} * {x_b});"
             )
         } else {
-            writeln!(
-                self.underflow,
-                "{q} = ({q_a} {sign} {q_b}) * (1 + {error}) + {loss};"
-            )?;
+            writeln!(self.underflow, "{q} = ({q_a} {sign} {q_b}) * (1 + {error}) + {loss};")?;
             writeln!(self.underflow, "{x} = {x_a} {sign} {x_b};")
         }
     }

@@ -216,14 +216,10 @@ impl Trace {
         };
         match &self.steps[index] {
             Step::Input(name) => Paths::from([(vec![name.clone()], 0)]),
-            Step::Sum(a, b) | Step::Difference(a, b) => {
-                union([self.paths(*a), self.paths(*b)], last)
-            }
+            Step::Sum(a, b) | Step::Difference(a, b) => union([self.paths(*a), self.paths(*b)], last),
             Step::Product(a, b) => {
                 // Powers of two, and whole numbers times the unit roundoff, round nothing.
-                let is_exact = [a, b]
-                    .into_iter()
-                    .all(|factor| !matches!(factor, Traced::Step(_)));
+                let is_exact = [a, b].into_iter().all(|factor| !matches!(factor, Traced::Step(_)));
                 let rounded = if is_exact { 0 } else { last };
                 let (a, b) = (self.paths(*a), self.paths(*b));
                 let mut products = Paths::new();

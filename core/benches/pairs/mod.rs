@@ -68,11 +68,7 @@ pub(crate) fn barely_above<S: Scalar>() -> Vec<PairPoints<S>> {
     let height = 4.0 * S::UNIT_ROUNDOFF.to_f64();
     let pairs = std::iter::repeat_with(|| near_a_plane(&mut random, height));
     let is_hard = |pair: &_| {
-        is_undecided(pair)
-            && selvedge_core::exact::is_never_coplanar::<VertexAndFace, S>(
-                pair,
-                selvedge_core::exact::UNKNOWN,
-            )
+        is_undecided(pair) && selvedge_core::exact::is_never_coplanar::<VertexAndFace, S>(pair, selvedge_core::exact::UNKNOWN)
     };
     pairs.filter(is_hard).take(COUNT).collect()
 }

@@ -3,9 +3,7 @@
 //! valgrind knows no AVX-512: the batched ones are counted with AVX2 and with what every machine of the kind has.
 
 use gungraun::prelude::*;
-use selvedge_core::batch::{
-    LANES, Level, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles,
-};
+use selvedge_core::batch::{LANES, Level, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::filter::certified::non_coplanarity;
 use selvedge_core::points::Shape;
 use selvedge_core::{Motion, PrimitivePair, Scalar, VertexFace};
@@ -44,13 +42,8 @@ fn input<S: Scalar>(level: Level) -> Input<S> {
         .chunks(LANES)
         .map(|pairs| Tile::new(pairs.iter().map(PrimitivePair::motions)))
         .collect();
-    let rows = pairs
-        .iter()
-        .flat_map(|pair| pair.motions().map(VertexRow::new))
-        .collect();
-    let indices = (0..PAIRS as u32)
-        .map(|k| [4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3])
-        .collect();
+    let rows = pairs.iter().flat_map(|pair| pair.motions().map(VertexRow::new)).collect();
+    let indices = (0..PAIRS as u32).map(|k| [4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3]).collect();
     Input {
         pairs,
         tiles,
@@ -70,10 +63,7 @@ fn baseline<S: Scalar>() -> Input<S> {
 
 fn count_one_by_one<S: Scalar>(input: &Input<S>) -> usize {
     let pairs = black_box(&input.pairs);
-    pairs
-        .iter()
-        .filter(|pair| non_coplanarity(*pair).is_culled())
-        .count()
+    pairs.iter().filter(|pair| non_coplanarity(*pair).is_culled()).count()
 }
 
 fn count_tiles<S: Scalar>(input: &Input<S>) -> [Mask; 2] {
@@ -88,14 +78,7 @@ fn count_rows<S: Scalar>(input: &Input<S>) -> [Mask; 2] {
     let mut masks = [0; 2];
     let (rows, indices) = (black_box(&input.rows), black_box(&input.indices));
     let test = Test::CertifiedNonCoplanarity;
-    culled_from_rows(
-        input.level,
-        Shape::VertexFace,
-        test,
-        rows,
-        indices,
-        &mut masks,
-    );
+    culled_from_rows(input.level, Shape::VertexFace, test, rows, indices, &mut masks);
     masks
 }
 
@@ -128,14 +111,7 @@ benches!(one_by_one_f64, tiles_f64, rows_f64, f64);
 
 library_benchmark_group!(
     name = certified_filter,
-    benchmarks = [
-        one_by_one_f32,
-        tiles_f32,
-        rows_f32,
-        one_by_one_f64,
-        tiles_f64,
-        rows_f64
-    ]
+    benchmarks = [one_by_one_f32, tiles_f32, rows_f32, one_by_one_f64, tiles_f64, rows_f64]
 );
 
 main!(library_benchmark_groups = certified_filter);

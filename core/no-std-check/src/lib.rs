@@ -6,18 +6,13 @@
 
 use core::cmp::Ordering;
 use core::panic::PanicInfo;
-use selvedge_core::batch::{
-    self, BatchTest, Level, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows,
-};
+use selvedge_core::batch::{self, BatchTest, Level, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows};
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, Dop18, direction, relative, segment, swept_boxes};
 use selvedge_core::distribution::distribute;
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::points::{PairShape, Shape};
-use selvedge_core::{
-    EdgeEdge, FeatureTriangle, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary,
-    exact, filter,
-};
+use selvedge_core::{EdgeEdge, FeatureTriangle, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary, exact, filter};
 
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
@@ -63,11 +58,7 @@ fn tiers<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> u32 {
 }
 
 /// One pair's mask as a list, a tile and rows.
-fn in_every_form<S: Scalar, P: PrimitivePair<S>>(
-    test: impl BatchTest<S>,
-    pair: &P,
-    masks: &mut [Mask; 1],
-) -> [Mask; 3] {
+fn in_every_form<S: Scalar, P: PrimitivePair<S>>(test: impl BatchTest<S>, pair: &P, masks: &mut [Mask; 1]) -> [Mask; 3] {
     let (level, shape): (Level, Shape) = (Level::baseline(), P::Shape::SHAPE);
     let mut tile = Tile::unknown();
     tile.set(0, pair.motions());
@@ -90,12 +81,7 @@ fn bit(index: u32, verdict: Verdict) -> u32 {
 fn batched<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
     let test = |index: u32, test: Test| {
         let mut mask = [0];
-        batch::culled(
-            Level::baseline(),
-            test,
-            core::slice::from_ref(pair),
-            &mut mask,
-        );
+        batch::culled(Level::baseline(), test, core::slice::from_ref(pair), &mut mask);
         u32::from(mask[0]) << index
     };
     test(0, Test::SweptBoxes)
@@ -112,11 +98,7 @@ fn exactly<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> u32 {
     let half = S::from_f64(0.5);
     let signs = exact::control_value_signs::<P::Shape, S>(&points);
     u32::from(exact::is_never_coplanar::<P::Shape, S>(&points, known))
-        | u32::from(exact::is_never_within::<P::Shape, S>(
-            &points,
-            half,
-            exact::UNKNOWN,
-        )) << 1
+        | u32::from(exact::is_never_within::<P::Shape, S>(&points, half, exact::UNKNOWN)) << 1
         | u32::from(signs == Some([Ordering::Greater; 4])) << 2
 }
 
@@ -146,15 +128,7 @@ fn advanced<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Option<S> {
     let (mut times, mut rounds) = ([S::ZERO], [Round::default()]);
     let (level, shape) = (Level::baseline(), P::Shape::SHAPE);
     let indices = [[0, 1, 2, 3]];
-    advance_from_rows(
-        level,
-        shape,
-        &question,
-        &rows,
-        &indices,
-        &mut times,
-        &mut rounds,
-    );
+    advance_from_rows(level, shape, &question, &rows, &indices, &mut times, &mut rounds);
     let from = times[0];
     if rounds[0].apart != 0 {
         return None;
@@ -165,9 +139,7 @@ fn advanced<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Option<S> {
 /// An eleventh: that the exact verdict, in whole numbers alone too, the certified time of impact, its confirmation, or one of the
 /// three baselines for it disagrees with `touches`.
 fn times_differ<S: Scalar, P: PrimitivePair<S>>(pair: &P, touches: bool) -> u32 {
-    use elementary::{
-        Contact, Limits, additive, advance, bernstein_sign, contact, tight_inclusion,
-    };
+    use elementary::{Contact, Limits, additive, advance, bernstein_sign, contact, tight_inclusion};
     let limits = Limits::default();
     let time = advance::time_of_impact(pair, &limits).time();
     let confirmed = time.and_then(|time| advance::confirm::certain_contact(pair, time));
@@ -176,10 +148,7 @@ fn times_differ<S: Scalar, P: PrimitivePair<S>>(pair: &P, touches: bool) -> u32 
         && (contact(pair) == Contact::Happens) == touches
         && exact::touches::<P::Shape, S>(&pair.points()) == Some(touches)
         && confirmed.is_some() == touches
-        && tight_inclusion::time_of_impact(pair, &limits)
-            .time()
-            .is_some()
-            == touches
+        && tight_inclusion::time_of_impact(pair, &limits).time().is_some() == touches
         && additive::time_of_impact(pair, S::ZERO).time().is_some() == touches
         && bernstein_sign::touches(pair) == touches;
     u32::from(!agree) << 10
@@ -211,20 +180,14 @@ fn all_tests<S: Scalar>(points: &Points<S>) -> [u32; 2] {
             )
             | bit(7, segment::vertex_face(&vertex_face))
             | missed(elementary::cubic::vertex_face(&vertex_face))
-            | times_differ(
-                &vertex_face,
-                elementary::cubic::vertex_face(&vertex_face).is_some(),
-            ),
+            | times_differ(&vertex_face, elementary::cubic::vertex_face(&vertex_face).is_some()),
         with_batches(&edge_edge)
             | apart(
                 Aabb::swept(&[a, b]).overlaps(&Aabb::swept(&[c, d])),
                 dops[0].merged(&dops[1]).overlaps(&dops[2].merged(&dops[3])),
             )
             | missed(elementary::cubic::edge_edge(&edge_edge))
-            | times_differ(
-                &edge_edge,
-                elementary::cubic::edge_edge(&edge_edge).is_some(),
-            ),
+            | times_differ(&edge_edge, elementary::cubic::edge_edge(&edge_edge).is_some()),
     ]
 }
 
@@ -245,8 +208,7 @@ pub extern "C" fn verdicts_f32(points: &Points<f32>) -> u32 {
 /// The lanes of a block with the first point in lane 3 and the box of the other three in lane 5 that are near the first point.
 #[unsafe(no_mangle)]
 pub extern "C" fn near(points: &Points<f32>) -> u32 {
-    let [a, b, c, d] =
-        points.map(|[start, end]| MovingBox::<f32>::of(&Motion::new(start.into(), end.into())));
+    let [a, b, c, d] = points.map(|[start, end]| MovingBox::<f32>::of(&Motion::new(start.into(), end.into())));
     let mut block = MovingBlock::empty();
     block.set(3, &a);
     block.set(5, &b.merged(&c).merged(&d));
@@ -265,10 +227,7 @@ pub extern "C" fn distributed(corners: &[[u32; 3]; 2], vertices: u8, edges: u8) 
     let [a, b] = corners.map(|[a, b, c]| FeatureTriangle {
         face: a,
         vertices: [a, b, c],
-        edges: [[a, b], [b, c], [c, a]].map(|ends| FeatureEdge {
-            edge: ends[0],
-            ends,
-        }),
+        edges: [[a, b], [b, c], [c, a]].map(|ends| FeatureEdge { edge: ends[0], ends }),
         features,
     });
     let pairs = distribute(&a, &b);

@@ -85,19 +85,14 @@ pub fn advance_from_rows<S: Scalar>(
         },
         ..*question
     };
-    let Limits {
-        tolerance,
-        separation,
-    } = question.limits;
+    let Limits { tolerance, separation } = question.limits;
     let is_length = |length: S| length >= S::ZERO && length <= largest_extent();
     let is_good = is_length(tolerance) && is_length(separation);
     let pairs = indices.chunks(LANES).zip(times.chunks_mut(LANES));
     for ((indices, times), round) in pairs.zip(rounds) {
         if !is_good {
             *round = Round {
-                stuck: Mask::MAX
-                    .checked_shr((LANES - LANES.min(indices.len())) as u32)
-                    .unwrap_or(0),
+                stuck: Mask::MAX.checked_shr((LANES - LANES.min(indices.len())) as u32).unwrap_or(0),
                 ..Round::default()
             };
             continue;
@@ -229,8 +224,8 @@ where
     let squared_distance = w.dot(w);
     let is_beyond = squared_distance.greater(time.splat(near_length * near_length));
 
-    let mut bar = time.splat(L::Scalar::small(20) * L::Scalar::UNIT_ROUNDOFF) * w.abs().dot(extent)
-        + time.splat(L::Scalar::UNDERFLOW);
+    let mut bar =
+        time.splat(L::Scalar::small(20) * L::Scalar::UNIT_ROUNDOFF) * w.abs().dot(extent) + time.splat(L::Scalar::UNDERFLOW);
     if limits.separation > L::Scalar::ZERO {
         let factor = time.splat(more_roundoffs(32));
         bar = bar + time.splat(limits.separation) * (length_above(w) * factor);
@@ -411,8 +406,7 @@ where
     let [k0, k1, k2, k3] = tetrahedron.control_values().0;
     let (k1, k2) = (k1 * third, k2 * third);
     let size = one + extent.largest();
-    let error = time.splat(L::Scalar::small(64) * L::Scalar::UNIT_ROUNDOFF)
-        * extent.dot(extent.cross_permanent(extent))
+    let error = time.splat(L::Scalar::small(64) * L::Scalar::UNIT_ROUNDOFF) * extent.dot(extent.cross_permanent(extent))
         + time.splat(L::Scalar::UNDERFLOW) * (size * size);
 
     macro_rules! mix {
@@ -468,8 +462,7 @@ where
             let holds = rest.greater(zero) & a0.greater(zero) & c0.greater(zero) & d0.greater(zero);
             part = L::select(holds, longer, part);
         }
-        let next = (proven + part * (one - proven) * time.splat(less_roundoffs(32)))
-            * time.splat(less_roundoffs(8));
+        let next = (proven + part * (one - proven) * time.splat(less_roundoffs(32))) * time.splat(less_roundoffs(8));
         let advances = is_good & next.greater(proven);
         proven = L::select(advances, next, proven);
     }

@@ -118,14 +118,10 @@ impl PointTest {
     #[inline(always)]
     fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask {
         match self {
-            Self::Segment if matches!(P::SHAPE, Shape::VertexFace) => {
-                boxes::segment::misses_face(points)
-            }
+            Self::Segment if matches!(P::SHAPE, Shape::VertexFace) => boxes::segment::misses_face(points),
             Self::Swept | Self::Segment => boxes::have_disjoint_swept_boxes::<P, L>(points),
             Self::ThreeAxes => boxes::relative::are_apart_along_three_axes::<P, L>(points),
-            Self::NineDirections => {
-                boxes::relative::are_apart_along_nine_directions::<P, L>(points)
-            }
+            Self::NineDirections => boxes::relative::are_apart_along_nine_directions::<P, L>(points),
             Self::Normal => boxes::direction::are_apart_along_normal::<P, L>(points),
             Self::Inside => inside::is_outside_of_one_side::<P, L>(points),
             Self::Plain => plain::has_one_sign::<P, L>(points),
@@ -158,10 +154,7 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
     #[inline(always)]
     fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask> {
         let kernel = Kernel::Bounded(self.tier().bound(), self.positive_separation());
-        let Decision {
-            mut culled,
-            settled,
-        } = S::sixteen(level, P::SHAPE, kernel, pairs)?;
+        let Decision { mut culled, settled } = S::sixteen(level, P::SHAPE, kernel, pairs)?;
         // One by one, of those that the tier has more to say of.
         let mut open = self.tier().open(culled, settled);
         while open != 0 {
@@ -177,12 +170,7 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
 
 /// Which of `pairs` `test` culls, sixteen to a mask. Masks past the last pair are not touched; pairs past the last mask
 /// are not looked at.
-pub fn culled<S: Scalar, P: PrimitivePair<S>>(
-    level: Level,
-    test: impl BatchTest<S>,
-    pairs: &[P],
-    masks: &mut [Mask],
-) {
+pub fn culled<S: Scalar, P: PrimitivePair<S>>(level: Level, test: impl BatchTest<S>, pairs: &[P], masks: &mut [Mask]) {
     for (pairs, mask) in pairs.chunks(LANES).zip(masks) {
         let tile = Tile::new(pairs.iter().map(PrimitivePair::motions));
         *mask = of_tile::<S, P::Shape>(level, test, &tile);
@@ -190,13 +178,7 @@ pub fn culled<S: Scalar, P: PrimitivePair<S>>(
 }
 
 /// Which pairs of `tiles` `test` culls, a mask for each tile: the fastest form, for pairs that lie side by side already.
-pub fn culled_from_tiles<S: Scalar>(
-    level: Level,
-    shape: Shape,
-    test: impl BatchTest<S>,
-    tiles: &[Tile<S>],
-    masks: &mut [Mask],
-) {
+pub fn culled_from_tiles<S: Scalar>(level: Level, shape: Shape, test: impl BatchTest<S>, tiles: &[Tile<S>], masks: &mut [Mask]) {
     for (tile, mask) in tiles.iter().zip(masks) {
         *mask = match shape {
             Shape::VertexFace => of_tile::<S, VertexAndFace>(level, test, tile),

@@ -7,10 +7,7 @@ use crate::filter::certified::{Decision, decide};
 use crate::lanes::Lanes;
 use crate::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
 use crate::vector::Vector;
-use fearless_simd::{
-    ExtractToken, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f32x8,
-    f32x16, f64x8,
-};
+use fearless_simd::{ExtractToken, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f32x8, f32x16, f64x8};
 
 /// What [`Scalar`](crate::Scalar) needs to go sixteen at a time.
 ///
@@ -19,12 +16,7 @@ use fearless_simd::{
 pub trait BatchScalar: Copy {
     /// What `kernel` says of sixteen pairs. `None` if an index is not in the rows.
     #[doc(hidden)]
-    fn sixteen(
-        level: Level,
-        shape: Shape,
-        kernel: Kernel<Self>,
-        pairs: Sixteen<'_, Self>,
-    ) -> Option<Decision<Mask>>;
+    fn sixteen(level: Level, shape: Shape, kernel: Kernel<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
 
     /// One round of advancing for sixteen pairs, from their times on. `None` if an index is not in the rows.
     #[doc(hidden)]
@@ -147,16 +139,8 @@ macro_rules! columns {
                 low.combine($row)
             }};
         }
-        let [xy, z, uv, w, xy_8, z_8, uv_8, w_8] = transposed([
-            rows!(0),
-            rows!(1),
-            rows!(2),
-            rows!(3),
-            rows!(4),
-            rows!(5),
-            rows!(6),
-            rows!(7),
-        ]);
+        let [xy, z, uv, w, xy_8, z_8, uv_8, w_8] =
+            transposed([rows!(0), rows!(1), rows!(2), rows!(3), rows!(4), rows!(5), rows!(6), rows!(7)]);
         let ((x, y), (x_8, y_8)) = (xy.split(), xy_8.split());
         let ((u, v), (u_8, v_8)) = (uv.split(), uv_8.split());
         let (z, w) = (z.split().0, w.split().0);
@@ -174,16 +158,7 @@ macro_rules! columns {
             }};
         }
         // The fourth column and the last are padding.
-        let [x, y, z, _, u, v, w, _] = transposed([
-            row!(0),
-            row!(1),
-            row!(2),
-            row!(3),
-            row!(4),
-            row!(5),
-            row!(6),
-            row!(7),
-        ]);
+        let [x, y, z, _, u, v, w, _] = transposed([row!(0), row!(1), row!(2), row!(3), row!(4), row!(5), row!(6), row!(7)]);
         [Vector::new(x, y, z), Vector::new(u, v, w)]
     }};
 }
@@ -251,10 +226,7 @@ macro_rules! kernel {
             }
             macro_rules! point_of_rows {
                 ($rows:expr, $indices:expr, $point:expr) => {
-                    columns!($scalar, $indices, first, |pair| row_of!(
-                        $rows,
-                        pair[$point]
-                    ))
+                    columns!($scalar, $indices, first, |pair| row_of!($rows, pair[$point]))
                 };
             }
             // Rows are subtracted before they are transposed: three edges to transpose instead of four points, and start and
@@ -297,9 +269,7 @@ macro_rules! kernel {
                         },
                     };
                     let separation = match separation {
-                        Some(separation) => {
-                            Some(<$lanes<V> as SimdBase<V>>::splat(simd, separation))
-                        }
+                        Some(separation) => Some(<$lanes<V> as SimdBase<V>>::splat(simd, separation)),
                         None => None,
                     };
                     let decision = decide::<P, _>(bound, &tetrahedron, separation);
@@ -376,12 +346,7 @@ macro_rules! vectorized {
 }
 
 impl BatchScalar for f32 {
-    fn sixteen(
-        level: Level,
-        shape: Shape,
-        kernel: Kernel<f32>,
-        pairs: Sixteen<'_, f32>,
-    ) -> Option<Decision<Mask>> {
+    fn sixteen(level: Level, shape: Shape, kernel: Kernel<f32>, pairs: Sixteen<'_, f32>) -> Option<Decision<Mask>> {
         vectorized!(level, simd => match shape {
             Shape::VertexFace => sixteen_f32::<_, VertexAndFace>(simd, kernel, pairs, 0),
             Shape::EdgeEdge => sixteen_f32::<_, EdgeAndEdge>(simd, kernel, pairs, 0),
@@ -413,12 +378,7 @@ impl BatchScalar for f32 {
 }
 
 impl BatchScalar for f64 {
-    fn sixteen(
-        level: Level,
-        shape: Shape,
-        kernel: Kernel<f64>,
-        pairs: Sixteen<'_, f64>,
-    ) -> Option<Decision<Mask>> {
+    fn sixteen(level: Level, shape: Shape, kernel: Kernel<f64>, pairs: Sixteen<'_, f64>) -> Option<Decision<Mask>> {
         vectorized!(level, simd => match shape {
             Shape::VertexFace => sixteen_f64::<_, VertexAndFace>(simd, kernel, pairs),
             Shape::EdgeEdge => sixteen_f64::<_, EdgeAndEdge>(simd, kernel, pairs),
@@ -446,11 +406,7 @@ impl BatchScalar for f64 {
 
 /// Eight pairs at a time: what an AVX-512 register holds.
 #[inline(always)]
-fn sixteen_f64<V: Simd, P: PairShape>(
-    simd: V,
-    kernel: Kernel<f64>,
-    pairs: Sixteen<'_, f64>,
-) -> Option<Decision<Mask>> {
+fn sixteen_f64<V: Simd, P: PairShape>(simd: V, kernel: Kernel<f64>, pairs: Sixteen<'_, f64>) -> Option<Decision<Mask>> {
     let low = eight_f64::<V, P>(simd, kernel, pairs, 0)?;
     let high = eight_f64::<V, P>(simd, kernel, pairs, 8)?;
     Some(Decision {

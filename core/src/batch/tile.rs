@@ -63,9 +63,8 @@ impl<S: Scalar> Tile<S> {
             Some(&number) => number,
             None => S::INFINITY * S::ZERO,
         };
-        self.0.each_ref().map(|ends| {
-            ends.each_ref()
-                .map(|position| position.each_ref().map(number).into())
-        })
+        self.0
+            .each_ref()
+            .map(|ends| ends.each_ref().map(|position| position.each_ref().map(number).into()))
     }
 }

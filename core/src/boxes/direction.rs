@@ -59,19 +59,14 @@ pub fn are_apart_along_normal<P: PairShape, L: Lanes>(points: &PairPoints<L>) ->
 /// Whether all corners (differences of a point of one set and a point of the other), at both ends of the step, certainly
 /// lie on one side of the plane through 0 with normal `along`.
 #[inline(always)]
-fn are_apart_along<L: Lanes>(
-    start: [Vector<L>; 4],
-    end: [Vector<L>; 4],
-    along: Vector<L>,
-) -> L::Mask {
+fn are_apart_along<L: Lanes>(start: [Vector<L>; 4], end: [Vector<L>; 4], along: Vector<L>) -> L::Mask {
     let ([a, b, c, d], [e, f, g, h]) = (start, end);
     let largest = a.abs().larger(b.abs()).larger(c.abs().larger(d.abs()));
     let largest = largest.larger(e.abs().larger(f.abs()).larger(g.abs().larger(h.abs())));
     let sizes = largest.dot(along.abs());
     let constant = |value| sizes.splat(value);
     let roundoff = constant(L::Scalar::small(8)) * constant(L::Scalar::UNIT_ROUNDOFF);
-    let underflow =
-        (along.abs().largest() + constant(L::Scalar::ONE)) * constant(L::Scalar::UNDERFLOW);
+    let underflow = (along.abs().largest() + constant(L::Scalar::ONE)) * constant(L::Scalar::UNDERFLOW);
 
     let (a, b, c, d) = (a.dot(along), b.dot(along), c.dot(along), d.dot(along));
     let (e, f, g, h) = (e.dot(along), f.dot(along), g.dot(along), h.dot(along));
@@ -92,8 +87,7 @@ mod tests {
     fn edges_that_pass_at_a_distance_are_culled_and_touching_ones_kept() {
         let pair = |height: f64| EdgeEdge {
             first: [DVec3::NEG_X, DVec3::X].map(Motion::resting),
-            second: [DVec3::NEG_Y, DVec3::Y]
-                .map(|end| Motion::new(end + height * DVec3::Z, end + 2.0 * height * DVec3::Z)),
+            second: [DVec3::NEG_Y, DVec3::Y].map(|end| Motion::new(end + height * DVec3::Z, end + 2.0 * height * DVec3::Z)),
         };
         assert_eq!(normal(&pair(0.1)), Verdict::Culled);
         assert_eq!(normal(&pair(-0.1)), Verdict::Culled);

@@ -20,11 +20,7 @@ impl<S: Scalar> Dop18<S> {
     #[must_use]
     pub fn swept(motion: &Motion<S>) -> Self {
         let [start, end] = motion.ends();
-        if !start
-            .iter()
-            .chain(&end)
-            .all(|coordinate| coordinate.is_finite())
-        {
+        if !start.iter().chain(&end).all(|coordinate| coordinate.is_finite()) {
             return Self {
                 lower: [-S::INFINITY; 9],
                 upper: [S::INFINITY; 9],

@@ -38,16 +38,9 @@
 /// will not always inline into code for a wider instruction set; then every operation becomes a call.
 macro_rules! along_axes {
     ($points:expr, $test:expr) => {
-        $test(
-            values!($points.start, |p| p.x),
-            values!($points.end, |p| p.x),
-        ) | $test(
-            values!($points.start, |p| p.y),
-            values!($points.end, |p| p.y),
-        ) | $test(
-            values!($points.start, |p| p.z),
-            values!($points.end, |p| p.z),
-        )
+        $test(values!($points.start, |p| p.x), values!($points.end, |p| p.x))
+            | $test(values!($points.start, |p| p.y), values!($points.end, |p| p.y))
+            | $test(values!($points.start, |p| p.z), values!($points.end, |p| p.z))
     };
 }
 
@@ -113,12 +106,8 @@ pub fn have_disjoint_swept_boxes<P: PairShape, L: Lanes>(points: &PairPoints<L>)
 fn are_disjoint_intervals<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> L::Mask {
     let [[low_0, high_0], [other_low_0, other_high_0]] = P::ranges(start);
     let [[low_1, high_1], [other_low_1, other_high_1]] = P::ranges(end);
-    low_0
-        .smaller(low_1)
-        .greater(other_high_0.larger(other_high_1))
-        | other_low_0
-            .smaller(other_low_1)
-            .greater(high_0.larger(high_1))
+    low_0.smaller(low_1).greater(other_high_0.larger(other_high_1))
+        | other_low_0.smaller(other_low_1).greater(high_0.larger(high_1))
 }
 
 /// Whether all values from `least` to `greatest` are above `bound`, or all below its negative. False with NaN in the bound.

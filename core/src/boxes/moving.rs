@@ -87,10 +87,8 @@ impl<S: Scalar> MovingBox<S> {
     pub fn is_apart_from(&self, other: &Self) -> bool {
         let mut apart = false;
         for axis in 0..3 {
-            apart |= (self.start.lower[axis] > other.start.upper[axis])
-                & (self.end.lower[axis] > other.end.upper[axis]);
-            apart |= (other.start.lower[axis] > self.start.upper[axis])
-                & (other.end.lower[axis] > self.end.upper[axis]);
+            apart |= (self.start.lower[axis] > other.start.upper[axis]) & (self.end.lower[axis] > other.end.upper[axis]);
+            apart |= (other.start.lower[axis] > self.start.upper[axis]) & (other.end.lower[axis] > self.end.upper[axis]);
         }
         apart
     }
@@ -163,10 +161,7 @@ impl MovingBlock {
     #[must_use]
     pub fn merged(&self) -> MovingBox<f32> {
         let [a, b, c, d, e, f, g, h, i, j, k, l] = &self.rows;
-        let least = |row: &[f32; LANES]| {
-            row.iter()
-                .fold(f32::INFINITY, |least, &x| if x < least { x } else { least })
-        };
+        let least = |row: &[f32; LANES]| row.iter().fold(f32::INFINITY, |least, &x| if x < least { x } else { least });
         let greatest = |row: &[f32; LANES]| {
             let above = |greatest, &x| if x > greatest { x } else { greatest };
             row.iter().fold(f32::NEG_INFINITY, above)
@@ -209,12 +204,9 @@ impl MovingBlock {
             };
         }
         let (start, end) = (&other.start, &other.end);
-        let x = (above!(a, start.upper[0]) & above!(g, end.upper[0]))
-            | (below!(d, start.lower[0]) & below!(j, end.lower[0]));
-        let y = (above!(b, start.upper[1]) & above!(h, end.upper[1]))
-            | (below!(e, start.lower[1]) & below!(k, end.lower[1]));
-        let z = (above!(c, start.upper[2]) & above!(i, end.upper[2]))
-            | (below!(f, start.lower[2]) & below!(l, end.lower[2]));
+        let x = (above!(a, start.upper[0]) & above!(g, end.upper[0])) | (below!(d, start.lower[0]) & below!(j, end.lower[0]));
+        let y = (above!(b, start.upper[1]) & above!(h, end.upper[1])) | (below!(e, start.lower[1]) & below!(k, end.lower[1]));
+        let z = (above!(c, start.upper[2]) & above!(i, end.upper[2])) | (below!(f, start.lower[2]) & below!(l, end.lower[2]));
         !((x | y | z).to_bitmask() as Mask)
     }
 }

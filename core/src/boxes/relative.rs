@@ -40,9 +40,7 @@ pub fn three_axes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
 /// some that [`three_axes`] culls.
 #[inline(always)]
 pub fn nine_directions<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    Verdict::culled_if(are_apart_along_nine_directions::<P::Shape, S>(
-        &pair.points(),
-    ))
+    Verdict::culled_if(are_apart_along_nine_directions::<P::Shape, S>(&pair.points()))
 }
 
 /// The decision of [`three_axes`] on any number of lanes.
@@ -59,10 +57,7 @@ pub fn are_apart_along_three_axes<P: PairShape, L: Lanes>(points: &PairPoints<L>
 pub fn are_apart_along_nine_directions<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
     macro_rules! along {
         ($p:ident => $value:expr) => {
-            keep_order_of_sums::<P, L>(
-                values!(points.start, |$p| $value),
-                values!(points.end, |$p| $value),
-            )
+            keep_order_of_sums::<P, L>(values!(points.start, |$p| $value), values!(points.end, |$p| $value))
         };
     }
     // Coordinates with the gap, as if they were sums: see "compilers" in the documentation of `boxes`.
@@ -78,8 +73,7 @@ pub fn are_apart_along_nine_directions<P: PairShape, L: Lanes>(points: &PairPoin
 fn keep_order<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> L::Mask {
     let [[low_0, high_0], [other_low_0, other_high_0]] = P::ranges(start);
     let [[low_1, high_1], [other_low_1, other_high_1]] = P::ranges(end);
-    (low_0.greater(other_high_0) & low_1.greater(other_high_1))
-        | (other_low_0.greater(high_0) & other_low_1.greater(high_1))
+    (low_0.greater(other_high_0) & low_1.greater(other_high_1)) | (other_low_0.greater(high_0) & other_low_1.greater(high_1))
 }
 
 /// The same for sums of two coordinates, one set's above the other's by [`Rounding::SUM_GAP`].

@@ -42,10 +42,7 @@ pub fn vertex_face<S: Scalar>(pair: &VertexFace<S>) -> Verdict {
 #[must_use]
 pub fn misses_face<L: Lanes>(points: &PairPoints<L>) -> L::Mask {
     let ([p, a0, b0, c0], [q, a1, b1, c1]) = (points.start, points.end);
-    let lower = a0
-        .smaller(b0)
-        .smaller(c0)
-        .smaller(a1.smaller(b1).smaller(c1));
+    let lower = a0.smaller(b0).smaller(c0).smaller(a1.smaller(b1).smaller(c1));
     let upper = a0.larger(b0).larger(c0).larger(a1.larger(b1).larger(c1));
     // The smallest and largest values drop NaN; and the cross axis of two coordinates does not see the third.
     path_misses([p, q], [lower, upper]) & points.is_finite()
@@ -81,10 +78,7 @@ fn apart<L: Lanes>(from: L, to: L, low: L, high: L) -> L::Mask {
 
 /// One cross axis: lower − p, upper − p, d along its two coordinates.
 #[inline(always)]
-fn separates<L: Lanes>(
-    [lower_j, upper_j, d_j]: [L; 3],
-    [lower_k, upper_k, d_k]: [L; 3],
-) -> L::Mask {
+fn separates<L: Lanes>([lower_j, upper_j, d_j]: [L; 3], [lower_k, upper_k, d_k]: [L; 3]) -> L::Mask {
     let (left_a, left_b) = (lower_j * d_k, upper_j * d_k);
     let (right_a, right_b) = (lower_k * d_j, upper_k * d_j);
     let least = left_a.smaller(left_b) - right_a.larger(right_b);
@@ -114,18 +108,12 @@ mod tests {
 
     #[test]
     fn a_path_past_an_edge_of_the_box_misses_it_although_the_swept_boxes_overlap() {
-        assert!(misses(
-            &Motion::from(([0.0, 2.5, 0.0], [2.5, 0.0, 0.0])),
-            &unit_box()
-        ));
+        assert!(misses(&Motion::from(([0.0, 2.5, 0.0], [2.5, 0.0, 0.0])), &unit_box()));
     }
 
     #[test]
     fn a_path_that_touches_an_edge_of_the_box_is_kept() {
-        assert!(!misses(
-            &Motion::from(([0.0, 2.0, 0.0], [2.0, 0.0, 0.0])),
-            &unit_box()
-        ));
+        assert!(!misses(&Motion::from(([0.0, 2.0, 0.0], [2.0, 0.0, 0.0])), &unit_box()));
     }
 
     #[test]
@@ -149,13 +137,7 @@ mod tests {
             lower: [-huge; 3],
             upper: [huge; 3],
         };
-        assert!(!misses(
-            &Motion::from(([-huge, huge, huge], [huge, -huge, huge])),
-            &target
-        ));
-        assert!(!misses(
-            &Motion::from(([huge, huge, 0.0], [huge, huge, 0.0])),
-            &target
-        ));
+        assert!(!misses(&Motion::from(([-huge, huge, huge], [huge, -huge, huge])), &target));
+        assert!(!misses(&Motion::from(([huge, huge, 0.0], [huge, huge, 0.0])), &target));
     }
 }

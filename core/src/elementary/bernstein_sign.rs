@@ -86,10 +86,7 @@ fn corners<S: Scalar, P: PairShape>(points: &PairPoints<S>) -> [Linear<S>; 4] {
 
 /// Whether the polygon with these corners, in order around it, contains the origin at the cubic's only root.
 #[inline(always)]
-fn contains_origin_at_root<S: Scalar, const N: usize>(
-    corners: [Linear<S>; N],
-    cubic: &Cubic<S>,
-) -> bool {
+fn contains_origin_at_root<S: Scalar, const N: usize>(corners: [Linear<S>; N], cubic: &Cubic<S>) -> bool {
     let next = || corners.iter().cycle().skip(1);
     // Twice the area, or four times for a parallelogram, pointing to where the corners go round to the left.
     let zero = Vector::new(S::ZERO, S::ZERO, S::ZERO);
@@ -222,12 +219,7 @@ fn remainder<S: Scalar>(g: [S; 5], [c0, c1, c2, c3]: [S; 4]) -> [S; 3] {
     let [g0, g1, g2, g3, g4] = g;
     if c3 != S::ZERO {
         // c3·g − g4·t·K, of degree three, then the same once more: times c3².
-        let [h0, h1, h2, h3] = normalised([
-            c3 * g0,
-            c3 * g1 - g4 * c0,
-            c3 * g2 - g4 * c1,
-            c3 * g3 - g4 * c2,
-        ]);
+        let [h0, h1, h2, h3] = normalised([c3 * g0, c3 * g1 - g4 * c0, c3 * g2 - g4 * c1, c3 * g3 - g4 * c2]);
         return [c3 * h0 - h3 * c0, c3 * h1 - h3 * c1, c3 * h2 - h3 * c2];
     }
     if c2 != S::ZERO {

@@ -34,11 +34,7 @@ impl<S: Scalar> Closest<S> {
     /// the side or the face that it is on: by uh/d, where d/h is all that there is room for. So where d² is below
     /// 2⁶uh² it is made perpendicular to the side, or replaced by the face's normal.
     #[inline(always)]
-    pub(super) fn direction<const N: usize>(
-        &self,
-        positions: &[Vector<S>; N],
-        extent: S,
-    ) -> Vector<S> {
+    pub(super) fn direction<const N: usize>(&self, positions: &[Vector<S>; N], extent: S) -> Vector<S> {
         let tilted = S::small(64) * S::UNIT_ROUNDOFF * (extent * extent);
         match positions.as_slice() {
             &[a, b, c, ..] if self.squared_distance < tilted => self.upright(a, b, c),
@@ -168,11 +164,7 @@ fn in_parallelogram<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Clos
         return place(s, t, feature(s_is_end, false));
     }
     // The closest point of the first line to an end of the second edge.
-    let s_numerator = if t > zero {
-        across - along_first
-    } else {
-        -along_first
-    };
+    let s_numerator = if t > zero { across - along_first } else { -along_first };
     let (s, s_is_end) = clamped(s_numerator, first_squared);
     place(s, t, feature(s_is_end, true))
 }

@@ -94,10 +94,7 @@ pub fn contact_and_evidence<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> (Contac
 /// assert_eq!(settled(&pair, &impact).0, Contact::Never);
 /// ```
 #[inline]
-pub fn settled<S: Scalar, P: PrimitivePair<S>>(
-    pair: &P,
-    impact: &Impact<S>,
-) -> (Contact, Evidence) {
+pub fn settled<S: Scalar, P: PrimitivePair<S>>(pair: &P, impact: &Impact<S>) -> (Contact, Evidence) {
     match *impact {
         Impact::Never => (Contact::Never, Evidence::Separation),
         Impact::Possible { time, .. } => settled_from(pair, time),
@@ -121,10 +118,7 @@ fn settled_from<S: Scalar, P: PrimitivePair<S>>(pair: &P, time: S) -> (Contact, 
 }
 
 /// What `f64` proves of a narrower format's pair, for which contact from `time` on is not excluded.
-fn settled_in_f64<S: Scalar, P: PrimitivePair<S>>(
-    pair: &P,
-    time: S,
-) -> Option<(Contact, Evidence)> {
+fn settled_in_f64<S: Scalar, P: PrimitivePair<S>>(pair: &P, time: S) -> Option<(Contact, Evidence)> {
     if S::FRACTION_BITS + 1 >= f64::MANTISSA_DIGITS {
         return None;
     }

@@ -116,11 +116,7 @@ impl<S: Scalar> Cubic<S> {
         let root = (b * b - a * d0).sqrt();
         let sum = if b > S::ZERO { b + root } else { b - root };
         let (first, second) = (sum / a, d0 / sum);
-        if first < second {
-            [first, second]
-        } else {
-            [second, first]
-        }
+        if first < second { [first, second] } else { [second, first] }
     }
 
     /// The root on a monotone piece, by regula falsi (the Illinois rule) until steps are a rounding error of [0, 1]; `None`

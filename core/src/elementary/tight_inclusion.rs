@@ -145,11 +145,7 @@ fn image_of<S: Scalar, P: PairShape>(points: &PairPoints<S>, cell: &Cell<S>) -> 
             for v in [v, v + dv] {
                 let value = difference::<S, P>(positions, u, v);
                 let [low, high] = range.unwrap_or([value; 2]);
-                let low = Vector::new(
-                    value.x.smaller(low.x),
-                    value.y.smaller(low.y),
-                    value.z.smaller(low.z),
-                );
+                let low = Vector::new(value.x.smaller(low.x), value.y.smaller(low.y), value.z.smaller(low.z));
                 range = Some([low, value.larger(high)]);
             }
         }
@@ -173,9 +169,7 @@ fn difference<S: Scalar, P: PairShape>(positions: [Vector<S>; 4], u: S, v: S) ->
     let [a, b, c, d] = positions;
     match P::SHAPE {
         Shape::VertexFace => a - ((b.scaled(S::ONE - u - v) + c.scaled(u)) + d.scaled(v)),
-        Shape::EdgeEdge => {
-            (a.scaled(S::ONE - u) + b.scaled(u)) - (c.scaled(S::ONE - v) + d.scaled(v))
-        }
+        Shape::EdgeEdge => (a.scaled(S::ONE - u) + b.scaled(u)) - (c.scaled(S::ONE - v) + d.scaled(v)),
     }
 }
 

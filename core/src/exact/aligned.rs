@@ -45,11 +45,7 @@ fn take_apart<S: Scalar>(number: S) -> Parts {
     Parts {
         term: Term {
             significand: if is_negative { -odd } else { odd },
-            exponent: if magnitude == 0 {
-                u32::MAX
-            } else {
-                exponent + zeros
-            },
+            exponent: if magnitude == 0 { u32::MAX } else { exponent + zeros },
         },
         top: exponent + S::FRACTION_BITS + 1,
         is_finite: field != largest_field,
@@ -58,9 +54,7 @@ fn take_apart<S: Scalar>(number: S) -> Parts {
 
 /// A length as it is; `None` if it is negative, infinite or NaN.
 pub(super) fn length<S: Scalar>(number: S) -> Option<Magnitude> {
-    let Parts {
-        term, is_finite, ..
-    } = take_apart(number);
+    let Parts { term, is_finite, .. } = take_apart(number);
     let significand = u64::try_from(term.significand).ok()?;
     if !is_finite {
         return None;
@@ -68,10 +62,7 @@ pub(super) fn length<S: Scalar>(number: S) -> Option<Magnitude> {
     if significand == 0 {
         return Some(Magnitude::ZERO);
     }
-    Some(Magnitude::exact(
-        significand,
-        term.exponent.cast_signed() - bias::<S>(),
-    ))
+    Some(Magnitude::exact(significand, term.exponent.cast_signed() - bias::<S>()))
 }
 
 /// The eight coordinates along one axis: those at the start, then those at the end.
@@ -174,12 +165,7 @@ impl AlignedPair {
             c: [x[1], y[1], z[1]],
             p: [x[2], y[2], z[2]],
         };
-        let ends = |[a, b, c, d, e, f, g, h]: [Integer<N>; 8]| {
-            [
-                self.differences([a, b, c, d]),
-                self.differences([e, f, g, h]),
-            ]
-        };
+        let ends = |[a, b, c, d, e, f, g, h]: [Integer<N>; 8]| [self.differences([a, b, c, d]), self.differences([e, f, g, h])];
         let ([x0, x1], [y0, y1], [z0, z1]) = (ends(x), ends(y), ends(z));
         [edges([x0, y0, z0]), edges([x1, y1, z1])]
     }

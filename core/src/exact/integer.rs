@@ -80,20 +80,14 @@ impl<const N: usize> Integer<N> {
     }
 
     #[inline(never)]
-    fn product_out_of_line<const M: usize, const R: usize>(
-        &self,
-        other: &Integer<M>,
-    ) -> Integer<R> {
+    fn product_out_of_line<const M: usize, const R: usize>(&self, other: &Integer<M>) -> Integer<R> {
         self.product(other)
     }
 
     /// The same with less to do where most words are zero or mere sign: numbers have many words when one pair's coordinates
     /// differ in size by hundreds of powers of two, and then each of them has few words of its own.
     #[inline(never)]
-    fn product_of_significant_words<const M: usize, const R: usize>(
-        &self,
-        other: &Integer<M>,
-    ) -> Integer<R> {
+    fn product_of_significant_words<const M: usize, const R: usize>(&self, other: &Integer<M>) -> Integer<R> {
         const { assert!(R == N + M, "a product has the words of both factors") };
         let (zeros_of_a, a) = self.significant_words();
         let (zeros_of_b, b) = other.significant_words();
@@ -165,11 +159,7 @@ impl<const N: usize> Integer<N> {
     #[inline]
     pub(super) fn leading(&self) -> Leading {
         let (_, magnitude) = self.sign_and_magnitude();
-        let mut words = magnitude
-            .iter()
-            .rev()
-            .copied()
-            .skip_while(|&word| word == 0);
+        let mut words = magnitude.iter().rev().copied().skip_while(|&word| word == 0);
         let high = words.next().unwrap_or(0);
         let Some(low) = words.next() else {
             return Leading {
@@ -293,11 +283,7 @@ mod tests {
         for (a, b) in NUMBERS.iter().flat_map(|&a| NUMBERS.map(|b| (a, b))) {
             let product: Integer<4> = integer(a).times(&integer(b));
             let Integer([low, high, ..]) = product;
-            assert_eq!(
-                Integer([low, high]),
-                integer(a.wrapping_mul(b)),
-                "{a} · {b}"
-            );
+            assert_eq!(Integer([low, high]), integer(a.wrapping_mul(b)), "{a} · {b}");
             // All of it for smaller numbers: below.
             let sign = a.signum() * b.signum();
             assert_eq!(product.sign(), sign.cmp(&0), "{a} · {b}");

@@ -51,10 +51,7 @@ pub(super) fn judge(pair: &AlignedPair, judge: &mut impl Judge) -> ControlFlow<(
 ///
 /// Out of line, so that a call pays for the stack of its own width only.
 #[inline(never)]
-fn in_words<const N: usize, const N2: usize, const N3: usize>(
-    pair: &AlignedPair,
-    judge: &mut impl Judge,
-) -> ControlFlow<()> {
+fn in_words<const N: usize, const N2: usize, const N3: usize>(pair: &AlignedPair, judge: &mut impl Judge) -> ControlFlow<()> {
     let units = pair.units;
     let [start, end]: [Edges<N>; 2] = pair.edges();
     let n0 = cross::<N, N2>(&start.b, &start.c);
@@ -81,10 +78,7 @@ fn in_words<const N: usize, const N2: usize, const N3: usize>(
 }
 
 #[inline(always)]
-fn cross<const N: usize, const N2: usize>(
-    [ax, ay, az]: &[Integer<N>; 3],
-    [bx, by, bz]: &[Integer<N>; 3],
-) -> [Integer<N2>; 3] {
+fn cross<const N: usize, const N2: usize>([ax, ay, az]: &[Integer<N>; 3], [bx, by, bz]: &[Integer<N>; 3]) -> [Integer<N2>; 3] {
     [
         ay.times(bz).minus(&az.times(by)),
         az.times(bx).minus(&ax.times(bz)),
@@ -101,10 +95,7 @@ fn dot<const N: usize, const N2: usize, const N3: usize>(
 }
 
 #[inline(always)]
-fn sum<const N: usize>(
-    [ax, ay, az]: &[Integer<N>; 3],
-    [bx, by, bz]: &[Integer<N>; 3],
-) -> [Integer<N>; 3] {
+fn sum<const N: usize>([ax, ay, az]: &[Integer<N>; 3], [bx, by, bz]: &[Integer<N>; 3]) -> [Integer<N>; 3] {
     [ax.plus(bx), ay.plus(by), az.plus(bz)]
 }
 
@@ -115,9 +106,6 @@ mod tests {
     /// The smallest width that serves is taken: more would only take longer.
     #[test]
     fn a_width_serves_for_all_its_bits_but_the_head_room() {
-        assert_eq!(
-            [bits_in::<1>(), bits_in::<2>(), bits_in::<5>()],
-            [61, 125, 317]
-        );
+        assert_eq!([bits_in::<1>(), bits_in::<2>(), bits_in::<5>()], [61, 125, 317]);
     }
 }

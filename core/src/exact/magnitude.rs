@@ -49,16 +49,10 @@ impl Magnitude {
         let exponent = exponent + 64 - zeros.cast_signed();
         let is_inexact = dropped != 0 || is_cut;
         if bound == Bound::Lower || !is_inexact {
-            return Self {
-                significand,
-                exponent,
-            };
+            return Self { significand, exponent };
         }
         match significand.checked_add(1) {
-            Some(significand) => Self {
-                significand,
-                exponent,
-            },
+            Some(significand) => Self { significand, exponent },
             None => Self {
                 significand: 1 << 63,
                 exponent: exponent + 1,
@@ -77,19 +71,12 @@ impl Magnitude {
 
     /// An upper bound of the sum.
     pub(super) fn plus(self, other: Self) -> Self {
-        let (large, small) = if self.exceeds(other) {
-            (self, other)
-        } else {
-            (other, self)
-        };
+        let (large, small) = if self.exceeds(other) { (self, other) } else { (other, self) };
         if small.is_zero() {
             return large;
         }
         // At bit 63 of 128 there is room for the carry, and 63 bits for what is shifted out of `small`.
-        let (high, low) = (
-            u128::from(large.significand) << 63,
-            u128::from(small.significand) << 63,
-        );
+        let (high, low) = (u128::from(large.significand) << 63, u128::from(small.significand) << 63);
         let shift = large.exponent.abs_diff(small.exponent);
         let shifted = low.checked_shr(shift).unwrap_or(0);
         let is_cut = shifted.checked_shl(shift) != Some(low);

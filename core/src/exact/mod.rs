@@ -106,12 +106,7 @@ pub fn certain_signs<S: Scalar>(values: &ControlValues<S>, bounds: [S; 4]) -> Kn
             None
         }
     };
-    [
-        certain(k0, e0),
-        certain(k1, e1),
-        certain(k2, e2),
-        certain(k3, e3),
-    ]
+    [certain(k0, e0), certain(k1, e1), certain(k2, e2), certain(k3, e3)]
 }
 
 /// How the control values k₀, 3k₁, 3k₂, k₃ of the pair's signed volume compare with zero.
@@ -130,9 +125,7 @@ pub fn certain_signs<S: Scalar>(values: &ControlValues<S>, bounds: [S; 4]) -> Kn
 /// assert_eq!(signs, Some([Greater, Less, Less, Less]));
 /// ```
 #[must_use]
-pub fn control_value_signs<P: PairShape, S: Scalar>(
-    points: &PairPoints<S>,
-) -> Option<[Ordering; 4]> {
+pub fn control_value_signs<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<[Ordering; 4]> {
     let pair = AlignedPair::new::<P, S>(points)?;
     let mut signs = AllSigns([Ordering::Equal; 4]);
     // It does not break off.
@@ -146,10 +139,7 @@ pub fn control_value_signs<P: PairShape, S: Scalar>(
 /// Exact, in every floating-point environment; false if a coordinate is NaN or infinite. Of the signs in `known` ([`UNKNOWN`]
 /// if there are none) none is computed again: they must be right. Stops as soon as two signs differ.
 #[must_use]
-pub fn is_never_coplanar<P: PairShape, S: Scalar>(
-    points: &PairPoints<S>,
-    known: KnownSigns,
-) -> bool {
+pub fn is_never_coplanar<P: PairShape, S: Scalar>(points: &PairPoints<S>, known: KnownSigns) -> bool {
     one_sign::<P, S>(points, known, Magnitude::ZERO)
 }
 
@@ -174,11 +164,7 @@ pub fn is_never_coplanar<P: PairShape, S: Scalar>(
 /// assert!(!apart(1.0));
 /// ```
 #[must_use]
-pub fn is_never_within<P: PairShape, S: Scalar>(
-    points: &PairPoints<S>,
-    separation: S,
-    known: KnownSigns,
-) -> bool {
+pub fn is_never_within<P: PairShape, S: Scalar>(points: &PairPoints<S>, separation: S, known: KnownSigns) -> bool {
     let Some(separation) = aligned::length(separation) else {
         return false;
     };
@@ -186,11 +172,7 @@ pub fn is_never_within<P: PairShape, S: Scalar>(
 }
 
 #[inline(always)]
-fn one_sign<P: PairShape, S: Scalar>(
-    points: &PairPoints<S>,
-    known: KnownSigns,
-    squared_separation: Magnitude,
-) -> bool {
+fn one_sign<P: PairShape, S: Scalar>(points: &PairPoints<S>, known: KnownSigns, squared_separation: Magnitude) -> bool {
     let mut one_sign = OneSign {
         known,
         common: None,
@@ -201,8 +183,7 @@ fn one_sign<P: PairShape, S: Scalar>(
             return false;
         }
     }
-    AlignedPair::new::<P, S>(points)
-        .is_some_and(|pair| kernel::judge(&pair, &mut one_sign).is_continue())
+    AlignedPair::new::<P, S>(points).is_some_and(|pair| kernel::judge(&pair, &mut one_sign).is_continue())
 }
 
 /// Notes every sign.
@@ -262,9 +243,7 @@ impl Judge for OneSign {
         units: Units,
     ) -> ControlFlow<()> {
         self.adopt(value.sign())?;
-        if self.squared_separation.is_zero()
-            || is_beyond(value, &normal(), units, self.squared_separation)
-        {
+        if self.squared_separation.is_zero() || is_beyond(value, &normal(), units, self.squared_separation) {
             return ControlFlow::Continue(());
         }
         ControlFlow::Break(())
@@ -279,12 +258,8 @@ fn is_beyond<const N2: usize, const N3: usize>(
     squared_separation: Magnitude,
 ) -> bool {
     let [x, y, z] = normal;
-    let squared = |component: &Integer<N2>, unit| {
-        Magnitude::of(component.leading(), unit, Bound::Upper).squared(Bound::Upper)
-    };
-    let squared_normal = squared(x, uy + uz)
-        .plus(squared(y, uz + ux))
-        .plus(squared(z, ux + uy));
+    let squared = |component: &Integer<N2>, unit| Magnitude::of(component.leading(), unit, Bound::Upper).squared(Bound::Upper);
+    let squared_normal = squared(x, uy + uz).plus(squared(y, uz + ux)).plus(squared(z, ux + uy));
     Magnitude::of(value.leading(), ux + uy + uz, Bound::Lower)
         .squared(Bound::Lower)
         .exceeds(squared_separation.times(squared_normal, Bound::Upper))

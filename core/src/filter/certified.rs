@@ -8,9 +8,7 @@
 //! only for values that have one sign and do not clear the cheap bound by magnitudes, which is hardly ever: so the
 //! cheap bound is asked first.
 
-use crate::coplanarity::{
-    ControlValues, MovingTetrahedron, error_bound_by_magnitudes, is_in_range, zero_if_finite,
-};
+use crate::coplanarity::{ControlValues, MovingTetrahedron, error_bound_by_magnitudes, is_in_range, zero_if_finite};
 use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
 use crate::points::PairShape;
@@ -93,11 +91,7 @@ pub fn decide<P: PairShape, L: Lanes>(
 
 /// Whether the control values all exceed their error bounds and the clearance, with one sign.
 #[inline(always)]
-fn decide_beyond<L: Lanes>(
-    bound: Bound,
-    tetrahedron: &MovingTetrahedron<L>,
-    clearance: Option<L>,
-) -> Decision<L::Mask> {
+fn decide_beyond<L: Lanes>(bound: Bound, tetrahedron: &MovingTetrahedron<L>, clearance: Option<L>) -> Decision<L::Mask> {
     let values = tetrahedron.control_values();
     let zero = tetrahedron.p[0].x.splat(L::Scalar::ZERO);
     let culled = match bound {
@@ -113,11 +107,7 @@ fn decide_beyond<L: Lanes>(
 }
 
 #[inline(always)]
-fn by_magnitudes<L: Lanes>(
-    values: &ControlValues<L>,
-    largest: Vector<L>,
-    clearance: Option<L>,
-) -> L::Mask {
+fn by_magnitudes<L: Lanes>(values: &ControlValues<L>, largest: Vector<L>, clearance: Option<L>) -> L::Mask {
     let outer = error_bound_by_magnitudes(largest);
     let inner = outer * outer.splat(L::Scalar::small(4));
     let bounds = with_clearance([outer, inner, inner, outer], clearance);

@@ -74,9 +74,7 @@ pub fn is_outside_of_one_side<P: PairShape, L: Lanes>(points: &PairPoints<L>) ->
         Shape::VertexFace => {
             let (first, second, third) = (Turn::of(b, c), Turn::of(c, d), Turn::of(d, b));
             let all = first.plus(&second).plus(&third);
-            first.is_negative(&all, &limit)
-                | second.is_negative(&all, &limit)
-                | third.is_negative(&all, &limit)
+            first.is_negative(&all, &limit) | second.is_negative(&all, &limit) | third.is_negative(&all, &limit)
         }
         // 00, 01, 11, 10: the last two stand in the other order.
         Shape::EdgeEdge => {
@@ -147,8 +145,7 @@ impl<L: Lanes> Turn<L> {
     fn is_negative(&self, all: &Self, limit: &Limit<L>) -> L::Mask {
         let first = self.start.dot(all.start);
         let second = self.start.dot(all.middle) + self.middle.dot(all.start);
-        let third =
-            (self.start.dot(all.end) + self.end.dot(all.start)) + self.middle.dot(all.middle);
+        let third = (self.start.dot(all.end) + self.end.dot(all.start)) + self.middle.dot(all.middle);
         let fourth = self.middle.dot(all.end) + self.end.dot(all.middle);
         let fifth = self.end.dot(all.end);
         (limit.once.greater(first) & limit.four.greater(second) & limit.six.greater(third))

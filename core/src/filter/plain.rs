@@ -33,8 +33,7 @@ pub fn has_one_sign<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
     let n0 = (b0 - a0).cross(c0 - a0); // (12)
     let n1 = (b1 - a1).cross(c1 - a1); // (13)
     let (velocity_a, velocity_b, velocity_c) = (a1 - a0, b1 - b0, c1 - c0); // (11)
-    let middle =
-        ((n0 + n1) - (velocity_b - velocity_a).cross(velocity_c - velocity_a)).scaled(half); // (14)
+    let middle = ((n0 + n1) - (velocity_b - velocity_a).cross(velocity_c - velocity_a)).scaled(half); // (14)
     let (p0, p1) = (p0 - a0, p1 - a1);
     let (a, b) = (p0.dot(n0), p1.dot(n1)); // (1)
     let (c, d) = (p0.dot(middle), p1.dot(middle)); // (2)

@@ -39,11 +39,7 @@ pub enum Depth {
 
 /// Whether the pair is certainly farther apart than `separation` (or does not touch, if that is zero) in each part of the
 /// step. False with NaN, infinite or huge coordinates.
-pub(super) fn never_touches<P: PairShape, S: Scalar>(
-    points: &PairPoints<S>,
-    separation: S,
-    depth: Depth,
-) -> bool {
+pub(super) fn never_touches<P: PairShape, S: Scalar>(points: &PairPoints<S>, separation: S, depth: Depth) -> bool {
     let tetrahedron = points.tetrahedron::<P>();
     let largest = tetrahedron.largest_by_axis().largest();
     let [k0, k1, k2, k3] = tetrahedron.control_values().0;
@@ -93,14 +89,12 @@ impl<S: Scalar> Step<S> {
         let (d0, d1) = (mean(c0, c1), mean(c1, c2));
         let middle = mean(d0, d1);
         let half = mean(from, to);
-        self.is_clear([b0, c0, d0, middle], [from, half], halvings)
-            && self.is_clear([middle, d1, c2, b3], [half, to], halvings)
+        self.is_clear([b0, c0, d0, middle], [from, half], halvings) && self.is_clear([middle, d1, c2, b3], [half, to], halvings)
     }
 
     fn is_flat_nowhere(&self, volumes: [S; 4]) -> bool {
         let bound = self.volume_bound;
-        volumes.iter().all(|&volume| volume > bound)
-            || volumes.iter().all(|&volume| volume < -bound)
+        volumes.iter().all(|&volume| volume > bound) || volumes.iter().all(|&volume| volume < -bound)
     }
 
     /// Whether the sets are apart, in the same order, along an axis, at both ends of a part.

@@ -65,10 +65,7 @@ impl Tier {
     #[inline(always)]
     pub(crate) fn open(self, culled: Mask, settled: Mask) -> Mask {
         match self {
-            Self::Uncertified
-            | Self::MagnitudesByEdge
-            | Self::MagnitudesByAxis
-            | Self::Permanent => 0,
+            Self::Uncertified | Self::MagnitudesByEdge | Self::MagnitudesByAxis | Self::Permanent => 0,
             Self::Widened | Self::Exact => !(culled | settled),
             Self::Subdivided(_) => !culled,
         }
@@ -172,17 +169,11 @@ impl<S: Scalar> Filter<S> {
     #[cold]
     pub(crate) fn culls_open<P: PairShape>(&self, points: &PairPoints<S>) -> bool {
         match self.tier {
-            Tier::Uncertified
-            | Tier::MagnitudesByEdge
-            | Tier::MagnitudesByAxis
-            | Tier::Permanent => false,
+            Tier::Uncertified | Tier::MagnitudesByEdge | Tier::MagnitudesByAxis | Tier::Permanent => false,
             Tier::Widened => {
-                S::UNIT_ROUNDOFF.to_f64() > f64::UNIT_ROUNDOFF
-                    && widened::culls::<P, S>(points, self.positive_separation())
+                S::UNIT_ROUNDOFF.to_f64() > f64::UNIT_ROUNDOFF && widened::culls::<P, S>(points, self.positive_separation())
             }
-            Tier::Subdivided(depth) => {
-                subdivided::never_touches::<P, S>(points, self.separation, depth)
-            }
+            Tier::Subdivided(depth) => subdivided::never_touches::<P, S>(points, self.separation, depth),
             Tier::Exact => self.culls_exactly::<P>(points),
         }
     }
@@ -219,19 +210,11 @@ mod tests {
     #[test]
     fn a_separation_is_a_length() {
         let filter = Filter::<f64>::new(Tier::Permanent);
-        for wrong in [
-            -1.0,
-            -f64::MIN_POSITIVE,
-            f64::INFINITY,
-            f64::NEG_INFINITY,
-            f64::NAN,
-        ] {
+        for wrong in [-1.0, -f64::MIN_POSITIVE, f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
             assert!(filter.with_separation(wrong).is_none(), "{wrong}");
         }
         for right in [0.0, -0.0, f64::MIN_POSITIVE, 1.0, f64::MAX] {
-            let separation = filter
-                .with_separation(right)
-                .map(|filter| filter.separation());
+            let separation = filter.with_separation(right).map(|filter| filter.separation());
             assert_eq!(separation, Some(right));
         }
     }

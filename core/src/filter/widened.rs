@@ -10,10 +10,7 @@ use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// The certified filter's decision with the bound by the permanent, in `f64`.
-pub(super) fn culls<P: PairShape, S: Scalar>(
-    points: &PairPoints<S>,
-    separation: Option<S>,
-) -> bool {
+pub(super) fn culls<P: PairShape, S: Scalar>(points: &PairPoints<S>, separation: Option<S>) -> bool {
     let tetrahedron = widened(points).tetrahedron::<P>();
     let separation = separation.map(Scalar::to_f64);
     decide::<P, f64>(Bound::Permanent, &tetrahedron, separation).culled
@@ -21,8 +18,7 @@ pub(super) fn culls<P: PairShape, S: Scalar>(
 
 /// The same points, exactly.
 fn widened<S: Scalar>(points: &PairPoints<S>) -> PairPoints<f64> {
-    let widened =
-        |point: Vector<S>| Vector::new(point.x.to_f64(), point.y.to_f64(), point.z.to_f64());
+    let widened = |point: Vector<S>| Vector::new(point.x.to_f64(), point.y.to_f64(), point.z.to_f64());
     PairPoints {
         start: points.start.map(widened),
         end: points.end.map(widened),

@@ -21,18 +21,12 @@ pub fn box_tests(data: &[u8]) {
 }
 
 fn check<S: Format>(case: &PairCase<S>) {
-    use CullingTest::{
-        RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, StoredSweptBoxes, SweptBoxes,
-    };
+    use CullingTest::{RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, StoredSweptBoxes, SweptBoxes};
     let culls = |test| culling::verdict(test, case).is_culled();
 
     if !case.is_finite() {
         for test in culling::certified() {
-            assert_eq!(
-                culling::verdict(test, case),
-                Verdict::Kept,
-                "{test:?}: {case:?}"
-            );
+            assert_eq!(culling::verdict(test, case), Verdict::Kept, "{test:?}: {case:?}");
         }
         return;
     }

@@ -72,19 +72,10 @@ fn tripled_control_values(points: &[[[i8; 3]; 2]; 4]) -> [i64; 4] {
         let factors = [edge(2, axes[0]), edge(3, axes[1]), edge(0, axes[2])];
         for powers in 0..8 {
             let chosen = [powers & 1, powers >> 1 & 1, powers >> 2];
-            let product: i64 = factors
-                .iter()
-                .zip(chosen)
-                .map(|(f, power)| f[power])
-                .product();
+            let product: i64 = factors.iter().zip(chosen).map(|(f, power)| f[power]).product();
             coefficients[chosen.iter().sum::<usize>()] += sign * product;
         }
     }
     let [c0, c1, c2, c3] = coefficients;
-    [
-        3 * c0,
-        3 * c0 + c1,
-        3 * c0 + 2 * c1 + c2,
-        3 * (c0 + c1 + c2 + c3),
-    ]
+    [3 * c0, 3 * c0 + c1, 3 * c0 + 2 * c1 + c2, 3 * (c0 + c1 + c2 + c3)]
 }

@@ -26,11 +26,7 @@ fn check<S: Format>(case: &MeshCase<S>, threads: usize) {
 
     let once = |name: Preset, pairs: Vec<PrimitivePair>| {
         let once: BTreeSet<_> = pairs.iter().copied().collect();
-        assert_eq!(
-            once.len(),
-            pairs.len(),
-            "{name} has a pair twice in {case:?}"
-        );
+        assert_eq!(once.len(), pairs.len(), "{name} has a pair twice in {case:?}");
         for &(kind, pair) in &once {
             let touch = share_vertex(kind, pair, &topology);
             assert!(!touch, "{name} has {kind:?} {pair:?} of {case:?}");
@@ -80,19 +76,13 @@ struct Step<S: Scalar> {
 
 impl<S: Format> Step<S> {
     fn new(case: &MeshCase<S>, stages: Stages, threads: usize) -> Self {
-        let mut pipeline =
-            Pipeline::<S>::new(case.topology(), stages, threads).expect("threads can be started");
+        let mut pipeline = Pipeline::<S>::new(case.topology(), stages, threads).expect("threads can be started");
         pipeline.keep_candidates(true);
         let [start, end] = [0, 1].map(|end| case.frame(end));
         pipeline.step(&start, &end).expect("finite positions");
         let candidates = [PairKind::VertexFace, PairKind::EdgeEdge]
             .into_iter()
-            .flat_map(|kind| {
-                pipeline
-                    .candidates(kind)
-                    .iter()
-                    .map(move |&pair| (kind, pair))
-            })
+            .flat_map(|kind| pipeline.candidates(kind).iter().map(move |&pair| (kind, pair)))
             .collect();
         Self {
             candidates,
@@ -114,18 +104,13 @@ impl<S: Format> Step<S> {
 }
 
 /// By trying all of them.
-fn overlapping_pairs<S: Format>(
-    case: &MeshCase<S>,
-    topology: &Topology,
-) -> BTreeSet<PrimitivePair> {
+fn overlapping_pairs<S: Format>(case: &MeshCase<S>, topology: &Topology) -> BTreeSet<PrimitivePair> {
     let used: BTreeSet<u32> = topology.triangles().iter().flatten().copied().collect();
     let faces = 0..topology.triangles().len() as u32;
     let edges = 0..topology.edges().len() as u32;
-    let vertex_face = used.iter().flat_map(|&vertex| {
-        faces
-            .clone()
-            .map(move |face| (PairKind::VertexFace, [vertex, face]))
-    });
+    let vertex_face = used
+        .iter()
+        .flat_map(|&vertex| faces.clone().map(move |face| (PairKind::VertexFace, [vertex, face])));
     let edge_edge = edges
         .clone()
         .flat_map(|first| (0..first).map(move |second| (PairKind::EdgeEdge, [second, first])));
@@ -149,12 +134,7 @@ const fn first_points(kind: PairKind) -> usize {
     }
 }
 
-fn boxes_overlap<S: Format>(
-    case: &MeshCase<S>,
-    topology: &Topology,
-    kind: PairKind,
-    pair: [u32; 2],
-) -> bool {
+fn boxes_overlap<S: Format>(case: &MeshCase<S>, topology: &Topology, kind: PairKind, pair: [u32; 2]) -> bool {
     let motions = kind.vertices(pair, topology).map(|vertex| {
         let [start, end] = case.positions[vertex as usize];
         Motion::<S> {
@@ -166,15 +146,9 @@ fn boxes_overlap<S: Format>(
     Aabb::swept(first).overlaps(&Aabb::swept(second))
 }
 
-fn question<S: Format>(
-    case: &MeshCase<S>,
-    topology: &Topology,
-    kind: PairKind,
-    pair: [u32; 2],
-) -> Pair {
+fn question<S: Format>(case: &MeshCase<S>, topology: &Topology, kind: PairKind, pair: [u32; 2]) -> Pair {
     let vertices = kind.vertices(pair, topology);
-    let at =
-        |end: usize| vertices.map(|vertex| case.positions[vertex as usize][end].map(S::to_f64));
+    let at = |end: usize| vertices.map(|vertex| case.positions[vertex as usize][end].map(S::to_f64));
     Pair {
         kind: match kind {
             PairKind::VertexFace => Kind::VertexFace,

@@ -39,11 +39,7 @@ fn check_pair<Q: PairShape, S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, 
     let expected = signs([at(0), at(1)]);
     assert_eq!(computed, Some(expected), "{case:?}");
     let has_one_sign = expected[0].is_ne() && expected.iter().all(|&sign| sign == expected[0]);
-    assert_eq!(
-        is_never_coplanar::<Q, S>(&points, UNKNOWN),
-        has_one_sign,
-        "{case:?}"
-    );
+    assert_eq!(is_never_coplanar::<Q, S>(&points, UNKNOWN), has_one_sign, "{case:?}");
 
     // Within range, signs that clear their error bounds are right, and may be handed over.
     let tetrahedron = pair.tetrahedron();
@@ -53,11 +49,7 @@ fn check_pair<Q: PairShape, S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, 
         for (known, expected) in known.iter().zip(expected) {
             assert!(known.is_none_or(|sign| sign == expected), "{case:?}");
         }
-        assert_eq!(
-            is_never_coplanar::<Q, S>(&points, known),
-            has_one_sign,
-            "{case:?}"
-        );
+        assert_eq!(is_never_coplanar::<Q, S>(&points, known), has_one_sign, "{case:?}");
     }
 }
 
@@ -70,8 +62,7 @@ fn signs(ends: [[Point; 4]; 2]) -> [Ordering; 4] {
             let (start, end) = (&ends[0][point][axis], &ends[1][point][axis]);
             Rational::from(end - start) * time + start
         };
-        let from_a =
-            |point: usize| -> Point { std::array::from_fn(|axis| at(point, axis) - at(0, axis)) };
+        let from_a = |point: usize| -> Point { std::array::from_fn(|axis| at(point, axis) - at(0, axis)) };
         determinant([from_a(3), from_a(1), from_a(2)])
     };
     let [before, v0, v1, v2] = [-1, 0, 1, 2].map(volume);

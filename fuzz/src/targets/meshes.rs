@@ -25,10 +25,7 @@ fn check(data: &[u8], format: FileFormat) {
         Ok(file) => file,
         Err(problem) => return message::check(&problem),
     };
-    let Mesh {
-        positions,
-        triangles,
-    } = &file.mesh;
+    let Mesh { positions, triangles } = &file.mesh;
     assert!(!triangles.is_empty());
     assert!(positions.iter().all(|position| position.is_finite()));
     let mut vertices = triangles.iter().flatten();

@@ -6,8 +6,5 @@ pub(super) fn check(error: &impl Display) {
     let message = error.to_string();
     assert!(!message.trim().is_empty(), "an empty message");
     assert!(message.chars().count() < 1000, "endless: {message:?}");
-    assert!(
-        !message.chars().any(char::is_control),
-        "control characters: {message:?}"
-    );
+    assert!(!message.chars().any(char::is_control), "control characters: {message:?}");
 }

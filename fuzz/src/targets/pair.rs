@@ -12,11 +12,7 @@ pub(super) enum Numbers {
 
 pub(super) fn numbers(data: &[u8]) -> Numbers {
     let (&first, rest) = data.split_first().unwrap_or((&0, &[]));
-    let kind = if first & 1 == 0 {
-        Kind::VertexFace
-    } else {
-        Kind::EdgeEdge
-    };
+    let kind = if first & 1 == 0 { Kind::VertexFace } else { Kind::EdgeEdge };
     let any = first & 0b111_0000 == 0b111_0000;
     match (first & 2 == 0, any) {
         (true, false) => Numbers::Double(PairCase::from_bytes(kind, rest)),

@@ -54,9 +54,7 @@ fn ratios(data: &[u8]) -> Vec<Rational> {
     let integers = rows.flat_map(|row| row.split(',').take(6).map(integer));
     let integers: Vec<Integer> = integers.collect();
     let pairs = integers.chunks_exact(2);
-    pairs
-        .map(|pair| Rational::from((pair[0].clone(), pair[1].clone())))
-        .collect()
+    pairs.map(|pair| Rational::from((pair[0].clone(), pair[1].clone()))).collect()
 }
 
 fn integer(field: &str) -> Integer {
@@ -65,8 +63,7 @@ fn integer(field: &str) -> Integer {
 
 /// No other double is nearer; of two that are as near, it is the even one.
 fn assert_nearest(value: f64, ratio: &Rational) {
-    let distance =
-        |x: f64| Rational::from_f64(x).map(|x| Rational::from(&x - ratio).into_numer_denom());
+    let distance = |x: f64| Rational::from_f64(x).map(|x| Rational::from(&x - ratio).into_numer_denom());
     let distance = |x: f64| {
         let (numerator, denominator) = distance(x)?;
         Some(Rational::from((numerator.abs(), denominator)))

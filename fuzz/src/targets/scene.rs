@@ -65,9 +65,7 @@ fn is_large(value: &DeValue<'_>) -> bool {
 fn has_large_number(value: &DeValue<'_>) -> bool {
     match value {
         DeValue::Array(values) => values.iter().any(|value| has_large_number(value.get_ref())),
-        DeValue::Integer(number) => {
-            u64::from_str_radix(number.as_str(), number.radix()).is_ok_and(|n| n >= FINEST)
-        }
+        DeValue::Integer(number) => u64::from_str_radix(number.as_str(), number.radix()).is_ok_and(|n| n >= FINEST),
         _ => false,
     }
 }

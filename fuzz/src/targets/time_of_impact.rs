@@ -21,17 +21,11 @@ fn check<S: Format>(case: &PairCase<S>, exponent: i32) {
     // The oracle takes minutes for exponents that are very far apart.
     let sizes = case.coordinates().map(|x| x.to_f64().abs());
     let sizes = sizes.filter(|&x| x > 0.0 && x.is_finite());
-    let (low, high) = sizes.fold((f64::MAX, 0.0_f64), |(low, high), x| {
-        (low.min(x), high.max(x))
-    });
+    let (low, high) = sizes.fold((f64::MAX, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
     if high > 0.0 && high / low > 1e60 {
         return;
     }
-    let size = if high > 0.0 {
-        S::from_f64(high).made_finite()
-    } else {
-        S::ONE
-    };
+    let size = if high > 0.0 { S::from_f64(high).made_finite() } else { S::ONE };
     let mut first = None;
     for tolerance in [S::ZERO, size * S::exact(1, -exponent)] {
         match case.kind {
@@ -64,11 +58,7 @@ fn check_pair<S: Format, P: PrimitivePair<S>>(
         (Impact::Possible { time, .. }, Some(contact)) => {
             assert!(time >= S::ZERO && time <= S::ONE, "{case:?}");
             let order = contact.cmp_f64(time.to_f64());
-            assert_ne!(
-                order,
-                Ordering::Less,
-                "{tolerance}: {time} is late for {case:?}"
-            );
+            assert_ne!(order, Ordering::Less, "{tolerance}: {time} is late for {case:?}");
         }
         (Impact::Possible { time, .. }, None) => {
             let confirmed = certain_contact(pair, time);

@@ -19,9 +19,7 @@ fn counted_steps(simulation: &mut Simulation, count: u64) -> Result<(), Blocked>
 /// Seconds of each effect, and of what effects share, so far.
 fn seconds(simulation: &Simulation) -> Vec<(&'static str, f64)> {
     let effects = simulation.effects().iter();
-    let mut seconds: Vec<_> = effects
-        .map(|effect| (effect.name, effect.seconds))
-        .collect();
+    let mut seconds: Vec<_> = effects.map(|effect| (effect.name, effect.seconds)).collect();
     let stages = simulation.contact_seconds();
     seconds.extend(stages.map(|stages| stages.stages()).into_iter().flatten());
     seconds

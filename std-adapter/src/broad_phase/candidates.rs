@@ -72,9 +72,7 @@ impl Block {
 
     /// The lanes with a triangle after `triangle`, as bits.
     fn after(&self, triangle: u32) -> u32 {
-        (0..LANES).fold(0, |mask, lane| {
-            mask | u32::from(self.triangles[lane] > triangle) << lane
-        })
+        (0..LANES).fold(0, |mask, lane| mask | u32::from(self.triangles[lane] > triangle) << lane)
     }
 }
 
@@ -103,11 +101,7 @@ impl CandidateList {
     /// All triangles.
     pub(super) fn assign(&mut self, boxes: &[SweptBox]) {
         self.blocks.ensure(boxes.len().div_ceil(LANES));
-        for ((first, block), boxes) in (0..)
-            .step_by(LANES)
-            .zip(self.blocks.iter_mut())
-            .zip(boxes.chunks(LANES))
-        {
+        for ((first, block), boxes) in (0..).step_by(LANES).zip(self.blocks.iter_mut()).zip(boxes.chunks(LANES)) {
             for (lane, swept) in boxes.iter().enumerate() {
                 for (row, bound) in block.bounds.iter_mut().zip(bounds(swept)) {
                     row[lane] = bound;
@@ -141,12 +135,7 @@ impl CandidateList {
 
     /// Appends the triangles after `triangle` whose boxes overlap `bounds` to `partners`. Returns the
     /// number of blocks tested.
-    pub(super) fn append_overlapping(
-        &self,
-        bounds: &Bounds,
-        triangle: u32,
-        partners: &mut Partners,
-    ) -> u64 {
+    pub(super) fn append_overlapping(&self, bounds: &Bounds, triangle: u32, partners: &mut Partners) -> u64 {
         let sources = self.blocks_from(triangle);
         let Some(first) = sources.first() else {
             return 0;

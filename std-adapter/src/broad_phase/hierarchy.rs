@@ -48,16 +48,14 @@ impl Hierarchy {
     /// Finds the order. [`Self::refit`] must follow.
     pub(super) fn build(&mut self, boxes: &[SweptBox]) {
         self.centres.clear();
-        self.centres
-            .extend((0..).zip(boxes).map(|(triangle, swept)| Centre {
-                position: centre(swept),
-                item: triangle,
-            }));
+        self.centres.extend((0..).zip(boxes).map(|(triangle, swept)| Centre {
+            position: centre(swept),
+            item: triangle,
+        }));
         order::<BRANCHES>(&mut self.centres);
 
         self.triangles.clear();
-        self.triangles
-            .extend(self.centres.iter().map(|centre| centre.item));
+        self.triangles.extend(self.centres.iter().map(|centre| centre.item));
         for leaf in self.triangles.chunks_mut(LEAF) {
             leaf.sort_unstable();
         }
@@ -79,12 +77,10 @@ impl Hierarchy {
             let level = &mut self.levels[count];
             level.size = size;
             level.groups.clear();
-            level
-                .groups
-                .extend(self.triangles.chunks(size).map(|group| Group {
-                    bounds: EMPTY,
-                    first: group.iter().copied().min().unwrap_or(u32::MAX),
-                }));
+            level.groups.extend(self.triangles.chunks(size).map(|group| Group {
+                bounds: EMPTY,
+                first: group.iter().copied().min().unwrap_or(u32::MAX),
+            }));
             count += 1;
             if size >= self.triangles.len() {
                 break;
@@ -100,24 +96,17 @@ impl Hierarchy {
             return;
         };
         let triangles = &self.triangles;
-        parallel::for_each_with_chunk(
-            &mut leaves.groups,
-            &mut self.bounds,
-            LEAF,
-            |index, group, inside| {
-                group.bounds = EMPTY;
-                for (own, &triangle) in inside.iter_mut().zip(&triangles[index * LEAF..]) {
-                    *own = bounds(&boxes[triangle as usize]);
-                    group.bounds = union(&group.bounds, own);
-                }
-            },
-        );
+        parallel::for_each_with_chunk(&mut leaves.groups, &mut self.bounds, LEAF, |index, group, inside| {
+            group.bounds = EMPTY;
+            for (own, &triangle) in inside.iter_mut().zip(&triangles[index * LEAF..]) {
+                *own = bounds(&boxes[triangle as usize]);
+                group.bounds = union(&group.bounds, own);
+            }
+        });
         let mut below = &leaves.groups;
         for level in upper {
             for (group, children) in level.groups.iter_mut().zip(below.chunks(BRANCHES)) {
-                group.bounds = children
-                    .iter()
-                    .fold(EMPTY, |all, child| union(&all, &child.bounds));
+                group.bounds = children.iter().fold(EMPTY, |all, child| union(&all, &child.bounds));
             }
             below = &level.groups;
         }

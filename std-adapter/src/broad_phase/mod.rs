@@ -87,10 +87,7 @@ pub struct BroadPhaseStatistics {
 ///
 /// Item: measured just after a build, 15.1 block tests a triangle with 49.2 pairs a triangle (crumpled cloth), 4.8 with 8.1
 /// (tube), hence 0.25 a pair and 2.7 a triangle besides.
-const PRICES: Prices = Prices {
-    build: 0.25,
-    item: 11.0,
-};
+const PRICES: Prices = Prices { build: 0.25, item: 11.0 };
 
 /// Finds the pairs of triangles whose swept boxes overlap; see the [module](self).
 #[derive(Debug, Default)]
@@ -122,14 +119,9 @@ impl BroadPhase {
     ///
     /// With more than `u32::MAX` boxes.
     pub fn update(&mut self, boxes: &[SweptBox]) {
-        assert!(
-            u32::try_from(boxes.len()).is_ok(),
-            "more than u32::MAX boxes"
-        );
+        assert!(u32::try_from(boxes.len()).is_ok(), "more than u32::MAX boxes");
         self.everything.assign(boxes);
-        if boxes.len() != self.hierarchy.len()
-            || self.degradation.is_worth_a_build(PRICES, boxes.len())
-        {
+        if boxes.len() != self.hierarchy.len() || self.degradation.is_worth_a_build(PRICES, boxes.len()) {
             self.hierarchy.build(boxes);
             self.degradation = Degradation::default();
             self.statistics.builds += 1;

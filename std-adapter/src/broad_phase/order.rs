@@ -47,11 +47,5 @@ fn longest_axis(centres: &[Centre]) -> usize {
     }
     // Halved, so that the difference of finite numbers is finite.
     let extent = |axis: usize| 0.5 * upper[axis] - 0.5 * lower[axis];
-    (1..3).fold(0, |longest, axis| {
-        if extent(axis) > extent(longest) {
-            axis
-        } else {
-            longest
-        }
-    })
+    (1..3).fold(0, |longest, axis| if extent(axis) > extent(longest) { axis } else { longest })
 }

@@ -9,12 +9,7 @@ use crate::parallel;
 const SEQUENTIAL: usize = 4096;
 
 /// Replaces `pairs` by every triangle with each of its partners, in order. `offsets` is scratch.
-pub(super) fn concatenate(
-    hierarchy: &Hierarchy,
-    traversal: &Traversal,
-    offsets: &mut Vec<usize>,
-    pairs: &mut Vec<[u32; 2]>,
-) {
+pub(super) fn concatenate(hierarchy: &Hierarchy, traversal: &Traversal, offsets: &mut Vec<usize>, pairs: &mut Vec<[u32; 2]>) {
     let mut total = 0;
     offsets.clear();
     offsets.extend(hierarchy.positions.iter().map(|&position| {
@@ -47,17 +42,12 @@ impl Concatenation<'_> {
         if end - first > SEQUENTIAL && parallel::has_many_threads() {
             let middle = first.midpoint(end);
             let (left, right) = pairs.split_at_mut(self.offsets[middle] - self.offsets[first]);
-            parallel::both(
-                || self.write(first, middle, left),
-                || self.write(middle, end, right),
-            );
+            parallel::both(|| self.write(first, middle, left), || self.write(middle, end, right));
             return;
         }
         let mut rest = pairs;
         for triangle in first..end {
-            let partners = self
-                .traversal
-                .partners(self.hierarchy.positions[triangle] as usize);
+            let partners = self.traversal.partners(self.hierarchy.positions[triangle] as usize);
             let (own, others) = rest.split_at_mut(partners.len());
             for (pair, &partner) in own.iter_mut().zip(partners) {
                 *pair = [triangle as u32, partner];

@@ -4,9 +4,8 @@ use super::*;
 
 /// The definition of the result.
 fn overlapping_pairs(boxes: &[SweptBox]) -> Vec<[u32; 2]> {
-    let separated = |a: &SweptBox, b: &SweptBox| {
-        (0..3).any(|axis| a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis])
-    };
+    let separated =
+        |a: &SweptBox, b: &SweptBox| (0..3).any(|axis| a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis]);
     let mut pairs = Vec::new();
     for (i, a) in boxes.iter().enumerate() {
         for (j, b) in boxes.iter().enumerate().skip(i + 1) {
@@ -35,14 +34,10 @@ fn with_threads<T: Send>(threads: usize, action: impl FnOnce() -> T + Send) -> T
 
 /// Boxes on a coarse grid, so that many are equal, touch, or have no extent along an axis.
 fn grid_box() -> impl Strategy<Value = SweptBox> {
-    (
-        prop::array::uniform3(-20i8..20),
-        prop::array::uniform3(0i8..4),
-    )
-        .prop_map(|(lower, extent)| SweptBox {
-            lower: lower.map(f32::from),
-            upper: std::array::from_fn(|axis| f32::from(lower[axis] + extent[axis])),
-        })
+    (prop::array::uniform3(-20i8..20), prop::array::uniform3(0i8..4)).prop_map(|(lower, extent)| SweptBox {
+        lower: lower.map(f32::from),
+        upper: std::array::from_fn(|axis| f32::from(lower[axis] + extent[axis])),
+    })
 }
 
 /// Any bounds at all, in any order.
@@ -60,11 +55,7 @@ fn lawless_box() -> impl Strategy<Value = SweptBox> {
             -2.0f32..2.0,
         ]
     };
-    (
-        prop::array::uniform3(bound()),
-        prop::array::uniform3(bound()),
-    )
-        .prop_map(|(lower, upper)| SweptBox { lower, upper })
+    (prop::array::uniform3(bound()), prop::array::uniform3(bound())).prop_map(|(lower, upper)| SweptBox { lower, upper })
 }
 
 fn boxes(count: usize) -> impl Strategy<Value = Vec<SweptBox>> {
@@ -203,9 +194,7 @@ fn a_motion_that_keeps_neighbours_together_never_rebuilds() {
 fn a_hierarchy_that_has_degraded_is_rebuilt_once_and_costs_as_before() {
     let ordered = sheet(40);
     // 7 has no divisor in common with 1600, so that this is a permutation, far from the identity.
-    let mixed: Vec<_> = (0..ordered.len())
-        .map(|index| ordered[index * 7 % ordered.len()])
-        .collect();
+    let mixed: Vec<_> = (0..ordered.len()).map(|index| ordered[index * 7 % ordered.len()]).collect();
     let fresh = {
         let mut broad_phase = BroadPhase::new();
         step(&mut broad_phase, &mixed);

@@ -41,10 +41,7 @@ impl Traversal {
     /// Finds all partners. Returns the number of blocks tested.
     pub(super) fn run(&mut self, hierarchy: &Hierarchy, everything: &CandidateList) -> u64 {
         let levels = &hierarchy.levels;
-        let Some(task_level) = levels
-            .iter()
-            .position(|level| level.groups.len() <= MAXIMUM_TASKS)
-        else {
+        let Some(task_level) = levels.iter().position(|level| level.groups.len() <= MAXIMUM_TASKS) else {
             return 0;
         };
         self.prepare(hierarchy, task_level);
@@ -55,34 +52,27 @@ impl Traversal {
             let (here, above) = self.upper.split_at_mut(level - task_level + 1);
             parallel::for_each(&mut here[level - task_level], |index, candidates| {
                 let group = &levels[level].groups[index];
-                let parent = above
-                    .first()
-                    .map_or(everything, |parents| &parents[index / BRANCHES]);
+                let parent = above.first().map_or(everything, |parents| &parents[index / BRANCHES]);
                 count(candidates.assign_overlapping(parent, &group.bounds, group.first));
                 candidates.settle();
             });
         }
         let upper = &self.upper;
-        parallel::for_each_with_chunk(
-            &mut self.tasks,
-            &mut self.runs,
-            self.task_size,
-            |index, task, runs| {
-                let candidates = upper.first().map_or(everything, |groups| &groups[index]);
-                task.partners.clear();
-                let mut descent = Descent {
-                    hierarchy,
-                    runs,
-                    partners: &mut task.partners,
-                    offset: index * self.task_size,
-                    tests: 0,
-                };
-                descent.group(task_level, index, candidates, &mut task.lower);
-                count(descent.tests);
-                task.partners.settle();
-                task.lower.iter_mut().for_each(CandidateList::settle);
-            },
-        );
+        parallel::for_each_with_chunk(&mut self.tasks, &mut self.runs, self.task_size, |index, task, runs| {
+            let candidates = upper.first().map_or(everything, |groups| &groups[index]);
+            task.partners.clear();
+            let mut descent = Descent {
+                hierarchy,
+                runs,
+                partners: &mut task.partners,
+                offset: index * self.task_size,
+                tests: 0,
+            };
+            descent.group(task_level, index, candidates, &mut task.lower);
+            count(descent.tests);
+            task.partners.settle();
+            task.lower.iter_mut().for_each(CandidateList::settle);
+        });
         tests.into_inner()
     }
 
@@ -93,8 +83,7 @@ impl Traversal {
             lists.resize_with(level.groups.len(), CandidateList::default);
         }
         self.task_size = levels[0].size;
-        self.tasks
-            .resize_with(levels[0].groups.len(), Task::default);
+        self.tasks.resize_with(levels[0].groups.len(), Task::default);
         for task in &mut self.tasks {
             task.lower.resize_with(task_level, CandidateList::default);
         }
@@ -104,9 +93,7 @@ impl Traversal {
     /// The triangles after the one at `position` whose boxes overlap its box, in order.
     pub(super) fn partners(&self, position: usize) -> &[u32] {
         let run = self.runs[position];
-        self.tasks[position / self.task_size]
-            .partners
-            .get(run.start, run.len)
+        self.tasks[position / self.task_size].partners.get(run.start, run.len)
     }
 
     /// The number of them.
@@ -126,13 +113,7 @@ struct Descent<'a> {
 }
 
 impl Descent<'_> {
-    fn group(
-        &mut self,
-        level: usize,
-        index: usize,
-        candidates: &CandidateList,
-        lower: &mut [CandidateList],
-    ) {
+    fn group(&mut self, level: usize, index: usize, candidates: &CandidateList, lower: &mut [CandidateList]) {
         let Some((inside, lower)) = lower.split_last_mut() else {
             return self.leaf(index, candidates);
         };
@@ -148,11 +129,7 @@ impl Descent<'_> {
         for position in first..self.hierarchy.len().min(first + LEAF) {
             let start = self.partners.len();
             let bounds = &self.hierarchy.bounds[position];
-            self.tests += candidates.append_overlapping(
-                bounds,
-                self.hierarchy.triangles[position],
-                self.partners,
-            );
+            self.tests += candidates.append_overlapping(bounds, self.hierarchy.triangles[position], self.partners);
             self.runs[position - self.offset] = Run {
                 start,
                 len: self.partners.len() - start,

@@ -83,11 +83,7 @@ impl Accuracy {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let json_file = self.json.as_ref().filter(|path| path.as_os_str() != "-");
         let files_of_plots = [&self.svg, &self.elementary_svg].map(Option::as_ref);
-        let paths: Vec<_> = files_of_plots
-            .into_iter()
-            .chain([json_file])
-            .flatten()
-            .collect();
+        let paths: Vec<_> = files_of_plots.into_iter().chain([json_file]).flatten().collect();
         for (index, path) in paths.iter().enumerate() {
             OutputFiles::check(path)?;
             if paths[..index].contains(path) {

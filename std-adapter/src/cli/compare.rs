@@ -13,8 +13,7 @@ use selvedge::report::{FigurePairs, comparison_csv, comparison_svg, figure_3, js
 use selvedge::scene::ArmScene;
 use selvedge::simulation::{Scene, Simulation};
 use selvedge::study::{
-    self, ArmFrames, Comparison, Frames, SimulatedSteps, StepCandidates, TwoFrames, busiest_step,
-    step_candidates,
+    self, ArmFrames, Comparison, Frames, SimulatedSteps, StepCandidates, TwoFrames, busiest_step, step_candidates,
 };
 use std::path::{Path, PathBuf};
 
@@ -98,16 +97,13 @@ impl Compare {
                 path.display()
             );
             let mut command = super::Cli::command();
-            command
-                .error(ErrorKind::MissingRequiredArgument, message)
-                .exit();
+            command.error(ErrorKind::MissingRequiredArgument, message).exit();
         }
         let of_file = |failure: Failure| format!("{}: {failure}", path.display());
         let scene = Scene::read(path)?;
         let steps = scene.steps();
         let mut frames = SimulatedSteps::new(&scene, self.arm.steps as usize);
-        let mut simulation = Simulation::new(scene, self.run.threads.get())
-            .map_err(|error| of_file(error.into()))?;
+        let mut simulation = Simulation::new(scene, self.run.threads.get()).map_err(|error| of_file(error.into()))?;
         frames.observe(&simulation);
         run_steps(&mut simulation, steps, |simulation| {
             frames.observe(simulation);
@@ -152,11 +148,7 @@ impl Compare {
 }
 
 impl Run {
-    pub(super) fn compare(
-        &self,
-        frames: &impl Frames,
-        presets: &[Preset],
-    ) -> Result<Comparison, Failure> {
+    pub(super) fn compare(&self, frames: &impl Frames, presets: &[Preset]) -> Result<Comparison, Failure> {
         let progress = Progress::bar("comparing");
         let rounds = self.rounds as usize;
         study::compare(frames, presets, self.threads.get(), rounds, &mut |share| {
@@ -196,9 +188,7 @@ pub(super) fn add_report(
     comparison: &Comparison,
 ) -> Result<(), Failure> {
     let _progress = Progress::spinner("drawing");
-    files.add(folder.join("comparison.csv"), |out| {
-        comparison_csv(comparison, out)
-    })?;
+    files.add(folder.join("comparison.csv"), |out| comparison_csv(comparison, out))?;
     let table = comparison_svg(comparison);
     files.add_bytes(folder.join("comparison.svg"), table.as_bytes())?;
 

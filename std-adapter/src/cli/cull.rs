@@ -104,8 +104,7 @@ impl Cull {
             }
             return self.ask::<S>(question, step.topology, &start, &end);
         }
-        let mut pipeline =
-            Pipeline::<S>::new(step.topology, self.pipeline.stages(), self.threads.get())?;
+        let mut pipeline = Pipeline::<S>::new(step.topology, self.pipeline.stages(), self.threads.get())?;
         pipeline.set_level(self.simd.level());
         pipeline.keep_candidates(self.candidates.is_some());
         let mut fastest = {
@@ -123,19 +122,12 @@ impl Cull {
         let mut files = OutputFiles::default();
         let topology = pipeline.topology();
         if let Some(path) = &self.pairs {
-            files.add(path.clone(), |out| {
-                contacts_csv(topology, pipeline.contacts(), out)
-            })?;
+            files.add(path.clone(), |out| contacts_csv(topology, pipeline.contacts(), out))?;
         }
         if let Some(path) = &self.candidates {
             let of = |kind| pipeline.candidates(kind);
             files.add(path.clone(), |out| {
-                pairs_csv(
-                    topology,
-                    of(PairKind::VertexFace),
-                    of(PairKind::EdgeEdge),
-                    out,
-                )
+                pairs_csv(topology, of(PairKind::VertexFace), of(PairKind::EdgeEdge), out)
             })?;
         }
         files.publish()?;
@@ -234,9 +226,7 @@ impl Cull {
             })?;
         }
         if let Some(path) = &self.pairs {
-            files.add(path.clone(), |out| {
-                contacts_csv(detector.topology(), &contacts, out)
-            })?;
+            files.add(path.clone(), |out| contacts_csv(detector.topology(), &contacts, out))?;
         }
         files.publish()?;
         let question = match question {

@@ -11,9 +11,7 @@ use tempfile::NamedTempFile;
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(format!("standard output cannot be written: {error}").into())
-        }
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(format!("standard output cannot be written: {error}").into()),
         _ => Ok(()),
     }
 }
@@ -89,8 +87,7 @@ impl OutputFiles {
 
     fn publish_and(self, then: impl Fn(&Path)) -> Result<(), Failure> {
         for (file, path) in self.complete {
-            file.persist(&path)
-                .map_err(|error| unwritable(&path, error.error))?;
+            file.persist(&path).map_err(|error| unwritable(&path, error.error))?;
             then(&path);
         }
         Ok(())

@@ -44,8 +44,7 @@ impl Progress {
                 if stopped.recv_timeout(DELAY) != Err(RecvTimeoutError::Timeout) {
                     return;
                 }
-                let style = ProgressStyle::with_template(template)
-                    .unwrap_or_else(|_| ProgressStyle::default_bar());
+                let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
                 let bar = ProgressBar::new(length)
                     .with_style(style)
                     .with_message(message)
@@ -78,8 +77,7 @@ impl Progress {
 
     /// `share` of the work is done, from 0 to 1.
     pub(crate) fn set(&self, share: f64) {
-        self.done
-            .store((share * LENGTH as f64) as u64, Ordering::Relaxed);
+        self.done.store((share * LENGTH as f64) as u64, Ordering::Relaxed);
     }
 }
 

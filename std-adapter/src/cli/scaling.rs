@@ -70,13 +70,7 @@ impl Scaling {
             let steps = ArmScene::STEPS as f64 * f64::from(refinement).sqrt();
             let frames = ArmFrames::new(refinement, steps.round() as usize)?;
             let frame = (TIME * steps) as usize;
-            points.push(measure_size(
-                &frames,
-                frame,
-                self.pipeline,
-                self.threads.get(),
-                ROUNDS,
-            )?);
+            points.push(measure_size(&frames, frame, self.pipeline, self.threads.get(), ROUNDS)?);
             done += f64::from(refinement);
             progress.set(done / all);
         }

@@ -5,9 +5,7 @@ use super::options::Threads;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge::mesh::{self, Mesh};
-use selvedge::report::{
-    SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, tables,
-};
+use selvedge::report::{SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, tables};
 use selvedge::simulation::{CheckpointError, Scene, SceneError, Simulation};
 use selvedge::study::{EffectCost, effects_one_by_one};
 use std::io::Write;
@@ -99,8 +97,7 @@ impl Simulate {
         let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
         let subject = Subject::new(&scene);
         let path = self.scene.display();
-        let mut simulation = Simulation::new(scene, self.threads.get())
-            .map_err(|error| format!("{path}: {error}"))?;
+        let mut simulation = Simulation::new(scene, self.threads.get()).map_err(|error| format!("{path}: {error}"))?;
         OutputFiles::check_folder(&self.output)?;
         let mut recorder = SimulationRecorder::new(subject, &simulation)?;
         // Seconds that this run took before it was interrupted.
@@ -108,11 +105,8 @@ impl Simulate {
         if self.resume {
             let saved = self.read_checkpoint()?;
             let of_file = |error: String| format!("{}: {error}", self.file("checkpoint").display());
-            let (state, recorded) =
-                split(&saved).ok_or_else(|| of_file(CheckpointError::Damaged.to_string()))?;
-            simulation
-                .resume(state)
-                .map_err(|error| of_file(error.to_string()))?;
+            let (state, recorded) = split(&saved).ok_or_else(|| of_file(CheckpointError::Damaged.to_string()))?;
+            simulation.resume(state).map_err(|error| of_file(error.to_string()))?;
             earlier = recorder
                 .restore(recorded)
                 .ok_or_else(|| of_file(CheckpointError::Damaged.to_string()))?;

@@ -10,8 +10,8 @@ mod topology;
 
 #[cfg(feature = "files")]
 pub use file::{
-    FileFormat, FileProblem, FrameDifference, MeshError, MeshFile, MeshNotes, MeshStep,
-    PlyEncoding, read, read_bytes, read_step, write, write_as, write_bytes,
+    FileFormat, FileProblem, FrameDifference, MeshError, MeshFile, MeshNotes, MeshStep, PlyEncoding, read, read_bytes, read_step,
+    write, write_as, write_bytes,
 };
 pub use sleeve::{MAX_REFINEMENT, RefinementError, ring_sizes, sleeve};
 pub use topology::{Topology, TopologyError, TopologyStatistics};

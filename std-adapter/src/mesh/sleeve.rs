@@ -143,10 +143,7 @@ mod tests {
         for refinement in [2, 3, 10, 100, 1000] {
             let target = 1345.0 * f64::from(refinement);
             let found = sleeve(refinement).unwrap().triangles.len() as f64;
-            assert!(
-                (found / target - 1.0).abs() < 0.01,
-                "{refinement}: {found} of {target}"
-            );
+            assert!((found / target - 1.0).abs() < 0.01, "{refinement}: {found} of {target}");
         }
     }
 
@@ -166,10 +163,7 @@ mod tests {
             let ends = sizes[0] + sizes[sizes.len() - 1];
             assert_eq!(statistics.boundary_edges as u32, ends);
             // … and with V − E + F = 0 two loops make a tube.
-            assert_eq!(
-                topology.vertex_count() + topology.triangles().len(),
-                topology.edges().len()
-            );
+            assert_eq!(topology.vertex_count() + topology.triangles().len(), topology.edges().len());
         }
     }
 
@@ -187,16 +181,8 @@ mod tests {
     fn triangles_are_well_shaped_at_every_refinement() {
         for refinement in [1, 10, 100] {
             let mesh = sleeve(refinement).unwrap();
-            let smallest = mesh
-                .triangles
-                .iter()
-                .flat_map(|t| angles(&mesh, *t))
-                .fold(TAU, f64::min);
-            assert!(
-                smallest.to_degrees() > 30.0,
-                "{refinement}: {}",
-                smallest.to_degrees()
-            );
+            let smallest = mesh.triangles.iter().flat_map(|t| angles(&mesh, *t)).fold(TAU, f64::min);
+            assert!(smallest.to_degrees() > 30.0, "{refinement}: {}", smallest.to_degrees());
         }
     }
 
@@ -208,9 +194,6 @@ mod tests {
     #[test]
     fn a_refinement_of_zero_or_beyond_the_limit_is_refused() {
         assert_eq!(sleeve(0).unwrap_err(), RefinementError(0));
-        assert_eq!(
-            sleeve(MAX_REFINEMENT + 1).unwrap_err(),
-            RefinementError(MAX_REFINEMENT + 1)
-        );
+        assert_eq!(sleeve(MAX_REFINEMENT + 1).unwrap_err(), RefinementError(MAX_REFINEMENT + 1));
     }
 }

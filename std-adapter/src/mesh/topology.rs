@@ -29,9 +29,7 @@ pub struct Topology {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TopologyError {
     /// A triangle names a vertex that does not exist.
-    #[error(
-        "triangle {triangle} names vertex {vertex}, but there are {vertex_count} vertices, numbered from 0"
-    )]
+    #[error("triangle {triangle} names vertex {vertex}, but there are {vertex_count} vertices, numbered from 0")]
     VertexOutOfRange {
         /// The first such triangle.
         triangle: usize,
@@ -153,11 +151,7 @@ impl Topology {
     fn triangles_per_edge(&self) -> Vec<u32> {
         let mut counts = vec![0; self.edges.len()];
         for &[a, b, c] in &self.triangle_edges {
-            let distinct = [
-                Some(a),
-                Some(b).filter(|_| b != a),
-                Some(c).filter(|_| c != a && c != b),
-            ];
+            let distinct = [Some(a), Some(b).filter(|_| b != a), Some(c).filter(|_| c != a && c != b)];
             for edge in distinct.into_iter().flatten() {
                 if edge != Self::NO_EDGE {
                     counts[edge as usize] += 1;
@@ -202,33 +196,13 @@ impl fmt::Display for TopologyStatistics {
             self.interior_edges
         )?;
         for (count, singular, plural) in [
-            (
-                self.non_manifold_edges,
-                "non-manifold edge",
-                "non-manifold edges",
-            ),
-            (
-                self.isolated_vertices,
-                "isolated vertex",
-                "isolated vertices",
-            ),
-            (
-                self.duplicate_triangles,
-                "duplicate triangle",
-                "duplicate triangles",
-            ),
-            (
-                self.degenerate_triangles,
-                "degenerate triangle",
-                "degenerate triangles",
-            ),
+            (self.non_manifold_edges, "non-manifold edge", "non-manifold edges"),
+            (self.isolated_vertices, "isolated vertex", "isolated vertices"),
+            (self.duplicate_triangles, "duplicate triangle", "duplicate triangles"),
+            (self.degenerate_triangles, "degenerate triangle", "degenerate triangles"),
         ] {
             if count > 0 {
-                write!(
-                    f,
-                    ", {count} {}",
-                    if count == 1 { singular } else { plural }
-                )?;
+                write!(f, ", {count} {}", if count == 1 { singular } else { plural })?;
             }
         }
         Ok(())
@@ -277,10 +251,7 @@ fn count_duplicates(vertex_count: usize, triangles: &[[u32; 3]]) -> usize {
         (key[2], (key[0], key[1]))
     });
     let groups = Groups::new(vertex_count, keys);
-    let distinct: usize = groups
-        .iter()
-        .map(|(_, group)| group.chunk_by(|a, b| a == b).count())
-        .sum();
+    let distinct: usize = groups.iter().map(|(_, group)| group.chunk_by(|a, b| a == b).count()).sum();
     triangles.len() - distinct
 }
 
@@ -383,10 +354,7 @@ mod tests {
 
     /// Grows each component until nothing more joins it.
     fn naive_components(triangles: &[[u32; 3]]) -> usize {
-        let mut rest: Vec<BTreeSet<u32>> = triangles
-            .iter()
-            .map(|t| t.iter().copied().collect())
-            .collect();
+        let mut rest: Vec<BTreeSet<u32>> = triangles.iter().map(|t| t.iter().copied().collect()).collect();
         let mut components = 0;
         while let Some(mut component) = rest.pop() {
             while let Some(index) = rest.iter().position(|t| !t.is_disjoint(&component)) {
@@ -467,10 +435,7 @@ mod tests {
 
     #[test]
     fn a_mesh_without_triangles_is_refused() {
-        assert_eq!(
-            Topology::new(3, vec![]).unwrap_err(),
-            TopologyError::NoTriangles
-        );
+        assert_eq!(Topology::new(3, vec![]).unwrap_err(), TopologyError::NoTriangles);
     }
 
     #[test]
@@ -482,13 +447,8 @@ mod tests {
     #[test]
     fn statistics_print_only_what_is_unusual() {
         let plain = Topology::new(3, vec![[0, 1, 2]]).unwrap().statistics();
-        assert_eq!(
-            plain.to_string(),
-            "1 component, 3 boundary and 0 interior edges"
-        );
-        let odd = Topology::new(5, vec![[0, 1, 2], [2, 1, 0], [3, 3, 3]])
-            .unwrap()
-            .statistics();
+        assert_eq!(plain.to_string(), "1 component, 3 boundary and 0 interior edges");
+        let odd = Topology::new(5, vec![[0, 1, 2], [2, 1, 0], [3, 3, 3]]).unwrap().statistics();
         assert_eq!(
             odd.to_string(),
             "2 components, 0 boundary and 3 interior edges, 1 isolated vertex, 1 duplicate triangle, 1 degenerate triangle"

@@ -59,24 +59,17 @@ impl FeatureAssignment {
                     !vertices[..k].contains(&vertices[k]) && take(Taken::Vertex(vertices[k]))
                 });
                 let (edges, represented_edges) = first_taken(edges, |k| {
-                    edges[k] != Topology::NO_EDGE
-                        && !edges[..k].contains(&edges[k])
-                        && take(Taken::Edge(edges[k]))
+                    edges[k] != Topology::NO_EDGE && !edges[..k].contains(&edges[k]) && take(Taken::Edge(edges[k]))
                 });
                 FeatureTriangle {
                     face: face as u32,
                     vertices,
                     edges: edges.map(|edge| FeatureEdge {
                         edge,
-                        ends: topology
-                            .edges()
-                            .get(edge as usize)
-                            .copied()
-                            .unwrap_or_default(),
+                        ends: topology.edges().get(edge as usize).copied().unwrap_or_default(),
                     }),
                     // Never more than three of each.
-                    features: Features::new(represented_vertices, represented_edges)
-                        .unwrap_or_default(),
+                    features: Features::new(represented_vertices, represented_edges).unwrap_or_default(),
                 }
             })
             .collect();
@@ -94,8 +87,5 @@ fn first_taken(items: [u32; 3], mut take: impl FnMut(usize) -> bool) -> ([u32; 3
     let taken = [take(0), take(1), take(2)];
     let mut order = [0, 1, 2];
     order.sort_by_key(|&k: &usize| !taken[k]);
-    (
-        order.map(|k| items[k]),
-        taken.iter().map(|&taken| u8::from(taken)).sum(),
-    )
+    (order.map(|k| items[k]), taken.iter().map(|&taken| u8::from(taken)).sum())
 }

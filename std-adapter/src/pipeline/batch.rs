@@ -12,9 +12,7 @@ use arrayvec::ArrayVec;
 use selvedge_core::batch::{LANES, Level, Mask, Test, culled_from_rows};
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
-use selvedge_core::elementary::{
-    Contact as Verdict, Limits, advance::time_of_impact, contact::settled,
-};
+use selvedge_core::elementary::{Contact as Verdict, Limits, advance::time_of_impact, contact::settled};
 use selvedge_core::points::Shape;
 use selvedge_core::{EdgeEdge, PrimitivePair, Scalar, VertexFace, elementary};
 use std::time::Instant;
@@ -66,11 +64,7 @@ impl<S: Scalar> Batch<S> {
     }
 
     /// Replaces the batch by the primitive pairs of `triangle_pairs`.
-    pub(super) fn distribute(
-        &mut self,
-        triangle_pairs: &[[u32; 2]],
-        assignment: &FeatureAssignment,
-    ) {
+    pub(super) fn distribute(&mut self, triangle_pairs: &[[u32; 2]], assignment: &FeatureAssignment) {
         let begin = Instant::now();
         self.vertex_face.clear();
         self.edge_edge.clear();
@@ -82,16 +76,13 @@ impl<S: Scalar> Batch<S> {
             self.vertex_face.extend_from_slice(&pairs.vertex_face);
             self.edge_edge.extend_from_slice(&pairs.edge_edge);
         }
-        self.tallies
-            .push((self.counts(), begin.elapsed().as_secs_f64()));
+        self.tallies.push((self.counts(), begin.elapsed().as_secs_f64()));
     }
 
     /// Drops the pairs that were distributed before, and notes the others. Belongs to distribution, and is counted there.
     pub(super) fn keep_new(&mut self, distributed: &mut Distributed) {
         let begin = Instant::now();
-        keep_where(&mut self.vertex_face, |pair| {
-            distributed.vertex_face.insert(pair)
-        });
+        keep_where(&mut self.vertex_face, |pair| distributed.vertex_face.insert(pair));
         keep_where(&mut self.edge_edge, |[a, b]| {
             distributed.edge_edge.insert([a.min(b), a.max(b)])
         });
@@ -107,8 +98,7 @@ impl<S: Scalar> Batch<S> {
         for &test in step.stages.tests {
             let begin = Instant::now();
             self.cull_by(test, step);
-            self.tallies
-                .push((self.counts(), begin.elapsed().as_secs_f64()));
+            self.tallies.push((self.counts(), begin.elapsed().as_secs_f64()));
         }
     }
 
@@ -140,8 +130,7 @@ impl<S: Scalar> Batch<S> {
             };
             let topology = step.mesh.topology;
             self.indices.clear();
-            self.indices
-                .extend(pairs.iter().map(|&pair| kind.vertices(pair, topology)));
+            self.indices.extend(pairs.iter().map(|&pair| kind.vertices(pair, topology)));
             self.masks.clear();
             self.masks.resize(pairs.len().div_ceil(LANES), 0);
             let shape = match kind {
@@ -149,14 +138,7 @@ impl<S: Scalar> Batch<S> {
                 PairKind::EdgeEdge => Shape::EdgeEdge,
             };
             let rows = step.mesh.rows;
-            culled_from_rows(
-                step.level,
-                shape,
-                test,
-                rows,
-                &self.indices,
-                &mut self.masks,
-            );
+            culled_from_rows(step.level, shape, test, rows, &self.indices, &mut self.masks);
 
             let masks = &self.masks;
             let mut index = 0;
@@ -170,9 +152,7 @@ impl<S: Scalar> Batch<S> {
 
     /// Drops the pairs whose stored volumes do not overlap.
     fn keep_overlapping(&mut self, stored: &Stored<impl BoundingVolume<S>>) {
-        keep_where(&mut self.vertex_face, |pair| {
-            stored.vertex_face_overlap(pair)
-        });
+        keep_where(&mut self.vertex_face, |pair| stored.vertex_face_overlap(pair));
         keep_where(&mut self.edge_edge, |pair| stored.edge_edge_overlap(pair));
     }
 
@@ -180,11 +160,7 @@ impl<S: Scalar> Batch<S> {
     pub(super) fn find_contacts(&mut self, step: &StepInput<'_, S>) {
         let limits = Limits::default();
         match step.stages.elementary {
-            ElementaryTest::Cubic => self.find_contacts_by(
-                step,
-                elementary::cubic::vertex_face,
-                elementary::cubic::edge_edge,
-            ),
+            ElementaryTest::Cubic => self.find_contacts_by(step, elementary::cubic::vertex_face, elementary::cubic::edge_edge),
             ElementaryTest::TimeOfImpact => self.find_contacts_by(
                 step,
                 |pair| time_of_impact(pair, &limits).time(),

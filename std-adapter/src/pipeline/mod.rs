@@ -53,9 +53,7 @@ pub use crate::pair_kind::PairCounts;
 pub use crate::parallel::ThreadError;
 pub use crate::step::Contact;
 pub use assignment::FeatureAssignment;
-pub use preset::{
-    CullingTest, ElementaryTest, Preset, Redundancy, Source, Stage, Stages, UnknownPreset,
-};
+pub use preset::{CullingTest, ElementaryTest, Preset, Redundancy, Source, Stage, Stages, UnknownPreset};
 pub use report::{StageReport, StepReport};
 
 use crate::PairKind;
@@ -132,23 +130,15 @@ impl<S: Scalar> Pipeline<S> {
     ///
     /// # Errors
     /// If the operating system refuses the threads.
-    pub fn new(
-        topology: impl Into<Arc<Topology>>,
-        stages: Stages,
-        threads: usize,
-    ) -> Result<Self, ThreadError> {
+    pub fn new(topology: impl Into<Arc<Topology>>, stages: Stages, threads: usize) -> Result<Self, ThreadError> {
         let topology = topology.into();
         let threads = Threads::new(threads)?;
         let route = match stages.source {
             Source::MovingBoxes => Route::MovingBoxes(Box::new(Engine::new(topology.clone()))),
             Source::TrianglePairs(redundancy) => {
                 let assignment = match redundancy {
-                    Redundancy::RepresentativeTriangles => {
-                        FeatureAssignment::representative(&topology)
-                    }
-                    Redundancy::Kept | Redundancy::HashSets => {
-                        FeatureAssignment::every_feature(&topology)
-                    }
+                    Redundancy::RepresentativeTriangles => FeatureAssignment::representative(&topology),
+                    Redundancy::Kept | Redundancy::HashSets => FeatureAssignment::every_feature(&topology),
                 };
                 Route::TrianglePairs(redundancy, assignment)
             }
@@ -199,11 +189,7 @@ impl<S: Scalar> Pipeline<S> {
     ///
     /// # Errors
     /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
-    pub fn step(
-        &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
-    ) -> Result<&StepReport, StepError> {
+    pub fn step(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<&StepReport, StepError> {
         check_frames::<S>(start, end, self.topology.vertex_count())?;
         let Self {
             topology,
@@ -295,10 +281,7 @@ impl<S: Scalar> Buffers<S> {
     ) {
         let begin = Instant::now();
         self.rows.clear();
-        let moving = start
-            .iter()
-            .zip(end)
-            .map(|(&start, &end)| Motion::new(start, end));
+        let moving = start.iter().zip(end).map(|(&start, &end)| Motion::new(start, end));
         self.rows.extend(moving.map(VertexRow::new));
         let mesh = MovingMesh {
             topology: distributor.topology,
@@ -307,8 +290,7 @@ impl<S: Scalar> Buffers<S> {
         self.boxes.refit_vertices_and_faces(mesh);
         swept::map_boxes(&mut self.swept, self.boxes.faces());
         self.broad_phase.update(&self.swept);
-        self.broad_phase
-            .candidate_triangle_pairs(&mut self.triangle_pairs);
+        self.broad_phase.candidate_triangle_pairs(&mut self.triangle_pairs);
         report.broad_phase_seconds = begin.elapsed().as_secs_f64();
         report.triangle_pairs = self.triangle_pairs.len() as u64;
 
@@ -316,12 +298,7 @@ impl<S: Scalar> Buffers<S> {
         report.seconds = begin.elapsed().as_secs_f64();
     }
 
-    fn primitive_stages(
-        &mut self,
-        distributor: Distributor<'_>,
-        stages: Stages,
-        report: &mut StepReport,
-    ) {
+    fn primitive_stages(&mut self, distributor: Distributor<'_>, stages: Stages, report: &mut StepReport) {
         let Distributor {
             topology,
             assignment,
@@ -381,9 +358,7 @@ impl<S: Scalar> Buffers<S> {
             if redundancy == Redundancy::HashSets {
                 // The sets are asked in order, by one thread: whichever pair comes first stays.
                 parallel::for_each(batches, distribute);
-                batches
-                    .iter_mut()
-                    .for_each(|batch| batch.keep_new(&mut self.distributed));
+                batches.iter_mut().for_each(|batch| batch.keep_new(&mut self.distributed));
                 parallel::for_each(batches, |_, batch| finish(batch));
             } else {
                 parallel::for_each(batches, |index, batch| {
@@ -397,10 +372,8 @@ impl<S: Scalar> Buffers<S> {
                     stage.seconds += seconds;
                 }
                 if self.keep_candidates {
-                    self.candidates[PairKind::VertexFace as usize]
-                        .extend_from_slice(&batch.vertex_face);
-                    self.candidates[PairKind::EdgeEdge as usize]
-                        .extend_from_slice(&batch.edge_edge);
+                    self.candidates[PairKind::VertexFace as usize].extend_from_slice(&batch.vertex_face);
+                    self.candidates[PairKind::EdgeEdge as usize].extend_from_slice(&batch.edge_edge);
                 }
                 self.contacts.extend_from_slice(&batch.contacts);
             }

@@ -27,8 +27,7 @@ impl<S: Scalar> MovingMesh<'_, S> {
 
     #[inline(always)]
     pub(super) fn edge_edge(&self, [first, second]: [u32; 2]) -> EdgeEdge<S> {
-        let edge =
-            |edge: u32| self.topology.edges()[edge as usize].map(|vertex| self.motion(vertex));
+        let edge = |edge: u32| self.topology.edges()[edge as usize].map(|vertex| self.motion(vertex));
         EdgeEdge {
             first: edge(first),
             second: edge(second),

@@ -105,9 +105,7 @@ impl CullingTest {
     #[must_use]
     pub const fn stage(self) -> Stage {
         match self {
-            Self::SweptBoxes | Self::StoredSweptBoxes | Self::StoredDop18 | Self::SegmentBox => {
-                Stage::Boxes
-            }
+            Self::SweptBoxes | Self::StoredSweptBoxes | Self::StoredDop18 | Self::SegmentBox => Stage::Boxes,
             Self::RelativeBoxes | Self::RelativeBoxesNine => Stage::RelativeBoxes,
             Self::SubspaceThree | Self::SubspaceNine => Stage::Subspace,
             Self::PlainNonCoplanarity | Self::CertifiedNonCoplanarity => Stage::NonCoplanarity,
@@ -235,22 +233,11 @@ impl Preset {
         let (source, tests): (_, &[Test]) = match self {
             Self::Naive => (TrianglePairs(Kept), &[]),
             Self::Basic | Self::Provot1997 => (TrianglePairs(HashSets), &[]),
-            Self::HutterFuhrmann2007 => {
-                (TrianglePairs(RepresentativeTriangles), &[Test::StoredDop18])
-            }
+            Self::HutterFuhrmann2007 => (TrianglePairs(RepresentativeTriangles), &[Test::StoredDop18]),
             Self::Curtis2008 => (TrianglePairs(RepresentativeTriangles), &[]),
-            Self::Tang2010 => (
-                TrianglePairs(RepresentativeTriangles),
-                &[Test::PlainNonCoplanarity],
-            ),
-            Self::TangC2010 => (
-                TrianglePairs(RepresentativeTriangles),
-                &[Test::SubspaceThree],
-            ),
-            Self::TangC2011 => (
-                TrianglePairs(RepresentativeTriangles),
-                &[Test::SubspaceNine],
-            ),
+            Self::Tang2010 => (TrianglePairs(RepresentativeTriangles), &[Test::PlainNonCoplanarity]),
+            Self::TangC2010 => (TrianglePairs(RepresentativeTriangles), &[Test::SubspaceThree]),
+            Self::TangC2011 => (TrianglePairs(RepresentativeTriangles), &[Test::SubspaceNine]),
             Self::Lv2014 => (
                 TrianglePairs(RepresentativeTriangles),
                 &[Test::SegmentBox, Test::PlainNonCoplanarity],
@@ -315,12 +302,7 @@ mod tests {
     #[test]
     fn no_preset_has_two_tests_for_one_stage() {
         for preset in Preset::ALL {
-            let mut stages: Vec<_> = preset
-                .stages()
-                .tests
-                .iter()
-                .map(|test| test.stage())
-                .collect();
+            let mut stages: Vec<_> = preset.stages().tests.iter().map(|test| test.stage()).collect();
             stages.dedup();
             assert_eq!(stages.len(), preset.stages().tests.len());
             assert!(stages.is_sorted(), "{preset}");

@@ -47,8 +47,7 @@ impl StepReport {
     /// The pairs after the last box test; where there is none, as distributed, or as the broad phase finds them.
     #[must_use]
     pub fn after_boxes(&self) -> PairCounts {
-        let survivors =
-            self.last_survivors(|stage| stage == Stage::Distribution || stage.is_box_test());
+        let survivors = self.last_survivors(|stage| stage == Stage::Distribution || stage.is_box_test());
         self.broad_phase_pairs.unwrap_or(survivors)
     }
 

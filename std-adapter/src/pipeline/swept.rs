@@ -15,9 +15,7 @@ use selvedge_core::boxes::Aabb;
 pub(super) fn map_boxes<S: Scalar>(mapped: &mut Vec<SweptBox>, boxes: &[Aabb<S>]) {
     let middle = middle(boxes);
     parallel::fill(mapped, boxes, |swept| {
-        let map = |bounds: [S; 3]| {
-            [0, 1, 2].map(|axis| nearest_f32(bounds[axis].to_f64() - middle[axis]))
-        };
+        let map = |bounds: [S; 3]| [0, 1, 2].map(|axis| nearest_f32(bounds[axis].to_f64() - middle[axis]));
         SweptBox {
             lower: map(swept.lower),
             upper: map(swept.upper),
@@ -35,9 +33,7 @@ fn nearest_f32(value: f64) -> f32 {
 
 /// The middle of all boxes; zero where that overflows.
 fn middle<S: Scalar>(boxes: &[Aabb<S>]) -> [f64; 3] {
-    let all = boxes
-        .iter()
-        .fold(Aabb::empty(), |all, swept| all.merged(swept));
+    let all = boxes.iter().fold(Aabb::empty(), |all, swept| all.merged(swept));
     [0, 1, 2].map(|axis| {
         let middle = 0.5 * (all.lower[axis].to_f64() + all.upper[axis].to_f64());
         if middle.is_finite() { middle } else { 0.0 }

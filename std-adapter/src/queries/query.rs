@@ -72,12 +72,7 @@ impl QueryFile {
         Ok(SinglePrecision { queries, rounded })
     }
 
-    fn points_to_f32(
-        &self,
-        query: &Query,
-        time: u8,
-        rounded: &mut usize,
-    ) -> Result<[Vec3; 4], QueryError> {
+    fn points_to_f32(&self, query: &Query, time: u8, rounded: &mut usize) -> Result<[Vec3; 4], QueryError> {
         let points = if time == 0 { &query.start } else { &query.end };
         let mut result = [Vec3::ZERO; 4];
         for (index, (wide, narrow)) in points.iter().zip(&mut result).enumerate() {

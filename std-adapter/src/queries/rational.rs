@@ -30,19 +30,13 @@ pub(super) fn round(numerator: &[u8], denominator: &[u8]) -> Result<Rounded, Rat
     Ok(match quick(num, den) {
         Some(value) => Rounded { value, exact: true },
         None => {
-            let num = num
-                .parse::<IBig>()
-                .map_err(|_| RatioError::NumeratorNotAnInteger)?;
-            let den = den
-                .parse::<IBig>()
-                .map_err(|_| RatioError::DenominatorNotAnInteger)?;
+            let num = num.parse::<IBig>().map_err(|_| RatioError::NumeratorNotAnInteger)?;
+            let den = den.parse::<IBig>().map_err(|_| RatioError::DenominatorNotAnInteger)?;
             if den.is_zero() {
                 return Err(RatioError::ZeroDenominator);
             }
             // `to_f64`, unlike `to_f64_fast`, promises correct rounding.
-            let (value, exact) = RBig::from_parts_signed(num, den)
-                .to_f64()
-                .value_with_exact();
+            let (value, exact) = RBig::from_parts_signed(num, den).to_f64().value_with_exact();
             // A negative ratio that underflows would become -0.
             Rounded {
                 value: value + 0.0,
@@ -55,16 +49,9 @@ pub(super) fn round(numerator: &[u8], denominator: &[u8]) -> Result<Rounded, Rat
 /// The text, if it is an optional sign and decimal digits. The library's own parser takes digit
 /// separators too, which the format does not have.
 fn decimal(field: &[u8]) -> Option<&str> {
-    let digits = field
-        .strip_prefix(b"-")
-        .or(field.strip_prefix(b"+"))
-        .unwrap_or(field);
+    let digits = field.strip_prefix(b"-").or(field.strip_prefix(b"+")).unwrap_or(field);
     let valid = !digits.is_empty() && digits.iter().all(u8::is_ascii_digit);
-    if valid {
-        str::from_utf8(field).ok()
-    } else {
-        None
-    }
+    if valid { str::from_utf8(field).ok() } else { None }
 }
 
 /// The common case without big integers: a numerator that `f64` holds exactly, over a power of two
@@ -84,11 +71,7 @@ mod tests {
     use super::*;
 
     fn round_text(numerator: &impl ToString, denominator: &impl ToString) -> Rounded {
-        round(
-            numerator.to_string().as_bytes(),
-            denominator.to_string().as_bytes(),
-        )
-        .unwrap()
+        round(numerator.to_string().as_bytes(), denominator.to_string().as_bytes()).unwrap()
     }
 
     fn ratio(value: f64) -> RBig {
@@ -102,9 +85,7 @@ mod tests {
     /// Any finite number, subnormal and huge ones as often as ordinary ones.
     fn finite() -> impl Strategy<Value = f64> {
         prop_oneof![
-            any::<u64>()
-                .prop_map(f64::from_bits)
-                .prop_filter("finite", |x| x.is_finite()),
+            any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |x| x.is_finite()),
             // Subnormal numbers and the first binades above them.
             (any::<bool>(), 0..3_u64 << 52).prop_map(|(negative, bits)| {
                 let magnitude = f64::from_bits(bits);
@@ -116,8 +97,7 @@ mod tests {
 
     /// An integer of up to 1,400 bits, so that ratios reach past both ends of `f64`'s range.
     fn integer() -> impl Strategy<Value = IBig> {
-        (any::<i128>(), 0..1_300_usize, any::<i64>())
-            .prop_map(|(head, shift, tail)| (IBig::from(head) << shift) + tail)
+        (any::<i128>(), 0..1_300_usize, any::<i64>()).prop_map(|(head, shift, tail)| (IBig::from(head) << shift) + tail)
     }
 
     proptest! {
@@ -179,20 +159,10 @@ mod tests {
                 exact: true
             })
         );
-        for text in [
-            "", "-", "--1", "1.5", "1e3", "0x10", "1_000", "1 0", "nan", "\u{0663}",
-        ] {
+        for text in ["", "-", "--1", "1.5", "1e3", "0x10", "1_000", "1 0", "nan", "\u{0663}"] {
             let text = text.as_bytes();
-            assert_eq!(
-                round(text, b"1"),
-                Err(RatioError::NumeratorNotAnInteger),
-                "{text:?}"
-            );
-            assert_eq!(
-                round(b"1", text),
-                Err(RatioError::DenominatorNotAnInteger),
-                "{text:?}"
-            );
+            assert_eq!(round(text, b"1"), Err(RatioError::NumeratorNotAnInteger), "{text:?}");
+            assert_eq!(round(b"1", text), Err(RatioError::DenominatorNotAnInteger), "{text:?}");
         }
     }
 
@@ -209,14 +179,8 @@ mod tests {
     #[test]
     fn nothing_is_divided_by_zero() {
         for denominator in ["0", "-0", "+000"] {
-            assert_eq!(
-                round(b"1", denominator.as_bytes()),
-                Err(RatioError::ZeroDenominator)
-            );
-            assert_eq!(
-                round(b"0", denominator.as_bytes()),
-                Err(RatioError::ZeroDenominator)
-            );
+            assert_eq!(round(b"1", denominator.as_bytes()), Err(RatioError::ZeroDenominator));
+            assert_eq!(round(b"0", denominator.as_bytes()), Err(RatioError::ZeroDenominator));
         }
     }
 }

@@ -35,16 +35,12 @@ pub fn read(path: &Path, kind: Option<PairKind>) -> Result<QueryFile, QueryError
         source,
     };
     if path.is_dir() {
-        return Err(QueryError::Directory {
-            path: path.to_owned(),
-        });
+        return Err(QueryError::Directory { path: path.to_owned() });
     }
     let source = File::open(path).map_err(unreadable)?;
-    let kind =
-        kind.or_else(|| PairKind::from_path(path))
-            .ok_or_else(|| QueryError::UnknownKind {
-                path: path.to_owned(),
-            })?;
+    let kind = kind
+        .or_else(|| PairKind::from_path(path))
+        .ok_or_else(|| QueryError::UnknownKind { path: path.to_owned() })?;
     read_from(source, path, kind)
 }
 
@@ -217,16 +213,15 @@ impl<'a> Builder<'a> {
                 column: index + 1,
                 text: shorten(&record[index]),
             };
-            let rounded =
-                rational::round(&record[column], &record[next]).map_err(|error| match error {
-                    RatioError::NumeratorNotAnInteger => not_an_integer(column),
-                    RatioError::DenominatorNotAnInteger => not_an_integer(next),
-                    RatioError::ZeroDenominator => QueryError::ZeroDenominator {
-                        path: path(),
-                        line,
-                        column: next + 1,
-                    },
-                })?;
+            let rounded = rational::round(&record[column], &record[next]).map_err(|error| match error {
+                RatioError::NumeratorNotAnInteger => not_an_integer(column),
+                RatioError::DenominatorNotAnInteger => not_an_integer(next),
+                RatioError::ZeroDenominator => QueryError::ZeroDenominator {
+                    path: path(),
+                    line,
+                    column: next + 1,
+                },
+            })?;
             if rounded.value.is_infinite() {
                 return Err(QueryError::OverflowsF64 {
                     path: path(),

@@ -24,10 +24,7 @@ fn on_disk(name: &str, text: impl AsRef<[u8]>) -> OnDisk {
 }
 
 fn read_text(text: impl AsRef<[u8]>) -> Result<QueryFile, QueryError> {
-    read(
-        &on_disk("queries.csv", text).path,
-        Some(PairKind::VertexFace),
-    )
+    read(&on_disk("queries.csv", text).path, Some(PairKind::VertexFace))
 }
 
 /// One query of a vertex that falls through a triangle, without truth.
@@ -64,10 +61,7 @@ fn points_keep_the_order_of_their_rows() {
     let face = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let with_face = |v| [v, face[0], face[1], face[2]];
     assert_eq!(file.queries.len(), 1);
-    assert_eq!(
-        file.queries[0].start,
-        with_face(DVec3::new(0.25, 0.25, 0.5))
-    );
+    assert_eq!(file.queries[0].start, with_face(DVec3::new(0.25, 0.25, 0.5)));
     assert_eq!(file.queries[0].end, with_face(DVec3::new(0.25, 0.25, -0.5)));
 }
 
@@ -124,29 +118,20 @@ fn the_folder_or_the_file_name_tells_the_kind() {
         ("set_ee.csv", PairKind::EdgeEdge),
         ("edge-edge/227vf.csv", PairKind::EdgeEdge),
     ] {
-        assert_eq!(
-            read(&on_disk(name, fall()).path, None).unwrap().kind,
-            kind,
-            "{name}"
-        );
+        assert_eq!(read(&on_disk(name, fall()).path, None).unwrap().kind, kind, "{name}");
     }
 }
 
 #[test]
 fn what_the_caller_says_outranks_the_path() {
     let file = on_disk("vertex-face/227vf.csv", fall());
-    assert_eq!(
-        read(&file.path, Some(PairKind::EdgeEdge)).unwrap().kind,
-        PairKind::EdgeEdge
-    );
+    assert_eq!(read(&file.path, Some(PairKind::EdgeEdge)).unwrap().kind, PairKind::EdgeEdge);
 }
 
 #[test]
 fn an_unknown_kind_says_to_pass_it() {
     for name in ["data.csv", "knee.csv", "vertex-face/deeper/data.csv"] {
-        let error = read(&on_disk(name, fall()).path, None)
-            .unwrap_err()
-            .to_string();
+        let error = read(&on_disk(name, fall()).path, None).unwrap_err().to_string();
         assert_names(&error, &[name.rsplit('/').next().unwrap(), "--kind"]);
     }
 }
@@ -195,17 +180,11 @@ fn a_wrong_number_of_columns_is_named() {
 
 #[test]
 fn a_field_that_is_no_integer_is_named() {
-    assert_names(
-        &message("x0,x1,y0,y1,z0,z1\n"),
-        &["line 1, column 1:", "'x0'"],
-    );
+    assert_names(&message("x0,x1,y0,y1,z0,z1\n"), &["line 1, column 1:", "'x0'"]);
     let text = fall().replacen("1,1,0,1,0,1", "1,1,0,1.5,0,1", 1);
     assert_names(&message(text), &["line 3, column 4:", "'1.5'"]);
     assert_names(&message(b"\xff\xfe,1,0,1,0,1\n"), &["line 1, column 1:"]);
-    assert_names(
-        &message("\"1\",1,0,1,0,1\n"),
-        &["line 1, column 1:", "'\"1\"'"],
-    );
+    assert_names(&message("\"1\",1,0,1,0,1\n"), &["line 1, column 1:", "'\"1\"'"]);
 }
 
 #[test]
@@ -217,23 +196,13 @@ fn a_long_field_is_shortened_in_the_message() {
 #[test]
 fn a_zero_denominator_is_named() {
     let text = fall().replacen("1,1,0,1,0,1", "1,1,0,1,0,0", 1);
-    assert_names(
-        &message(text),
-        &["line 3, column 6:", "denominator is zero"],
-    );
+    assert_names(&message(text), &["line 3, column 6:", "denominator is zero"]);
 }
 
 #[test]
 fn a_coordinate_beyond_double_precision_is_named() {
-    let text = fall().replacen(
-        "1,1,0,1,0,1",
-        &format!("1,1,-1{},1,0,1", "0".repeat(309)),
-        1,
-    );
-    assert_names(
-        &message(text),
-        &["line 3, columns 3 and 4:", "too large for f64"],
-    );
+    let text = fall().replacen("1,1,0,1,0,1", &format!("1,1,-1{},1,0,1", "0".repeat(309)), 1);
+    assert_names(&message(text), &["line 3, columns 3 and 4:", "too large for f64"]);
 }
 
 #[test]
@@ -250,8 +219,7 @@ fn a_truth_is_0_or_1() {
 
 #[test]
 fn the_rows_of_a_query_agree_on_the_truth() {
-    let text =
-        fall_with_truths(["1"; 8]) + &fall_with_truths(["0", "0", "0", "0", "0", "1", "0", "0"]);
+    let text = fall_with_truths(["1"; 8]) + &fall_with_truths(["0", "0", "0", "0", "0", "1", "0", "0"]);
     assert_names(&message(text), &["line 14, column 7:", "line 9"]);
 }
 
@@ -263,10 +231,7 @@ fn single_precision_counts_what_it_rounds() {
     file.queries[0].end[3] = DVec3::new(third, 1e-300, 0.5);
     let single = file.to_f32().unwrap();
     assert_eq!(single.rounded, 2);
-    assert_eq!(
-        single.queries[0].end[3].to_array(),
-        [third as f32, 0.0, 0.5]
-    );
+    assert_eq!(single.queries[0].end[3].to_array(), [third as f32, 0.0, 0.5]);
 }
 
 #[test]
@@ -282,13 +247,7 @@ fn a_coordinate_beyond_single_precision_is_named() {
     let error = file.to_f32().unwrap_err().to_string();
     assert_names(
         &error,
-        &[
-            "queries.csv",
-            "line 9",
-            "y of f1 at t = 1",
-            "-3.40",
-            "--scalar f64",
-        ],
+        &["queries.csv", "line 9", "y of f1 at t = 1", "-3.40", "--scalar f64"],
     );
 }
 

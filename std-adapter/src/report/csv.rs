@@ -46,9 +46,7 @@ fn comparison_record(row: &ComparisonRow) -> Vec<String> {
     let survivors = [row.after_boxes, row.candidates, row.contacts].map(Some);
     let survivors = std::iter::once(distributed).chain(survivors);
     let of_kind = |pick: fn(&MeanCounts) -> f64| {
-        let text = move |counts: Option<MeanCounts>| {
-            counts.map_or_else(String::new, |counts| pick(&counts).to_string())
-        };
+        let text = move |counts: Option<MeanCounts>| counts.map_or_else(String::new, |counts| pick(&counts).to_string());
         survivors.clone().map(text)
     };
     let mut record = vec![
@@ -87,11 +85,7 @@ fn comparison_record(row: &ComparisonRow) -> Vec<String> {
 ///
 /// # Errors
 /// Those of `out`.
-pub fn contacts_csv<S: Scalar>(
-    topology: &Topology,
-    contacts: &[Contact<S>],
-    out: impl Write,
-) -> io::Result<()> {
+pub fn contacts_csv<S: Scalar>(topology: &Topology, contacts: &[Contact<S>], out: impl Write) -> io::Result<()> {
     let mut writer = Writer::from_writer(out);
     writer.write_record(["kind", "i0", "i1", "i2", "i3", "time"])?;
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
@@ -108,18 +102,10 @@ pub fn contacts_csv<S: Scalar>(
 ///
 /// # Errors
 /// Those of `out`.
-pub fn pairs_csv(
-    topology: &Topology,
-    vertex_face: &[[u32; 2]],
-    edge_edge: &[[u32; 2]],
-    out: impl Write,
-) -> io::Result<()> {
+pub fn pairs_csv(topology: &Topology, vertex_face: &[[u32; 2]], edge_edge: &[[u32; 2]], out: impl Write) -> io::Result<()> {
     let mut writer = Writer::from_writer(out);
     writer.write_record(["kind", "i0", "i1", "i2", "i3"])?;
-    for (kind, pairs) in [
-        (PairKind::VertexFace, vertex_face),
-        (PairKind::EdgeEdge, edge_edge),
-    ] {
+    for (kind, pairs) in [(PairKind::VertexFace, vertex_face), (PairKind::EdgeEdge, edge_edge)] {
         for &pair in pairs {
             writer.serialize((kind.name(), kind.vertices(pair, topology)))?;
         }

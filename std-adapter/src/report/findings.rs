@@ -32,11 +32,7 @@ pub fn findings(comparison: &Comparison) -> Vec<Finding> {
     let speed = pairs().chain(both(Preset::Lv2014, Preset::Basic));
     findings.extend(speed.filter_map(|(a, b)| speed_beside_paper(a, b)));
     if let Some(ours) = comparison.row(Preset::Selvedge) {
-        findings.extend(
-            comparison
-                .row(Preset::Lv2014)
-                .map(|paper| no_more_candidates(ours, paper)),
-        );
+        findings.extend(comparison.row(Preset::Lv2014).map(|paper| no_more_candidates(ours, paper)));
         findings.extend(fastest(ours, comparison));
     }
     findings.extend(contacts(comparison));
@@ -99,11 +95,7 @@ fn speed_beside_paper(a: &ComparisonRow, b: &ComparisonRow) -> Option<Finding> {
 }
 
 const fn beside_paper(as_expected: bool) -> &'static str {
-    if as_expected {
-        "as in the paper"
-    } else {
-        "against the paper"
-    }
+    if as_expected { "as in the paper" } else { "against the paper" }
 }
 
 fn no_more_candidates(ours: &ComparisonRow, paper: &ComparisonRow) -> Finding {
@@ -147,9 +139,7 @@ fn fastest(ours: &ComparisonRow, comparison: &Comparison) -> Option<Finding> {
 /// than one whose test misses some.
 fn contacts(comparison: &Comparison) -> Vec<Finding> {
     let culls_nothing = |stages: Stages| stages.tests.is_empty();
-    let counts_once = |row: &&ComparisonRow| {
-        row.preset.stages().source != Source::TrianglePairs(Redundancy::Kept)
-    };
+    let counts_once = |row: &&ComparisonRow| row.preset.stages().source != Source::TrianglePairs(Redundancy::Kept);
     let rows: Vec<_> = comparison.rows.iter().filter(counts_once).collect();
     let Some(reference) = rows.iter().find(|row| culls_nothing(row.preset.stages())) else {
         return Vec::new();
@@ -190,11 +180,7 @@ fn contacts(comparison: &Comparison) -> Vec<Finding> {
         });
     }
     if all_agree && rows.len() > 1 {
-        let who = if findings.is_empty() {
-            "All methods"
-        } else {
-            "All others"
-        };
+        let who = if findings.is_empty() { "All methods" } else { "All others" };
         findings.insert(
             0,
             Finding {
@@ -215,10 +201,7 @@ mod tests {
     use crate::study::MeanCounts;
 
     fn row(preset: Preset, vertex_face: f64, edge_edge: f64, rate: f64) -> ComparisonRow {
-        let counts = |vertex_face, edge_edge| MeanCounts {
-            vertex_face,
-            edge_edge,
-        };
+        let counts = |vertex_face, edge_edge| MeanCounts { vertex_face, edge_edge };
         ComparisonRow {
             preset,
             triangle_pairs: 5000.0,
@@ -277,11 +260,7 @@ mod tests {
     fn assert_only(found: &[String], parts: &[&str]) {
         assert_eq!(found.len(), 1, "{found:?}");
         for part in parts {
-            assert!(
-                found[0].contains(part),
-                "`{part}` is missing in: {}",
-                found[0]
-            );
+            assert!(found[0].contains(part), "`{part}` is missing in: {}", found[0]);
         }
     }
 
@@ -295,29 +274,20 @@ mod tests {
     #[test]
     fn more_candidates_than_the_paper_has_are_told() {
         let found = unexpected(Preset::Curtis2008, |row| row.candidates.edge_edge = 3000.0);
-        let parts = [
-            "fewer VF candidates, but no fewer EE than basic",
-            "against the paper",
-        ];
+        let parts = ["fewer VF candidates, but no fewer EE than basic", "against the paper"];
         assert_only(&found, &parts);
     }
 
     #[test]
     fn a_speed_against_the_paper_is_told() {
         let found = unexpected(Preset::Lv2014, |row| row.frames_per_second = 39.0);
-        assert_only(
-            &found,
-            &["lv_2014 is faster than tang_2010", "against the paper"],
-        );
+        assert_only(&found, &["lv_2014 is faster than tang_2010", "against the paper"]);
     }
 
     #[test]
     fn ours_with_more_candidates_than_the_paper_is_told() {
         let found = unexpected(Preset::Selvedge, |row| row.candidates.vertex_face = 32.0);
-        assert_only(
-            &found,
-            &["selvedge leaves more candidates than lv_2014 (32 against 31 VF"],
-        );
+        assert_only(&found, &["selvedge leaves more candidates than lv_2014 (32 against 31 VF"]);
     }
 
     #[test]
@@ -343,9 +313,9 @@ mod tests {
         let found = findings(&comparison(rows));
         assert!(found.iter().all(|finding| finding.as_expected));
         assert!(found.iter().any(|finding| {
-            finding.text.starts_with(
-                "selvedge finds 1 VF and 3 EE contacts a step, basic finds 1 VF and 2 EE",
-            )
+            finding
+                .text
+                .starts_with("selvedge finds 1 VF and 3 EE contacts a step, basic finds 1 VF and 2 EE")
         }));
     }
 
@@ -360,11 +330,7 @@ mod tests {
         let mut rows = as_in_the_paper();
         rows.insert(0, row(Preset::Naive, 9e3, 9e3, 1.0));
         rows[0].contacts.edge_edge = 70.0;
-        assert!(
-            findings(&comparison(rows))
-                .iter()
-                .all(|finding| finding.as_expected)
-        );
+        assert!(findings(&comparison(rows)).iter().all(|finding| finding.as_expected));
     }
 
     #[test]

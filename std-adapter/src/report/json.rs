@@ -170,9 +170,9 @@ pub fn queries(scalar: &str, results: &[QueryResult]) -> Value {
 #[cfg(feature = "simulation")]
 #[must_use]
 pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
-    let costs = costs.iter().map(
-        |cost| json!({"added": cost.added, "steps": cost.steps, "seconds_a_step": cost.seconds}),
-    );
+    let costs = costs
+        .iter()
+        .map(|cost| json!({"added": cost.added, "steps": cost.steps, "seconds_a_step": cost.seconds}));
     costs.collect()
 }
 
@@ -248,12 +248,7 @@ pub fn accuracy(accuracy: &Accuracy) -> Value {
             ("timed", set.timed),
             ("cullable", set.cullable),
         ];
-        pairs_of(
-            &set.name,
-            set.scalar,
-            [set.vertex_face, set.edge_edge],
-            &more,
-        )
+        pairs_of(&set.name, set.scalar, [set.vertex_face, set.edge_edge], &more)
     });
     json!({
         "seed": options.seed,
@@ -314,12 +309,7 @@ fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
 pub fn elementary(accuracy: &ElementaryAccuracy) -> Value {
     let sets = accuracy.sets.iter().map(|set| {
         let more = [("touching", set.touching), ("with_time", set.with_time)];
-        pairs_of(
-            &set.name,
-            set.scalar,
-            [set.vertex_face, set.edge_edge],
-            &more,
-        )
+        pairs_of(&set.name, set.scalar, [set.vertex_face, set.edge_edge], &more)
     });
     let rows = accuracy.sets.iter().flat_map(|set| {
         set.rows.iter().map(|row| {

@@ -31,9 +31,7 @@ pub use figure::{FIGURE_SIZE, FigureError, FigurePairs, figure_3};
 pub use findings::{Finding, findings};
 pub use paper::{PaperRow, paper_row};
 pub use plot::scaling_svg;
-pub use recording::{
-    About, Added, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind,
-};
+pub use recording::{About, Added, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind};
 #[cfg(feature = "simulation")]
 pub use recording::{SimulationRecorder, Subject, costs_of_added_effects};
 pub use step::{StepQuestion, StepSummary};
@@ -44,10 +42,7 @@ use crate::study::{ComparisonRow, MeanCounts, ScalingPoint};
 
 /// The primitive pairs of a method before any culling test, if it distributes triangle pairs.
 fn distributed(row: &ComparisonRow) -> Option<MeanCounts> {
-    let stage = row
-        .stages
-        .iter()
-        .find(|stage| stage.stage == Stage::Distribution);
+    let stage = row.stages.iter().find(|stage| stage.stage == Stage::Distribution);
     stage.map(|stage| stage.survivors)
 }
 

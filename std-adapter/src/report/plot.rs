@@ -74,9 +74,7 @@ fn lines(points: &[ScalingPoint]) -> Vec<Curve> {
             points,
         }
     };
-    let whole = curve("whole step", INK, Kind::Whole, &|point| {
-        Some(point.step.seconds)
-    });
+    let whole = curve("whole step", INK, Kind::Whole, &|point| Some(point.step.seconds));
     let mut lines = vec![reference(&whole.points)];
     for (stage, colour) in STAGE_COLOURS {
         let seconds = |point: &ScalingPoint| match stage {
@@ -134,10 +132,7 @@ fn draw(root: &Drawing<'_>, lines: &[Curve]) -> DrawResult {
         .margin_right(LABEL_ROOM)
         .x_label_area_size(56)
         .y_label_area_size(84)
-        .build_cartesian_2d(
-            (sizes.0..sizes.1).log_scale(),
-            (times.0..times.1).log_scale(),
-        )?;
+        .build_cartesian_2d((sizes.0..sizes.1).log_scale(), (times.0..times.1).log_scale())?;
     chart
         .configure_mesh()
         .bold_line_style(GRID)
@@ -163,9 +158,7 @@ fn draw(root: &Drawing<'_>, lines: &[Curve]) -> DrawResult {
                 let style = line.colour.stroke_width(if bold { 4 } else { 2 });
                 chart.draw_series(LineSeries::new(points.clone(), style))?;
                 let radius = if bold { 5 } else { 4 };
-                chart.draw_series(
-                    points.map(|point| Circle::new(point, radius, line.colour.filled())),
-                )?;
+                chart.draw_series(points.map(|point| Circle::new(point, radius, line.colour.filled())))?;
             }
         }
     }
@@ -185,10 +178,7 @@ fn draw_labels(root: &Drawing<'_>, mut labels: Vec<((i32, i32), String, &Curve)>
     let wanted: Vec<i32> = labels.iter().map(|&((_, y), _, _)| y).collect();
     let lowest = SIZE.1 as i32 - 70;
     let x = (SIZE.0 - LABEL_ROOM) as i32 + 14;
-    for (y, (point, label, line)) in spread(&wanted, LABEL_SPACING, lowest)
-        .into_iter()
-        .zip(labels)
-    {
+    for (y, (point, label, line)) in spread(&wanted, LABEL_SPACING, lowest).into_iter().zip(labels) {
         root.draw(&PathElement::new(
             vec![(point.0 + 6, point.1), (x - 3, y)],
             line.colour.mix(0.6),
@@ -210,11 +200,7 @@ fn draw_labels(root: &Drawing<'_>, mut labels: Vec<((i32, i32), String, &Curve)>
 pub(super) fn spread(wanted: &[i32], spacing: i32, end: i32) -> Vec<i32> {
     let mut places: Vec<i32> = Vec::with_capacity(wanted.len());
     for &place in wanted {
-        places.push(
-            places
-                .last()
-                .map_or(place, |last| place.max(last + spacing)),
-        );
+        places.push(places.last().map_or(place, |last| place.max(last + spacing)));
     }
     let mut limit = end;
     for place in places.iter_mut().rev() {
@@ -229,11 +215,9 @@ fn ranges(lines: &[Curve]) -> Option<[(f64, f64); 2]> {
     let points = || lines.iter().flat_map(|line| &line.points);
     points().next()?;
     let range = |coordinate: fn(&(f64, f64)) -> f64, room: f64| {
-        let ends = points()
-            .map(coordinate)
-            .fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
-                (low.min(value), high.max(value))
-            });
+        let ends = points().map(coordinate).fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
         (ends.0 / room, ends.1 * room)
     };
     Some([range(|point| point.0, 1.4), range(|point| point.1, 1.6)])
@@ -266,9 +250,7 @@ mod tests {
                 .find(|&&(stage, _)| stage == wanted)
                 .map_or(0.0, |&(_, seconds)| seconds)
         };
-        let later = stages
-            .iter()
-            .filter(|&&(stage, _)| stage != Stage::BroadPhase);
+        let later = stages.iter().filter(|&&(stage, _)| stage != Stage::BroadPhase);
         ScalingPoint {
             triangles,
             setup_seconds: 0.0,
@@ -299,12 +281,7 @@ mod tests {
             point(13_450, &[(Stage::BroadPhase, 0.004), (Stage::Boxes, 0.03)]),
             point(1345, &[(Stage::BroadPhase, 0.001), (Stage::Boxes, 0.002)]),
         ]);
-        for label in [
-            "whole step: 34.0 ms",
-            "broad-phase: 4.00 ms",
-            "boxes: 30.0 ms",
-            "triangles",
-        ] {
+        for label in ["whole step: 34.0 ms", "broad-phase: 4.00 ms", "boxes: 30.0 ms", "triangles"] {
             assert!(has(&svg, label), "{label}: {:?}", texts(&svg));
         }
         assert!(!svg.contains("subspace"));
@@ -313,18 +290,14 @@ mod tests {
     #[test]
     fn the_reference_is_n_log_n_through_the_first_whole_step() {
         let seconds = |n: f64| 1e-6 * n;
-        let svg = scaling_svg(
-            &[10_usize, 100, 10_000].map(|n| point(n, &[(Stage::Boxes, seconds(n as f64))])),
-        );
+        let svg = scaling_svg(&[10_usize, 100, 10_000].map(|n| point(n, &[(Stage::Boxes, seconds(n as f64))])));
         // 10 µs × (10,000 ln 10,000) / (10 ln 10).
         assert!(has(&svg, "n log n: 40.0 ms"), "{:?}", texts(&svg));
     }
 
     #[test]
     fn times_of_zero_are_left_out() {
-        let svg = scaling_svg(
-            &[10, 100].map(|n| point(n, &[(Stage::Boxes, 0.0), (Stage::Elementary, 0.5)])),
-        );
+        let svg = scaling_svg(&[10, 100].map(|n| point(n, &[(Stage::Boxes, 0.0), (Stage::Elementary, 0.5)])));
         assert!(has(&svg, "elementary: 500 ms"));
         assert!(!texts(&svg).iter().any(|text| text.starts_with("boxes")));
     }

@@ -47,10 +47,7 @@ impl StepSummary {
     #[must_use]
     pub fn new<S: Scalar>(preset: Preset, pipeline: &Pipeline<S>) -> Self {
         let topology: &Topology = pipeline.topology();
-        let times = pipeline
-            .contacts()
-            .iter()
-            .map(|contact| contact.time.to_f64());
+        let times = pipeline.contacts().iter().map(|contact| contact.time.to_f64());
         Self {
             earliest: times.min_by(f64::total_cmp),
             first_run_seconds: pipeline.report().seconds,

@@ -8,8 +8,7 @@ use svg::node::element::{Group, Line, Rectangle, Text};
 use svg::{Document, Node};
 
 // Lengths in pixels, at the picture's own size.
-pub(super) const FONT: &str =
-    "system-ui, -apple-system, 'Segoe UI', 'Helvetica Neue', Arial, sans-serif";
+pub(super) const FONT: &str = "system-ui, -apple-system, 'Segoe UI', 'Helvetica Neue', Arial, sans-serif";
 const FONT_SIZE: f64 = 13.0;
 /// What a letter or digit takes at most on average, in the widest of the fonts above.
 const LETTER: f64 = 7.9;
@@ -94,16 +93,9 @@ enum Content {
 
 impl Column {
     fn width(&self) -> f64 {
-        let longest = |cells: &[String]| {
-            cells
-                .iter()
-                .map(|cell| text_width(cell))
-                .fold(0.0, f64::max)
-        };
+        let longest = |cells: &[String]| cells.iter().map(|cell| text_width(cell)).fold(0.0, f64::max);
         match &self.content {
-            Content::Names(cells) | Content::Numbers(cells) => {
-                longest(cells).max(text_width(self.heading))
-            }
+            Content::Names(cells) | Content::Numbers(cells) => longest(cells).max(text_width(self.heading)),
             Content::Bars(_) => BAR_WIDTH,
         }
     }
@@ -135,11 +127,7 @@ fn column_groups(comparison: &Comparison) -> Vec<ColumnGroup> {
         ],
     };
     let name = |row: &ComparisonRow| {
-        let dagger = if row.preset.is_reconstructed() {
-            " †"
-        } else {
-            ""
-        };
+        let dagger = if row.preset.is_reconstructed() { " †" } else { "" };
         format!("{}{dagger}", row.preset)
     };
     let fastest = rows
@@ -149,15 +137,10 @@ fn column_groups(comparison: &Comparison) -> Vec<ColumnGroup> {
         .fold(0.0, f64::max);
     let bar = |row: &ComparisonRow| {
         let share = row.frames_per_second / fastest;
-        if share.is_finite() {
-            share.clamp(0.0, 1.0)
-        } else {
-            0.0
-        }
+        if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
     };
-    let paper = |cell: fn(super::PaperRow) -> String| {
-        move |row: &ComparisonRow| paper_row(row.preset).map_or(String::new(), cell)
-    };
+    let paper =
+        |cell: fn(super::PaperRow) -> String| move |row: &ComparisonRow| paper_row(row.preset).map_or(String::new(), cell);
     vec![
         ColumnGroup {
             heading: "",
@@ -166,9 +149,7 @@ fn column_groups(comparison: &Comparison) -> Vec<ColumnGroup> {
                 content: Content::Names(rows.iter().map(name).collect()),
             }],
         },
-        pairs("Distributed", &|row| {
-            survivors(row, |stage| stage == Stage::Distribution)
-        }),
+        pairs("Distributed", &|row| survivors(row, |stage| stage == Stage::Distribution)),
         pairs("After boxes", &|row| {
             if row.has_triangle_pairs {
                 survivors(row, Stage::is_box_test)
@@ -177,9 +158,7 @@ fn column_groups(comparison: &Comparison) -> Vec<ColumnGroup> {
             }
         }),
         pairs("After filter", &|row| Some(row.candidates)),
-        pairs("Contacts", &|row| {
-            survivors(row, |stage| stage == Stage::Elementary)
-        }),
+        pairs("Contacts", &|row| survivors(row, |stage| stage == Stage::Elementary)),
         ColumnGroup {
             heading: "Frames a second",
             columns: vec![
@@ -195,10 +174,7 @@ fn column_groups(comparison: &Comparison) -> Vec<ColumnGroup> {
             columns: vec![
                 numbers("VF", &paper(|row| grouped(row.vertex_face.into()))),
                 numbers("EE", &paper(|row| grouped(row.edge_edge.into()))),
-                numbers(
-                    "frames/s",
-                    &paper(|row| format!("{:.2}", row.frames_per_second)),
-                ),
+                numbers("frames/s", &paper(|row| format!("{:.2}", row.frames_per_second))),
             ],
         },
     ]
@@ -288,11 +264,7 @@ impl<'a> Table<'a> {
         let title = text(MARGIN, 30.0, "start", &self.title);
         picture.append(title.set("font-size", TITLE_SIZE).set("font-weight", 600));
         let subtitle = text(MARGIN, 50.0, "start", &self.subtitle);
-        picture.append(
-            subtitle
-                .set("font-size", SUBTITLE_SIZE)
-                .set("fill", FAINT_INK),
-        );
+        picture.append(subtitle.set("font-size", SUBTITLE_SIZE).set("fill", FAINT_INK));
     }
 
     fn draw_highlight(&self, picture: &mut Group, comparison: &Comparison) {
@@ -332,8 +304,7 @@ impl<'a> Table<'a> {
                 match &column.content {
                     Content::Names(cells) | Content::Numbers(cells) if !cells[row].is_empty() => {
                         let cell = text(x, middle + BASELINE, anchor, &cells[row]);
-                        picture
-                            .append(cell.set("font-weight", if highlighted { 700 } else { 400 }));
+                        picture.append(cell.set("font-weight", if highlighted { 700 } else { 400 }));
                     }
                     Content::Names(_) | Content::Numbers(_) => {}
                     Content::Bars(shares) => picture.append(
@@ -366,20 +337,14 @@ fn highlighted(comparison: &Comparison) -> impl Iterator<Item = (usize, bool)> {
 }
 
 fn title(comparison: &Comparison) -> String {
-    format!(
-        "Pairs left after each stage, and speed: {}",
-        comparison.name
-    )
+    format!("Pairs left after each stage, and speed: {}", comparison.name)
 }
 
 fn subtitle(comparison: &Comparison) -> String {
     let number = |count: usize| grouped(count as u64);
     let s = |count| if count == 1 { "" } else { "s" };
     let Comparison {
-        steps,
-        threads,
-        rounds,
-        ..
+        steps, threads, rounds, ..
     } = *comparison;
     let mut subtitle = format!(
         "{} vertices, {} edges, {} triangles; mean of {} step{}, {threads} thread{}, fastest of {rounds} round{}",
@@ -393,17 +358,13 @@ fn subtitle(comparison: &Comparison) -> String {
     );
     let with_triangle_pairs = |row: &&ComparisonRow| row.has_triangle_pairs;
     if let Some(row) = comparison.rows.iter().find(with_triangle_pairs) {
-        subtitle += &format!(
-            "; {} candidate triangle pairs a step",
-            mean(row.triangle_pairs)
-        );
+        subtitle += &format!("; {} candidate triangle pairs a step", mean(row.triangle_pairs));
     }
     subtitle
 }
 
 fn notes(comparison: &Comparison) -> Vec<&'static str> {
-    let any =
-        |wanted: &dyn Fn(Preset) -> bool| comparison.rows.iter().any(|row| wanted(row.preset));
+    let any = |wanted: &dyn Fn(Preset) -> bool| comparison.rows.iter().any(|row| wanted(row.preset));
     let mut notes = vec![
         "VF: vertex–face pairs, EE: edge–edge pairs. After filter: the pairs that reach the elementary test. –: the method has no such stage.",
     ];
@@ -420,10 +381,7 @@ fn notes(comparison: &Comparison) -> Vec<&'static str> {
 
 fn text(x: f64, y: f64, anchor: &str, content: &str) -> Text {
     // XML has no way to write a control character, and a file's name may hold one.
-    let content = content.replace(
-        |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'),
-        "\u{fffd}",
-    );
+    let content = content.replace(|c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'), "\u{fffd}");
     Text::new(content)
         .set("x", round(x))
         .set("y", round(y))
@@ -459,10 +417,7 @@ mod tests {
             edge_edge: (1.5 * scale * share).round(),
         };
         let tests = preset.stages().tests.iter().map(|test| test.stage());
-        let stages = [Stage::Distribution]
-            .into_iter()
-            .chain(tests)
-            .chain([Stage::Elementary]);
+        let stages = [Stage::Distribution].into_iter().chain(tests).chain([Stage::Elementary]);
         let stages: Vec<MeanStage> = stages
             .enumerate()
             .map(|(index, stage)| MeanStage {
@@ -471,13 +426,7 @@ mod tests {
                 seconds: 0.001,
             })
             .collect();
-        let last = |wanted: &dyn Fn(Stage) -> bool| {
-            stages
-                .iter()
-                .rfind(|stage| wanted(stage.stage))
-                .unwrap()
-                .survivors
-        };
+        let last = |wanted: &dyn Fn(Stage) -> bool| stages.iter().rfind(|stage| wanted(stage.stage)).unwrap().survivors;
         ComparisonRow {
             preset,
             triangle_pairs: 8412.0,
@@ -527,29 +476,16 @@ mod tests {
         for row in &comparison.rows {
             let name = row.preset.name();
             let dagger = format!("{name} †");
-            assert!(
-                has(if row.preset.is_reconstructed() {
-                    &dagger
-                } else {
-                    name
-                }),
-                "{name}"
-            );
+            assert!(has(if row.preset.is_reconstructed() { &dagger } else { name }), "{name}");
             assert!(has(&rate(row.frames_per_second)));
-            let shown = |stage: &&MeanStage| {
-                stage.stage != Stage::Boxes || row.after_boxes == stage.survivors
-            };
-            for MeanStage {
-                stage, survivors, ..
-            } in row.stages.iter().filter(shown)
-            {
+            let shown = |stage: &&MeanStage| stage.stage != Stage::Boxes || row.after_boxes == stage.survivors;
+            for MeanStage { stage, survivors, .. } in row.stages.iter().filter(shown) {
                 let numbers = [mean(survivors.vertex_face), mean(survivors.edge_edge)];
                 assert!(numbers.iter().all(|number| has(number)), "{name} {stage}");
             }
         }
         for printed in [
-            "1,122", "2,056", "12.70", "74", "475", "32.00", "44", "338", "37.54", "31", "137",
-            "34.22",
+            "1,122", "2,056", "12.70", "74", "475", "32.00", "44", "338", "37.54", "31", "137", "34.22",
         ] {
             assert!(has(printed), "the paper's {printed}");
         }
@@ -563,10 +499,7 @@ mod tests {
             let svg = comparison_svg(&comparison("arm", vec![row(preset, 1e4)]));
             texts(&svg).iter().filter(|&text| text == ABSENT).count()
         };
-        assert_eq!(
-            [Preset::Curtis2008, Preset::Tang2010, Preset::Lv2014].map(dashes),
-            [2, 2, 0]
-        );
+        assert_eq!([Preset::Curtis2008, Preset::Tang2010, Preset::Lv2014].map(dashes), [2, 2, 0]);
     }
 
     #[test]
@@ -594,10 +527,7 @@ mod tests {
             ("x\u{0}y\u{1b}[1m", "x\u{fffd}y\u{fffd}[1m"),
         ] {
             let texts = texts(&comparison_svg(&comparison(name, Vec::new())));
-            assert!(
-                texts.iter().any(|text| text.ends_with(expected)),
-                "{texts:?}"
-            );
+            assert!(texts.iter().any(|text| text.ends_with(expected)), "{texts:?}");
         }
     }
 
@@ -610,9 +540,7 @@ mod tests {
             };
             let svg = comparison_svg(&comparison("arm", vec![row]));
             let document = Document::parse(&svg).unwrap();
-            let mut bars = document
-                .descendants()
-                .filter(|node| node.attribute("fill") == Some(BAR));
+            let mut bars = document.descendants().filter(|node| node.attribute("fill") == Some(BAR));
             assert_eq!(bars.next().unwrap().attribute("width"), Some("0"));
         }
     }
@@ -621,9 +549,7 @@ mod tests {
     fn extent(node: Node<'_, '_>) -> [f64; 2] {
         let x: f64 = node.attribute("x").unwrap().parse().unwrap();
         let text = node.text().unwrap().trim();
-        let size = node
-            .attribute("font-size")
-            .map(|size| size.parse().unwrap());
+        let size = node.attribute("font-size").map(|size| size.parse().unwrap());
         let width = size.map_or(text_width(text), |size| prose_width(text, size));
         match node.attribute("text-anchor").unwrap() {
             "start" => [x, x + width],

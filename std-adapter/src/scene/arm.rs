@@ -79,9 +79,7 @@ impl ArmScene {
     /// Those of [`sleeve`].
     pub fn new(refinement: u32) -> Result<Self, RefinementError> {
         let rest = sleeve(refinement)?;
-        let topology = rest
-            .topology()
-            .expect("the limit on refinement keeps a sleeve countable");
+        let topology = rest.topology().expect("the limit on refinement keeps a sleeve countable");
         Ok(Self { rest, topology })
     }
 
@@ -109,11 +107,7 @@ impl ArmScene {
     /// If there is no such frame.
     #[must_use]
     pub fn frame(&self, frame: usize) -> Vec<DVec3> {
-        assert!(
-            frame <= Self::STEPS,
-            "frame {frame} of {}",
-            self.frame_count()
-        );
+        assert!(frame <= Self::STEPS, "frame {frame} of {}", self.frame_count());
         self.positions(frame as f64 / Self::STEPS as f64)
     }
 
@@ -133,15 +127,8 @@ impl ArmScene {
     /// # Panics
     /// If `time` is not from 0 to 1, or `out` has not one place for each vertex.
     pub fn write_positions(&self, time: f64, out: &mut [DVec3]) {
-        assert!(
-            (0.0..=1.0).contains(&time),
-            "time {time} is not from 0 to 1"
-        );
-        assert_eq!(
-            out.len(),
-            self.rest.positions.len(),
-            "one place for each vertex"
-        );
+        assert!((0.0..=1.0).contains(&time), "time {time} is not from 0 to 1");
+        assert_eq!(out.len(), self.rest.positions.len(), "one place for each vertex");
         for (place, rest) in out.iter_mut().zip(&self.rest.positions) {
             *place = bend(wrinkle(*rest, time), time);
         }
@@ -230,23 +217,14 @@ mod tests {
         let (above, below) = (side(a, b, c, p), side(a, b, c, q));
         assert!(above != 0.0 || below != 0.0, "coplanar");
         let around = [side(p, q, a, b), side(p, q, b, c), side(p, q, c, a)];
-        above * below <= 0.0
-            && (around.iter().all(|&s| s >= 0.0) || around.iter().all(|&s| s <= 0.0))
+        above * below <= 0.0 && (around.iter().all(|&s| s >= 0.0) || around.iter().all(|&s| s <= 0.0))
     }
 
     /// The side of the plane a, b, c on which d is: an exact sign.
     fn side(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> f64 {
-        let [a, b, c, d] = [a, b, c, d].map(|p| robust::Coord3D {
-            x: p.x,
-            y: p.y,
-            z: p.z,
-        });
+        let [a, b, c, d] = [a, b, c, d].map(|p| robust::Coord3D { x: p.x, y: p.y, z: p.z });
         let determinant = robust::orient3d(a, b, c, d);
-        if determinant == 0.0 {
-            0.0
-        } else {
-            determinant.signum()
-        }
+        if determinant == 0.0 { 0.0 } else { determinant.signum() }
     }
 
     /// How many pairs of an edge and a triangle without a common vertex meet.
@@ -257,16 +235,9 @@ mod tests {
                 (low.min(p), high.max(p))
             })
         };
-        let mut edges: Vec<_> = topology
-            .edges()
-            .iter()
-            .map(|edge| (bounds(edge), edge))
-            .collect();
+        let mut edges: Vec<_> = topology.edges().iter().map(|edge| (bounds(edge), edge)).collect();
         edges.sort_by(|a, b| a.0.0.x.total_cmp(&b.0.0.x));
-        let longest = edges
-            .iter()
-            .map(|((low, high), _)| high.x - low.x)
-            .fold(0.0, f64::max);
+        let longest = edges.iter().map(|((low, high), _)| high.x - low.x).fold(0.0, f64::max);
         let mut count = 0;
         for triangle in topology.triangles() {
             let (low, high) = bounds(triangle);
@@ -276,12 +247,7 @@ mod tests {
                 .take_while(|(edge, _)| edge.0.x <= high.x)
                 .filter(|(edge, _)| edge.0.cmple(high).all() && edge.1.cmpge(low).all())
                 .filter(|(_, edge)| !edge.iter().any(|v| triangle.contains(v)))
-                .filter(|(_, edge)| {
-                    meet(
-                        edge.map(|v| positions[v as usize]),
-                        triangle.map(|v| positions[v as usize]),
-                    )
-                })
+                .filter(|(_, edge)| meet(edge.map(|v| positions[v as usize]), triangle.map(|v| positions[v as usize])))
                 .count();
         }
         count
@@ -317,19 +283,13 @@ mod tests {
         let ends = topology.edges().iter().flat_map(|&[u, v]| [(u, v), (v, u)]);
         ends.flat_map(|(shared, end)| corners_at[shared as usize].iter().map(move |t| (t, end)))
             .filter(|(triangle, end)| !triangle.contains(end))
-            .filter(|(triangle, end)| {
-                lies_on(
-                    triangle.map(|v| positions[v as usize]),
-                    positions[*end as usize],
-                )
-            })
+            .filter(|(triangle, end)| lies_on(triangle.map(|v| positions[v as usize]), positions[*end as usize]))
             .count()
     }
 
     fn is_free_of_intersections(scene: &ArmScene, frame: usize) -> bool {
         let positions = scene.frame(frame);
-        overlapping_neighbours(scene.topology(), &positions) == 0
-            && intersections(scene.topology(), &positions) == 0
+        overlapping_neighbours(scene.topology(), &positions) == 0 && intersections(scene.topology(), &positions) == 0
     }
 
     #[test]
@@ -348,10 +308,7 @@ mod tests {
         }
         let fine = ArmScene::new(10).unwrap();
         for frame in [0, 20, 40] {
-            assert!(
-                is_free_of_intersections(&fine, frame),
-                "refined, frame {frame}"
-            );
+            assert!(is_free_of_intersections(&fine, frame), "refined, frame {frame}");
         }
     }
 
@@ -371,11 +328,7 @@ mod tests {
             (rest.x - ELBOW).abs() > FOLDS.reach || rest.y < 0.0
         };
         let triangles = scene.topology().triangles();
-        let elsewhere = triangles
-            .iter()
-            .copied()
-            .filter(|t| t.iter().any(away))
-            .collect();
+        let elsewhere = triangles.iter().copied().filter(|t| t.iter().any(away)).collect();
         let rest_of_it = Topology::new(end.len(), elsewhere).unwrap();
         assert_eq!(intersections(&rest_of_it, &end), 0);
     }
@@ -391,10 +344,7 @@ mod tests {
         for frame in 1..scene.frame_count() {
             let after = scene.frame(frame);
             for (a, b) in before.iter().zip(&after) {
-                assert!(
-                    a.distance(*b) <= speed / ArmScene::STEPS as f64,
-                    "frame {frame}"
-                );
+                assert!(a.distance(*b) <= speed / ArmScene::STEPS as f64, "frame {frame}");
             }
             before = after;
         }
@@ -416,15 +366,9 @@ mod tests {
         let at = |x, y| [DVec3::new(x, y, -1.0), DVec3::new(x, y, 1.0)];
         assert!(meet(at(0.25, 0.25), triangle));
         assert!(meet(at(0.5, 0.5), triangle), "through a side");
-        assert!(
-            meet([DVec3::new(0.25, 0.25, 0.0), DVec3::Z], triangle),
-            "standing on it"
-        );
+        assert!(meet([DVec3::new(0.25, 0.25, 0.0), DVec3::Z], triangle), "standing on it");
         assert!(!meet(at(0.75, 0.75), triangle));
-        assert!(!meet(
-            [DVec3::new(0.25, 0.25, 1.0), DVec3::new(0.25, 0.25, 2.0)],
-            triangle
-        ));
+        assert!(!meet([DVec3::new(0.25, 0.25, 1.0), DVec3::new(0.25, 0.25, 2.0)], triangle));
         assert!(lies_on(triangle, DVec3::new(2.0, 1.0, 0.0)));
         assert!(lies_on(triangle, DVec3::new(2.0, 0.0, 0.0)), "along a side");
         assert!(!lies_on(triangle, DVec3::new(2.0, -1.0, 0.0)));
@@ -436,11 +380,7 @@ mod tests {
         // FNV-1a over the bits of all coordinates in the last frame, from x86-64.
         let scene = ArmScene::new(1).unwrap();
         let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-        for coordinate in scene
-            .frame(ArmScene::STEPS)
-            .iter()
-            .flat_map(DVec3::to_array)
-        {
+        for coordinate in scene.frame(ArmScene::STEPS).iter().flat_map(DVec3::to_array) {
             for byte in coordinate.to_bits().to_le_bytes() {
                 hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
             }

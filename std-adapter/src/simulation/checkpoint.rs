@@ -47,12 +47,7 @@ impl Checkpoint {
     pub(super) fn write(&self, fingerprint: u64) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
         let state = &self.state;
-        let numbers = [
-            fingerprint,
-            state.step,
-            state.blocked_steps,
-            state.clock.to_bits(),
-        ];
+        let numbers = [fingerprint, state.step, state.blocked_steps, state.clock.to_bits()];
         bytes.extend(numbers.into_iter().flat_map(u64::to_le_bytes));
         let vectors = state.positions.iter().chain(&state.velocities);
         let numbers = vectors.flat_map(|vector| vector.to_array());
@@ -76,11 +71,7 @@ impl Checkpoint {
         bytes
     }
 
-    pub(super) fn read(
-        bytes: &[u8],
-        fingerprint: u64,
-        shape: Shape,
-    ) -> Result<Self, CheckpointError> {
+    pub(super) fn read(bytes: &[u8], fingerprint: u64, shape: Shape) -> Result<Self, CheckpointError> {
         let bytes = bytes.strip_prefix(MAGIC).ok_or(CheckpointError::NotOne)?;
         let mut reader = Reader(bytes);
         let found = reader.u64().ok_or(CheckpointError::Damaged)?;
@@ -194,11 +185,7 @@ mod tests {
         assert_eq!(read(&bytes, 8), Err(CheckpointError::OtherScene));
         assert_eq!(read(b"v 0 0 0", 7), Err(CheckpointError::NotOne));
         for length in MAGIC.len()..bytes.len() {
-            assert_eq!(
-                read(&bytes[..length], 7),
-                Err(CheckpointError::Damaged),
-                "{length}"
-            );
+            assert_eq!(read(&bytes[..length], 7), Err(CheckpointError::Damaged), "{length}");
         }
         assert!(read(&[&bytes[..], &[0]].concat(), 7).is_err());
         let mut damaged = bytes.clone();

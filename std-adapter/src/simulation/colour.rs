@@ -19,12 +19,7 @@ pub(crate) trait Local<const N: usize>: Debug + Send + Sync {
     }
 
     /// By how much each vertex has to move. `stiffening` is 1/h²: what a compliance is multiplied by.
-    fn corrections(
-        &self,
-        positions: [DVec3; N],
-        inverse_masses: [f64; N],
-        stiffening: f64,
-    ) -> [DVec3; N];
+    fn corrections(&self, positions: [DVec3; N], inverse_masses: [f64; N], stiffening: f64) -> [DVec3; N];
 }
 
 /// Constraints by colour.
@@ -182,9 +177,7 @@ mod tests {
 
     #[test]
     fn constraints_of_one_colour_share_no_vertex_and_all_are_there() {
-        let constraints: Vec<_> = (0..300_u32)
-            .map(|k| Pull([k % 40, 40 + (k * 7) % 31]))
-            .collect();
+        let constraints: Vec<_> = (0..300_u32).map(|k| Pull([k % 40, 40 + (k * 7) % 31])).collect();
         let coloured = Coloured::new(constraints, 71);
         assert_eq!(coloured.coloured, 300);
         for colour in &coloured.colours {
@@ -200,10 +193,7 @@ mod tests {
         let star: Vec<_> = (1..=200).map(|k| Pull([0, k])).collect();
         let coloured = Coloured::new(star.clone(), 201);
         assert_eq!((coloured.coloured, coloured.constraints.len()), (128, 200));
-        assert_ne!(
-            project(&star, 201, 1)[200],
-            project(&star[..199], 201, 1)[200]
-        );
+        assert_ne!(project(&star, 201, 1)[200], project(&star[..199], 201, 1)[200]);
     }
 
     #[test]

@@ -102,11 +102,7 @@ impl<'a> Plan<'a> {
             effect: 0,
             inverse_masses: masses(world).into_iter().map(f64::recip).collect(),
             carriers: vec![FREE; world.cloth.mesh.positions.len()],
-            frames: world
-                .bodies
-                .iter()
-                .map(|body| body.motion.clone())
-                .collect(),
+            frames: world.bodies.iter().map(|body| body.motion.clone()).collect(),
             forces: Vec::new(),
             constraints: Vec::new(),
             contact: ContactSettings::default(),

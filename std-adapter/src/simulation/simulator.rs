@@ -161,25 +161,17 @@ impl Simulation {
         }
         inverse_masses.resize(rest.len(), 0.0);
         let poses: Vec<Pose> = frames.iter().map(|frame| frame.pose(0.0)).collect();
-        let start = rest.iter().zip(&carriers).map(|(&point, &carrier)| {
-            poses
-                .get(carrier as usize)
-                .map_or(point, |pose| pose.apply(point))
-        });
+        let start = rest
+            .iter()
+            .zip(&carriers)
+            .map(|(&point, &carrier)| poses.get(carrier as usize).map_or(point, |pose| pose.apply(point)));
         let positions: Vec<DVec3> = start.collect();
         let velocities = carriers.iter().map(|&carrier| match carrier {
             FREE => cloth.velocity,
             _ => DVec3::ZERO,
         });
         let cloth_vertices = cloth.mesh.positions.len();
-        let mut contact = Contact::new(
-            contact,
-            &triangles,
-            &rest,
-            &carriers,
-            cloth_vertices,
-            bodies.len(),
-        )?;
+        let mut contact = Contact::new(contact, &triangles, &rest, &carriers, cloth_vertices, bodies.len())?;
         if let Some(contact) = &mut contact {
             contact.refresh(&positions);
             if let Some(pair) = contact.first_touching(&positions) {
@@ -301,11 +293,7 @@ impl Simulation {
     pub fn lag(&self) -> f64 {
         // Below a millionth of a step it is rounding.
         let lag = self.time() - self.state.clock;
-        if lag > 1e-6 * self.time_step {
-            lag
-        } else {
-            0.0
-        }
+        if lag > 1e-6 * self.time_step { lag } else { 0.0 }
     }
 
     /// Does one step.
@@ -337,8 +325,7 @@ impl Simulation {
                 (OnBlocked::Yield, Some(body), Some(contact)) => contact.let_pass(body),
                 (OnBlocked::Yield | OnBlocked::Hold, ..) => {
                     // Without anything that is forced to move a step can always be made.
-                    self.attempt(left, 0.0)
-                        .map_err(|blocker| self.described(blocker))?;
+                    self.attempt(left, 0.0).map_err(|blocker| self.described(blocker))?;
                     left = 0.0;
                 }
                 (OnBlocked::Stop, ..) => return Err(self.described(blocker)),
@@ -418,9 +405,8 @@ impl Simulation {
     /// `h`, halved until no frame turns by more in that time than contact can certify.
     fn without_large_turn(&self, mut h: f64) -> f64 {
         let clock = self.state.clock;
-        let turns_too_far = |frame: &RigidMotion, h: f64| {
-            (frame.pose(clock + h).angle - frame.pose(clock).angle).abs() > LARGEST_TURN
-        };
+        let turns_too_far =
+            |frame: &RigidMotion, h: f64| (frame.pose(clock + h).angle - frame.pose(clock).angle).abs() > LARGEST_TURN;
         if self.contact.is_some() {
             while self.frames.iter().any(|frame| turns_too_far(frame, h)) {
                 h *= 0.5;
@@ -457,9 +443,7 @@ impl Simulation {
         };
         for constraint in &mut self.constraints {
             let begin = Instant::now();
-            constraint
-                .action
-                .project(&step, &mut work.predicted, &mut work.touches);
+            constraint.action.project(&step, &mut work.predicted, &mut work.touches);
             effects[constraint.effect].seconds += begin.elapsed().as_secs_f64();
         }
         if let Some(contact) = &mut self.contact {
@@ -474,9 +458,7 @@ impl Simulation {
         }
         for friction in &mut self.friction {
             let begin = Instant::now();
-            friction
-                .action
-                .project(&step, &mut work.predicted, &mut work.touches);
+            friction.action.project(&step, &mut work.predicted, &mut work.touches);
             effects[friction.effect].seconds += begin.elapsed().as_secs_f64();
         }
         for (vertex, position) in work.predicted.iter_mut().enumerate() {
@@ -510,9 +492,7 @@ impl Simulation {
         } = self;
         let clock = state.clock;
         work.poses.clear();
-        let poses = frames
-            .iter()
-            .map(|frame| [clock, clock + ticks].map(|time| frame.pose(time)));
+        let poses = frames.iter().map(|frame| [clock, clock + ticks].map(|time| frame.pose(time)));
         work.poses.extend(poses);
         let step = StepInput {
             time: state.step as f64 * self.time_step,
@@ -528,13 +508,12 @@ impl Simulation {
             effects[force.effect].seconds += begin.elapsed().as_secs_f64();
         }
         work.predicted.clear();
-        work.predicted
-            .extend((0..state.positions.len()).map(|vertex| {
-                match work.poses.get(carriers[vertex] as usize) {
-                    Some([_, pose]) => pose.apply(rest[vertex]),
-                    None => state.positions[vertex] + limited(work.velocities[vertex], FASTEST) * h,
-                }
-            }));
+        work.predicted.extend(
+            (0..state.positions.len()).map(|vertex| match work.poses.get(carriers[vertex] as usize) {
+                Some([_, pose]) => pose.apply(rest[vertex]),
+                None => state.positions[vertex] + limited(work.velocities[vertex], FASTEST) * h,
+            }),
+        );
         work.touches.list.clear();
     }
 }
@@ -554,9 +533,5 @@ fn limited(vector: DVec3, longest: f64) -> DVec3 {
 fn append(positions: &mut Vec<DVec3>, triangles: &mut Vec<[u32; 3]>, mesh: &Mesh) {
     let first = positions.len() as u32;
     positions.extend_from_slice(&mesh.positions);
-    triangles.extend(
-        mesh.triangles
-            .iter()
-            .map(|t| t.map(|vertex| first + vertex)),
-    );
+    triangles.extend(mesh.triangles.iter().map(|t| t.map(|vertex| first + vertex)));
 }

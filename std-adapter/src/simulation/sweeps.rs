@@ -100,9 +100,7 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
             .iter()
             .map(|constraint| constraint.vertices().map(&mut place))
             .collect();
-        vertices
-            .iter()
-            .for_each(|&vertex| place_of[vertex as usize] = u32::MAX);
+        vertices.iter().for_each(|&vertex| place_of[vertex as usize] = u32::MAX);
         Self {
             constraints,
             places,
@@ -125,9 +123,7 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
             if constraint.moves_nothing(at) {
                 continue;
             }
-            let inverse_masses = constraint
-                .vertices()
-                .map(|vertex| step.inverse_masses[vertex as usize]);
+            let inverse_masses = constraint.vertices().map(|vertex| step.inverse_masses[vertex as usize]);
             let moves = constraint.corrections(at, inverse_masses, stiffening);
             for (place, by) in places.iter().zip(moves) {
                 own[usize::from(*place)] += by;
@@ -159,10 +155,7 @@ fn split(order: &mut [u32], centres: &[DVec3], groups: &mut Vec<Vec<u32>>) {
 }
 
 /// Finds each block's neighbours, and sorts blocks so that those of one colour follow each other. Returns those of each.
-fn colour<C: Local<N>, const N: usize>(
-    blocks: &mut Vec<Block<C, N>>,
-    vertex_count: usize,
-) -> Vec<Range<usize>> {
+fn colour<C: Local<N>, const N: usize>(blocks: &mut Vec<Block<C, N>>, vertex_count: usize) -> Vec<Range<usize>> {
     let neighbours = |blocks: &[Block<C, N>]| {
         let mut blocks_of = vec![Vec::new(); vertex_count];
         for (index, block) in blocks.iter().enumerate() {
@@ -288,10 +281,7 @@ mod tests {
     fn wave(count: u32, spread: f64) -> (Vec<DVec3>, Vec<Rope>) {
         let at = |k: f64| DVec3::new(k, (k * 0.7).cos(), 0.3 * (k * 1.3).sin()) * spread;
         let ropes = (0..count - 2).flat_map(|k| [Rope([k, k + 1]), Rope([k, k + 2])]);
-        (
-            (0..count).map(|k| at(f64::from(k))).collect(),
-            ropes.collect(),
-        )
+        ((0..count).map(|k| at(f64::from(k))).collect(), ropes.collect())
     }
 
     #[test]
@@ -299,23 +289,13 @@ mod tests {
         let (rest, ropes) = wave(3000, 0.6);
         let sweeps = Sweeps::new(ropes.clone(), &rest, 1);
         assert!(sweeps.blocks.len() > 16 && sweeps.colours.len() < 5);
-        let mut all: Vec<_> = sweeps
-            .blocks
-            .iter()
-            .flat_map(|b| &b.constraints)
-            .map(|r| r.0)
-            .collect();
+        let mut all: Vec<_> = sweeps.blocks.iter().flat_map(|b| &b.constraints).map(|r| r.0).collect();
         all.sort_unstable();
         assert_eq!(all, ropes.iter().map(|rope| rope.0).collect::<Vec<_>>());
         for colour in &sweeps.colours {
             let mut seen = std::collections::HashSet::new();
             let blocks = &sweeps.blocks[colour.clone()];
-            assert!(
-                blocks
-                    .iter()
-                    .flat_map(|b| &b.vertices)
-                    .all(|&v| seen.insert(v))
-            );
+            assert!(blocks.iter().flat_map(|b| &b.vertices).all(|&v| seen.insert(v)));
         }
         assert_eq!(sweeps.colours.last().unwrap().end, sweeps.blocks.len());
     }

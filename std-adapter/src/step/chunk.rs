@@ -199,8 +199,7 @@ impl Chunk {
         let first = self.pairs.len();
         self.pairs.extend_from_slice(candidates);
         self.indices.resize(first + candidates.len(), [0; 4]);
-        step.numbers
-            .vertices_of_all(kind, candidates, &mut self.indices[first..]);
+        step.numbers.vertices_of_all(kind, candidates, &mut self.indices[first..]);
         let limits = &step.question.limits;
         match step.rows.single() {
             Some(rows) => {
@@ -209,14 +208,7 @@ impl Chunk {
             }
             None => {
                 let rows = step.rows.double();
-                self.filter(
-                    step.level,
-                    kind,
-                    first,
-                    rows,
-                    Tier::Permanent,
-                    limits.separation,
-                );
+                self.filter(step.level, kind, first, rows, Tier::Permanent, limits.separation);
             }
         }
         let kept = &self.pairs[first..];
@@ -258,12 +250,7 @@ impl Chunk {
     }
 
     /// Decides all pairs that there are. Returns whether to go on.
-    pub(super) fn finish<S: Scalar>(
-        &mut self,
-        step: &StepInput<'_, S>,
-        kind: PairKind,
-        found: &mut Found,
-    ) -> bool {
+    pub(super) fn finish<S: Scalar>(&mut self, step: &StepInput<'_, S>, kind: PairKind, found: &mut Found) -> bool {
         let begin = Instant::now();
         let until = step.bound.get();
         self.impacts.clear();
@@ -326,16 +313,8 @@ impl Chunk {
     }
 
     /// Decides what is open in `f64`, after so many sweeps.
-    fn sweep_in_double<S: Scalar>(
-        &mut self,
-        step: &StepInput<'_, S>,
-        kind: PairKind,
-        until: f64,
-        sweeps: usize,
-    ) {
-        let Self {
-            double, impacts, ..
-        } = self;
+    fn sweep_in_double<S: Scalar>(&mut self, step: &StepInput<'_, S>, kind: PairKind, until: f64, sweeps: usize) {
+        let Self { double, impacts, .. } = self;
         let sweep = Sweep {
             level: step.level,
             shape: shape(kind),
@@ -358,13 +337,7 @@ impl Chunk {
 }
 
 /// One pair alone, from the time up to which it is proven to be apart. [`NEVER`] if it is so until the end.
-fn advanced<S: Scalar>(
-    step: &StepInput<'_, S>,
-    kind: PairKind,
-    indices: [u32; 4],
-    from: f64,
-    until: f64,
-) -> f64 {
+fn advanced<S: Scalar>(step: &StepInput<'_, S>, kind: PairKind, indices: [u32; 4], from: f64, until: f64) -> f64 {
     let limits = &step.question.limits;
     let impact = match step.primitives(kind, indices) {
         Primitives::VertexFace(pair) => time_of_impact_within(&pair, limits, from, until),

@@ -355,11 +355,7 @@ impl<S: Scalar> Engine<S> {
     }
 
     /// Replaces both by the pairs that were kept for the caller in the last run.
-    pub(crate) fn collect_kept(
-        &mut self,
-        vertex_face: &mut Vec<[u32; 2]>,
-        edge_edge: &mut Vec<[u32; 2]>,
-    ) {
+    pub(crate) fn collect_kept(&mut self, vertex_face: &mut Vec<[u32; 2]>, edge_edge: &mut Vec<[u32; 2]>) {
         vertex_face.clear();
         edge_edge.clear();
         for worker in &mut self.workers {
@@ -388,10 +384,7 @@ impl<S: Scalar> Engine<S> {
 
     /// The earliest contact of the last run.
     pub(super) fn earliest(&self) -> Option<Contact<S>> {
-        let contacts = self
-            .workers
-            .iter()
-            .flat_map(|worker| &worker.found.contacts);
+        let contacts = self.workers.iter().flat_map(|worker| &worker.found.contacts);
         let earliest = contacts.min_by(|a, b| {
             let by_time = a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal);
             by_time.then((a.kind, a.pair).cmp(&(b.kind, b.pair)))
@@ -475,19 +468,11 @@ fn own_space(spaces: &[Mutex<Space>]) -> MutexGuard<'_, Space> {
 }
 
 /// Every pair must be of the mesh.
-fn check_pairs(
-    topology: &Topology,
-    [vertex_face, edge_edge]: [&[[u32; 2]]; 2],
-) -> Result<(), StepError> {
-    let counts = [
-        topology.vertex_count(),
-        topology.triangles().len(),
-        topology.edges().len(),
-    ];
+fn check_pairs(topology: &Topology, [vertex_face, edge_edge]: [&[[u32; 2]]; 2]) -> Result<(), StepError> {
+    let counts = [topology.vertex_count(), topology.triangles().len(), topology.edges().len()];
     let [vertices, faces, edges] = counts;
-    let is_bad = |[first, second]: [u32; 2], [firsts, seconds]: [usize; 2]| {
-        first as usize >= firsts || second as usize >= seconds
-    };
+    let is_bad =
+        |[first, second]: [u32; 2], [firsts, seconds]: [usize; 2]| first as usize >= firsts || second as usize >= seconds;
     let bad = |kind, pairs: &[[u32; 2]], counts| {
         let pair = pairs.iter().copied().find(|&pair| is_bad(pair, counts));
         pair.map_or(Ok(()), |pair| Err(StepError::NoSuchPair { kind, pair }))

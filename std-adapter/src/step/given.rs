@@ -33,9 +33,7 @@ impl Row {
         let [g, h, i] = moving.end.lower;
         let [j, k, l] = moving.end.upper;
         let none = 0.0;
-        Self([
-            a, b, c, -d, -e, -f, none, none, g, h, i, -j, -k, -l, none, none,
-        ])
+        Self([a, b, c, -d, -e, -f, none, none, g, h, i, -j, -k, -l, none, none])
     }
 
     /// As the first of a pair: what the second must be above.
@@ -45,9 +43,7 @@ impl Row {
         let [g, h, i] = moving.end.lower;
         let [j, k, l] = moving.end.upper;
         let none = f32::INFINITY;
-        Self([
-            d, e, f, -a, -b, -c, none, none, j, k, l, -g, -h, -i, none, none,
-        ])
+        Self([d, e, f, -a, -b, -c, none, none, j, k, l, -g, -h, -i, none, none])
     }
 }
 
@@ -62,13 +58,7 @@ pub(super) struct PrimitiveBoxes {
 
 impl PrimitiveBoxes {
     /// Makes the boxes of a step. Pairs that they show to be apart are so by more than `separation`.
-    pub(super) fn fit<S: Scalar>(
-        &mut self,
-        topology: &Topology,
-        start: &[S::Vector],
-        end: &[S::Vector],
-        separation: S,
-    ) {
+    pub(super) fn fit<S: Scalar>(&mut self, topology: &Topology, start: &[S::Vector], end: &[S::Vector], separation: S) {
         let mapping = Mapping::new(&extent::<S>(start, end), separation, S::ONE, false);
         let moving = start.iter().zip(end);
         self.vertex_boxes.clear();
@@ -94,13 +84,7 @@ impl PrimitiveBoxes {
     /// Replaces `near` by the pairs that are not certainly apart, in the same order; `None` if the mesh does not have one of
     /// the primitives.
     #[must_use]
-    pub(super) fn keep_near(
-        &self,
-        level: Level,
-        kind: PairKind,
-        pairs: &[[u32; 2]],
-        near: &mut Vec<[u32; 2]>,
-    ) -> Option<()> {
+    pub(super) fn keep_near(&self, level: Level, kind: PairKind, pairs: &[[u32; 2]], near: &mut Vec<[u32; 2]>) -> Option<()> {
         let (firsts, seconds) = (&self.firsts[kind as usize], &self.seconds[kind as usize]);
         near.clear();
         near.resize(pairs.len(), [0; 2]);
@@ -191,8 +175,7 @@ mod tests {
         let mut near = Vec::new();
         let pairs = [[3, 1], [0, 1], [3, 0], [1, 0], [2, 1]];
         let level = crate::dispatch::best_level();
-        let mut keep =
-            |pairs: &[[u32; 2]]| boxes.keep_near(level, PairKind::VertexFace, pairs, &mut near);
+        let mut keep = |pairs: &[[u32; 2]]| boxes.keep_near(level, PairKind::VertexFace, pairs, &mut near);
         assert_eq!(keep(&[[0, 1], [4, 0]]), None);
         assert_eq!(keep(&[[0, 2]]), None);
         assert_eq!(keep(&pairs), Some(()));

@@ -251,16 +251,10 @@ impl<S: Scalar> CollisionDetector<S> {
     ///
     /// # Errors
     /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
-    pub fn contacts(
-        &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
-        contacts: &mut Vec<Contact<S>>,
-    ) -> Result<(), StepError> {
+    pub fn contacts(&mut self, start: &[S::Vector], end: &[S::Vector], contacts: &mut Vec<Contact<S>>) -> Result<(), StepError> {
         let question = self.question(Wanted::All);
         let engine = &mut self.engine;
-        self.threads
-            .run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        self.threads.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
         self.engine.collect_contacts(contacts);
         Ok(())
     }
@@ -285,18 +279,13 @@ impl<S: Scalar> CollisionDetector<S> {
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).
-    pub fn earliest(
-        &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
-    ) -> Result<Option<Contact<S>>, StepError> {
+    pub fn earliest(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<Option<Contact<S>>, StepError> {
         let question = self.question(Wanted::Earliest);
         let begin = Instant::now();
         let mut earliest = None;
         for probe in PROBES {
             let engine = &mut self.engine;
-            self.threads
-                .run(|| engine.run(start, end, &question, probe))?;
+            self.threads.run(|| engine.run(start, end, &question, probe))?;
             earliest = self.engine.earliest();
             if earliest.is_some() {
                 break;
@@ -313,8 +302,7 @@ impl<S: Scalar> CollisionDetector<S> {
     pub fn is_free(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<bool, StepError> {
         let question = self.question(Wanted::Any);
         let engine = &mut self.engine;
-        self.threads
-            .run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        self.threads.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
         Ok(self.engine.tally().contacts.total() == 0)
     }
 

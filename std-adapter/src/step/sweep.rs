@@ -81,12 +81,7 @@ pub(super) struct Sweep<'a, F> {
 impl<F: Scalar> Sweep<'_, F> {
     /// One round for all open pairs, the sweep with this number. Those that it decides are open no more; `leave` gets the ones that are
     /// not proven to be apart: place, rows, time and why.
-    pub(super) fn run(
-        &self,
-        number: usize,
-        open: &mut Open<F>,
-        mut leave: impl FnMut(u32, [u32; 4], F, Left),
-    ) {
+    pub(super) fn run(&self, number: usize, open: &mut Open<F>, mut leave: impl FnMut(u32, [u32; 4], F, Left)) {
         let Open {
             places,
             indices,

@@ -107,8 +107,7 @@ pub fn compare(
             missed: PairCounts::default(),
         });
     }
-    let mut exact =
-        Pipeline::<f64>::new(topology.clone(), Preset::SelvedgeExact.stages(), threads)?;
+    let mut exact = Pipeline::<f64>::new(topology.clone(), Preset::SelvedgeExact.stages(), threads)?;
     let (mut start, mut end) = (Vec::new(), Vec::new());
     let steps = frames.step_count();
     for step in 0..steps {
@@ -117,10 +116,7 @@ pub fn compare(
         for round in 0..rounds {
             for (method, fastest) in methods.iter_mut().zip(&mut fastest) {
                 let report = method.pipeline.step(&start, &end)?;
-                if fastest
-                    .as_ref()
-                    .is_none_or(|fastest| report.seconds < fastest.seconds)
-                {
+                if fastest.as_ref().is_none_or(|fastest| report.seconds < fastest.seconds) {
                     *fastest = Some(report.clone());
                 }
             }
@@ -139,14 +135,9 @@ pub fn compare(
         edges: topology.edges().len(),
         triangles: topology.triangles().len(),
         steps,
-        threads: methods
-            .first()
-            .map_or(threads, |method| method.pipeline.threads()),
+        threads: methods.first().map_or(threads, |method| method.pipeline.threads()),
         rounds,
-        rows: methods
-            .into_iter()
-            .map(|method| method.row(steps))
-            .collect(),
+        rows: methods.into_iter().map(|method| method.row(steps)).collect(),
     })
 }
 
@@ -175,10 +166,7 @@ fn touching_pairs(contacts: &[Contact<f64>]) -> Vec<(PairKind, [u32; 2])> {
 /// How many of `wanted` are not among `found`; both are in order.
 fn missing(wanted: &[(PairKind, [u32; 2])], found: &[(PairKind, [u32; 2])]) -> PairCounts {
     let mut missing = PairCounts::default();
-    for pair in wanted
-        .iter()
-        .filter(|pair| found.binary_search(pair).is_err())
-    {
+    for pair in wanted.iter().filter(|pair| found.binary_search(pair).is_err()) {
         match pair.0 {
             PairKind::VertexFace => missing.vertex_face += 1,
             PairKind::EdgeEdge => missing.edge_edge += 1,

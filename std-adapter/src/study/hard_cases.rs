@@ -37,12 +37,10 @@ pub fn ask_hard_cases<S: Scalar>(name: &str, progress: &mut dyn FnMut(f64)) -> V
     for (index, &case) in cases.iter().enumerate() {
         if let Some(points) = exactly::<S>(case) {
             let must_be_kept = case.contact != Contact::Never;
-            let answers = QueryMethod::ALL.map(|method| {
-                match (method.keeps::<S>(case.kind, points), must_be_kept) {
-                    (true, true) | (false, false) => HardAnswer::Right,
-                    (true, false) => HardAnswer::FalseAlarm,
-                    (false, true) => HardAnswer::Missed,
-                }
+            let answers = QueryMethod::ALL.map(|method| match (method.keeps::<S>(case.kind, points), must_be_kept) {
+                (true, true) | (false, false) => HardAnswer::Right,
+                (true, false) => HardAnswer::FalseAlarm,
+                (false, true) => HardAnswer::Missed,
             });
             results.push(HardResult { case, answers });
         }
@@ -81,9 +79,7 @@ mod tests {
             let of = |result: &super::HardResult| {
                 let by_method = QueryMethod::ALL.into_iter().zip(result.answers);
                 let missed = by_method.filter(|(_, answer)| *answer == HardAnswer::Missed);
-                missed
-                    .filter(|(method, _)| method.is_certified() == wanted)
-                    .count()
+                missed.filter(|(method, _)| method.is_certified() == wanted).count()
             };
             results.iter().map(of).sum::<usize>()
         };

@@ -20,8 +20,7 @@ mod simulated;
 pub use accuracy::elementary;
 #[cfg(feature = "accuracy")]
 pub use accuracy::{
-    Accuracy, AccuracyOptions, AccuracyRow, AccuracySet, BackendTime, BackendsDisagree,
-    MeasuredFilter, PairSet, measure_accuracy,
+    Accuracy, AccuracyOptions, AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, MeasuredFilter, PairSet, measure_accuracy,
 };
 pub use arm::ArmFrames;
 pub use candidates::{StepCandidates, busiest_step, step_candidates};
@@ -32,9 +31,7 @@ pub use frames::{Frames, TwoFrames};
 #[cfg(feature = "files")]
 pub use hard_cases::{HardAnswer, HardResult, ask_hard_cases};
 #[cfg(feature = "files")]
-pub use queries::{
-    Nanoseconds, QueryMethod, QueryResult, TruthCounts, UnknownMethod, measure_queries,
-};
+pub use queries::{Nanoseconds, QueryMethod, QueryResult, TruthCounts, UnknownMethod, measure_queries};
 pub use scaling::{ScalingPoint, measure_size};
 #[cfg(feature = "simulation")]
 pub use simulated::SimulatedSteps;

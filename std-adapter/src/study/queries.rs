@@ -11,9 +11,7 @@ use crate::pipeline::{CullingTest, Preset, Stages};
 use crate::queries::Query;
 use selvedge_core::boxes::{self, Dop18};
 use selvedge_core::elementary::{Contact, Impact, Limits, advance::time_of_impact};
-use selvedge_core::{
-    EdgeEdge, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary, filter,
-};
+use selvedge_core::{EdgeEdge, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary, filter};
 use std::fmt;
 use std::hint::black_box;
 use std::str::FromStr;
@@ -121,10 +119,7 @@ impl QueryMethod {
     pub fn is_certified(self) -> bool {
         match self {
             Self::NonCoplanarityPlain | Self::Cubic | Self::BernsteinSign | Self::Additive => false,
-            Self::Selvedge => {
-                SELVEDGE.elementary.is_certified()
-                    && SELVEDGE.tests.iter().all(|test| test.is_certified())
-            }
+            Self::Selvedge => SELVEDGE.elementary.is_certified() && SELVEDGE.tests.iter().all(|test| test.is_certified()),
             _ => true,
         }
     }
@@ -219,8 +214,7 @@ fn measure<S: Scalar, P: QueryPair<S>>(mut run: Run<'_, S::Vector>) -> QueryResu
         QueryMethod::Selvedge => {
             let limits = Limits::default();
             run.with(|pair: &P| {
-                SELVEDGE.tests.iter().all(|&test| keeps(test, pair))
-                    && time_of_impact(pair, &limits) != Impact::Never
+                SELVEDGE.tests.iter().all(|&test| keeps(test, pair)) && time_of_impact(pair, &limits) != Impact::Never
             })
         }
         QueryMethod::Exact => run.with(|pair: &P| elementary::contact(pair) != Contact::Never),
@@ -228,32 +222,23 @@ fn measure<S: Scalar, P: QueryPair<S>>(mut run: Run<'_, S::Vector>) -> QueryResu
             let limits = Limits::default();
             run.with(|pair: &P| time_of_impact(pair, &limits) != Impact::Never)
         }
-        QueryMethod::NonCoplanarity => {
-            run.with(|pair: &P| keeps(Test::CertifiedNonCoplanarity, pair))
-        }
-        QueryMethod::NonCoplanarityPlain => {
-            run.with(|pair: &P| keeps(Test::PlainNonCoplanarity, pair))
-        }
+        QueryMethod::NonCoplanarity => run.with(|pair: &P| keeps(Test::CertifiedNonCoplanarity, pair)),
+        QueryMethod::NonCoplanarityPlain => run.with(|pair: &P| keeps(Test::PlainNonCoplanarity, pair)),
         QueryMethod::RelativeBoxes => run.with(|pair: &P| keeps(Test::RelativeBoxes, pair)),
         QueryMethod::RelativeBoxesNine => run.with(|pair: &P| keeps(Test::RelativeBoxesNine, pair)),
         QueryMethod::SweptBoxes => run.with(|pair: &P| keeps(Test::SweptBoxes, pair)),
         QueryMethod::SegmentBox => run.with(|pair: &P| keeps(Test::SegmentBox, pair)),
         QueryMethod::Dop18 => run.with(|pair: &P| keeps(Test::StoredDop18, pair)),
         QueryMethod::Cubic => run.with(|pair: &P| pair.cubic().is_some()),
-        QueryMethod::BernsteinSign => {
-            run.with(|pair: &P| elementary::bernstein_sign::touches(pair))
-        }
+        QueryMethod::BernsteinSign => run.with(|pair: &P| elementary::bernstein_sign::touches(pair)),
         QueryMethod::TightInclusion => {
             let limits = Limits {
                 tolerance: S::from_f64(1e-6),
                 separation: S::ZERO,
             };
-            run.with(|pair: &P| {
-                elementary::tight_inclusion::time_of_impact(pair, &limits) != Impact::Never
-            })
+            run.with(|pair: &P| elementary::tight_inclusion::time_of_impact(pair, &limits) != Impact::Never)
         }
-        QueryMethod::Additive => run
-            .with(|pair: &P| elementary::additive::time_of_impact(pair, S::ZERO) != Impact::Never),
+        QueryMethod::Additive => run.with(|pair: &P| elementary::additive::time_of_impact(pair, S::ZERO) != Impact::Never),
     }
 }
 
@@ -266,12 +251,8 @@ fn keeps<S: Scalar>(test: CullingTest, pair: &impl QueryPair<S>) -> bool {
         CullingTest::SweptBoxes | CullingTest::StoredSweptBoxes => boxes::swept_boxes(pair),
         CullingTest::StoredDop18 => pair.dop_18(),
         CullingTest::SegmentBox => pair.segment_box(),
-        CullingTest::RelativeBoxes | CullingTest::SubspaceThree => {
-            boxes::relative::three_axes(pair)
-        }
-        CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => {
-            boxes::relative::nine_directions(pair)
-        }
+        CullingTest::RelativeBoxes | CullingTest::SubspaceThree => boxes::relative::three_axes(pair),
+        CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => boxes::relative::nine_directions(pair),
         CullingTest::PlainNonCoplanarity => filter::plain::non_coplanarity(pair),
         CullingTest::CertifiedNonCoplanarity => filter::certified::non_coplanarity(pair),
     };
@@ -347,10 +328,7 @@ struct Run<'a, V> {
 }
 
 impl<V: Copy> Run<'_, V> {
-    fn with<S: Scalar<Vector = V>, P: QueryPair<S>>(
-        &mut self,
-        test: impl Fn(&P) -> bool,
-    ) -> QueryResult {
+    fn with<S: Scalar<Vector = V>, P: QueryPair<S>>(&mut self, test: impl Fn(&P) -> bool) -> QueryResult {
         let mut watch = StopWatch { repeats: 1 };
         let mut times = Vec::with_capacity(self.queries.len());
         let mut positives = 0;
@@ -472,11 +450,7 @@ mod tests {
                 positives: 1,
                 ..TruthCounts::default()
             };
-            assert_eq!(
-                (result.positives, result.truth),
-                (1, Some(truth)),
-                "{method}"
-            );
+            assert_eq!((result.positives, result.truth), (1, Some(truth)), "{method}");
         }
     }
 

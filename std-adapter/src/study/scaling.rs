@@ -37,10 +37,7 @@ pub fn measure_size(
     let mut fastest: Option<StepReport> = None;
     for _ in 0..rounds.max(1) {
         let report = pipeline.step(&start, &end)?;
-        if fastest
-            .as_ref()
-            .is_none_or(|fastest| report.seconds < fastest.seconds)
-        {
+        if fastest.as_ref().is_none_or(|fastest| report.seconds < fastest.seconds) {
             fastest = Some(report.clone());
         }
     }

@@ -4,27 +4,15 @@ use crate::support::{Workplace, keys};
 use serde_json::Value;
 
 /// Small enough for a test.
-const SHORT: [&str; 7] = [
-    "accuracy", "--only", "filters", "--pairs", "1500", "--repeat", "1",
-];
-const ELEMENTARY: [&str; 7] = [
-    "accuracy",
-    "--only",
-    "elementary",
-    "--pairs",
-    "300",
-    "--repeat",
-    "1",
-];
+const SHORT: [&str; 7] = ["accuracy", "--only", "filters", "--pairs", "1500", "--repeat", "1"];
+const ELEMENTARY: [&str; 7] = ["accuracy", "--only", "elementary", "--pairs", "300", "--repeat", "1"];
 
 fn rows(document: &Value) -> &Vec<Value> {
     document["rows"].as_array().unwrap()
 }
 
 fn at(row: &Value, name: &str) -> f64 {
-    row[name]
-        .as_f64()
-        .unwrap_or_else(|| panic!("{name}: {row}"))
+    row[name].as_f64().unwrap_or_else(|| panic!("{name}: {row}"))
 }
 
 #[test]
@@ -38,12 +26,8 @@ fn json_has_every_filter_on_every_set_and_backend() {
     assert_eq!(rows(&document).len(), expected);
     for row in rows(&document) {
         assert!(at(row, "nanoseconds_per_pair") > 0.0);
-        let [culled, cullable, kept] = [
-            "culled_fraction",
-            "cullable_fraction",
-            "kept_of_cullable_fraction",
-        ]
-        .map(|name| at(row, name));
+        let [culled, cullable, kept] =
+            ["culled_fraction", "cullable_fraction", "kept_of_cullable_fraction"].map(|name| at(row, name));
         for share in [culled, cullable, kept] {
             assert!((0.0..=1.0).contains(&share), "{row}");
         }
@@ -66,23 +50,15 @@ fn json_has_every_filter_on_every_set_and_backend() {
 fn filters_without_proof_are_marked_and_caught() {
     let place = Workplace::new();
     let text = place.stdout(&SHORT);
-    assert!(
-        text.contains("paper!") && text.contains("uncertified!"),
-        "{text}"
-    );
+    assert!(text.contains("paper!") && text.contains("uncertified!"), "{text}");
     assert!(!text.contains("permanent!") && text.contains("! not certified"));
     let document = place.json(&[&SHORT[..], &["--json"]].concat());
     for tier in ["paper", "uncertified"] {
         for scalar in ["f32", "f64"] {
-            let mut found = rows(&document).iter().filter(|row| {
-                row["set"] == "Nearly coplanar pairs"
-                    && row["tier"] == tier
-                    && row["scalar"] == scalar
-            });
-            assert!(
-                at(found.next().unwrap(), "false_culls") > 0.0,
-                "{tier}, {scalar}"
-            );
+            let mut found = rows(&document)
+                .iter()
+                .filter(|row| row["set"] == "Nearly coplanar pairs" && row["tier"] == tier && row["scalar"] == scalar);
+            assert!(at(found.next().unwrap(), "false_culls") > 0.0, "{tier}, {scalar}");
         }
     }
 }
@@ -110,10 +86,7 @@ fn a_step_between_two_meshes_is_a_set_of_its_own() {
     assert_eq!(sets.len(), 8);
     assert_eq!(sets[2]["set"], "start to end");
     // All 15 pairs of two triangles.
-    assert_eq!(
-        (&sets[2]["vertex_face"], &sets[2]["edge_edge"]),
-        (&6.into(), &9.into())
-    );
+    assert_eq!((&sets[2]["vertex_face"], &sets[2]["edge_edge"]), (&6.into(), &9.into()));
     assert_eq!(sets[2]["drawn_from"], 15);
 }
 
@@ -121,9 +94,7 @@ fn a_step_between_two_meshes_is_a_set_of_its_own() {
 fn a_mesh_without_candidates_has_no_times() {
     let place = Workplace::with_step();
     let document = place.json(&[&SHORT[..], &["start.obj", "start.obj", "--json"]].concat());
-    let empty = rows(&document)
-        .iter()
-        .filter(|row| row["set"] == "start to start");
+    let empty = rows(&document).iter().filter(|row| row["set"] == "start to start");
     for row in empty {
         assert!(row["nanoseconds_per_pair"].is_null(), "{row}");
     }
@@ -152,17 +123,9 @@ fn files_are_written_and_the_table_printed() {
     assert!(text.contains("What accuracy costs in time"));
     assert_eq!(place.listing(), ["plot.svg", "rows.json"]);
     let document: Value = serde_json::from_str(&place.read("rows.json")).unwrap();
-    assert_eq!(
-        keys(&document),
-        ["seed", "repeat", "separation", "sets", "rows"]
-    );
+    assert_eq!(keys(&document), ["seed", "repeat", "separation", "sets", "rows"]);
     let plot = place.read("plot.svg");
-    for label in [
-        "Arm scene, f32",
-        "Nearly coplanar pairs, f64",
-        "permanent",
-        "as computed",
-    ] {
+    for label in ["Arm scene, f32", "Nearly coplanar pairs, f64", "permanent", "as computed"] {
         assert!(plot.contains(label), "{label}");
     }
 }
@@ -170,19 +133,10 @@ fn files_are_written_and_the_table_printed() {
 #[test]
 fn elementary_tests_are_measured_at_every_tolerance_and_the_unsafe_ones_are_caught() {
     let place = Workplace::with_step();
-    let outputs = [
-        "start.obj",
-        "end.obj",
-        "--json=rows.json",
-        "--elementary-svg",
-        "plot.svg",
-    ];
+    let outputs = ["start.obj", "end.obj", "--json=rows.json", "--elementary-svg", "plot.svg"];
     let text = place.stdout(&[&ELEMENTARY[..], &outputs].concat());
     assert!(text.contains("without_bounds!") && text.contains("! not certified"));
-    assert!(
-        !text.contains("certified!") && !text.contains("exact!"),
-        "{text}"
-    );
+    assert!(!text.contains("certified!") && !text.contains("exact!"), "{text}");
     let document: Value = serde_json::from_str(&place.read("rows.json")).unwrap();
     assert_eq!(keys(&document), ["elementary"]);
     let document = &document["elementary"];
@@ -206,12 +160,7 @@ fn elementary_tests_are_measured_at_every_tolerance_and_the_unsafe_ones_are_caug
     // Three vertices go through a face.
     assert!(step.all(|row| row["touching"].as_u64() <= Some(3)));
     let plot = place.read("plot.svg");
-    for label in [
-        "Hard cases, f32",
-        "Arm scene, f64",
-        "certified 1e-12",
-        "cubic",
-    ] {
+    for label in ["Hard cases, f32", "Arm scene, f64", "certified 1e-12", "cubic"] {
         assert!(plot.contains(label), "{label}");
     }
     assert!(!plot.contains("NaN"));
@@ -227,8 +176,5 @@ fn without_only_one_document_has_both_parts_and_a_plot_needs_its_part() {
         ["seed", "repeat", "separation", "sets", "rows", "elementary"]
     );
     let message = place.refusal(1, &[&SHORT[..], &["--elementary-svg", "a.svg"]].concat());
-    assert!(
-        message.contains("--elementary-svg needs what --only leaves out"),
-        "{message}"
-    );
+    assert!(message.contains("--elementary-svg needs what --only leaves out"), "{message}");
 }

@@ -33,8 +33,7 @@ fn assert_says(message: &str, parts: &[&str]) {
 
 #[test]
 fn a_missing_file_is_named() {
-    let message =
-        Workplace::with_step().refusal(1, &["cull", "gone.ply", "end.obj", "--pairs", "out.csv"]);
+    let message = Workplace::with_step().refusal(1, &["cull", "gone.ply", "end.obj", "--pairs", "out.csv"]);
     assert_says(&message, &["gone.ply", "no such file"]);
 }
 
@@ -77,16 +76,8 @@ fn a_truncated_binary_ply_is_named() {
 #[test]
 fn a_wrong_count_in_a_header_is_named() {
     let body = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-    refused(
-        "many.ply",
-        &ply(1_000_000_000, 1, body),
-        &["vertex", "1000000000"],
-    );
-    refused(
-        "few.ply",
-        &ply(3, 1, &format!("{body}3 0 1 2\n")),
-        &["line 14"],
-    );
+    refused("many.ply", &ply(1_000_000_000, 1, body), &["vertex", "1000000000"]);
+    refused("few.ply", &ply(3, 1, &format!("{body}3 0 1 2\n")), &["line 14"]);
 }
 
 #[test]
@@ -101,11 +92,7 @@ fn a_coordinate_that_is_not_finite_is_named_with_its_line() {
 
 #[test]
 fn a_line_that_is_no_number_is_named() {
-    refused(
-        "odd.obj",
-        &ABOVE.replace("v 0 5 0", "v 0 five 0"),
-        &["line 3", "five"],
-    );
+    refused("odd.obj", &ABOVE.replace("v 0 5 0", "v 0 five 0"), &["line 3", "five"]);
 }
 
 #[test]
@@ -116,11 +103,7 @@ fn an_index_out_of_range_is_named_with_its_line() {
         &["line 8", "vertex 7", "6 vertices"],
     );
     let body = "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n";
-    refused(
-        "far.ply",
-        &ply(3, 1, body),
-        &["line 13", "vertex 3", "3 vertices"],
-    );
+    refused("far.ply", &ply(3, 1, body), &["line 13", "vertex 3", "3 vertices"]);
 }
 
 #[test]
@@ -135,11 +118,7 @@ fn frames_of_different_meshes_are_both_named_with_the_difference() {
     let more = format!("{ABOVE}f 1 2 4\n");
     let turned = ABOVE.replace("f 4 5 6", "f 4 6 5");
     let vertex = format!("v 9 9 9\n{ABOVE}");
-    for (text, part) in [
-        (more.as_str(), "3"),
-        (&turned, "triangle 1"),
-        (&vertex, "7"),
-    ] {
+    for (text, part) in [(more.as_str(), "3"), (&turned, "triangle 1"), (&vertex, "7")] {
         place.write("other.obj", text);
         let message = place.refusal(1, &["cull", "start.obj", "other.obj"]);
         assert_says(&message, &["start.obj", "other.obj", part]);
@@ -152,10 +131,7 @@ fn a_coordinate_too_large_for_f32_is_named_with_its_vertex() {
     place.write("huge.obj", ABOVE.replace("v 0 5 0", "v 0 -1e39 0"));
     let arguments = ["cull", "start.obj", "huge.obj", "--pairs", "out.csv"];
     let message = place.refusal(1, &[&arguments[..], &["--scalar", "f32"]].concat());
-    assert_says(
-        &message,
-        &["huge.obj", "y coordinate of vertex 2", "-1e39", "f64"],
-    );
+    assert_says(&message, &["huge.obj", "y coordinate of vertex 2", "-1e39", "f64"]);
     assert!(place.run(&arguments).status.success());
 }
 
@@ -163,18 +139,7 @@ fn a_coordinate_too_large_for_f32_is_named_with_its_vertex() {
 fn a_bad_frame_leaves_no_output_folder_behind() {
     let place = Workplace::with_step();
     place.write("end.obj", moved_by(f64::NAN));
-    let message = place.refusal(
-        1,
-        &[
-            "compare",
-            "start.obj",
-            "end.obj",
-            "--output",
-            "new",
-            "--csv",
-            "new.csv",
-        ],
-    );
+    let message = place.refusal(1, &["compare", "start.obj", "end.obj", "--output", "new", "--csv", "new.csv"]);
     assert_says(&message, &["end.obj", "line 4"]);
 }
 
@@ -193,19 +158,8 @@ fn an_output_folder_that_is_a_file_is_named() {
 
 #[test]
 fn two_outputs_in_one_file_are_refused() {
-    let arguments = [
-        "cull",
-        "start.obj",
-        "end.obj",
-        "--pairs",
-        "o.csv",
-        "--candidates",
-        "o.csv",
-    ];
-    assert_says(
-        &Workplace::with_step().refusal(1, &arguments),
-        &["same file"],
-    );
+    let arguments = ["cull", "start.obj", "end.obj", "--pairs", "o.csv", "--candidates", "o.csv"];
+    assert_says(&Workplace::with_step().refusal(1, &arguments), &["same file"]);
 }
 
 #[test]
@@ -213,17 +167,11 @@ fn a_plot_that_cannot_be_written_is_refused_before_the_work() {
     let place = Workplace::with_step();
     for (arguments, parts) in [
         (&["--svg", "gone/plot.svg"][..], &["gone/plot.svg"][..]),
-        (
-            &["--json=gone/rows.json", "--svg", "a.svg"],
-            &["gone/rows.json"],
-        ),
+        (&["--json=gone/rows.json", "--svg", "a.svg"], &["gone/rows.json"]),
         (&["--json=same", "--svg", "same"], &["same file"]),
         (&["gone.obj", "end.obj", "--svg", "a.svg"], &["gone.obj"]),
     ] {
-        assert_says(
-            &place.refusal(1, &[&["accuracy"], arguments].concat()),
-            parts,
-        );
+        assert_says(&place.refusal(1, &[&["accuracy"], arguments].concat()), parts);
     }
 }
 
@@ -238,10 +186,7 @@ fn one_bad_output_of_two_leaves_neither() {
         "--candidates",
         "gone/c.csv",
     ];
-    assert_says(
-        &Workplace::with_step().refusal(1, &arguments),
-        &["gone/c.csv"],
-    );
+    assert_says(&Workplace::with_step().refusal(1, &arguments), &["gone/c.csv"]);
 }
 
 #[test]
@@ -312,25 +257,16 @@ fn query_refused(text: &str, parts: &[&str]) {
 
 #[test]
 fn an_unreadable_csv_row_is_named_with_line_and_column() {
-    query_refused(
-        &rows_with(2, "0,1,zero,1,0,1,1"),
-        &["line 3, column 3", "zero"],
-    );
+    query_refused(&rows_with(2, "0,1,zero,1,0,1,1"), &["line 3, column 3", "zero"]);
     query_refused(&rows_with(2, "0,1,0,1,0"), &["line 3", "5 columns"]);
-    query_refused(
-        &rows_with(2, "0,1,0,1,0,1,yes"),
-        &["line 3, column 7", "yes"],
-    );
+    query_refused(&rows_with(2, "0,1,0,1,0,1,yes"), &["line 3, column 7", "yes"]);
     query_refused("0,1,0,1,0,1,1\n", &["line 1", "multiple of 8"]);
     query_refused("", &["no rows"]);
 }
 
 #[test]
 fn a_zero_denominator_is_named_with_line_and_column() {
-    query_refused(
-        &rows_with(5, "0,1,0,0,0,1,1"),
-        &["line 6, column 4", "denominator is zero"],
-    );
+    query_refused(&rows_with(5, "0,1,0,0,0,1,1"), &["line 6, column 4", "denominator is zero"]);
 }
 
 #[test]
@@ -353,8 +289,5 @@ fn a_query_too_large_for_f32_is_named_with_its_line() {
     let huge = format!("0,1,0,1,1{},1,1", "0".repeat(39));
     place.write("huge-vf.csv", rows_with(6, &huge));
     let message = place.refusal(1, &["queries", "huge-vf.csv", "--scalar", "f32"]);
-    assert_says(
-        &message,
-        &["huge-vf.csv", "line 1", "z of f1 at t = 1", "f64"],
-    );
+    assert_says(&message, &["huge-vf.csv", "line 1", "z of f1 at t = 1", "f64"]);
 }

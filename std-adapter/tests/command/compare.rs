@@ -64,12 +64,7 @@ fn reconstructed_methods_are_marked() {
 #[test]
 fn json_has_a_row_for_each_method_with_means_per_step() {
     let place = Workplace::new();
-    let arguments = [
-        "compare",
-        "--pipelines",
-        "basic,tang_c_2010,lv_2014",
-        "--json",
-    ];
+    let arguments = ["compare", "--pipelines", "basic,tang_c_2010,lv_2014", "--json"];
     let document = place.json(&[&arguments[..], &SHORT].concat());
     assert_eq!(document["steps"], 2);
     let rows = document["rows"].as_array().unwrap();
@@ -80,10 +75,7 @@ fn json_has_a_row_for_each_method_with_means_per_step() {
         assert_eq!(row["missed"], 0.0, "{row}");
         assert!(row["frames_per_second"].as_f64().unwrap() > 0.0);
         for kind in ["vertex_face", "edge_edge"] {
-            assert_eq!(
-                keys(&row[kind]),
-                ["distributed", "after_boxes", "after_filter", "contacts"]
-            );
+            assert_eq!(keys(&row[kind]), ["distributed", "after_boxes", "after_filter", "contacts"]);
             let counts: Vec<_> = row[kind]
                 .as_object()
                 .unwrap()
@@ -119,10 +111,7 @@ fn a_scene_is_simulated_and_compared_on_steps_of_its_own() {
     place.write("sheet.toml", short);
     let arguments = ["compare", "sheet.toml", "--json", "--steps", "4"];
     let document = place.json(&arguments);
-    assert_eq!(
-        (&document["steps"], &document["triangles"]),
-        (&4.into(), &128.into())
-    );
+    assert_eq!((&document["steps"], &document["triangles"]), (&4.into(), &128.into()));
     let name = "a </script> sheet, 4 of its 20 simulated steps";
     assert_eq!(document["scene"], name);
     // More steps than the scene has: all of them.
@@ -159,17 +148,9 @@ fn csv_has_a_row_for_each_method_and_the_papers_numbers() {
         let has_boxes = !row[column("boxes_seconds")].is_empty();
         assert_eq!(
             has_boxes,
-            preset
-                .stages()
-                .tests
-                .iter()
-                .any(|test| test.stage().name() == "boxes")
+            preset.stages().tests.iter().any(|test| test.stage().name() == "boxes")
         );
-        let paper = if preset == Preset::Lv2014 {
-            "34.22"
-        } else {
-            ""
-        };
+        let paper = if preset == Preset::Lv2014 { "34.22" } else { "" };
         if matches!(preset, Preset::Lv2014 | Preset::Selvedge) {
             assert_eq!(&row[column("paper_frames_per_second")], paper);
         }
@@ -208,9 +189,7 @@ fn scaling_has_a_row_for_each_size_and_a_plot() {
 fn the_arm_scene_can_be_written_in_both_formats() {
     let place = Workplace::new();
     place.stdout(&["arm", "--frames", "0,60", "--output", "frames"]);
-    place.stdout(&[
-        "arm", "--frames", "60", "--format", "obj", "--output", "frames",
-    ]);
+    place.stdout(&["arm", "--frames", "60", "--format", "obj", "--output", "frames"]);
     let arguments = ["cull", "frames/arm-60.ply", "frames/arm-60.obj", "--json"];
     let document = place.json(&arguments);
     assert_eq!(document["triangles"], 1345);

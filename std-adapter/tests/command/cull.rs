@@ -31,11 +31,7 @@ fn json_has_the_mesh_the_stages_and_the_contacts() {
     assert_eq!(stage(&paper, "distribution")["edge_edge"], 9);
 }
 
-fn has_the_mesh_the_stages_and_the_contacts(
-    document: &Value,
-    pipeline: &str,
-    has_triangle_pairs: bool,
-) {
+fn has_the_mesh_the_stages_and_the_contacts(document: &Value, pipeline: &str, has_triangle_pairs: bool) {
     assert_eq!(document["pipeline"], pipeline);
     assert_eq!(
         [
@@ -80,13 +76,7 @@ fn stages_are_those_of_the_preset() {
         if preset.stages().source != Source::MovingBoxes {
             expected.push("distribution".to_owned());
         }
-        expected.extend(
-            preset
-                .stages()
-                .tests
-                .iter()
-                .map(|test| test.stage().to_string()),
-        );
+        expected.extend(preset.stages().tests.iter().map(|test| test.stage().to_string()));
         expected.push("elementary".to_owned());
         assert_eq!(names, expected);
         assert_eq!(document["pipeline"], preset.name());
@@ -115,10 +105,7 @@ fn contacts_are_written_with_their_vertices_and_times() {
     for (line, (vertex, time)) in lines.zip([(3, 0.25), (4, 0.275), (5, 0.3)]) {
         let (pair, found) = line.rsplit_once(',').unwrap();
         assert_eq!(pair, format!("vertex-face,{vertex},0,1,2"));
-        assert!(
-            (found.parse::<f64>().unwrap() - time).abs() < 1e-9,
-            "{line}"
-        );
+        assert!((found.parse::<f64>().unwrap() - time).abs() < 1e-9, "{line}");
     }
     assert_eq!(text.lines().count(), 4);
 }
@@ -126,13 +113,7 @@ fn contacts_are_written_with_their_vertices_and_times() {
 #[test]
 fn candidates_hold_every_pair_before_the_elementary_test() {
     let place = Workplace::with_step();
-    let all = with(&[
-        "--json",
-        "--pipeline",
-        "curtis_2008",
-        "--candidates",
-        "out.csv",
-    ]);
+    let all = with(&["--json", "--pipeline", "curtis_2008", "--candidates", "out.csv"]);
     place.stdout(&all);
     let text = place.read("out.csv");
     let mut lines: Vec<_> = text.lines().collect();
@@ -190,14 +171,7 @@ fn counts_do_not_depend_on_the_number_of_threads() {
     let place = Workplace::new();
     place.stdout(&["arm", "--frames", "55,56"]);
     let run = |threads: &str| {
-        let arguments = [
-            "cull",
-            "arm-55.ply",
-            "arm-56.ply",
-            "--json",
-            "--threads",
-            threads,
-        ];
+        let arguments = ["cull", "arm-55.ply", "arm-56.ply", "--json", "--threads", threads];
         let document = place.json(&[&arguments[..], &["--pairs", "pairs.csv"]].concat());
         (document["contacts"].clone(), place.read("pairs.csv"))
     };
@@ -231,10 +205,7 @@ fn single_precision_says_what_it_rounds() {
     assert_eq!(document["scalar"], "f32");
     assert_eq!(document["contacts"]["vertex_face"], 3);
     let notes = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        notes.contains("start.obj: 2 coordinates were rounded"),
-        "{notes}"
-    );
+    assert!(notes.contains("start.obj: 2 coordinates were rounded"), "{notes}");
 }
 
 #[test]
@@ -242,18 +213,11 @@ fn what_is_unusual_about_the_mesh_is_said_on_standard_error() {
     let place = Workplace::with_step();
     for name in ["start.obj", "end.obj"] {
         let text = place.read(name);
-        place.write(
-            name,
-            format!("{text}v 9 9 9\nf 1 2 3\nf 1 1 2\nf 4 5 6 7\n"),
-        );
+        place.write(name, format!("{text}v 9 9 9\nf 1 2 3\nf 1 1 2\nf 4 5 6 7\n"));
     }
     let output = place.run(&with(&["--json"]));
     let notes = String::from_utf8(output.stderr).unwrap();
-    for part in [
-        "2 duplicate triangles",
-        "1 degenerate triangle",
-        "1 polygon",
-    ] {
+    for part in ["2 duplicate triangles", "1 degenerate triangle", "1 polygon"] {
         assert!(notes.contains(part), "{notes}");
     }
     assert!(serde_json::from_slice::<Value>(&output.stdout).is_ok());
@@ -267,13 +231,7 @@ fn the_table_has_every_stage_and_the_contacts() {
         assert!(text.contains(part), "{text}");
     }
     let text = place.stdout(&with(&["--pipeline", "lv_2014"]));
-    for part in [
-        "broad-phase",
-        "distribution",
-        "boxes",
-        "non-coplanarity",
-        "elementary",
-    ] {
+    for part in ["broad-phase", "distribution", "boxes", "non-coplanarity", "elementary"] {
         assert!(text.contains(part), "{text}");
     }
     assert!(
@@ -303,28 +261,13 @@ fn pairs_whose_swept_boxes_overlap_go_through_all_later_stages() {
     let place = Workplace::with_step();
     let usual = place.json(&with(&["--json"]));
     for pipeline in ["selvedge", "selvedge_exact"] {
-        let swept = [
-            "--swept-boxes",
-            "--pipeline",
-            pipeline,
-            "--json",
-            "--pairs",
-            "out.csv",
-        ];
+        let swept = ["--swept-boxes", "--pipeline", pipeline, "--json", "--pairs", "out.csv"];
         let document = place.json(&with(&swept));
         assert_eq!(document["pipeline"], pipeline);
         assert_eq!(document["contacts"], usual["contacts"]);
         let stages: Vec<_> = document["stages"].as_array().unwrap().iter().collect();
         let names: Vec<_> = stages.iter().map(|stage| &stage["stage"]).collect();
-        assert_eq!(
-            names,
-            [
-                "broad-phase",
-                "relative-boxes",
-                "non-coplanarity",
-                "elementary"
-            ]
-        );
+        assert_eq!(names, ["broad-phase", "relative-boxes", "non-coplanarity", "elementary"]);
         let pairs = |index: usize| stages[index]["vertex_face"].as_u64();
         assert!(pairs(0) >= pairs(1) && pairs(1) >= pairs(2) && pairs(3) == Some(3));
         assert_eq!(place.read("out.csv").lines().count(), 4);

@@ -11,21 +11,9 @@ fn each_case_has_its_exact_answer_beside_and_ours_are_right() {
     for case in cases {
         assert_eq!(
             keys(case),
-            [
-                "case",
-                "placement",
-                "kind",
-                "first_contact",
-                "between",
-                "answers"
-            ]
+            ["case", "placement", "kind", "first_contact", "between", "answers"]
         );
-        for method in [
-            "selvedge",
-            "time_of_impact",
-            "non_coplanarity",
-            "relative_boxes",
-        ] {
+        for method in ["selvedge", "time_of_impact", "non_coplanarity", "relative_boxes"] {
             assert_ne!(case["answers"][method], "missed", "{case}");
         }
         missed_by_the_plain_test += usize::from(case["answers"]["cubic"] == "missed");
@@ -48,10 +36,7 @@ fn the_table_marks_what_is_wrong_and_says_what_the_marks_mean() {
         assert!(text.contains(part), "{part}: {text}");
     }
     assert!(!text.contains("shared vertex"));
-    assert!(
-        text.lines().all(|line| line.chars().count() <= 80),
-        "{text}"
-    );
+    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
 }
 
 #[test]

@@ -15,9 +15,7 @@ fn fall(end: i32, truth: &str) -> String {
 
 fn method<'a>(document: &'a Value, method: &str, kind: &str) -> &'a Value {
     let methods = document["methods"].as_array().unwrap();
-    let mut found = methods
-        .iter()
-        .filter(|row| row["method"] == method && row["kind"] == kind);
+    let mut found = methods.iter().filter(|row| row["method"] == method && row["kind"] == kind);
     let row = found.next().unwrap();
     assert!(found.next().is_none());
     row
@@ -77,9 +75,7 @@ fn the_kind_may_be_given() {
     let place = Workplace::new();
     place.write("data.csv", fall(-1, ",1"));
     for kind in ["vertex-face", "edge-edge"] {
-        let arguments = [
-            "queries", "data.csv", "--kind", kind, "--json", "--method", "dop_18",
-        ];
+        let arguments = ["queries", "data.csv", "--kind", kind, "--json", "--method", "dop_18"];
         let document = place.json(&arguments);
         assert_eq!(method(&document, "dop_18", kind)["queries"], 1);
     }
@@ -93,14 +89,8 @@ fn single_precision_says_what_it_rounds() {
     let document: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(document["scalar"], "f32");
     let notes = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        notes.contains("2 coordinates were rounded to f64"),
-        "{notes}"
-    );
-    assert!(
-        notes.contains("2 coordinates were rounded to f32"),
-        "{notes}"
-    );
+    assert!(notes.contains("2 coordinates were rounded to f64"), "{notes}");
+    assert!(notes.contains("2 coordinates were rounded to f32"), "{notes}");
 }
 
 #[test]
@@ -108,15 +98,11 @@ fn methods_without_a_promise_are_marked() {
     let place = Workplace::new();
     place.write("fall-vf.csv", fall(-1, ",1"));
     let text = place.stdout(&["queries", "fall-vf.csv"]);
-    for (method, mark) in [
-        ("cubic", "cubic!"),
-        ("non_coplanarity_plain", "non_coplanarity_plain!"),
-    ] {
+    for (method, mark) in [("cubic", "cubic!"), ("non_coplanarity_plain", "non_coplanarity_plain!")] {
         assert!(text.contains(mark), "{method}: {text}");
     }
     assert!(!text.contains("selvedge!") && !text.contains("dop_18!"));
     let document = place.json(&["queries", "fall-vf.csv", "--json"]);
-    let marks =
-        ["cubic", "selvedge"].map(|name| &method(&document, name, "vertex-face")["certified"]);
+    let marks = ["cubic", "selvedge"].map(|name| &method(&document, name, "vertex-face")["certified"]);
     assert_eq!(marks, [&json!(false), &json!(true)]);
 }

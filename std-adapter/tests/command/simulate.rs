@@ -24,14 +24,8 @@ fn json_names_exactly_the_effects_that_the_scene_calls_for() {
         assert!(keys(&document).contains(&key), "{key}");
     }
     let effects = document["effects"].as_array().unwrap();
-    let names: Vec<_> = effects
-        .iter()
-        .map(|effect| effect["effect"].as_str().unwrap())
-        .collect();
-    assert_eq!(
-        names,
-        ["gravity", "stretch", "body_contact", "self_collision"]
-    );
+    let names: Vec<_> = effects.iter().map(|effect| effect["effect"].as_str().unwrap()).collect();
+    assert_eq!(names, ["gravity", "stretch", "body_contact", "self_collision"]);
     assert_eq!(
         (&document["steps"], &document["intersections_at_end"]),
         (&500.into(), &0.into())
@@ -43,13 +37,7 @@ fn json_names_exactly_the_effects_that_the_scene_calls_for() {
 fn effects_one_by_one_has_a_row_for_each_and_one_without() {
     let place = place();
     let text = place.stdout(&["simulate", "sheet.toml", "--effects-one-by-one"]);
-    let names = [
-        "no effect",
-        "gravity",
-        "stretch",
-        "body_contact",
-        "self_collision",
-    ];
+    let names = ["no effect", "gravity", "stretch", "body_contact", "self_collision"];
     let (_, rows) = text.split_once("more than before").unwrap();
     for name in names {
         let named = rows.lines().filter(|line| line.starts_with(name));
@@ -62,11 +50,7 @@ fn effects_one_by_one_has_a_row_for_each_and_one_without() {
     let costs = document["effects_one_by_one"].as_array().unwrap();
     assert_eq!(costs.len(), names.len());
     assert!(costs[0]["added"].is_null() && costs[4]["added"] == "self_collision");
-    assert!(
-        costs
-            .iter()
-            .all(|cost| cost["seconds_a_step"].as_f64() > Some(0.0))
-    );
+    assert!(costs.iter().all(|cost| cost["seconds_a_step"].as_f64() > Some(0.0)));
 }
 
 #[test]
@@ -97,56 +81,24 @@ fn the_report_needs_no_network_and_no_other_file() {
     let series = data["series"].as_array().unwrap().iter();
     let effects = series.filter(|series| series["kind"] == "effect");
     let names: Vec<_> = effects.map(|series| &series["name"]).collect();
-    assert_eq!(
-        names,
-        ["gravity", "stretch", "body_contact", "self_collision"]
-    );
+    assert_eq!(names, ["gravity", "stretch", "body_contact", "self_collision"]);
 }
 
 #[test]
 fn frames_come_as_meshes_or_as_one_animation() {
     let place = place();
-    place.stdout(&[
-        "simulate",
-        "sheet.toml",
-        "--output",
-        "out",
-        "--frames",
-        "ply",
-    ]);
-    let plys = place
-        .listing()
-        .iter()
-        .filter(|name| name.ends_with(".ply"))
-        .count();
+    place.stdout(&["simulate", "sheet.toml", "--output", "out", "--frames", "ply"]);
+    let plys = place.listing().iter().filter(|name| name.ends_with(".ply")).count();
     assert_eq!(plys, 11);
-    place.stdout(&[
-        "simulate",
-        "sheet.toml",
-        "--output",
-        "out",
-        "--frames",
-        "gltf",
-    ]);
-    assert!(
-        fs::read(place.path("out/sheet.glb"))
-            .unwrap()
-            .starts_with(b"glTF")
-    );
+    place.stdout(&["simulate", "sheet.toml", "--output", "out", "--frames", "gltf"]);
+    assert!(fs::read(place.path("out/sheet.glb")).unwrap().starts_with(b"glTF"));
 }
 
 #[test]
 fn a_resumed_run_ends_with_the_same_bits_on_any_number_of_threads() {
     let place = place();
     let run = |options: &[&str]| {
-        let arguments = [
-            "simulate",
-            "sheet.toml",
-            "--output",
-            "out",
-            "--frames",
-            "ply",
-        ];
+        let arguments = ["simulate", "sheet.toml", "--output", "out", "--frames", "ply"];
         place.stdout(&[&arguments[..], options].concat());
         fs::read(place.path("out/sheet-00010.ply")).unwrap()
     };
@@ -163,10 +115,7 @@ fn a_resumed_run_ends_with_the_same_bits_on_any_number_of_threads() {
 #[test]
 fn what_is_wrong_with_a_scene_is_said_with_its_place() {
     let place = Workplace::new();
-    place.write(
-        "wrong.toml",
-        SHEET.replace("[effects.gravity]", "[effects.gravty]"),
-    );
+    place.write("wrong.toml", SHEET.replace("[effects.gravity]", "[effects.gravty]"));
     assert_eq!(
         place.refusal(1, &["simulate", "wrong.toml"]),
         "error: wrong.toml:21:10: there is no effect 'gravty'; did you mean 'gravity'?\n"
@@ -174,10 +123,7 @@ fn what_is_wrong_with_a_scene_is_said_with_its_place() {
     place.write("sheet.toml", SHEET);
     fs::create_dir(place.path("selvedge-out")).unwrap();
     let message = place.refusal(1, &["simulate", "sheet.toml", "--resume"]);
-    assert!(
-        message.contains("sheet.checkpoint: cannot be read"),
-        "{message}"
-    );
+    assert!(message.contains("sheet.checkpoint: cannot be read"), "{message}");
     place.write("sheet.toml", SHEET.replace("0.13", "0.1"));
     let message = place.refusal(1, &["simulate", "sheet.toml"]);
     assert!(message.contains("starts with an intersection"), "{message}");

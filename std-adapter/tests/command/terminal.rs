@@ -5,9 +5,7 @@ use std::process::Stdio;
 
 /// Lines of more than 80 columns.
 fn wide_lines(text: &str) -> Vec<&str> {
-    text.lines()
-        .filter(|line| line.chars().count() > 80)
-        .collect()
+    text.lines().filter(|line| line.chars().count() > 80).collect()
 }
 
 #[test]
@@ -54,10 +52,7 @@ fn no_progress_is_drawn_where_nobody_watches() {
     let place = Workplace::new();
     let output = place.run(&["--steps", "1", "--rounds", "1"]);
     let notes = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        notes.lines().all(|line| line.starts_with("wrote ")),
-        "{notes}"
-    );
+    assert!(notes.lines().all(|line| line.starts_with("wrote ")), "{notes}");
 }
 
 #[test]
@@ -77,9 +72,6 @@ fn help_names_every_subcommand_and_the_exit_status() {
     for command in ["cull", "compare", "queries", "scaling", "accuracy", "arm"] {
         let text = Workplace::new().stdout(&[command, "--help"]);
         assert!(text.contains("Example"), "{command}");
-        assert!(
-            text.contains(&format!("  selvedge {command} ")),
-            "{command}"
-        );
+        assert!(text.contains(&format!("  selvedge {command} ")), "{command}");
     }
 }

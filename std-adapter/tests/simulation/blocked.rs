@@ -46,9 +46,7 @@ fn press(on_blocked: &str) -> Simulation {
 #[test]
 fn stop_ends_the_simulation_and_names_the_body_and_the_time() {
     let mut simulation = press("stop");
-    let blocked = (0..400)
-        .find_map(|_| simulation.step().err())
-        .expect("no room is left");
+    let blocked = (0..400).find_map(|_| simulation.step().err()).expect("no room is left");
     let body = blocked.body.as_deref().unwrap();
     assert!(["anvil", "hammer"].contains(&body), "{blocked}");
     assert!((0.02..0.1).contains(&blocked.time), "{blocked}");

@@ -23,8 +23,7 @@ fn coefficient(positions: &[selvedge::glam::DVec3], triangles: &[[u32; 3]]) -> f
             }
         }
     }
-    let shadow: f64 =
-        farthest.iter().map(|radius| radius * radius).sum::<f64>() * PI / DIRECTIONS as f64;
+    let shadow: f64 = farthest.iter().map(|radius| radius * radius).sum::<f64>() * PI / DIRECTIONS as f64;
     let [all, disc] = [SPECIMEN, DISC].map(|radius| PI * radius * radius);
     (shadow - disc) / (all - disc)
 }

@@ -12,9 +12,7 @@ use selvedge::simulation::{Scene, Simulation};
 use std::path::{Path, PathBuf};
 
 fn scene_file(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("scenes")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)
 }
 
 /// A scene that comes with the program, with changes.

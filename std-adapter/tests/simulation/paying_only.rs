@@ -34,19 +34,13 @@ const EFFECTS: [(&str, &str); 11] = [
 ];
 
 fn scene(effects: &[(&str, &str)]) -> Simulation {
-    let tables = effects
-        .iter()
-        .map(|(name, keys)| format!("[effects.{name}]\n{keys}\n"));
+    let tables = effects.iter().map(|(name, keys)| format!("[effects.{name}]\n{keys}\n"));
     let text = HEAD.to_owned() + &tables.collect::<String>();
     set_up(&text, "sheet.toml", 1)
 }
 
 fn names(simulation: &Simulation) -> Vec<&str> {
-    simulation
-        .effects()
-        .iter()
-        .map(|effect| effect.name)
-        .collect()
+    simulation.effects().iter().map(|effect| effect.name).collect()
 }
 
 #[test]
@@ -98,8 +92,7 @@ fn a_step_allocates_nothing_after_the_first_few() {
     for (name, settled) in [("hanging.toml", 1), ("flag.toml", 1)] {
         let mut simulation = load(name, |text| text, 1);
         (0..settled).for_each(|_| simulation.step().unwrap());
-        let counted =
-            allocation_counter::measure(|| (0..100).for_each(|_| simulation.step().unwrap()));
+        let counted = allocation_counter::measure(|| (0..100).for_each(|_| simulation.step().unwrap()));
         assert_eq!(counted.count_total, 0, "{name}");
     }
 }

@@ -7,16 +7,10 @@ fn stays_finite(name: &str, steps: usize, change: impl Fn(String) -> String, wha
     for step in 0..steps {
         simulation.step().unwrap();
         let positions = simulation.positions();
-        assert!(
-            positions.iter().all(|p| p.is_finite()),
-            "{name} with {what}, step {step}"
-        );
+        assert!(positions.iter().all(|p| p.is_finite()), "{name} with {what}, step {step}");
         // Nothing flies away: the fastest has been held back.
         let farthest = positions.iter().map(|p| p.length()).fold(0.0, f64::max);
-        assert!(
-            farthest < 1e3,
-            "{name} with {what}, step {step}: {farthest} m away"
-        );
+        assert!(farthest < 1e3, "{name} with {what}, step {step}: {farthest} m away");
     }
 }
 
@@ -31,11 +25,8 @@ fn stiffness_over_twelve_orders_of_magnitude_and_any_time_step() {
             let what = format!("stiffness {stiffness}, time step {time_step}");
             stays_finite("hanging.toml", 60, change, &what);
             let change = |text: String| {
-                let text = text
-                    .replace("\"1 kN/m\"", stiffness)
-                    .replace("\"200 N/m\"", stiffness);
-                text.replace("\"20 uN m\"", "1")
-                    .replace("\"2 ms\"", time_step)
+                let text = text.replace("\"1 kN/m\"", stiffness).replace("\"200 N/m\"", stiffness);
+                text.replace("\"20 uN m\"", "1").replace("\"2 ms\"", time_step)
             };
             stays_finite("flag.toml", 60, change, &what);
         }
@@ -46,8 +37,7 @@ fn stiffness_over_twelve_orders_of_magnitude_and_any_time_step() {
 fn a_hurricane_and_no_air_at_all() {
     let strong = |text: String| text.replace("[7, 1.5, 0]", "[1000, 0, 300]");
     stays_finite("flag.toml", 100, strong, "1000 m/s");
-    let thick =
-        |text: String| text.replace("gust = 0.4", "gust = 1\nair_density = 1000\ndrag = 100");
+    let thick = |text: String| text.replace("gust = 0.4", "gust = 1\nair_density = 1000\ndrag = 100");
     stays_finite("flag.toml", 100, thick, "air as dense as water");
     let thin = |text: String| text.replace("gust = 0.4", "air_density = 0");
     stays_finite("flag.toml", 100, thin, "no air");

@@ -39,11 +39,7 @@ part = "bottom-left"
 /// The good scene with one passage replaced, and the message.
 #[track_caller]
 fn message(passage: &str, by: &str) -> String {
-    assert_eq!(
-        GOOD.matches(passage).count(),
-        1,
-        "'{passage}' must be there once"
-    );
+    assert_eq!(GOOD.matches(passage).count(), 1, "'{passage}' must be there once");
     let error = Scene::parse(&GOOD.replacen(passage, by, 1), Path::new("s.toml")).unwrap_err();
     error.to_string()
 }
@@ -61,11 +57,7 @@ fn twenty_mistakes_get_twenty_messages_that_say_what_to_do() {
     let cases = [
         // Not TOML.
         ("[cloth]", "[cloth", ""),
-        (
-            "[effects.gravity]",
-            "[effects.gravity]\n[effects.gravity]",
-            "",
-        ),
+        ("[effects.gravity]", "[effects.gravity]\n[effects.gravity]", ""),
         // Wrong names.
         (
             "time_step",
@@ -139,11 +131,7 @@ fn twenty_mistakes_get_twenty_messages_that_say_what_to_do() {
             "-9.81",
             "s.toml:19:16: `acceleration` must be a list of three numbers, such as [0, 0, 1], but is of type float",
         ),
-        (
-            "[10, 10]",
-            "[10, 0]",
-            "s.toml:8:14: `cells` is 0, but must be from 1 to 2000",
-        ),
+        ("[10, 10]", "[10, 0]", "s.toml:8:14: `cells` is 0, but must be from 1 to 2000"),
         (
             "{ time = \"1 s\",",
             "{ time = 0,",
@@ -197,26 +185,15 @@ fn twenty_mistakes_get_twenty_messages_that_say_what_to_do() {
 #[test]
 fn a_file_that_cannot_be_read_is_named() {
     let error = Scene::read(Path::new("no/such/scene.toml")).unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .starts_with("no/such/scene.toml: cannot be read: ")
-    );
+    assert!(error.to_string().starts_with("no/such/scene.toml: cannot be read: "));
 }
 
 #[test]
 fn the_scenes_that_come_with_the_program_are_good() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let files: Vec<_> = folder
-        .read_dir()
-        .unwrap()
-        .map(|file| file.unwrap().path())
-        .collect();
+    let files: Vec<_> = folder.read_dir().unwrap().map(|file| file.unwrap().path()).collect();
     assert!(!files.is_empty());
-    for file in files
-        .iter()
-        .filter(|file| file.extension().is_some_and(|e| e == "toml"))
-    {
+    for file in files.iter().filter(|file| file.extension().is_some_and(|e| e == "toml")) {
         let scene = Scene::read(file).unwrap();
         assert!(!scene.effect_names().is_empty(), "{}", file.display());
     }

@@ -97,10 +97,7 @@ where
         Some(kept) => {
             let seed = options.seed.unwrap_or(kept.seed);
             if !kept.is_of_the_same_run(&fresh(seed)) {
-                return Err(at(
-                    path,
-                    &"the state of another run; delete it, or name another file",
-                ));
+                return Err(at(path, &"the state of another run; delete it, or name another file"));
             }
             kept
         }

@@ -118,9 +118,7 @@ impl Progress {
     #[must_use]
     pub fn new(seed: u64, pairs: u64, pairs_per_chunk: u64) -> Self {
         let rows = || vec![Tally::default(); Rule::all().len()];
-        let found = Found {
-            rows: [rows(), rows()],
-        };
+        let found = Found { rows: [rows(), rows()] };
         let of_format = pairs.next_multiple_of(pairs_per_chunk);
         Self::with_nothing_done(seed, 2 * of_format, pairs_per_chunk, found)
     }
@@ -310,12 +308,10 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judged<'a, S, P> {
     /// Whether the exact parts of core prove the cull right.
     fn is_proven(&self, rule: Rule) -> bool {
         match rule {
-            Rule::Tier(_, true) => *self.is_beyond.get_or_init(|| {
-                is_never_within::<P::Shape, S>(&self.pair.points(), self.separation, UNKNOWN)
-            }),
-            Rule::Tier(Tier::Subdivided(_), false) => {
-                self.has_one_sign() || relative::nine_directions(&self.pair).is_culled()
-            }
+            Rule::Tier(_, true) => *self
+                .is_beyond
+                .get_or_init(|| is_never_within::<P::Shape, S>(&self.pair.points(), self.separation, UNKNOWN)),
+            Rule::Tier(Tier::Subdivided(_), false) => self.has_one_sign() || relative::nine_directions(&self.pair).is_culled(),
             Rule::Plain | Rule::Tier(_, false) => self.has_one_sign(),
         }
     }
@@ -323,10 +319,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judged<'a, S, P> {
     fn has_one_sign(&self) -> bool {
         *self.has_one_sign.get_or_init(|| {
             let signs = control_value_signs::<P::Shape, S>(&self.pair.points());
-            matches!(
-                signs,
-                Some([Less, Less, Less, Less] | [Greater, Greater, Greater, Greater])
-            )
+            matches!(signs, Some([Less, Less, Less, Less] | [Greater, Greater, Greater, Greater]))
         })
     }
 
@@ -352,10 +345,8 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judged<'a, S, P> {
 
     /// What touches is coplanar, which takes the oracle less time to tell.
     fn touches(&self) -> bool {
-        *self.touching.get_or_init(|| {
-            self.case.is_finite()
-                && self.is_coplanar()
-                && oracle::collides(&self.case.question()).is_some()
-        })
+        *self
+            .touching
+            .get_or_init(|| self.case.is_finite() && self.is_coplanar() && oracle::collides(&self.case.question()).is_some())
     }
 }

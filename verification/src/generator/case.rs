@@ -38,10 +38,7 @@ impl<S: Format> PairCase<S> {
     #[must_use]
     pub fn vertex_face(&self) -> VertexFace<S> {
         let [vertex, a, b, c] = self.motions();
-        VertexFace {
-            vertex,
-            face: [a, b, c],
-        }
+        VertexFace { vertex, face: [a, b, c] }
     }
 
     /// As two edges, whatever the kind.
@@ -136,9 +133,7 @@ impl PairCase<f32> {
     /// The same numbers as `f64`.
     #[must_use]
     pub fn widened(&self) -> PairCase<f64> {
-        let points = self
-            .points
-            .map(|ends| ends.map(|position| position.map(f64::from)));
+        let points = self.points.map(|ends| ends.map(|position| position.map(f64::from)));
         PairCase::new(self.kind, points)
     }
 }

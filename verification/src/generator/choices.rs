@@ -48,11 +48,7 @@ impl<'a> Choices<'a> {
     /// If `limit` is above 127.
     pub fn within(&mut self, limit: u32) -> i64 {
         let index = i64::from(self.below(2 * limit + 1));
-        if index % 2 == 0 {
-            -index / 2
-        } else {
-            (index + 1) / 2
-        }
+        if index % 2 == 0 { -index / 2 } else { (index + 1) / 2 }
     }
 
     /// True once in `odds` times.

@@ -37,14 +37,9 @@ impl<S: Format> MeshCase<S> {
             (2..used).map(|k| [k - 2, k - 1, k]).collect()
         } else {
             let count = choices.pick(&[3, 1, 2, 8, 16, 40, 80]);
-            (0..count)
-                .map(|_| std::array::from_fn(|_| choices.below(used)))
-                .collect()
+            (0..count).map(|_| std::array::from_fn(|_| choices.below(used))).collect()
         };
-        Self {
-            triangles,
-            positions,
-        }
+        Self { triangles, positions }
     }
 
     /// The topology.
@@ -62,9 +57,7 @@ impl<S: Format> MeshCase<S> {
     /// If there are none with these indices.
     #[must_use]
     pub fn pair(&self, topology: &Topology, (kind, pair): (PairKind, [u32; 2])) -> PairCase<S> {
-        let points = kind
-            .vertices(pair, topology)
-            .map(|vertex| self.positions[vertex as usize]);
+        let points = kind.vertices(pair, topology).map(|vertex| self.positions[vertex as usize]);
         match kind {
             PairKind::VertexFace => PairCase::new(Kind::VertexFace, points),
             PairKind::EdgeEdge => PairCase::new(Kind::EdgeEdge, points),
@@ -99,11 +92,7 @@ fn positions<S: Format>(vertices: usize, choices: &mut Choices<'_>) -> Vec<[[S; 
             // Many coordinates in common.
             0..=2 => std::array::from_fn(|_| S::exact(choices.within(3), 0)),
             // All in one plane.
-            3 => [
-                S::exact(choices.within(5), 0),
-                S::exact(choices.within(5), 0),
-                S::ZERO,
-            ],
+            3 => [S::exact(choices.within(5), 0), S::exact(choices.within(5), 0), S::ZERO],
             4 | 5 => std::array::from_fn(|_| fraction(choices)),
             // The same, at another scale.
             6 => std::array::from_fn(|_| S::exact(choices.within(9), scale)),

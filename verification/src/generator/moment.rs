@@ -56,8 +56,7 @@ impl<S: Format> Moment<S> {
             // Far from the origin: all the room that is left.
             let room = (1 << S::PRECISION) - 1 - moment.largest();
             let scale = choices.pick(&[1, 2, 16, 1024]);
-            moment.offset =
-                std::array::from_fn(|_| choices.pick(&[0, room, -room, room / 2 + 1]) / scale);
+            moment.offset = std::array::from_fn(|_| choices.pick(&[0, room, -room, room / 2 + 1]) / scale);
         }
         moment
     }
@@ -79,14 +78,10 @@ impl<S: Format> Moment<S> {
 
     fn whole_points(&self) -> [[[i64; 3]; 2]; 4] {
         let position = |point: usize, axis: usize, times: i64| {
-            (self.target[point][axis] << self.bits)
-                + times * self.velocity[point][axis]
-                + self.offset[axis]
+            (self.target[point][axis] << self.bits) + times * self.velocity[point][axis] + self.offset[axis]
         };
         let (before, after) = (-self.numerator, (1 << self.bits) - self.numerator);
-        std::array::from_fn(|point| {
-            [before, after].map(|times| std::array::from_fn(|axis| position(point, axis, times)))
-        })
+        std::array::from_fn(|point| [before, after].map(|times| std::array::from_fn(|axis| position(point, axis, times))))
     }
 
     fn largest(&self) -> i64 {
@@ -97,8 +92,7 @@ impl<S: Format> Moment<S> {
 
 /// Four positions that touch, or are coplanar, each up to 2^(reach + 4).
 fn target(kind: Kind, meeting: Meeting, reach: u32, choices: &mut Choices<'_>) -> [[i64; 3]; 4] {
-    let position =
-        |choices: &mut Choices<'_>| -> [i64; 3] { std::array::from_fn(|_| whole(choices, reach)) };
+    let position = |choices: &mut Choices<'_>| -> [i64; 3] { std::array::from_fn(|_| whole(choices, reach)) };
     let combine = |from: [i64; 3], terms: [(i64, [i64; 3]); 2]| -> [i64; 3] {
         std::array::from_fn(|axis| {
             let sum: i64 = terms.iter().map(|(times, x)| times * x[axis]).sum();
@@ -202,10 +196,7 @@ impl<S> Moment<S> {
         let size = |x: i64| u64::from(64 - x.unsigned_abs().leading_zeros());
         let positions = [self.target, self.velocity];
         let all = positions.iter().flatten().flatten().chain(&self.offset);
-        all.map(|&x| size(x)).sum::<u64>()
-            + u64::from(self.exponent != 0)
-            + u64::from(self.bits)
-            + self.numerator.unsigned_abs()
+        all.map(|&x| size(x)).sum::<u64>() + u64::from(self.exponent != 0) + u64::from(self.bits) + self.numerator.unsigned_abs()
     }
 }
 

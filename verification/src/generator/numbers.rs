@@ -48,11 +48,7 @@ pub trait Format: Scalar {
     fn nudged(self, steps: i64) -> Self {
         let mut number = self;
         for _ in 0..steps.abs() {
-            let next = if steps > 0 {
-                number.up()
-            } else {
-                number.down()
-            };
+            let next = if steps > 0 { number.up() } else { number.down() };
             if !Scalar::is_finite(next) {
                 break;
             }
@@ -81,10 +77,7 @@ pub trait Format: Scalar {
 /// # Panics
 /// If that is no normal number.
 pub(crate) fn power_of_two(exponent: i32) -> f64 {
-    assert!(
-        (-1022..1024).contains(&exponent),
-        "2^{exponent} is not normal"
-    );
+    assert!((-1022..1024).contains(&exponent), "2^{exponent} is not normal");
     f64::from_bits(u64::from((exponent + 1023).cast_unsigned()) << 52)
 }
 
@@ -159,11 +152,7 @@ pub(super) fn whole(choices: &mut Choices<'_>, bits: u32) -> i64 {
         return choices.within((1 << bits) - 1);
     }
     let magnitude = (choices.word() >> (64 - bits)).cast_signed();
-    if choices.once_in(2) {
-        -magnitude
-    } else {
-        magnitude
-    }
+    if choices.once_in(2) { -magnitude } else { magnitude }
 }
 
 /// Between −1 and 1, all bits random.
@@ -182,10 +171,7 @@ pub(super) fn finite<S: Format>(choices: &mut Choices<'_>) -> S {
         3 => fraction(choices),
         4 => S::exact(choices.within(3), exponent::<S>(choices)).nudged(choices.within(2)),
         5 => S::exact(choices.within(20), S::MIN_EXPONENT),
-        6 => S::exact(
-            whole(choices, S::PRECISION),
-            S::MAX_EXPONENT - S::PRECISION.cast_signed(),
-        ),
+        6 => S::exact(whole(choices, S::PRECISION), S::MAX_EXPONENT - S::PRECISION.cast_signed()),
         _ => S::from_word(choices.word()).made_finite(),
     }
 }

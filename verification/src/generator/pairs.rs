@@ -31,10 +31,7 @@ impl<S: Format> PairCase<S> {
             8 => everyday(kind, choices),
             9 => nearly_coplanar(kind, choices),
             10 => Self::new(kind, each_coordinate(|| finite(choices))),
-            _ => Self::new(
-                kind,
-                each_coordinate(|| S::from_word(choices.word()).made_finite()),
-            ),
+            _ => Self::new(kind, each_coordinate(|| S::from_word(choices.word()).made_finite())),
         };
         // Half of the cases stay as they are, exact ones exact.
         for _ in 0..choices.below(8).saturating_sub(3) {
@@ -48,9 +45,7 @@ impl<S: Format> PairCase<S> {
     #[must_use]
     pub fn choose_graze_of_a_box(choices: &mut Choices<'_>) -> Self {
         // Start and end of different sizes, so that differences round.
-        let start: [S; 3] = std::array::from_fn(|_| {
-            S::exact(1, -choices.pick(&[0, 1, 4, 7])) * fraction::<S>(choices)
-        });
+        let start: [S; 3] = std::array::from_fn(|_| S::exact(1, -choices.pick(&[0, 1, 4, 7])) * fraction::<S>(choices));
         let end: [S; 3] = std::array::from_fn(|_| fraction(choices));
         let part = fraction::<S>(choices).abs();
         let passed: [S; 3] = std::array::from_fn(|axis| {
@@ -74,8 +69,7 @@ impl<S: Format> PairCase<S> {
         let any = exponent::<S>(choices);
         let factor = S::exact(1, choices.pick(&[0, products_underflow, any]));
         let [one, other] = corners.map(|corner| [corner; 2]);
-        Self::new(Kind::VertexFace, [[start, end], one, other, one])
-            .map(|x| (x * factor).made_finite())
+        Self::new(Kind::VertexFace, [[start, end], one, other, one]).map(|x| (x * factor).made_finite())
     }
 
     /// Chooses a pair with extraordinary coordinates.
@@ -99,11 +93,7 @@ fn coordinate<'a, S>(case: &'a mut PairCase<S>, choices: &mut Choices<'_>) -> &'
 }
 
 /// Whole numbers as points of the format, moved and scaled together.
-fn scaled<S: Format>(
-    kind: Kind,
-    points: [[[i64; 3]; 2]; 4],
-    choices: &mut Choices<'_>,
-) -> PairCase<S> {
+fn scaled<S: Format>(kind: Kind, points: [[[i64; 3]; 2]; 4], choices: &mut Choices<'_>) -> PairCase<S> {
     let exponent = exponent::<S>(choices);
     let points = points.map(|ends| ends.map(|x| x.map(|x| S::exact(x, exponent))));
     PairCase::new(kind, points)
@@ -148,12 +138,7 @@ fn graze<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
     let mut points = [[[0; 3]; 2]; 4];
     for (end, base) in base.iter().enumerate() {
         let along = ((end as i64) << bits) - numerator;
-        let relative = [
-            [0, 0, 0],
-            [b[0], along, b[1]],
-            [0, 0, c],
-            [along, p[0], p[1]],
-        ];
+        let relative = [[0, 0, 0], [b[0], along, b[1]], [0, 0, c], [along, p[0], p[1]]];
         for (point, [x, y, z]) in relative.into_iter().enumerate() {
             let position = [x, y, z + shear * x];
             points[order[point]][end] = std::array::from_fn(|k| position[axes[k]] + base[axes[k]]);
@@ -197,22 +182,13 @@ fn nearly_coplanar<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase
     for &end in ends {
         let (s, t) = (fraction::<S>(choices), fraction::<S>(choices));
         let [a, b, c] = [a, b, c].map(|point| case.points[point][end]);
-        case.points[p][end] = std::array::from_fn(|axis| {
-            a[axis] + (s * (b[axis] - a[axis]) + t * (c[axis] - a[axis]))
-        });
+        case.points[p][end] = std::array::from_fn(|axis| a[axis] + (s * (b[axis] - a[axis]) + t * (c[axis] - a[axis])));
     }
     case
 }
 
 fn permutation(choices: &mut Choices<'_>) -> [usize; 3] {
-    let all = [
-        [0, 1, 2],
-        [1, 2, 0],
-        [2, 0, 1],
-        [1, 0, 2],
-        [0, 2, 1],
-        [2, 1, 0],
-    ];
+    let all = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 0, 2], [0, 2, 1], [2, 1, 0]];
     choices.pick(&all)
 }
 
@@ -262,8 +238,7 @@ fn disturbed<S: Format>(mut case: PairCase<S>, choices: &mut Choices<'_>) -> Pai
             let along = S::exact(choices.within(4), -1);
             for end in 0..2 {
                 let (from, to) = (case.points[other][end], case.points[third][end]);
-                case.points[one][end] =
-                    std::array::from_fn(|axis| from[axis] + along * (to[axis] - from[axis]));
+                case.points[one][end] = std::array::from_fn(|axis| from[axis] + along * (to[axis] - from[axis]));
             }
         }
         9 => {
@@ -276,8 +251,7 @@ fn disturbed<S: Format>(mut case: PairCase<S>, choices: &mut Choices<'_>) -> Pai
         }
         11 => {
             // Far away: rounds the shape to a coarser grid.
-            let by: [S; 3] =
-                std::array::from_fn(|_| S::exact(choices.within(3), choices.below(40) as i32));
+            let by: [S; 3] = std::array::from_fn(|_| S::exact(choices.within(3), choices.below(40) as i32));
             case = case.with_positions(|x| std::array::from_fn(|axis| x[axis] + by[axis]));
         }
         _ => *coordinate(&mut case, choices) = finite(choices),
@@ -306,20 +280,12 @@ impl<S: Format> Simplify for PairCase<S> {
             11..15 => simpler.points[attempt - 11] = [[S::ZERO; 3]; 2],
             // All axes, or one, brought to unit size.
             15..19 => {
-                let axes = if attempt == 15 {
-                    0..3
-                } else {
-                    attempt - 16..attempt - 15
-                };
+                let axes = if attempt == 15 { 0..3 } else { attempt - 16..attempt - 15 };
                 let numbers = simpler.points.iter().flatten();
-                let exponents =
-                    numbers.flat_map(|x| x[axes.clone()].iter().map(|&x| binary_exponent(x)));
+                let exponents = numbers.flat_map(|x| x[axes.clone()].iter().map(|&x| binary_exponent(x)));
                 let factor = S::exact(
                     1,
-                    -exponents
-                        .max()
-                        .unwrap_or(0)
-                        .clamp(S::MIN_EXPONENT / 2, S::MAX_EXPONENT / 2),
+                    -exponents.max().unwrap_or(0).clamp(S::MIN_EXPONENT / 2, S::MAX_EXPONENT / 2),
                 );
                 for x in simpler.points.iter_mut().flatten() {
                     for number in &mut x[axes.clone()] {
@@ -340,12 +306,10 @@ impl<S: Format> Simplify for PairCase<S> {
 
 impl<S: Format> PairCase<S> {
     fn complexity(&self) -> u64 {
-        let moving = self.points.iter().flat_map(|[start, end]| {
-            start
-                .iter()
-                .zip(end)
-                .map(|(from, to)| u64::from(from != to))
-        });
+        let moving = self
+            .points
+            .iter()
+            .flat_map(|[start, end]| start.iter().zip(end).map(|(from, to)| u64::from(from != to)));
         self.coordinates().map(complexity).sum::<u64>() + moving.sum::<u64>()
     }
 }

@@ -22,9 +22,7 @@ pub trait Simplify: Clone + fmt::Debug {
 pub struct FromChoices<F>(F);
 
 /// Cases made by `make`, which shrink by their own [attempts](Simplify).
-pub fn from_choices<T: Simplify>(
-    make: impl Fn(&mut Choices<'_>) -> T + Clone,
-) -> impl Strategy<Value = T> + Clone {
+pub fn from_choices<T: Simplify>(make: impl Fn(&mut Choices<'_>) -> T + Clone) -> impl Strategy<Value = T> + Clone {
     FromChoices(make)
 }
 
@@ -111,20 +109,12 @@ impl<T: Simplify> ValueTree for Simplification<T> {
 /// # Panics
 /// If it does not. The message has the simplest failing case that was found, as Rust to paste into a regression test;
 /// no seeds are kept.
-pub fn check<T: Simplify>(
-    cases: u32,
-    strategy: impl Strategy<Value = T> + 'static,
-    property: impl Fn(&T) -> TestCaseResult,
-) {
+pub fn check<T: Simplify>(cases: u32, strategy: impl Strategy<Value = T> + 'static, property: impl Fn(&T) -> TestCaseResult) {
     check_dynamically(cases, &strategy.boxed(), &property);
 }
 
 /// Compiled once for each type of case, not for each property: proptest's runner was half of the tests' code.
-fn check_dynamically<T: Simplify>(
-    cases: u32,
-    strategy: &BoxedStrategy<T>,
-    property: &dyn Fn(&T) -> TestCaseResult,
-) {
+fn check_dynamically<T: Simplify>(cases: u32, strategy: &BoxedStrategy<T>, property: &dyn Fn(&T) -> TestCaseResult) {
     match TestRunner::new(settings(cases)).run(strategy, |case| property(&case)) {
         Ok(()) => {}
         Err(TestError::Fail(reason, case)) => {

@@ -41,10 +41,7 @@ impl AlgebraicTime {
     /// If it is not in [0, 1].
     #[must_use]
     pub fn rational(time: Rational) -> Self {
-        assert!(
-            (0..=1).contains(&time),
-            "a time of the step lies in [0, 1], not at {time}"
-        );
+        assert!((0..=1).contains(&time), "a time of the step lies in [0, 1], not at {time}");
         let coefficients = vec![Integer::from(-time.numer()), time.denom().clone()];
         Self {
             polynomial: Polynomial::new(coefficients),
@@ -59,10 +56,7 @@ impl AlgebraicTime {
             return roots;
         }
         let isolation = Isolation(SturmSequence::new(polynomial));
-        let (low, high) = (
-            isolation.end(&Integer::from(0), 0),
-            isolation.end(&Integer::from(1), 0),
-        );
+        let (low, high) = (isolation.end(&Integer::from(0), 0), isolation.end(&Integer::from(1), 0));
         if low.sign.is_eq() {
             roots.push(Self::rational(Rational::from(0)));
         }
@@ -131,18 +125,14 @@ impl AlgebraicTime {
             return;
         };
         let low = self.polynomial.value_at_dyadic(index, *bits);
-        let high = self
-            .polynomial
-            .value_at_dyadic(&Integer::from(&*index + 1), *bits);
+        let high = self.polynomial.value_at_dyadic(&Integer::from(&*index + 1), *bits);
         // The signs differ, so the quotient is in (0, 1), and its floor after scaling a valid part.
         let part = (Integer::from(&low << *pace)).div_floor(low - high);
         *index <<= *pace;
         *index += part;
         *bits += *pace;
         let ends = [index.clone(), Integer::from(&*index + 1)];
-        let signs = ends
-            .each_ref()
-            .map(|end| self.polynomial.sign_at_dyadic(end, *bits));
+        let signs = ends.each_ref().map(|end| self.polynomial.sign_at_dyadic(end, *bits));
         if let Some(found) = signs.iter().position(|sign| sign.is_eq()) {
             self.place = Place::Exact(Rational::from(ends[found].clone()) >> *bits);
         } else if signs[0] == *sign_at_low && signs[1] != *sign_at_low {
@@ -232,11 +222,7 @@ impl AlgebraicTime {
     ///
     /// A rational root, times the leading coefficient, is an integer.
     pub(crate) fn settled(mut self) -> Self {
-        let lead = self
-            .polynomial
-            .coefficients()
-            .last()
-            .map(|c| Integer::from(c.abs_ref()));
+        let lead = self.polynomial.coefficients().last().map(|c| Integer::from(c.abs_ref()));
         let lead = lead.expect("not the zero polynomial");
         self.refine(lead.significant_bits() + 1);
         if let Place::Isolated { index, bits, .. } = &self.place {
@@ -258,9 +244,7 @@ impl Signs<Polynomial> for AlgebraicTime {
         loop {
             let (index, bits, pace) = match &self.place {
                 Place::Exact(time) => return value.sign_at(time),
-                Place::Isolated {
-                    index, bits, pace, ..
-                } => (index, *bits, *pace),
+                Place::Isolated { index, bits, pace, .. } => (index, *bits, *pace),
             };
             if let Some(sign) = value.sign_on_cell(index, bits) {
                 return sign;
@@ -357,14 +341,7 @@ impl Isolation {
     }
 
     /// Appends the roots in the open interval `(index, index + 1) / 2^bits`, in ascending order.
-    fn inside(
-        &self,
-        index: Integer,
-        bits: u32,
-        low: &End,
-        high: &End,
-        roots: &mut Vec<AlgebraicTime>,
-    ) {
+    fn inside(&self, index: Integer, bits: u32, low: &End, high: &End, roots: &mut Vec<AlgebraicTime>) {
         let count = low.variations - high.variations - usize::from(high.sign.is_eq());
         if count == 0 {
             return;

@@ -2,8 +2,8 @@
 
 use super::algebraic::AlgebraicTime;
 use super::geometry::{
-    AtRest, EDGES, Point, Ring, Signs, coplanar_point_in_triangle, coplanar_segments_meet, cross,
-    dot, normal, point_in_triangle, segments_meet, subtract, volume,
+    AtRest, EDGES, Point, Ring, Signs, coplanar_point_in_triangle, coplanar_segments_meet, cross, dot, normal, point_in_triangle,
+    segments_meet, subtract, volume,
 };
 use super::motion::{Kind, Motion, Pair};
 use super::polynomial::{Polynomial, SturmSequence};
@@ -54,9 +54,7 @@ pub fn collides(pair: &Pair) -> Option<AlgebraicTime> {
     if !volume.is_zero() {
         // Contact makes the points coplanar.
         let mut times = AlgebraicTime::roots(&volume).into_iter();
-        return times.find_map(|mut time| {
-            touches_when_coplanar(pair.kind, &mut time, &points).then(|| time.settled())
-        });
+        return times.find_map(|mut time| touches_when_coplanar(pair.kind, &mut time, &points).then(|| time.settled()));
     }
     let mut earliest: Option<AlgebraicTime> = None;
     for polynomial in predicates_in_the_plane(pair.kind, &points) {
@@ -91,11 +89,7 @@ fn touches(kind: Kind, motion: &Motion, t: &Rational) -> bool {
 }
 
 /// The same at a time when the four points are coplanar.
-fn touches_when_coplanar<R: Ring>(
-    kind: Kind,
-    signs: &mut impl Signs<R>,
-    [a, b, c, d]: &[Point<R>; 4],
-) -> bool {
+fn touches_when_coplanar<R: Ring>(kind: Kind, signs: &mut impl Signs<R>, [a, b, c, d]: &[Point<R>; 4]) -> bool {
     match kind {
         Kind::VertexFace => coplanar_point_in_triangle(signs, a, [b, c, d]),
         Kind::EdgeEdge => coplanar_segments_meet(signs, [a, b], [c, d]),
@@ -108,10 +102,7 @@ fn predicates_in_the_plane(kind: Kind, [a, b, c, d]: &[Point<Polynomial>; 4]) ->
     let (normal, tests) = match kind {
         Kind::VertexFace => {
             let face = [b, c, d];
-            (
-                normal(b, c, d),
-                EDGES.map(|[i, j]| (a, face[i], face[j])).to_vec(),
-            )
+            (normal(b, c, d), EDGES.map(|[i, j]| (a, face[i], face[j])).to_vec())
         }
         Kind::EdgeEdge => (
             cross(&subtract(b, a), &subtract(d, c)),

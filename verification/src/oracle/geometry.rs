@@ -85,9 +85,7 @@ pub(crate) fn subtract<R: Ring>(a: &Point<R>, b: &Point<R>) -> Point<R> {
 }
 
 pub(crate) fn dot<R: Ring>(a: &Point<R>, b: &Point<R>) -> R {
-    a[0].product(&b[0])
-        .sum(&a[1].product(&b[1]))
-        .sum(&a[2].product(&b[2]))
+    a[0].product(&b[0]).sum(&a[1].product(&b[1])).sum(&a[2].product(&b[2]))
 }
 
 /// One component of the cross product: the signed area spanned by the projections along `axis`.
@@ -122,22 +120,14 @@ pub(crate) fn is_zero<R>(signs: &mut impl Signs<R>, vector: &Point<R>) -> bool {
 }
 
 /// Is x on the closed segment p q? If p = q: is x that point?
-pub(crate) fn point_on_segment<R: Ring>(
-    signs: &mut impl Signs<R>,
-    x: &Point<R>,
-    [p, q]: [&Point<R>; 2],
-) -> bool {
+pub(crate) fn point_on_segment<R: Ring>(signs: &mut impl Signs<R>, x: &Point<R>, [p, q]: [&Point<R>; 2]) -> bool {
     // Not outside the ball with diameter p q, and on the line.
     let (from_p, from_q) = (subtract(x, p), subtract(x, q));
     signs.sign(&dot(&from_p, &from_q)).is_le() && is_zero(signs, &cross(&from_p, &from_q))
 }
 
 /// Is x, known to be coplanar with them, in the hull of a, b and c?
-pub(crate) fn coplanar_point_in_triangle<R: Ring>(
-    signs: &mut impl Signs<R>,
-    x: &Point<R>,
-    triangle: [&Point<R>; 3],
-) -> bool {
+pub(crate) fn coplanar_point_in_triangle<R: Ring>(signs: &mut impl Signs<R>, x: &Point<R>, triangle: [&Point<R>; 3]) -> bool {
     let [a, b, c] = triangle;
     match first_nonzero(signs, &normal(a, b, c)) {
         // Along this axis the projection is one to one: not to the wrong side of any edge.
@@ -154,21 +144,13 @@ pub(crate) fn coplanar_point_in_triangle<R: Ring>(
 }
 
 /// Is x in the hull of a, b and c?
-pub(crate) fn point_in_triangle<R: Ring>(
-    signs: &mut impl Signs<R>,
-    x: &Point<R>,
-    triangle: [&Point<R>; 3],
-) -> bool {
+pub(crate) fn point_in_triangle<R: Ring>(signs: &mut impl Signs<R>, x: &Point<R>, triangle: [&Point<R>; 3]) -> bool {
     let [a, b, c] = triangle;
     signs.sign(&volume(a, b, c, x)).is_eq() && coplanar_point_in_triangle(signs, x, triangle)
 }
 
 /// Do two closed segments, known to be coplanar, share a point?
-pub(crate) fn coplanar_segments_meet<R: Ring>(
-    signs: &mut impl Signs<R>,
-    a: [&Point<R>; 2],
-    b: [&Point<R>; 2],
-) -> bool {
+pub(crate) fn coplanar_segments_meet<R: Ring>(signs: &mut impl Signs<R>, a: [&Point<R>; 2], b: [&Point<R>; 2]) -> bool {
     let along_a = subtract(a[1], a[0]);
     let along_b = subtract(b[1], b[0]);
     match first_nonzero(signs, &cross(&along_a, &along_b)) {
@@ -176,26 +158,18 @@ pub(crate) fn coplanar_segments_meet<R: Ring>(
         // sides of the other's line (or on it).
         Some((axis, _)) => {
             let mut straddles = |line: &Point<R>, through: &Point<R>, ends: [&Point<R>; 2]| {
-                let side = ends
-                    .map(|end| signs.sign(&cross_component(line, &subtract(end, through), axis)));
+                let side = ends.map(|end| signs.sign(&cross_component(line, &subtract(end, through), axis)));
                 side[0].is_eq() || side[0] != side[1]
             };
             straddles(&along_a, a[0], b) && straddles(&along_b, b[0], a)
         }
         // Parallel or of no length: if they share a point, an end of one is on the other.
-        None => {
-            b.iter().any(|end| point_on_segment(signs, end, a))
-                || a.iter().any(|end| point_on_segment(signs, end, b))
-        }
+        None => b.iter().any(|end| point_on_segment(signs, end, a)) || a.iter().any(|end| point_on_segment(signs, end, b)),
     }
 }
 
 /// Do two closed segments share a point?
-pub(crate) fn segments_meet<R: Ring>(
-    signs: &mut impl Signs<R>,
-    a: [&Point<R>; 2],
-    b: [&Point<R>; 2],
-) -> bool {
+pub(crate) fn segments_meet<R: Ring>(signs: &mut impl Signs<R>, a: [&Point<R>; 2], b: [&Point<R>; 2]) -> bool {
     signs.sign(&volume(a[0], a[1], b[0], b[1])).is_eq() && coplanar_segments_meet(signs, a, b)
 }
 
@@ -217,9 +191,7 @@ pub(crate) fn segment_meets_triangle<R: Ring>(
     }
     let side = [p, q].map(|end| signs.sign(&dot(&normal, &subtract(end, a))));
     match side {
-        [Ordering::Equal, Ordering::Equal] => {
-            coplanar_point_in_triangle(signs, p, triangle) || meets_an_edge(signs)
-        }
+        [Ordering::Equal, Ordering::Equal] => coplanar_point_in_triangle(signs, p, triangle) || meets_an_edge(signs),
         [Ordering::Equal, _] => coplanar_point_in_triangle(signs, p, triangle),
         [_, Ordering::Equal] => coplanar_point_in_triangle(signs, q, triangle),
         [of_p, of_q] if of_p == of_q => false,

@@ -3,8 +3,7 @@
 //! [Signs of volumes](super::signs) settle nearly all pairs of a mesh in general position; integers of any length decide the rest.
 
 use super::geometry::{
-    AtRest, EDGES, Point, Signs, cross, dot, is_zero, normal, point_on_segment,
-    segment_meets_triangle, subtract,
+    AtRest, EDGES, Point, Signs, cross, dot, is_zero, normal, point_on_segment, segment_meets_triangle, subtract,
 };
 use super::motion::scale_to_integers;
 use super::signs::triangles_intersect_by_signs;
@@ -35,10 +34,7 @@ type IntegerPoint = Point<Integer>;
 #[must_use]
 pub fn triangles_intersect(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3], shared: &[[usize; 2]]) -> bool {
     for &[i, j] in shared {
-        assert!(
-            a[i] == b[j],
-            "corner {i} of a and corner {j} of b are not the same vertex"
-        );
+        assert!(a[i] == b[j], "corner {i} of a and corner {j} of b are not the same vertex");
     }
     let points = scale_to_integers(&[*a, *b].concat());
     let [a0, a1, a2, b0, b1, b2] = points.as_slice() else {
@@ -62,15 +58,8 @@ pub fn mesh_self_intersections(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -
 /// # Panics
 /// If a coordinate is NaN or infinite, or an index is out of range.
 #[must_use]
-pub fn mesh_intersections(
-    positions: &[[f64; 3]],
-    triangles: &[[u32; 3]],
-    count: usize,
-) -> Vec<[u32; 2]> {
-    assert!(
-        positions.iter().flatten().all(|x| x.is_finite()),
-        "positions are numbers"
-    );
+pub fn mesh_intersections(positions: &[[f64; 3]], triangles: &[[u32; 3]], count: usize) -> Vec<[u32; 2]> {
+    assert!(positions.iter().flatten().all(|x| x.is_finite()), "positions are numbers");
     let mut found = overlapping_boxes(positions, triangles);
     found.retain(|&[i, j]| {
         if i as usize >= count {
@@ -79,8 +68,7 @@ pub fn mesh_intersections(
         let pair = [i, j].map(|triangle| triangles[triangle as usize]);
         let [a, b] = pair.map(|corners| corners.map(|vertex| positions[vertex as usize]));
         let shared = shared_corners(pair);
-        triangles_intersect_by_signs(&a, &b, &shared)
-            .unwrap_or_else(|| triangles_intersect(&a, &b, &shared))
+        triangles_intersect_by_signs(&a, &b, &shared).unwrap_or_else(|| triangles_intersect(&a, &b, &shared))
     });
     found.sort_unstable();
     found
@@ -103,23 +91,17 @@ fn shared_corners([a, b]: [[u32; 3]; 2]) -> Vec<[usize; 2]> {
 /// Pairs of triangles whose closed boxes overlap: sweep along the mesh's longest side.
 fn overlapping_boxes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let range = |points: &mut dyn Iterator<Item = f64>| {
-        points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
-            [low.min(x), high.max(x)]
-        })
+        points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
     };
     let boxes: Vec<[[f64; 2]; 3]> = triangles
         .iter()
-        .map(|corners| {
-            [0, 1, 2].map(|axis| range(&mut corners.iter().map(|&v| positions[v as usize][axis])))
-        })
+        .map(|corners| [0, 1, 2].map(|axis| range(&mut corners.iter().map(|&v| positions[v as usize][axis]))))
         .collect();
     let extent = |axis: usize| {
         let [low, high] = range(&mut positions.iter().map(|p| p[axis]));
         high - low
     };
-    let sweep = (0..3)
-        .max_by(|&i, &j| extent(i).total_cmp(&extent(j)))
-        .expect("three axes");
+    let sweep = (0..3).max_by(|&i, &j| extent(i).total_cmp(&extent(j))).expect("three axes");
 
     let index = |i: usize| u32::try_from(i).expect("a mesh has fewer than 2^32 triangles");
     let mut order: Vec<_> = (0..).map(index).zip(boxes).collect();
@@ -128,10 +110,7 @@ fn overlapping_boxes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u32
     for (place, (i, one)) in order.iter().enumerate() {
         let following = order[place + 1..].iter();
         for (j, other) in following.take_while(|(_, other)| other[sweep][0] <= one[sweep][1]) {
-            let overlap = one
-                .iter()
-                .zip(other)
-                .all(|(a, b)| a[0] <= b[1] && b[0] <= a[1]);
+            let overlap = one.iter().zip(other).all(|(a, b)| a[0] <= b[1] && b[0] <= a[1]);
             if overlap {
                 pairs.push([*i.min(j), *i.max(j)]);
             }
@@ -143,11 +122,7 @@ fn overlapping_boxes(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u32
 fn intersect(a: [&IntegerPoint; 3], b: [&IntegerPoint; 3], shared: &[[usize; 2]]) -> bool {
     match shared {
         [] => triangles_meet(a, b),
-        &[[i, j]] => meet_beyond_a_vertex(
-            a[i],
-            [a[(i + 1) % 3], a[(i + 2) % 3]],
-            [b[(j + 1) % 3], b[(j + 2) % 3]],
-        ),
+        &[[i, j]] => meet_beyond_a_vertex(a[i], [a[(i + 1) % 3], a[(i + 2) % 3]], [b[(j + 1) % 3], b[(j + 2) % 3]]),
         &[[i, k], [j, l]] => meet_beyond_an_edge([a[i], a[j]], a[3 - i - j], b[3 - k - l]),
         _ => false,
     }
@@ -159,8 +134,7 @@ fn triangles_meet(a: [&IntegerPoint; 3], b: [&IntegerPoint; 3]) -> bool {
         return false;
     }
     EDGES.iter().any(|&[i, j]| {
-        segment_meets_triangle(&mut AtRest, [a[i], a[j]], b)
-            || segment_meets_triangle(&mut AtRest, [b[i], b[j]], a)
+        segment_meets_triangle(&mut AtRest, [a[i], a[j]], b) || segment_meets_triangle(&mut AtRest, [b[i], b[j]], a)
     })
 }
 
@@ -182,20 +156,14 @@ fn meet_beyond_a_vertex(apex: &IntegerPoint, a: [&IntegerPoint; 2], b: [&Integer
 }
 
 /// Does the segment `edge` meet the triangle apex, opposite elsewhere than in the apex?
-fn edge_meets_beyond(
-    apex: &IntegerPoint,
-    edge: [&IntegerPoint; 2],
-    opposite: [&IntegerPoint; 2],
-) -> bool {
+fn edge_meets_beyond(apex: &IntegerPoint, edge: [&IntegerPoint; 2], opposite: [&IntegerPoint; 2]) -> bool {
     if on_one_side(edge, [apex, opposite[0], opposite[1]]) {
         return false;
     }
     if point_on_segment(&mut AtRest, apex, edge) {
         // Each half of the edge begins in the apex: does it set off into the triangle?
         let cone = opposite.map(|end| subtract(end, apex));
-        return edge
-            .iter()
-            .any(|end| points_into(&subtract(end, apex), &cone));
+        return edge.iter().any(|end| points_into(&subtract(end, apex), &cone));
     }
     segment_meets_triangle(&mut AtRest, edge, [apex, opposite[0], opposite[1]])
 }
@@ -208,17 +176,13 @@ fn points_into(direction: &IntegerPoint, cone: &[IntegerPoint; 2]) -> bool {
     }
     let normal = cross(&cone[0], &cone[1]);
     if is_zero(signs, &normal) {
-        return cone.iter().any(|side| {
-            is_zero(signs, &cross(side, direction)) && dot(side, direction).is_positive()
-        });
+        return cone
+            .iter()
+            .any(|side| is_zero(signs, &cross(side, direction)) && dot(side, direction).is_positive());
     }
     signs.sign(&dot(&normal, direction)).is_eq()
-        && signs
-            .sign(&dot(&normal, &cross(direction, &cone[1])))
-            .is_ge()
-        && signs
-            .sign(&dot(&normal, &cross(&cone[0], direction)))
-            .is_ge()
+        && signs.sign(&dot(&normal, &cross(direction, &cone[1]))).is_ge()
+        && signs.sign(&dot(&normal, &cross(&cone[0], direction))).is_ge()
 }
 
 /// Do the triangles p, q, a and p, q, b share more than the edge p q?
@@ -232,18 +196,12 @@ fn meet_beyond_an_edge([p, q]: [&IntegerPoint; 2], a: &IntegerPoint, b: &Integer
     let areas = [a, b].map(|x| cross(&edge, &subtract(x, p)));
     match areas.each_ref().map(|area| is_zero(signs, area)) {
         // The common part lies in the half-planes of a and of b: the same one, or their border.
-        [false, false] => {
-            is_zero(signs, &cross(&areas[0], &areas[1])) && dot(&areas[0], &areas[1]).is_positive()
-        }
+        [false, false] => is_zero(signs, &cross(&areas[0], &areas[1])) && dot(&areas[0], &areas[1]).is_positive(),
         // One of the triangles is a segment on the line p q, where the other has only p q.
         [true, false] | [false, true] => false,
         // Two segments on the line: do both go on beyond the same end?
         [true, true] => {
-            let beyond = |end: &IntegerPoint, sign: Ordering| {
-                [a, b]
-                    .iter()
-                    .all(|x| dot(&edge, &subtract(x, end)).cmp0() == sign)
-            };
+            let beyond = |end: &IntegerPoint, sign: Ordering| [a, b].iter().all(|x| dot(&edge, &subtract(x, end)).cmp0() == sign);
             beyond(q, Ordering::Greater) || beyond(p, Ordering::Less)
         }
     }

@@ -30,11 +30,7 @@ fn decode(value: f64) -> (i64, i32) {
     let bits = value.to_bits();
     let exponent = i32::try_from((bits >> 52) & 0x7ff).expect("eleven bits");
     let fraction = i64::try_from(bits & ((1 << 52) - 1)).expect("52 bits");
-    let magnitude = if exponent == 0 {
-        fraction
-    } else {
-        fraction | (1 << 52)
-    };
+    let magnitude = if exponent == 0 { fraction } else { fraction | (1 << 52) };
     if magnitude == 0 {
         return (0, 0);
     }
@@ -49,11 +45,7 @@ fn decode(value: f64) -> (i64, i32) {
 /// If a coordinate is NaN or infinite.
 pub(crate) fn scale_to_integers(points: &[[f64; 3]]) -> Vec<Point<Integer>> {
     let coordinates = points.iter().flatten().map(|&x| decode(x));
-    let exponent = coordinates
-        .filter(|&(m, _)| m != 0)
-        .map(|(_, e)| e)
-        .min()
-        .unwrap_or(0);
+    let exponent = coordinates.filter(|&(m, _)| m != 0).map(|(_, e)| e).min().unwrap_or(0);
     let scale = |x: f64| match decode(x) {
         (0, _) => Integer::new(),
         (mantissa, e) => Integer::from(mantissa) << (e - exponent).cast_unsigned(),
@@ -102,20 +94,12 @@ impl Motion {
             Kind::EdgeEdge => 2,
         };
         let apart = |low: usize, high: usize, axis: usize| {
-            [&self.start, &self.end].iter().all(|positions| {
-                Integer::from(&positions[high][axis] - &positions[low][axis]) > *separation
-            })
+            [&self.start, &self.end]
+                .iter()
+                .all(|positions| Integer::from(&positions[high][axis] - &positions[low][axis]) > *separation)
         };
         let side = |swapped: bool, axis: usize| {
-            (0..first).all(|i| {
-                (first..4).all(|j| {
-                    if swapped {
-                        apart(j, i, axis)
-                    } else {
-                        apart(i, j, axis)
-                    }
-                })
-            })
+            (0..first).all(|i| (first..4).all(|j| if swapped { apart(j, i, axis) } else { apart(i, j, axis) }))
         };
         (0..3).any(|axis| side(false, axis) || side(true, axis))
     }
@@ -147,16 +131,7 @@ mod tests {
 
     #[test]
     fn every_finite_number_is_decoded_exactly() {
-        for value in [
-            1.0,
-            -0.1,
-            f64::MAX,
-            f64::MIN_POSITIVE,
-            5e-324,
-            -5e-324 * 3.0,
-            0.0,
-            -0.0,
-        ] {
+        for value in [1.0, -0.1, f64::MAX, f64::MIN_POSITIVE, 5e-324, -5e-324 * 3.0, 0.0, -0.0] {
             let (mantissa, exponent) = decode(value);
             let decoded = Rational::from(mantissa) << exponent;
             assert_eq!(decoded, Rational::from_f64(value).expect("finite"));

@@ -121,10 +121,7 @@ impl Polynomial {
 
     /// A positive multiple of the remainder on division by `divisor`, reduced to its primitive part.
     fn remainder(&self, divisor: &Self) -> Self {
-        let lead = divisor
-            .coefficients
-            .last()
-            .expect("division by the zero polynomial");
+        let lead = divisor.coefficients.last().expect("division by the zero polynomial");
         let scale = Integer::from(lead.abs_ref());
         let mut rest = self.coefficients.clone();
         while rest.len() >= divisor.coefficients.len() {
@@ -158,10 +155,7 @@ impl Polynomial {
 
     /// A positive multiple of the quotient by a divisor that leaves no remainder.
     fn quotient(&self, divisor: &Self) -> Self {
-        let lead = divisor
-            .coefficients
-            .last()
-            .expect("division by the zero polynomial");
+        let lead = divisor.coefficients.last().expect("division by the zero polynomial");
         let scale = Integer::from(lead.abs_ref());
         let mut rest = self.coefficients.clone();
         let mut quotient = Vec::new();
@@ -179,10 +173,7 @@ impl Polynomial {
             }
             quotient.push(factor);
         }
-        debug_assert!(
-            rest.iter().all(Integer::is_zero),
-            "the division leaves a remainder"
-        );
+        debug_assert!(rest.iter().all(Integer::is_zero), "the division leaves a remainder");
         quotient.reverse();
         Self::new(quotient).primitive()
     }
@@ -198,15 +189,9 @@ pub(crate) struct SturmSequence {
 impl SturmSequence {
     /// The sequence of the square-free part of `polynomial`, which must not be zero.
     pub(crate) fn new(polynomial: &Polynomial) -> Self {
-        assert!(
-            !polynomial.is_zero(),
-            "every number is a root of the zero polynomial"
-        );
+        assert!(!polynomial.is_zero(), "every number is a root of the zero polynomial");
         let mut sequence = Self::with_repeated_roots(polynomial.clone().primitive());
-        let common = sequence
-            .terms
-            .last()
-            .expect("the polynomial itself is the first term");
+        let common = sequence.terms.last().expect("the polynomial itself is the first term");
         if common.degree() > 0 {
             // The last term is the greatest common divisor with the derivative.
             sequence = Self::with_repeated_roots(polynomial.quotient(common));
@@ -274,10 +259,7 @@ mod tests {
     #[test]
     fn remainder_keeps_its_sign_under_a_negative_leading_coefficient() {
         // t² = (−t)(−2t + 1)/2 …: remainder of t² by 1 − 2t is 1/4 > 0.
-        assert_eq!(
-            polynomial(&[0, 0, 1]).remainder(&polynomial(&[1, -2])),
-            polynomial(&[1])
-        );
+        assert_eq!(polynomial(&[0, 0, 1]).remainder(&polynomial(&[1, -2])), polynomial(&[1]));
     }
 
     #[test]

@@ -18,8 +18,7 @@ use rug::{Integer, Rational};
 pub fn within(pair: &Pair, separation: f64) -> bool {
     let question = Question::new(pair, separation);
     question.cannot_be_ruled_out()
-        && (question.is_near_at(&Rational::from(0))
-            || question.find_approach(|feature, mut time| feature.is_near(&mut time)))
+        && (question.is_near_at(&Rational::from(0)) || question.find_approach(|feature, mut time| feature.is_near(&mut time)))
 }
 
 /// The earliest time in [0, 1] at which the distance is `separation` or less; `None` if it never is.
@@ -68,10 +67,7 @@ struct Question {
 
 impl Question {
     fn new(pair: &Pair, separation: f64) -> Self {
-        assert!(
-            separation >= 0.0,
-            "the separation must not be negative, but is {separation}"
-        );
+        assert!(separation >= 0.0, "the separation must not be negative, but is {separation}");
         let (motion, separation) = Motion::with_separation(pair, separation);
         let kind = pair.kind;
         Self {
@@ -95,10 +91,7 @@ impl Question {
 
     /// Whether `accept` agrees with one of the times at which the distance, more than the separation at first, may have come down
     /// to it; each is a root, and given with the features concerned.
-    fn find_approach(
-        &self,
-        mut accept: impl FnMut(&FeaturePair<Polynomial>, AlgebraicTime) -> bool,
-    ) -> bool {
+    fn find_approach(&self, mut accept: impl FnMut(&FeaturePair<Polynomial>, AlgebraicTime) -> bool) -> bool {
         // The distance is continuous and more than the separation at first. When it has come down to the
         // separation, the features that hold the closest points are at exactly that distance, so their
         // `excess` is zero and the closest points are within them. If the excess is zero at all times,
@@ -112,9 +105,7 @@ impl Question {
                     true => feature.inside.as_slice(),
                 };
                 let events = events.iter().filter(|event| !event.is_zero());
-                events
-                    .flat_map(AlgebraicTime::roots)
-                    .any(|time| accept(feature, time))
+                events.flat_map(AlgebraicTime::roots).any(|time| accept(feature, time))
             })
     }
 }
@@ -132,9 +123,7 @@ struct FeaturePair<R> {
 
 impl<R> FeaturePair<R> {
     fn is_near(&self, signs: &mut impl Signs<R>) -> bool {
-        self.extent
-            .as_ref()
-            .is_none_or(|extent| signs.sign(extent).is_gt())
+        self.extent.as_ref().is_none_or(|extent| signs.sign(extent).is_gt())
             && signs.sign(&self.excess).is_le()
             && self.inside.iter().all(|value| signs.sign(value).is_ge())
     }
@@ -168,9 +157,7 @@ fn features<R: Ring>(kind: Kind, points: &[Point<R>; 4], squared: &R) -> Vec<Fea
     let across = |normal: &Point<R>, between: &Point<R>, inside: &dyn Fn(&R) -> Vec<R>| {
         let extent = dot(normal, normal);
         let height = dot(normal, between);
-        let excess = height
-            .product(&height)
-            .difference(&squared.product(&extent));
+        let excess = height.product(&height).difference(&squared.product(&extent));
         FeaturePair {
             excess,
             inside: inside(&extent),
@@ -205,12 +192,7 @@ fn features<R: Ring>(kind: Kind, points: &[Point<R>; 4], squared: &R) -> Vec<Fea
                 // The closest points are at these parts of the edges, times `extent`.
                 let first = dot(&normal, &cross(&between, &along_second));
                 let second = dot(&normal, &cross(&between, &along_first));
-                vec![
-                    extent.difference(&first),
-                    extent.difference(&second),
-                    first,
-                    second,
-                ]
+                vec![extent.difference(&first), extent.difference(&second), first, second]
             }));
         }
     }

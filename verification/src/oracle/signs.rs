@@ -23,21 +23,13 @@ const LARGEST: f64 = f64::from_bits((1023 + 300) << 52);
 /// [`triangles_intersect`](super::triangles_intersect) by exact signs of volumes; `None` where a zero among them, or the range of the
 /// numbers, leaves it open. Triangles with all three corners in common do not intersect.
 #[must_use]
-pub fn triangles_intersect_by_signs(
-    a: &Triangle,
-    b: &Triangle,
-    shared: &[[usize; 2]],
-) -> Option<bool> {
+pub fn triangles_intersect_by_signs(a: &Triangle, b: &Triangle, shared: &[[usize; 2]]) -> Option<bool> {
     if !a.iter().chain(b).flatten().copied().all(is_in_range) {
         return None;
     }
     match *shared {
         [] => apart_from_each_other(a, b),
-        [[i, j]] => from_a_common_corner(
-            a[i],
-            [a[(i + 1) % 3], a[(i + 2) % 3]],
-            [b[(j + 1) % 3], b[(j + 2) % 3]],
-        ),
+        [[i, j]] => from_a_common_corner(a[i], [a[(i + 1) % 3], a[(i + 2) % 3]], [b[(j + 1) % 3], b[(j + 2) % 3]]),
         // On a common edge: only if they are folded flat.
         [[i, k], [j, l]] => side([a[i], a[j], a[3 - i - j]], b[3 - k - l]).map(|_| false),
         _ => Some(false),
@@ -87,8 +79,7 @@ fn apart_from_each_other(a: &Triangle, b: &Triangle) -> Option<bool> {
 
 /// Two triangles with one common corner meet elsewhere if the edge opposite to it of one passes through the other.
 fn from_a_common_corner(apex: [f64; 3], a: [[f64; 3]; 2], b: [[f64; 3]; 2]) -> Option<bool> {
-    let [first, second] = [(a, b), (b, a)]
-        .map(|(edge, opposite)| passes_through(edge, [apex, opposite[0], opposite[1]]));
+    let [first, second] = [(a, b), (b, a)].map(|(edge, opposite)| passes_through(edge, [apex, opposite[0], opposite[1]]));
     Some(first? || second?)
 }
 
@@ -99,10 +90,6 @@ fn passes_through([p, q]: [[f64; 3]; 2], face: Triangle) -> Option<bool> {
         return Some(false);
     }
     let [a, b, c] = face;
-    let turns = [
-        side([p, q, a], b)?,
-        side([p, q, b], c)?,
-        side([p, q, c], a)?,
-    ];
+    let turns = [side([p, q, a], b)?, side([p, q, b], c)?, side([p, q, c], a)?];
     Some(turns[0] == turns[1] && turns[1] == turns[2])
 }

@@ -5,11 +5,7 @@ use selvedge_verification::oracle::mesh_self_intersections;
 
 fn intersections_at_the_start(refinement: u32) -> Vec<[u32; 2]> {
     let scene = ArmScene::new(refinement).expect("a refinement in range");
-    let positions: Vec<[f64; 3]> = scene
-        .frame(0)
-        .iter()
-        .map(|position| position.to_array())
-        .collect();
+    let positions: Vec<[f64; 3]> = scene.frame(0).iter().map(|position| position.to_array()).collect();
     mesh_self_intersections(&positions, scene.topology().triangles())
 }
 

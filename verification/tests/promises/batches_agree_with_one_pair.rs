@@ -4,9 +4,7 @@ use proptest::prelude::*;
 use selvedge::dispatch::available_levels;
 use selvedge::pipeline::{CullingTest, Pipeline, Preset};
 use selvedge_core::Verdict;
-use selvedge_core::batch::{
-    BatchTest, LANES, Mask, Test, Tile, VertexRow, culled, culled_from_rows, culled_from_tiles,
-};
+use selvedge_core::batch::{BatchTest, LANES, Mask, Test, Tile, VertexRow, culled, culled_from_rows, culled_from_tiles};
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::{Filter, Tier, inside};
 use selvedge_core::points::Shape;
@@ -19,10 +17,7 @@ const TESTS: [(Test, CullingTest); 5] = [
     (Test::SegmentBox, CullingTest::SegmentBox),
     (Test::RelativeBoxes, CullingTest::RelativeBoxes),
     (Test::RelativeBoxesNine, CullingTest::RelativeBoxesNine),
-    (
-        Test::CertifiedNonCoplanarity,
-        CullingTest::CertifiedNonCoplanarity,
-    ),
+    (Test::CertifiedNonCoplanarity, CullingTest::CertifiedNonCoplanarity),
 ];
 
 fn direction_verdict<S: Format>(case: &PairCase<S>) -> Verdict {
@@ -59,9 +54,7 @@ fn some_pairs<S: Format>(kind: Kind) -> impl Strategy<Value = Vec<PairCase<S>>> 
 }
 
 fn bits(masks: &[Mask], count: usize) -> Vec<bool> {
-    (0..count)
-        .map(|k| masks[k / LANES] >> (k % LANES) & 1 == 1)
-        .collect()
+    (0..count).map(|k| masks[k / LANES] >> (k % LANES) & 1 == 1).collect()
 }
 
 /// Some pairs, one by one, as rows and as tiles.
@@ -100,11 +93,7 @@ impl<S: Format> Batch<S> {
         one_by_one: impl Fn(&PairCase<S>) -> Verdict,
     ) -> Result<(), TestCaseError> {
         let count = self.pairs.len();
-        let expected: Vec<_> = self
-            .pairs
-            .iter()
-            .map(|pair| one_by_one(pair).is_culled())
-            .collect();
+        let expected: Vec<_> = self.pairs.iter().map(|pair| one_by_one(pair).is_culled()).collect();
         for (name, level) in available_levels() {
             // One mask more than needed: it must be left alone.
             let untouched = vec![0xABCD; count.div_ceil(LANES) + 1];
@@ -119,31 +108,13 @@ impl<S: Format> Batch<S> {
                     culled(level, test, &pairs, &mut one_by_one);
                 }
             }
-            culled_from_rows(
-                level,
-                self.shape,
-                test,
-                &self.rows,
-                &self.indices,
-                &mut rows,
-            );
+            culled_from_rows(level, self.shape, test, &self.rows, &self.indices, &mut rows);
             culled_from_tiles(level, self.shape, test, &self.tiles, &mut tiles);
             for (form, masks) in [("list", one_by_one), ("rows", rows), ("tiles", tiles)] {
                 prop_assert_eq!(masks.last(), Some(&0xABCD), "{} {:?} {}", name, test, form);
-                prop_assert_eq!(
-                    bits(&masks, count),
-                    &expected[..],
-                    "{} {:?} {}",
-                    name,
-                    test,
-                    form
-                );
+                prop_assert_eq!(bits(&masks, count), &expected[..], "{} {:?} {}", name, test, form);
                 if !count.is_multiple_of(LANES) {
-                    prop_assert_eq!(
-                        masks[count / LANES] >> (count % LANES),
-                        0,
-                        "past the last pair"
-                    );
+                    prop_assert_eq!(masks[count / LANES] >> (count % LANES), 0, "past the last pair");
                 }
             }
         }
@@ -213,8 +184,7 @@ fn an_index_that_names_no_vertex_keeps_its_pair_and_no_other() {
 fn a_step_has_the_same_candidates_on_every_instruction_set() {
     check(200, meshes::<f64>(), |mesh| {
         let mut results = available_levels().into_iter().map(|(_, level)| {
-            let mut pipeline =
-                Pipeline::<f64>::new(mesh.topology(), Preset::Selvedge.stages(), 1).unwrap();
+            let mut pipeline = Pipeline::<f64>::new(mesh.topology(), Preset::Selvedge.stages(), 1).unwrap();
             pipeline.set_level(level);
             pipeline.keep_candidates(true);
             pipeline.step(&mesh.frame(0), &mesh.frame(1)).unwrap();

@@ -9,15 +9,12 @@ use selvedge_core::Motion;
 use selvedge_core::boxes::{Aabb, segment};
 use selvedge_verification::culling::{certified, verdict};
 use selvedge_verification::generator::{
-    Format, Moment, PairCase, check, extraordinary_pairs, from_choices, grazes_of_a_box, pairs,
-    pairs_of_any_kind, touching_pairs,
+    Format, Moment, PairCase, check, extraordinary_pairs, from_choices, grazes_of_a_box, pairs, pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides};
 
 /// Needs no oracle: the pair touches by construction.
-fn nothing_certified_culls_a_pair_built_to_touch<S: Format>(
-    moment: &Moment<S>,
-) -> Result<(), TestCaseError> {
+fn nothing_certified_culls_a_pair_built_to_touch<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair();
     for test in certified() {
         prop_assert!(!verdict(test, &pair).is_culled(), "{test:?}");
@@ -43,42 +40,25 @@ fn nothing_certified_culls_a_pair_built_to_touch_f32() {
     );
 }
 
-fn nothing_certified_culls_what_collides<S: Format>(
-    pair: &PairCase<S>,
-) -> Result<(), TestCaseError> {
-    let culling: Vec<CullingTest> = certified()
-        .filter(|&test| verdict(test, pair).is_culled())
-        .collect();
+fn nothing_certified_culls_what_collides<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
+    let culling: Vec<CullingTest> = certified().filter(|&test| verdict(test, pair).is_culled()).collect();
     if !culling.is_empty() {
-        prop_assert!(
-            collides(&pair.question()).is_none(),
-            "culled by {culling:?}"
-        );
+        prop_assert!(collides(&pair.question()).is_none(), "culled by {culling:?}");
     }
     Ok(())
 }
 
 #[test]
 fn nothing_certified_culls_what_collides_f64() {
-    check(
-        60_000,
-        pairs_of_any_kind::<f64>(),
-        nothing_certified_culls_what_collides,
-    );
+    check(60_000, pairs_of_any_kind::<f64>(), nothing_certified_culls_what_collides);
 }
 
 #[test]
 fn nothing_certified_culls_what_collides_f32() {
-    check(
-        60_000,
-        pairs_of_any_kind::<f32>(),
-        nothing_certified_culls_what_collides,
-    );
+    check(60_000, pairs_of_any_kind::<f32>(), nothing_certified_culls_what_collides);
 }
 
-fn nothing_certified_culls_what_is_not_finite<S: Format>(
-    pair: &PairCase<S>,
-) -> Result<(), TestCaseError> {
+fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     if pair.is_finite() {
         return nothing_certified_culls_what_collides(pair);
     }
@@ -108,9 +88,7 @@ fn nothing_certified_culls_nan_or_infinity_f32() {
 
 /// From loose to strong, as long as sums are finite: relative boxes keep the pair otherwise. Tests along nine directions ask for a gap,
 /// which is nothing beside a coordinate of everyday size, but more than dust.
-fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(
-    pair: &PairCase<S>,
-) -> Result<(), TestCaseError> {
+fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     if !pair.sums_are_finite() {
         return Ok(());
     }
@@ -127,30 +105,19 @@ fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(
         if needs_a_gap && pair.has_dust() {
             continue;
         }
-        prop_assert!(
-            !culls(weak) || culls(strong),
-            "{weak:?} culls, {strong:?} does not"
-        );
+        prop_assert!(!culls(weak) || culls(strong), "{weak:?} culls, {strong:?} does not");
     }
     Ok(())
 }
 
 #[test]
 fn stronger_tests_cull_what_weaker_ones_cull_f64() {
-    check(
-        100_000,
-        pairs_of_any_kind::<f64>(),
-        stronger_tests_cull_what_weaker_ones_cull,
-    );
+    check(100_000, pairs_of_any_kind::<f64>(), stronger_tests_cull_what_weaker_ones_cull);
 }
 
 #[test]
 fn stronger_tests_cull_what_weaker_ones_cull_f32() {
-    check(
-        100_000,
-        pairs_of_any_kind::<f32>(),
-        stronger_tests_cull_what_weaker_ones_cull,
-    );
+    check(100_000, pairs_of_any_kind::<f32>(), stronger_tests_cull_what_weaker_ones_cull);
 }
 
 type RationalPoint = [Rational; 3];
@@ -177,14 +144,7 @@ fn keeps_order<S: Format>(pair: &PairCase<S>, direction: [i32; 3]) -> bool {
 }
 
 const AXES: [[i32; 3]; 3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
-const DIAGONALS: [[i32; 3]; 6] = [
-    [1, 1, 0],
-    [1, -1, 0],
-    [1, 0, 1],
-    [1, 0, -1],
-    [0, 1, 1],
-    [0, 1, -1],
-];
+const DIAGONALS: [[i32; 3]; 6] = [[1, 1, 0], [1, -1, 0], [1, 0, 1], [1, 0, -1], [0, 1, 1], [0, 1, -1]];
 
 fn relative_boxes_are_what_they_say<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     let on_an_axis = AXES.iter().any(|&axis| keeps_order(pair, axis));
@@ -192,32 +152,19 @@ fn relative_boxes_are_what_they_say<S: Format>(pair: &PairCase<S>) -> Result<(),
     prop_assert!(on_an_axis || !culled);
     prop_assert!(culled || !on_an_axis || !pair.sums_are_finite());
     if verdict(RelativeBoxesNine, pair).is_culled() {
-        prop_assert!(
-            on_an_axis
-                || DIAGONALS
-                    .iter()
-                    .any(|&diagonal| keeps_order(pair, diagonal))
-        );
+        prop_assert!(on_an_axis || DIAGONALS.iter().any(|&diagonal| keeps_order(pair, diagonal)));
     }
     Ok(())
 }
 
 #[test]
 fn relative_boxes_cull_exactly_on_axes_and_soundly_on_diagonals_f64() {
-    check(
-        15_000,
-        pairs_of_any_kind::<f64>(),
-        relative_boxes_are_what_they_say,
-    );
+    check(15_000, pairs_of_any_kind::<f64>(), relative_boxes_are_what_they_say);
 }
 
 #[test]
 fn relative_boxes_cull_exactly_on_axes_and_soundly_on_diagonals_f32() {
-    check(
-        15_000,
-        pairs_of_any_kind::<f32>(),
-        relative_boxes_are_what_they_say,
-    );
+    check(15_000, pairs_of_any_kind::<f32>(), relative_boxes_are_what_they_say);
 }
 
 /// Small whole numbers: sums do not round, so the diagonals are exact, too.
@@ -226,16 +173,11 @@ fn relative_boxes_are_exact_on_all_nine_directions_where_sums_are() {
     let small = from_choices(|choices| {
         let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
         let limit = choices.pick(&[2, 5, 100]);
-        let points = std::array::from_fn(|_| {
-            std::array::from_fn(|_| std::array::from_fn(|_| choices.within(limit) as f64))
-        });
+        let points = std::array::from_fn(|_| std::array::from_fn(|_| std::array::from_fn(|_| choices.within(limit) as f64)));
         PairCase::<f64>::new(kind, points)
     });
     check(10_000, small, |pair| {
-        let separated = AXES
-            .iter()
-            .chain(&DIAGONALS)
-            .any(|&direction| keeps_order(pair, direction));
+        let separated = AXES.iter().chain(&DIAGONALS).any(|&direction| keeps_order(pair, direction));
         prop_assert_eq!(verdict(RelativeBoxesNine, pair).is_culled(), separated);
         Ok(())
     });
@@ -253,8 +195,7 @@ fn segment_meets_box(ends: &[RationalPoint; 2], [lower, upper]: &[RationalPoint;
             }
             continue;
         }
-        let mut times =
-            [&lower[axis], &upper[axis]].map(|bound| Rational::from(bound - start) / &along);
+        let mut times = [&lower[axis], &upper[axis]].map(|bound| Rational::from(bound - start) / &along);
         times.sort();
         let [first, last] = times;
         enter = enter.max(first);
@@ -273,48 +214,29 @@ fn swept_bounds<S: Format>(pair: &PairCase<S>) -> [RationalPoint; 2] {
 
 fn a_path_that_meets_the_box_is_kept<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     if verdict(SegmentBox, pair).is_culled() {
-        prop_assert!(!segment_meets_box(
-            &pair.points[0].map(rational),
-            &swept_bounds(pair)
-        ));
+        prop_assert!(!segment_meets_box(&pair.points[0].map(rational), &swept_bounds(pair)));
     }
     Ok(())
 }
 
 #[test]
 fn a_path_that_meets_the_swept_box_is_kept_f64() {
-    check(
-        100_000,
-        pairs::<f64>(Kind::VertexFace),
-        a_path_that_meets_the_box_is_kept,
-    );
+    check(100_000, pairs::<f64>(Kind::VertexFace), a_path_that_meets_the_box_is_kept);
 }
 
 #[test]
 fn a_path_that_grazes_the_swept_box_is_kept_f64() {
-    check(
-        100_000,
-        grazes_of_a_box::<f64>(),
-        a_path_that_meets_the_box_is_kept,
-    );
+    check(100_000, grazes_of_a_box::<f64>(), a_path_that_meets_the_box_is_kept);
 }
 
 #[test]
 fn a_path_that_grazes_the_swept_box_is_kept_f32() {
-    check(
-        100_000,
-        grazes_of_a_box::<f32>(),
-        a_path_that_meets_the_box_is_kept,
-    );
+    check(100_000, grazes_of_a_box::<f32>(), a_path_that_meets_the_box_is_kept);
 }
 
 #[test]
 fn a_path_that_meets_the_swept_box_is_kept_f32() {
-    check(
-        100_000,
-        pairs::<f32>(Kind::VertexFace),
-        a_path_that_meets_the_box_is_kept,
-    );
+    check(100_000, pairs::<f32>(Kind::VertexFace), a_path_that_meets_the_box_is_kept);
 }
 
 /// Found by search with the test's underflow term removed, which culls both: their cross products are subnormal, and a rounded
@@ -350,14 +272,8 @@ fn a_tiny_path_that_meets_the_box_is_kept_by_the_underflow_term_alone() {
             ],
         ],
     );
-    assert!(segment_meets_box(
-        &in_f32.points[0].map(rational),
-        &swept_bounds(&in_f32)
-    ));
-    assert!(segment_meets_box(
-        &in_f64.points[0].map(rational),
-        &swept_bounds(&in_f64)
-    ));
+    assert!(segment_meets_box(&in_f32.points[0].map(rational), &swept_bounds(&in_f32)));
+    assert!(segment_meets_box(&in_f64.points[0].map(rational), &swept_bounds(&in_f64)));
     assert!(!verdict(SegmentBox, &in_f32).is_culled());
     assert!(!verdict(SegmentBox, &in_f64).is_culled());
 }
@@ -368,19 +284,13 @@ fn a_path_that_meets_the_box_by_less_than_its_rounding_error_is_kept() {
     let pair = PairCase::<f32>::new(
         Kind::VertexFace,
         [
-            [
-                [-1.884_149_1, -0.034_371_793, 0.0],
-                [0.277_877_8, -1.877_597_8, 0.0],
-            ],
+            [[-1.884_149_1, -0.034_371_793, 0.0], [0.277_877_8, -1.877_597_8, 0.0]],
             [[-1.0, -1.113_415_8, 0.0]; 2],
             [[-1.0, -1.1875, 0.0], [-2.0, -1.1875, 0.0]],
             [[-1.0, -1.113_415_8, 0.0], [-0.618_475_6, -1.113_415_8, 0.0]],
         ],
     );
-    assert!(segment_meets_box(
-        &pair.points[0].map(rational),
-        &swept_bounds(&pair)
-    ));
+    assert!(segment_meets_box(&pair.points[0].map(rational), &swept_bounds(&pair)));
     assert!(!verdict(SegmentBox, &pair).is_culled());
 }
 
@@ -395,9 +305,7 @@ fn a_path_through_the_border_of_the_box_is_kept<S: Format>(
     let number = |whole: i64| S::exact(whole, -3);
     let [corner, direction] = [corner, direction].map(|x| x.map(i64::from));
     // Up to 4 / 4 of the way along each side.
-    let through: [i64; 3] = std::array::from_fn(|axis| {
-        4 * corner[axis] + i64::from(size[axis]) * i64::from(place[axis] % 5)
-    });
+    let through: [i64; 3] = std::array::from_fn(|axis| 4 * corner[axis] + i64::from(size[axis]) * i64::from(place[axis] % 5));
     let path: [[S; 3]; 2] = [-i64::from(times[0]), i64::from(times[1])]
         .map(|time| std::array::from_fn(|axis| number(through[axis] + time * direction[axis])));
     let target = Aabb {

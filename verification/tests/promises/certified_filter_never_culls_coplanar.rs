@@ -5,9 +5,7 @@ use selvedge::pipeline::CullingTest::{CertifiedNonCoplanarity, PlainNonCoplanari
 use selvedge_core::filter::certified::Bound;
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling::verdict;
-use selvedge_verification::generator::{
-    Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, pairs_of_any_kind,
-};
+use selvedge_verification::generator::{Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, pairs_of_any_kind};
 use selvedge_verification::oracle::{Kind, collides, coplanar};
 
 fn culls<S: Format>(pair: &PairCase<S>) -> bool {
@@ -19,9 +17,7 @@ fn is_coplanar<S: Format>(pair: &PairCase<S>) -> bool {
     coplanar(&question.start, &question.end)
 }
 
-fn never_culls_what_the_oracle_calls_coplanar<S: Format>(
-    pair: &PairCase<S>,
-) -> Result<(), TestCaseError> {
+fn never_culls_what_the_oracle_calls_coplanar<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
     prop_assert!(!(culls(pair) && is_coplanar(pair)));
     Ok(())
 }
@@ -60,9 +56,7 @@ const ORDERS: [[usize; 4]; 24] = {
 };
 
 /// Whichever point is the base of the volume, whichever axis comes first: each arrangement rounds in its own way.
-fn never_culls_a_coplanar_pair_in_any_arrangement<S: Format>(
-    moment: &Moment<S>,
-) -> Result<(), TestCaseError> {
+fn never_culls_a_coplanar_pair_in_any_arrangement<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair();
     for order in ORDERS {
         let arranged = pair.reordered(order);
@@ -102,20 +96,12 @@ fn keeps_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCas
 
 #[test]
 fn keeps_nan_and_infinity_and_overflow_f64() {
-    check(
-        50_000,
-        extraordinary_pairs::<f64>(),
-        keeps_what_is_not_finite,
-    );
+    check(50_000, extraordinary_pairs::<f64>(), keeps_what_is_not_finite);
 }
 
 #[test]
 fn keeps_nan_and_infinity_and_overflow_f32() {
-    check(
-        50_000,
-        extraordinary_pairs::<f32>(),
-        keeps_what_is_not_finite,
-    );
+    check(50_000, extraordinary_pairs::<f32>(), keeps_what_is_not_finite);
 }
 
 /// A computed control value above its bound proves that the exact one is at least about one unit roundoff of f32 times its
@@ -215,35 +201,19 @@ const INSIDE_AT_THE_START: PairCase<f64> = PairCase::new(
     Kind::VertexFace,
     [
         [
-            [
-                0.901_926_164_773_954,
-                -0.246_246_277_764_612_4,
-                0.353_010_188_642_770_1,
-            ],
+            [0.901_926_164_773_954, -0.246_246_277_764_612_4, 0.353_010_188_642_770_1],
             [1.0, 0.0, 0.0],
         ],
         [
-            [
-                -1.829_223_818_289_165_1,
-                -0.399_710_054_950_901_4,
-                -0.749_800_507_244_799_5,
-            ],
+            [-1.829_223_818_289_165_1, -0.399_710_054_950_901_4, -0.749_800_507_244_799_5],
             [0.0, 0.0, 0.0],
         ],
         [
-            [
-                0.785_839_694_590_095,
-                -1.396_080_322_007_264_8,
-                1.178_072_273_859_925_2,
-            ],
+            [0.785_839_694_590_095, -1.396_080_322_007_264_8, 1.178_072_273_859_925_2],
             [0.0, 0.0, 1.0],
         ],
         [
-            [
-                1.018_012_634_957_813_1,
-                0.903_587_766_478_040_1,
-                -0.472_051_896_574_384_95,
-            ],
+            [1.018_012_634_957_813_1, 0.903_587_766_478_040_1, -0.472_051_896_574_384_95],
             [0.0, 1.0, 0.0],
         ],
     ],
@@ -279,28 +249,16 @@ fn the_plain_filter_culls_a_colliding_pair_that_certified_keeps_f64() {
         [
             [
                 [0.0, 0.0, 0.0],
-                [
-                    0.815_510_629_087_612,
-                    0.619_723_023_008_248_2,
-                    -0.539_244_362_733_370_5,
-                ],
+                [0.815_510_629_087_612, 0.619_723_023_008_248_2, -0.539_244_362_733_370_5],
             ],
             [
                 [0.0, -1.0, 0.0],
-                [
-                    1.897_718_366_896_242_5,
-                    -1.878_857_091_290_456,
-                    1.772_956_876_306_58,
-                ],
+                [1.897_718_366_896_242_5, -1.878_857_091_290_456, 1.772_956_876_306_58],
             ],
             [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]],
             [
                 [1.0, 0.0, 0.0],
-                [
-                    0.454_774_716_484_735_1,
-                    1.452_583_061_107_816_3,
-                    -1.309_978_109_080_020_7,
-                ],
+                [0.454_774_716_484_735_1, 1.452_583_061_107_816_3, -1.309_978_109_080_020_7],
             ],
         ],
     );

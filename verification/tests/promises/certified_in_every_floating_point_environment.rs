@@ -14,8 +14,7 @@ use selvedge_core::points::Shape;
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling;
 use selvedge_verification::generator::{
-    Choices, Format, Meeting, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs,
-    from_choices, touching_pairs,
+    Choices, Format, Meeting, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides};
 use std::hint::black_box;
@@ -46,11 +45,7 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
     };
     let (vertex_face, edge_edge) = (pair.vertex_face(), pair.edge_edge());
     let is_face = pair.kind == Kind::VertexFace;
-    let shape = if is_face {
-        Shape::VertexFace
-    } else {
-        Shape::EdgeEdge
-    };
+    let shape = if is_face { Shape::VertexFace } else { Shape::EdgeEdge };
     let mut tile = Tile::unknown();
     tile.set(5, pair.motions());
     for tier in tiers(touches) {
@@ -68,9 +63,7 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
     }
     if touches {
         for test in culling::certified() {
-            note(culling::verdict(test, pair).is_culled(), &|| {
-                format!("{test:?}")
-            });
+            note(culling::verdict(test, pair).is_culled(), &|| format!("{test:?}"));
         }
         let normal = if is_face {
             direction::normal(&vertex_face)
@@ -94,12 +87,7 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
     culling
 }
 
-fn batch_culls<S: Format>(
-    level: Level,
-    shape: Shape,
-    test: impl BatchTest<S>,
-    tile: &Tile<S>,
-) -> bool {
+fn batch_culls<S: Format>(level: Level, shape: Shape, test: impl BatchTest<S>, tile: &Tile<S>) -> bool {
     let mut masks = [0];
     culled_from_tiles(level, shape, test, std::slice::from_ref(tile), &mut masks);
     masks != [0]
@@ -118,10 +106,7 @@ fn nothing_culls<S: Format>(pair: &PairCase<S>, touches: bool) -> Result<(), Tes
 fn at_the_limits<S: Format>(meeting: Meeting, choices: &mut Choices<'_>) -> PairCase<S> {
     let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
     let pair = Moment::<S>::choose(kind, meeting, choices).pair();
-    let largest = pair
-        .coordinates()
-        .map(|x| x.to_f64().abs())
-        .fold(0.0, f64::max);
+    let largest = pair.coordinates().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
     if largest == 0.0 {
         return pair;
     }
@@ -141,21 +126,13 @@ fn at_the_limits<S: Format>(meeting: Meeting, choices: &mut Choices<'_>) -> Pair
     // Exact, so that the pair still meets: no digit may fall below the smallest subnormal number, or beyond the largest.
     let moved = pair.map(|x| scaled(x, by));
     let back = moved.map(|x| scaled(x, -by));
-    if moved.is_finite() && back == pair {
-        moved
-    } else {
-        pair
-    }
+    if moved.is_finite() && back == pair { moved } else { pair }
 }
 
 /// `x`·2^`exponent`, rounded at most once, at the end.
 fn scaled<S: Format>(x: S, exponent: i32) -> S {
     let steps = [exponent / 3, exponent / 3, exponent - 2 * (exponent / 3)];
-    S::from_f64(
-        steps
-            .iter()
-            .fold(x.to_f64(), |x, &step| x * 2.0_f64.powi(step)),
-    )
+    S::from_f64(steps.iter().fold(x.to_f64(), |x, &step| x * 2.0_f64.powi(step)))
 }
 
 /// A test for each format.
@@ -176,30 +153,20 @@ macro_rules! in_both_formats {
 }
 
 fn touching_pairs_are_kept<S: Format>() {
-    check(3_000, touching_pairs::<S>(), |moment| {
-        nothing_culls(&moment.pair(), true)
-    });
+    check(3_000, touching_pairs::<S>(), |moment| nothing_culls(&moment.pair(), true));
     let limits = from_choices(|choices| at_the_limits::<S>(Meeting::Touching, choices));
     check(6_000, limits, |pair| nothing_culls(pair, true));
 }
 
-in_both_formats!(
-    touching_pairs_are_kept_in_every_environment,
-    touching_pairs_are_kept
-);
+in_both_formats!(touching_pairs_are_kept_in_every_environment, touching_pairs_are_kept);
 
 fn coplanar_pairs_are_kept<S: Format>() {
-    check(3_000, coplanar_pairs::<S>(), |moment| {
-        nothing_culls(&moment.pair(), false)
-    });
+    check(3_000, coplanar_pairs::<S>(), |moment| nothing_culls(&moment.pair(), false));
     let limits = from_choices(|choices| at_the_limits::<S>(Meeting::Coplanar, choices));
     check(6_000, limits, |pair| nothing_culls(pair, false));
 }
 
-in_both_formats!(
-    coplanar_pairs_are_kept_in_every_environment,
-    coplanar_pairs_are_kept
-);
+in_both_formats!(coplanar_pairs_are_kept_in_every_environment, coplanar_pairs_are_kept);
 
 fn what_is_not_finite_is_kept<S: Format>() {
     check(2_000, extraordinary_pairs::<S>(), |pair| {
@@ -210,10 +177,7 @@ fn what_is_not_finite_is_kept<S: Format>() {
     });
 }
 
-in_both_formats!(
-    what_is_not_finite_is_kept_in_every_environment,
-    what_is_not_finite_is_kept
-);
+in_both_formats!(what_is_not_finite_is_kept_in_every_environment, what_is_not_finite_is_kept);
 
 #[test]
 fn environments_are_really_set() {
@@ -264,12 +228,7 @@ impl Factors for AnEighth {
 const PERMANENT: Kernel = Kernel::Bounded(Bound::Permanent);
 
 /// A touching pair that a kernel would cull in an environment if it were not for one of its constants.
-fn is_culled_but_for<F: Factors, S: Format>(
-    kernel: Kernel,
-    environment: Environment,
-    kind: Kind,
-    points: [[[S; 3]; 2]; 4],
-) {
+fn is_culled_but_for<F: Factors, S: Format>(kernel: Kernel, environment: Environment, kind: Kind, points: [[[S; 3]; 2]; 4]) {
     if !Environment::all().contains(&environment) {
         return;
     }
@@ -295,22 +254,13 @@ fn without_the_underflow_term_flushing_would_cull_a_tiny_touching_pair_f32() {
         [-5.115_907_7e-13, -2.273_736_8e-13, 1.136_868_4e-13],
     ];
     let environment = Environment::FLUSHING;
-    is_culled_but_for::<NoUnderflowTerm, f32>(
-        PERMANENT,
-        environment,
-        Kind::EdgeEdge,
-        at_rest(points),
-    );
+    is_culled_but_for::<NoUnderflowTerm, f32>(PERMANENT, environment, Kind::EdgeEdge, at_rest(points));
 }
 
 #[test]
 fn without_the_underflow_term_flushing_would_cull_a_tiny_touching_pair_f64() {
     let points = [
-        [
-            0.0,
-            1.395_248_280_373_870_8e-103,
-            1.395_248_280_373_870_8e-103,
-        ],
+        [0.0, 1.395_248_280_373_870_8e-103, 1.395_248_280_373_870_8e-103],
         [
             -1.395_248_280_373_870_8e-103,
             1.116_198_624_299_096_7e-103,
@@ -328,12 +278,7 @@ fn without_the_underflow_term_flushing_would_cull_a_tiny_touching_pair_f64() {
         ],
     ];
     let environment = Environment::FLUSHING;
-    is_culled_but_for::<NoUnderflowTerm, f64>(
-        PERMANENT,
-        environment,
-        Kind::EdgeEdge,
-        at_rest(points),
-    );
+    is_culled_but_for::<NoUnderflowTerm, f64>(PERMANENT, environment, Kind::EdgeEdge, at_rest(points));
 }
 
 /// To nearest, and with subnormal numbers.
@@ -346,12 +291,7 @@ fn without_the_underflow_term_the_normal_direction_would_cull_a_tiny_touching_pa
         [-2.664_535_3e-15, 6.217_249e-15, 0.0],
     ];
     let environment = Environment::DEFAULT;
-    is_culled_but_for::<NoUnderflowTerm, f32>(
-        Kernel::Normal,
-        environment,
-        Kind::VertexFace,
-        at_rest(points),
-    );
+    is_culled_but_for::<NoUnderflowTerm, f32>(Kernel::Normal, environment, Kind::VertexFace, at_rest(points));
 }
 
 #[test]
@@ -363,55 +303,33 @@ fn without_the_gap_between_sums_flushing_would_cull_a_touching_pair_f32() {
         [0.0, -2.297_609_3e-38, 1.591_337e-38],
     ];
     let environment = Environment::FLUSHING;
-    is_culled_but_for::<NoGap, f32>(
-        Kernel::NineDirections,
-        environment,
-        Kind::VertexFace,
-        at_rest(points),
-    );
+    is_culled_but_for::<NoGap, f32>(Kernel::NineDirections, environment, Kind::VertexFace, at_rest(points));
 }
 
 #[test]
 fn without_the_gap_between_sums_flushing_would_cull_a_touching_pair_f64() {
     let points = [
-        [
-            0.0,
-            1.334_116_618_434_735_5e-308,
-            -3.936_141_313_639_537_3e-308,
-        ],
+        [0.0, 1.334_116_618_434_735_5e-308, -3.936_141_313_639_537_3e-308],
         [0.0, 2.136_611_270_948_34e-308, -7.802_331_248_665_893e-308],
         [0.0, -6.024_128_114_925_13e-309, -2.798_534_686_025_052e-308],
         [0.0, 2.302_381_333_398_36e-308, -4.504_944_627_446_78e-308],
     ];
     let environment = Environment::FLUSHING;
-    is_culled_but_for::<NoGap, f64>(
-        Kernel::NineDirections,
-        environment,
-        Kind::EdgeEdge,
-        at_rest(points),
-    );
+    is_culled_but_for::<NoGap, f64>(Kernel::NineDirections, environment, Kind::EdgeEdge, at_rest(points));
 }
 
 /// Volumes above the largest number become that number.
 #[test]
 fn without_the_limit_of_edges_rounding_downward_would_cull_a_large_touching_pair_f64() {
     let points = [
-        [
-            -2.381_705_131_771_844_7e139,
-            -7.145_115_395_315_534e139,
-            0.0,
-        ],
+        [-2.381_705_131_771_844_7e139, -7.145_115_395_315_534e139, 0.0],
         [
             1.429_023_079_063_106_8e140,
             9.526_820_527_087_379e139,
             1.429_023_079_063_106_8e140,
         ],
         [9.526_820_527_087_379e139, -9.526_820_527_087_379e139, 0.0],
-        [
-            -1.429_023_079_063_106_8e140,
-            -4.763_410_263_543_689_3e139,
-            0.0,
-        ],
+        [-1.429_023_079_063_106_8e140, -4.763_410_263_543_689_3e139, 0.0],
     ];
     let environment = Environment::DOWNWARD;
     is_culled_but_for::<NoLimit, f64>(PERMANENT, environment, Kind::VertexFace, at_rest(points));

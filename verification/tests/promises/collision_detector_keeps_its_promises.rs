@@ -85,14 +85,7 @@ fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), Tes
             ("earliest", earliest),
         ] {
             let is_in_time = found.is_some_and(|found| first.cmp_f64(found).is_ge());
-            prop_assert!(
-                is_in_time,
-                "{}: {:?}, {:?} at {:?}",
-                question,
-                found,
-                pair,
-                first
-            );
+            prop_assert!(is_in_time, "{}: {:?}, {:?} at {:?}", question, found, pair, first);
         }
     }
     Ok(())
@@ -166,9 +159,7 @@ fn no_pair_that_comes_within_the_separation_is_missed() {
 }
 
 /// Half of the vertices rest, in this step and the next; the pairs with another vertex are found as before, with the same times.
-fn what_rests_changes_nothing_for_what_moves<S: Format>(
-    mesh: &MeshCase<S>,
-) -> Result<(), TestCaseError> {
+fn what_rests_changes_nothing_for_what_moves<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let moving: Vec<bool> = (0..mesh.positions.len()).map(|k| k % 2 == 0).collect();
     let step = |step: usize| {
@@ -203,20 +194,12 @@ fn what_rests_changes_nothing_for_what_moves<S: Format>(
 
 #[test]
 fn what_rests_changes_nothing_for_what_moves_f64() {
-    check(
-        500,
-        meshes::<f64>(),
-        what_rests_changes_nothing_for_what_moves,
-    );
+    check(500, meshes::<f64>(), what_rests_changes_nothing_for_what_moves);
 }
 
 #[test]
 fn what_rests_changes_nothing_for_what_moves_f32() {
-    check(
-        500,
-        meshes::<f32>(),
-        what_rests_changes_nothing_for_what_moves,
-    );
+    check(500, meshes::<f32>(), what_rests_changes_nothing_for_what_moves);
 }
 
 /// Positions in `f32`, and the same in `f64`: the same contacts, with the same times but for rounding them down.
@@ -226,11 +209,7 @@ fn the_format_of_the_positions_changes_no_contact() {
     check(250, meshes::<f32>(), |mesh| {
         let wide = MeshCase::<f64> {
             triangles: mesh.triangles.clone(),
-            positions: mesh
-                .positions
-                .iter()
-                .map(|ends| ends.map(|end| end.map(f64::from)))
-                .collect(),
+            positions: mesh.positions.iter().map(|ends| ends.map(|end| end.map(f64::from))).collect(),
         };
         let (mut narrow_detector, mut wide_detector) = (detector(mesh), detector(&wide));
         let limits = Limits::<f32>::default();
@@ -278,10 +257,7 @@ fn instruction_sets_and_threads_change_nothing() {
             match &expected {
                 None => expected = Some((contacts, earliest)),
                 Some(expected) => {
-                    assert!(
-                        *expected == (contacts, earliest),
-                        "{name}, {threads} threads"
-                    );
+                    assert!(*expected == (contacts, earliest), "{name}, {threads} threads");
                 }
             }
         }
@@ -307,12 +283,7 @@ fn a_pair_of_ones_own_is_looked_at_as_it_is() {
     let two = ask(&[[5, 0], [3, 0]], &[]).expect("pairs of the mesh");
     assert_eq!([two[0].pair, two[1].pair], [[5, 0], [3, 0]]);
     assert!(two[0].time > 0.5 - 1e-8 && two[0].time <= 0.5);
-    for (vertex_face, edge_edge) in [
-        (&[[6, 0]][..], &[][..]),
-        (&[[0, 2]], &[]),
-        (&[], &[[0, 6]]),
-        (&[], &[[6, 0]]),
-    ] {
+    for (vertex_face, edge_edge) in [(&[[6, 0]][..], &[][..]), (&[[0, 2]], &[]), (&[], &[[0, 6]]), (&[], &[[6, 0]])] {
         let error = ask(vertex_face, edge_edge).expect_err("no such pair");
         assert!(matches!(error, StepError::NoSuchPair { .. }), "{error}");
     }
@@ -343,10 +314,7 @@ fn what_is_wrong_with_the_input_is_an_error() {
     assert!(detector.set_moving(Some(&[true])).is_err());
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         let (separation, tolerance) = (bad, 0.0);
-        let limits = Limits {
-            tolerance,
-            separation,
-        };
+        let limits = Limits { tolerance, separation };
         assert!(detector.set_limits(limits).is_err());
         let limits = Limits {
             tolerance: bad,

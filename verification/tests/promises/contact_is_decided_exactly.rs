@@ -9,8 +9,8 @@ use selvedge_core::elementary::contact::{Evidence, contact_and_evidence};
 use selvedge_core::exact;
 use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
 use selvedge_verification::generator::{
-    Choices, Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices,
-    pairs, pairs_of_any_kind, touching_pairs,
+    Choices, Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs, pairs_of_any_kind,
+    touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides};
 use std::cell::Cell;
@@ -53,12 +53,9 @@ fn agree_with_the_oracle<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseEr
     both_say(pair, collides(&pair.question()).is_some())
 }
 
-property!(
-    verdicts_are_the_oracles,
-    30_000,
-    pairs_of_any_kind(),
-    |pair| agree_with_the_oracle(pair)
-);
+property!(verdicts_are_the_oracles, 30_000, pairs_of_any_kind(), |pair| {
+    agree_with_the_oracle(pair)
+});
 
 /// Coordinates from 0 to `limit`: contacts at corners, along edges, at the start and end, and all kinds of degeneration, all at once.
 fn on_a_grid<S: Format>(limit: u32, choices: &mut Choices<'_>) -> PairCase<S> {
@@ -90,11 +87,7 @@ property!(
 fn of_bits(kind: Kind, axes: usize, index: usize) -> PairCase<f64> {
     let coordinate = |point: usize, end: usize, axis: usize| {
         let place = (point * 2 + end) * axes + axis;
-        if axis < axes && index >> place & 1 == 1 {
-            1.0
-        } else {
-            0.0
-        }
+        if axis < axes && index >> place & 1 == 1 { 1.0 } else { 0.0 }
     };
     let position = |point, end| [0, 1, 2].map(|axis| coordinate(point, end, axis));
     let points = [0, 1, 2, 3].map(|point| [position(point, 0), position(point, 1)]);
@@ -104,10 +97,7 @@ fn of_bits(kind: Kind, axes: usize, index: usize) -> PairCase<f64> {
 /// All pairs of points of a square: coplanar throughout.
 #[test]
 fn verdicts_are_the_oracles_on_every_pair_in_a_square() {
-    for (kind, index) in KINDS
-        .iter()
-        .flat_map(|&k| (0..1 << 16).map(move |i| (k, i)))
-    {
+    for (kind, index) in KINDS.iter().flat_map(|&k| (0..1 << 16).map(move |i| (k, i))) {
         let pair = of_bits(kind, 2, index);
         let checked = agree_with_the_oracle(&pair);
         assert!(checked.is_ok(), "{checked:?}\n{pair:?}");
@@ -158,19 +148,14 @@ fn every_kind_of_evidence_is_given() {
     assert!(counts.iter().all(|&count| count > 10), "{counts:?}");
 }
 
-property!(
-    what_is_not_finite_is_undefined,
-    20_000,
-    extraordinary_pairs(),
-    |pair| {
-        if pair.is_finite() {
-            return agree_with_the_oracle(pair);
-        }
-        prop_assert_eq!(touches(pair), None);
-        prop_assert_eq!(verdict(pair), (Contact::Undefined, Evidence::Nothing));
-        Ok(())
+property!(what_is_not_finite_is_undefined, 20_000, extraordinary_pairs(), |pair| {
+    if pair.is_finite() {
+        return agree_with_the_oracle(pair);
     }
-);
+    prop_assert_eq!(touches(pair), None);
+    prop_assert_eq!(verdict(pair), (Contact::Undefined, Evidence::Nothing));
+    Ok(())
+});
 
 /// Whole numbers say the same of a pair that is written down in another way.
 fn same<S: Format>(pair: &PairCase<S>, changed: &PairCase<S>) -> Result<(), TestCaseError> {
@@ -180,12 +165,10 @@ fn same<S: Format>(pair: &PairCase<S>, changed: &PairCase<S>) -> Result<(), Test
     Ok(())
 }
 
-property!(
-    reversing_time_changes_no_verdict,
-    10_000,
-    pairs_of_any_kind(),
-    |pair| same(pair, &pair.reversed())
-);
+property!(reversing_time_changes_no_verdict, 10_000, pairs_of_any_kind(), |pair| same(
+    pair,
+    &pair.reversed()
+));
 
 property!(
     mirroring_and_permuting_axes_changes_no_verdict,

@@ -8,9 +8,7 @@ use selvedge_core::filter::certified::{Bound, is_never_coplanar};
 use selvedge_core::points::Shape;
 use selvedge_core::{Lanes, PrimitivePair, Rounding, Vector};
 use selvedge_verification::culling::verdict;
-use selvedge_verification::generator::{
-    Choices, Format, PairCase, check, from_choices, pairs_of_any_kind,
-};
+use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs_of_any_kind};
 use selvedge_verification::oracle::Kind;
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -110,10 +108,7 @@ fn volume_at_third(points: &WholePoints, i: i128) -> i128 {
     };
     let from_a = |point: usize| [0, 1, 2].map(|axis| position(point, axis) - position(0, axis));
     let [b, c, p] = [1, 2, 3].map(from_a);
-    p[0] * b[1] * c[2] + p[1] * b[2] * c[0] + p[2] * b[0] * c[1]
-        - p[2] * b[1] * c[0]
-        - p[0] * b[2] * c[1]
-        - p[1] * b[0] * c[2]
+    p[0] * b[1] * c[2] + p[1] * b[2] * c[0] + p[2] * b[0] * c[1] - p[2] * b[1] * c[0] - p[0] * b[2] * c[1] - p[1] * b[0] * c[2]
 }
 
 proptest! {
@@ -188,9 +183,7 @@ fn exact_control_values<S: Format>(pair: &PairCase<S>) -> [ExactControlValue; 4]
     };
     let [a, b, c, p] = order.map(|k| pair.points[k].map(|position| position.map(rational)));
     let from_a = |x: &[[Rational; 3]; 2]| -> [[Rational; 3]; 2] {
-        std::array::from_fn(|end| {
-            std::array::from_fn(|axis| Rational::from(&x[end][axis] - &a[end][axis]))
-        })
+        std::array::from_fn(|end| std::array::from_fn(|axis| Rational::from(&x[end][axis] - &a[end][axis])))
     };
     let [p, b, c] = [from_a(&p), from_a(&b), from_a(&c)];
     let mut values = [(); 4].map(|()| ExactControlValue {
@@ -202,11 +195,7 @@ fn exact_control_values<S: Format>(pair: &PairCase<S>) -> [ExactControlValue; 4]
     for ends in 0..8 {
         let [i, j, k] = [ends & 1, ends >> 1 & 1, ends >> 2];
         let control_value = &mut values[i + j + k];
-        for (axes, negative) in even
-            .map(|axes| (axes, false))
-            .into_iter()
-            .chain(odd.map(|axes| (axes, true)))
-        {
+        for (axes, negative) in even.map(|axes| (axes, false)).into_iter().chain(odd.map(|axes| (axes, true))) {
             let [x, y, z] = axes;
             let monomial = Rational::from(&p[i][x] * &b[j][y]) * &c[k][z];
             control_value.permanent += monomial.clone().abs();
@@ -308,10 +297,7 @@ fn signs_are_certain(
     for k in 0..4 {
         let (computed, bound, value) = (&computed[k], &bounds[k], &exact[k].value);
         prop_assert!(computed <= bound || *value > 0, "control value {k}");
-        prop_assert!(
-            -computed.clone() <= *bound || *value < 0,
-            "control value {k}"
-        );
+        prop_assert!(-computed.clone() <= *bound || *value < 0, "control value {k}");
     }
     Ok(())
 }
@@ -349,10 +335,7 @@ property!(
     40_000,
     pairs_of_any_kind(),
     |pair| {
-        if let Some(Compared {
-            computed, exact, ..
-        }) = compared(pair)
-        {
+        if let Some(Compared { computed, exact, .. }) = compared(pair) {
             for bounds in bounds_by_magnitudes(pair) {
                 signs_are_certain(&computed, &bounds, &exact)?;
             }
@@ -363,11 +346,7 @@ property!(
 
 /// Whether a computed bound is the documented sum of a relative and an absolute term, but for 16 roundings at most on the way and
 /// what its products lose by underflow, which is less than an eighth of the absolute term.
-fn is_documented<S: Format>(
-    bound: &Rational,
-    relative: Rational,
-    absolute: &Rational,
-) -> Result<(), TestCaseError> {
+fn is_documented<S: Format>(bound: &Rational, relative: Rational, absolute: &Rational) -> Result<(), TestCaseError> {
     let slack = relative_error::<S>(16) + 1_u32;
     let (documented, lost) = (relative + absolute, Rational::from(absolute / 8_u32));
     let most = Rational::from(&documented * &slack) + &lost;
@@ -452,10 +431,8 @@ fn squared_normals<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
     let [a0, a1] = [0, 1].map(|end| vector(from_0, to_0, end));
     let [b0, b1] = [0, 1].map(|end| vector(from_1, to_1, end));
     let (one, other) = (cross(&a0, &b1), cross(&a1, &b0));
-    let middle: [Rational; 3] =
-        std::array::from_fn(|axis| Rational::from(&one[axis] + &other[axis]) / 2_u32);
-    [cross(&a0, &b0), middle, cross(&a1, &b1)]
-        .map(|normal| normal.into_iter().map(Rational::square).sum())
+    let middle: [Rational; 3] = std::array::from_fn(|axis| Rational::from(&one[axis] + &other[axis]) / 2_u32);
+    [cross(&a0, &b0), middle, cross(&a1, &b1)].map(|normal| normal.into_iter().map(Rational::square).sum())
 }
 
 fn largest_normal<S: Format>(pair: &PairCase<S>) -> S {
@@ -466,20 +443,15 @@ fn largest_normal<S: Format>(pair: &PairCase<S>) -> S {
     pair.tetrahedron().largest_normal(shape)
 }
 
-property!(
-    no_normal_is_longer_than_its_bound,
-    40_000,
-    pairs_of_any_kind(),
-    |pair| {
-        if compared(pair).is_some() {
-            let bound = rational(largest_normal(pair)).square();
-            for (k, squared) in squared_normals(pair).iter().enumerate() {
-                prop_assert!(bound >= *squared, "control point {k}");
-            }
+property!(no_normal_is_longer_than_its_bound, 40_000, pairs_of_any_kind(), |pair| {
+    if compared(pair).is_some() {
+        let bound = rational(largest_normal(pair)).square();
+        for (k, squared) in squared_normals(pair).iter().enumerate() {
+            prop_assert!(bound >= *squared, "control point {k}");
         }
-        Ok(())
     }
-);
+    Ok(())
+});
 
 /// (√(|n|² + η) + 128u·M²)·(1 + 32u). On small whole numbers all is exact up to the root: what remains rounds five times.
 fn the_bound_of_the_normal_is_the_documented_one<S: Format>() {

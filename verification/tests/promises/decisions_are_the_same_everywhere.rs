@@ -12,14 +12,10 @@ use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, direction, relative, segment, swept_boxes};
 use selvedge_core::coplanarity::{error_bound_by_magnitudes, is_in_range};
 use selvedge_core::elementary::advance::confirm::certain_contact;
-use selvedge_core::elementary::advance::{
-    time_of_impact_and_work, time_of_impact_within, uncertified,
-};
+use selvedge_core::elementary::advance::{time_of_impact_and_work, time_of_impact_within, uncertified};
 use selvedge_core::elementary::contact::contact_and_evidence;
 use selvedge_core::elementary::{Impact, Limits};
-use selvedge_core::exact::{
-    UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within, touches,
-};
+use selvedge_core::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within, touches};
 use selvedge_core::filter::{Filter, Tier, inside, plain};
 use selvedge_core::points::{PairShape, Shape};
 use selvedge_verification::campaign::exact::{Source, sample};
@@ -73,10 +69,7 @@ fn on_a_grid<S: Format>(kind: Kind, index: usize) -> PairCase<S> {
         digest.add((24 * index + coordinate) as u64);
         S::from_f64((digest.0 % 5) as f64 - 2.0)
     };
-    PairCase::new(
-        kind,
-        [(); 4].map(|()| [(); 2].map(|()| [(); 3].map(|()| next()))),
-    )
+    PairCase::new(kind, [(); 4].map(|()| [(); 2].map(|()| [(); 3].map(|()| next()))))
 }
 
 /// Random and adversarial pairs, of which one in sixteen has a coordinate that no mesh should have, random ones so large or small
@@ -155,9 +148,7 @@ impl Question for Filters {
         bits |= u64::from(inside::never_inside(pair).is_culled()) << 1;
         for tier in Tier::ALL {
             let filter = Filter::new(tier);
-            let separated = filter
-                .with_separation(separation_of(case))
-                .expect("positive");
+            let separated = filter.with_separation(separation_of(case)).expect("positive");
             bits = bits << 2 | u64::from(filter.verdict(pair).is_culled());
             bits |= u64::from(separated.verdict(pair).is_culled()) << 1;
         }
@@ -236,9 +227,7 @@ struct Blocks;
 impl Question for Blocks {
     fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, _: &P, digest: &mut Digest) {
         let mut block = MovingBlock::empty();
-        let narrow = case
-            .points
-            .map(|ends| ends.map(|x| x.map(|x| x.to_f64() as f32)));
+        let narrow = case.points.map(|ends| ends.map(|x| x.map(|x| x.to_f64() as f32)));
         let boxes = narrow.map(|[start, end]| MovingBox::of(&(start, end).into()));
         for (lane, moving) in boxes.iter().enumerate() {
             block.set(5 * lane, moving);
@@ -275,9 +264,9 @@ impl Question for Signs {
             let (points, volume) = (pair.points(), pair.tetrahedron());
             let signs = control_value_signs::<Q, S>(&points);
             let mut bits = signs.map_or(0, |signs| {
-                signs.iter().fold(0, |bits, &sign| {
-                    bits * 4 + u64::from((sign as i8 + 2).unsigned_abs())
-                })
+                signs
+                    .iter()
+                    .fold(0, |bits, &sign| bits * 4 + u64::from((sign as i8 + 2).unsigned_abs()))
             });
             let known = certain_signs(&volume.control_values(), volume.error_bounds());
             for sign in known {

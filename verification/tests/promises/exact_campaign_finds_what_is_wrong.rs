@@ -13,10 +13,7 @@ fn scenes() -> Scenes {
     let floor = [[0.1, 0.2, 0.3], [1.1, 0.3, 0.2], [0.3, 1.2, 0.4]];
     let [a, b, c] = floor.map(rests);
     Scenes {
-        vertex_face: vec![
-            [falls([0.4, 0.4, 0.3]), a, b, c],
-            [falls([1.4, 0.4, 0.3]), a, b, c],
-        ],
+        vertex_face: vec![[falls([0.4, 0.4, 0.3]), a, b, c], [falls([1.4, 0.4, 0.3]), a, b, c]],
         edge_edge: vec![[falls(floor[0]), falls([0.9, 0.8, 0.3]), b, c]],
     }
 }
@@ -30,14 +27,7 @@ fn to_the_end(progress: Progress, threads: usize) -> Progress {
 }
 
 fn sum(progress: &Progress, what: fn(&Tally) -> u64) -> u64 {
-    progress
-        .found
-        .tallies
-        .iter()
-        .flatten()
-        .flatten()
-        .map(what)
-        .sum()
+    progress.found.tallies.iter().flatten().flatten().map(what).sum()
 }
 
 #[test]
@@ -47,21 +37,11 @@ fn no_certified_claim_is_wrong_and_each_kind_of_proof_is_needed() {
     for by_source in &progress.found.tallies {
         for claim in 0..Claim::CERTIFIED.len() {
             let of_claim = by_source.iter().map(|tallies| &tallies[claim]);
-            assert!(
-                of_claim.clone().map(|tally| tally.claims).sum::<u64>() > 1000,
-                "{progress}"
-            );
-            assert!(
-                of_claim.map(|tally| tally.by_oracle).sum::<u64>() > 1,
-                "{progress}"
-            );
+            assert!(of_claim.clone().map(|tally| tally.claims).sum::<u64>() > 1000, "{progress}");
+            assert!(of_claim.map(|tally| tally.by_oracle).sum::<u64>() > 1, "{progress}");
         }
     }
-    let proofs: [fn(&Tally) -> u64; 3] = [
-        |tally| tally.by_signs,
-        |tally| tally.by_axis,
-        |tally| tally.by_whole_numbers,
-    ];
+    let proofs: [fn(&Tally) -> u64; 3] = [|tally| tally.by_signs, |tally| tally.by_axis, |tally| tally.by_whole_numbers];
     for proven in proofs {
         assert!(sum(&progress, proven) > 100, "{progress}");
     }
@@ -71,10 +51,7 @@ fn no_certified_claim_is_wrong_and_each_kind_of_proof_is_needed() {
 fn false_culls_of_the_plain_filter_are_found_and_shown() {
     let progress = to_the_end(campaign(&[Claim::Plain], 25_000), 2);
     assert!(progress.found.wrong() > 10, "{progress}");
-    assert!(
-        progress.to_string().contains("Plain, f32, is wrong of\n"),
-        "{progress}"
-    );
+    assert!(progress.to_string().contains("Plain, f32, is wrong of\n"), "{progress}");
 }
 
 #[test]

@@ -8,14 +8,11 @@ use rug::Rational;
 use selvedge::pipeline::CullingTest;
 use selvedge_core::PrimitivePair;
 use selvedge_core::coplanarity::is_in_range;
-use selvedge_core::exact::{
-    KnownSigns, UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within,
-};
+use selvedge_core::exact::{KnownSigns, UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within};
 use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
-    Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices,
-    pairs_of_any_kind,
+    Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
 };
 use selvedge_verification::oracle::{Kind, coplanar, within};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
@@ -29,33 +26,22 @@ fn signs<S: Format>(pair: &PairCase<S>) -> Option<[Ordering; 4]> {
 
 fn never_coplanar<S: Format>(pair: &PairCase<S>, known: KnownSigns) -> bool {
     match pair.kind {
-        Kind::VertexFace => {
-            is_never_coplanar::<VertexAndFace, S>(&pair.vertex_face().points(), known)
-        }
+        Kind::VertexFace => is_never_coplanar::<VertexAndFace, S>(&pair.vertex_face().points(), known),
         Kind::EdgeEdge => is_never_coplanar::<EdgeAndEdge, S>(&pair.edge_edge().points(), known),
     }
 }
 
 fn never_within<S: Format>(pair: &PairCase<S>, separation: S, known: KnownSigns) -> bool {
     match pair.kind {
-        Kind::VertexFace => {
-            is_never_within::<VertexAndFace, S>(&pair.vertex_face().points(), separation, known)
-        }
-        Kind::EdgeEdge => {
-            is_never_within::<EdgeAndEdge, S>(&pair.edge_edge().points(), separation, known)
-        }
+        Kind::VertexFace => is_never_within::<VertexAndFace, S>(&pair.vertex_face().points(), separation, known),
+        Kind::EdgeEdge => is_never_within::<EdgeAndEdge, S>(&pair.edge_edge().points(), separation, known),
     }
 }
 
-property!(
-    signs_are_those_of_rationals,
-    20_000,
-    pairs_of_any_kind(),
-    |pair| {
-        prop_assert_eq!(signs(pair), Some(InRationals::new(pair).signs()));
-        Ok(())
-    }
-);
+property!(signs_are_those_of_rationals, 20_000, pairs_of_any_kind(), |pair| {
+    prop_assert_eq!(signs(pair), Some(InRationals::new(pair).signs()));
+    Ok(())
+});
 
 property!(
     nothing_overflows_at_the_limit_of_a_width,
@@ -84,23 +70,18 @@ property!(
     }
 );
 
-property!(
-    what_is_known_is_not_asked_again,
-    5_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let signs = signs(pair).expect("finite");
-        for i in 0..4 {
-            for claimed in [Less, Equal, Greater] {
-                let mut known = [Some(claimed); 4];
-                known[i] = None;
-                let expected = claimed.is_ne() && signs[i] == claimed;
-                prop_assert_eq!(never_coplanar(pair, known), expected, "{:?}", known);
-            }
+property!(what_is_known_is_not_asked_again, 5_000, pairs_of_any_kind(), |pair| {
+    let signs = signs(pair).expect("finite");
+    for i in 0..4 {
+        for claimed in [Less, Equal, Greater] {
+            let mut known = [Some(claimed); 4];
+            known[i] = None;
+            let expected = claimed.is_ne() && signs[i] == claimed;
+            prop_assert_eq!(never_coplanar(pair, known), expected, "{:?}", known);
         }
-        Ok(())
     }
-);
+    Ok(())
+});
 
 property!(
     never_culls_what_the_oracle_calls_coplanar,
@@ -164,10 +145,7 @@ property!(
         if !pair.is_finite() {
             prop_assert!(!never_coplanar(pair, UNKNOWN));
             prop_assert!(!never_within(pair, S::ZERO, UNKNOWN));
-            prop_assert!(!never_coplanar(
-                pair,
-                [None, Some(Less), Some(Less), Some(Less)]
-            ));
+            prop_assert!(!never_coplanar(pair, [None, Some(Less), Some(Less), Some(Less)]));
         }
         Ok(())
     }
@@ -257,37 +235,22 @@ property!(
     }
 );
 
-property!(
-    never_culls_what_the_oracle_calls_within,
-    2_000,
-    pairs_of_any_kind(),
-    |pair| {
-        let exact = InRationals::new(pair);
-        for separation in separations(pair, &exact) {
-            if never_within(pair, separation, UNKNOWN) {
-                prop_assert!(
-                    !within(&pair.question(), separation.to_f64()),
-                    "{separation:?}"
-                );
-            }
+property!(never_culls_what_the_oracle_calls_within, 2_000, pairs_of_any_kind(), |pair| {
+    let exact = InRationals::new(pair);
+    for separation in separations(pair, &exact) {
+        if never_within(pair, separation, UNKNOWN) {
+            prop_assert!(!within(&pair.question(), separation.to_f64()), "{separation:?}");
         }
-        Ok(())
     }
-);
+    Ok(())
+});
 
 property!(
     a_separation_that_is_no_length_keeps_the_pair,
     5_000,
     pairs_of_any_kind(),
     |pair| {
-        for separation in [
-            S::NAN,
-            -S::NAN,
-            S::INFINITY,
-            -S::INFINITY,
-            -S::ONE,
-            -S::ZERO.up(),
-        ] {
+        for separation in [S::NAN, -S::NAN, S::INFINITY, -S::INFINITY, -S::ONE, -S::ZERO.up()] {
             prop_assert!(!never_within(pair, separation, UNKNOWN), "{separation:?}");
         }
         Ok(())
@@ -317,12 +280,7 @@ fn decides_the_largest_spread_there_is<S: Format>() {
         let vertex = [[small, small, height]; 2];
         let pair = PairCase::new(
             Kind::VertexFace,
-            [
-                vertex,
-                corner(-large, -large),
-                corner(large, -large),
-                corner(small, large),
-            ],
+            [vertex, corner(-large, -large), corner(large, -large), corner(small, large)],
         );
         assert_eq!(signs(&pair), Some([sign; 4]), "{pair:?}");
         let along_x = pair.with_axes([2, 0, 1]);

@@ -46,10 +46,6 @@ fn a_run_that_is_killed_and_started_again_ends_like_any_other() {
 
 #[test]
 fn another_seed_gives_other_pairs() {
-    let culled = |seed: u64| {
-        run(Progress::new(seed, 1_000, 1_000), 1, |_| (), || false)
-            .found
-            .rows
-    };
+    let culled = |seed: u64| run(Progress::new(seed, 1_000, 1_000), 1, |_| (), || false).found.rows;
     assert_ne!(culled(SEED), culled(SEED + 1));
 }

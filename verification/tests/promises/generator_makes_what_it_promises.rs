@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use selvedge::pipeline::CullingTest::CertifiedNonCoplanarity;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
-    Choices, Format, Meeting, MeshCase, Moment, PairCase, Simplify, check, coplanar_pairs,
-    from_choices, meshes, pairs_of_any_kind, touching_pairs,
+    Choices, Format, Meeting, MeshCase, Moment, PairCase, Simplify, check, coplanar_pairs, from_choices, meshes,
+    pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides, coplanar, touches_at};
 use std::cell::Cell;
@@ -70,21 +70,13 @@ fn share<S: Format>(cases: u32, of: impl Fn(&PairCase<S>) -> bool) -> u32 {
 
 #[test]
 fn pairs_are_culled_coplanar_and_colliding_often_enough_f64() {
-    assert!(
-        share::<f64>(3000, |pair| verdict(CertifiedNonCoplanarity, pair)
-            .is_culled())
-            > 30
-    );
+    assert!(share::<f64>(3000, |pair| verdict(CertifiedNonCoplanarity, pair).is_culled()) > 30);
     assert!(share::<f64>(3000, |pair| collides(&pair.question()).is_some()) > 200);
 }
 
 #[test]
 fn pairs_are_culled_coplanar_and_colliding_often_enough_f32() {
-    assert!(
-        share::<f32>(3000, |pair| verdict(CertifiedNonCoplanarity, pair)
-            .is_culled())
-            > 30
-    );
+    assert!(share::<f32>(3000, |pair| verdict(CertifiedNonCoplanarity, pair).is_culled()) > 30);
     assert!(share::<f32>(3000, |pair| collides(&pair.question()).is_some()) > 200);
 }
 
@@ -106,10 +98,7 @@ fn meshes_are_degenerate_non_manifold_and_incomplete_often_enough() {
         counts.set(sums);
         Ok(())
     });
-    assert!(
-        counts.get().into_iter().all(|count| count > 50),
-        "{counts:?}"
-    );
+    assert!(counts.get().into_iter().all(|count| count > 50), "{counts:?}");
 }
 
 /// Follows every success of an attempt to simplify, as proptest does.
@@ -132,9 +121,7 @@ fn shrinking_ends_in_a_pair_of_small_numbers() {
     let mut state = 1_u64;
     for _ in 0..2000 {
         let bytes: [u8; Choices::ENOUGH] = std::array::from_fn(|_| {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 56) as u8
         });
         let pair = PairCase::from_bytes(Kind::EdgeEdge, &bytes);
@@ -151,8 +138,7 @@ fn shrinking_ends_in_a_pair_of_small_numbers() {
 
 #[test]
 fn shrinking_a_meeting_keeps_it() {
-    let strategy =
-        from_choices(|choices| Moment::<f32>::choose(Kind::VertexFace, Meeting::Touching, choices));
+    let strategy = from_choices(|choices| Moment::<f32>::choose(Kind::VertexFace, Meeting::Touching, choices));
     check(300, strategy, |moment| {
         for attempt in 0..moment.attempts() {
             if let Some(simpler) = moment.simpler(attempt) {

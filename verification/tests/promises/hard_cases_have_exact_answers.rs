@@ -33,8 +33,7 @@ fn pair(case: &HardCase) -> PairCase<f64> {
         PairKind::VertexFace => Kind::VertexFace,
         PairKind::EdgeEdge => Kind::EdgeEdge,
     };
-    let points =
-        [0, 1, 2, 3].map(|point| [case.start[point].to_array(), case.end[point].to_array()]);
+    let points = [0, 1, 2, 3].map(|point| [case.start[point].to_array(), case.end[point].to_array()]);
     PairCase::new(kind, points)
 }
 
@@ -53,11 +52,7 @@ fn answers_read_from_the_file_are_those_of_the_oracle() {
             Contact::Never => assert!(collides(&pair.question()).is_none(), "{}", case.name),
             Contact::First { from, to, .. } => {
                 let time = collides(&pair.question()).expect("a contact");
-                assert!(
-                    time.cmp_f64(from).is_ge() && time.cmp_f64(to).is_le(),
-                    "{}",
-                    case.name
-                );
+                assert!(time.cmp_f64(from).is_ge() && time.cmp_f64(to).is_le(), "{}", case.name);
                 assert!(to == from || to == from.next_up());
             }
         }
@@ -66,8 +61,7 @@ fn answers_read_from_the_file_are_those_of_the_oracle() {
 
 /// Our methods, which must never cull what touches. (The bisection of Tight-Inclusion must not either, but takes its time.)
 fn ours() -> impl Iterator<Item = QueryMethod> {
-    let is_ours =
-        |method: &QueryMethod| method.is_certified() && *method != QueryMethod::TightInclusion;
+    let is_ours = |method: &QueryMethod| method.is_certified() && *method != QueryMethod::TightInclusion;
     QueryMethod::ALL.into_iter().filter(is_ours)
 }
 
@@ -167,8 +161,7 @@ fn a_nudge_by_one_unit_in_the_last_place_never_turns_a_kept_collision_into_a_cul
 fn cases_that_are_clearly_apart_are_excluded() {
     let mut excluded = 0;
     for case in hard_cases() {
-        let is_clear = matches!(case.contact, Contact::Never)
-            && ["1 m", "10 km"].contains(&case.placement.as_str());
+        let is_clear = matches!(case.contact, Contact::Never) && ["1 m", "10 km"].contains(&case.placement.as_str());
         if is_clear && !case.name.contains("2^-1074") {
             let pair = pair(case);
             let kept = QueryMethod::Selvedge.keeps::<f64>(case.kind, pair.motions());

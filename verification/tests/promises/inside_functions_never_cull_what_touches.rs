@@ -8,8 +8,7 @@ use proptest::prelude::*;
 use selvedge_core::Verdict;
 use selvedge_core::filter::inside;
 use selvedge_verification::generator::{
-    Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, pairs_of_any_kind,
-    touching_pairs,
+    Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides};
 use std::cell::Cell;
@@ -37,10 +36,7 @@ fn keeps_every_pair_built_to_touch_f32() {
     check(300_000, touching_pairs::<f32>(), keeps_what_touches);
 }
 
-fn culls_only_what_never_touches<S: Format>(
-    pair: &PairCase<S>,
-    culled: &Cell<u32>,
-) -> Result<(), TestCaseError> {
+fn culls_only_what_never_touches<S: Format>(pair: &PairCase<S>, culled: &Cell<u32>) -> Result<(), TestCaseError> {
     if verdict(pair).is_culled() {
         culled.set(culled.get() + 1);
         prop_assert!(pair.is_finite(), "culled though it is not finite");

@@ -47,14 +47,8 @@ fn touches_first_at(pair: &PairCase<f32>, time: (i32, i32)) {
     for &order in orders {
         for pair in [pair.reordered(order), pair.reordered(order).reversed()] {
             for test in certified() {
-                assert!(
-                    !verdict(test, &pair).is_culled(),
-                    "{test:?} in f32: {pair:?}"
-                );
-                assert!(
-                    !verdict(test, &pair.widened()).is_culled(),
-                    "{test:?} in f64: {pair:?}"
-                );
+                assert!(!verdict(test, &pair).is_culled(), "{test:?} in f32: {pair:?}");
+                assert!(!verdict(test, &pair.widened()).is_culled(), "{test:?} in f64: {pair:?}");
             }
         }
     }
@@ -90,30 +84,21 @@ fn a_vertex_falls_onto_a_side_and_onto_a_corner_of_a_face() {
 #[test]
 fn two_edges_cross() {
     let first = [resting([-1.0, 0.0, 0.0]), resting([1.0, 0.0, 0.0])];
-    let second = [
-        [[0.0, -1.0, 1.0], [0.0, -1.0, -1.0]],
-        [[0.0, 1.0, 1.0], [0.0, 1.0, -1.0]],
-    ];
+    let second = [[[0.0, -1.0, 1.0], [0.0, -1.0, -1.0]], [[0.0, 1.0, 1.0], [0.0, 1.0, -1.0]]];
     touches_first_at(&edge_edge(first, second), (1, 2));
 }
 
 #[test]
 fn two_edges_that_pass_each_other_at_a_distance_are_culled() {
     let first = [resting([-1.0, 0.0, 0.0]), resting([1.0, 0.0, 0.0])];
-    let second = [
-        [[0.0, -1.0, 1.0], [0.5, -1.0, 0.25]],
-        [[0.0, 1.0, 1.0], [0.5, 1.0, 0.25]],
-    ];
+    let second = [[[0.0, -1.0, 1.0], [0.5, -1.0, 0.25]], [[0.0, 1.0, 1.0], [0.5, 1.0, 0.25]]];
     is_culled_by_the_filter(&edge_edge(first, second));
 }
 
 #[test]
 fn two_edges_meet_end_to_end() {
     let first = [resting([-1.0, 0.0, 0.0]), resting([0.0, 0.0, 0.0])];
-    let second = [
-        [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0]],
-        [[0.0, 1.0, 2.0], [0.0, 1.0, 1.0]],
-    ];
+    let second = [[[0.0, 0.0, 1.0], [0.0, 0.0, 0.0]], [[0.0, 1.0, 2.0], [0.0, 1.0, 1.0]]];
     touches_first_at(&edge_edge(first, second), (1, 1));
 }
 
@@ -126,20 +111,14 @@ fn a_vertex_slides_into_a_face_within_its_plane() {
 #[test]
 fn parallel_edges_slide_into_each_other_on_their_common_line() {
     let first = [resting([0.0, 0.0, 0.0]), resting([1.0, 0.0, 0.0])];
-    let second = [
-        [[3.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
-        [[5.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
-    ];
+    let second = [[[3.0, 0.0, 0.0], [0.0, 0.0, 0.0]], [[5.0, 0.0, 0.0], [2.0, 0.0, 0.0]]];
     touches_first_at(&edge_edge(first, second), (2, 3));
 }
 
 #[test]
 fn parallel_edges_fall_onto_each_other() {
     let first = [resting([0.0, 0.0, 0.0]), resting([2.0, 0.0, 0.0])];
-    let second = [
-        [[1.0, 0.0, 1.0], [1.0, 0.0, -1.0]],
-        [[3.0, 0.0, 1.0], [3.0, 0.0, -1.0]],
-    ];
+    let second = [[[1.0, 0.0, 1.0], [1.0, 0.0, -1.0]], [[3.0, 0.0, 1.0], [3.0, 0.0, -1.0]]];
     touches_first_at(&edge_edge(first, second), (1, 2));
 }
 
@@ -232,13 +211,7 @@ fn a_vertex_grazes_the_face_at_a_double_root() {
 #[test]
 fn four_points_gather_in_one_at_a_triple_root() {
     let through_the_origin = |[x, y, z]: [f32; 3]| [[x, y, z], [-x, -y, -z]];
-    let [p, a, b, c] = [
-        [1.0, 2.0, 3.0],
-        [-2.0, 1.0, 0.5],
-        [0.25, -1.0, 4.0],
-        [3.0, 3.0, -1.0],
-    ]
-    .map(through_the_origin);
+    let [p, a, b, c] = [[1.0, 2.0, 3.0], [-2.0, 1.0, 0.5], [0.25, -1.0, 4.0], [3.0, 3.0, -1.0]].map(through_the_origin);
     touches_first_at(&vertex_face(p, [a, b, c]), (1, 2));
     touches_first_at(&edge_edge([p, a], [b, c]), (1, 2));
 }
@@ -257,25 +230,15 @@ fn a_position_in_common_is_no_vertex_in_common() {
         corner - DVec3::X + DVec3::Z,
         corner - DVec3::Y + DVec3::Z,
     ];
-    let is_certified =
-        |preset: &Preset| preset.stages().tests.iter().all(|test| test.is_certified());
+    let is_certified = |preset: &Preset| preset.stages().tests.iter().all(|test| test.is_certified());
     for preset in Preset::ALL.into_iter().filter(is_certified) {
-        let mut pipeline =
-            Pipeline::<f64>::new(topology.clone(), preset.stages(), 1).expect("one thread");
+        let mut pipeline = Pipeline::<f64>::new(topology.clone(), preset.stages(), 1).expect("one thread");
         pipeline.keep_candidates(true);
         pipeline.step(&frame, &frame).expect("finite positions");
         let vertex_face = pipeline.candidates(VertexFace);
-        assert!(
-            vertex_face.contains(&[0, 1]) && vertex_face.contains(&[3, 0]),
-            "{preset}"
-        );
+        assert!(vertex_face.contains(&[0, 1]) && vertex_face.contains(&[3, 0]), "{preset}");
         let edges = topology.edges();
-        let meet = |ends: [u32; 2]| {
-            edges
-                .iter()
-                .position(|&edge| edge == ends)
-                .expect("an edge") as u32
-        };
+        let meet = |ends: [u32; 2]| edges.iter().position(|&edge| edge == ends).expect("an edge") as u32;
         let pair = [meet([0, 1]), meet([3, 4])];
         let edge_edge = pipeline.candidates(EdgeEdge);
         assert!(

@@ -13,9 +13,7 @@ use rug::{Rational, ops::Pow};
 use selvedge_core::Vector;
 use selvedge_core::coplanarity::MovingTetrahedron;
 use selvedge_core::filter::certified::{Bound, is_never_coplanar};
-use selvedge_verification::minifloat::{
-    DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD,
-};
+use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD};
 
 /// A moving tetrahedron by the points a, b, c, p at times 0 and 1.
 type Points<T> = [[[T; 3]; 2]; 4];
@@ -26,9 +24,7 @@ fn exact_control_value<const E: u32, const F: u32, const ENVIRONMENT: u32>(
     k: usize,
 ) -> i128 {
     let units = points.map(|ends| ends.map(|x| x.map(|x| i128::from(x.units()))));
-    let from_a = |point: usize, end: usize| {
-        [0, 1, 2].map(|axis| units[point][end][axis] - units[0][end][axis])
-    };
+    let from_a = |point: usize, end: usize| [0, 1, 2].map(|axis| units[point][end][axis] - units[0][end][axis]);
     let determinant = |i: usize, j: usize, k: usize| {
         let [p, b, c] = [from_a(3, i), from_a(1, j), from_a(2, k)];
         p[0] * b[1] * c[2] + p[1] * b[2] * c[0] + p[2] * b[0] * c[1]
@@ -79,23 +75,13 @@ impl Seen {
             if share > self.worst {
                 let sign = if value > 0.0 { 1 } else { -1 };
                 if exact_control_value(points, k).signum() != sign {
-                    assert!(
-                        share <= 1.0,
-                        "control value {k} of {points:?} has the wrong sign"
-                    );
+                    assert!(share <= 1.0, "control value {k} of {points:?} has the wrong sign");
                     self.worst = share;
                 }
             }
         }
-        let bounds = [
-            Bound::Permanent,
-            Bound::MagnitudesByAxis,
-            Bound::MagnitudesByEdge,
-        ];
-        if bounds
-            .map(|bound| is_never_coplanar(bound, &tetrahedron))
-            .contains(&true)
-        {
+        let bounds = [Bound::Permanent, Bound::MagnitudesByAxis, Bound::MagnitudesByEdge];
+        if bounds.map(|bound| is_never_coplanar(bound, &tetrahedron)).contains(&true) {
             self.culled += 1;
             let signs = [0, 1, 2, 3].map(|k| exact_control_value(points, k).signum());
             assert!(signs == [1; 4] || signs == [-1; 4], "{points:?} is culled");
@@ -127,14 +113,10 @@ fn numbers<const E: u32, const F: u32, const ENVIRONMENT: u32, const N: usize>(
 }
 
 /// k₀ of every tetrahedron at rest with all twelve coordinates on the grid.
-fn at_rest<const E: u32, const F: u32, const ENVIRONMENT: u32>(
-    grid: &[Minifloat<E, F, ENVIRONMENT>],
-) -> Seen {
+fn at_rest<const E: u32, const F: u32, const ENVIRONMENT: u32>(grid: &[Minifloat<E, F, ENVIRONMENT>]) -> Seen {
     let mut seen = Seen::default();
     every::<_, 12>(grid, |coordinates| {
-        let points = std::array::from_fn(|point| {
-            [std::array::from_fn(|axis| coordinates[3 * point + axis]); 2]
-        });
+        let points = std::array::from_fn(|point| [std::array::from_fn(|axis| coordinates[3 * point + axis]); 2]);
         seen.look(&points, [0]);
     });
     assert_eq!(seen.inputs, (grid.len() as u64).pow(12));
@@ -236,9 +218,7 @@ fn every_motion_of_four_points_on_grids_of_two_values_with_5_bits() {
         let grid: [Number; 2] = numbers(grid);
         let mut ends = Vec::new();
         every::<_, 12>(&grid, |x| {
-            ends.push(std::array::from_fn(|point| {
-                std::array::from_fn(|axis| x[3 * point + axis])
-            }));
+            ends.push(std::array::from_fn(|point| std::array::from_fn(|axis| x[3 * point + axis])));
         });
         // 2¹² ends, 2²⁴ motions.
         assert_eq!(ends.len(), 4096);
@@ -258,9 +238,7 @@ fn every_middle_control_value_on_grids_of_two_values_with_6_bits() {
         every::<_, 18>(&grid, |numbers| {
             let mut points = [[[zero; 3]; 2]; 4];
             let components = points[1..].iter_mut().flatten().flatten();
-            components
-                .zip(numbers)
-                .for_each(|(component, number)| *component = number);
+            components.zip(numbers).for_each(|(component, number)| *component = number);
             seen.look(&points, [1]);
         });
         assert!(seen.certain > 0 && seen.worst > 0.01, "{seen:?}");
@@ -276,13 +254,12 @@ fn power(x: &Rational, n: u32) -> Rational {
 fn the_constants_suffice_for_the_precisions_that_are_documented() {
     // Whether `constant`·u, less `lost` roundings, covers `count` monomials of `roundings` roundings each, `per_rounding` the most
     // that one rounding does, `more` of them in the computed magnitudes.
-    let covers =
-        |u: &Rational, per_rounding: u32, [constant, lost, count, roundings, more]: [u32; 5]| {
-            let rounding = Rational::from(u * per_rounding);
-            let down = Rational::from(-&rounding);
-            let needed = (power(&rounding, roundings) - 1_u32) * count / power(&down, more);
-            Rational::from(u * constant) * power(&down, lost) >= needed
-        };
+    let covers = |u: &Rational, per_rounding: u32, [constant, lost, count, roundings, more]: [u32; 5]| {
+        let rounding = Rational::from(u * per_rounding);
+        let down = Rational::from(-&rounding);
+        let needed = (power(&rounding, roundings) - 1_u32) * count / power(&down, more);
+        Rational::from(u * constant) * power(&down, lost) >= needed
+    };
     let (outer, inner) = ([16, 10, 1, 7, 0], [20, 13, 1, 9, 0]);
     let by_magnitudes = [[96, 5, 6, 7, 3], [384, 5, 18, 9, 3]];
     for bits in 5..=53 {

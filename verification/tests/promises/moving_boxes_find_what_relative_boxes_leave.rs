@@ -21,9 +21,7 @@ fn candidates<S: Format>(broad_phase: &mut MovingBroadPhase<S>) -> Vec<MeshPair>
     let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
     broad_phase.candidates(&mut vertex_face, &mut edge_edge);
     let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
-    of_kind(VertexFace, vertex_face)
-        .chain(of_kind(EdgeEdge, edge_edge))
-        .collect()
+    of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)).collect()
 }
 
 fn updated<S: Format>(mesh: &MeshCase<S>) -> MovingBroadPhase<S> {
@@ -65,13 +63,8 @@ fn keeps_order<S: Format>(pair: &PairCase<S>, above: impl Fn([S; 2], [S; 2]) -> 
         Kind::EdgeEdge => 2,
     });
     (0..3).any(|axis| {
-        let along = |points: &[[[S; 3]; 2]]| -> Vec<[S; 2]> {
-            points.iter().map(|ends| ends.map(|x| x[axis])).collect()
-        };
-        let all_above = |high: &[[S; 2]], low: &[[S; 2]]| {
-            high.iter()
-                .all(|&high| low.iter().all(|&low| above(high, low)))
-        };
+        let along = |points: &[[[S; 3]; 2]]| -> Vec<[S; 2]> { points.iter().map(|ends| ends.map(|x| x[axis])).collect() };
+        let all_above = |high: &[[S; 2]], low: &[[S; 2]]| high.iter().all(|&high| low.iter().all(|&low| above(high, low)));
         let (one, other) = (along(one), along(other));
         all_above(&one, &other) || all_above(&other, &one)
     })
@@ -79,9 +72,7 @@ fn keeps_order<S: Format>(pair: &PairCase<S>, above: impl Fn([S; 2], [S; 2]) -> 
 
 fn is_f32<S: Format>(mesh: &MeshCase<S>) -> bool {
     let numbers = mesh.positions.iter().flatten().flatten();
-    numbers
-        .copied()
-        .all(|x| f32::from_f64(x.to_f64()).to_f64() == x.to_f64())
+    numbers.copied().all(|x| f32::from_f64(x.to_f64()).to_f64() == x.to_f64())
 }
 
 /// A mesh near the origin for its size: where positions are not taken from its middle.
@@ -96,10 +87,7 @@ fn is_near_origin<S: Format>(mesh: &MeshCase<S>) -> bool {
     })
 }
 
-fn candidates_are_those_of_the_definition<S: Format>(
-    mesh: &MeshCase<S>,
-    exact: &Cell<u32>,
-) -> Result<(), TestCaseError> {
+fn candidates_are_those_of_the_definition<S: Format>(mesh: &MeshCase<S>, exact: &Cell<u32>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let all = all_pairs(&topology);
     for is_swept in [false, true] {
@@ -113,19 +101,13 @@ fn candidates_are_those_of_the_definition<S: Format>(
         let left = |&pair: &MeshPair| {
             let pair = mesh.pair(&topology, pair);
             !if is_swept {
-                keeps_order(&pair, |high, low| {
-                    high.iter().all(|high| low.iter().all(|low| high > low))
-                })
+                keeps_order(&pair, |high, low| high.iter().all(|high| low.iter().all(|low| high > low)))
             } else {
                 keeps_order(&pair, |high, low| high[0] > low[0] && high[1] > low[1])
             }
         };
         let left: BTreeSet<MeshPair> = all.iter().copied().filter(left).collect();
-        prop_assert!(
-            set.is_superset(&left),
-            "lost: {:?}",
-            left.difference(&set).next()
-        );
+        prop_assert!(set.is_superset(&left), "lost: {:?}", left.difference(&set).next());
         if is_f32(mesh) && (S::NAME == "f32" || is_near_origin(mesh)) {
             exact.set(exact.get() + 1);
             prop_assert_eq!(&set, &left);
@@ -186,9 +168,7 @@ fn an_exact_translation_leaves_the_same_candidates() {
 }
 
 /// Against the exact oracle, with a separation of the size of the mesh or far smaller.
-fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(
-    mesh: &MeshCase<S>,
-) -> Result<(), TestCaseError> {
+fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let mut broad_phase = MovingBroadPhase::new(topology.clone());
     for separation in [0.0, 1e-9, 0.25, 1.0] {
@@ -209,20 +189,12 @@ fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(
 
 #[test]
 fn no_pair_that_comes_within_the_separation_is_lost_f64() {
-    check(
-        60,
-        meshes::<f64>(),
-        no_pair_that_comes_within_the_separation_is_lost,
-    );
+    check(60, meshes::<f64>(), no_pair_that_comes_within_the_separation_is_lost);
 }
 
 #[test]
 fn no_pair_that_comes_within_the_separation_is_lost_f32() {
-    check(
-        60,
-        meshes::<f32>(),
-        no_pair_that_comes_within_the_separation_is_lost,
-    );
+    check(60, meshes::<f32>(), no_pair_that_comes_within_the_separation_is_lost);
 }
 
 #[test]

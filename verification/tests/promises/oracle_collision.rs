@@ -4,9 +4,7 @@ use crate::support::distance::{SLACK, advance, distance};
 use crate::support::{at, common_part};
 use proptest::prelude::*;
 use rug::Rational;
-use selvedge_verification::oracle::{
-    Kind, Pair, collides, first_within, touches_at, within, within_at,
-};
+use selvedge_verification::oracle::{Kind, Pair, collides, first_within, touches_at, within, within_at};
 
 fn kind() -> impl Strategy<Value = Kind> {
     prop_oneof![Just(Kind::VertexFace), Just(Kind::EdgeEdge)]
@@ -25,10 +23,7 @@ fn grid_pair() -> impl Strategy<Value = Pair> {
 /// The same in a plane: the points are coplanar throughout.
 fn flat_pair() -> impl Strategy<Value = Pair> {
     (pair_of((-2..=2).prop_map(f64::from).boxed()), 0..3_usize).prop_map(|(mut pair, axis)| {
-        pair.start
-            .iter_mut()
-            .chain(&mut pair.end)
-            .for_each(|p| p[axis] = 1.0);
+        pair.start.iter_mut().chain(&mut pair.end).for_each(|p| p[axis] = 1.0);
         pair
     })
 }
@@ -72,9 +67,7 @@ fn touches_by_clipping(pair: &Pair, t: &Rational) -> bool {
 
 /// All times of the step with a denominator of at most 8.
 fn sample_times() -> Vec<Rational> {
-    let mut times: Vec<_> = (1..=8)
-        .flat_map(|q| (0..=q).map(move |p| Rational::from((p, q))))
-        .collect();
+    let mut times: Vec<_> = (1..=8).flat_map(|q| (0..=q).map(move |p| Rational::from((p, q)))).collect();
     times.sort();
     times.dedup();
     times
@@ -87,23 +80,12 @@ fn check_against_clipping(pair: &Pair) -> Result<(), TestCaseError> {
         let touches = touches_by_clipping(pair, &t);
         prop_assert_eq!(touches_at(pair, &t), touches, "static test at t = {}", t);
         if touches {
-            let found = earliest
-                .as_ref()
-                .is_some_and(|time| time.cmp_rational(&t).is_le());
-            prop_assert!(
-                found,
-                "contact at t = {} missed, reported {:?}",
-                t,
-                earliest
-            );
+            let found = earliest.as_ref().is_some_and(|time| time.cmp_rational(&t).is_le());
+            prop_assert!(found, "contact at t = {} missed, reported {:?}", t, earliest);
         }
     }
     if let Some(t) = earliest.as_ref().and_then(|time| time.as_rational()) {
-        prop_assert!(
-            touches_by_clipping(pair, t),
-            "no contact at the reported t = {}",
-            t
-        );
+        prop_assert!(touches_by_clipping(pair, t), "no contact at the reported t = {}", t);
     }
     Ok(())
 }
@@ -119,11 +101,7 @@ fn check_against_stepping(pair: &Pair) -> Result<(), TestCaseError> {
             // The slack is met earlier than contact; earlier by its cube root in the
             // slowest approach there is, that of a triple root.
             let before = stepped.map(|s| t - s);
-            prop_assert!(
-                before.is_some_and(|b| (-1e-12..5e-3).contains(&b)),
-                "{:?}",
-                before
-            );
+            prop_assert!(before.is_some_and(|b| (-1e-12..5e-3).contains(&b)), "{:?}", before);
             time.refine(100);
             let [low, high] = time.interval();
             prop_assert!(time.cmp_rational(&low).is_ge() && time.cmp_rational(&high).is_le());

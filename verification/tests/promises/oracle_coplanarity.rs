@@ -13,10 +13,7 @@ fn sign(a: i128, b: i128, d: i128) -> Ordering {
     match a.cmp(&0) {
         whole if whole == root || root.is_eq() => whole,
         Ordering::Equal => root,
-        whole => match Integer::from(a)
-            .square()
-            .cmp(&(Integer::from(b).square() * d))
-        {
+        whole => match Integer::from(a).square().cmp(&(Integer::from(b).square() * d)) {
             Ordering::Equal => Ordering::Equal,
             Ordering::Greater => whole,
             Ordering::Less => root,

@@ -26,10 +26,7 @@ fn edge_edge(start: Positions, end: Positions) -> Pair {
 #[track_caller]
 fn contact_at(pair: &Pair, numerator: i32, denominator: i32) {
     let time = collides(pair).expect("a contact");
-    assert_eq!(
-        time.as_rational(),
-        Some(&Rational::from((numerator, denominator)))
-    );
+    assert_eq!(time.as_rational(), Some(&Rational::from((numerator, denominator))));
     assert!(within(pair, 0.0), "at distance zero");
 }
 
@@ -105,16 +102,8 @@ fn vertex_meets_a_face_without_area() {
     contact_at(&meet(segment, [0.5, 0.0, 1.0], [0.5, 0.0, -3.0]), 1, 4);
     no_contact(&meet(segment, [2.5, 0.0, 1.0], [2.5, 0.0, -3.0]));
     no_contact(&meet(segment, [0.5, 5e-324, 1.0], [0.5, 5e-324, -3.0]));
-    contact_at(
-        &meet([[0.0; 3]; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -3.0]),
-        1,
-        4,
-    );
-    no_contact(&meet(
-        [[0.0; 3]; 3],
-        [0.0, 5e-324, 1.0],
-        [0.0, 5e-324, -3.0],
-    ));
+    contact_at(&meet([[0.0; 3]; 3], [0.0, 0.0, 1.0], [0.0, 0.0, -3.0]), 1, 4);
+    no_contact(&meet([[0.0; 3]; 3], [0.0, 5e-324, 1.0], [0.0, 5e-324, -3.0]));
 }
 
 #[test]
@@ -131,14 +120,7 @@ fn face_collapses_onto_the_vertex_in_one_instant() {
 
 /// Two crossing edges, the second at height z.
 fn crossed(z_start: f64, z_end: f64) -> Pair {
-    let at = |z| {
-        [
-            [-1.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [0.0, -1.0, z],
-            [0.0, 1.0, z],
-        ]
-    };
+    let at = |z| [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, -1.0, z], [0.0, 1.0, z]];
     edge_edge(at(z_start), at(z_end))
 }
 
@@ -170,14 +152,7 @@ fn edges_that_graze_in_a_double_root() {
 
 #[test]
 fn parallel_edges_slide_into_touch() {
-    let at = |x: f64, y: f64| {
-        [
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [x, y, 0.0],
-            [x + 1.0, y, 0.0],
-        ]
-    };
+    let at = |x: f64, y: f64| [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [x, y, 0.0], [x + 1.0, y, 0.0]];
     contact_at(&edge_edge(at(3.0, 0.0), at(0.0, 0.0)), 2, 3);
     contact_at(&edge_edge(at(0.5, 2.0), at(0.5, -2.0)), 1, 2);
     contact_at(&edge_edge(at(2.0, 0.0), at(1.0, 0.0)), 1, 1);
@@ -197,14 +172,7 @@ fn edges_of_no_length() {
 
 #[test]
 fn huge_and_tiny_coordinates_in_one_pair() {
-    let at = |z| {
-        [
-            [0.0, 0.0, z],
-            [-1e308, -1e308, 0.0],
-            [1e308, -1e308, 0.0],
-            [0.0, 1e308, 0.0],
-        ]
-    };
+    let at = |z| [[0.0, 0.0, z], [-1e308, -1e308, 0.0], [1e308, -1e308, 0.0], [0.0, 1e308, 0.0]];
     contact_at(&vertex_face(at(5e-324), at(-5e-324)), 1, 2);
     no_contact(&vertex_face(at(5e-324), at(1e308)));
 }
@@ -222,11 +190,7 @@ fn irrational_times_are_known_to_any_precision() {
     // 1/√2 rounds to the constant; the true value is above it or below.
     let rounded = Rational::from_f64(FRAC_1_SQRT_2).expect("finite");
     let below = Rational::from(rounded.square_ref()) < Rational::from((1, 2));
-    let expected = if below {
-        FRAC_1_SQRT_2
-    } else {
-        FRAC_1_SQRT_2.next_down()
-    };
+    let expected = if below { FRAC_1_SQRT_2 } else { FRAC_1_SQRT_2.next_down() };
     assert_eq!(time.to_f64_down(), expected);
     assert_eq!(time.cmp_f64(expected), Ordering::Greater);
     assert_eq!(time.cmp_f64(expected.next_up()), Ordering::Less);
@@ -252,18 +216,9 @@ fn times_have_the_order_of_their_numbers() {
 /// those of the other doubled each time.
 #[test]
 fn times_next_to_one_another_at_the_end_of_the_step_are_told_apart() {
-    let (x, y, z) = (
-        -9_007_199_254_740_967.0,
-        4_503_599_627_370_484.0,
-        -9_007_199_254_740_967.0,
-    );
+    let (x, y, z) = (-9_007_199_254_740_967.0, 4_503_599_627_370_484.0, -9_007_199_254_740_967.0);
     let pair = edge_edge(
-        [
-            [x, y, z + 8.0],
-            [x, y, z - 8.0],
-            [x, y + 8.0, f64::MAX],
-            [x, y - 8.0, z],
-        ],
+        [[x, y, z + 8.0], [x, y, z - 8.0], [x, y + 8.0, f64::MAX], [x, y - 8.0, z]],
         [
             [x, y - 24.0, z + 8.0],
             [x, y - 8.0, z - 8.0],
@@ -291,15 +246,9 @@ fn a_time_below_the_normal_numbers_is_rounded_down() {
 fn separation_is_closed() {
     // A vertex that passes at height 1 over the interior, over an edge, and over a corner.
     assert!(within(&over_face([-9.0, 1.0, 1.0], [9.0, 1.0, 1.0]), 1.0));
-    assert!(!within(
-        &over_face([-9.0, 1.0, 1.0], [9.0, 1.0, 1.0]),
-        1.0_f64.next_down()
-    ));
+    assert!(!within(&over_face([-9.0, 1.0, 1.0], [9.0, 1.0, 1.0]), 1.0_f64.next_down()));
     assert!(within(&over_face([-9.0, -3.0, 4.0], [9.0, -3.0, 4.0]), 5.0));
-    assert!(!within(
-        &over_face([-9.0, -3.0, 4.0], [9.0, -3.0, 4.0]),
-        5.0_f64.next_down()
-    ));
+    assert!(!within(&over_face([-9.0, -3.0, 4.0], [9.0, -3.0, 4.0]), 5.0_f64.next_down()));
     assert!(within(
         &over_face([-1.0, -2.0, -9.0], [-1.0, -2.0, 9.0]),
         5.0_f64.sqrt().next_up()
@@ -313,8 +262,5 @@ fn separation_is_closed() {
     assert!(!within(&crossed(1.0, 1.0), 1.0_f64.next_down()));
     let parallel = |y: f64| [[0.0; 3], [1.0, 0.0, 0.0], [0.5, y, 0.0], [2.0, y, 0.0]];
     assert!(within(&edge_edge(parallel(3.0), parallel(1.0)), 1.0));
-    assert!(!within(
-        &edge_edge(parallel(3.0), parallel(1.0)),
-        1.0_f64.next_down()
-    ));
+    assert!(!within(&edge_edge(parallel(3.0), parallel(1.0)), 1.0_f64.next_down()));
 }

@@ -12,9 +12,7 @@ type Triangle = [[f64; 3]; 3];
 fn by_clipping(a: &Triangle, b: &Triangle, shared: &[[usize; 2]]) -> bool {
     let corners = common_part(&a.map(point), &b.map(point));
     let simplex: Vec<_> = shared.iter().map(|&[i, _]| point(a[i])).collect();
-    corners
-        .iter()
-        .any(|corner| simplex.is_empty() || !contains(&simplex, corner))
+    corners.iter().any(|corner| simplex.is_empty() || !contains(&simplex, corner))
 }
 
 fn grid_point() -> impl Strategy<Value = [f64; 3]> {
@@ -28,13 +26,7 @@ fn triangle() -> impl Strategy<Value = Triangle> {
 /// Every way to share none, one, two or three corners.
 fn shared() -> impl Strategy<Value = Vec<[usize; 2]>> {
     let corners = || Just([0, 1, 2]).prop_shuffle();
-    (corners(), corners(), 0..=3_usize).prop_map(|(a, b, count)| {
-        a.into_iter()
-            .zip(b)
-            .take(count)
-            .map(|(i, j)| [i, j])
-            .collect()
-    })
+    (corners(), corners(), 0..=3_usize).prop_map(|(a, b, count)| a.into_iter().zip(b).take(count).map(|(i, j)| [i, j]).collect())
 }
 
 proptest! {
@@ -171,16 +163,8 @@ fn a_fold_onto_the_neighbour_intersects_and_an_open_hinge_does_not() {
 #[test]
 fn coordinates_at_both_ends_of_the_range_are_exact() {
     let tiny = 5e-324;
-    let a = [
-        [-1e308, -1e308, 0.0],
-        [1e308, -1e308, 0.0],
-        [0.0, 1e308, 0.0],
-    ];
+    let a = [[-1e308, -1e308, 0.0], [1e308, -1e308, 0.0], [0.0, 1e308, 0.0]];
     let b = [[0.0, 0.0, tiny], [1.0, 0.0, tiny], [0.0, 1e308, tiny]];
     assert!(!triangles_intersect(&a, &b, &[]));
-    assert!(triangles_intersect(
-        &a,
-        &b.map(|[x, y, z]| [x, y, z - tiny]),
-        &[]
-    ));
+    assert!(triangles_intersect(&a, &b.map(|[x, y, z]| [x, y, z - tiny]), &[]));
 }

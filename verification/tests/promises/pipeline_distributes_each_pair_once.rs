@@ -5,9 +5,7 @@ use proptest::prelude::*;
 use selvedge::PairKind::{self, EdgeEdge, VertexFace};
 use selvedge::broad_phase::moving::MovingBroadPhase;
 use selvedge::mesh::Topology;
-use selvedge::pipeline::{
-    ElementaryTest, PairCounts, Pipeline, Preset, Redundancy, Source, Stage, Stages,
-};
+use selvedge::pipeline::{ElementaryTest, PairCounts, Pipeline, Preset, Redundancy, Source, Stage, Stages};
 use selvedge::scene::ArmScene;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Contact, Limits, contact, cubic};
@@ -31,11 +29,7 @@ fn in_order(kind: PairKind, [a, b]: [u32; 2]) -> MeshPair {
 }
 
 /// The four points of a pair.
-fn points<S: Format>(
-    mesh: &MeshCase<S>,
-    topology: &Topology,
-    (kind, pair): MeshPair,
-) -> PairCase<S> {
+fn points<S: Format>(mesh: &MeshCase<S>, topology: &Topology, (kind, pair): MeshPair) -> PairCase<S> {
     let of_pair = kind.vertices(pair, topology);
     let kind = match kind {
         VertexFace => Kind::VertexFace,
@@ -74,12 +68,8 @@ fn swept_boxes_overlap<S: Format>(pair: &PairCase<S>) -> bool {
     });
     (0..3).all(|axis| {
         let apart = |low: &[[[S; 3]; 2]], high: &[[[S; 3]; 2]]| {
-            let all = |points: &[[[S; 3]; 2]]| -> Vec<S> {
-                points.iter().flatten().map(|x| x[axis]).collect()
-            };
-            all(low)
-                .iter()
-                .all(|low| all(high).iter().all(|high| low < high))
+            let all = |points: &[[[S; 3]; 2]]| -> Vec<S> { points.iter().flatten().map(|x| x[axis]).collect() };
+            all(low).iter().all(|low| all(high).iter().all(|high| low < high))
         };
         !apart(one, other) && !apart(other, one)
     })
@@ -115,26 +105,16 @@ impl<S: Format> Run<S> {
     /// Candidates and contacts in order of their numbers.
     fn in_order(&mut self) -> (BTreeSet<MeshPair>, BTreeMap<MeshPair, String>) {
         let contacts = self.pipeline.contacts().iter();
-        let contacts =
-            contacts.map(|contact| ((contact.kind, contact.pair), contact.time.to_string()));
+        let contacts = contacts.map(|contact| ((contact.kind, contact.pair), contact.time.to_string()));
         (as_set(&self.candidates()), contacts.collect())
     }
 
     /// Everything but the times.
     fn result(&self) -> impl PartialEq + std::fmt::Debug + use<S> {
         let report = self.pipeline.report();
-        let survivors: Vec<(Stage, PairCounts)> = report
-            .stages
-            .iter()
-            .map(|stage| (stage.stage, stage.survivors))
-            .collect();
+        let survivors: Vec<(Stage, PairCounts)> = report.stages.iter().map(|stage| (stage.stage, stage.survivors)).collect();
         let contacts = self.pipeline.contacts().to_vec();
-        (
-            report.triangle_pairs,
-            survivors,
-            self.candidates(),
-            contacts,
-        )
+        (report.triangle_pairs, survivors, self.candidates(), contacts)
     }
 }
 
@@ -148,15 +128,10 @@ fn distributed<S: Format>(mesh: &MeshCase<S>, redundancy: Redundancy) -> Vec<Mes
 }
 
 fn as_set(pairs: &[MeshPair]) -> BTreeSet<MeshPair> {
-    pairs
-        .iter()
-        .map(|&(kind, pair)| in_order(kind, pair))
-        .collect()
+    pairs.iter().map(|&(kind, pair)| in_order(kind, pair)).collect()
 }
 
-fn every_overlapping_pair_is_distributed_exactly_once<S: Format>(
-    mesh: &MeshCase<S>,
-) -> Result<(), TestCaseError> {
+fn every_overlapping_pair_is_distributed_exactly_once<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let all = all_pairs(&topology);
     let overlapping: BTreeSet<MeshPair> = all
@@ -165,12 +140,8 @@ fn every_overlapping_pair_is_distributed_exactly_once<S: Format>(
         .filter(|&pair| swept_boxes_overlap(&points(mesh, &topology, pair)))
         .collect();
     let all = as_set(&all);
-    let [in_full, once, represented] = [
-        Redundancy::Kept,
-        Redundancy::HashSets,
-        Redundancy::RepresentativeTriangles,
-    ]
-    .map(|redundancy| (distributed(mesh, redundancy), redundancy));
+    let [in_full, once, represented] = [Redundancy::Kept, Redundancy::HashSets, Redundancy::RepresentativeTriangles]
+        .map(|redundancy| (distributed(mesh, redundancy), redundancy));
     for (pairs, redundancy) in [&in_full, &once, &represented] {
         let set = as_set(pairs);
         prop_assert!(
@@ -179,19 +150,13 @@ fn every_overlapping_pair_is_distributed_exactly_once<S: Format>(
             redundancy,
             overlapping.difference(&set).next()
         );
-        prop_assert!(
-            set.is_subset(&all),
-            "{:?}: {:?}",
-            redundancy,
-            set.difference(&all).next()
-        );
+        prop_assert!(set.is_subset(&all), "{:?}: {:?}", redundancy, set.difference(&all).next());
         if *redundancy != Redundancy::Kept {
             prop_assert_eq!(set.len(), pairs.len(), "{:?} repeats a pair", redundancy);
         }
     }
     // Hash sets drop duplicates and nothing else; representatives also pairs whose representatives are apart.
-    let [in_full, once, represented] =
-        [in_full, once, represented].map(|(pairs, _)| as_set(&pairs));
+    let [in_full, once, represented] = [in_full, once, represented].map(|(pairs, _)| as_set(&pairs));
     prop_assert_eq!(&in_full, &once);
     prop_assert!(represented.is_subset(&once));
     Ok(())
@@ -199,20 +164,12 @@ fn every_overlapping_pair_is_distributed_exactly_once<S: Format>(
 
 #[test]
 fn every_overlapping_pair_is_distributed_exactly_once_f64() {
-    check(
-        1500,
-        meshes::<f64>(),
-        every_overlapping_pair_is_distributed_exactly_once,
-    );
+    check(1500, meshes::<f64>(), every_overlapping_pair_is_distributed_exactly_once);
 }
 
 #[test]
 fn every_overlapping_pair_is_distributed_exactly_once_f32() {
-    check(
-        1500,
-        meshes::<f32>(),
-        every_overlapping_pair_is_distributed_exactly_once,
-    );
+    check(1500, meshes::<f32>(), every_overlapping_pair_is_distributed_exactly_once);
 }
 
 /// Ten million units from the origin, where the broad phase's `f32` has steps of 1.
@@ -235,11 +192,7 @@ fn a_degenerate_triangle_has_each_of_its_features_once() {
         triangles: vec![[0, 0, 1], [2, 3, 4]],
         positions: vec![[[0.0; 3]; 2]; 5],
     };
-    for redundancy in [
-        Redundancy::Kept,
-        Redundancy::HashSets,
-        Redundancy::RepresentativeTriangles,
-    ] {
+    for redundancy in [Redundancy::Kept, Redundancy::HashSets, Redundancy::RepresentativeTriangles] {
         let pairs = distributed(&mesh, redundancy);
         let faces = pairs.iter().filter(|(kind, _)| *kind == VertexFace);
         assert_eq!((faces.count(), pairs.len()), (5, 8), "{redundancy:?}");
@@ -254,12 +207,7 @@ fn an_exact_translation_leaves_the_same_candidates() {
         let far = mesh.moved_by([1e7, -1e7, 1e7]);
         // Of small numbers only: 1e300 would come back too, but without having moved. Within half of the distance the way
         // back is exact (Sterbenz), so that who comes back has lost nothing.
-        let small = mesh
-            .positions
-            .iter()
-            .flatten()
-            .flatten()
-            .all(|x| x.abs() < 5e6);
+        let small = mesh.positions.iter().flatten().flatten().all(|x| x.abs() < 5e6);
         if small && far.moved_by([-1e7, 1e7, -1e7]) == *mesh {
             compared.set(compared.get() + 1);
             let [near, far] = [mesh, &far].map(|mesh| Run::new(mesh, Preset::Lv2014.stages(), 1));
@@ -272,9 +220,7 @@ fn an_exact_translation_leaves_the_same_candidates() {
     assert!(compared.get() > 100);
 }
 
-fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(
-    mesh: &MeshCase<S>,
-) -> Result<(), TestCaseError> {
+fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     for preset in Preset::ALL {
         let stages = preset.stages();
@@ -305,13 +251,9 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(
             let pair = points(mesh, &topology, pair);
             let limits = Limits::default();
             match (stages.elementary, pair.kind) {
-                (ElementaryTest::Cubic, Kind::VertexFace) => {
-                    cubic::vertex_face(&pair.vertex_face())
-                }
+                (ElementaryTest::Cubic, Kind::VertexFace) => cubic::vertex_face(&pair.vertex_face()),
                 (ElementaryTest::Cubic, Kind::EdgeEdge) => cubic::edge_edge(&pair.edge_edge()),
-                (ElementaryTest::TimeOfImpact, Kind::VertexFace) => {
-                    time_of_impact(&pair.vertex_face(), &limits).time()
-                }
+                (ElementaryTest::TimeOfImpact, Kind::VertexFace) => time_of_impact(&pair.vertex_face(), &limits).time(),
                 (ElementaryTest::Exact, Kind::VertexFace) => {
                     let exact = pair.vertex_face();
                     let time = time_of_impact(&exact, &limits).time();
@@ -322,16 +264,12 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(
                     let time = time_of_impact(&exact, &limits).time();
                     time.filter(|_| contact(&exact) == Contact::Happens)
                 }
-                (ElementaryTest::TimeOfImpact, Kind::EdgeEdge) => {
-                    time_of_impact(&pair.edge_edge(), &limits).time()
-                }
+                (ElementaryTest::TimeOfImpact, Kind::EdgeEdge) => time_of_impact(&pair.edge_edge(), &limits).time(),
             }
         };
         candidates.retain(|pair| time(pair).is_some());
         let contacts = run.pipeline.contacts().iter();
-        let found: BTreeSet<MeshPair> = contacts
-            .map(|contact| in_order(contact.kind, contact.pair))
-            .collect();
+        let found: BTreeSet<MeshPair> = contacts.map(|contact| in_order(contact.kind, contact.pair)).collect();
         prop_assert_eq!(found, as_set(&candidates), "{}", preset);
         for contact in run.pipeline.contacts() {
             prop_assert_eq!(Some(contact.time), time(&(contact.kind, contact.pair)));
@@ -342,26 +280,16 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(
 
 #[test]
 fn every_preset_ends_with_what_its_own_tests_leave_f64() {
-    check(
-        300,
-        meshes::<f64>(),
-        every_preset_ends_with_what_its_own_tests_leave,
-    );
+    check(300, meshes::<f64>(), every_preset_ends_with_what_its_own_tests_leave);
 }
 
 #[test]
 fn every_preset_ends_with_what_its_own_tests_leave_f32() {
-    check(
-        300,
-        meshes::<f32>(),
-        every_preset_ends_with_what_its_own_tests_leave,
-    );
+    check(300, meshes::<f32>(), every_preset_ends_with_what_its_own_tests_leave);
 }
 
 /// From the mesh to the contacts, against the exact oracle.
-fn the_exact_preset_finds_the_pairs_that_collide_and_no_other<S: Format>(
-    mesh: &MeshCase<S>,
-) -> Result<(), TestCaseError> {
+fn the_exact_preset_finds_the_pairs_that_collide_and_no_other<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let colliding: BTreeSet<MeshPair> = all_pairs(&topology)
         .into_iter()
@@ -369,9 +297,7 @@ fn the_exact_preset_finds_the_pairs_that_collide_and_no_other<S: Format>(
         .collect();
     let run = Run::new(mesh, Preset::SelvedgeExact.stages(), 1);
     let contacts = run.pipeline.contacts().iter();
-    let found: BTreeSet<MeshPair> = contacts
-        .map(|contact| in_order(contact.kind, contact.pair))
-        .collect();
+    let found: BTreeSet<MeshPair> = contacts.map(|contact| in_order(contact.kind, contact.pair)).collect();
     prop_assert_eq!(found, colliding);
     Ok(())
 }
@@ -396,9 +322,7 @@ fn the_exact_preset_finds_the_pairs_that_collide_and_no_other_f32() {
 
 /// What hierarchies of moving boxes leave is the subject of a test of its own; here, what happens to it after that. Times are not
 /// those of one pair alone, to the bit, because several pairs advance side by side first.
-fn moving_boxes_end_with_what_the_certified_tests_leave<S: Format>(
-    mesh: &MeshCase<S>,
-) -> Result<(), TestCaseError> {
+fn moving_boxes_end_with_what_the_certified_tests_leave<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let mut broad_phase = MovingBroadPhase::<S>::new(topology.clone());
     let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
@@ -410,10 +334,7 @@ fn moving_boxes_end_with_what_the_certified_tests_leave<S: Format>(
     let mut left: Vec<MeshPair> = found.collect();
     let run = Run::new(mesh, Preset::Selvedge.stages(), 1);
     let report = run.pipeline.report();
-    prop_assert_eq!(
-        report.broad_phase_pairs.map(PairCounts::total),
-        Some(left.len() as u64)
-    );
+    prop_assert_eq!(report.broad_phase_pairs.map(PairCounts::total), Some(left.len() as u64));
     // In f64 what f32 leaves open.
     let filter = Filter::<S>::new(Tier::Widened);
     left.retain(|&pair| {
@@ -446,33 +367,22 @@ fn moving_boxes_end_with_what_the_certified_tests_leave<S: Format>(
 
 #[test]
 fn moving_boxes_end_with_what_the_certified_tests_leave_f64() {
-    check(
-        300,
-        meshes::<f64>(),
-        moving_boxes_end_with_what_the_certified_tests_leave,
-    );
+    check(300, meshes::<f64>(), moving_boxes_end_with_what_the_certified_tests_leave);
 }
 
 #[test]
 fn moving_boxes_end_with_what_the_certified_tests_leave_f32() {
-    check(
-        300,
-        meshes::<f32>(),
-        moving_boxes_end_with_what_the_certified_tests_leave,
-    );
+    check(300, meshes::<f32>(), moving_boxes_end_with_what_the_certified_tests_leave);
 }
 
 /// From the mesh to the candidates, against the exact oracle.
-fn no_certified_preset_loses_a_pair_that_collides<S: Format>(
-    mesh: &MeshCase<S>,
-) -> Result<(), TestCaseError> {
+fn no_certified_preset_loses_a_pair_that_collides<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
     let colliding: Vec<MeshPair> = all_pairs(&topology)
         .into_iter()
         .filter(|&pair| collides(&points(mesh, &topology, pair).question()).is_some())
         .collect();
-    let is_certified =
-        |preset: &Preset| preset.stages().tests.iter().all(|test| test.is_certified());
+    let is_certified = |preset: &Preset| preset.stages().tests.iter().all(|test| test.is_certified());
     for preset in Preset::ALL.into_iter().filter(is_certified) {
         let candidates = as_set(&Run::new(mesh, preset.stages(), 1).candidates());
         for pair in &colliding {
@@ -484,20 +394,12 @@ fn no_certified_preset_loses_a_pair_that_collides<S: Format>(
 
 #[test]
 fn no_certified_preset_loses_a_pair_that_collides_f64() {
-    check(
-        150,
-        meshes::<f64>(),
-        no_certified_preset_loses_a_pair_that_collides,
-    );
+    check(150, meshes::<f64>(), no_certified_preset_loses_a_pair_that_collides);
 }
 
 #[test]
 fn no_certified_preset_loses_a_pair_that_collides_f32() {
-    check(
-        150,
-        meshes::<f32>(),
-        no_certified_preset_loses_a_pair_that_collides,
-    );
+    check(150, meshes::<f32>(), no_certified_preset_loses_a_pair_that_collides);
 }
 
 #[test]
@@ -512,12 +414,7 @@ fn threads_change_nothing<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseE
         let one = Run::new(mesh, preset.stages(), 1);
         for threads in [2, 3] {
             let several = Run::new(mesh, preset.stages(), threads);
-            prop_assert!(
-                several.result() == one.result(),
-                "{} on {} threads",
-                preset,
-                threads
-            );
+            prop_assert!(several.result() == one.result(), "{} on {} threads", preset, threads);
         }
     }
     Ok(())
@@ -548,18 +445,12 @@ fn threads_change_nothing_on_a_late_step_of_the_arm() {
     for preset in Preset::ALL {
         let one = Run::new(&mesh, preset.stages(), 1);
         let report = one.pipeline.report();
-        let is_split = report.triangle_pairs > 10 * 2048
-            || report
-                .broad_phase_pairs
-                .is_some_and(|pairs| pairs.total() > 2048);
+        let is_split = report.triangle_pairs > 10 * 2048 || report.broad_phase_pairs.is_some_and(|pairs| pairs.total() > 2048);
         assert!(is_split, "several batches or chunks");
         assert!(!one.pipeline.contacts().is_empty());
         for threads in [2, 3] {
             let several = Run::new(&mesh, preset.stages(), threads);
-            assert!(
-                several.result() == one.result(),
-                "{preset} on {threads} threads"
-            );
+            assert!(several.result() == one.result(), "{preset} on {threads} threads");
         }
     }
 }

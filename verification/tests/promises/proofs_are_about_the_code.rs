@@ -41,10 +41,7 @@ fn traced_scripts_are_what_the_code_gives() {
             "{name} is not what the code gives; UPDATE_PROOFS=1 writes it anew"
         );
     }
-    assert_eq!(
-        fs::read_dir(traced).expect("a folder").count(),
-        scripts.len()
-    );
+    assert_eq!(fs::read_dir(traced).expect("a folder").count(), scripts.len());
 }
 
 /// Marked by `#!` (with the number, of which half is not enough) or `#~`: the file, and what stands in it.
@@ -57,12 +54,8 @@ fn constants_of_the_scripts_are_those_of_the_code() {
             let Some(mark) = line.find("#!").or_else(|| line.find("#~")) else {
                 continue;
             };
-            let (path, code) = line[mark + 2..]
-                .split_once(": ")
-                .expect("a file and its code");
-            let source = Path::new(env!("CARGO_MANIFEST_DIR"))
-                .join("..")
-                .join(path.trim());
+            let (path, code) = line[mark + 2..].split_once(": ").expect("a file and its code");
+            let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path.trim());
             // Comments of lines in between do not count.
             let source: String = read(&source)
                 .lines()
@@ -76,8 +69,7 @@ fn constants_of_the_scripts_are_those_of_the_code() {
             if line[mark..].starts_with("#!") {
                 let (_, number) = line[..mark].split_once('=').expect("a definition");
                 let number = number.trim().trim_end_matches(';');
-                let called =
-                    ["small", "roundoffs", "constant"].map(|name| format!("{name}({number})"));
+                let called = ["small", "roundoffs", "constant"].map(|name| format!("{name}({number})"));
                 assert!(
                     called.iter().any(|call| code.contains(call)),
                     "{name}: {number} is not the constant of `{code}`"
@@ -95,11 +87,7 @@ fn exponents(format: &str) -> BTreeMap<String, i32> {
     rules
         .map(|rule| {
             let (name, rest) = rule.split_once("@/").expect("a name");
-            let exponent = rest
-                .strip_suffix("/g")
-                .expect("a rule")
-                .parse()
-                .expect("an exponent");
+            let exponent = rest.strip_suffix("/g").expect("a rule").parse().expect("an exponent");
             (name.to_owned(), exponent)
         })
         .collect()
@@ -182,18 +170,13 @@ fn roundings_are_as_many_as_the_scripts_say() {
             count.unwrap_or_else(|| panic!("{scaled:?} is not in the bound of {name}"))
         });
         let with_separation = 1;
-        let most = counts
-            .max()
-            .map(|most| most + OF_DIFFERENCES + with_separation);
+        let most = counts.max().map(|most| most + OF_DIFFERENCES + with_separation);
         assert_eq!(most, Some(of_bound), "{name}");
         let underflow = bound
             .iter()
             .filter(|(monomial, _)| monomial.contains(&format!("{:?}", Traced::Underflow)));
         let counts: Vec<u32> = underflow.map(|(_, &count)| count).collect();
-        assert!(
-            !counts.is_empty() && counts.iter().all(|&count| count < 6),
-            "{counts:?}"
-        );
+        assert!(!counts.is_empty() && counts.iter().all(|&count| count < 6), "{counts:?}");
     }
 }
 

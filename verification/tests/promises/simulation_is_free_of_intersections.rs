@@ -5,9 +5,7 @@ use selvedge_verification::oracle::mesh_intersections;
 use std::path::{Path, PathBuf};
 
 fn scene_file(name: &str) -> PathBuf {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .parent()
-        .expect("the workspace");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
     root.join("std-adapter/scenes").join(name)
 }
 
@@ -20,16 +18,8 @@ fn load(name: &str, change: impl Fn(String) -> String) -> Simulation {
 
 /// Pairs of triangles that intersect, at least one of them cloth: bodies may overlap each other.
 fn intersections(simulation: &Simulation) -> Vec<[u32; 2]> {
-    let positions: Vec<_> = simulation
-        .positions()
-        .iter()
-        .map(|p| p.to_array())
-        .collect();
-    mesh_intersections(
-        &positions,
-        simulation.triangles(),
-        simulation.cloth_triangles(),
-    )
+    let positions: Vec<_> = simulation.positions().iter().map(|p| p.to_array()).collect();
+    mesh_intersections(&positions, simulation.triangles(), simulation.cloth_triangles())
 }
 
 /// Looks at every state that is a multiple of `every`; the number of steps that were done.
@@ -154,8 +144,7 @@ fn violent_and_twisted_scenes_in_double_steps_and_with_other_stiffness_are_free(
 /// So that the tests above can fail: the same sleeve without the certified effects.
 #[test]
 fn without_self_collision_the_sleeve_passes_through_itself() {
-    let without =
-        |text: String| text.replace("[effects.self_collision]\nthickness = \"3 mm\"\n", "");
+    let without = |text: String| text.replace("[effects.self_collision]\nthickness = \"3 mm\"\n", "");
     let mut simulation = load("arm-sleeve.toml", without);
     let mut crossed = 0;
     for step in 1..=1300 {

@@ -6,8 +6,7 @@ use proptest::prelude::*;
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::{Depth, Filter, Tier};
 use selvedge_verification::generator::{
-    Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, grazes_of_a_box,
-    pairs_of_any_kind, touching_pairs,
+    Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, grazes_of_a_box, pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides, coplanar, within};
 
@@ -68,12 +67,9 @@ property!(
     |pair| nothing_culls_what_it_must_not(pair)
 );
 
-property!(
-    nothing_certified_culls_a_graze,
-    20_000,
-    grazes_of_a_box(),
-    |pair| nothing_culls_what_it_must_not(pair)
-);
+property!(nothing_certified_culls_a_graze, 20_000, grazes_of_a_box(), |pair| {
+    nothing_culls_what_it_must_not(pair)
+});
 
 property!(
     nothing_certified_culls_what_is_not_finite,
@@ -187,10 +183,7 @@ property!(
         lengths.extend([S::ZERO, -S::ZERO, S::ZERO.up(), S::LARGEST]);
         lengths.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
         for tier in Tier::ALL {
-            let culled: Vec<_> = lengths
-                .iter()
-                .map(|&length| culls_beyond(tier, length, pair))
-                .collect();
+            let culled: Vec<_> = lengths.iter().map(|&length| culls_beyond(tier, length, pair)).collect();
             prop_assert!(culled.is_sorted_by(|a, b| a >= b), "{tier:?}: {culled:?}");
             prop_assert_eq!(culls_beyond(tier, S::ZERO, pair), culls(tier, pair));
             prop_assert_eq!(culls_beyond(tier, -S::ZERO, pair), culls(tier, pair));
@@ -239,9 +232,7 @@ fn nothing_certified_culls_beyond_the_distance_at_a_time<S: Format>() {
         for part in 0..=8 {
             let separation = S::from_f64(distance(&question, f64::from(part) / 8.0));
             for separation in [separation.nudged(2), separation.nudged(-40).abs()] {
-                let culling: Vec<_> = certified()
-                    .filter(|&tier| culls_beyond(tier, separation, pair))
-                    .collect();
+                let culling: Vec<_> = certified().filter(|&tier| culls_beyond(tier, separation, pair)).collect();
                 if !culling.is_empty() {
                     culled.set(culled.get() + 1);
                     let within = within(&question, separation.to_f64());
@@ -266,14 +257,7 @@ fn nothing_certified_culls_beyond_the_distance_at_a_time_f64() {
 
 fn a_separation_that_is_no_length_is_refused<S: Format>() {
     for tier in Tier::ALL {
-        for no_length in [
-            S::NAN,
-            -S::NAN,
-            S::INFINITY,
-            -S::INFINITY,
-            -S::ONE,
-            -S::ZERO.up(),
-        ] {
+        for no_length in [S::NAN, -S::NAN, S::INFINITY, -S::INFINITY, -S::ONE, -S::ZERO.up()] {
             assert_eq!(Filter::new(tier).with_separation(no_length), None);
         }
         for length in [S::ZERO, S::ONE, S::LARGEST] {
@@ -324,26 +308,14 @@ fn uncertified_culls_a_vertex_on_a_corner_of_the_face_f32() {
 #[test]
 fn uncertified_culls_a_vertex_on_a_corner_of_the_face_f64() {
     let resting = |position: [f64; 3]| [position; 2];
-    let corner = resting([
-        -7_172_806_750_584.0,
-        25_238_060_115_324.0,
-        -25_166_202_288_376.0,
-    ]);
+    let corner = resting([-7_172_806_750_584.0, 25_238_060_115_324.0, -25_166_202_288_376.0]);
     uncertified_culls_a_vertex_on_a_corner(&PairCase::new(
         Kind::VertexFace,
         [
             corner,
-            resting([
-                -3_263_883_216_216.0,
-                27_459_903_486_776.0,
-                19_004_056_350_876.0,
-            ]),
+            resting([-3_263_883_216_216.0, 27_459_903_486_776.0, 19_004_056_350_876.0]),
             corner,
-            resting([
-                -5_332_277_524_980.0,
-                23_865_234_970_576.0,
-                25_235_061_558_840.0,
-            ]),
+            resting([-5_332_277_524_980.0, 23_865_234_970_576.0, 25_235_061_558_840.0]),
         ],
     ));
 }

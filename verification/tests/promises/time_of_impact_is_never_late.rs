@@ -7,16 +7,14 @@ use rug::Rational;
 use selvedge::dispatch::{available_levels, best_level};
 use selvedge_core::batch::{Level, Round, RoundQuestion, VertexRow, advance_from_rows};
 use selvedge_core::elementary::advance::confirm::certain_contact;
-use selvedge_core::elementary::advance::{
-    ROUNDS, Work, time_of_impact, time_of_impact_and_work, time_of_impact_within,
-};
+use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact, time_of_impact_and_work, time_of_impact_within};
 use selvedge_core::elementary::{Impact, Limits, Reason, tight_inclusion};
 use selvedge_core::glam::DVec3;
 use selvedge_core::points::Shape;
 use selvedge_core::{Motion, PrimitivePair, Scalar, VertexFace};
 use selvedge_verification::generator::{
-    Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs,
-    from_choices, pairs_of_any_kind, touching_pairs,
+    Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
+    touching_pairs,
 };
 use selvedge_verification::oracle::{Kind, collides, first_within, within, within_at};
 use std::cell::Cell;
@@ -45,9 +43,7 @@ impl<S: Format> Question<S> {
     fn is_of_one_size(&self) -> bool {
         let numbers = self.pair.coordinates().chain([self.separation]);
         let sizes = numbers.map(|x| x.to_f64().abs()).filter(|&x| x > 0.0);
-        let (smallest, largest) = sizes.fold((f64::MAX, 0.0_f64), |(low, high), x| {
-            (low.min(x), high.max(x))
-        });
+        let (smallest, largest) = sizes.fold((f64::MAX, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
         largest / smallest < 1e30
     }
 
@@ -78,10 +74,7 @@ fn questions<S: Format>() -> impl Strategy<Value = Question<S>> + Clone {
 }
 
 fn answer<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S) -> (Impact<S>, Work) {
-    let limits = Limits {
-        tolerance,
-        separation,
-    };
+    let limits = Limits { tolerance, separation };
     match pair.kind {
         Kind::VertexFace => time_of_impact_and_work(&pair.vertex_face(), &limits),
         Kind::EdgeEdge => time_of_impact_and_work(&pair.edge_edge(), &limits),
@@ -90,16 +83,8 @@ fn answer<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S) -> (Impact
 
 /// The same question as a caller with many pairs asks it: sweeps of rounds in lanes, then the pair alone from where it is. Three
 /// times the same pair, so that lanes that are not used are there too.
-fn answer_in_sweeps<S: Format>(
-    pair: &PairCase<S>,
-    tolerance: S,
-    separation: S,
-    level: Level,
-) -> Impact<S> {
-    let limits = Limits {
-        tolerance,
-        separation,
-    };
+fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, level: Level) -> Impact<S> {
+    let limits = Limits { tolerance, separation };
     let (shape, motions) = match pair.kind {
         Kind::VertexFace => (Shape::VertexFace, pair.vertex_face().motions()),
         Kind::EdgeEdge => (Shape::EdgeEdge, pair.edge_edge().motions()),
@@ -113,15 +98,7 @@ fn answer_in_sweeps<S: Format>(
             with_volume: sweep > 1,
         };
         let mut rounds = [Round::default()];
-        advance_from_rows(
-            level,
-            shape,
-            &question,
-            &rows,
-            &[[0, 1, 2, 3]; 3],
-            &mut times,
-            &mut rounds,
-        );
+        advance_from_rows(level, shape, &question, &rows, &[[0, 1, 2, 3]; 3], &mut times, &mut rounds);
         let Round { apart, near, stuck } = rounds[0];
         for mask in [apart, near, stuck] {
             assert!(mask == 0 || mask == 0b111, "{rounds:?}");
@@ -170,11 +147,7 @@ fn extents<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
 fn size<S: Format>(pair: &PairCase<S>) -> S {
     let [x, y, z] = extents(pair);
     let largest = S::from_f64(x.max(y).max(z).to_f64());
-    if Scalar::is_finite(largest) {
-        largest
-    } else {
-        S::LARGEST
-    }
+    if Scalar::is_finite(largest) { largest } else { S::LARGEST }
 }
 
 /// None, or anything from a rounding error of the pair's size to its size.
@@ -197,11 +170,7 @@ fn separation<S: Format>(pair: &PairCase<S>, choices: &mut Choices<'_>) -> S {
             };
             let axis = choices.below(3) as usize;
             let distance = (coordinate(choices, axis) - coordinate(choices, axis)).abs();
-            if Scalar::is_finite(distance) {
-                distance
-            } else {
-                S::ZERO
-            }
+            if Scalar::is_finite(distance) { distance } else { S::ZERO }
         }
     }
 }
@@ -243,10 +212,7 @@ fn is_not_late_in_sweeps<S: Format>(question: &Question<S>) -> Result<(), TestCa
     never_is_late(question, impact)
 }
 
-fn never_is_late<S: Format>(
-    question: &Question<S>,
-    impact: Impact<S>,
-) -> Result<(), TestCaseError> {
+fn never_is_late<S: Format>(question: &Question<S>, impact: Impact<S>) -> Result<(), TestCaseError> {
     let exact = question.pair.question();
     let separation = question.separation.to_f64();
     let first = if separation == 0.0 {
@@ -270,19 +236,13 @@ fn never_is_late<S: Format>(
     Ok(())
 }
 
-property!(
-    is_never_later_than_the_exact_time,
-    30_000,
-    questions,
-    |question| { is_not_late(question) }
-);
+property!(is_never_later_than_the_exact_time, 30_000, questions, |question| {
+    is_not_late(question)
+});
 
-property!(
-    is_never_later_than_the_exact_time_in_sweeps,
-    15_000,
-    questions,
-    |question| is_not_late_in_sweeps(question)
-);
+property!(is_never_later_than_the_exact_time_in_sweeps, 15_000, questions, |question| {
+    is_not_late_in_sweeps(question)
+});
 
 /// The time is known without the oracle.
 fn finds_what_touches<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
@@ -296,31 +256,21 @@ fn finds_what_touches<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError
     Ok(())
 }
 
-property!(
-    finds_every_pair_that_touches,
-    200_000,
-    touching_pairs,
-    |moment| { finds_what_touches(moment) }
-);
+property!(finds_every_pair_that_touches, 200_000, touching_pairs, |moment| {
+    finds_what_touches(moment)
+});
 
 /// The same, computed in every environment that a thread can be in.
-fn finds_what_touches_in_every_environment<S: Format>(
-    moment: &Moment<S>,
-) -> Result<(), TestCaseError> {
+fn finds_what_touches_in_every_environment<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
     let pair = moment.pair();
     let time = moment.time();
     for tolerance in [S::ZERO, size(&pair) * S::exact(1, -20)] {
         for environment in Environment::all() {
             let (impact, _) = environment.run(&pair, |pair| answer(pair, tolerance, S::ZERO));
-            let in_sweeps = environment.run(&pair, |pair| {
-                answer_in_sweeps(pair, tolerance, S::ZERO, best_level())
-            });
+            let in_sweeps = environment.run(&pair, |pair| answer_in_sweeps(pair, tolerance, S::ZERO, best_level()));
             for impact in [impact, in_sweeps] {
                 let found = impact.time().map(|time| time.to_f64());
-                prop_assert!(
-                    found.is_some_and(|found| found <= time),
-                    "{environment:?}: {impact:?}"
-                );
+                prop_assert!(found.is_some_and(|found| found <= time), "{environment:?}: {impact:?}");
             }
         }
     }
@@ -353,10 +303,7 @@ fn excludes_only_what_stays_apart<S: Format>(question: &Question<S>) -> Result<(
         return Ok(());
     }
     let separation = question.separation.to_f64();
-    prop_assert!(
-        !within(&question.pair.question(), separation),
-        "excluded in {excluding:?}"
-    );
+    prop_assert!(!within(&question.pair.question(), separation), "excluded in {excluding:?}");
     Ok(())
 }
 
@@ -397,12 +344,9 @@ fn is_not_late_when_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCa
     })
 }
 
-property!(
-    is_not_late_for_coplanar_pairs,
-    30_000,
-    coplanar_pairs,
-    |moment| is_not_late_when_coplanar(moment)
-);
+property!(is_not_late_for_coplanar_pairs, 30_000, coplanar_pairs, |moment| {
+    is_not_late_when_coplanar(moment)
+});
 
 /// What the module's documentation says: δ + s + 64u(δ + s + M_x + M_y + M_z) + 2⁻⁶⁰ or 2⁻⁵⁰⁰.
 fn is_tight<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
@@ -429,12 +373,9 @@ fn is_tight<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-property!(
-    is_within_the_tolerance_when_it_says_so,
-    30_000,
-    questions,
-    |question| { is_tight(question) }
-);
+property!(is_within_the_tolerance_when_it_says_so, 30_000, questions, |question| {
+    is_tight(question)
+});
 
 fn does_not_work_more_than_stated(work: Work) -> Result<(), TestCaseError> {
     prop_assert!(work.rounds <= ROUNDS, "{work:?}");
@@ -443,12 +384,9 @@ fn does_not_work_more_than_stated(work: Work) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-property!(
-    does_no_more_work_than_stated,
-    300_000,
-    questions,
-    |question| { does_not_work_more_than_stated(question.answer().1) }
-);
+property!(does_no_more_work_than_stated, 300_000, questions, |question| {
+    does_not_work_more_than_stated(question.answer().1)
+});
 
 /// A relative box may cull a pair of huge but finite numbers; nothing culls one that is not finite.
 fn excludes_nothing_that_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
@@ -472,12 +410,9 @@ fn excludes_nothing_that_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<
     Ok(())
 }
 
-property!(
-    excludes_nothing_from_bad_input,
-    50_000,
-    extraordinary_pairs,
-    |pair| { excludes_nothing_that_is_not_finite(pair) }
-);
+property!(excludes_nothing_from_bad_input, 50_000, extraordinary_pairs, |pair| {
+    excludes_nothing_that_is_not_finite(pair)
+});
 
 /// How many contacts were confirmed.
 type Confirmed = Cell<u32>;
@@ -559,16 +494,10 @@ fn bisection_is_not_late<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseEr
         Kind::EdgeEdge => tight_inclusion::time_of_impact(&pair.edge_edge(), &limits),
     };
     let found = impact.time().map(|time| time.to_f64());
-    prop_assert!(
-        found.is_some_and(|found| found <= moment.time()),
-        "{impact:?}"
-    );
+    prop_assert!(found.is_some_and(|found| found <= moment.time()), "{impact:?}");
     Ok(())
 }
 
-property!(
-    bisection_finds_every_pair_that_touches,
-    20_000,
-    touching_pairs,
-    |moment| bisection_is_not_late(moment)
-);
+property!(bisection_finds_every_pair_that_touches, 20_000, touching_pairs, |moment| {
+    bisection_is_not_late(moment)
+});

@@ -26,22 +26,17 @@
 
 use proptest::prelude::*;
 use selvedge::pipeline::CullingTest::{
-    self, CertifiedNonCoplanarity, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18,
-    SweptBoxes,
+    self, CertifiedNonCoplanarity, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, SweptBoxes,
 };
 use selvedge_core::Verdict;
 use selvedge_verification::culling::verdict;
-use selvedge_verification::generator::{
-    Choices, Format, PairCase, check, from_choices, pairs, pairs_of_any_kind,
-};
+use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs, pairs_of_any_kind};
 use selvedge_verification::oracle::Kind;
 
 const EXACT_BOXES: [CullingTest; 4] = [SweptBoxes, StoredDop18, RelativeBoxes, RelativeBoxesNine];
 
 fn all_but<const N: usize>(missing: [CullingTest; N]) -> impl Iterator<Item = CullingTest> {
-    let all = EXACT_BOXES
-        .into_iter()
-        .chain([SegmentBox, CertifiedNonCoplanarity]);
+    let all = EXACT_BOXES.into_iter().chain([SegmentBox, CertifiedNonCoplanarity]);
     all.filter(move |test| !missing.contains(test))
 }
 
@@ -75,19 +70,13 @@ property!(
     |pair| same(all_but([SegmentBox]), pair, &pair.reversed())
 );
 
-property!(
-    mirroring_an_axis_changes_no_verdict,
-    30_000,
-    pairs_of_any_kind(),
-    |pair| (0..3).try_for_each(|axis| same(all_but([]), pair, &mirrored(pair, axis)))
-);
+property!(mirroring_an_axis_changes_no_verdict, 30_000, pairs_of_any_kind(), |pair| (0
+    ..3)
+    .try_for_each(|axis| same(all_but([]), pair, &mirrored(pair, axis))));
 
-property!(
-    exchanging_x_and_y_changes_no_verdict,
-    30_000,
-    pairs_of_any_kind(),
-    |pair| same(all_but([]), pair, &pair.with_axes([1, 0, 2]))
-);
+property!(exchanging_x_and_y_changes_no_verdict, 30_000, pairs_of_any_kind(), |pair| {
+    same(all_but([]), pair, &pair.with_axes([1, 0, 2]))
+});
 
 property!(
     permuting_axes_changes_no_verdict_of_a_box_test,
@@ -95,11 +84,7 @@ property!(
     pairs_of_any_kind(),
     |pair| [[1, 2, 0], [2, 0, 1], [2, 1, 0], [0, 2, 1]]
         .into_iter()
-        .try_for_each(|axes| same(
-            all_but([CertifiedNonCoplanarity]),
-            pair,
-            &pair.with_axes(axes)
-        ))
+        .try_for_each(|axes| same(all_but([CertifiedNonCoplanarity]), pair, &pair.with_axes(axes)))
 );
 
 property!(
@@ -115,11 +100,7 @@ property!(
     pairs(Kind::VertexFace),
     |pair| [[0, 2, 3, 1], [0, 3, 1, 2], [0, 2, 1, 3], [0, 3, 2, 1]]
         .into_iter()
-        .try_for_each(|order| same(
-            all_but([CertifiedNonCoplanarity]),
-            pair,
-            &pair.reordered(order)
-        ))
+        .try_for_each(|order| same(all_but([CertifiedNonCoplanarity]), pair, &pair.reordered(order)))
 );
 
 property!(
@@ -135,11 +116,7 @@ property!(
     pairs(Kind::EdgeEdge),
     |pair| [[2, 3, 0, 1], [0, 1, 3, 2], [3, 2, 1, 0]]
         .into_iter()
-        .try_for_each(|order| same(
-            all_but([CertifiedNonCoplanarity]),
-            pair,
-            &pair.reordered(order)
-        ))
+        .try_for_each(|order| same(all_but([CertifiedNonCoplanarity]), pair, &pair.reordered(order)))
 );
 
 /// Multiples of 2⁻¹⁰ up to 16 in magnitude. A permanent of them is zero (and so is the value then, and its sign certain to
@@ -167,26 +144,20 @@ fn grids<S: Format>() -> impl Strategy<Value = PairCase<S>> {
     })
 }
 
-property!(
-    scaling_by_a_power_of_two_changes_no_verdict,
-    30_000,
-    grids(),
-    |pair| [-12, -1, 1, 12].into_iter().try_for_each(|exponent| {
-        let factor = S::exact(1, exponent);
-        same(all_but([]), pair, &pair.map(|x| x * factor))
-    })
-);
+property!(scaling_by_a_power_of_two_changes_no_verdict, 30_000, grids(), |pair| [
+    -12, -1, 1, 12
+]
+.into_iter()
+.try_for_each(|exponent| {
+    let factor = S::exact(1, exponent);
+    same(all_but([]), pair, &pair.map(|x| x * factor))
+}));
 
 // Whole multiples of 2⁻¹⁰ below 2⁵ stay exact when moved by multiples of 2⁻¹⁰ up to 2⁸, and so do sums of two of them.
-property!(
-    an_exact_translation_changes_no_verdict,
-    30_000,
-    grids(),
-    |pair| {
-        let by = [1 << 18, -102_528, 2].map(|whole| S::exact(whole, -10));
-        let moved = pair.with_positions(|x| std::array::from_fn(|axis| x[axis] + by[axis]));
-        let back = moved.with_positions(|x| std::array::from_fn(|axis| x[axis] - by[axis]));
-        prop_assert_eq!(back, *pair);
-        same(all_but([]), pair, &moved)
-    }
-);
+property!(an_exact_translation_changes_no_verdict, 30_000, grids(), |pair| {
+    let by = [1 << 18, -102_528, 2].map(|whole| S::exact(whole, -10));
+    let moved = pair.with_positions(|x| std::array::from_fn(|axis| x[axis] + by[axis]));
+    let back = moved.with_positions(|x| std::array::from_fn(|axis| x[axis] - by[axis]));
+    prop_assert_eq!(back, *pair);
+    same(all_but([]), pair, &moved)
+});

@@ -106,11 +106,7 @@ fn contains_origin<S: Scalar, const N: usize>(
     let (mut all_left, mut all_right) = (true, true);
     let mut turn = |from: [&Vector<S>; 2], to: [&Vector<S>; 2]| {
         let ([c0, c1], [d0, d1]) = (from.map(&project), to.map(&project));
-        for coefficient in [
-            two * cross(c0, d0),
-            cross(c0, d1) + cross(c1, d0),
-            two * cross(c1, d1),
-        ] {
+        for coefficient in [two * cross(c0, d0), cross(c0, d1) + cross(c1, d0), two * cross(c1, d1)] {
             all_left &= coefficient > doubled_bound;
             all_right &= -coefficient > doubled_bound;
         }

@@ -61,11 +61,7 @@ impl<S: Scalar, const N: usize> Corners<S, N> {
     /// f₀ > f₁ is demanded: otherwise, where rounding has f₁ ≤ T and f₀ ≤ f₁, the quotient means nothing. Where flushing makes it
     /// 0/0, or rounding has f₀ < T, nothing is proven.
     #[inline(always)]
-    pub(super) fn apart_along(
-        &self,
-        direction: &Direction<S>,
-        positions: &[Vector<S>; N],
-    ) -> Apart<S> {
+    pub(super) fn apart_along(&self, direction: &Direction<S>, positions: &[Vector<S>; N]) -> Apart<S> {
         let Direction { w, bar } = *direction;
         let beyond = S::small(2);
         let mut until = beyond;
@@ -109,9 +105,7 @@ pub(super) fn are_apart_turning<S: Scalar, const N: usize>(
 ) -> bool {
     let middle_bar = before.bar + after.bar;
     from.iter().zip(to).all(|(from, to)| {
-        before.w.dot(*from) > before.bar
-            && after.w.dot(*to) > after.bar
-            && before.w.dot(*to) + after.w.dot(*from) > middle_bar
+        before.w.dot(*from) > before.bar && after.w.dot(*to) > after.bar && before.w.dot(*to) + after.w.dot(*from) > middle_bar
     })
 }
 

@@ -101,12 +101,7 @@ pub fn time_of_impact<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<
 /// Both in [0, 1]; else, or if they are NaN, nothing is excluded. So a caller who has advanced pairs side by side
 /// ([`batch`](crate::batch)), or who looks for the earliest contact, goes on from what is known.
 #[inline]
-pub fn time_of_impact_within<S: Scalar, P: PrimitivePair<S>>(
-    pair: &P,
-    limits: &Limits<S>,
-    from: S,
-    until: S,
-) -> Impact<S> {
+pub fn time_of_impact_within<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<S>, from: S, until: S) -> Impact<S> {
     if !(from >= S::ZERO && from <= S::ONE && until >= from && until <= S::ONE) {
         return not_excluded(S::ZERO, Reason::NotFinite, Work::default()).0;
     }
@@ -115,10 +110,7 @@ pub fn time_of_impact_within<S: Scalar, P: PrimitivePair<S>>(
 
 /// [`time_of_impact`], and how much work it was.
 #[inline]
-pub fn time_of_impact_and_work<S: Scalar, P: PrimitivePair<S>>(
-    pair: &P,
-    limits: &Limits<S>,
-) -> (Impact<S>, Work) {
+pub fn time_of_impact_and_work<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<S>) -> (Impact<S>, Work) {
     advanced::<S, P, true>(pair, limits, [S::ZERO, S::ONE])
 }
 
@@ -247,10 +239,7 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
         let near_squared = near * near;
         let [from, end] = self.span;
         let mut now = Snapshot::new(self.corners, from);
-        let possible = |now: &Snapshot<S, N>, reason| Impact::Possible {
-            time: now.time,
-            reason,
-        };
+        let possible = |now: &Snapshot<S, N>, reason| Impact::Possible { time: now.time, reason };
         while self.work.rounds < ROUNDS {
             self.work.rounds += 1;
             if now.closest.squared_distance <= near_squared {

@@ -29,10 +29,7 @@ fn assert_contact(impact: Impact<f64>, expected: f64, slack: f64) {
     else {
         panic!("{impact:?}");
     };
-    assert!(
-        time <= expected && time >= expected - slack,
-        "{time}, not {expected}"
-    );
+    assert!(time <= expected && time >= expected - slack, "{time}, not {expected}");
 }
 
 #[test]

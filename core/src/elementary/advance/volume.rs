@@ -55,11 +55,7 @@ impl<S: Scalar> SignedVolume<S> {
         let &[p, b, c, ..] = corners.ends.as_slice() else {
             // There are three at least. This proves nothing.
             let (values, error, normal) = ([S::ZERO; 4], S::INFINITY, None);
-            return Self {
-                values,
-                error,
-                normal,
-            };
+            return Self { values, error, normal };
         };
         let [k0, k1, k2, k3] = MovingTetrahedron { b, c, p }.control_values().0;
         let third = third();
@@ -275,16 +271,9 @@ mod tests {
     #[test]
     fn a_value_at_the_bound_has_no_sign() {
         let falls = |from: f64, to: f64| volume([from, 0.0, 0.0, to], 1.0);
-        for (from, to, are_opposite) in [(2.0, -2.0, true), (1.0, -2.0, false), (2.0, -1.0, false)]
-        {
-            assert_eq!(
-                falls(from, to).has_opposite_signs_at(0.0, 1.0),
-                are_opposite
-            );
-            assert_eq!(
-                falls(-from, -to).has_opposite_signs_at(0.0, 1.0),
-                are_opposite
-            );
+        for (from, to, are_opposite) in [(2.0, -2.0, true), (1.0, -2.0, false), (2.0, -1.0, false)] {
+            assert_eq!(falls(from, to).has_opposite_signs_at(0.0, 1.0), are_opposite);
+            assert_eq!(falls(-from, -to).has_opposite_signs_at(0.0, 1.0), are_opposite);
         }
     }
 
@@ -293,10 +282,7 @@ mod tests {
         assert_eq!(first_zero_of_hull([1.0; 4]), None);
         let near = |values: [f64; 4], expected: f64| {
             let found = first_zero_of_hull(values);
-            assert!(
-                found.is_some_and(|found| (found - expected).abs() < 1e-15),
-                "{found:?}"
-            );
+            assert!(found.is_some_and(|found| (found - expected).abs() < 1e-15), "{found:?}");
         };
         near([1.0, 0.0, 1.0, 1.0], 1.0 / 3.0);
         near([1.0, 1.0, 0.0, 1.0], 2.0 / 3.0);
@@ -315,11 +301,7 @@ mod tests {
         // The whole is no part that can be left.
         assert_eq!(looking_ahead([1.0; 4], 1.0 / 16.0), 0.25);
         // Control values of the first half: 1, 0, ½, …; 1, ½, 0, …; 1, ½, ½, 0.
-        for values in [
-            [1.0, -1.0, 3.0, 3.0],
-            [1.0, 0.0, -1.0, 9.0],
-            [1.0, 0.0, 1.0, -4.0],
-        ] {
+        for values in [[1.0, -1.0, 3.0, 3.0], [1.0, 0.0, -1.0, 9.0], [1.0, 0.0, 1.0, -4.0]] {
             assert_eq!(looking_ahead(values, 1.0 / 32.0), 0.125, "{values:?}");
         }
         assert_eq!(looking_ahead([1.0, 0.0, 1.0, -3.0], 1.0 / 32.0), 0.5);

@@ -92,9 +92,7 @@ pub fn touches<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<bool> 
 ///
 /// Out of line, so that a call pays for the stack of its own width only.
 #[inline(never)]
-fn in_words<P: PairShape, const N: usize, const N2: usize, const N3: usize, const R: usize>(
-    pair: &AlignedPair,
-) -> bool {
+fn in_words<P: PairShape, const N: usize, const N2: usize, const N3: usize, const R: usize>(pair: &AlignedPair) -> bool {
     let axes = pair.coordinates::<N>();
     match P::SHAPE {
         Shape::VertexFace => Polygon::<3, N>::of_vertex_face(&axes).touches::<N2, N3, R>(),
@@ -138,18 +136,14 @@ impl<const CORNERS: usize, const N: usize> Polygon<CORNERS, N> {
         let volume = self.volume::<N2, N3>();
         let signs = volume.each_ref().map(Integer::sign);
         let [at_start, .., at_end] = signs;
-        if at_start.is_eq() && self.touches_at_an_end::<0, N2>()
-            || at_end.is_eq() && self.touches_at_an_end::<1, N2>()
-        {
+        if at_start.is_eq() && self.touches_at_an_end::<0, N2>() || at_end.is_eq() && self.touches_at_an_end::<1, N2>() {
             return true;
         }
         let search = Search::<CORNERS, N, N2, N3, R>(self);
         match changes_of_sign(signs) {
             _ if signs == [Ordering::Equal; 4] => search.touches_in_plane(),
             0 => false,
-            1 => search.touches_when_coplanar(&Crossing::<N3, R>::between_ends(
-                &volume.each_ref().map(Whole::new),
-            )),
+            1 => search.touches_when_coplanar(&Crossing::<N3, R>::between_ends(&volume.each_ref().map(Whole::new))),
             _ => search.touches_at_one_of_many(&volume.each_ref().map(Whole::new)),
         }
     }
@@ -167,9 +161,7 @@ impl<const CORNERS: usize, const N: usize> Polygon<CORNERS, N> {
     fn volume<const N2: usize, const N3: usize>(&self) -> [Integer<N3>; 4] {
         let mut volume = [Integer::ZERO; 4];
         for (x, [y, z]) in self.0.iter().zip(self.projections()) {
-            if let ([x0, ..], [_, y1, y2, ..], [_, z1, z2, ..]) =
-                (x.as_slice(), y.as_slice(), z.as_slice())
-            {
+            if let ([x0, ..], [_, y1, y2, ..], [_, z1, z2, ..]) = (x.as_slice(), y.as_slice(), z.as_slice()) {
                 let normal = cross::<N, N2>([[y1, z1], [y2, z2]]);
                 for (i, factor) in x0.iter().enumerate() {
                     for (j, component) in normal.iter().enumerate() {
@@ -232,18 +224,11 @@ fn contains_origin<const CORNERS: usize, const N: usize>(
 }
 
 /// For contact within the step, at roots of polynomials.
-struct Search<
-    'a,
-    const CORNERS: usize,
-    const N: usize,
-    const N2: usize,
-    const N3: usize,
-    const R: usize,
->(&'a Polygon<CORNERS, N>);
+struct Search<'a, const CORNERS: usize, const N: usize, const N2: usize, const N3: usize, const R: usize>(
+    &'a Polygon<CORNERS, N>,
+);
 
-impl<const CORNERS: usize, const N: usize, const N2: usize, const N3: usize, const R: usize>
-    Search<'_, CORNERS, N, N2, N3, R>
-{
+impl<const CORNERS: usize, const N: usize, const N2: usize, const N3: usize, const R: usize> Search<'_, CORNERS, N, N2, N3, R> {
     /// At a time when the origin is in a plane with the corners.
     fn touches_when_coplanar(&self, moment: &impl Moment<N3>) -> bool {
         contains_origin(
@@ -281,18 +266,14 @@ impl<const CORNERS: usize, const N: usize, const N2: usize, const N3: usize, con
                 sign_before: sign,
             };
         }
-        sign_before_end(volume) == crossing.sign_before.reverse()
-            && self.touches_when_coplanar(&crossing)
+        sign_before_end(volume) == crossing.sign_before.reverse() && self.touches_when_coplanar(&crossing)
     }
 
     /// In a step throughout which the origin is in a plane with the corners.
     fn touches_in_plane(&self) -> bool {
         let touches_at_a_root_of = |polynomial: &[Whole<N3>]| {
             let roots = Root::<N3, R>::positive(polynomial);
-            roots
-                .iter()
-                .flatten()
-                .any(|root| self.touches_when_coplanar(root))
+            roots.iter().flatten().any(|root| self.touches_when_coplanar(root))
         };
         let mut coordinates = self.0.0.iter().flatten();
         let mut projections = self.0.projections().into_iter();
@@ -307,19 +288,12 @@ impl<const CORNERS: usize, const N: usize, const N2: usize, const N3: usize, con
 }
 
 /// a·d − b·c.
-fn minor<const N: usize, const N2: usize>(
-    a: &Integer<N>,
-    b: &Integer<N>,
-    c: &Integer<N>,
-    d: &Integer<N>,
-) -> Integer<N2> {
+fn minor<const N: usize, const N2: usize>(a: &Integer<N>, b: &Integer<N>, c: &Integer<N>, d: &Integer<N>) -> Integer<N2> {
     a.times::<N, N2>(d).minus(&b.times::<N, N2>(c))
 }
 
 /// One component of the cross product of neighbours, a quadratic in s.
-fn cross<const N: usize, const N2: usize>(
-    [[[a0, a1], [b0, b1]], [[c0, c1], [d0, d1]]]: Neighbours<'_, N>,
-) -> [Integer<N2>; 3] {
+fn cross<const N: usize, const N2: usize>([[[a0, a1], [b0, b1]], [[c0, c1], [d0, d1]]]: Neighbours<'_, N>) -> [Integer<N2>; 3] {
     [
         minor(a0, b0, c0, d0),
         minor(a0, b0, c1, d1).plus(&minor(a1, b1, c0, d0)),

@@ -50,9 +50,7 @@ pub(super) fn sign_before_end<const C: usize>(polynomial: &[Whole<C>]) -> Orderi
 
 /// Of those that are not zero.
 #[inline(always)]
-fn first_of_signs<'a, const C: usize>(
-    mut coefficients: impl Iterator<Item = &'a Whole<C>>,
-) -> Ordering {
+fn first_of_signs<'a, const C: usize>(mut coefficients: impl Iterator<Item = &'a Whole<C>>) -> Ordering {
     coefficients
         .find(|coefficient| !coefficient.is_zero())
         .map_or(Ordering::Equal, Whole::sign)
@@ -285,9 +283,7 @@ impl<const C: usize, const R: usize> Root<C, R> {
         let slope = self.sign(&[*b, c.times_small(2)]);
         match (place, other.side, slope) {
             (Ordering::Equal, Side::Lower, Ordering::Less | Ordering::Equal)
-            | (Ordering::Equal, Side::Upper, Ordering::Greater | Ordering::Equal) => {
-                Ordering::Equal
-            }
+            | (Ordering::Equal, Side::Upper, Ordering::Greater | Ordering::Equal) => Ordering::Equal,
             _ => slope,
         }
     }
@@ -319,10 +315,7 @@ impl<'a, const C: usize, const R: usize> Crossing<'a, C, R> {
         if self.after.is_some_and(|after| root.compare(after).is_le()) {
             return Ordering::Greater;
         }
-        if self
-            .before
-            .is_some_and(|before| root.compare(before).is_ge())
-        {
+        if self.before.is_some_and(|before| root.compare(before).is_ge()) {
             return Ordering::Less;
         }
         match root.sign(self.cubic) {
@@ -384,19 +377,12 @@ mod tests {
         let whole = |x: i64| Whole::<2>::new(&Integer::<1>::shifted(x, 0));
         let roots = polynomials.map(|(polynomial, values)| {
             let roots = Root::<2, 16>::positive(&polynomial.map(whole));
-            assert_eq!(
-                roots.each_ref().map(Option::is_some),
-                values.map(|value| value.is_some())
-            );
+            assert_eq!(roots.each_ref().map(Option::is_some), values.map(|value| value.is_some()));
             [0, 1].map(|k| roots[k].zip(values[k]))
         });
         for (root, value) in roots.iter().flatten().flatten() {
             for (other, other_value) in roots.iter().flatten().flatten() {
-                assert_eq!(
-                    root.compare(other),
-                    value.cmp(other_value),
-                    "{value}, {other_value}"
-                );
+                assert_eq!(root.compare(other), value.cmp(other_value), "{value}, {other_value}");
             }
         }
     }
@@ -405,10 +391,7 @@ mod tests {
     fn rounded_numbers_tell_a_sign_that_is_clear() {
         let whole = |x: i64| Whole::<2>::new(&Integer::<1>::shifted(x, 0));
         // 5 + s and −5 + s at s = 1 and 2.
-        for root in Root::<2, 16>::positive(&[2, -3, 1].map(whole))
-            .iter()
-            .flatten()
-        {
+        for root in Root::<2, 16>::positive(&[2, -3, 1].map(whole)).iter().flatten() {
             for (constant, sign) in [(5, Ordering::Greater), (-5, Ordering::Less)] {
                 assert_eq!(root.estimated_sign(&[constant, 1].map(whole)), Some(sign));
             }
@@ -441,8 +424,7 @@ mod tests {
                     let magnitudes = coefficients.iter().map(|x| x.unsigned_abs());
                     64 - magnitudes.max().unwrap_or(0).leading_zeros() as i32
                 };
-                let [of_quadratic, of_polynomial] =
-                    [bits(&quadratic), bits(cubic.get(..=degree).unwrap_or(&[]))];
+                let [of_quadratic, of_polynomial] = [bits(&quadratic), bits(cubic.get(..=degree).unwrap_or(&[]))];
                 let steps = degree as i32 - 1;
                 let of_remainder = of_polynomial + steps * of_quadratic;
                 let powers = [
@@ -464,11 +446,7 @@ mod tests {
                 let rounded = [l1, first, last, value_at_quotient([a, b], rounded)];
                 for (i, (exact, rounded)) in exact.into_iter().zip(rounded).enumerate() {
                     let unit = 56 - powers[i];
-                    let exact = if unit >= 0 {
-                        exact << unit
-                    } else {
-                        exact >> -unit
-                    };
+                    let exact = if unit >= 0 { exact << unit } else { exact >> -unit };
                     let error = (exact - i128::from(rounded.0)).abs();
                     largest[i] = largest[i].max(error);
                 }

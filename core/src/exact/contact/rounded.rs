@@ -60,11 +60,7 @@ impl Scale {
         };
         // Below 2⁵⁶ by the choice of the scale.
         let magnitude = magnitude.cast_signed();
-        Rounded(if coefficient.sign().is_lt() {
-            -magnitude
-        } else {
-            magnitude
-        })
+        Rounded(if coefficient.sign().is_lt() { -magnitude } else { magnitude })
     }
 }
 

@@ -57,14 +57,8 @@ fn most_signs<P: PairShape>(limit: u64) -> u32 {
 #[test]
 fn no_more_signs_are_taken_than_stated() {
     for limit in [1, 2, 5, 1000] {
-        let most = [
-            most_signs::<VertexAndFace>(limit),
-            most_signs::<EdgeAndEdge>(limit),
-        ];
+        let most = [most_signs::<VertexAndFace>(limit), most_signs::<EdgeAndEdge>(limit)];
         // Some, so that they are counted at all.
-        assert!(
-            most.iter().all(|most| (10..=864).contains(most)),
-            "{most:?}"
-        );
+        assert!(most.iter().all(|most| (10..=864).contains(most)), "{most:?}");
     }
 }

@@ -114,11 +114,7 @@ impl<const C: usize> Whole<C> {
     }
 
     /// The sum with a number of the other's magnitude.
-    fn sum<const M: usize, const R: usize>(
-        &self,
-        other: &Whole<M>,
-        other_is_negative: bool,
-    ) -> Whole<R> {
+    fn sum<const M: usize, const R: usize>(&self, other: &Whole<M>, other_is_negative: bool) -> Whole<R> {
         let (a, b) = (self.digits(), other.digits());
         let order = compare(a, b);
         let (larger, smaller, is_negative) = if order.is_ge() {
@@ -137,10 +133,7 @@ impl<const C: usize> Whole<C> {
         let (a, b) = (self.digits(), other.digits());
         let mut words = [0; R];
         for (i, &x) in a.iter().enumerate() {
-            let Some((row, above)) = words
-                .get_mut(i..)
-                .and_then(|words| words.split_at_mut_checked(b.len()))
-            else {
+            let Some((row, above)) = words.get_mut(i..).and_then(|words| words.split_at_mut_checked(b.len())) else {
                 break;
             };
             let mut carry = 0;
@@ -153,11 +146,7 @@ impl<const C: usize> Whole<C> {
                 *word = carry;
             }
         }
-        Whole::trimmed(
-            self.is_negative != other.is_negative,
-            words,
-            a.len() + b.len(),
-        )
+        Whole::trimmed(self.is_negative != other.is_negative, words, a.len() + b.len())
     }
 
     /// The product with a small number that is not negative.
@@ -178,17 +167,11 @@ impl<const C: usize> Whole<C> {
 /// Compares magnitudes whose last words are not zero.
 #[inline(always)]
 fn compare(a: &[u64], b: &[u64]) -> Ordering {
-    a.len()
-        .cmp(&b.len())
-        .then_with(|| a.iter().rev().cmp(b.iter().rev()))
+    a.len().cmp(&b.len()).then_with(|| a.iter().rev().cmp(b.iter().rev()))
 }
 
 #[inline(always)]
-fn sum_of_magnitudes<const R: usize>(
-    larger: &[u64],
-    smaller: &[u64],
-    is_negative: bool,
-) -> Whole<R> {
+fn sum_of_magnitudes<const R: usize>(larger: &[u64], smaller: &[u64], is_negative: bool) -> Whole<R> {
     let mut words = [0; R];
     let mut carry = false;
     let digits = larger.iter().chain(&[0]);
@@ -200,11 +183,7 @@ fn sum_of_magnitudes<const R: usize>(
 }
 
 #[inline(always)]
-fn difference_of_magnitudes<const R: usize>(
-    larger: &[u64],
-    smaller: &[u64],
-    is_negative: bool,
-) -> Whole<R> {
+fn difference_of_magnitudes<const R: usize>(larger: &[u64], smaller: &[u64], is_negative: bool) -> Whole<R> {
     let mut words = [0; R];
     let mut borrow = false;
     let others = smaller.iter().chain(core::iter::repeat(&0));
@@ -260,11 +239,7 @@ mod tests {
             assert_same::<3, 4>(&x.minus(&y), &whole(a - b), &format!("{a} - {b}"));
             assert_eq!(x.sign(), a.cmp(&0), "{a}");
             assert_same(&x.negated(), &whole(-a), &format!("-{a}"));
-            assert_same::<3, 4>(
-                &whole(a / 6).times_small(6),
-                &whole(a / 6 * 6),
-                &format!("6 · {}", a / 6),
-            );
+            assert_same::<3, 4>(&whole(a / 6).times_small(6), &whole(a / 6 * 6), &format!("6 · {}", a / 6));
         }
     }
 
@@ -279,11 +254,7 @@ mod tests {
         let number = 0x0123_4567_89ab_cdef_0edc_ba98_7654_3210_i128;
         for dropped in (0..128).step_by(3) {
             let expected = (number >> dropped) as u64;
-            assert_eq!(
-                whole(number).magnitude_without(dropped),
-                expected,
-                "{dropped}"
-            );
+            assert_eq!(whole(number).magnitude_without(dropped), expected, "{dropped}");
         }
     }
 
@@ -295,8 +266,7 @@ mod tests {
                 assert_same(&product, &whole(expected), &format!("{a} · {b}"));
             }
             for c in NUMBERS {
-                let (left, right): (Whole<5>, Whole<5>) =
-                    (whole(a).times(&whole(b)), whole(a).times(&whole(c)));
+                let (left, right): (Whole<5>, Whole<5>) = (whole(a).times(&whole(b)), whole(a).times(&whole(c)));
                 let sum: Whole<3> = whole(b).plus(&whole(c));
                 let product: Whole<5> = whole(a).times(&sum);
                 assert_same::<5, 5>(&product, &left.plus(&right), &format!("{a} · ({b} + {c})"));

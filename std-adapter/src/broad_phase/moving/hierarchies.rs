@@ -23,10 +23,7 @@ use std::sync::Arc;
 ///
 /// Item: measured just after a build, 9.5 tests an edge with 12.8 candidates an edge (cloth-ball), 5.6 with 0.8
 /// (cloth-funnel), hence a third for a candidate and 5.3 for an edge besides.
-const PRICES: Prices = Prices {
-    build: 0.65,
-    item: 16.0,
-};
+const PRICES: Prices = Prices { build: 0.65, item: 16.0 };
 
 /// What boxes are to hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,12 +172,7 @@ impl<S: Scalar> Hierarchies<S> {
     }
 
     /// Takes the positions of a step and finds where to look for pairs.
-    pub(crate) fn update(
-        &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
-        fit: &Fit<S>,
-    ) -> Result<(), StepError> {
+    pub(crate) fn update(&mut self, start: &[S::Vector], end: &[S::Vector], fit: &Fit<S>) -> Result<(), StepError> {
         check_frames::<S>(start, end, self.topology.vertex_count())?;
         let items = self.edges.len();
         if self.must_build || self.degradation.is_worth_a_build(PRICES, items) {
@@ -213,30 +205,24 @@ impl<S: Scalar> Hierarchies<S> {
             self.positions[vertex as usize] = 0;
         }
         let positions = &self.positions;
-        let used = (0..topology.vertex_count() as u32)
-            .filter(|&vertex| positions[vertex as usize] != NOWHERE);
+        let used = (0..topology.vertex_count() as u32).filter(|&vertex| positions[vertex as usize] != NOWHERE);
         self.vertices.build(used, middle);
         for (position, &vertex) in (0..).zip(&self.vertices.primitives) {
             self.positions[vertex as usize] = position;
         }
-        self.edges.build(0..edges.len() as u32, |edge| {
-            mean(edges[edge as usize].map(middle))
-        });
-        self.faces.build(0..faces.len() as u32, |face| {
-            mean(faces[face as usize].map(middle))
-        });
+        self.edges
+            .build(0..edges.len() as u32, |edge| mean(edges[edge as usize].map(middle)));
+        self.faces
+            .build(0..faces.len() as u32, |face| mean(faces[face as usize].map(middle)));
 
         let positions = &self.positions;
         let position = |vertex: u32| positions[vertex as usize];
         self.vertices.connect(|vertex| [position(vertex)]);
-        self.edges
-            .connect(|edge| edges[edge as usize].map(position));
-        self.faces
-            .connect(|face| faces[face as usize].map(position));
+        self.edges.connect(|edge| edges[edge as usize].map(position));
+        self.faces.connect(|face| faces[face as usize].map(position));
         let edges = self.edges.vertices.iter().zip(&self.edges.primitives);
         self.edge_ends.clear();
-        self.edge_ends
-            .extend(edges.map(|(&ends, &edge)| EdgeEnds { ends, edge }));
+        self.edge_ends.extend(edges.map(|(&ends, &edge)| EdgeEnds { ends, edge }));
         self.rows.clear();
         self.boxes.clear();
         self.fitted = None;
@@ -268,22 +254,17 @@ impl<S: Scalar> Hierarchies<S> {
         let rows = self.rows.resize(vertices.len());
         self.boxes.resize(vertices.len(), MovingBox::empty());
         let moving = self.moving.as_deref().filter(|_| only_moving);
-        parallel::for_each_chunk_with_chunk(
-            rows,
-            &mut self.boxes,
-            VERTICES,
-            |first, rows, boxes| {
-                let own = rows.iter_mut().zip(boxes).zip(&vertices[first..]);
-                for ((own_row, moving_box), &vertex) in own {
-                    let vertex = vertex as usize;
-                    if moving.is_none_or(|moving| moving[vertex]) {
-                        let (start, end) = (start[vertex], end[vertex]);
-                        *own_row = row::<S>(start, end);
-                        *moving_box = mapping.vertex::<S>(start.into(), end.into());
-                    }
+        parallel::for_each_chunk_with_chunk(rows, &mut self.boxes, VERTICES, |first, rows, boxes| {
+            let own = rows.iter_mut().zip(boxes).zip(&vertices[first..]);
+            for ((own_row, moving_box), &vertex) in own {
+                let vertex = vertex as usize;
+                if moving.is_none_or(|moving| moving[vertex]) {
+                    let (start, end) = (start[vertex], end[vertex]);
+                    *own_row = row::<S>(start, end);
+                    *moving_box = mapping.vertex::<S>(start.into(), end.into());
                 }
-            },
-        );
+            }
+        });
         self.vertices.refit(&self.boxes, only_moving);
         self.edges.refit(&self.boxes, only_moving);
         self.faces.refit(&self.boxes, only_moving);
@@ -339,12 +320,7 @@ impl<S: Scalar> Hierarchies<S> {
 
     /// Gives `sink` the candidates of a share, by their positions. Returns the number of tests, or `None` if the sink has had
     /// enough.
-    pub(crate) fn visit(
-        &self,
-        share: Share<'_>,
-        scratch: &mut Scratch,
-        sink: &mut dyn Sink,
-    ) -> Option<u64> {
+    pub(crate) fn visit(&self, share: Share<'_>, scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
         match share.kind {
             PairKind::VertexFace => Trees {
                 first: &self.vertices,
@@ -366,8 +342,7 @@ impl<S: Scalar> Hierarchies<S> {
         let tests = tests + self.task_tests;
         // Boxes of another kind cost something else.
         if self.fit.until == S::ONE && !self.fit.is_swept {
-            self.degradation
-                .observe(PRICES, tests, self.edges.len(), candidates);
+            self.degradation.observe(PRICES, tests, self.edges.len(), candidates);
         }
         self.statistics.box_tests = tests;
         self.statistics.candidates = candidates;
@@ -396,12 +371,7 @@ impl<S: Scalar> Hierarchies<S> {
     }
 
     /// The same of many pairs of a kind, which is asked about once.
-    pub(crate) fn vertices_of_all(
-        &self,
-        kind: PairKind,
-        pairs: &[[u32; 2]],
-        vertices: &mut [[u32; 4]],
-    ) {
+    pub(crate) fn vertices_of_all(&self, kind: PairKind, pairs: &[[u32; 2]], vertices: &mut [[u32; 4]]) {
         let own = vertices.iter_mut().zip(pairs);
         match kind {
             PairKind::VertexFace => {
@@ -422,10 +392,7 @@ impl<S: Scalar> Hierarchies<S> {
     pub(crate) fn in_mesh(&self, kind: PairKind, [first, second]: [u32; 2]) -> [u32; 2] {
         let (first, second) = (first as usize, second as usize);
         match kind {
-            PairKind::VertexFace => [
-                self.vertices.primitives[first],
-                self.faces.primitives[second],
-            ],
+            PairKind::VertexFace => [self.vertices.primitives[first], self.faces.primitives[second]],
             PairKind::EdgeEdge => {
                 let (a, b) = (self.edges.primitives[first], self.edges.primitives[second]);
                 [a.min(b), a.max(b)]
@@ -470,10 +437,7 @@ pub(crate) fn extent<S: Scalar>(start: &[S::Vector], end: &[S::Vector]) -> Aabb<
 
 fn mean<const N: usize>(positions: [[f32; 3]; N]) -> [f32; 3] {
     [0, 1, 2].map(|axis| {
-        let sum: f32 = positions
-            .iter()
-            .map(|position| position[axis] / N as f32)
-            .sum();
+        let sum: f32 = positions.iter().map(|position| position[axis] / N as f32).sum();
         sum
     })
 }

@@ -39,12 +39,7 @@ pub(crate) struct Mapping {
 
 impl Mapping {
     /// For positions within the box. `until` is in (0, 1].
-    pub(crate) fn new<S: Scalar>(
-        extent: &Aabb<f64>,
-        separation: S,
-        until: S,
-        is_swept: bool,
-    ) -> Self {
+    pub(crate) fn new<S: Scalar>(extent: &Aabb<f64>, separation: S, until: S, is_swept: bool) -> Self {
         Self {
             origin: origin::<S>(extent),
             half: 0.5 * separation.raised_to_normal().to_f64(),
@@ -66,10 +61,7 @@ impl Mapping {
                 let sizes = from.abs() + to.abs() + self.half;
                 let widening = self.half + (WIDENING * sizes + FLUSHED);
                 let until = (1.0 - self.until) * from + self.until * to;
-                (
-                    [from - widening, from + widening],
-                    [until - widening, until + widening],
-                )
+                ([from - widening, from + widening], [until - widening, until + widening])
             };
             moving.start.lower[axis] = nearest_f32(a);
             moving.start.upper[axis] = nearest_f32(b);

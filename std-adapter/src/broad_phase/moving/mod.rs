@@ -182,8 +182,7 @@ impl<S: Scalar> MovingBroadPhase<S> {
         settle(vertex_face);
         settle(edge_edge);
         let tests = self.collectors.iter().map(|collector| collector.tests);
-        self.hierarchies
-            .observe(tests.sum(), vertex_face.len() + edge_edge.len());
+        self.hierarchies.observe(tests.sum(), vertex_face.len() + edge_edge.len());
     }
 
     /// Counts of what was done.
@@ -257,10 +256,7 @@ mod tests {
         assert!(!fresh.0.is_empty() && !fresh.1.is_empty());
         let mut old = MovingBroadPhase::new(topology);
         found(&mut old, &wide);
-        assert!(
-            found(&mut old, &tight) != fresh,
-            "hierarchies of the wide one"
-        );
+        assert!(found(&mut old, &tight) != fresh, "hierarchies of the wide one");
         old.forget();
         assert!(found(&mut old, &tight) == fresh);
     }

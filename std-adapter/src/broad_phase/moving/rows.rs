@@ -46,8 +46,7 @@ impl Rows {
     pub(crate) fn set<S: Scalar>(&mut self, start: &[S::Vector], end: &[S::Vector]) {
         self.clear();
         let ends = start.iter().zip(end);
-        self.double
-            .extend(ends.map(|(&start, &end)| row::<S>(start, end)));
+        self.double.extend(ends.map(|(&start, &end)| row::<S>(start, end)));
     }
 
     /// Looks whether all positions are `f32` numbers, and makes their rows if so.
@@ -55,16 +54,11 @@ impl Rows {
         let are_exact = AtomicBool::new(true);
         let nowhere = VertexRow::new(Motion::resting(Default::default()));
         self.single.resize(self.double.len(), nowhere);
-        parallel::for_each_chunk_with_chunk(
-            &mut self.single,
-            &mut self.double,
-            VERTICES,
-            |_, single, double| {
-                if are_exact.load(Ordering::Relaxed) && !narrowed(double, single) {
-                    are_exact.store(false, Ordering::Relaxed);
-                }
-            },
-        );
+        parallel::for_each_chunk_with_chunk(&mut self.single, &mut self.double, VERTICES, |_, single, double| {
+            if are_exact.load(Ordering::Relaxed) && !narrowed(double, single) {
+                are_exact.store(false, Ordering::Relaxed);
+            }
+        });
         self.has_single = are_exact.into_inner();
     }
 }

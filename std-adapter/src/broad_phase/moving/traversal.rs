@@ -45,13 +45,7 @@ impl Scratch {
 impl<const N: usize, const M: usize> Trees<'_, N, M> {
     /// Replaces `tasks` by the pairs of blocks of a level, or below, that are near each other, in the order in which a
     /// traversal of the whole comes to them. Returns the number of tests, each of one box against sixteen.
-    pub(super) fn tasks(
-        &self,
-        level: Level,
-        floor: usize,
-        scratch: &mut Scratch,
-        tasks: &mut Vec<BlockPair>,
-    ) -> u64 {
+    pub(super) fn tasks(&self, level: Level, floor: usize, scratch: &mut Scratch, tasks: &mut Vec<BlockPair>) -> u64 {
         tasks.clear();
         let (Some(top), Some(other_top)) = (self.first.top(), self.second.top()) else {
             return 0;
@@ -77,13 +71,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
 
     /// Gives `sink` the pairs of primitives of `tasks` that are near each other and have no vertex in common. Returns the
     /// number of tests, or `None` if the sink has had enough.
-    pub(super) fn pairs(
-        &self,
-        level: Level,
-        tasks: &[BlockPair],
-        scratch: &mut Scratch,
-        sink: &mut dyn Sink,
-    ) -> Option<u64> {
+    pub(super) fn pairs(&self, level: Level, tasks: &[BlockPair], scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
         let Scratch { stack, found } = scratch;
         found.clear();
         fearless_simd::dispatch!(level, simd => {
@@ -169,12 +157,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
 
     /// Puts the pairs of primitives that two blocks hold with those that are found.
     #[inline(always)]
-    fn compare_primitives<V: Simd>(
-        &self,
-        simd: V,
-        [a, b]: [u32; 2],
-        found: &mut PairBuffer,
-    ) -> u64 {
+    fn compare_primitives<V: Simd>(&self, simd: V, [a, b]: [u32; 2], found: &mut PairBuffer) -> u64 {
         let (block_a, node_a) = part(self.first, 0, a);
         let (block_b, node_b) = part(self.second, 0, b);
         let is_same = self.are_same && a == b;
@@ -231,11 +214,7 @@ fn next_lane(lanes: &mut Mask) -> u32 {
 
 /// The lanes that have one of `vertices` for a corner.
 #[inline(always)]
-fn sharing<V: Simd, const N: usize, const M: usize>(
-    simd: V,
-    corners: &[[u32; LANES]; M],
-    vertices: &[u32; N],
-) -> Mask {
+fn sharing<V: Simd, const N: usize, const M: usize>(simd: V, corners: &[[u32; LANES]; M], vertices: &[u32; N]) -> Mask {
     let mut shared = 0;
     for row in corners {
         let row = u32x16::load_array_ref(simd, row);

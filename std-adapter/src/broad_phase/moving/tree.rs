@@ -58,11 +58,7 @@ impl<const N: usize> Tree<N> {
     }
 
     /// Puts primitives in order by their centres. [`connect`](Self::connect) and [`refit`](Self::refit) must follow.
-    pub(super) fn build(
-        &mut self,
-        primitives: impl Iterator<Item = u32>,
-        centre: impl Fn(u32) -> [f32; 3],
-    ) {
+    pub(super) fn build(&mut self, primitives: impl Iterator<Item = u32>, centre: impl Fn(u32) -> [f32; 3]) {
         self.centres.clear();
         self.centres.extend(primitives.map(|item| Centre {
             position: centre(item),
@@ -70,8 +66,7 @@ impl<const N: usize> Tree<N> {
         }));
         order::<LANES>(&mut self.centres);
         self.primitives.clear();
-        self.primitives
-            .extend(self.centres.iter().map(|centre| centre.item));
+        self.primitives.extend(self.centres.iter().map(|centre| centre.item));
 
         let mut size = self.primitives.len();
         let mut height = 0;
@@ -102,8 +97,7 @@ impl<const N: usize> Tree<N> {
     pub(super) fn connect(&mut self, vertices_of: impl Fn(u32) -> [u32; N]) {
         self.vertices.clear();
         let of_primitives = self.primitives.iter();
-        self.vertices
-            .extend(of_primitives.map(|&primitive| vertices_of(primitive)));
+        self.vertices.extend(of_primitives.map(|&primitive| vertices_of(primitive)));
         self.corners.clear();
         self.corners.extend(self.vertices.chunks(LANES).map(|own| {
             let mut corners = [[NONE; LANES]; N];
@@ -129,8 +123,7 @@ impl<const N: usize> Tree<N> {
                     }
                 };
                 let lanes = 0..node.present.count_ones() as usize;
-                node.moving =
-                    lanes.fold(0, |mask, lane| mask | Mask::from(is_moving(lane)) << lane);
+                node.moving = lanes.fold(0, |mask, lane| mask | Mask::from(is_moving(lane)) << lane);
             }
             below = &level.nodes;
         }
@@ -167,29 +160,20 @@ impl<const N: usize> Tree<N> {
 /// Blocks that one thread refits in one go.
 const BLOCKS: usize = 64;
 
-fn refit_level(
-    level: &mut Level,
-    only_moving: bool,
-    child: impl Fn(usize) -> MovingBox<f32> + Sync,
-) {
+fn refit_level(level: &mut Level, only_moving: bool, child: impl Fn(usize) -> MovingBox<f32> + Sync) {
     let blocks = &mut level.blocks;
-    parallel::for_each_chunk_with_chunk(
-        &mut level.nodes,
-        blocks,
-        BLOCKS,
-        |first, nodes, blocks| {
-            for (index, (node, block)) in nodes.iter_mut().zip(blocks).enumerate() {
-                if only_moving && node.moving == 0 {
-                    continue;
-                }
-                let mut bounds = MovingBox::empty();
-                for lane in 0..node.present.count_ones() as usize {
-                    let moving = child((first + index) * LANES + lane);
-                    block.set(lane, &moving);
-                    bounds = bounds.merged(&moving);
-                }
-                node.bounds = bounds;
+    parallel::for_each_chunk_with_chunk(&mut level.nodes, blocks, BLOCKS, |first, nodes, blocks| {
+        for (index, (node, block)) in nodes.iter_mut().zip(blocks).enumerate() {
+            if only_moving && node.moving == 0 {
+                continue;
             }
-        },
-    );
+            let mut bounds = MovingBox::empty();
+            for lane in 0..node.present.count_ones() as usize {
+                let moving = child((first + index) * LANES + lane);
+                block.set(lane, &moving);
+                bounds = bounds.merged(&moving);
+            }
+            node.bounds = bounds;
+        }
+    });
 }

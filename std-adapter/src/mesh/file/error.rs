@@ -93,9 +93,7 @@ pub enum FileProblem {
         left: usize,
     },
     /// The file ends before all declared elements were read.
-    #[error(
-        "the file ends after {found} of the {declared} '{element}' elements that its header declares; is it complete?"
-    )]
+    #[error("the file ends after {found} of the {declared} '{element}' elements that its header declares; is it complete?")]
     Truncated {
         /// Name of the element.
         element: String,

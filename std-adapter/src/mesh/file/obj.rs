@@ -25,11 +25,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, FileProblem> {
     })?;
     let mut reader = Reader::default();
     for (line, text) in LogicalLines::new(text) {
-        let mut fields = text
-            .split('#')
-            .next()
-            .unwrap_or_default()
-            .split_ascii_whitespace();
+        let mut fields = text.split('#').next().unwrap_or_default().split_ascii_whitespace();
         match fields.next() {
             Some("v") => reader.vertex(line, fields)?,
             Some("f") => reader.face(line, fields)?,
@@ -63,11 +59,7 @@ struct Reader {
 
 impl Reader {
     /// `v x y z`, then perhaps a weight or a colour, which are left out.
-    fn vertex<'a>(
-        &mut self,
-        line: usize,
-        mut fields: impl Iterator<Item = &'a str>,
-    ) -> Result<(), FileProblem> {
+    fn vertex<'a>(&mut self, line: usize, mut fields: impl Iterator<Item = &'a str>) -> Result<(), FileProblem> {
         let vertex = self.parsed.mesh.positions.len();
         let mut coordinates = [0.0; 3];
         for (value, name) in coordinates.iter_mut().zip(['x', 'y', 'z']) {
@@ -75,9 +67,7 @@ impl Reader {
                 line,
                 reason: format!("vertex {vertex} {what}"),
             };
-            let field = fields
-                .next()
-                .ok_or_else(|| wrong(format!("has no {name} coordinate")))?;
+            let field = fields.next().ok_or_else(|| wrong(format!("has no {name} coordinate")))?;
             *value = field.parse().map_err(|_| {
                 wrong(format!(
                     "has the {name} coordinate '{}', which is not a number",
@@ -92,11 +82,7 @@ impl Reader {
     }
 
     /// `f a b c …`, each corner a vertex, perhaps with `/texture/normal`, which are left out.
-    fn face<'a>(
-        &mut self,
-        line: usize,
-        fields: impl Iterator<Item = &'a str>,
-    ) -> Result<(), FileProblem> {
+    fn face<'a>(&mut self, line: usize, fields: impl Iterator<Item = &'a str>) -> Result<(), FileProblem> {
         self.corners.clear();
         for field in fields {
             let corner = self.corner(line, field)?;

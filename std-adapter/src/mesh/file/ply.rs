@@ -10,8 +10,7 @@ use crate::excerpt::excerpt;
 use crate::mesh::Mesh;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{
-    Addable, ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult,
-    PropertyDef, PropertyType, ScalarType,
+    Addable, ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyDef, PropertyType, ScalarType,
 };
 use ply_rs_bw::writer::Writer;
 use selvedge_core::glam::DVec3;
@@ -98,15 +97,12 @@ pub(super) fn write(out: &mut impl Write, mesh: &Mesh, encoding: PlyEncoding) ->
     vertex.count = mesh.positions.len();
     for name in COORDINATES {
         let double = PropertyType::Scalar(ScalarType::Double);
-        vertex
-            .properties
-            .add(PropertyDef::new(name.to_owned(), double));
+        vertex.properties.add(PropertyDef::new(name.to_owned(), double));
     }
     let mut face = ElementDef::new("face".to_owned());
     face.count = mesh.triangles.len();
     let list = PropertyType::List(ScalarType::UChar, ScalarType::UInt);
-    face.properties
-        .add(PropertyDef::new(CORNERS[0].to_owned(), list));
+    face.properties.add(PropertyDef::new(CORNERS[0].to_owned(), list));
 
     let mut header = Header::new();
     header.encoding = match encoding {
@@ -119,10 +115,7 @@ pub(super) fn write(out: &mut impl Write, mesh: &Mesh, encoding: PlyEncoding) ->
 
     let writer = Writer::<Written>::new();
     writer.write_header(out, &header)?;
-    let vertices = mesh
-        .positions
-        .iter()
-        .map(|p| (Written::Vertex(*p), &vertex));
+    let vertices = mesh.positions.iter().map(|p| (Written::Vertex(*p), &vertex));
     let faces = mesh.triangles.iter().map(|t| (Written::Face(*t), &face));
     for (row, element) in vertices.chain(faces) {
         match encoding {
@@ -178,10 +171,7 @@ impl PropertyAccess for Row {
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
         self.numbers += 1;
-        match (
-            scalar(&property),
-            COORDINATES.iter().position(|c| *c == name),
-        ) {
+        match (scalar(&property), COORDINATES.iter().position(|c| *c == name)) {
             (Some(value), Some(coordinate)) => self.coordinates[coordinate] = value,
             (Some(_), None) => {}
             (None, _) => {
@@ -286,12 +276,8 @@ impl Body<'_> {
 
     fn read_binary(&mut self, element: &ElementDef, index: usize) -> Result<Row, FileProblem> {
         let row = match self.encoding {
-            Encoding::BinaryBigEndian => {
-                self.parser.read_big_endian_element(&mut self.rest, element)
-            }
-            _ => self
-                .parser
-                .read_little_endian_element(&mut self.rest, element),
+            Encoding::BinaryBigEndian => self.parser.read_big_endian_element(&mut self.rest, element),
+            _ => self.parser.read_little_endian_element(&mut self.rest, element),
         };
         row.map_err(|error| match error.kind() {
             io::ErrorKind::UnexpectedEof => truncated(element, index),
@@ -384,17 +370,12 @@ fn smallest_size(property: &PropertyType) -> usize {
 /// Refuses a header without vertices or faces as we need them; otherwise how many vertices.
 fn check_layout(header: &Header) -> Result<usize, FileProblem> {
     let missing = |what: &str| FileProblem::Header(format!("declares no {what}"));
-    let vertex = header
-        .elements
-        .get("vertex")
-        .ok_or_else(|| missing("element 'vertex'"))?;
+    let vertex = header.elements.get("vertex").ok_or_else(|| missing("element 'vertex'"))?;
     for name in COORDINATES {
         match vertex.properties.get(name).map(|p| &p.data_type) {
             Some(PropertyType::Scalar(_)) => {}
             _ => {
-                return Err(missing(&format!(
-                    "number '{name}' for the element 'vertex'"
-                )));
+                return Err(missing(&format!("number '{name}' for the element 'vertex'")));
             }
         }
     }
@@ -424,18 +405,14 @@ fn check_unique_names(header: &[u8]) -> Result<(), FileProblem> {
     let mut elements = HashSet::new();
     let mut properties = HashSet::new();
     for (index, line) in header.split(|&byte| byte == b'\n').enumerate() {
-        let mut words = line
-            .split(u8::is_ascii_whitespace)
-            .filter(|word| !word.is_empty());
+        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
         let (keyword, name) = (words.next(), words.next());
         let fresh = match (keyword, name) {
             (Some(b"element"), Some(name)) => {
                 properties.clear();
                 elements.insert(name)
             }
-            (Some(b"property"), Some(first)) => {
-                properties.insert(words.next_back().unwrap_or(first))
-            }
+            (Some(b"property"), Some(first)) => properties.insert(words.next_back().unwrap_or(first)),
             _ => true,
         };
         if !fresh {
@@ -456,14 +433,11 @@ fn header_problem(bytes: &[u8], error: &ParseError) -> FileProblem {
         return FileProblem::Header("is missing: a PLY file begins with a line 'ply'".to_owned());
     }
     match (error.kind(), error.line()) {
-        (io::ErrorKind::UnexpectedEof, _) => FileProblem::Header(
-            "has no end: the line 'end_header' is missing; is the file complete?".to_owned(),
-        ),
+        (io::ErrorKind::UnexpectedEof, _) => {
+            FileProblem::Header("has no end: the line 'end_header' is missing; is the file complete?".to_owned())
+        }
         (_, Some(line)) => {
-            let text = bytes
-                .split(|&byte| byte == b'\n')
-                .nth(line - 1)
-                .unwrap_or_default();
+            let text = bytes.split(|&byte| byte == b'\n').nth(line - 1).unwrap_or_default();
             FileProblem::Line {
                 line,
                 reason: format!(

@@ -27,10 +27,7 @@ fn meshes() -> impl Strategy<Value = Mesh> {
     prop::collection::vec(position, 1..12).prop_flat_map(|positions| {
         let vertices = positions.len() as u32;
         let triangles = prop::collection::vec(prop::array::uniform3(0..vertices), 1..12);
-        (Just(positions), triangles).prop_map(|(positions, triangles)| Mesh {
-            positions,
-            triangles,
-        })
+        (Just(positions), triangles).prop_map(|(positions, triangles)| Mesh { positions, triangles })
     })
 }
 
@@ -44,10 +41,7 @@ fn bytes_of(mesh: &Mesh, format: FileFormat) -> Vec<u8> {
 }
 
 fn bits(mesh: &Mesh) -> Vec<[u64; 3]> {
-    mesh.positions
-        .iter()
-        .map(|p| p.to_array().map(f64::to_bits))
-        .collect()
+    mesh.positions.iter().map(|p| p.to_array().map(f64::to_bits)).collect()
 }
 
 fn triangle() -> Mesh {
@@ -75,9 +69,7 @@ fn ply_text(vertices: usize, faces: usize, body: &str) -> String {
 
 /// A binary PLY file with the properties of its elements and its bytes given.
 fn ply_binary(vertex: &str, faces: &str, body: &[u8]) -> Vec<u8> {
-    let mut bytes =
-        format!("ply\nformat binary_little_endian 1.0\n{vertex}\n{faces}\nend_header\n")
-            .into_bytes();
+    let mut bytes = format!("ply\nformat binary_little_endian 1.0\n{vertex}\n{faces}\nend_header\n").into_bytes();
     bytes.extend_from_slice(body);
     bytes
 }
@@ -124,8 +116,7 @@ proptest! {
 
 #[test]
 fn vertices_keep_the_files_numbers_across_objects_and_without_faces() {
-    let file =
-        read_obj("o a\nv 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\no b\ng c\nv 0 0 1\nf 5 3 2\n");
+    let file = read_obj("o a\nv 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\no b\ng c\nv 0 0 1\nf 5 3 2\n");
     assert_eq!(file.mesh.positions.len(), 5);
     assert_eq!(file.mesh.triangles, [[1, 2, 3], [4, 2, 1]]);
     assert_eq!(file.notes.statistics.isolated_vertices, 1);
@@ -160,18 +151,10 @@ fn obj_lines_go_on_after_a_backslash() {
 
 #[test]
 fn polygons_become_fans_from_their_first_vertex_and_are_counted() {
-    let file =
-        read_obj("v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 2 0\nf 2 3 4 5 1\nf 1 2 3\nf 1 2 3 4\n");
+    let file = read_obj("v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 2 0\nf 2 3 4 5 1\nf 1 2 3\nf 1 2 3 4\n");
     assert_eq!(
         file.mesh.triangles,
-        [
-            [1, 2, 3],
-            [1, 3, 4],
-            [1, 4, 0],
-            [0, 1, 2],
-            [0, 1, 2],
-            [0, 2, 3]
-        ]
+        [[1, 2, 3], [1, 3, 4], [1, 4, 0], [0, 1, 2], [0, 1, 2], [0, 2, 3]]
     );
     assert_eq!(file.notes.polygons_triangulated, 2);
     assert_eq!(file.notes.statistics.duplicate_triangles, 1);
@@ -218,31 +201,17 @@ fn ply_numbers_of_every_type_are_read_in_both_byte_orders() {
         ("char", "uchar", vec![3, 0, 1, 2]),
         ("ushort", "short", vec![3, 0, 0, 0, 1, 0, 2, 0]),
         ("short", "ushort", vec![3, 0, 0, 0, 1, 0, 2, 0]),
-        (
-            "uint",
-            "int",
-            [[3_i32, 0, 1, 2].map(i32::to_le_bytes)].concat().concat(),
-        ),
-        (
-            "int",
-            "uint",
-            [[3_i32, 0, 1, 2].map(i32::to_le_bytes)].concat().concat(),
-        ),
+        ("uint", "int", [[3_i32, 0, 1, 2].map(i32::to_le_bytes)].concat().concat()),
+        ("int", "uint", [[3_i32, 0, 1, 2].map(i32::to_le_bytes)].concat().concat()),
     ] {
         let faces = format!(
             "element face 1\nproperty list {count} {number} vertex_index\nproperty double quality\nelement edge 1\nproperty int vertex1"
         );
         let rest = [0; 12];
-        let mesh = read_bytes(
-            &ply_binary(header, &faces, &[&little, &face, rest.as_slice()].concat()),
-            PLY,
-        )
-        .unwrap()
-        .mesh;
-        assert_eq!(
-            mesh.positions[0],
-            DVec3::new(f64::from(0.1_f32), -7.0, f64::from(u32::MAX))
-        );
+        let mesh = read_bytes(&ply_binary(header, &faces, &[&little, &face, rest.as_slice()].concat()), PLY)
+            .unwrap()
+            .mesh;
+        assert_eq!(mesh.positions[0], DVec3::new(f64::from(0.1_f32), -7.0, f64::from(u32::MAX)));
         assert_eq!(mesh.triangles, [[0, 1, 2]], "{count} {number}");
     }
     let faces = "element face 1\nproperty list uchar int vertex_indices";
@@ -262,10 +231,7 @@ fn ply_numbers_of_every_type_are_read_in_both_byte_orders() {
     ]
     .concat();
     let mesh = read_bytes(&file, PLY).unwrap().mesh;
-    assert_eq!(
-        mesh.positions[0],
-        DVec3::new(f64::from(0.1_f32), -7.0, f64::from(u32::MAX))
-    );
+    assert_eq!(mesh.positions[0], DVec3::new(f64::from(0.1_f32), -7.0, f64::from(u32::MAX)));
     assert_eq!(mesh.triangles, [[0, 1, 2]]);
 }
 
@@ -329,26 +295,83 @@ fn obj_errors_name_the_line_and_what_is_wrong_with_it() {
 fn ply_errors_name_the_line_and_the_element() {
     let three = "0 0 0\n1 0 0\n0 1 0\n";
     for (text, expected) in [
-        (ply_text(3, 1, &format!("{three}3 0 1 3\n")), "line 13: face 0 names vertex 3, but there are 3 vertices, numbered from 0"),
-        (ply_text(3, 1, &format!("{three}3 0 1 -1\n")), "line 13: face 0 names vertex -1, but there are 3 vertices, numbered from 0"),
-        (ply_text(3, 1, &format!("{three}2 0 1\n")), "line 13: face 0 has 2 vertices, but needs three or more"),
-        (ply_text(3, 1, &format!("{three}3 0 1 2 2\n")), "line 13: 'face' element 0 must be the numbers vertex_indices that the header declares, not '3 0 1 2 2'"),
-        (ply_text(3, 1, "0 0 0\n1 0\n0 1 0\n3 0 1 2\n"), "line 11: 'vertex' element 1 must be the numbers x, y, z that the header declares, not '1 0'"),
-        (ply_text(3, 1, "0 0 0\n1 -nan 0\n0 1 0\n3 0 1 2\n"), "line 11: the y coordinate of vertex 1 is NaN, but must be finite"),
-        (ply_text(3, 1, "0 0 0\n1 0 1e999\n0 1 0\n3 0 1 2\n"), "line 11: the z coordinate of vertex 1 is inf, but must be finite"),
-        (ply_text(3, 2, &format!("{three}3 0 1 2\n")), "the file ends after 1 of the 2 'face' elements that its header declares; is it complete?"),
-        (ply_text(4, 1, &format!("{three}3 0 1 2\n")), "line 13: 'vertex' element 3 must be the numbers x, y, z that the header declares, not '3 0 1 2'"),
-        (ply_text(3, 1, &format!("{three}3 0 1 2\n3 0 1 2\n")), "line 14: the file goes on for 7 bytes after the elements that its header declares; do the counts in the header match?"),
+        (
+            ply_text(3, 1, &format!("{three}3 0 1 3\n")),
+            "line 13: face 0 names vertex 3, but there are 3 vertices, numbered from 0",
+        ),
+        (
+            ply_text(3, 1, &format!("{three}3 0 1 -1\n")),
+            "line 13: face 0 names vertex -1, but there are 3 vertices, numbered from 0",
+        ),
+        (
+            ply_text(3, 1, &format!("{three}2 0 1\n")),
+            "line 13: face 0 has 2 vertices, but needs three or more",
+        ),
+        (
+            ply_text(3, 1, &format!("{three}3 0 1 2 2\n")),
+            "line 13: 'face' element 0 must be the numbers vertex_indices that the header declares, not '3 0 1 2 2'",
+        ),
+        (
+            ply_text(3, 1, "0 0 0\n1 0\n0 1 0\n3 0 1 2\n"),
+            "line 11: 'vertex' element 1 must be the numbers x, y, z that the header declares, not '1 0'",
+        ),
+        (
+            ply_text(3, 1, "0 0 0\n1 -nan 0\n0 1 0\n3 0 1 2\n"),
+            "line 11: the y coordinate of vertex 1 is NaN, but must be finite",
+        ),
+        (
+            ply_text(3, 1, "0 0 0\n1 0 1e999\n0 1 0\n3 0 1 2\n"),
+            "line 11: the z coordinate of vertex 1 is inf, but must be finite",
+        ),
+        (
+            ply_text(3, 2, &format!("{three}3 0 1 2\n")),
+            "the file ends after 1 of the 2 'face' elements that its header declares; is it complete?",
+        ),
+        (
+            ply_text(4, 1, &format!("{three}3 0 1 2\n")),
+            "line 13: 'vertex' element 3 must be the numbers x, y, z that the header declares, not '3 0 1 2'",
+        ),
+        (
+            ply_text(3, 1, &format!("{three}3 0 1 2\n3 0 1 2\n")),
+            "line 14: the file goes on for 7 bytes after the elements that its header declares; do the counts in the header match?",
+        ),
         (ply_text(3, 0, three), "the mesh has no triangles"),
-        (ply_text(1 << 40, 1, three), "the header declares 1099511627776 'vertex' elements, which take at least 6597069766655 bytes, but only 18 are left; is the file complete?"),
-        ("solid cube\n".to_owned(), "the header is missing: a PLY file begins with a line 'ply'"),
-        ("ply\nformat ascii 1.0\n".to_owned(), "the header has no end: the line 'end_header' is missing; is the file complete?"),
-        ("ply\nformat ascii 1.0\nelment vertex 3\nend_header\n".to_owned(), "line 3: this does not belong in the header of a PLY file: 'elment vertex 3'"),
-        ("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty int x\nend_header\n".to_owned(), "line 5: the header declares this name twice: 'property int x'"),
-        ("ply\nformat ascii 1.0\nelement face 0\nend_header\n".to_owned(), "the header declares no element 'vertex'"),
-        (ply_text(0, 0, "").replace("double z", "double w"), "the header declares no number 'z' for the element 'vertex'"),
-        (ply_text(0, 0, "").replace("element face", "element strip"), "the header declares no element 'face', so there are no triangles"),
-        (ply_text(0, 0, "").replace("uchar int", "uchar float"), "the header declares no list of integers 'vertex_indices' or 'vertex_index' for the element 'face'"),
+        (
+            ply_text(1 << 40, 1, three),
+            "the header declares 1099511627776 'vertex' elements, which take at least 6597069766655 bytes, but only 18 are left; is the file complete?",
+        ),
+        (
+            "solid cube\n".to_owned(),
+            "the header is missing: a PLY file begins with a line 'ply'",
+        ),
+        (
+            "ply\nformat ascii 1.0\n".to_owned(),
+            "the header has no end: the line 'end_header' is missing; is the file complete?",
+        ),
+        (
+            "ply\nformat ascii 1.0\nelment vertex 3\nend_header\n".to_owned(),
+            "line 3: this does not belong in the header of a PLY file: 'elment vertex 3'",
+        ),
+        (
+            "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty int x\nend_header\n".to_owned(),
+            "line 5: the header declares this name twice: 'property int x'",
+        ),
+        (
+            "ply\nformat ascii 1.0\nelement face 0\nend_header\n".to_owned(),
+            "the header declares no element 'vertex'",
+        ),
+        (
+            ply_text(0, 0, "").replace("double z", "double w"),
+            "the header declares no number 'z' for the element 'vertex'",
+        ),
+        (
+            ply_text(0, 0, "").replace("element face", "element strip"),
+            "the header declares no element 'face', so there are no triangles",
+        ),
+        (
+            ply_text(0, 0, "").replace("uchar int", "uchar float"),
+            "the header declares no list of integers 'vertex_indices' or 'vertex_index' for the element 'face'",
+        ),
     ] {
         assert_eq!(problem(text, PLY), expected);
     }
@@ -427,14 +450,8 @@ fn a_mesh_that_could_not_be_read_again_is_not_written_and_the_old_file_stays() {
         change(&mut mesh);
         write(&path, &mesh).unwrap_err().to_string()
     };
-    assert!(
-        bad(|mesh| mesh.positions[1].x = f64::NAN)
-            .ends_with("the x coordinate of vertex 1 is NaN, but must be finite")
-    );
-    assert!(
-        bad(|mesh| mesh.triangles[0][2] = 3)
-            .ends_with("face 0 names vertex 3, but there are 3 vertices, numbered from 0")
-    );
+    assert!(bad(|mesh| mesh.positions[1].x = f64::NAN).ends_with("the x coordinate of vertex 1 is NaN, but must be finite"));
+    assert!(bad(|mesh| mesh.triangles[0][2] = 3).ends_with("face 0 names vertex 3, but there are 3 vertices, numbered from 0"));
     assert!(bad(|mesh| mesh.triangles.clear()).ends_with("the mesh has no triangles"));
     assert_eq!(fs::read_to_string(&path).unwrap(), "old");
     assert_eq!(
@@ -479,10 +496,7 @@ type Change = fn(&mut Mesh);
 
 fn written_step(change: Change) -> (TempDir, Result<MeshStep, MeshError>) {
     let folder = TempDir::new().unwrap();
-    let (start, end) = (
-        folder.path().join("start.obj"),
-        folder.path().join("end.ply"),
-    );
+    let (start, end) = (folder.path().join("start.obj"), folder.path().join("end.ply"));
     let mut mesh = Mesh {
         positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
         triangles: vec![[0, 1, 2], [1, 2, 3]],
@@ -513,10 +527,7 @@ fn frames_of_different_meshes_are_refused_with_both_names_and_the_first_differen
             |mesh| mesh.triangles[1] = [1, 3, 2],
             "triangle 1 is 1 2 3 in the first, 1 3 2 in the second",
         ),
-        (
-            |mesh| mesh.triangles.truncate(1),
-            "the first has 2 triangles, the second 1",
-        ),
+        (|mesh| mesh.triangles.truncate(1), "the first has 2 triangles, the second 1"),
     ];
     for (change, difference) in cases {
         let (folder, step) = written_step(change);
@@ -535,10 +546,7 @@ fn frames_of_different_meshes_are_refused_with_both_names_and_the_first_differen
 #[test]
 fn a_step_with_a_bad_second_file_names_that_file() {
     let folder = TempDir::new().unwrap();
-    let (start, end) = (
-        folder.path().join("start.obj"),
-        folder.path().join("end.obj"),
-    );
+    let (start, end) = (folder.path().join("start.obj"), folder.path().join("end.obj"));
     write(&start, &triangle()).unwrap();
     let error = read_step(&start, &end).unwrap_err().to_string();
     assert_eq!(error, format!("{}: there is no such file", end.display()));

@@ -19,10 +19,7 @@ impl TimeAxis {
         }
         let [low, high] = if ends[0] <= ends[1] { ends } else { [0.0, 2.0] };
         // At least one power of ten has a name then.
-        let ends = [
-            (low - 0.12).min(low.round()),
-            (high + 0.12).max(low.round() + 1.0),
-        ];
+        let ends = [(low - 0.12).min(low.round()), (high + 0.12).max(low.round() + 1.0)];
         Self { ends, width }
     }
 
@@ -79,16 +76,7 @@ impl ShareAxis {
 
     /// Lines and their names, from the top down.
     pub(super) fn lines() -> [(f64, &'static str); 8] {
-        let names = [
-            "all",
-            "99.9999 %",
-            "99.999 %",
-            "99.99 %",
-            "99.9 %",
-            "99 %",
-            "90 %",
-            "none",
-        ];
+        let names = ["all", "99.9999 %", "99.999 %", "99.99 %", "99.9 %", "99 %", "90 %", "none"];
         let mut line = 0.0;
         names.map(|name| {
             line += 1.0;
@@ -123,9 +111,7 @@ mod tests {
     fn powers_of_ten_have_units() {
         assert_eq!(
             [-2, -1, 0, 2, 3, 5, 6].map(name),
-            [
-                "0.01 ns", "0.1 ns", "1 ns", "100 ns", "1 µs", "100 µs", "1 ms"
-            ]
+            ["0.01 ns", "0.1 ns", "1 ns", "100 ns", "1 µs", "100 µs", "1 ms"]
         );
     }
 
@@ -133,10 +119,7 @@ mod tests {
     fn a_tenth_of_what_is_kept_is_a_line_up() {
         let lines = ShareAxis::lines().map(|line| line.0);
         let whole = 1_000_000;
-        for (power, kept) in [1, 10, 100, 1000, 10_000, 100_000, 1_000_000]
-            .into_iter()
-            .enumerate()
-        {
+        for (power, kept) in [1, 10, 100, 1000, 10_000, 100_000, 1_000_000].into_iter().enumerate() {
             let place = ShareAxis::place(kept, whole).unwrap();
             assert!((place - lines[1 + power]).abs() < 1e-9, "{kept}");
         }

@@ -6,9 +6,7 @@ use super::marks::Kind;
 use crate::report::number::{grouped, time};
 use crate::report::plot::spread;
 use crate::report::table_svg::prose_width;
-use crate::study::elementary::{
-    ElementaryAccuracy, ElementaryMethod, ElementaryRow, ElementarySet,
-};
+use crate::study::elementary::{ElementaryAccuracy, ElementaryMethod, ElementaryRow, ElementarySet};
 use svg::Node;
 use svg::node::element::{Group, Polyline};
 
@@ -27,10 +25,7 @@ const LEGEND: [(Kind, &str); 4] = [
     (Kind::Certified, "certified"),
     (Kind::Exact, "exact verdict"),
     (Kind::Subdivided, "Tight-Inclusion, re-implemented"),
-    (
-        Kind::Uncertified,
-        "unsafe: misses contacts, or finds them too late",
-    ),
+    (Kind::Uncertified, "unsafe: misses contacts, or finds them too late"),
 ];
 
 /// Tests without proof, as reports and as the plot name them.
@@ -66,15 +61,9 @@ pub fn elementary_svg(accuracy: &ElementaryAccuracy) -> String {
                       A line joins tolerances δ from 1e-2 to 1e-12. False: never touches, but is not called free.",
         legend: &LEGEND,
     };
-    let panels: Vec<_> = accuracy
-        .sets
-        .iter()
-        .map(|set| Panel::new(set, &axis))
-        .collect();
+    let panels: Vec<_> = accuracy.sets.iter().map(|set| Panel::new(set, &axis)).collect();
     let names = panels.iter().flat_map(Panel::names);
-    let widest = names.fold(0.0, |widest: f64, name| {
-        widest.max(prose_width(name, SMALL))
-    });
+    let widest = names.fold(0.0, |widest: f64, name| widest.max(prose_width(name, SMALL)));
     let size = [PLOT.names_from() + widest, PLOT.panel_height()];
     picture(&head, size, &panels, |group, panel| {
         panel.draw(group, &axis);
@@ -159,9 +148,7 @@ impl<'a> Panel<'a> {
     fn draw_lines(&self, group: &mut Group) {
         for kind in [Kind::Certified, Kind::Subdivided] {
             let marks = self.proven.iter().filter(|mark| mark.kind == kind);
-            let points: Vec<_> = marks
-                .map(|mark| format!("{:.2},{:.2}", mark.x, mark.y))
-                .collect();
+            let points: Vec<_> = marks.map(|mark| format!("{:.2},{:.2}", mark.x, mark.y)).collect();
             let line = Polyline::new()
                 .set("points", points.join(" "))
                 .set("fill", "none")
@@ -173,9 +160,7 @@ impl<'a> Panel<'a> {
 
     fn draw_proven(&self, group: &mut Group) {
         let named = self.proven.iter();
-        let mut named: Vec<_> = named
-            .filter_map(|mark| Some((mark, mark.name.as_deref()?)))
-            .collect();
+        let mut named: Vec<_> = named.filter_map(|mark| Some((mark, mark.name.as_deref()?))).collect();
         named.sort_by(|(a, _), (b, _)| a.y.total_cmp(&b.y).then(b.x.total_cmp(&a.x)));
         let wanted: Vec<i32> = named.iter().map(|(mark, _)| mark.y as i32).collect();
         let lowest = (TOP + PLOT.height) as i32;

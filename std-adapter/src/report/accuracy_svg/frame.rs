@@ -39,11 +39,7 @@ pub(super) struct Head<'a> {
 impl Head<'_> {
     fn draw(&self, picture: &mut Group) {
         let title = text(MARGIN, 36.0, self.title);
-        picture.append(
-            title
-                .set("font-size", TITLE_SIZE)
-                .set("font-weight", "bold"),
-        );
+        picture.append(title.set("font-size", TITLE_SIZE).set("font-weight", "bold"));
         picture.append(text(MARGIN, 62.0, self.explanation).set("fill", FAINT_INK));
         let mut x = MARGIN + 6.0;
         for (kind, meaning) in self.legend {
@@ -127,12 +123,7 @@ impl Plot {
     }
 
     /// The lines to be drawn across are given from the plot's top, with their names.
-    pub(super) fn draw_axes<N: AsRef<str>>(
-        &self,
-        group: &mut Group,
-        axis: &TimeAxis,
-        lines: impl IntoIterator<Item = (f64, N)>,
-    ) {
+    pub(super) fn draw_axes<N: AsRef<str>>(&self, group: &mut Group, axis: &TimeAxis, lines: impl IntoIterator<Item = (f64, N)>) {
         let right = LEFT + self.width;
         let (strip, bottom) = (self.strip_top(), self.strip_bottom());
         let background = Rectangle::new()

@@ -64,9 +64,7 @@ impl Kind {
     pub(super) fn draw(self, group: &mut Group, x: f64, y: f64) {
         let colour = self.colour();
         let polygon = |points: &[[f64; 2]]| {
-            let points = points
-                .iter()
-                .map(|[dx, dy]| format!("{:.2},{:.2}", x + dx, y + dy));
+            let points = points.iter().map(|[dx, dy]| format!("{:.2},{:.2}", x + dx, y + dy));
             Polygon::new()
                 .set("points", points.collect::<Vec<_>>().join(" "))
                 .set("fill", colour)
@@ -75,22 +73,13 @@ impl Kind {
         let r = RADIUS;
         match self {
             Self::Certified => group.append(circle.set("fill", colour)),
-            Self::OneAtATime => group.append(
-                circle
-                    .set("fill", "#fdfdfc")
-                    .set("stroke", colour)
-                    .set("stroke-width", 2),
-            ),
+            Self::OneAtATime => group.append(circle.set("fill", "#fdfdfc").set("stroke", colour).set("stroke-width", 2)),
             Self::Exact => {
                 let r = 1.35 * r;
                 group.append(polygon(&[[0.0, -r], [r, 0.0], [0.0, r], [-r, 0.0]]));
             }
             Self::Subdivided => {
-                group.append(polygon(&[
-                    [0.0, -1.25 * r],
-                    [1.2 * r, 0.9 * r],
-                    [-1.2 * r, 0.9 * r],
-                ]));
+                group.append(polygon(&[[0.0, -1.25 * r], [1.2 * r, 0.9 * r], [-1.2 * r, 0.9 * r]]));
             }
             Self::Uncertified => {
                 let cross = Path::new()

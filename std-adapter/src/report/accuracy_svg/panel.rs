@@ -54,20 +54,14 @@ impl<'a> Panel<'a> {
     }
 
     fn add(&mut self, row: &AccuracyRow, kind: Kind, time: Option<BackendTime>) {
-        let Some(BackendTime { nanoseconds, .. }) =
-            time.filter(|time| time.nanoseconds.is_finite())
-        else {
+        let Some(BackendTime { nanoseconds, .. }) = time.filter(|time| time.nanoseconds.is_finite()) else {
             return;
         };
         let name = match row.filter {
             MeasuredFilter::Tier(Tier::Uncertified) => "as computed".to_owned(),
             filter => filter.name().replace('_', " "),
         };
-        let one = if kind == Kind::OneAtATime {
-            ", one by one"
-        } else {
-            ""
-        };
+        let one = if kind == Kind::OneAtATime { ", one by one" } else { "" };
         let label = format!("{name}{one}: {}", self::time(nanoseconds * 1e-9));
         let (y, label) = match kind {
             // The strip has two lines.
@@ -137,17 +131,11 @@ impl<'a> Panel<'a> {
                 .cmp(&line_of(b))
                 .then(if is_low { by_time } else { by_time.reverse() })
         });
-        let wanted: Vec<i32> = proven
-            .iter()
-            .map(|mark| line_of(mark) * TOUCHING as i32)
-            .collect();
+        let wanted: Vec<i32> = proven.iter().map(|mark| line_of(mark) * TOUCHING as i32).collect();
         let lowest = (TOP + ShareAxis::HEIGHT) as i32;
         let places = spread(&wanted, LABEL_SPACING as i32, lowest);
         let in_strip = self.unsafe_marks.iter().map(|mark| (mark, mark.y));
-        let placed = proven
-            .iter()
-            .zip(places)
-            .map(|(&mark, y)| (mark, f64::from(y)));
+        let placed = proven.iter().zip(places).map(|(&mark, y)| (mark, f64::from(y)));
         let all: Vec<(&Mark, f64)> = placed.chain(in_strip).collect();
         let x_of = |mark: &Mark| LEFT + axis.place(mark.nanoseconds);
         for &(mark, label_y) in &all {

@@ -14,10 +14,7 @@ fn set(scalar: &'static str, cullable: usize, kept: usize) -> AccuracySet {
             1234
         },
         times: [("one", 8.0), ("avx2", 3.0)]
-            .map(|(backend, nanoseconds)| BackendTime {
-                backend,
-                nanoseconds,
-            })
+            .map(|(backend, nanoseconds)| BackendTime { backend, nanoseconds })
             .to_vec(),
         in_first_cache: None,
     });
@@ -45,9 +42,7 @@ fn plot(sets: Vec<AccuracySet>) -> String {
 
 fn texts<'a>(document: &'a Document<'_>) -> Vec<(f64, f64, &'a str)> {
     let number = |node: &Node<'_, '_>, name: &str| node.attribute(name).unwrap().parse().unwrap();
-    let texts = document
-        .descendants()
-        .filter(|node| node.has_tag_name("text"));
+    let texts = document.descendants().filter(|node| node.has_tag_name("text"));
     texts
         .map(|node| {
             let content = node.text().unwrap_or_default().trim();
@@ -72,10 +67,7 @@ fn every_filter_is_named_with_its_time_and_unsafe_ones_with_their_false_culls() 
         "as computed: 3.00 ns, 1,234 false",
         "paper: 3.00 ns, 1,234 false",
     ] {
-        assert!(
-            texts.iter().any(|text| text.2 == label),
-            "{label}: {texts:?}"
-        );
+        assert!(texts.iter().any(|text| text.2 == label), "{label}: {texts:?}");
     }
 }
 

@@ -42,14 +42,12 @@ impl Marks {
         };
         let mark = |marks: &mut [bool], feature, index: u32| {
             let count = marks.len();
-            let mark = marks
-                .get_mut(index as usize)
-                .ok_or_else(|| FigureError::OutOfRange {
-                    name: pairs.name.clone(),
-                    feature,
-                    index,
-                    count,
-                })?;
+            let mark = marks.get_mut(index as usize).ok_or_else(|| FigureError::OutOfRange {
+                name: pairs.name.clone(),
+                feature,
+                index,
+                count,
+            })?;
             *mark = true;
             Ok(())
         };
@@ -96,9 +94,7 @@ pub(super) struct Drawing<'a> {
 
 impl Drawing<'_> {
     pub(super) fn draw(&self, picture: &mut Pixmap, view: &View) {
-        let Self {
-            topology, marks, ..
-        } = *self;
+        let Self { topology, marks, .. } = *self;
         let seen: Vec<Seen> = self.positions.iter().map(|&p| view.see(p)).collect();
         let pen = Pen::new(topology, &seen);
         for shape in shapes(topology, &seen, marks, pen.edge_length) {
@@ -124,11 +120,7 @@ impl Drawing<'_> {
 /// vertices a whole one: otherwise the faces and edges beside them whose middles are nearer would cover them.
 fn shapes(topology: &Topology, seen: &[Seen], marks: &Marks, edge_length: f32) -> Vec<Shape> {
     fn mean<const N: usize>(seen: &[Seen], vertices: [u32; N]) -> f32 {
-        vertices
-            .iter()
-            .map(|&v| seen[v as usize].depth)
-            .sum::<f32>()
-            / N as f32
+        vertices.iter().map(|&v| seen[v as usize].depth).sum::<f32>() / N as f32
     }
     let faces = topology
         .triangles()
@@ -258,13 +250,7 @@ fn paint([red, green, blue]: Colour, opacity: f32) -> Paint<'static> {
 }
 
 pub(super) fn fill(picture: &mut Pixmap, path: &Path, colour: Colour, opacity: f32) {
-    picture.fill_path(
-        path,
-        &paint(colour, opacity),
-        FillRule::Winding,
-        Transform::identity(),
-        None,
-    );
+    picture.fill_path(path, &paint(colour, opacity), FillRule::Winding, Transform::identity(), None);
 }
 
 pub(super) fn stroke(picture: &mut Pixmap, path: &Path, colour: Colour, opacity: f32, width: f32) {
@@ -274,11 +260,5 @@ pub(super) fn stroke(picture: &mut Pixmap, path: &Path, colour: Colour, opacity:
         line_join: tiny_skia::LineJoin::Round,
         ..Stroke::default()
     };
-    picture.stroke_path(
-        path,
-        &paint(colour, opacity),
-        &stroke,
-        Transform::identity(),
-        None,
-    );
+    picture.stroke_path(path, &paint(colour, opacity), &stroke, Transform::identity(), None);
 }

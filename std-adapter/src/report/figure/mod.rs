@@ -45,9 +45,7 @@ pub enum FigureError {
         vertex: usize,
     },
     /// A pair names a vertex, face or edge that the mesh does not have.
-    #[error(
-        "a pair of `{name}` names {feature} {index}, but the mesh has {count}, numbered from 0"
-    )]
+    #[error("a pair of `{name}` names {feature} {index}, but the mesh has {count}, numbered from 0")]
     OutOfRange {
         /// The panel's name.
         name: String,
@@ -119,9 +117,7 @@ pub fn figure_3(
         panel::write_caption(&mut picture, left, pairs);
     }
     panel::write_legend(&mut picture);
-    picture
-        .encode_png()
-        .map_err(|error| FigureError::Encoding(error.into()))
+    picture.encode_png().map_err(|error| FigureError::Encoding(error.into()))
 }
 
 fn check_positions(topology: &Topology, positions: &[DVec3]) -> Result<(), FigureError> {

@@ -35,30 +35,15 @@ const LEGEND_MIDDLE: f32 = LEGEND_TOP as f32 + 13.0;
 const SWATCH: f32 = 26.0;
 
 /// The part of the mesh that a close-up shows, and a frame around that part in the overview.
-pub(super) fn draw_close_up(
-    picture: &mut Pixmap,
-    left: f32,
-    mesh: &Drawing<'_>,
-    overview: &View,
-    close_up: &View,
-) {
+pub(super) fn draw_close_up(picture: &mut Pixmap, left: f32, mesh: &Drawing<'_>, overview: &View, close_up: &View) {
     let (width, height) = (CLOSE_UP.width as u32, CLOSE_UP.height as u32);
     let mut part = Pixmap::new(width, height).expect("the size is not zero");
     part.fill(Color::WHITE);
     mesh.draw(&mut part, &close_up.moved(-CLOSE_UP.left, -CLOSE_UP.top));
     let (x, y) = ((left + CLOSE_UP.left) as i32, CLOSE_UP.top as i32);
-    picture.draw_pixmap(
-        x,
-        y,
-        part.as_ref(),
-        &PixmapPaint::default(),
-        Transform::identity(),
-        None,
-    );
+    picture.draw_pixmap(x, y, part.as_ref(), &PixmapPaint::default(), Transform::identity(), None);
     for frame in [CLOSE_UP, overview.frame_of(close_up, CLOSE_UP)] {
-        if let Some(frame) =
-            Rect::from_xywh(left + frame.left, frame.top, frame.width, frame.height)
-        {
+        if let Some(frame) = Rect::from_xywh(left + frame.left, frame.top, frame.width, frame.height) {
             stroke(picture, &PathBuilder::from_rect(frame), FRAME, 1.0, 2.0);
         }
     }
@@ -101,10 +86,7 @@ pub(super) fn write_legend(picture: &mut Pixmap) {
     ];
     const TEXT_GAP: f32 = 10.0;
     const ENTRY_GAP: f32 = 56.0;
-    let texts: f32 = entries
-        .iter()
-        .map(|(_, text)| width(text, Size::Small) as f32)
-        .sum();
+    let texts: f32 = entries.iter().map(|(_, text)| width(text, Size::Small) as f32).sum();
     let total = texts + 3.0 * (SWATCH + TEXT_GAP) + 2.0 * ENTRY_GAP;
     let mut x = 0.5 * (2.0 * WIDTH - total);
     for (draw_swatch, text) in entries {

@@ -61,10 +61,7 @@ fn each_kind_of_pair_has_its_colours_in_its_panel_and_no_other() {
         for (right, in_right) in &cases {
             let picture = decoded(&figure_3(&topology, &positions, left, right).unwrap());
             assert_eq!([picture.width(), picture.height()], FIGURE_SIZE);
-            assert_eq!(
-                [marks(&picture, 0), marks(&picture, 1)],
-                [*in_left, *in_right]
-            );
+            assert_eq!([marks(&picture, 0), marks(&picture, 1)], [*in_left, *in_right]);
         }
     }
 }
@@ -87,21 +84,14 @@ fn a_vertex_enclosed_by_cloth_is_still_seen() {
 fn a_small_part_with_the_right_panels_marks_is_shown_close_up_in_both() {
     let (topology, positions) = arm();
     let draw = |right: &FigurePairs<'_>| {
-        let everything: Vec<[u32; 2]> = (0..topology.triangles().len() as u32)
-            .map(|face| [face / 2, face])
-            .collect();
-        let picture =
-            decoded(&figure_3(&topology, &positions, &pairs(&everything, &[]), right).unwrap());
+        let everything: Vec<[u32; 2]> = (0..topology.triangles().len() as u32).map(|face| [face / 2, face]).collect();
+        let picture = decoded(&figure_3(&topology, &positions, &pairs(&everything, &[]), right).unwrap());
         [0, 1].map(|panel| count(&picture, panel, |pixel| pixel == FRAME) > 0)
     };
     let corner = topology.triangles()[700][0];
     assert_eq!(draw(&pairs(&[[corner, 700]], &[])), [true, true]);
     assert_eq!(draw(&pairs(&[], &[])), [false, false]);
-    assert_eq!(
-        draw(&pairs(&[[0, 0], [692, 1344]], &[])),
-        [false, false],
-        "from end to end"
-    );
+    assert_eq!(draw(&pairs(&[[0, 0], [692, 1344]], &[])), [false, false], "from end to end");
 }
 
 #[test]
@@ -112,15 +102,7 @@ fn captions_take_any_name() {
         vertex_face: &[],
         edge_edge: &[],
     };
-    let draw = |name: &str| {
-        figure_3(
-            &topology,
-            &[DVec3::X, DVec3::Y, DVec3::Z],
-            &named(name),
-            &named(""),
-        )
-        .unwrap()
-    };
+    let draw = |name: &str| figure_3(&topology, &[DVec3::X, DVec3::Y, DVec3::Z], &named(name), &named("")).unwrap();
     assert_ne!(draw("basic"), draw("selvedge"));
     assert_eq!(draw("größe"), draw("gr??e"));
     let long = decoded(&draw(&"m".repeat(500)));
@@ -136,11 +118,8 @@ fn what_cannot_be_drawn_is_refused_with_its_reason() {
     let topology = Topology::new(3, vec![[0, 1, 2]]).unwrap();
     let positions = [DVec3::X, DVec3::Y, DVec3::Z];
     let none = pairs(&[], &[]);
-    let message = |positions: &[DVec3], right: &FigurePairs<'_>| {
-        figure_3(&topology, positions, &none, right)
-            .unwrap_err()
-            .to_string()
-    };
+    let message =
+        |positions: &[DVec3], right: &FigurePairs<'_>| figure_3(&topology, positions, &none, right).unwrap_err().to_string();
     assert_eq!(
         message(&positions[..2], &none),
         "there are 2 positions to draw, but the mesh has 3 vertices"
@@ -169,10 +148,7 @@ fn the_viewer_stands_on_the_side_to_which_the_arm_bends() {
         let view = View::new(scene.topology(), &positions, panel::OVERVIEW);
         let depth = |vertices: std::ops::Range<usize>| {
             let count = vertices.len() as f32;
-            vertices
-                .map(|vertex| view.see(positions[vertex]).depth)
-                .sum::<f32>()
-                / count
+            vertices.map(|vertex| view.see(positions[vertex]).depth).sum::<f32>() / count
         };
         let (shoulder, elbow, cuff) = (depth(0..25), depth(330..360), depth(677..693));
         assert!(elbow < 0.5 * (shoulder + cuff), "frame {frame}");
@@ -202,11 +178,7 @@ fn positions() -> impl Strategy<Value = Vec<DVec3>> {
 }
 
 fn soup() -> Topology {
-    Topology::new(
-        6,
-        vec![[0, 1, 2], [2, 1, 3], [3, 3, 4], [4, 4, 4], [2, 1, 0]],
-    )
-    .unwrap()
+    Topology::new(6, vec![[0, 1, 2], [2, 1, 3], [3, 3, 4], [4, 4, 4], [2, 1, 0]]).unwrap()
 }
 
 proptest! {

@@ -62,9 +62,7 @@ impl View {
     pub(super) fn new(topology: &Topology, positions: &[DVec3], room: Room) -> Self {
         let (low, high) = positions
             .iter()
-            .fold((DVec3::MAX, DVec3::MIN), |(low, high), &p| {
-                (low.min(p), high.max(p))
-            });
+            .fold((DVec3::MAX, DVec3::MIN), |(low, high), &p| (low.min(p), high.max(p)));
         // Halves, because the whole may overflow.
         let centre = 0.5 * low + 0.5 * high;
         let half_side = (0.5 * high - 0.5 * low).max_element();
@@ -119,13 +117,12 @@ impl View {
         let bend = positions
             .iter()
             .map(|&position| off_line(self.normalised(position)))
-            .fold(DVec3::ZERO, |best, p| {
-                if p.length_squared() > best.length_squared() {
-                    p
-                } else {
-                    best
-                }
-            })
+            .fold(
+                DVec3::ZERO,
+                |best, p| {
+                    if p.length_squared() > best.length_squared() { p } else { best }
+                },
+            )
             .try_normalize()
             .unwrap_or_else(|| right.any_orthonormal_vector());
         let normal = right.cross(bend);
@@ -165,12 +162,8 @@ impl View {
 
     /// The rectangle around `positions` as seen.
     fn bounds(&self, positions: &[DVec3]) -> (DVec2, DVec2) {
-        let points = positions
-            .iter()
-            .map(|&position| self.flat(self.normalised(position)));
-        points.fold((DVec2::MAX, DVec2::MIN), |(low, high), p| {
-            (low.min(p), high.max(p))
-        })
+        let points = positions.iter().map(|&position| self.flat(self.normalised(position)));
+        points.fold((DVec2::MAX, DVec2::MIN), |(low, high), p| (low.min(p), high.max(p)))
     }
 }
 

@@ -20,10 +20,7 @@ pub(super) struct Binary {
 impl Binary {
     /// Adds what triangles name; returns its accessor, as all others do.
     pub(super) fn add_indices(&mut self, triangles: &[[u32; 3]]) -> usize {
-        let bytes = triangles
-            .iter()
-            .flatten()
-            .flat_map(|index| index.to_le_bytes());
+        let bytes = triangles.iter().flatten().flat_map(|index| index.to_le_bytes());
         let view = self.add_view(bytes, Some(ELEMENT_ARRAY_BUFFER));
         let count = 3 * triangles.len();
         self.add_accessor(view, UNSIGNED_INT, "SCALAR", count, json!({}))
@@ -38,10 +35,7 @@ impl Binary {
                 most[axis] = most[axis].max(vector[axis]);
             }
         }
-        let bytes = vectors
-            .iter()
-            .flatten()
-            .flat_map(|number| number.to_le_bytes());
+        let bytes = vectors.iter().flatten().flat_map(|number| number.to_le_bytes());
         let view = self.add_view(bytes, Some(ARRAY_BUFFER));
         let bounds = json!({"min": least, "max": most});
         self.add_accessor(view, FLOAT, "VEC3", vectors.len(), bounds)
@@ -73,14 +67,7 @@ impl Binary {
         self.views.len() - 1
     }
 
-    fn add_accessor(
-        &mut self,
-        view: usize,
-        component: u32,
-        kind: &str,
-        count: usize,
-        mut accessor: Value,
-    ) -> usize {
+    fn add_accessor(&mut self, view: usize, component: u32, kind: &str, count: usize, mut accessor: Value) -> usize {
         accessor["bufferView"] = view.into();
         accessor["componentType"] = component.into();
         accessor["type"] = kind.into();

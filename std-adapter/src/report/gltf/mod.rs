@@ -20,9 +20,7 @@ use serde_json::{Value, json};
 
 /// The format numbers bytes by a `u32`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "an animation of {0} bytes does not fit into a glTF file, which holds 4 GiB; record fewer frames"
-)]
+#[error("an animation of {0} bytes does not fit into a glTF file, which holds 4 GiB; record fewer frames")]
 pub struct TooLarge(pub u64);
 
 /// Weights take the square of the frames, and programs slow down with the number of targets.
@@ -44,9 +42,7 @@ pub fn binary(recording: &Recording) -> Result<Vec<u8>, TooLarge> {
         let vertices = first..first + part.vertex_count();
         let shape = |frame: &Frame| frame.positions[vertices.clone()].to_vec();
         let rest = shape(frames[0]);
-        let moves = frames
-            .iter()
-            .any(|frame| frame.positions[vertices.clone()] != rest);
+        let moves = frames.iter().any(|frame| frame.positions[vertices.clone()] != rest);
         let later = if moves { &frames[1..] } else { &[] };
         if moves {
             moving.push(nodes.len());
@@ -77,9 +73,7 @@ pub fn binary(recording: &Recording) -> Result<Vec<u8>, TooLarge> {
     });
     if root == 0 {
         // A list of no children is not allowed.
-        document["nodes"][root]
-            .as_object_mut()
-            .map(|node| node.remove("children"));
+        document["nodes"][root].as_object_mut().map(|node| node.remove("children"));
     } else {
         document["meshes"] = meshes.into();
     }
@@ -149,22 +143,13 @@ fn mesh(
 
 fn differences(to: &[[f32; 3]], from: &[[f32; 3]]) -> Vec<[f32; 3]> {
     let pairs = to.iter().zip(from);
-    pairs
-        .map(|(a, b)| [a[0] - b[0], a[1] - b[1], a[2] - b[2]])
-        .collect()
+    pairs.map(|(a, b)| [a[0] - b[0], a[1] - b[1], a[2] - b[2]]).collect()
 }
 
 /// At the time of frame k the weight of target k − 1 is 1 and all others are 0; the first frame has no target.
-fn animation(
-    binary: &mut Binary,
-    recording: &Recording,
-    frames: &[&Frame],
-    nodes: &[usize],
-) -> Value {
+fn animation(binary: &mut Binary, recording: &Recording, frames: &[&Frame], nodes: &[usize]) -> Value {
     let start = recording.time(frames[0]);
-    let times = frames
-        .iter()
-        .map(|frame| (recording.time(frame) - start) as f32);
+    let times = frames.iter().map(|frame| (recording.time(frame) - start) as f32);
     let targets = frames.len() - 1;
     let mut weights = vec![0.0; frames.len() * targets];
     for target in 0..targets {
@@ -172,8 +157,7 @@ fn animation(
     }
     let input = binary.add_numbers(&times.collect::<Vec<_>>());
     let output = binary.add_numbers(&weights);
-    let channel =
-        |&node: &usize| json!({"sampler": 0, "target": {"node": node, "path": "weights"}});
+    let channel = |&node: &usize| json!({"sampler": 0, "target": {"node": node, "path": "weights"}});
     json!({
         "name": recording.about.name,
         "samplers": [{"input": input, "output": output, "interpolation": "LINEAR"}],

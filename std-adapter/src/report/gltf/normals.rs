@@ -3,11 +3,7 @@
 use selvedge_core::glam::DVec3;
 
 /// The mean direction of the triangles at each vertex, weighted by area, of length one; `fallback` where they have none.
-pub(super) fn vertex_normals(
-    positions: &[[f32; 3]],
-    triangles: &[[u32; 3]],
-    fallback: DVec3,
-) -> Vec<[f32; 3]> {
+pub(super) fn vertex_normals(positions: &[[f32; 3]], triangles: &[[u32; 3]], fallback: DVec3) -> Vec<[f32; 3]> {
     let mut sums = vec![DVec3::ZERO; positions.len()];
     for triangle in triangles {
         let corners = triangle.map(|vertex| DVec3::from(positions[vertex as usize].map(f64::from)));

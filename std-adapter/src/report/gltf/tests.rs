@@ -32,8 +32,7 @@ fn recording(frames: u64, up: DVec3) -> Recording {
 
 /// As a program would that opens it: parsed and validated.
 fn read_back(recording: &Recording) -> (::gltf::Document, Vec<u8>) {
-    let ::gltf::Gltf { document, blob } =
-        ::gltf::Gltf::from_slice(&binary(recording).unwrap()).expect("valid glTF");
+    let ::gltf::Gltf { document, blob } = ::gltf::Gltf::from_slice(&binary(recording).unwrap()).expect("valid glTF");
     (document, blob.unwrap_or_default())
 }
 
@@ -56,8 +55,7 @@ fn every_frame_reads_back_as_the_shape_with_one_target_at_its_time() {
     assert_eq!(channel.target().node().name(), Some("cloth"));
     let reader_of_animation = channel.reader(|_| Some(&blob[..]));
     let times: Vec<f32> = reader_of_animation.read_inputs().unwrap().collect();
-    let ReadOutputs::MorphTargetWeights(weights) = reader_of_animation.read_outputs().unwrap()
-    else {
+    let ReadOutputs::MorphTargetWeights(weights) = reader_of_animation.read_outputs().unwrap() else {
         panic!("weights are animated");
     };
     let weights: Vec<f32> = weights.into_f32().collect();
@@ -78,10 +76,7 @@ fn every_frame_reads_back_as_the_shape_with_one_target_at_its_time() {
                     .map(|(target, weight)| weight * target[vertex][axis]);
                 let found = rest[vertex][axis] + moved.sum::<f32>();
                 // A difference and a sum, each rounded once; nothing here is larger than 2.
-                assert!(
-                    (found - expected[axis]).abs() <= 4.0 * f32::EPSILON,
-                    "frame {k}"
-                );
+                assert!((found - expected[axis]).abs() <= 4.0 * f32::EPSILON, "frame {k}");
             }
         }
     }
@@ -98,11 +93,7 @@ fn normals_are_of_length_one_in_every_frame_and_face_as_triangles_turn() {
         let mut frames = vec![rest.clone()];
         for (_, normals, _) in reader.read_morph_targets() {
             let moved = normals.unwrap().zip(&rest);
-            frames.push(
-                moved
-                    .map(|(d, n)| [d[0] + n[0], d[1] + n[1], d[2] + n[2]])
-                    .collect(),
-            );
+            frames.push(moved.map(|(d, n)| [d[0] + n[0], d[1] + n[1], d[2] + n[2]]).collect());
         }
         for normal in frames.iter().flatten() {
             let length = DVec3::from(normal.map(f64::from)).length();
@@ -139,19 +130,13 @@ fn one_frame_is_a_mesh_without_animation() {
 fn of_many_frames_evenly_chosen_ones_and_the_last_are_written() {
     for count in [600_u64, 601, 1300] {
         let recording = recording(count, DVec3::Z);
-        let steps: Vec<u64> = chosen(&recording.frames)
-            .iter()
-            .map(|frame| frame.step)
-            .collect();
+        let steps: Vec<u64> = chosen(&recording.frames).iter().map(|frame| frame.step).collect();
         assert!(
             steps.len() <= 600 && steps.len() as u64 >= count.min(300),
             "{count}: {}",
             steps.len()
         );
-        assert_eq!(
-            (steps[0], *steps.last().unwrap()),
-            (10, 10 + 5 * (count - 1))
-        );
+        assert_eq!((steps[0], *steps.last().unwrap()), (10, 10 + 5 * (count - 1)));
         let even = &steps[..steps.len() - 1];
         assert!(even.windows(3).all(|s| s[1] - s[0] == s[2] - s[1]));
     }

@@ -38,12 +38,7 @@ pub(super) fn blocks(recording: &Recording) -> Markup {
         ("triangles", base64(triangles.map(u32::to_le_bytes))),
         (
             "bounds",
-            base64(
-                bounds
-                    .iter()
-                    .flat_map(Bounds::numbers)
-                    .map(f32::to_le_bytes),
-            ),
+            base64(bounds.iter().flat_map(Bounds::numbers).map(f32::to_le_bytes)),
         ),
         ("positions", base64(positions.map(u16::to_le_bytes))),
         ("values", base64(values.map(|value| value.to_le_bytes()))),

@@ -27,9 +27,7 @@ const SCRIPTS: [(&str, &str); 4] = [
 #[must_use]
 pub fn html(recording: &Recording) -> String {
     let about = &recording.about;
-    let has = |wanted: fn(SeriesKind) -> bool| {
-        recording.steps > 0 && recording.series_of(wanted).next().is_some()
-    };
+    let has = |wanted: fn(SeriesKind) -> bool| recording.steps > 0 && recording.series_of(wanted).next().is_some();
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -118,10 +116,7 @@ pub fn html(recording: &Recording) -> String {
 /// What was simulated, in a sentence.
 fn summary(recording: &Recording) -> String {
     let count = |kind: PartKind| {
-        let parts = recording
-            .parts
-            .iter()
-            .filter(move |part| part.kind() == kind);
+        let parts = recording.parts.iter().filter(move |part| part.kind() == kind);
         parts.fold([0; 3], |[n, vertices, triangles], part| {
             [
                 n + 1,
@@ -131,11 +126,7 @@ fn summary(recording: &Recording) -> String {
         })
     };
     let [_, vertices, triangles] = count(PartKind::Cloth);
-    let mut summary = format!(
-        "Cloth of {} vertices and {} triangles",
-        grouped(vertices),
-        grouped(triangles)
-    );
+    let mut summary = format!("Cloth of {} vertices and {} triangles", grouped(vertices), grouped(triangles));
     match count(PartKind::Body) {
         [0, ..] => {}
         [n, _, triangles] => {
@@ -176,10 +167,7 @@ fn tiles(recording: &Recording) -> Markup {
 
 /// The canvas and its controls. They are inert until the script has taken hold of them.
 fn animation(recording: &Recording) -> Markup {
-    let bodies = recording
-        .parts
-        .iter()
-        .any(|part| part.kind() == PartKind::Body);
+    let bodies = recording.parts.iter().any(|part| part.kind() == PartKind::Body);
     let last = recording.frames.len() - 1;
     html! {
         section.animation aria-label="animation" {

@@ -6,9 +6,7 @@ use maud::{Markup, html};
 
 /// Pairs after each stage: each as a share of the stage before.
 pub(super) fn pairs(recording: &Recording) -> Markup {
-    let rows: Vec<&Series> = recording
-        .series_of(|kind| kind == SeriesKind::Pairs)
-        .collect();
+    let rows: Vec<&Series> = recording.series_of(|kind| kind == SeriesKind::Pairs).collect();
     let share = |index: usize| {
         let before = rows.get(index.wrapping_sub(1))?.total;
         (before > 0.0).then(|| percent(rows[index].total / before))
@@ -45,10 +43,7 @@ pub(super) fn events(recording: &Recording) -> Markup {
 /// Effects, the stages that they share, and what is left of the time on the wall.
 pub(super) fn times(recording: &Recording) -> Markup {
     let is_time = |kind| matches!(kind, SeriesKind::Effect | SeriesKind::Stage);
-    let sum: f64 = recording
-        .series_of(is_time)
-        .map(|series| series.total)
-        .sum();
+    let sum: f64 = recording.series_of(is_time).map(|series| series.total).sum();
     let whole = recording.wall_seconds.map_or(sum, |wall| wall.max(sum));
     let row = |name: &str, seconds: f64, largest: Option<f64>| {
         let share = if whole > 0.0 { seconds / whole } else { 0.0 };
@@ -115,13 +110,10 @@ fn signed_time(seconds: f64) -> String {
 
 /// Quantities of the state.
 pub(super) fn gauges(recording: &Recording) -> Markup {
-    let gauges = recording
-        .series
-        .iter()
-        .filter_map(|series| match series.kind {
-            SeriesKind::Gauge(unit) => Some((series, unit)),
-            _ => None,
-        });
+    let gauges = recording.series.iter().filter_map(|series| match series.kind {
+        SeriesKind::Gauge(unit) => Some((series, unit)),
+        _ => None,
+    });
     html! {
         div.scroll { table {
             (head(&["quantity", "least", "mean", "most", "unit"]))
@@ -184,11 +176,7 @@ fn percent(share: f64) -> String {
 
 /// A smallest or largest value: there is none if there was no step.
 fn extreme(value: f64, format: fn(f64) -> String) -> String {
-    if value.is_finite() {
-        format(value)
-    } else {
-        absent()
-    }
+    if value.is_finite() { format(value) } else { absent() }
 }
 
 fn absent() -> String {

@@ -25,14 +25,9 @@ fn text(page: &Html, selector: &str) -> String {
 }
 
 fn numbers<const N: usize, T>(page: &Html, block: &str, from: fn([u8; N]) -> T) -> Vec<T> {
-    let bytes = STANDARD
-        .decode(text(page, &format!("script#{block}")))
-        .unwrap();
+    let bytes = STANDARD.decode(text(page, &format!("script#{block}"))).unwrap();
     assert_eq!(bytes.len() % N, 0);
-    bytes
-        .chunks(N)
-        .map(|chunk| from(chunk.try_into().unwrap()))
-        .collect()
+    bytes.chunks(N).map(|chunk| from(chunk.try_into().unwrap())).collect()
 }
 
 fn recording(frames: &[Vec<DVec3>], series: &[(&str, SeriesKind)]) -> Recording {
@@ -69,9 +64,7 @@ const EVERY_KIND: [(&str, SeriesKind); 6] = [
 ];
 
 fn two_frames() -> [Vec<DVec3>; 2] {
-    let start: Vec<DVec3> = (0..7)
-        .map(|i| DVec3::new(f64::from(i), 1.0, -2.0))
-        .collect();
+    let start: Vec<DVec3> = (0..7).map(|i| DVec3::new(f64::from(i), 1.0, -2.0)).collect();
     let end = start.iter().map(|p| *p * 1.5).collect();
     [start, end]
 }
@@ -113,16 +106,9 @@ fn values_triangles_and_header_decode_to_what_was_recorded() {
     let recording = recording(&two_frames(), &EVERY_KIND);
     let page = parsed(&html(&recording));
     let values = numbers(&page, "values", f32::from_le_bytes);
-    let recorded: Vec<f32> = recording
-        .series
-        .iter()
-        .flat_map(|series| series.values.clone())
-        .collect();
+    let recorded: Vec<f32> = recording.series.iter().flat_map(|series| series.values.clone()).collect();
     assert_eq!(values, recorded);
-    assert_eq!(
-        numbers(&page, "triangles", u32::from_le_bytes),
-        [0, 1, 2, 6, 5, 4]
-    );
+    assert_eq!(numbers(&page, "triangles", u32::from_le_bytes), [0, 1, 2, 6, 5, 4]);
     let header: Value = serde_json::from_str(&text(&page, "script#recording")).unwrap();
     assert_eq!(header["frameSteps"], serde_json::json!([0, 1]));
     assert_eq!(header["parts"][1]["name"], "</script>");
@@ -130,10 +116,7 @@ fn values_triangles_and_header_decode_to_what_was_recorded() {
     assert_eq!(header["series"][0]["name"], "boxes <1>");
     assert_eq!(header["series"][5]["unit"], "%");
     assert_eq!(header["up"], serde_json::json!([0.0, 1.0, 0.0]));
-    assert_eq!(
-        (&header["steps"], &header["vertices"]),
-        (&1.into(), &7.into())
-    );
+    assert_eq!((&header["steps"], &header["vertices"]), (&1.into(), &7.into()));
 }
 
 #[test]
@@ -159,9 +142,7 @@ fn what_is_not_recorded_is_not_on_the_page() {
     let sections = |series: &[(&str, SeriesKind)]| {
         let page = parsed(&html(&recording(&two_frames(), series)));
         let charts = all(&page, ".chart");
-        let kinds = charts
-            .iter()
-            .map(|chart| chart.value().attr("data-kind").unwrap().to_owned());
+        let kinds = charts.iter().map(|chart| chart.value().attr("data-kind").unwrap().to_owned());
         (kinds.collect::<Vec<_>>(), all(&page, "table").len())
     };
     // Of the tables, the knobs' is always there.
@@ -188,14 +169,7 @@ fn the_page_asks_for_nothing_from_outside() {
     // The one name with a protocol is that of a kind of picture, which nothing fetches.
     let known = "\"http://www.w3.org/2000/svg\"";
     assert_eq!(html.matches("://").count(), html.matches(known).count());
-    for word in [
-        "fetch(",
-        "XMLHttpRequest",
-        "import(",
-        "@import",
-        "WebSocket",
-        "url(//",
-    ] {
+    for word in ["fetch(", "XMLHttpRequest", "import(", "@import", "WebSocket", "url(//"] {
         assert!(!html.contains(word), "{word}");
     }
 }

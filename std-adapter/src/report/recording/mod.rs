@@ -143,12 +143,7 @@ impl Part {
     /// # Panics
     /// If a triangle names a vertex that does not exist.
     #[must_use]
-    pub fn new(
-        name: impl Into<String>,
-        kind: PartKind,
-        vertex_count: usize,
-        triangles: Vec<[u32; 3]>,
-    ) -> Self {
+    pub fn new(name: impl Into<String>, kind: PartKind, vertex_count: usize, triangles: Vec<[u32; 3]>) -> Self {
         let is_there = |&vertex: &u32| (vertex as usize) < vertex_count;
         assert!(
             triangles.iter().flatten().all(is_there),
@@ -280,10 +275,7 @@ impl Recording {
     }
 
     /// The series of a kind, in their order.
-    pub(super) fn series_of(
-        &self,
-        wanted: impl Fn(SeriesKind) -> bool,
-    ) -> impl Iterator<Item = &Series> {
+    pub(super) fn series_of(&self, wanted: impl Fn(SeriesKind) -> bool) -> impl Iterator<Item = &Series> {
         self.series.iter().filter(move |series| wanted(series.kind))
     }
 }

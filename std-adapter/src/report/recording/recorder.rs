@@ -52,12 +52,7 @@ impl Recorder {
     /// # Panics
     /// If there are not as many readings as series.
     #[must_use]
-    pub fn new(
-        about: About,
-        parts: Vec<Part>,
-        series: &[(&str, SeriesKind)],
-        readings: &[f64],
-    ) -> Self {
+    pub fn new(about: About, parts: Vec<Part>, series: &[(&str, SeriesKind)], readings: &[f64]) -> Self {
         assert_eq!(series.len(), readings.len(), "one reading for each series");
         let named = series.iter().map(|&(name, kind)| Series {
             name: name.to_owned(),
@@ -115,11 +110,7 @@ impl Recorder {
     /// # Panics
     /// If there is not one position for each vertex.
     pub fn frame(&mut self, step: u64, positions: &[DVec3]) -> Result<(), FrameError> {
-        assert_eq!(
-            positions.len(),
-            self.recording.vertex_count(),
-            "one position for each vertex"
-        );
+        assert_eq!(positions.len(), self.recording.vertex_count(), "one position for each vertex");
         if let Some(vertex) = positions.iter().position(|&p| !is_finite(rounded(p))) {
             return Err(FrameError {
                 step,
@@ -138,9 +129,7 @@ impl Recorder {
         let mut frame = self.skipped.take().unwrap_or_default();
         frame.step = step;
         frame.positions.clear();
-        frame
-            .positions
-            .extend(positions.iter().map(|&p| rounded(p)));
+        frame.positions.extend(positions.iter().map(|&p| rounded(p)));
         if self.offered == 0 {
             self.recording.first_step = step + 1;
         }
@@ -168,11 +157,7 @@ impl Recorder {
     /// If there are not as many readings as series.
     pub fn step(&mut self, readings: &[f64]) {
         let recording = &mut self.recording;
-        assert_eq!(
-            readings.len(),
-            recording.series.len(),
-            "one reading for each series"
-        );
+        assert_eq!(readings.len(), recording.series.len(), "one reading for each series");
         if recording.steps == MOST_VALUES as u64 * recording.steps_per_value {
             for sums in &mut self.sums {
                 *sums = sums.chunks(2).map(|two| two.iter().sum()).collect();
@@ -225,12 +210,7 @@ impl Recorder {
         }
         for (index, series) in recording.series.iter().enumerate() {
             put_block(&mut bytes, series.name.as_bytes());
-            let numbers = [
-                self.readings[index],
-                series.total,
-                series.smallest,
-                series.largest,
-            ];
+            let numbers = [self.readings[index], series.total, series.smallest, series.largest];
             bytes.extend(numbers.into_iter().flat_map(f64::to_le_bytes));
             bytes.extend((self.sums[index].len() as u64).to_le_bytes());
             bytes.extend(self.sums[index].iter().flat_map(|sum| sum.to_le_bytes()));

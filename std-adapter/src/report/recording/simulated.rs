@@ -35,9 +35,7 @@ impl Subject {
                 .map(|(name, value)| Knob::new(name, value))
                 .collect(),
         };
-        let part = |name: &str, kind, mesh: &Mesh| {
-            Part::new(name, kind, mesh.positions.len(), mesh.triangles.clone())
-        };
+        let part = |name: &str, kind, mesh: &Mesh| Part::new(name, kind, mesh.positions.len(), mesh.triangles.clone());
         let bodies = scene.bodies.iter();
         let bodies = bodies.map(|body| part(&body.name, PartKind::Body, &body.mesh));
         let mut parts = vec![part("cloth", PartKind::Cloth, &scene.cloth.mesh)];
@@ -60,10 +58,7 @@ impl SimulationRecorder {
     /// If the simulation is of another scene, with another number of vertices.
     pub fn new(subject: Subject, simulation: &Simulation) -> Result<Self, FrameError> {
         let counters = counters(simulation);
-        let series: Vec<_> = counters
-            .iter()
-            .map(|&(name, kind, _)| (name, kind))
-            .collect();
+        let series: Vec<_> = counters.iter().map(|&(name, kind, _)| (name, kind)).collect();
         let Subject { about, parts } = subject;
         let recorder = Recorder::new(about, parts, &series, &readings(simulation));
         let mut recorder = Self(recorder);
@@ -81,8 +76,7 @@ impl SimulationRecorder {
     /// # Errors
     /// If a coordinate is no finite `f32`.
     pub fn frame(&mut self, simulation: &Simulation) -> Result<(), FrameError> {
-        self.0
-            .frame(simulation.steps_done(), simulation.positions())
+        self.0.frame(simulation.steps_done(), simulation.positions())
     }
 
     /// All that has been recorded in `seconds` by the clock on the wall, as bytes.

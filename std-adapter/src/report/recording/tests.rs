@@ -91,18 +91,14 @@ fn a_recording_that_goes_on_from_a_checkpoint_knows_its_first_step() {
 #[test]
 fn a_second_state_after_the_same_step_replaces_the_first() {
     for budget in [2, 9] {
-        let mut recorder =
-            Recorder::new(about(), vec![triangle()], &[], &[]).with_budget(36 * budget);
+        let mut recorder = Recorder::new(about(), vec![triangle()], &[], &[]).with_budget(36 * budget);
         for step in 0..4 {
             recorder.frame(step, &positions(step)).unwrap();
             recorder.frame(step, &positions(step + 70)).unwrap();
         }
         let recording = recorder.finish(None);
         let steps: Vec<u64> = recording.frames.iter().map(|frame| frame.step).collect();
-        assert!(
-            steps.is_sorted_by(|a, b| a < b) && steps.ends_with(&[3]),
-            "{steps:?}"
-        );
+        assert!(steps.is_sorted_by(|a, b| a < b) && steps.ends_with(&[3]), "{steps:?}");
         for frame in &recording.frames {
             assert_eq!(frame.positions[0][2], frame.step as f32 + 70.0);
         }
@@ -124,10 +120,7 @@ fn a_frame_that_f32_cannot_hold_is_refused_by_step_and_vertex_and_not_recorded()
 
 #[test]
 fn a_frames_mesh_numbers_vertices_across_parts() {
-    let parts = vec![
-        triangle(),
-        Part::new("ball", PartKind::Body, 3, vec![[2, 1, 0]]),
-    ];
+    let parts = vec![triangle(), Part::new("ball", PartKind::Body, 3, vec![[2, 1, 0]])];
     let mut recorder = Recorder::new(about(), parts, &[], &[]);
     let all = [positions(0), positions(1)].concat();
     recorder.frame(0, &all).unwrap();

@@ -60,9 +60,7 @@ fn body(set: &AccuracySet) -> String {
     let times = set.rows.first().map(|row| &row.times);
     let times = times.into_iter().flatten();
     let backends: Vec<&str> = times.map(|time| time.backend).collect();
-    let mut header: Vec<String> = ["filter", "culls", "keeps", "false"]
-        .map(str::to_owned)
-        .into();
+    let mut header: Vec<String> = ["filter", "culls", "keeps", "false"].map(str::to_owned).into();
     header.extend(backends.iter().map(|backend| in_two_lines(backend)));
     header.extend(["in\nL1", "cost"].map(str::to_owned));
     let rows = set.rows.iter().map(|row| cells(set, row, &backends));
@@ -86,9 +84,7 @@ fn cells(set: &AccuracySet, row: &AccuracyRow, backends: &[&str]) -> Vec<String>
         per_100_000(row.kept_cullable, set.cullable),
         match row.false_culls() {
             Some(false_culls) => grouped(false_culls as u64),
-            None => dash_or(share(row.culled_beyond_exact), |share| {
-                format!("+{share:.2}")
-            }),
+            None => dash_or(share(row.culled_beyond_exact), |share| format!("+{share:.2}")),
         },
     ];
     let time = |time: Option<f64>| time.map_or_else(String::new, nanoseconds);
@@ -128,11 +124,7 @@ fn three_figures(number: f64) -> String {
 }
 
 fn dash_or(number: f64, text: impl Fn(f64) -> String) -> String {
-    if number.is_finite() {
-        text(number)
-    } else {
-        "–".to_owned()
-    }
+    if number.is_finite() { text(number) } else { "–".to_owned() }
 }
 
 #[cfg(test)]
@@ -152,9 +144,6 @@ mod tests {
     #[test]
     fn times_have_three_figures() {
         let times = [0.754, 12.34, 123.4, 9999.4, 9999.6, f64::NAN];
-        assert_eq!(
-            times.map(nanoseconds),
-            ["0.75", "12.3", "123", "9999", "10µs", "–"]
-        );
+        assert_eq!(times.map(nanoseconds), ["0.75", "12.3", "123", "9999", "10µs", "–"]);
     }
 }

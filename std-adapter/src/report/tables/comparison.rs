@@ -41,11 +41,7 @@ pub fn comparison(comparison: &Comparison) -> String {
 }
 
 fn name(row: &ComparisonRow) -> String {
-    let mark = if row.preset.is_reconstructed() {
-        "*"
-    } else {
-        ""
-    };
+    let mark = if row.preset.is_reconstructed() { "*" } else { "" };
     format!("{}{mark}", row.preset)
 }
 
@@ -76,14 +72,7 @@ fn table_1(comparison: &Comparison) -> String {
 }
 
 fn survivors(comparison: &Comparison, kind: fn(&MeanCounts) -> f64) -> String {
-    let header = [
-        "method",
-        "distributed",
-        "boxes",
-        "filter",
-        "contacts",
-        "missed",
-    ];
+    let header = ["method", "distributed", "boxes", "filter", "contacts", "missed"];
     let rows = comparison.rows.iter().map(|row| {
         [
             name(row),
@@ -110,10 +99,7 @@ fn times(comparison: &Comparison) -> String {
     ];
     let rows = comparison.rows.iter().map(|row| {
         let of = |wanted: &[Stage]| {
-            let stage = row
-                .stages
-                .iter()
-                .find(|stage| wanted.contains(&stage.stage));
+            let stage = row.stages.iter().find(|stage| wanted.contains(&stage.stage));
             stage.map_or_else(String::new, |stage| milliseconds(stage.seconds))
         };
         [
@@ -142,18 +128,13 @@ fn milliseconds(seconds: f64) -> String {
 
 fn notes(comparison: &Comparison) -> String {
     let mut text = String::from("\n");
-    if comparison
-        .rows
-        .iter()
-        .any(|row| row.preset.is_reconstructed())
-    {
+    if comparison.rows.iter().any(|row| row.preset.is_reconstructed()) {
         text += "* reconstructed: the original could not be read; no reproduction is claimed.\n";
     }
     text += "Steps a second are culling and elementary tests; the paper's frames a second are\nof its whole simulation, on its own mesh and machine.\n";
     let findings = findings(comparison);
     if !findings.is_empty() {
-        text +=
-            "\nWhat the numbers say (! marks what goes against the paper or our own promise)\n\n";
+        text += "\nWhat the numbers say (! marks what goes against the paper or our own promise)\n\n";
     }
     for finding in findings {
         let mark = if finding.as_expected { ' ' } else { '!' };

@@ -35,9 +35,7 @@ contact is found, in steps: the median, and the most.
 ";
 
 fn body(set: &ElementarySet) -> String {
-    let header = [
-        "test", "δ", "time", "asked", "missed", "late", "false", "early", "at most",
-    ];
+    let header = ["test", "δ", "time", "asked", "missed", "late", "false", "early", "at most"];
     table(header, set.rows.iter().map(cells))
 }
 
@@ -63,7 +61,6 @@ fn cells(row: &ElementaryRow) -> [String; 9] {
         count(row.late),
         count(row.false_alarms),
         row.early.map_or_else(|| "–".to_owned(), length),
-        row.early
-            .map_or_else(|| "–".to_owned(), |_| length(row.earliest)),
+        row.early.map_or_else(|| "–".to_owned(), |_| length(row.earliest)),
     ]
 }

@@ -22,23 +22,14 @@ pub fn hard_cases(scalar: &str, results: &[HardResult]) -> String {
             Contact::Undefined => "undefined",
             Contact::First { exact, .. } => exact,
         };
-        let marks: String = result
-            .answers
-            .iter()
-            .flat_map(|answer| [' ', mark(*answer)])
-            .collect();
+        let marks: String = result.answers.iter().flat_map(|answer| [' ', mark(*answer)]).collect();
         let line = format!("  {:36}{first:13.13} {marks}", case.placement);
         text += line.trim_end();
         text.push('\n');
     }
     text += "\n";
     for (index, (method, letter)) in QueryMethod::ALL.into_iter().zip(letters).enumerate() {
-        let count = |wanted| {
-            results
-                .iter()
-                .filter(|result| result.answers[index] == wanted)
-                .count()
-        };
+        let count = |wanted| results.iter().filter(|result| result.answers[index] == wanted).count();
         let certified = if method.is_certified() { "" } else { "!" };
         writeln!(
             text,

@@ -8,10 +8,7 @@ use crate::study::QueryResult;
 pub fn queries(scalar: &str, results: &[QueryResult]) -> String {
     let mut text = String::new();
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
-        let of_kind: Vec<_> = results
-            .iter()
-            .filter(|result| result.kind == kind)
-            .collect();
+        let of_kind: Vec<_> = results.iter().filter(|result| result.kind == kind).collect();
         let Some(first) = of_kind.first() else {
             continue;
         };
@@ -49,13 +46,8 @@ pub fn queries(scalar: &str, results: &[QueryResult]) -> String {
 }
 
 fn row(result: &QueryResult) -> [String; 8] {
-    let mark = if result.method.is_certified() {
-        ""
-    } else {
-        "!"
-    };
-    let count =
-        |count: Option<usize>| count.map_or_else(|| "?".to_owned(), |count| grouped(count as u64));
+    let mark = if result.method.is_certified() { "" } else { "!" };
+    let count = |count: Option<usize>| count.map_or_else(|| "?".to_owned(), |count| grouped(count as u64));
     let nanoseconds = |time: f64| match time {
         time if time < 99.95 => format!("{time:.1}"),
         time => grouped(time.round() as u64),

@@ -17,24 +17,21 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Strin
         "ns a\ntriangle",
         "over\nn log n",
     ];
-    let rows = points
-        .iter()
-        .zip(n_log_n_ratios(points))
-        .map(|(point, ratio)| {
-            [
-                grouped(point.triangles as u64),
-                match point.step.broad_phase_pairs {
-                    None => grouped(point.step.triangle_pairs),
-                    Some(_) => String::new(),
-                },
-                grouped(point.step.candidates().total()),
-                time(point.setup_seconds),
-                time(point.first_step_seconds),
-                time(point.step.seconds),
-                format!("{:.0}", point.step.seconds * 1e9 / point.triangles as f64),
-                format!("{ratio:.2}"),
-            ]
-        });
+    let rows = points.iter().zip(n_log_n_ratios(points)).map(|(point, ratio)| {
+        [
+            grouped(point.triangles as u64),
+            match point.step.broad_phase_pairs {
+                None => grouped(point.step.triangle_pairs),
+                Some(_) => String::new(),
+            },
+            grouped(point.step.candidates().total()),
+            time(point.setup_seconds),
+            time(point.first_step_seconds),
+            time(point.step.seconds),
+            format!("{:.0}", point.step.seconds * 1e9 / point.triangles as f64),
+            format!("{ratio:.2}"),
+        ]
+    });
     let s = if threads == 1 { "" } else { "s" };
     format!(
         "{preset} on one late step of the arm scene, {threads} thread{s}\n\n{}\n\

@@ -24,8 +24,7 @@ pub fn effects_one_by_one(costs: &[EffectCost]) -> String {
 #[must_use]
 pub fn simulation(simulation: &Simulation, seconds: f64) -> String {
     let steps = simulation.steps_done();
-    let per_step =
-        |(name, seconds): (&str, f64)| [name.to_owned(), time(seconds / steps.max(1) as f64)];
+    let per_step = |(name, seconds): (&str, f64)| [name.to_owned(), time(seconds / steps.max(1) as f64)];
     let mut text = format!(
         "{}: {} steps in {}, {} a second\n\n",
         simulation.name(),
@@ -34,9 +33,7 @@ pub fn simulation(simulation: &Simulation, seconds: f64) -> String {
         grouped((steps as f64 / seconds) as u64),
     );
     let effects = simulation.effects().iter();
-    let mut rows: Vec<_> = effects
-        .map(|effect| per_step((effect.name, effect.seconds)))
-        .collect();
+    let mut rows: Vec<_> = effects.map(|effect| per_step((effect.name, effect.seconds))).collect();
     if let Some(seconds) = simulation.contact_seconds() {
         rows.extend(seconds.stages().map(per_step));
     }

@@ -60,17 +60,14 @@ pub fn step(summary: &StepSummary) -> String {
 fn answer(summary: &StepSummary) -> String {
     let contacts = summary.report.contacts();
     match (summary.question, summary.earliest) {
-        (StepQuestion::Candidates, _) => {
-            "All other pairs are certainly apart throughout the step.\n".to_owned()
-        }
+        (StepQuestion::Candidates, _) => "All other pairs are certainly apart throughout the step.\n".to_owned(),
         (StepQuestion::Earliest, None) => "The step is certainly free of contact.\n".to_owned(),
         (StepQuestion::Earliest, Some(time)) => format!(
             "The earliest contact is at t = {time:.6}, certainly none before.\n\
              Counts are of the part of the step in which it was found.\n"
         ),
         (StepQuestion::Contacts, first) => {
-            let first =
-                first.map_or_else(String::new, |time| format!(", the first at t = {time:.6}"));
+            let first = first.map_or_else(String::new, |time| format!(", the first at t = {time:.6}"));
             format!(
                 "Contacts: {} vertex–face and {} edge–edge{first}.\n{}",
                 grouped(contacts.vertex_face),
@@ -86,20 +83,12 @@ fn promise(summary: &StepSummary) -> &'static str {
     let stages = summary.preset.stages();
     let tests_are_certified = stages.tests.iter().copied().all(CullingTest::is_certified);
     match (tests_are_certified, stages.elementary) {
-        (true, ElementaryTest::Exact) => {
-            "No contact is missed, none is false, and no time is too late: the verdict is exact.\n"
-        }
-        (true, ElementaryTest::TimeOfImpact) => {
-            "No contact is missed, and no time is too late: every stage is certified.\n"
-        }
-        (true, ElementaryTest::Cubic) => {
-            "The plain cubic elementary test can miss contacts; the stages before it cannot.\n"
-        }
+        (true, ElementaryTest::Exact) => "No contact is missed, none is false, and no time is too late: the verdict is exact.\n",
+        (true, ElementaryTest::TimeOfImpact) => "No contact is missed, and no time is too late: every stage is certified.\n",
+        (true, ElementaryTest::Cubic) => "The plain cubic elementary test can miss contacts; the stages before it cannot.\n",
         (false, ElementaryTest::TimeOfImpact | ElementaryTest::Exact) => {
             "The plain filter can miss contacts; the elementary test cannot.\n"
         }
-        (false, ElementaryTest::Cubic) => {
-            "The plain filter and the plain cubic elementary test can both miss contacts.\n"
-        }
+        (false, ElementaryTest::Cubic) => "The plain filter and the plain cubic elementary test can both miss contacts.\n",
     }
 }

@@ -27,9 +27,7 @@ impl Closest {
         let [p, q, r, s] = points;
         // Differences first: they are small and nearly exact, wherever the pair is.
         let way = match kind {
-            PairKind::VertexFace => {
-                (q - p) * weights[1] + (r - p) * weights[2] + (s - p) * weights[3]
-            }
+            PairKind::VertexFace => (q - p) * weights[1] + (r - p) * weights[2] + (s - p) * weights[3],
             PairKind::EdgeEdge => (p - r) + (q - p) * weights[1] + (s - r) * weights[3],
         };
         let mut closest = Self {
@@ -67,9 +65,7 @@ impl Closest {
         let count = if kind == PairKind::VertexFace { 3 } else { 2 };
         for side in &sides[..count] {
             let share = way.dot(*side) / side.length_squared();
-            if share.is_finite()
-                && (share * share) * side.length_squared() < 1e-6 * way.length_squared()
-            {
+            if share.is_finite() && (share * share) * side.length_squared() < 1e-6 * way.length_squared() {
                 way -= *side * share;
             }
         }

@@ -96,12 +96,7 @@ impl Detector {
     ///
     /// # Panics
     /// If a position is not finite.
-    pub(super) fn candidates_of(
-        &mut self,
-        only: &[bool],
-        motion: [&[DVec3]; 2],
-        pairs: &mut Vec<Pair>,
-    ) -> bool {
+    pub(super) fn candidates_of(&mut self, only: &[bool], motion: [&[DVec3]; 2], pairs: &mut Vec<Pair>) -> bool {
         let builds = self.broad_phase.statistics().builds;
         self.broad_phase.narrow_to(only.to_vec());
         self.is_narrowed = true;
@@ -139,9 +134,7 @@ impl Detector {
             (PairKind::VertexFace, &mut *vertex_face, counts[0]),
             (PairKind::EdgeEdge, &mut *edge_edge, counts[1]),
         ] {
-            parallel::retain(found, |&pair| {
-                !sieve.keep_apart(kind, kind.vertices(pair, topology))
-            });
+            parallel::retain(found, |&pair| !sieve.keep_apart(kind, kind.vertices(pair, topology)));
             sort(found, count, sorted, places);
         }
         pairs.clear();
@@ -166,9 +159,7 @@ impl Detector {
         if a != FREE && a == b && a == c && a == d {
             return None;
         }
-        let key = u64::from(kind == PairKind::EdgeEdge) << 63
-            | u64::from(first) << 32
-            | u64::from(second);
+        let key = u64::from(kind == PairKind::EdgeEdge) << 63 | u64::from(first) << 32 | u64::from(second);
         Some(Pair::new(key, kind, vertices, body))
     }
 
@@ -199,18 +190,11 @@ impl Detector {
 
 /// Of each vertex whether it is of interest: bodies among themselves are not.
 fn cloth(vertices: usize, cloth_vertices: usize) -> Vec<bool> {
-    (0..vertices)
-        .map(|vertex| vertex < cloth_vertices)
-        .collect()
+    (0..vertices).map(|vertex| vertex < cloth_vertices).collect()
 }
 
 /// Sorts pairs whose first numbers are below `count`: by counting, then each few with the same first number.
-fn sort(
-    pairs: &mut Vec<[u32; 2]>,
-    count: usize,
-    sorted: &mut Vec<[u32; 2]>,
-    places: &mut Vec<u32>,
-) {
+fn sort(pairs: &mut Vec<[u32; 2]>, count: usize, sorted: &mut Vec<[u32; 2]>, places: &mut Vec<u32>) {
     places.clear();
     places.resize(count + 1, 0);
     for &[first, _] in &*pairs {
@@ -226,9 +210,7 @@ fn sort(
         sorted[*place as usize] = pair;
         *place += 1;
     }
-    sorted
-        .chunk_by_mut(|a, b| a[0] == b[0])
-        .for_each(|same| same.sort_unstable());
+    sorted.chunk_by_mut(|a, b| a[0] == b[0]).for_each(|same| same.sort_unstable());
     std::mem::swap(pairs, sorted);
 }
 

@@ -51,19 +51,10 @@ impl Horizon {
     /// Begins with the step from `start` to `end` in `h` seconds. Returns the motion to find candidates for.
     ///
     /// Looks twice as far ahead as before if that lasted, half as far if it did not last half of its time.
-    pub(super) fn begin<'a>(
-        &'a mut self,
-        start: &'a [DVec3],
-        end: &[DVec3],
-        h: f64,
-    ) -> [&'a [DVec3]; 2] {
+    pub(super) fn begin<'a>(&'a mut self, start: &'a [DVec3], end: &[DVec3], h: f64) -> [&'a [DVec3]; 2] {
         if self.span > 0.0 {
             if self.elapsed > 0.9 * self.span {
-                let farthest = if self.is_fine {
-                    FARTHEST_OF_FINE
-                } else {
-                    FARTHEST
-                };
+                let farthest = if self.is_fine { FARTHEST_OF_FINE } else { FARTHEST };
                 self.steps = (2 * self.steps).min(farthest);
             } else if self.elapsed < 0.5 * self.span {
                 self.steps = (self.steps / 2).max(1);
@@ -74,13 +65,11 @@ impl Horizon {
         self.origin.clear();
         self.origin.extend_from_slice(start);
         self.drift.clear();
-        self.drift
-            .extend(start.iter().zip(end).map(|(&from, &to)| (to - from) / h));
+        self.drift.extend(start.iter().zip(end).map(|(&from, &to)| (to - from) / h));
         self.far.clear();
         let span = self.span;
         let ways = start.iter().zip(&self.drift);
-        self.far
-            .extend(ways.map(|(&from, &drift)| from + drift * span));
+        self.far.extend(ways.map(|(&from, &drift)| from + drift * span));
         [start, &self.far]
     }
 
@@ -97,13 +86,7 @@ impl Horizon {
     }
 
     /// Sets in `strayed` which vertices are not within `room` of the motion, `h` seconds on; returns how many.
-    pub(super) fn find_strayed(
-        &self,
-        end: &[DVec3],
-        h: f64,
-        room: f64,
-        strayed: &mut Vec<bool>,
-    ) -> usize {
+    pub(super) fn find_strayed(&self, end: &[DVec3], h: f64, room: f64, strayed: &mut Vec<bool>) -> usize {
         strayed.clear();
         strayed.extend((0..end.len()).map(|vertex| !self.has_room(vertex, end[vertex], h, room)));
         strayed.iter().filter(|&&strayed| strayed).count()
@@ -117,13 +100,7 @@ impl Horizon {
 
     /// Gives the vertices that have strayed the way from `start` to `end`, on which they are now, for the rest of the motion. Returns
     /// the motion that all vertices have now, as if the new ways had been theirs from its beginning: that of the others stays.
-    pub(super) fn lead_back(
-        &mut self,
-        strayed: &[bool],
-        start: &[DVec3],
-        end: &[DVec3],
-        h: f64,
-    ) -> [&[DVec3]; 2] {
+    pub(super) fn lead_back(&mut self, strayed: &[bool], start: &[DVec3], end: &[DVec3], h: f64) -> [&[DVec3]; 2] {
         for vertex in (0..strayed.len()).filter(|&vertex| strayed[vertex]) {
             let drift = (end[vertex] - start[vertex]) / h;
             self.drift[vertex] = drift;

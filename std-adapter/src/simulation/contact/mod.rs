@@ -87,15 +87,11 @@ impl Thickness {
         let separation = table.number("separation", LENGTH, 1e-6..=0.1)?;
         let separation = separation.unwrap_or(0.1 * thickness);
         if separation > 0.9 * thickness {
-            let message = format!(
-                "`separation` is {separation} m, but must be at most nine tenths of the thickness, {thickness} m"
-            );
+            let message =
+                format!("`separation` is {separation} m, but must be at most nine tenths of the thickness, {thickness} m");
             return Err(table.error("separation", message));
         }
-        Ok(Self {
-            thickness,
-            separation,
-        })
+        Ok(Self { thickness, separation })
     }
 
     /// Both, as settings of an effect.
@@ -110,11 +106,7 @@ impl Thickness {
 impl ContactSettings {
     /// What a pair has to keep.
     fn of(&self, pair: &Pair) -> Option<Thickness> {
-        let settings = if pair.is_with_body() {
-            self.bodies
-        } else {
-            self.cloth
-        };
+        let settings = if pair.is_with_body() { self.bodies } else { self.cloth };
         settings.map(|(_, thickness)| thickness)
     }
 
@@ -285,8 +277,7 @@ impl Contact {
     pub(crate) fn first_touching(&self, positions: &[DVec3]) -> Option<String> {
         let error = pass::error(positions, positions);
         let touching = self.pairs.iter().find(|pair| {
-            pair.distance_from_below(positions, error) == 0.0
-                && pair.time_of_impact([positions, positions], 0.0).is_some()
+            pair.distance_from_below(positions, error) == 0.0 && pair.time_of_impact([positions, positions], 0.0).is_some()
         });
         touching
             .map(|pair| pass::described(pair.kind, pair.vertices))
@@ -310,13 +301,7 @@ impl Contact {
     }
 
     /// Pushes apart what is too near: cloth and bodies, or cloth and cloth.
-    pub(crate) fn push(
-        &mut self,
-        with_body: bool,
-        step: &StepInput<'_>,
-        positions: &mut [DVec3],
-        touches: &mut Touches,
-    ) {
+    pub(crate) fn push(&mut self, with_body: bool, step: &StepInput<'_>, positions: &mut [DVec3], touches: &mut Touches) {
         self.counts.pushed += rows::project(&self.rows, with_body, step, positions, touches);
     }
 

@@ -133,12 +133,7 @@ impl Pair {
 
     /// When the pair comes within `separation` on the way from `start` to `end`; `None` if it certainly does not. Remembers the
     /// direction that proves it.
-    pub(super) fn impact(
-        &mut self,
-        [start, end]: [&[DVec3]; 2],
-        separation: f64,
-        error: f64,
-    ) -> Option<f64> {
+    pub(super) fn impact(&mut self, [start, end]: [&[DVec3]; 2], separation: f64, error: f64) -> Option<f64> {
         let threshold = separation * (SLACK * SLACK) + error;
         let remembered = DVec3::from_array(self.direction.map(f64::from));
         for attempt in 0..3 {
@@ -160,18 +155,12 @@ impl Pair {
     }
 
     /// The certified time of impact, in [0, 1].
-    pub(super) fn time_of_impact(
-        &self,
-        [start, end]: [&[DVec3]; 2],
-        separation: f64,
-    ) -> Option<f64> {
+    pub(super) fn time_of_impact(&self, [start, end]: [&[DVec3]; 2], separation: f64) -> Option<f64> {
         let limits = Limits {
             tolerance: (1e-6 * separation).min(TOLERANCE),
             separation,
         };
-        let [a, b, c, d] = self
-            .vertices
-            .map(|v| Motion::new(start[v as usize], end[v as usize]));
+        let [a, b, c, d] = self.vertices.map(|v| Motion::new(start[v as usize], end[v as usize]));
         let impact = match self.kind {
             PairKind::VertexFace => {
                 let pair = VertexFace {

@@ -88,11 +88,7 @@ impl Contact {
     ///
     /// # Errors
     /// If the step has to be cut; then nothing has changed but `end`.
-    pub(crate) fn certify(
-        &mut self,
-        step: &StepInput<'_>,
-        end: &mut [DVec3],
-    ) -> Result<(), Blocker> {
+    pub(crate) fn certify(&mut self, step: &StepInput<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
         let start = step.start;
         self.error = error(start, end);
         let begin = Instant::now();
@@ -130,9 +126,7 @@ impl Contact {
         if !self.horizon.lasts(h) {
             return self.find_candidates(start, end, h);
         }
-        let strayed = self
-            .horizon
-            .find_strayed(end, h, self.slack, &mut self.strayed);
+        let strayed = self.horizon.find_strayed(end, h, self.slack, &mut self.strayed);
         match strayed {
             0 => {}
             few if few < end.len() / MANY => {
@@ -145,9 +139,7 @@ impl Contact {
     /// Adds the candidates that vertices have which have strayed. Returns whether it is so; else all were found anew.
     fn find_candidates_of_strayed(&mut self, start: &[DVec3], end: &[DVec3], h: f64) -> bool {
         let motion = self.horizon.lead_back(&self.strayed, start, end, h);
-        let is_narrow = self
-            .detector
-            .candidates_of(&self.strayed, motion, &mut self.found);
+        let is_narrow = self.detector.candidates_of(&self.strayed, motion, &mut self.found);
         if is_narrow {
             add(&mut self.pairs, &mut self.found);
         } else {
@@ -177,9 +169,7 @@ impl Contact {
     }
 
     fn forget_gaps(&mut self) {
-        self.pairs
-            .iter_mut()
-            .for_each(|pair| pair.gap = f32::NEG_INFINITY);
+        self.pairs.iter_mut().for_each(|pair| pair.gap = f32::NEG_INFINITY);
     }
 
     /// The candidates that are not free, looked at for the first time in this step, in order.
@@ -223,12 +213,9 @@ impl Contact {
     /// vertices. Clears the marks.
     fn check_moved(&mut self, open: &[usize], step: &StepInput<'_>, end: &[DVec3]) -> Vec<usize> {
         let start = step.start;
-        let strayed = self
-            .horizon
-            .find_strayed(end, step.h, self.room, &mut self.strayed);
+        let strayed = self.horizon.find_strayed(end, step.h, self.room, &mut self.strayed);
         let mut open = open.to_vec();
-        if strayed > 0 && !self.add_candidates_of_strayed(strayed, &mut open, [start, end], step.h)
-        {
+        if strayed > 0 && !self.add_candidates_of_strayed(strayed, &mut open, [start, end], step.h) {
             self.forget_gaps();
             self.find_candidates(start, end, step.h);
             self.moved.fill(false);
@@ -238,10 +225,7 @@ impl Contact {
         let mut was_open = open.iter().copied().peekable();
         for index in 0..self.pairs.len() {
             let was_open = was_open.next_if_eq(&index).is_some();
-            let touched = self.pairs[index]
-                .vertices
-                .iter()
-                .any(|&v| self.moved[v as usize]);
+            let touched = self.pairs[index].vertices.iter().any(|&v| self.moved[v as usize]);
             if !(was_open || touched) {
                 continue;
             }
@@ -258,13 +242,7 @@ impl Contact {
 
     /// Adds the candidates of vertices that have strayed in the course of repairs, and lets `open` name the same pairs as before.
     /// Returns whether that was possible: not if many have strayed, or the motion has ended.
-    fn add_candidates_of_strayed(
-        &mut self,
-        strayed: usize,
-        open: &mut [usize],
-        [start, end]: [&[DVec3]; 2],
-        h: f64,
-    ) -> bool {
+    fn add_candidates_of_strayed(&mut self, strayed: usize, open: &mut [usize], [start, end]: [&[DVec3]; 2], h: f64) -> bool {
         if strayed >= end.len() / MANY || !self.horizon.lasts(h) {
             return false;
         }
@@ -311,12 +289,7 @@ impl Contact {
         }
     }
 
-    fn move_in_zones(
-        &mut self,
-        mut open: Vec<usize>,
-        step: &StepInput<'_>,
-        end: &mut [DVec3],
-    ) -> Result<(), Blocker> {
+    fn move_in_zones(&mut self, mut open: Vec<usize>, step: &StepInput<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
         if open.is_empty() {
             return Ok(());
         }
@@ -335,9 +308,7 @@ impl Contact {
             let (error, start) = (self.error, step.start);
             let settings = &self.settings;
             let separation = |pair: &Pair| {
-                let asked = settings
-                    .of(pair)
-                    .map_or(0.0, |thickness| thickness.separation);
+                let asked = settings.of(pair).map_or(0.0, |thickness| thickness.separation);
                 kept(pair, start, asked, error)
             };
             let motions = Motions {
@@ -349,9 +320,7 @@ impl Contact {
             };
             before.clear();
             before.extend_from_slice(end);
-            let resolved = self
-                .zones
-                .resolve(&pairs, separation, motions, end, &mut scratch);
+            let resolved = self.zones.resolve(&pairs, separation, motions, end, &mut scratch);
             if let Err(Cut) = resolved {
                 return Err(self.blocker(&open, step));
             }
@@ -380,11 +349,7 @@ impl Contact {
 
     /// Whom to name when the step cannot be made: the first pair that touches a body or a pin.
     fn blocker(&self, open: &[usize], step: &StepInput<'_>) -> Blocker {
-        let prescribed = |pair: &Pair| {
-            pair.vertices
-                .iter()
-                .any(|&v| self.carriers[v as usize] != FREE)
-        };
+        let prescribed = |pair: &Pair| pair.vertices.iter().any(|&v| self.carriers[v as usize] != FREE);
         let first = open.iter().find(|&&index| prescribed(&self.pairs[index]));
         let index = first.or(open.first()).copied().unwrap_or_default();
         let pair = &self.pairs[index];
@@ -413,11 +378,7 @@ impl ContactSettings {
 
 /// Adds to `pairs` those of `found` that are not there yet. Both ascend by key, and do so afterwards.
 fn add(pairs: &mut Vec<Pair>, found: &mut Vec<Pair>) {
-    found.retain(|new| {
-        pairs
-            .binary_search_by_key(&new.key, |known| known.key)
-            .is_err()
-    });
+    found.retain(|new| pairs.binary_search_by_key(&new.key, |known| known.key).is_err());
     // From the end, so that every pair is moved at most once, and those before the first new one not at all.
     let mut known = pairs.len();
     pairs.extend_from_slice(found);

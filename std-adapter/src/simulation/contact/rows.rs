@@ -41,9 +41,7 @@ pub(super) fn collect(
         pairs,
         |_, pairs, rows: &mut Vec<Row>| {
             let near = pairs.iter_mut();
-            rows.extend(
-                near.filter_map(|pair| row(pair, settings, rest, [start, predicted], h, error)),
-            );
+            rows.extend(near.filter_map(|pair| row(pair, settings, rest, [start, predicted], h, error)));
         },
         rows,
         |all, own| all.extend(own),

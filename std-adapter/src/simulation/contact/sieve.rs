@@ -15,12 +15,7 @@ use std::sync::Arc;
 
 /// Whether so many pairs of cloth, vertices below `cloth_vertices`, are nearer to each other than `distance` at rest that looking them
 /// up costs less than it saves: more than there are edges.
-pub(super) fn are_many(
-    topology: &Arc<Topology>,
-    rest: &[DVec3],
-    cloth_vertices: usize,
-    distance: f64,
-) -> bool {
+pub(super) fn are_many(topology: &Arc<Topology>, rest: &[DVec3], cloth_vertices: usize, distance: f64) -> bool {
     let mut broad_phase = MovingBroadPhase::<f64>::new(Arc::clone(topology));
     let is_cloth = |vertex: usize| vertex < cloth_vertices;
     let accepted = broad_phase.set_separation(distance);
@@ -32,8 +27,7 @@ pub(super) fn are_many(
     }
     let near = |kind: PairKind, pair: [u32; 2]| {
         let vertices = kind.vertices(pair, topology).map(|v| v as usize);
-        vertices.iter().all(|&vertex| is_cloth(vertex))
-            && Closest::of(kind, vertices.map(|v| rest[v])).distance() < distance
+        vertices.iter().all(|&vertex| is_cloth(vertex)) && Closest::of(kind, vertices.map(|v| rest[v])).distance() < distance
     };
     let vertex_face = vertex_face.iter().map(|&pair| (PairKind::VertexFace, pair));
     let edge_edge = edge_edge.iter().map(|&pair| (PairKind::EdgeEdge, pair));
@@ -176,8 +170,7 @@ impl Sieve {
             neighbours,
         } = self.distances;
         let of_neighbours = neighbours.map_or(thickness, |near| near.thickness);
-        self.thickness =
-            [of_neighbours, thickness].map(|own| (raised(own) + largest * ROUNDING) as f32);
+        self.thickness = [of_neighbours, thickness].map(|own| (raised(own) + largest * ROUNDING) as f32);
         self.beyond = raised(beyond) as f32;
         for (vertex, way) in self.ways.iter_mut().enumerate() {
             if only.is_none_or(|only| only[vertex]) {
@@ -211,15 +204,12 @@ impl Sieve {
                 let first = a.start + a.end;
                 first - (b.start + b.end + c.start + c.end + d.start + d.end) * (1.0 / 3.0)
             }
-            PairKind::EdgeEdge => {
-                (a.start + a.end + b.start + b.end) - (c.start + c.end + d.start + d.end)
-            }
+            PairKind::EdgeEdge => (a.start + a.end + b.start + b.end) - (c.start + c.end + d.start + d.end),
         };
         let squared = middle.dot(middle);
         let at_start = gap_along!(kind, middle, a.start, b.start, c.start, d.start);
         let at_end = gap_along!(kind, middle, a.end, b.end, c.end, d.end);
-        let asked =
-            thickness * (1.0 + MARGIN) * squared.sqrt() + self.beyond * middle.abs().element_sum();
+        let asked = thickness * (1.0 + MARGIN) * squared.sqrt() + self.beyond * middle.abs().element_sum();
         at_start.min(at_end) > asked && squared > SHORTEST
     }
 }
@@ -248,11 +238,7 @@ mod tests {
     }
 
     fn kind(is_edge: bool) -> PairKind {
-        if is_edge {
-            PairKind::EdgeEdge
-        } else {
-            PairKind::VertexFace
-        }
+        if is_edge { PairKind::EdgeEdge } else { PairKind::VertexFace }
     }
 
     const ALL: [u32; 4] = [0, 1, 2, 3];

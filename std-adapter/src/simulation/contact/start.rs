@@ -59,9 +59,7 @@ fn edge_through(triangle: &[u32; 3], face: &[u32; 3], positions: &[DVec3]) -> Op
 /// The box of some points, rounded outwards.
 fn around(points: &[DVec3]) -> SweptBox {
     let lower = points.iter().fold(DVec3::INFINITY, |all, &p| all.min(p));
-    let upper = points
-        .iter()
-        .fold(DVec3::NEG_INFINITY, |all, &p| all.max(p));
+    let upper = points.iter().fold(DVec3::NEG_INFINITY, |all, &p| all.max(p));
     SweptBox {
         lower: lower.to_array().map(|x| (x as f32).next_down()),
         upper: upper.to_array().map(|x| (x as f32).next_up()),
@@ -88,8 +86,7 @@ mod tests {
             [1.2, 1.2, 5.0],
         ]
         .map(DVec3::from);
-        let found =
-            |positions: &[DVec3], asked| first_crossing(&triangles, positions, |_, _| asked);
+        let found = |positions: &[DVec3], asked| first_crossing(&triangles, positions, |_, _| asked);
         let expected = "the pair of the edge 3, 4 and the face 0, 1, 2";
         assert_eq!(found(&positions, true).as_deref(), Some(expected));
         assert_eq!(found(&positions, false), None);

@@ -90,10 +90,7 @@ impl Zones {
         end: &mut [DVec3],
         scratch: &mut Vec<DVec3>,
     ) -> Result<(), Cut> {
-        let inside: Vec<bool> = pairs
-            .iter()
-            .map(|pair| self.is_inside(pair, motions.frames))
-            .collect();
+        let inside: Vec<bool> = pairs.iter().map(|pair| self.is_inside(pair, motions.frames)).collect();
         for (pair, _) in pairs.iter().zip(&inside).filter(|(_, inside)| !**inside) {
             self.merge(pair, motions.frames)?;
         }
@@ -168,27 +165,18 @@ impl Zones {
         let Some(zone) = one else { return true };
         let others = pair.vertices.iter().map(|&v| frames[v as usize]);
         let frame = self.zones[zone].frame;
-        others
-            .filter(|&other| other != FREE)
-            .all(|other| other == frame)
+        others.filter(|&other| other != FREE).all(|other| other == frame)
     }
 
     /// The zone of the pair's cloth; `None` if all of the pair is prescribed.
     fn zone_of_pair(&self, pair: &Pair, frames: &[Frame]) -> Option<usize> {
-        let mut free = pair
-            .vertices
-            .iter()
-            .filter(|&&v| frames[v as usize] == FREE);
+        let mut free = pair.vertices.iter().filter(|&&v| frames[v as usize] == FREE);
         free.next().map(|&v| self.zone_of[v as usize] as usize)
     }
 
     fn merge(&mut self, pair: &Pair, frames: &[Frame]) -> Result<(), Cut> {
         let mut into = None;
-        for &vertex in pair
-            .vertices
-            .iter()
-            .filter(|&&v| frames[v as usize] == FREE)
-        {
+        for &vertex in pair.vertices.iter().filter(|&&v| frames[v as usize] == FREE) {
             let zone = self.zone(vertex);
             into = Some(match into {
                 None => zone,
@@ -229,10 +217,7 @@ impl Zones {
     }
 
     fn find_means(&mut self, motions: Motions<'_>) {
-        let changed = self
-            .zones
-            .iter_mut()
-            .filter(|zone| zone.changed && zone.frame == FREE);
+        let changed = self.zones.iter_mut().filter(|zone| zone.changed && zone.frame == FREE);
         for zone in changed {
             let (mut mass, mut momentum) = (0.0, DVec3::ZERO);
             for vertex in zone.members.iter().map(|&v| v as usize) {

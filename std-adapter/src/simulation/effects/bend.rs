@@ -66,12 +66,7 @@ fn hinges(cloth: &Cloth, stiffness: f64) -> Vec<Hinge> {
         let area = 0.5 * ((b - a).cross(c - a).length() + (b - a).cross(d - a).length());
         Hinge {
             vertices,
-            weights: [
-                at_b[0] + at_b[1],
-                at_a[0] + at_a[1],
-                -at_a[0] - at_b[0],
-                -at_a[1] - at_b[1],
-            ],
+            weights: [at_b[0] + at_b[1], at_a[0] + at_a[1], -at_a[0] - at_b[0], -at_a[1] - at_b[1]],
             compliance: area / (3.0 * stiffness),
         }
     };
@@ -121,9 +116,7 @@ mod tests {
         let hinges = hinges(&scene.cloth, 1.0);
         assert_eq!(hinges.len(), 3 * 3 + 2 * 3 * 2);
         for hinge in hinges {
-            let rest = hinge
-                .vertices
-                .map(|v| scene.cloth.mesh.positions[v as usize]);
+            let rest = hinge.vertices.map(|v| scene.cloth.mesh.positions[v as usize]);
             let moves = hinge.corrections(rest, [1.0; 4], 1.0);
             assert!(moves.iter().all(|m| m.length() < 1e-14));
             let mut folded = rest;

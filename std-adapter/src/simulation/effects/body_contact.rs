@@ -37,11 +37,7 @@ impl Effect for BodyContact {
         let capsules: Vec<_> = bodies
             .filter_map(|(frame, body)| {
                 let (ends, radius) = body.capsule?;
-                Some(Capsule {
-                    frame,
-                    ends,
-                    radius,
-                })
+                Some(Capsule { frame, ends, radius })
             })
             .collect();
         if !capsules.is_empty() {

@@ -11,9 +11,7 @@ pub(super) const REGISTRATION: Registration = Registration {
     needs: &[],
     read: |table, _| {
         let acceleration = table.vector("acceleration", ACCELERATION, 1e4)?;
-        Ok(Box::new(Gravity(
-            acceleration.unwrap_or(DVec3::new(0.0, 0.0, -9.81)),
-        )))
+        Ok(Box::new(Gravity(acceleration.unwrap_or(DVec3::new(0.0, 0.0, -9.81)))))
     },
 };
 

@@ -16,9 +16,7 @@ pub(super) const REGISTRATION: Registration = Registration {
             return Err(table.error("group", message));
         }
         let mut taken = vec![false; world.cloth.mesh.positions.len()];
-        let groups = groups
-            .iter()
-            .map(|group| read_group(group, world, &mut taken));
+        let groups = groups.iter().map(|group| read_group(group, world, &mut taken));
         Ok(Box::new(Pins {
             groups: groups.collect::<Result<_, _>>()?,
         }))
@@ -43,21 +41,8 @@ enum Carrier {
 }
 
 /// Exactly one of `part`, `vertices`, `box` and `ball` says which vertices; `follow` or keyframes where they go.
-fn read_group(
-    table: &Table<'_>,
-    world: &World<'_>,
-    taken: &mut [bool],
-) -> Result<Group, SceneError> {
-    let own = &[
-        "part",
-        "vertices",
-        "box",
-        "ball",
-        "follow",
-        "pivot",
-        "axis",
-        "keyframes",
-    ];
+fn read_group(table: &Table<'_>, world: &World<'_>, taken: &mut [bool]) -> Result<Group, SceneError> {
+    let own = &["part", "vertices", "box", "ball", "follow", "pivot", "axis", "keyframes"];
     table.expect_keys(own)?;
     let count = taken.len() as u64;
     let ways = ["part", "vertices", "box", "ball"].map(|key| table.has(key));
@@ -65,9 +50,7 @@ fn read_group(
         [true, false, false, false] => {
             let part = table.text("part")?.unwrap_or_default();
             let vertices = world.cloth.selection(part);
-            vertices
-                .map_err(|message| table.error("part", message))?
-                .to_vec()
+            vertices.map_err(|message| table.error("part", message))?.to_vec()
         }
         [false, true, false, false] => {
             let vertices = table.counts("vertices", 0..=count - 1)?.unwrap_or_default();
@@ -76,8 +59,7 @@ fn read_group(
         [false, false, true, false] => in_box(&table.required_table("box")?, world)?,
         [false, false, false, true] => in_ball(&table.required_table("ball")?, world)?,
         _ => {
-            let message =
-                "pins need exactly one of `part`, `vertices`, `box` and `ball`".to_owned();
+            let message = "pins need exactly one of `part`, `vertices`, `box` and `ball`".to_owned();
             return Err(table.error("part", message));
         }
     };

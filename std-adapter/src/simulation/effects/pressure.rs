@@ -25,9 +25,7 @@ pub(super) const REGISTRATION: Registration = Registration {
         }
         Ok(Box::new(Pressure {
             ratio: table.required_number("volume", RATIO, 0.01..=10.0)?,
-            modulus: table
-                .number("modulus", PRESSURE, 1e-3..=1e9)?
-                .unwrap_or(1e5),
+            modulus: table.number("modulus", PRESSURE, 1e-3..=1e9)?.unwrap_or(1e5),
         }))
     },
 };
@@ -83,9 +81,7 @@ impl Constraint for Filling {
         });
         let gradient = |vertex: usize| -> DVec3 {
             let around = self.incidence.of(vertex).iter();
-            around
-                .map(|&(triangle, _)| self.normals[triangle as usize])
-                .sum()
+            around.map(|&(triangle, _)| self.normals[triangle as usize]).sum()
         };
         let mut weight = self.compliance / (step.h * step.h);
         for vertex in 0..self.incidence.len() {

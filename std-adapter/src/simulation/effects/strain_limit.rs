@@ -122,10 +122,7 @@ mod tests {
             a: [1.0, 0.0],
             b: [0.0, 1.0],
         };
-        let limit = Limit {
-            membrane,
-            limit: 1.1,
-        };
+        let limit = Limit { membrane, limit: 1.1 };
         let moves = limit.corrections(x, [1.0; 3], 0.0);
         [0, 1, 2].map(|k| x[k] + moves[k])
     }
@@ -135,10 +132,7 @@ mod tests {
         let [a, b, c] = moved([DVec3::ZERO, 2.0 * DVec3::X, DVec3::Y]);
         assert!(((b - a).length() - 1.1).abs() < 1e-12);
         let before = 2.0 * DVec3::X + DVec3::Y;
-        assert!(
-            (a + b + c - before).length() < 1e-12,
-            "the middle stays where it is"
-        );
+        assert!((a + b + c - before).length() < 1e-12, "the middle stays where it is");
     }
 
     #[test]

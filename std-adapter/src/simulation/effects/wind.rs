@@ -24,11 +24,7 @@ pub(super) const REGISTRATION: Registration = Registration {
     keys: &["velocity", "air_density", "drag", "gust", "gust_frequency"],
     needs: &[],
     read: |table, _| {
-        let number = |key, quantity, range, default| {
-            table
-                .number(key, quantity, range)
-                .map(|n| n.unwrap_or(default))
-        };
+        let number = |key, quantity, range, default| table.number(key, quantity, range).map(|n| n.unwrap_or(default));
         Ok(Box::new(Wind {
             velocity: table.required_vector("velocity", SPEED, 1e3)?,
             air_density: number("air_density", AIR_DENSITY, 0.0..=1e3, 1.2)?,

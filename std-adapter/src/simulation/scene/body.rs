@@ -28,11 +28,7 @@ enum Shape {
     File,
 }
 
-const SHAPES: [(&str, Shape); 3] = [
-    ("capsule", Shape::Capsule),
-    ("ball", Shape::Ball),
-    ("file", Shape::File),
-];
+const SHAPES: [(&str, Shape); 3] = [("capsule", Shape::Capsule), ("ball", Shape::Ball), ("file", Shape::File)];
 
 impl Body {
     pub(super) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
@@ -48,11 +44,7 @@ impl Body {
             return Err(table.error("name", message));
         };
         let radius = || table.required_number("radius", LENGTH, 1e-4..=WORLD);
-        let around = || {
-            table
-                .count("around", 6..=1024)
-                .map(|n| n.unwrap_or(24) as u32)
-        };
+        let around = || table.count("around", 6..=1024).map(|n| n.unwrap_or(24) as u32);
         let (mesh, capsule) = match table.required_choice("shape", &SHAPES)? {
             Shape::Capsule => {
                 let ends = [
@@ -60,18 +52,12 @@ impl Body {
                     table.required_vector("to", LENGTH, WORLD)?,
                 ];
                 let radius = radius()?;
-                (
-                    shapes::capsule(ends, radius, around()?),
-                    Some((ends, radius)),
-                )
+                (shapes::capsule(ends, radius, around()?), Some((ends, radius)))
             }
             Shape::Ball => {
                 let ends = [table.required_vector("centre", LENGTH, WORLD)?; 2];
                 let radius = radius()?;
-                (
-                    shapes::capsule(ends, radius, around()?),
-                    Some((ends, radius)),
-                )
+                (shapes::capsule(ends, radius, around()?), Some((ends, radius)))
             }
             Shape::File => (super::mesh_file(table)?, None),
         };

@@ -59,13 +59,10 @@ impl Cloth {
                 (super::mesh_file(table)?, warp, Vec::new())
             }
         };
-        let topology = mesh
-            .topology()
-            .map_err(|error| table.error("shape", error.to_string()))?;
+        let topology = mesh.topology().map_err(|error| table.error("shape", error.to_string()))?;
         let statistics = topology.statistics();
         if statistics.degenerate_triangles > 0 || statistics.isolated_vertices > 0 {
-            let message =
-                format!("cloth must consist of proper triangles, but the mesh has {statistics}");
+            let message = format!("cloth must consist of proper triangles, but the mesh has {statistics}");
             return Err(table.error("file", message));
         }
         let area = |t: &[u32; 3]| {
@@ -73,9 +70,8 @@ impl Cloth {
             0.5 * (b - a).cross(c - a).length()
         };
         if let Some(flat) = mesh.triangles.iter().position(|t| area(t) < SMALLEST_AREA) {
-            let message = format!(
-                "triangle {flat} of the cloth has an area below {SMALLEST_AREA:e} square metres; are the units metres?"
-            );
+            let message =
+                format!("triangle {flat} of the cloth has an area below {SMALLEST_AREA:e} square metres; are the units metres?");
             return Err(table.error("shape", message));
         }
         Ok(Self {
@@ -94,10 +90,7 @@ impl Cloth {
             Some((_, vertices)) => Ok(vertices),
             None => {
                 let names = self.selections.iter().map(|(known, _)| *known);
-                Err(format!(
-                    "this cloth has no part '{name}'{}",
-                    suggestion(name, names)
-                ))
+                Err(format!("this cloth has no part '{name}'{}", suggestion(name, names)))
             }
         }
     }
@@ -110,16 +103,12 @@ type Shaped = (Mesh, DVec3, Vec<(&'static str, Vec<u32>)>);
 
 fn read_sleeve(table: &Table<'_>) -> Result<Shaped, SceneError> {
     let refinement = table.count("refinement", 1..=1000)?.unwrap_or(1) as u32;
-    let complain =
-        |error: crate::mesh::RefinementError| table.error("refinement", error.to_string());
+    let complain = |error: crate::mesh::RefinementError| table.error("refinement", error.to_string());
     let mesh = sleeve(refinement).map_err(complain)?;
     let sizes = ring_sizes(refinement).map_err(complain)?;
     let count = mesh.positions.len() as u32;
     let [first, last] = [sizes[0], sizes[sizes.len() - 1]];
-    let selections = vec![
-        ("shoulder", (0..first).collect()),
-        ("cuff", (count - last..count).collect()),
-    ];
+    let selections = vec![("shoulder", (0..first).collect()), ("cuff", (count - last..count).collect())];
     Ok((mesh, DVec3::X, selections))
 }
 
@@ -130,9 +119,7 @@ fn read_sheet(table: &Table<'_>) -> Result<Shaped, SceneError> {
         sides.required_vector("first", LENGTH, WORLD)?,
         sides.required_vector("second", LENGTH, WORLD)?,
     ];
-    if sides[0].cross(sides[1]).length() < 0.1 * sides[0].length() * sides[1].length()
-        || sides[0] == DVec3::ZERO
-    {
+    if sides[0].cross(sides[1]).length() < 0.1 * sides[0].length() * sides[1].length() || sides[0] == DVec3::ZERO {
         let message = "the two sides of the sheet must not be parallel or zero".to_owned();
         return Err(table.error("sides", message));
     }
@@ -143,14 +130,8 @@ fn read_sheet(table: &Table<'_>) -> Result<Shaped, SceneError> {
     let selections = vec![
         ("left", (0..=rows).map(|row| at(0, row)).collect()),
         ("right", (0..=rows).map(|row| at(columns, row)).collect()),
-        (
-            "bottom",
-            (0..=columns).map(|column| at(column, 0)).collect(),
-        ),
-        (
-            "top",
-            (0..=columns).map(|column| at(column, rows)).collect(),
-        ),
+        ("bottom", (0..=columns).map(|column| at(column, 0)).collect()),
+        ("top", (0..=columns).map(|column| at(column, rows)).collect()),
         ("bottom-left", vec![at(0, 0)]),
         ("bottom-right", vec![at(columns, 0)]),
         ("top-left", vec![at(0, rows)]),

@@ -65,10 +65,7 @@ impl fmt::Display for SceneError {
 impl std::error::Error for SceneError {}
 
 /// The candidate that `name` is probably meant to be: at most a third of its letters differ, or both begin much alike.
-pub(crate) fn nearest<'a>(
-    name: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let name = name.to_lowercase();
     let likeness = |candidate: &'a str| {
         let lower = candidate.to_lowercase();
@@ -78,9 +75,7 @@ pub(crate) fn nearest<'a>(
         is_like.then_some((distance, candidate))
     };
     let alike = candidates.into_iter().filter_map(likeness);
-    alike
-        .min_by_key(|&(distance, _)| distance)
-        .map(|(_, candidate)| candidate)
+    alike.min_by_key(|&(distance, _)| distance).map(|(_, candidate)| candidate)
 }
 
 /// `; did you mean 'a'?`, or `; choose one of a, b`.

@@ -41,8 +41,7 @@ pub use motion::RigidMotion;
 pub(crate) use error::suggestion;
 pub(crate) use motion::Pose;
 pub(crate) use quantity::{
-    ACCELERATION, AIR_DENSITY, BENDING_STIFFNESS, FREQUENCY, LENGTH, MEMBRANE_STIFFNESS, PRESSURE,
-    RATIO, SPEED,
+    ACCELERATION, AIR_DENSITY, BENDING_STIFFNESS, FREQUENCY, LENGTH, MEMBRANE_STIFFNESS, PRESSURE, RATIO, SPEED,
 };
 
 use super::effects::{self, Named};
@@ -112,11 +111,9 @@ impl Scene {
     /// # Errors
     /// If it cannot be read, or something in it is wrong: the message names file, line and column.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
-        let bytes = std::fs::read(path)
-            .map_err(|error| SceneError::whole(path, format!("cannot be read: {error}")))?;
-        let text = String::from_utf8(bytes).map_err(|_| {
-            SceneError::whole(path, "is not UTF-8 text; a scene is a TOML file".to_owned())
-        })?;
+        let bytes = std::fs::read(path).map_err(|error| SceneError::whole(path, format!("cannot be read: {error}")))?;
+        let text = String::from_utf8(bytes)
+            .map_err(|_| SceneError::whole(path, "is not UTF-8 text; a scene is a TOML file".to_owned()))?;
         Self::parse(&text, path)
     }
 
@@ -127,12 +124,7 @@ impl Scene {
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
         let root = toml::de::DeTable::parse(text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
-            SceneError::at(
-                path,
-                text,
-                &span,
-                error.message().trim().replace('\n', ", "),
-            )
+            SceneError::at(path, text, &span, error.message().trim().replace('\n', ", "))
         })?;
         let source = Source { path, text };
         let root = Table::root(&source, root.get_ref());
@@ -177,9 +169,7 @@ impl Scene {
             name: root
                 .text("name")?
                 .map_or_else(|| stem.unwrap_or_default().into_owned(), str::to_owned),
-            frame_rate: root
-                .number("frames_per_second", FREQUENCY, 0.001..=1e6)?
-                .unwrap_or(60.0),
+            frame_rate: root.number("frames_per_second", FREQUENCY, 0.001..=1e6)?.unwrap_or(60.0),
             on_blocked: root.choice("on_blocked", &choices)?.unwrap_or_default(),
             up: gravity.map_or(DVec3::Z, |acceleration| -acceleration),
             text: text.to_owned(),
@@ -244,10 +234,7 @@ fn fingerprint(text: &str, cloth: &Cloth, bodies: &[Body]) -> u64 {
     take(text.as_bytes());
     let meshes = std::iter::once(&cloth.mesh).chain(bodies.iter().map(|body| &body.mesh));
     for position in meshes.flat_map(|mesh| &mesh.positions) {
-        position
-            .to_array()
-            .iter()
-            .for_each(|x| take(&x.to_le_bytes()));
+        position.to_array().iter().for_each(|x| take(&x.to_le_bytes()));
     }
     hash
 }
@@ -272,14 +259,8 @@ fn mesh_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
         return Err(table.error("file", message));
     };
     let read = mesh::read(&table.folder().join(file));
-    let mesh = read
-        .map_err(|error| table.error("file", error.to_string()))?
-        .mesh;
-    match mesh
-        .positions
-        .iter()
-        .find(|p| p.abs().max_element() > WORLD)
-    {
+    let mesh = read.map_err(|error| table.error("file", error.to_string()))?.mesh;
+    match mesh.positions.iter().find(|p| p.abs().max_element() > WORLD) {
         None => Ok(mesh),
         Some(far) => {
             let message = format!("the mesh has a vertex at {far}, more than {WORLD} metres away");

@@ -66,19 +66,14 @@ impl RigidMotion {
         for key in table.tables("keyframes")? {
             key.expect_keys(&["time", "angle", "translation"])?;
             let time = key.required_number("time", TIME, 0.0..=LARGEST_TIME)?;
-            if keys
-                .last()
-                .is_some_and(|last| time < last.time + CLOSEST_KEYS)
-            {
+            if keys.last().is_some_and(|last| time < last.time + CLOSEST_KEYS) {
                 let message = "keyframes must be in order: each `time` a microsecond or more later than the one before";
                 return Err(key.error("time", message.to_owned()));
             }
             let next = Key {
                 time,
                 angle: key.number("angle", ANGLE, -1e4..=1e4)?.unwrap_or(0.0),
-                translation: key
-                    .vector("translation", LENGTH, WORLD)?
-                    .unwrap_or_default(),
+                translation: key.vector("translation", LENGTH, WORLD)?.unwrap_or_default(),
             };
             if let Some(last) = keys.last() {
                 // Half-way it is half as fast again as on average.
@@ -99,10 +94,7 @@ impl RigidMotion {
     /// Where everything is at a time.
     pub(crate) fn pose(&self, time: f64) -> Pose {
         let next = self.keys.partition_point(|key| key.time <= time);
-        let key = match (
-            next.checked_sub(1).map(|k| self.keys[k]),
-            self.keys.get(next),
-        ) {
+        let key = match (next.checked_sub(1).map(|k| self.keys[k]), self.keys.get(next)) {
             (None, None) => Key::default(),
             (Some(key), None) => key,
             (None, Some(&key)) => key,

@@ -44,11 +44,7 @@ impl Quantity {
             .rev()
             .find(|&end| text.is_char_boundary(end) && is_number(text[..end].trim_end()));
         let Some(end) = end else {
-            return Err(format!(
-                "must be {}, such as {}, not '{text}'",
-                self.what,
-                self.example()
-            ));
+            return Err(format!("must be {}, such as {}, not '{text}'", self.what, self.example()));
         };
         let (number, unit) = (text[..end].trim_end(), text[end..].trim());
         let value: f64 = number.parse().unwrap_or(f64::NAN);
@@ -57,9 +53,7 @@ impl Quantity {
         }
         match self.units.iter().find(|(name, _)| *name == unit) {
             Some((_, size)) => Ok(value * size),
-            None if self.units[0].0.is_empty() => {
-                Err(format!("is a plain number and has no unit '{unit}'"))
-            }
+            None if self.units[0].0.is_empty() => Err(format!("is a plain number and has no unit '{unit}'")),
             None => {
                 let names = self.units.iter().map(|(name, _)| *name);
                 Err(format!(

@@ -34,12 +34,7 @@ pub(crate) fn sheet(corner: DVec3, sides: [DVec3; 2], cells: [u32; 2]) -> Mesh {
 
 /// Rings of vertices joined into a tube, each ring turned by half a vertex against the one before. `rings` holds for each
 /// ring its place along `axis` and its radius. Triangles turn anticlockwise seen from outside.
-fn rings(
-    origin: DVec3,
-    axis: DVec3,
-    around: u32,
-    rings: impl IntoIterator<Item = (f64, f64)>,
-) -> Mesh {
+fn rings(origin: DVec3, axis: DVec3, around: u32, rings: impl IntoIterator<Item = (f64, f64)>) -> Mesh {
     let side = axis.any_orthonormal_vector();
     let other = axis.cross(side);
     let mut mesh = Mesh::default();
@@ -48,8 +43,7 @@ fn rings(
         for point in 0..around {
             let angle = TAU * f64::from(2 * point + count % 2) / f64::from(2 * around);
             let outward = side * cos(angle) + other * sin(angle);
-            mesh.positions
-                .push(origin + axis * along + outward * radius);
+            mesh.positions.push(origin + axis * along + outward * radius);
         }
         count += 1;
     }
@@ -102,8 +96,7 @@ pub(crate) fn capsule([from, to]: [DVec3; 2], radius: f64, around: u32) -> Mesh 
     for point in 0..around {
         let next = (point + 1) % around;
         mesh.triangles.push([start, next, point]);
-        mesh.triangles
-            .push([end, outermost + point, outermost + next]);
+        mesh.triangles.push([end, outermost + point, outermost + next]);
     }
     mesh
 }

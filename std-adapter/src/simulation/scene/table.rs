@@ -57,11 +57,7 @@ impl<'a> Table<'a> {
 
     /// The keys in the order of the file, with their places.
     pub(crate) fn keys(&self) -> Vec<(&str, Range<usize>)> {
-        let mut keys: Vec<_> = self
-            .entries
-            .keys()
-            .map(|key| (key.get_ref().as_ref(), key.span()))
-            .collect();
+        let mut keys: Vec<_> = self.entries.keys().map(|key| (key.get_ref().as_ref(), key.span())).collect();
         keys.sort_by_key(|(_, span)| span.start);
         keys
     }
@@ -71,62 +67,37 @@ impl<'a> Table<'a> {
     }
 
     /// A number in SI units, if the key is there.
-    pub(crate) fn number(
-        &self,
-        key: &str,
-        quantity: Quantity,
-        range: RangeInclusive<f64>,
-    ) -> Result<Option<f64>, SceneError> {
+    pub(crate) fn number(&self, key: &str, quantity: Quantity, range: RangeInclusive<f64>) -> Result<Option<f64>, SceneError> {
         self.get(key)
             .map(|value| self.quantity(key, value, quantity, range))
             .transpose()
     }
 
     /// A number in SI units.
-    pub(crate) fn required_number(
-        &self,
-        key: &str,
-        quantity: Quantity,
-        range: RangeInclusive<f64>,
-    ) -> Result<f64, SceneError> {
+    pub(crate) fn required_number(&self, key: &str, quantity: Quantity, range: RangeInclusive<f64>) -> Result<f64, SceneError> {
         self.number(key, quantity, range)?
             .ok_or_else(|| self.missing(key, &quantity.example()))
     }
 
     /// A whole number, if the key is there.
-    pub(crate) fn count(
-        &self,
-        key: &str,
-        range: RangeInclusive<u64>,
-    ) -> Result<Option<u64>, SceneError> {
-        self.get(key)
-            .map(|value| self.whole(key, value, &range))
-            .transpose()
+    pub(crate) fn count(&self, key: &str, range: RangeInclusive<u64>) -> Result<Option<u64>, SceneError> {
+        self.get(key).map(|value| self.whole(key, value, &range)).transpose()
     }
 
     /// Two whole numbers.
-    pub(crate) fn two_counts(
-        &self,
-        key: &str,
-        range: RangeInclusive<u64>,
-    ) -> Result<[u64; 2], SceneError> {
+    pub(crate) fn two_counts(&self, key: &str, range: RangeInclusive<u64>) -> Result<[u64; 2], SceneError> {
         let example = "[20, 20]";
         let value = self.get(key).ok_or_else(|| self.missing(key, example))?;
         match value.get_ref() {
-            DeValue::Array(array) if array.len() == 2 => Ok([
-                self.whole(key, &array[0], &range)?,
-                self.whole(key, &array[1], &range)?,
-            ]),
+            DeValue::Array(array) if array.len() == 2 => {
+                Ok([self.whole(key, &array[0], &range)?, self.whole(key, &array[1], &range)?])
+            }
             _ => Err(self.wrong(key, value, &format!("two whole numbers, such as {example}"))),
         }
     }
 
     /// Any number of whole numbers, if the key is there.
-    pub(crate) fn counts(
-        &self,
-        key: &str,
-        range: RangeInclusive<u64>,
-    ) -> Result<Option<Vec<u64>>, SceneError> {
+    pub(crate) fn counts(&self, key: &str, range: RangeInclusive<u64>) -> Result<Option<Vec<u64>>, SceneError> {
         let Some(value) = self.get(key) else {
             return Ok(None);
         };
@@ -138,35 +109,20 @@ impl<'a> Table<'a> {
     }
 
     /// A vector of three quantities, none larger than `largest`, if the key is there.
-    pub(crate) fn vector(
-        &self,
-        key: &str,
-        quantity: Quantity,
-        largest: f64,
-    ) -> Result<Option<DVec3>, SceneError> {
+    pub(crate) fn vector(&self, key: &str, quantity: Quantity, largest: f64) -> Result<Option<DVec3>, SceneError> {
         let Some(value) = self.get(key) else {
             return Ok(None);
         };
         match value.get_ref() {
             DeValue::Array(array) if array.len() == 3 => {
-                let component =
-                    |k: usize| self.quantity(key, &array[k], quantity, -largest..=largest);
-                Ok(Some(DVec3::new(
-                    component(0)?,
-                    component(1)?,
-                    component(2)?,
-                )))
+                let component = |k: usize| self.quantity(key, &array[k], quantity, -largest..=largest);
+                Ok(Some(DVec3::new(component(0)?, component(1)?, component(2)?)))
             }
             _ => Err(self.wrong(key, value, "a list of three numbers, such as [0, 0, 1]")),
         }
     }
 
-    pub(crate) fn required_vector(
-        &self,
-        key: &str,
-        quantity: Quantity,
-        largest: f64,
-    ) -> Result<DVec3, SceneError> {
+    pub(crate) fn required_vector(&self, key: &str, quantity: Quantity, largest: f64) -> Result<DVec3, SceneError> {
         self.vector(key, quantity, largest)?
             .ok_or_else(|| self.missing(key, "[0, 0, 1]"))
     }
@@ -176,11 +132,9 @@ impl<'a> Table<'a> {
         match self.get(key) {
             None => Ok(None),
             Some(value) => match value.get_ref() {
-                DeValue::String(text) if text.chars().any(char::is_control) => Err(self.wrong(
-                    key,
-                    value,
-                    "text without control characters, line breaks included",
-                )),
+                DeValue::String(text) if text.chars().any(char::is_control) => {
+                    Err(self.wrong(key, value, "text without control characters, line breaks included"))
+                }
                 DeValue::String(text) => Ok(Some(text.as_ref())),
                 _ => Err(self.wrong(key, value, "text in quotation marks")),
             },
@@ -188,11 +142,7 @@ impl<'a> Table<'a> {
     }
 
     /// One of several names, if the key is there.
-    pub(crate) fn choice<T: Copy>(
-        &self,
-        key: &str,
-        choices: &[(&str, T)],
-    ) -> Result<Option<T>, SceneError> {
+    pub(crate) fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<Option<T>, SceneError> {
         let Some(name) = self.text(key)? else {
             return Ok(None);
         };
@@ -202,30 +152,18 @@ impl<'a> Table<'a> {
                 let names = choices.iter().map(|(choice, _)| *choice);
                 Err(self.error(
                     key,
-                    format!(
-                        "`{key}` cannot be '{}'{}",
-                        shortened(name),
-                        suggestion(name, names)
-                    ),
+                    format!("`{key}` cannot be '{}'{}", shortened(name), suggestion(name, names)),
                 ))
             }
         }
     }
 
-    pub(crate) fn required_choice<T: Copy>(
-        &self,
-        key: &str,
-        choices: &[(&str, T)],
-    ) -> Result<T, SceneError> {
+    pub(crate) fn required_choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<T, SceneError> {
         let names = || {
-            let names: Vec<_> = choices
-                .iter()
-                .map(|(name, _)| format!("\"{name}\""))
-                .collect();
+            let names: Vec<_> = choices.iter().map(|(name, _)| format!("\"{name}\"")).collect();
             names.join(" or ")
         };
-        self.choice(key, choices)?
-            .ok_or_else(|| self.missing(key, &names()))
+        self.choice(key, choices)?.ok_or_else(|| self.missing(key, &names()))
     }
 
     /// The table of this name, if there is one.
@@ -233,9 +171,7 @@ impl<'a> Table<'a> {
         match self.get(key) {
             None => Ok(None),
             Some(value) => match value.get_ref() {
-                DeValue::Table(entries) => {
-                    Ok(Some(self.below(self.path_of(key), value.span(), entries)))
-                }
+                DeValue::Table(entries) => Ok(Some(self.below(self.path_of(key), value.span(), entries))),
                 _ => {
                     let header = format!("a table; begin it with [{}]", self.path_of(key));
                     Err(self.wrong(key, value, &header))
@@ -256,19 +192,14 @@ impl<'a> Table<'a> {
         let Some(value) = self.get(key) else {
             return Ok(Vec::new());
         };
-        let header = format!(
-            "a list of tables; begin each with [[{}]]",
-            self.path_of(key)
-        );
+        let header = format!("a list of tables; begin each with [[{}]]", self.path_of(key));
         let DeValue::Array(array) = value.get_ref() else {
             return Err(self.wrong(key, value, &header));
         };
         array
             .iter()
             .map(|element| match element.get_ref() {
-                DeValue::Table(entries) => {
-                    Ok(self.below(self.path_of(key), element.span(), entries))
-                }
+                DeValue::Table(entries) => Ok(self.below(self.path_of(key), element.span(), entries)),
                 _ => Err(self.wrong(key, element, &header)),
             })
             .collect()
@@ -330,19 +261,10 @@ impl<'a> Table<'a> {
             DeValue::Array(array) => format!("a list of {}", array.len()),
             other => format!("of type {}", other.type_str()),
         };
-        self.complain(
-            value.span(),
-            format!("`{key}` must be {expected}, but is {found}"),
-        )
+        self.complain(value.span(), format!("`{key}` must be {expected}, but is {found}"))
     }
 
-    fn quantity(
-        &self,
-        key: &str,
-        value: &Value<'_>,
-        quantity: Quantity,
-        range: RangeInclusive<f64>,
-    ) -> Result<f64, SceneError> {
+    fn quantity(&self, key: &str, value: &Value<'_>, quantity: Quantity, range: RangeInclusive<f64>) -> Result<f64, SceneError> {
         let complain = |message| self.complain(value.span(), message);
         let number = match value.get_ref() {
             DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
@@ -365,27 +287,20 @@ impl<'a> Table<'a> {
         )))
     }
 
-    fn whole(
-        &self,
-        key: &str,
-        value: &Value<'_>,
-        range: &RangeInclusive<u64>,
-    ) -> Result<u64, SceneError> {
+    fn whole(&self, key: &str, value: &Value<'_>, range: &RangeInclusive<u64>) -> Result<u64, SceneError> {
         let DeValue::Integer(integer) = value.get_ref() else {
             return Err(self.wrong(key, value, "a whole number"));
         };
         let number = u64::from_str_radix(integer.as_str(), integer.radix()).ok();
-        number
-            .filter(|number| range.contains(number))
-            .ok_or_else(|| {
-                let message = format!(
-                    "`{key}` is {}, but must be from {} to {}",
-                    shortened(integer.as_str()),
-                    range.start(),
-                    range.end()
-                );
-                self.complain(value.span(), message)
-            })
+        number.filter(|number| range.contains(number)).ok_or_else(|| {
+            let message = format!(
+                "`{key}` is {}, but must be from {} to {}",
+                shortened(integer.as_str()),
+                range.start(),
+                range.end()
+            );
+            self.complain(value.span(), message)
+        })
     }
 }
 

@@ -2,9 +2,7 @@
 
 use super::{AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, MeasuredFilter, PairSet};
 use crate::dispatch::{Level, available_levels};
-use selvedge_core::batch::{
-    LANES, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles,
-};
+use selvedge_core::batch::{LANES, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::filter::{Filter, Tier, plain};
 use selvedge_core::points::{EdgeAndEdge, PairShape, Shape, VertexAndFace};
 use selvedge_core::{EdgeEdge, Motion, PrimitivePair, Scalar, Verdict, VertexFace, exact};
@@ -39,10 +37,7 @@ pub(super) fn measure<S: Scalar>(
     let mut done = 0;
     let timed_every = (set.pairs() / TIMED).max(1);
     let mut chunk = 0;
-    let lists = [
-        (Shape::VertexFace, &set.vertex_face),
-        (Shape::EdgeEdge, &set.edge_edge),
-    ];
+    let lists = [(Shape::VertexFace, &set.vertex_face), (Shape::EdgeEdge, &set.edge_edge)];
     for (shape, indices) in lists {
         for indices in indices.chunks(CHUNK) {
             let pairs = Pairs {
@@ -52,9 +47,7 @@ pub(super) fn measure<S: Scalar>(
             };
             let exact = pairs.exact_masks(separation);
             cullable += ones(&exact);
-            let masks = filters
-                .iter_mut()
-                .map(|filter| filter.count(&pairs, &exact));
+            let masks = filters.iter_mut().map(|filter| filter.count(&pairs, &exact));
             let masks: Vec<_> = masks.collect();
             if chunk % timed_every == 0 {
                 timed += indices.len();
@@ -76,10 +69,7 @@ pub(super) fn measure<S: Scalar>(
         drawn_from: set.drawn_from,
         timed,
         cullable,
-        rows: filters
-            .into_iter()
-            .map(|filter| filter.row(timed))
-            .collect(),
+        rows: filters.into_iter().map(|filter| filter.row(timed)).collect(),
     })
 }
 
@@ -129,10 +119,7 @@ impl<S: Scalar> Pairs<'_, S> {
 
     /// What exact arithmetic culls.
     fn exact_masks(&self, separation: S) -> Vec<Mask> {
-        fn culls<S: Scalar, P: PairShape>(
-            pair: &impl PrimitivePair<S, Shape = P>,
-            separation: S,
-        ) -> bool {
+        fn culls<S: Scalar, P: PairShape>(pair: &impl PrimitivePair<S, Shape = P>, separation: S) -> bool {
             exact::is_never_within::<P, S>(&pair.points(), separation, exact::UNKNOWN)
         }
         let mut masks = vec![0; self.mask_count()];
@@ -185,9 +172,7 @@ impl<S: Scalar> Measurement<S> {
             return None;
         }
         let levels = available_levels();
-        let levels = levels
-            .into_iter()
-            .map(|(name, level)| Backend::Lanes(name, level));
+        let levels = levels.into_iter().map(|(name, level)| Backend::Lanes(name, level));
         let backends = std::iter::once(Backend::OneAtATime).chain(levels);
         Some(Self {
             filter,
@@ -214,13 +199,7 @@ impl<S: Scalar> Measurement<S> {
     }
 
     /// The time on every backend, each of which must give the verdicts `expected`.
-    fn time(
-        &mut self,
-        pairs: &Pairs<'_, S>,
-        tiles: &[Tile<S>],
-        expected: &[Mask],
-        repeat: u32,
-    ) -> Result<(), BackendsDisagree> {
+    fn time(&mut self, pairs: &Pairs<'_, S>, tiles: &[Tile<S>], expected: &[Mask], repeat: u32) -> Result<(), BackendsDisagree> {
         let (filter, separation) = (self.filter, self.separation);
         let mut masks = vec![0; expected.len()];
         for (backend, seconds) in &mut self.backends {
@@ -279,12 +258,7 @@ impl Backend {
 }
 
 /// Verdicts as the core's functions for one pair give them.
-fn one_at_a_time<S: Scalar>(
-    filter: MeasuredFilter,
-    separation: S,
-    pairs: &Pairs<'_, S>,
-    masks: &mut [Mask],
-) {
+fn one_at_a_time<S: Scalar>(filter: MeasuredFilter, separation: S, pairs: &Pairs<'_, S>, masks: &mut [Mask]) {
     fn paper<S: Scalar>(pair: &impl PrimitivePair<S>) -> bool {
         plain::non_coplanarity(pair).is_culled()
     }
@@ -302,28 +276,11 @@ fn one_at_a_time<S: Scalar>(
 }
 
 /// Verdicts on pairs that are gathered sixteen at a time.
-fn from_rows<S: Scalar>(
-    filter: MeasuredFilter,
-    separation: S,
-    level: Level,
-    pairs: &Pairs<'_, S>,
-    masks: &mut [Mask],
-) {
-    let Pairs {
-        shape,
-        rows,
-        indices,
-    } = *pairs;
+fn from_rows<S: Scalar>(filter: MeasuredFilter, separation: S, level: Level, pairs: &Pairs<'_, S>, masks: &mut [Mask]) {
+    let Pairs { shape, rows, indices } = *pairs;
     match filter {
         MeasuredFilter::Paper => {
-            culled_from_rows(
-                level,
-                shape,
-                Test::PlainNonCoplanarity,
-                rows,
-                indices,
-                masks,
-            );
+            culled_from_rows(level, shape, Test::PlainNonCoplanarity, rows, indices, masks);
         }
         MeasuredFilter::Tier(tier) => {
             let filter = with_separation(tier, separation);

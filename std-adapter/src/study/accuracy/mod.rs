@@ -138,9 +138,7 @@ impl AccuracyRow {
     /// Pairs culled without proof; `None` for a filter that proves something else.
     #[must_use]
     pub fn false_culls(&self) -> Option<usize> {
-        self.filter
-            .decides_by_whole_step()
-            .then_some(self.culled_beyond_exact)
+        self.filter.decides_by_whole_step().then_some(self.culled_beyond_exact)
     }
 
     /// The best instruction set's time.
@@ -196,17 +194,12 @@ fn arm_steps() -> impl Iterator<Item = usize> {
     (ARM_STRIDE - 1..ArmScene::STEPS).step_by(ARM_STRIDE)
 }
 
-fn scene_pairs<F: Frames>(
-    mesh: Option<&F>,
-    options: AccuracyOptions,
-) -> Result<ScenePairs, Box<dyn Error + Send + Sync>> {
+fn scene_pairs<F: Frames>(mesh: Option<&F>, options: AccuracyOptions) -> Result<ScenePairs, Box<dyn Error + Send + Sync>> {
     let AccuracyOptions { pairs, seed, .. } = options;
     let arm = arm_frames()?;
     let here: Vec<_> = arm_steps().map(|step| (step, DVec3::ZERO)).collect();
     let of_mesh = |mesh: &F| {
-        let steps: Vec<_> = (0..mesh.step_count())
-            .map(|step| (step, DVec3::ZERO))
-            .collect();
+        let steps: Vec<_> = (0..mesh.step_count()).map(|step| (step, DVec3::ZERO)).collect();
         PairSet::of_steps(mesh.name(), mesh, &steps, pairs)
     };
     let generated = pairs.min(MOST_GENERATED);
@@ -257,13 +250,9 @@ pub fn measure_accuracy<F: Frames>(
     for (single, double) in in_each_format {
         let done = sets.len() as f64;
         let mut share = |part: f64| progress((done + part) / count as f64);
-        sets.push(measure::measure::<f32>(
-            single, repeat, separation, &mut share,
-        )?);
+        sets.push(measure::measure::<f32>(single, repeat, separation, &mut share)?);
         let mut share = |part: f64| progress((done + 1.0 + part) / count as f64);
-        sets.push(measure::measure::<f64>(
-            double, repeat, separation, &mut share,
-        )?);
+        sets.push(measure::measure::<f64>(double, repeat, separation, &mut share)?);
     }
     Ok(Accuracy { options, sets })
 }
@@ -296,14 +285,10 @@ mod tests {
             seed: 0,
             separation: 0.0,
         };
-        let accuracy =
-            measure_accuracy::<TwoFrames>(None, options, &mut |share| shares.push(share)).unwrap();
+        let accuracy = measure_accuracy::<TwoFrames>(None, options, &mut |share| shares.push(share)).unwrap();
         let scalars: Vec<_> = accuracy.sets.iter().map(|set| set.scalar).collect();
         assert_eq!(scalars, ["f32", "f64"].repeat(3));
-        assert!(
-            shares.is_sorted() && shares.last() == Some(&1.0),
-            "{shares:?}"
-        );
+        assert!(shares.is_sorted() && shares.last() == Some(&1.0), "{shares:?}");
     }
 
     #[test]
@@ -312,10 +297,7 @@ mod tests {
             for set in measured(separation).sets {
                 assert!(set.cullable > 0 || separation > 0.0, "{}", set.name);
                 for row in &set.rows {
-                    assert_eq!(
-                        row.culled + row.kept_cullable,
-                        set.cullable + row.culled_beyond_exact
-                    );
+                    assert_eq!(row.culled + row.kept_cullable, set.cullable + row.culled_beyond_exact);
                     let is_sound = row.filter.is_certified() && row.filter.decides_by_whole_step();
                     if is_sound {
                         assert_eq!(row.false_culls(), Some(0), "{}, {}", set.name, row.filter);
@@ -329,11 +311,7 @@ mod tests {
     #[test]
     fn filters_that_ignore_rounding_are_caught_on_nearly_coplanar_pairs() {
         let accuracy = measured(0.0);
-        for set in accuracy
-            .sets
-            .iter()
-            .filter(|set| set.name == "Nearly coplanar pairs")
-        {
+        for set in accuracy.sets.iter().filter(|set| set.name == "Nearly coplanar pairs") {
             assert!(row(set, Tier::Uncertified).culled_beyond_exact > 0);
             assert!(set.row(MeasuredFilter::Paper).unwrap().culled_beyond_exact > 0);
         }
@@ -343,16 +321,10 @@ mod tests {
     fn sharper_bounds_keep_less_and_parts_of_the_step_cull_more() {
         use selvedge_core::filter::Depth;
         for set in measured(0.0).sets {
-            let [by_axis, permanent] =
-                [Tier::MagnitudesByAxis, Tier::Permanent].map(|tier| row(&set, tier).kept_cullable);
+            let [by_axis, permanent] = [Tier::MagnitudesByAxis, Tier::Permanent].map(|tier| row(&set, tier).kept_cullable);
             assert!(permanent <= by_axis, "{}: {permanent}, {by_axis}", set.name);
-            let [one, four] =
-                [Depth::One, Depth::Four].map(|depth| row(&set, Tier::Subdivided(depth)).culled);
-            assert!(
-                row(&set, Tier::Permanent).culled <= one && one <= four,
-                "{}",
-                set.name
-            );
+            let [one, four] = [Depth::One, Depth::Four].map(|depth| row(&set, Tier::Subdivided(depth)).culled);
+            assert!(row(&set, Tier::Permanent).culled <= one && one <= four, "{}", set.name);
         }
     }
 

@@ -59,12 +59,10 @@ impl PairSet {
             pipeline.step(&start, &end)?;
             let first = set.points.len() as u32;
             let moving = start.iter().zip(&end);
-            set.points
-                .extend(moving.map(|(&start, &end)| [start + offset, end + offset]));
+            set.points.extend(moving.map(|(&start, &end)| [start + offset, end + offset]));
 
             let candidates = |kind| pipeline.candidates(kind);
-            let count =
-                candidates(PairKind::VertexFace).len() + candidates(PairKind::EdgeEdge).len();
+            let count = candidates(PairKind::VertexFace).len() + candidates(PairKind::EdgeEdge).len();
             set.drawn_from += count;
             let share = (pairs as f64 / steps.len() as f64 / count as f64).min(1.0);
             for (kind, indices) in [
@@ -133,18 +131,13 @@ mod tests {
     #[test]
     fn steps_add_their_pairs_and_an_offset_moves_them() {
         let arm = ArmFrames::new(1, 60).unwrap();
-        let set = |steps: &[(usize, DVec3)], pairs| {
-            PairSet::of_steps("arm".to_owned(), &arm, steps, pairs).unwrap()
-        };
+        let set = |steps: &[(usize, DVec3)], pairs| PairSet::of_steps("arm".to_owned(), &arm, steps, pairs).unwrap();
         let all = usize::MAX;
         let (one, other) = (set(&[(50, DVec3::ZERO)], all), set(&[(55, DVec3::X)], all));
         let both = set(&[(50, DVec3::ZERO), (55, DVec3::X)], all);
         assert_eq!(one.pairs(), one.drawn_from);
         assert_eq!(both.pairs(), one.pairs() + other.pairs());
-        assert_eq!(
-            both.points,
-            [one.points.clone(), other.points.clone()].concat()
-        );
+        assert_eq!(both.points, [one.points.clone(), other.points.clone()].concat());
         let last = both.edge_edge.last().unwrap().map(|index| index as usize);
         let expected = other.edge_edge.last().unwrap().map(|index| index as usize);
         assert_eq!(

@@ -38,11 +38,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judge<'a, S, P> {
     pub(super) fn judge(&mut self, claim: Claim, tally: &mut Tally, chunk: u64) {
         tally.claims += 1;
         let by = if claim.is_of_the_volume() {
-            if self.has_one_sign() {
-                By::Signs
-            } else {
-                By::Nothing
-            }
+            if self.has_one_sign() { By::Signs } else { By::Nothing }
         } else {
             self.is_apart()
         };
@@ -72,10 +68,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judge<'a, S, P> {
     fn has_one_sign(&mut self) -> bool {
         *self.has_one_sign.get_or_insert_with(|| {
             let signs = control_value_signs::<P::Shape, S>(&self.pair.points());
-            matches!(
-                signs,
-                Some([Less, Less, Less, Less] | [Greater, Greater, Greater, Greater])
-            )
+            matches!(signs, Some([Less, Less, Less, Less] | [Greater, Greater, Greater, Greater]))
         })
     }
 
@@ -104,10 +97,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judge<'a, S, P> {
         };
         let (first, second) = self.case.points.split_at(of_first);
         let ahead = |one: &[[[S; 3]; 2]], other: &[[[S; 3]; 2]], axis: usize| {
-            let all_ahead = |end: usize| {
-                one.iter()
-                    .all(|p| other.iter().all(|q| p[end][axis] > q[end][axis]))
-            };
+            let all_ahead = |end: usize| one.iter().all(|p| other.iter().all(|q| p[end][axis] > q[end][axis]));
             all_ahead(0) && all_ahead(1)
         };
         (0..3).any(|axis| ahead(first, second, axis) || ahead(second, first, axis))

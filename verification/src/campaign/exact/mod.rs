@@ -106,13 +106,7 @@ pub type Progress = super::Progress<Found>;
 impl Progress {
     /// Nothing done yet; at least `pairs` pairs.
     #[must_use]
-    pub fn new(
-        seed: u64,
-        pairs: u64,
-        pairs_per_chunk: u64,
-        scenes: &Scenes,
-        claims: &[Claim],
-    ) -> Self {
+    pub fn new(seed: u64, pairs: u64, pairs_per_chunk: u64, scenes: &Scenes, claims: &[Claim]) -> Self {
         let nothing = || vec![Tally::default(); claims.len()];
         let of_format = || [nothing(), nothing(), nothing()];
         let of_kind = |pairs: &[Points]| pairs.len() as u64;
@@ -150,15 +144,7 @@ impl fmt::Display for Progress {
         writeln!(
             f,
             "{:16} {:6} {:12} {:>13} {:>13} {:>13} {:>13} {:>9} {:>6}",
-            "claim",
-            "scalar",
-            "source",
-            "claims",
-            "by signs",
-            "by axis",
-            "whole numbers",
-            "by oracle",
-            "wrong"
+            "claim", "scalar", "source", "claims", "by signs", "by axis", "whole numbers", "by oracle", "wrong"
         )?;
         let mut examples = Vec::new();
         for (by_source, scalar) in self.found.tallies.iter().zip(["f32", "f64"]) {
@@ -184,9 +170,7 @@ impl fmt::Display for Progress {
         }
         let pairs = self.done.len() as u64 * self.pairs_per_chunk;
         writeln!(f, "{pairs} pairs, {} wrong claims", self.found.wrong())?;
-        examples
-            .iter()
-            .try_for_each(|example| writeln!(f, "\n{example}"))
+        examples.iter().try_for_each(|example| writeln!(f, "\n{example}"))
     }
 }
 

@@ -89,13 +89,8 @@ pub fn sample<S: Format>(source: Source, kind: Kind, seed: u64, count: usize) ->
 
 /// Whether exact arithmetic takes a hundred times as long as with coordinates of one size: then one variant is enough.
 fn is_wide<S: Format>(case: &PairCase<S>) -> bool {
-    let sizes = case
-        .coordinates()
-        .map(|x| x.to_f64().abs())
-        .filter(|&x| x > 0.0);
-    let (low, high) = sizes.fold((f64::MAX, 0.0_f64), |(low, high), x| {
-        (low.min(x), high.max(x))
-    });
+    let sizes = case.coordinates().map(|x| x.to_f64().abs()).filter(|&x| x > 0.0);
+    let (low, high) = sizes.fold((f64::MAX, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
     high / low > 1e60
 }
 
@@ -123,9 +118,7 @@ fn of_motion<S: Format>(case: PairCase<S>, random: &mut Random) -> PairCase<S> {
         1 => nudged(case, 8, random),
         2 => {
             let by: [S; 3] = std::array::from_fn(|_| {
-                S::from_f64(
-                    random.fraction(52) * [16.0, 1024.0, 65536.0, 1e7][random.below(4) as usize],
-                )
+                S::from_f64(random.fraction(52) * [16.0, 1024.0, 65536.0, 1e7][random.below(4) as usize])
             });
             case.with_positions(|x| std::array::from_fn(|axis| x[axis] + by[axis]))
         }
@@ -138,10 +131,7 @@ fn onto_the_plane<S: Format>(mut case: PairCase<S>, random: &mut Random) -> Pair
     let ends = 1 + random.below(3);
     let [p, a, b, c] = &mut case.points;
     for end in (0..2).filter(|end| ends >> end & 1 != 0) {
-        let (s, t) = (
-            S::from_f64(random.fraction(20)),
-            S::from_f64(random.fraction(20)),
-        );
+        let (s, t) = (S::from_f64(random.fraction(20)), S::from_f64(random.fraction(20)));
         p[end] = std::array::from_fn(|axis| {
             let from = a[end][axis];
             from + (s * (b[end][axis] - from) + t * (c[end][axis] - from))

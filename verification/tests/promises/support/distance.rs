@@ -33,9 +33,7 @@ fn vertex_face([x, a, b, c]: [DVec3; 4]) -> f64 {
         .into_iter()
         .fold(f64::INFINITY, f64::min);
     let normal = (b - a).cross(c - a);
-    let above = edges
-        .iter()
-        .all(|&(p, q)| normal.dot((q - p).cross(x - p)) >= 0.0);
+    let above = edges.iter().all(|&(p, q)| normal.dot((q - p).cross(x - p)) >= 0.0);
     if normal.length_squared() > THIN && above {
         nearest.min((x - a).dot(normal.normalize()).abs())
     } else {
@@ -83,8 +81,7 @@ pub(crate) fn advance(pair: &Pair, separation: f64) -> Option<f64> {
         Kind::VertexFace => 1,
         Kind::EdgeEdge => 2,
     };
-    let relative =
-        (0..first).flat_map(|i| (first..4).map(move |j| (velocity(i) - velocity(j)).length()));
+    let relative = (0..first).flat_map(|i| (first..4).map(move |j| (velocity(i) - velocity(j)).length()));
     let fastest = relative.fold(0.0, f64::max);
     let mut t = 0.0;
     while t < 1.0 {

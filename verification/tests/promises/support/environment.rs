@@ -91,8 +91,7 @@ mod register {
             // SAFETY: the register is put back before the caller goes on with floating-point code of its own.
             unsafe {
                 asm!("stmxcsr [{}]", in(reg) &raw mut before, options(nostack));
-                let cleared =
-                    before & !(3 << ROUNDING | 1 << FLUSH_TO_ZERO | 1 << DENORMALS_ARE_ZERO);
+                let cleared = before & !(3 << ROUNDING | 1 << FLUSH_TO_ZERO | 1 << DENORMALS_ARE_ZERO);
                 let changed = cleared | mode;
                 asm!("ldmxcsr [{}]", in(reg) &raw const changed, options(nostack));
             }

@@ -103,16 +103,13 @@ fn half_spaces(hull: &[Point]) -> Vec<HalfSpace> {
     // On one line: the two ends that are farthest apart.
     let pairs = hull.iter().flat_map(|p| hull.iter().map(move |q| (p, q)));
     let squared = |p: &Point, q: &Point| dot(&minus(q, p), &minus(q, p));
-    let (p, q) = pairs
-        .max_by_key(|(p, q)| squared(p, q))
-        .expect("a hull of something");
+    let (p, q) = pairs.max_by_key(|(p, q)| squared(p, q)).expect("a hull of something");
     let along = minus(q, p);
     if is_zero(&along) {
         axes.iter().for_each(|axis| both_sides(axis, p));
         return half_spaces;
     }
-    axes.iter()
-        .for_each(|axis| both_sides(&cross(&along, axis), p));
+    axes.iter().for_each(|axis| both_sides(&cross(&along, axis), p));
     half_spaces.push(HalfSpace {
         direction: minus(p, q),
         through: q.clone(),
@@ -139,9 +136,7 @@ pub(crate) fn common_part(a: &[Point], b: &[Point]) -> Vec<Point> {
             }
             if above_p.is_negative() != above_q.is_negative() {
                 let part = &above_p / Rational::from(&above_p - &above_q);
-                clipped.push(std::array::from_fn(|i| {
-                    Rational::from(&q[i] - &p[i]) * &part + &p[i]
-                }));
+                clipped.push(std::array::from_fn(|i| Rational::from(&q[i] - &p[i]) * &part + &p[i]));
             }
         }
         polygon = clipped;

@@ -66,9 +66,7 @@ impl InRationals {
         // n(½) = (n₀ + h + n₁)/4.
         let four = Rational::from(4);
         let h = minus(&minus(&middle.map(|x| x * &four), &n0), &n1);
-        let plus = |a: &Point, b: &Point| -> Point {
-            std::array::from_fn(|axis| Rational::from(&a[axis] + &b[axis]))
-        };
+        let plus = |a: &Point, b: &Point| -> Point { std::array::from_fn(|axis| Rational::from(&a[axis] + &b[axis])) };
         let normals = [n0.clone(), plus(&n0, &h), plus(&h, &n1), n1];
         Self {
             values: [v0, inner_1, inner_2, v3],

@@ -7,9 +7,7 @@ use selvedge_verification::oracle::Kind;
 /// most of them ±(2^bits − 2^k) or ±1, times a power of two.
 pub(crate) fn at_the_limit_of_a_width<S: Format>(choices: &mut Choices<'_>) -> PairCase<S> {
     let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
-    let limits = choices
-        .pick(&[61, 125, 317, 2098])
-        .min(S::MAX_EXPONENT - S::MIN_EXPONENT);
+    let limits = choices.pick(&[61, 125, 317, 2098]).min(S::MAX_EXPONENT - S::MIN_EXPONENT);
     let bits = (limits + choices.within(2) as i32).min(S::MAX_EXPONENT - S::MIN_EXPONENT);
     let unit = S::MIN_EXPONENT;
     let top = unit + bits - S::PRECISION.cast_signed();

@@ -27,8 +27,7 @@ pub(super) fn measure<S: Scalar>(
     let vertex_face = |pair: &&Pair<S>| matches!(pair, Pair::VertexFace(_));
     let vertex_face = pairs.iter().filter(vertex_face).count();
     let touches = |answer: &&ExactAnswer| matches!(answer, ExactAnswer::Touches { .. });
-    let is_known =
-        |answer: &&ExactAnswer| matches!(answer, ExactAnswer::Touches { first: Some(_) });
+    let is_known = |answer: &&ExactAnswer| matches!(answer, ExactAnswer::Touches { first: Some(_) });
     ElementarySet {
         name: name.clone(),
         scalar: S::NAME,
@@ -43,19 +42,12 @@ pub(super) fn measure<S: Scalar>(
 /// All pairs in chunks of neighbours, in random order, so that those that come first stand for all.
 fn chunks(pairs: usize, seed: u64) -> Vec<Range<usize>> {
     let starts = (0..pairs).step_by(CHUNK);
-    let mut chunks: Vec<_> = starts
-        .map(|start| start..(start + CHUNK).min(pairs))
-        .collect();
+    let mut chunks: Vec<_> = starts.map(|start| start..(start + CHUNK).min(pairs)).collect();
     Rng::with_seed(seed).shuffle(&mut chunks);
     chunks
 }
 
-fn ask<S: Scalar>(
-    method: ElementaryMethod,
-    questions: &Questions<S>,
-    order: &[Range<usize>],
-    repeat: u32,
-) -> ElementaryRow {
+fn ask<S: Scalar>(method: ElementaryMethod, questions: &Questions<S>, order: &[Range<usize>], repeat: u32) -> ElementaryRow {
     let mut tally = Tally::default();
     let mut answers = [None; CHUNK];
     let begin = Instant::now();

@@ -1,7 +1,6 @@
 use super::Pair;
 use selvedge_core::elementary::{
-    Contact, Limits, additive, advance, advance::uncertified, bernstein_sign, contact::settled,
-    cubic, tight_inclusion,
+    Contact, Limits, additive, advance, advance::uncertified, bernstein_sign, contact::settled, cubic, tight_inclusion,
 };
 use selvedge_core::{PrimitivePair, Scalar};
 use std::fmt;
@@ -65,9 +64,7 @@ impl ElementaryMethod {
     #[must_use]
     pub const fn tolerance(self) -> Option<f64> {
         match self {
-            Self::Certified(tolerance)
-            | Self::Uncertified(tolerance)
-            | Self::TightInclusion(tolerance) => Some(tolerance),
+            Self::Certified(tolerance) | Self::Uncertified(tolerance) | Self::TightInclusion(tolerance) => Some(tolerance),
             Self::Exact | Self::Additive | Self::BernsteinSign | Self::Cubic => None,
         }
     }
@@ -75,10 +72,7 @@ impl ElementaryMethod {
     /// Whether it never misses a contact, and never says a time that is too late, rounding included.
     #[must_use]
     pub const fn is_certified(self) -> bool {
-        matches!(
-            self,
-            Self::Certified(_) | Self::Exact | Self::TightInclusion(_)
-        )
+        matches!(self, Self::Certified(_) | Self::Exact | Self::TightInclusion(_))
     }
 
     /// From when on contact is not excluded, NaN if the test does not say; `None` if it is.
@@ -98,12 +92,8 @@ impl ElementaryMethod {
         };
         match self {
             Self::Certified(tolerance) => advance::time_of_impact(pair, &limits(tolerance)).time(),
-            Self::Uncertified(tolerance) => {
-                uncertified::time_of_impact(pair, &limits(tolerance)).time()
-            }
-            Self::TightInclusion(tolerance) => {
-                tight_inclusion::time_of_impact(pair, &limits(tolerance)).time()
-            }
+            Self::Uncertified(tolerance) => uncertified::time_of_impact(pair, &limits(tolerance)).time(),
+            Self::TightInclusion(tolerance) => tight_inclusion::time_of_impact(pair, &limits(tolerance)).time(),
             Self::Additive => additive::time_of_impact(pair, S::ZERO).time(),
             Self::Exact => {
                 let impact = advance::time_of_impact(pair, &Limits::default());

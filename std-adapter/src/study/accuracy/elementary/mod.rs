@@ -155,20 +155,8 @@ pub fn measure_elementary_accuracy<F: Frames>(
     ask(&of_hard_cases::<f32>(), options, count, &mut sets, progress);
     ask(&of_hard_cases::<f64>(), options, count, &mut sets, progress);
     for (single, double) in in_each_format {
-        ask(
-            &of_pairs::<f32>(single),
-            options,
-            count,
-            &mut sets,
-            progress,
-        );
-        ask(
-            &of_pairs::<f64>(double),
-            options,
-            count,
-            &mut sets,
-            progress,
-        );
+        ask(&of_pairs::<f32>(single), options, count, &mut sets, progress);
+        ask(&of_pairs::<f64>(double), options, count, &mut sets, progress);
     }
     Ok(ElementaryAccuracy { options, sets })
 }
@@ -213,14 +201,9 @@ fn of_hard_cases<S: Scalar>() -> Questions<S> {
 fn of_pairs<S: Scalar>(set: &PairSet) -> Questions<S> {
     let rows = set.rows::<S>();
     let mut pairs = Vec::new();
-    for (kind, indices) in [
-        (PairKind::VertexFace, &set.vertex_face),
-        (PairKind::EdgeEdge, &set.edge_edge),
-    ] {
+    for (kind, indices) in [(PairKind::VertexFace, &set.vertex_face), (PairKind::EdgeEdge, &set.edge_edge)] {
         let points = |&indices: &[u32; 4]| indices.map(|index| rows[index as usize].motion());
-        let all = indices
-            .iter()
-            .map(|indices| Pair::new(kind, points(indices)));
+        let all = indices.iter().map(|indices| Pair::new(kind, points(indices)));
         pairs.extend(all.filter(|pair| {
             let verdict = match pair {
                 Pair::VertexFace(pair) => boxes::swept_boxes(pair),

@@ -60,10 +60,7 @@ fn exact_answers_are_right_and_enclose_the_time() {
     };
     assert_eq!(exact_answer(&fall(3.0, -3.0)), ExactAnswer::Never);
     assert_eq!(exact_answer(&fall(0.2, 1e-300)), ExactAnswer::Never);
-    let ExactAnswer::Touches {
-        first: Some([from, to]),
-    } = exact_answer(&fall(0.2, -3.0))
-    else {
+    let ExactAnswer::Touches { first: Some([from, to]) } = exact_answer(&fall(0.2, -3.0)) else {
         panic!("it touches, and passes through");
     };
     assert!((from..=to).contains(&0.25) && to - from < WIDEST);

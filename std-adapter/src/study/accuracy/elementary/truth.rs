@@ -50,9 +50,7 @@ fn in_f64<S: Scalar>(position: S::Vector) -> DVec3 {
 fn answer<P: PrimitivePair<f64>>(pair: &P) -> ExactAnswer {
     match contact(pair) {
         Contact::Never => ExactAnswer::Never,
-        Contact::Happens => ExactAnswer::Touches {
-            first: first_time(pair),
-        },
+        Contact::Happens => ExactAnswer::Touches { first: first_time(pair) },
         Contact::Undefined => ExactAnswer::Touches { first: None },
     }
 }
