@@ -5,9 +5,9 @@
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use selvedge_core::PairKind;
 use selvedge_core::batch::{BatchTest, LANES, Level, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::filter::{Depth, Filter, Tier};
-use selvedge_core::points::Shape;
 use selvedge_core::{Motion, PrimitivePair, Scalar, VertexFace, filter};
 use std::hint::black_box;
 use std::time::Duration;
@@ -99,10 +99,10 @@ impl<S: Scalar> Bench<'_, S> {
                     let masks = black_box(&mut masks);
                     if self.place == Place::Cache {
                         let tiles = black_box(&self.tiles);
-                        culled_from_tiles(level, Shape::VertexFace, test, tiles, masks);
+                        culled_from_tiles(level, PairKind::VertexFace, test, tiles, masks);
                     } else {
                         let (rows, indices) = (black_box(rows), black_box(indices));
-                        culled_from_rows(level, Shape::VertexFace, test, rows, indices, masks);
+                        culled_from_rows(level, PairKind::VertexFace, test, rows, indices, masks);
                     }
                 });
             });

@@ -62,8 +62,8 @@
 //! 8u·M² for one sum more; 64u·M² with second order, times √3 < 2 for the vector: 128u·M². Squares that underflow lose less than
 //! η together, which is added under the root; 1 + 32u covers the dozen roundings from there to the comparison.
 
+use crate::PairKind;
 use crate::lanes::{Lanes, Rounding};
-use crate::points::Shape;
 use crate::vector::Vector;
 
 /// A moving tetrahedron a b c p, as its three edges from a, each at the start and at the end of the step.
@@ -159,11 +159,11 @@ impl<L: Lanes> MovingTetrahedron<L> {
     /// [`largest_by_axis`](Self::largest_by_axis) to be [in range](is_in_range).
     #[inline(always)]
     #[must_use]
-    pub fn largest_normal(&self, shape: Shape) -> L {
+    pub fn largest_normal(&self, kind: PairKind) -> L {
         let ([b0, b1], [c0, c1]) = (self.b, self.c);
-        let [n0, h, n1] = match shape {
-            Shape::VertexFace => products(self.b, self.c),
-            Shape::EdgeEdge => products([c0 - b0, c1 - b1], self.p),
+        let [n0, h, n1] = match kind {
+            PairKind::VertexFace => products(self.b, self.c),
+            PairKind::EdgeEdge => products([c0 - b0, c1 - b1], self.p),
         };
         let largest = self.largest_by_axis().largest();
         let constant = |value| largest.splat(value);

@@ -56,6 +56,7 @@ pub mod elementary;
 pub mod exact;
 pub mod features;
 pub mod filter;
+mod kind;
 pub mod lanes;
 pub mod motion;
 pub mod points;
@@ -64,6 +65,7 @@ pub mod vector;
 mod verdict;
 
 pub use features::{FeatureEdge, FeatureTriangle, Features};
+pub use kind::{PairKind, ParsePairKindError};
 pub use lanes::{Lanes, Rounding};
 pub use motion::{EdgeEdge, Motion, PrimitivePair, VertexFace};
 pub use scalar::{Position, Scalar};

@@ -1,6 +1,7 @@
 //! A pair's four points in lanes, and what tells a vertex–face pair from an edge–edge pair.
 
 use crate::coplanarity::MovingTetrahedron;
+use crate::kind::PairKind;
 use crate::lanes::{Lanes, Rounding};
 use crate::vector::Vector;
 
@@ -15,19 +16,10 @@ pub struct PairPoints<L> {
     pub end: [Vector<L>; 4],
 }
 
-/// Which of four points belong together, as a value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Shape {
-    /// One point against three.
-    VertexFace,
-    /// Two points against two.
-    EdgeEdge,
-}
-
 /// Which of four points belong together, as a type: [`VertexAndFace`] or [`EdgeAndEdge`].
 pub trait PairShape {
     /// The same as a value.
-    const SHAPE: Shape;
+    const KIND: PairKind;
 
     /// The smallest and largest value over each set's points, given one value for each point. NaN may be dropped.
     fn ranges<L: Lanes>(values: [L; 4]) -> [[L; 2]; 2];
@@ -49,7 +41,7 @@ pub enum VertexAndFace {}
 pub enum EdgeAndEdge {}
 
 impl PairShape for VertexAndFace {
-    const SHAPE: Shape = Shape::VertexFace;
+    const KIND: PairKind = PairKind::VertexFace;
 
     #[inline(always)]
     fn ranges<L: Lanes>([vertex, a, b, c]: [L; 4]) -> [[L; 2]; 2] {
@@ -69,7 +61,7 @@ impl PairShape for VertexAndFace {
 }
 
 impl PairShape for EdgeAndEdge {
-    const SHAPE: Shape = Shape::EdgeEdge;
+    const KIND: PairKind = PairKind::EdgeEdge;
 
     #[inline(always)]
     fn ranges<L: Lanes>([u, v, k, l]: [L; 4]) -> [[L; 2]; 2] {

@@ -18,10 +18,10 @@ use selvedge::glam::DVec3;
 use selvedge::mesh::read_step;
 use selvedge::scene::ArmScene;
 use selvedge::study::{ArmFrames, Frames, PairSet, TwoFrames};
+use selvedge_core::PairKind;
 use selvedge_core::batch::{LANES, Mask, Round, RoundQuestion, Test, VertexRow, advance_from_rows, culled_from_rows};
 use selvedge_core::elementary::Limits;
 use selvedge_core::filter::{Depth, Filter, Tier};
-use selvedge_core::points::Shape;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -107,19 +107,19 @@ fn stem(path: &Path) -> String {
 
 fn report(set: &PairSet) {
     let rows = set.rows::<f64>();
-    for (kind, shape, pairs) in [
-        ("VF", Shape::VertexFace, &set.vertex_face),
-        ("EE", Shape::EdgeEdge, &set.edge_edge),
+    for (name, kind, pairs) in [
+        ("VF", PairKind::VertexFace, &set.vertex_face),
+        ("EE", PairKind::EdgeEdge, &set.edge_edge),
     ] {
         println!(
-            "{}, {kind}: {} pairs after distribution (a sample of {} VF and EE)",
+            "{}, {name}: {} pairs after distribution (a sample of {} VF and EE)",
             set.name,
             pairs.len(),
             set.drawn_from
         );
-        let all = TESTS.map(|(_, test)| measured(test, shape, &rows, pairs));
+        let all = TESTS.map(|(_, test)| measured(test, kind, &rows, pairs));
         let overlapping = left(pairs, &all[0]);
-        let after = TESTS.map(|(_, test)| measured(test, shape, &rows, &overlapping));
+        let after = TESTS.map(|(_, test)| measured(test, kind, &rows, &overlapping));
         println!(
             "  {:<30}{:>8}{:>9}{:>10} |{:>8}{:>9}{:>10}",
             "", "culls", "ns", "pays from", "culls", "ns", "pays from"
@@ -128,8 +128,8 @@ fn report(set: &PairSet) {
         for (((name, _), all), after) in TESTS.iter().zip(&all).zip(&after) {
             println!("  {name:<30}{} |{}", cells(all), cells(after));
         }
-        print_order(shape, &rows, pairs);
-        print_what_the_first_round_culls(shape, &rows, pairs);
+        print_order(kind, &rows, pairs);
+        print_what_the_first_round_culls(kind, &rows, pairs);
         println!();
     }
 }
@@ -145,12 +145,12 @@ fn cells(outcome: &Outcome) -> String {
 }
 
 /// One test after another, each time the one that pays first.
-fn print_order(shape: Shape, rows: &[VertexRow<f64>], pairs: &[[u32; 4]]) {
+fn print_order(kind: PairKind, rows: &[VertexRow<f64>], pairs: &[[u32; 4]]) {
     let mut pairs = pairs.to_vec();
     let whole = pairs.len() as f64;
     println!("  order:");
     while !pairs.is_empty() {
-        let outcomes = TESTS.map(|(name, test)| (name, measured(test, shape, rows, &pairs)));
+        let outcomes = TESTS.map(|(name, test)| (name, measured(test, kind, rows, &pairs)));
         let best = outcomes
             .iter()
             .filter(|(_, outcome)| outcome.share() >= LEAST_SHARE)
@@ -168,13 +168,13 @@ fn print_order(shape: Shape, rows: &[VertexRow<f64>], pairs: &[[u32; 4]]) {
 }
 
 /// Of what nine directions cull where the tests that always pay have been before.
-fn print_what_the_first_round_culls(shape: Shape, rows: &[VertexRow<f64>], pairs: &[[u32; 4]]) {
+fn print_what_the_first_round_culls(kind: PairKind, rows: &[VertexRow<f64>], pairs: &[[u32; 4]]) {
     let mut pairs = pairs.to_vec();
     for test in [Candidate::Filter(Tier::Permanent), Candidate::Test(Test::RelativeBoxes)] {
-        pairs = left(&pairs, &measured(test, shape, rows, &pairs));
+        pairs = left(&pairs, &measured(test, kind, rows, &pairs));
     }
-    let nine = measured(Candidate::Test(Test::RelativeBoxesNine), shape, rows, &pairs);
-    let round = measured(Candidate::ClosestDirection, shape, rows, &pairs);
+    let nine = measured(Candidate::Test(Test::RelativeBoxesNine), kind, rows, &pairs);
+    let round = measured(Candidate::ClosestDirection, kind, rows, &pairs);
     let by_nine: Vec<_> = { nine.culled.iter().zip(&round.culled) }.filter(|(nine, _)| **nine).collect();
     let by_both = by_nine.iter().filter(|(_, round)| **round).count();
     println!(
@@ -191,7 +191,7 @@ fn left(pairs: &[[u32; 4]], outcome: &Outcome) -> Vec<[u32; 4]> {
     both.filter(|(_, culled)| !**culled).map(|(&pair, _)| pair).collect()
 }
 
-fn measured(candidate: Candidate, shape: Shape, rows: &[VertexRow<f64>], pairs: &[[u32; 4]]) -> Outcome {
+fn measured(candidate: Candidate, kind: PairKind, rows: &[VertexRow<f64>], pairs: &[[u32; 4]]) -> Outcome {
     let mut culled = Vec::with_capacity(pairs.len());
     let mut seconds = 0.0;
     let mut masks = [0; CHUNK / LANES];
@@ -199,7 +199,7 @@ fn measured(candidate: Candidate, shape: Shape, rows: &[VertexRow<f64>], pairs: 
         let mut fastest = f64::INFINITY;
         for _ in 0..RUNS {
             let begin = Instant::now();
-            ask(candidate, shape, rows, pairs, &mut masks);
+            ask(candidate, kind, rows, pairs, &mut masks);
             fastest = fastest.min(begin.elapsed().as_secs_f64());
         }
         seconds += fastest;
@@ -212,12 +212,12 @@ fn measured(candidate: Candidate, shape: Shape, rows: &[VertexRow<f64>], pairs: 
     }
 }
 
-fn ask(candidate: Candidate, shape: Shape, rows: &[VertexRow<f64>], pairs: &[[u32; 4]], masks: &mut [Mask; CHUNK / LANES]) {
+fn ask(candidate: Candidate, kind: PairKind, rows: &[VertexRow<f64>], pairs: &[[u32; 4]], masks: &mut [Mask; CHUNK / LANES]) {
     let level = best_level();
     match candidate {
-        Candidate::Test(test) => culled_from_rows(level, shape, test, rows, pairs, masks),
+        Candidate::Test(test) => culled_from_rows(level, kind, test, rows, pairs, masks),
         Candidate::Filter(tier) => {
-            culled_from_rows(level, shape, Filter::new(tier), rows, pairs, masks);
+            culled_from_rows(level, kind, Filter::new(tier), rows, pairs, masks);
         }
         Candidate::ClosestDirection => {
             let question = RoundQuestion {
@@ -227,7 +227,7 @@ fn ask(candidate: Candidate, shape: Shape, rows: &[VertexRow<f64>], pairs: &[[u3
             };
             let mut times = [0.0; CHUNK];
             let mut rounds = [Round::default(); CHUNK / LANES];
-            advance_from_rows(level, shape, &question, rows, pairs, &mut times, &mut rounds);
+            advance_from_rows(level, kind, &question, rows, pairs, &mut times, &mut rounds);
             for (mask, round) in masks.iter_mut().zip(&rounds) {
                 *mask = round.apart;
             }

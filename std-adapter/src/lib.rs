@@ -31,7 +31,7 @@ mod frame;
 #[cfg(feature = "files")]
 pub mod hard_cases;
 pub mod mesh;
-mod pair_kind;
+mod pair_counts;
 mod parallel;
 pub mod pipeline;
 #[cfg(feature = "files")]
@@ -48,6 +48,7 @@ pub mod study;
 #[doc(hidden)]
 pub mod temporary_file;
 
-pub use pair_kind::{PairKind, ParsePairKindError};
+pub use pair_counts::PairCounts;
 pub use selvedge_core as core;
 pub use selvedge_core::glam;
+pub use selvedge_core::{PairKind, ParsePairKindError};

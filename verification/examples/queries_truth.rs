@@ -9,7 +9,8 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use rug::{Integer, Rational};
-use selvedge_verification::oracle::{AlgebraicTime, Kind, Pair, collides};
+use selvedge_core::PairKind;
+use selvedge_verification::oracle::{AlgebraicTime, Pair, collides};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -117,8 +118,8 @@ fn read(path: &Path) -> Result<Vec<(Pair, bool)>> {
     let at = |what: &dyn std::fmt::Display| format!("{}: {what}", path.display());
     let folder = path.parent().and_then(Path::file_name).and_then(|name| name.to_str());
     let kind = match folder {
-        Some("vertex-face") => Kind::VertexFace,
-        Some("edge-edge") => Kind::EdgeEdge,
+        Some("vertex-face") => PairKind::VertexFace,
+        Some("edge-edge") => PairKind::EdgeEdge,
         _ => return Err(at(&"the folder must be named vertex-face or edge-edge")),
     };
     let mut reader = csv::ReaderBuilder::new()

@@ -10,7 +10,8 @@
 
 use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};
 use selvedge::mesh::{Mesh, read};
-use selvedge_verification::oracle::{Kind, Pair, collides};
+use selvedge_core::PairKind;
+use selvedge_verification::oracle::{Pair, collides};
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
@@ -109,10 +110,10 @@ impl Scene {
         let edge = |id: usize| id.checked_sub(edges_from).and_then(|i| self.edges.get(i));
         let face = |id: usize| id.checked_sub(faces_from).and_then(|i| self.start.triangles.get(i));
         let (kind, vertices) = match (edge(first), edge(second), face(second)) {
-            (Some([a, b]), Some([c, d]), _) => (Kind::EdgeEdge, [*a, *b, *c, *d]),
+            (Some([a, b]), Some([c, d]), _) => (PairKind::EdgeEdge, [*a, *b, *c, *d]),
             (None, _, Some([a, b, c])) if first < edges_from => {
                 let vertex = u32::try_from(first).expect("the reader's indices have 32 bits");
-                (Kind::VertexFace, [vertex, *a, *b, *c])
+                (PairKind::VertexFace, [vertex, *a, *b, *c])
             }
             _ => {
                 return Err(format!("[{first}, {second}] is no vertex and face, nor two edges"));

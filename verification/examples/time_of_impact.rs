@@ -20,7 +20,7 @@ use selvedge_core::elementary::contact::{Evidence, contact_and_evidence};
 use selvedge_core::elementary::{Contact, Impact, Limits, Reason, contact};
 use selvedge_core::{EdgeEdge, PrimitivePair, VertexFace};
 use selvedge_verification::generator::{Format, PairCase};
-use selvedge_verification::oracle::{Kind, collides};
+use selvedge_verification::oracle::collides;
 use std::collections::HashSet;
 use std::hint::black_box;
 use std::path::Path;
@@ -59,7 +59,7 @@ fn main() -> ExitCode {
 /// Pairs of one kind, and whether they collide.
 struct Set {
     name: String,
-    kind: Kind,
+    kind: PairKind,
     points: Vec<[[[f64; 3]; 2]; 4]>,
     truth: Vec<bool>,
 }
@@ -80,10 +80,7 @@ fn queries(files: &[&str]) -> Result<usize> {
     for file in files {
         let path = Path::new(file);
         let queries = read_queries(path, None).map_err(|error| error.to_string())?;
-        let kind = match queries.kind {
-            PairKind::VertexFace => Kind::VertexFace,
-            PairKind::EdgeEdge => Kind::EdgeEdge,
-        };
+        let kind = queries.kind;
         let folder = path.ancestors().nth(2).and_then(Path::file_name);
         let is_unit = folder.is_some_and(|name| name.to_string_lossy().starts_with("unit"));
         let name = if is_unit { "unit" } else { "erleben" };
@@ -129,11 +126,11 @@ fn scene(start: &str, end: &str, lists: &[&str]) -> Result<usize> {
             if first < edges_from {
                 let [a, b, c] = step.topology.triangles()[second - faces_from];
                 let vertex = u32::try_from(first).expect("an index");
-                colliding[0].insert(sorted([vertex, a, b, c], Kind::VertexFace));
+                colliding[0].insert(sorted([vertex, a, b, c], PairKind::VertexFace));
             } else {
                 let [a, b] = edges[first - edges_from];
                 let [c, d] = edges[second - edges_from];
-                colliding[1].insert(sorted([a, b, c, d], Kind::EdgeEdge));
+                colliding[1].insert(sorted([a, b, c, d], PairKind::EdgeEdge));
             }
         }
     }
@@ -147,11 +144,11 @@ fn scene(start: &str, end: &str, lists: &[&str]) -> Result<usize> {
     pipeline.step(start, end).map_err(|error| error.to_string())?;
     let mut misses = 0;
     for (kind, pair_kind, colliding) in [
-        (Kind::VertexFace, PairKind::VertexFace, &colliding[0]),
-        (Kind::EdgeEdge, PairKind::EdgeEdge, &colliding[1]),
+        (PairKind::VertexFace, PairKind::VertexFace, &colliding[0]),
+        (PairKind::EdgeEdge, PairKind::EdgeEdge, &colliding[1]),
     ] {
         let candidates = pipeline.candidates(pair_kind).iter();
-        let vertices: Vec<[u32; 4]> = candidates.map(|&pair| pair_kind.vertices(pair, &step.topology)).collect();
+        let vertices: Vec<[u32; 4]> = candidates.map(|&pair| step.topology.vertices_of(pair_kind, pair)).collect();
         let points = vertices
             .iter()
             .map(|vertices| vertices.map(|v| [start, end].map(|at| at[v as usize].to_array())));
@@ -168,14 +165,14 @@ fn scene(start: &str, end: &str, lists: &[&str]) -> Result<usize> {
 }
 
 /// The same pair always in the same order.
-fn sorted([a, b, c, d]: [u32; 4], kind: Kind) -> [u32; 4] {
+fn sorted([a, b, c, d]: [u32; 4], kind: PairKind) -> [u32; 4] {
     match kind {
-        Kind::VertexFace => {
+        PairKind::VertexFace => {
             let mut face = [b, c, d];
             face.sort_unstable();
             [a, face[0], face[1], face[2]]
         }
-        Kind::EdgeEdge => {
+        PairKind::EdgeEdge => {
             let mut edges = [[a.min(b), a.max(b)], [c.min(d), c.max(d)]];
             edges.sort_unstable();
             [edges[0][0], edges[0][1], edges[1][0], edges[1][1]]
@@ -196,7 +193,7 @@ fn stress(count: usize, seed: u64) -> usize {
     // Not zero, which the generator would never leave.
     let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
     let mut misses = 0;
-    for kind in [Kind::VertexFace, Kind::EdgeEdge] {
+    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         let points: Vec<_> = (0..count).map(|_| random.flat_pair(kind)).collect();
         let truth = points.iter().map(|points| {
             let pair = PairCase::new(kind, *points);
@@ -204,8 +201,8 @@ fn stress(count: usize, seed: u64) -> usize {
                 return collides(&pair.question()).is_some();
             }
             let verdict = match kind {
-                Kind::VertexFace => contact(&pair.vertex_face()),
-                Kind::EdgeEdge => contact(&pair.edge_edge()),
+                PairKind::VertexFace => contact(&pair.vertex_face()),
+                PairKind::EdgeEdge => contact(&pair.edge_edge()),
             };
             verdict == Contact::Happens
         });
@@ -242,10 +239,10 @@ impl Random {
         self.signed() * 10_f64.powf(-9.0 * self.number())
     }
 
-    fn flat_pair(&mut self, kind: Kind) -> [[[f64; 3]; 2]; 4] {
+    fn flat_pair(&mut self, kind: PairKind) -> [[[f64; 3]; 2]; 4] {
         let first = match kind {
-            Kind::VertexFace => 1,
-            Kind::EdgeEdge => 2,
+            PairKind::VertexFace => 1,
+            PairKind::EdgeEdge => 2,
         };
         // The second set is this far below the first, and moves so much in the plane and across it.
         let gap = self.of_any_size().abs();
@@ -299,8 +296,8 @@ fn measure_format<S: Format>(set: &Set) -> usize {
         .map(|points| PairCase::new(set.kind, points.map(|p| p.map(|x| x.map(S::from_f64)))))
         .collect();
     match set.kind {
-        Kind::VertexFace => measure::<S, VertexFace<S>>(set, &cases, PairCase::vertex_face),
-        Kind::EdgeEdge => measure::<S, EdgeEdge<S>>(set, &cases, PairCase::edge_edge),
+        PairKind::VertexFace => measure::<S, VertexFace<S>>(set, &cases, PairCase::vertex_face),
+        PairKind::EdgeEdge => measure::<S, EdgeEdge<S>>(set, &cases, PairCase::edge_edge),
     }
 }
 

@@ -3,10 +3,10 @@
 //! The kernels are generic over [`Lanes`], so their source runs on [`Altered`] unchanged.
 
 use crate::generator::{Format, PairCase};
-use crate::oracle::Kind;
+use selvedge_core::PairKind;
 use selvedge_core::boxes::{direction, relative, segment};
 use selvedge_core::filter::certified::{Bound, decide};
-use selvedge_core::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
+use selvedge_core::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
 use selvedge_core::{Lanes, PrimitivePair, Rounding, Vector};
 use std::marker::PhantomData;
 use std::ops::{Add, Mul, Neg, Sub};
@@ -147,8 +147,8 @@ impl Kernel {
     /// Whether the kernel culls the pair, with its constants times `F`.
     pub fn culls<F: Factors, S: Format>(self, pair: &PairCase<S>) -> bool {
         match pair.kind {
-            Kind::VertexFace => self.on::<VertexAndFace, F, S>(&pair.vertex_face().points()),
-            Kind::EdgeEdge => self.on::<EdgeAndEdge, F, S>(&pair.edge_edge().points()),
+            PairKind::VertexFace => self.on::<VertexAndFace, F, S>(&pair.vertex_face().points()),
+            PairKind::EdgeEdge => self.on::<EdgeAndEdge, F, S>(&pair.edge_edge().points()),
         }
     }
 
@@ -161,7 +161,7 @@ impl Kernel {
         };
         match self {
             Self::Bounded(bound) => decide::<P, _>(bound, &points.tetrahedron::<P>(), None).culled,
-            Self::Segment => P::SHAPE == Shape::VertexFace && segment::misses_face(&points),
+            Self::Segment => P::KIND == PairKind::VertexFace && segment::misses_face(&points),
             Self::NineDirections => relative::are_apart_along_nine_directions::<P, _>(&points),
             Self::Normal => direction::are_apart_along_normal::<P, _>(&points),
         }

@@ -2,8 +2,8 @@
 //! what the pipeline does in batches can be done again by hand.
 
 use crate::generator::{Format, PairCase};
-use crate::oracle::Kind;
 use selvedge::pipeline::CullingTest;
+use selvedge_core::PairKind;
 use selvedge_core::boxes::{Aabb, Dop18, relative, segment, swept_boxes};
 use selvedge_core::{PrimitivePair, Verdict, filter};
 
@@ -29,9 +29,9 @@ pub fn certified() -> impl Iterator<Item = CullingTest> {
 /// What `test` says of `case`.
 pub fn verdict<S: Format>(test: CullingTest, case: &PairCase<S>) -> Verdict {
     match case.kind {
-        Kind::VertexFace if test == CullingTest::SegmentBox => segment::vertex_face(&case.vertex_face()),
-        Kind::VertexFace => of_either_kind(test, &case.vertex_face(), 1),
-        Kind::EdgeEdge => of_either_kind(test, &case.edge_edge(), 2),
+        PairKind::VertexFace if test == CullingTest::SegmentBox => segment::vertex_face(&case.vertex_face()),
+        PairKind::VertexFace => of_either_kind(test, &case.vertex_face(), 1),
+        PairKind::EdgeEdge => of_either_kind(test, &case.edge_edge(), 2),
     }
 }
 

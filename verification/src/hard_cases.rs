@@ -4,8 +4,9 @@
 //! the [`oracle`](crate::oracle)'s; where a case is placed exactly, its answer must be the one that its geometry says.
 
 use crate::generator::{Format, PairCase};
-use crate::oracle::{Kind, collides};
+use crate::oracle::collides;
 use rug::Rational;
+use selvedge_core::PairKind;
 use std::fmt::Write;
 
 /// One case, before it is placed.
@@ -104,7 +105,7 @@ fn shapes() -> Vec<Shape> {
     let mut shapes = Vec::new();
     let mut vf = |name, vertex: Ends, face: [Ends; 3], first| {
         let [a, b, c] = face;
-        let pair = PairCase::new(Kind::VertexFace, [vertex, a, b, c]);
+        let pair = PairCase::new(PairKind::VertexFace, [vertex, a, b, c]);
         shapes.push(Shape { name, pair, first });
     };
     let half = First::At(1, 2);
@@ -229,7 +230,7 @@ fn shapes() -> Vec<Shape> {
 
     let mut ee = |name, first: [Ends; 2], second: [Ends; 2], when| {
         let ([u, v], [k, l]) = (first, second);
-        let pair = PairCase::new(Kind::EdgeEdge, [u, v, k, l]);
+        let pair = PairCase::new(PairKind::EdgeEdge, [u, v, k, l]);
         shapes.push(Shape { name, pair, first: when });
     };
     let along_x = [rests([-1.0, 0.0, 0.0]), rests([1.0, 0.0, 0.0])];
@@ -422,13 +423,13 @@ fn extremes() -> Vec<(&'static str, Shape)> {
     let scaled = |name, factor: f64, fall: [f64; 2], first| {
         let [a, b, c] = FLOOR.map(|ends| ends.map(|x| x.map(|x| x * factor)));
         let vertex = fall.map(|z| [factor, factor, z * factor]);
-        let pair = PairCase::new(Kind::VertexFace, [vertex, a, b, c]);
+        let pair = PairCase::new(PairKind::VertexFace, [vertex, a, b, c]);
         Shape { name, pair, first }
     };
     let crossing = |name, factor: f64, fall: [f64; 2], first| {
         let x = |x: f64| [[x * factor, 0.0, 0.0]; 2];
         let y = |y: f64| fall.map(|z| [0.0, y * factor, z * factor]);
-        let pair = PairCase::new(Kind::EdgeEdge, [x(-1.0), x(1.0), y(-1.0), y(1.0)]);
+        let pair = PairCase::new(PairKind::EdgeEdge, [x(-1.0), x(1.0), y(-1.0), y(1.0)]);
         Shape { name, pair, first }
     };
     let (subnormal, huge) = (f64::from_bits(1), f64::MAX / 8.0);
@@ -508,8 +509,8 @@ pub fn table() -> String {
 
 fn row(text: &mut String, name: &str, placement: &str, pair: &PairCase<f64>, expected: Option<First>) {
     let kind = match pair.kind {
-        Kind::VertexFace => "vertex-face",
-        Kind::EdgeEdge => "edge-edge",
+        PairKind::VertexFace => "vertex-face",
+        PairKind::EdgeEdge => "edge-edge",
     };
     let (first, from, to) = answer(pair, expected, name, placement);
     write!(text, "\"{name}\",\"{placement}\",{kind},{first},{from},{to}").expect("a string has room");

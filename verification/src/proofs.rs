@@ -4,10 +4,11 @@
 //! in `verification/gappa/traced/`; a test demands that they are what the code gives.
 
 use crate::traced::{Step, Trace, Traced, trace};
+use selvedge_core::PairKind;
 use selvedge_core::Vector;
 use selvedge_core::coplanarity::MovingTetrahedron;
 use selvedge_core::filter::inside::is_outside_of_one_side;
-use selvedge_core::points::{PairPoints, PairShape, Shape};
+use selvedge_core::points::{PairPoints, PairShape};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -65,11 +66,11 @@ pub fn scripts() -> Vec<Script> {
         .iter()
         .map(|claim| control_value(claim, values[claim.index], &steps))
         .collect();
-    for (shape, name) in [
-        (Shape::VertexFace, "normal-vertex-face"),
-        (Shape::EdgeEdge, "normal-edge-edge"),
+    for (kind, name) in [
+        (PairKind::VertexFace, "normal-vertex-face"),
+        (PairKind::EdgeEdge, "normal-edge-edge"),
     ] {
-        let (length, steps) = trace(|| tetrahedron().largest_normal(shape));
+        let (length, steps) = trace(|| tetrahedron().largest_normal(kind));
         scripts.push(normal(name, length, &steps));
     }
     scripts

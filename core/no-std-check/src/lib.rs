@@ -6,12 +6,13 @@
 
 use core::cmp::Ordering;
 use core::panic::PanicInfo;
+use selvedge_core::PairKind;
 use selvedge_core::batch::{self, BatchTest, Level, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows};
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, Dop18, direction, relative, segment, swept_boxes};
 use selvedge_core::distribution::distribute;
 use selvedge_core::filter::{Filter, Tier};
-use selvedge_core::points::{PairShape, Shape};
+use selvedge_core::points::PairShape;
 use selvedge_core::{EdgeEdge, FeatureTriangle, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary, exact, filter};
 
 #[panic_handler]
@@ -59,16 +60,16 @@ fn tiers<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> u32 {
 
 /// One pair's mask as a list, a tile and rows.
 fn in_every_form<S: Scalar, P: PrimitivePair<S>>(test: impl BatchTest<S>, pair: &P, masks: &mut [Mask; 1]) -> [Mask; 3] {
-    let (level, shape): (Level, Shape) = (Level::baseline(), P::Shape::SHAPE);
+    let (level, kind): (Level, PairKind) = (Level::baseline(), P::Shape::KIND);
     let mut tile = Tile::unknown();
     tile.set(0, pair.motions());
     let rows = pair.motions().map(VertexRow::new);
     let mut answers = [0; 3];
     batch::culled(level, test, core::slice::from_ref(pair), masks);
     answers[0] = masks[0];
-    batch::culled_from_tiles(level, shape, test, &[tile], masks);
+    batch::culled_from_tiles(level, kind, test, &[tile], masks);
     answers[1] = masks[0];
-    batch::culled_from_rows(level, shape, test, &rows, &[[0, 1, 2, 3]], masks);
+    batch::culled_from_rows(level, kind, test, &rows, &[[0, 1, 2, 3]], masks);
     answers[2] = masks[0];
     answers
 }
@@ -126,9 +127,9 @@ fn advanced<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Option<S> {
         with_volume: true,
     };
     let (mut times, mut rounds) = ([S::ZERO], [Round::default()]);
-    let (level, shape) = (Level::baseline(), P::Shape::SHAPE);
+    let (level, kind) = (Level::baseline(), P::Shape::KIND);
     let indices = [[0, 1, 2, 3]];
-    advance_from_rows(level, shape, &question, &rows, &indices, &mut times, &mut rounds);
+    advance_from_rows(level, kind, &question, &rows, &indices, &mut times, &mut rounds);
     let from = times[0];
     if rounds[0].apart != 0 {
         return None;

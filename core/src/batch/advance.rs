@@ -7,11 +7,12 @@
 
 use super::simd::Quotients;
 use super::{LANES, Level, Mask, VertexRow};
+use crate::PairKind;
 use crate::coplanarity::MovingTetrahedron;
 use crate::elementary::Limits;
 use crate::elementary::corners::{largest_extent, less_roundoffs, more_roundoffs, of_format};
 use crate::lanes::{Lanes, Rounding};
-use crate::points::{PairPoints, PairShape, Shape};
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
@@ -57,21 +58,21 @@ pub struct RoundQuestion<S> {
 ///
 /// ```
 /// use selvedge_core::batch::{advance_from_rows, Level, Round, RoundQuestion, VertexRow};
-/// use selvedge_core::{elementary::Limits, glam::DVec3, points::Shape, Motion};
+/// use selvedge_core::{elementary::Limits, glam::DVec3, PairKind, Motion};
 /// // A vertex that falls from 1 to −1 onto a resting triangle.
 /// let mut rows = vec![VertexRow::new(Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)))];
 /// rows.extend([DVec3::ZERO, DVec3::X, DVec3::Y].map(|corner| VertexRow::new(Motion::resting(corner))));
 /// let question = RoundQuestion { limits: Limits::default(), until: 1.0, with_volume: false };
 /// let (mut times, mut rounds) = ([0.0], [Round::default()]);
-/// let shape = Shape::VertexFace;
-/// advance_from_rows(Level::baseline(), shape, &question, &rows, &[[0, 1, 2, 3]], &mut times, &mut rounds);
+/// let kind = PairKind::VertexFace;
+/// advance_from_rows(Level::baseline(), kind, &question, &rows, &[[0, 1, 2, 3]], &mut times, &mut rounds);
 /// assert!(times[0] > 0.499 && times[0] <= 0.5);
-/// advance_from_rows(Level::baseline(), shape, &question, &rows, &[[0, 1, 2, 3]], &mut times, &mut rounds);
+/// advance_from_rows(Level::baseline(), kind, &question, &rows, &[[0, 1, 2, 3]], &mut times, &mut rounds);
 /// assert_eq!(rounds[0].near, 1);
 /// ```
 pub fn advance_from_rows<S: Scalar>(
     level: Level,
-    shape: Shape,
+    kind: PairKind,
     question: &RoundQuestion<S>,
     rows: &[VertexRow<S>],
     indices: &[[u32; 4]],
@@ -98,10 +99,10 @@ pub fn advance_from_rows<S: Scalar>(
             continue;
         }
         let whole = match (indices.first_chunk(), times.first_chunk_mut()) {
-            (Some(indices), Some(times)) => S::round(level, shape, &question, rows, indices, times),
+            (Some(indices), Some(times)) => S::round(level, kind, &question, rows, indices, times),
             _ => None,
         };
-        *round = whole.unwrap_or_else(|| one_by_one(level, shape, &question, rows, indices, times));
+        *round = whole.unwrap_or_else(|| one_by_one(level, kind, &question, rows, indices, times));
     }
 }
 
@@ -109,7 +110,7 @@ pub fn advance_from_rows<S: Scalar>(
 #[cold]
 fn one_by_one<S: Scalar>(
     level: Level,
-    shape: Shape,
+    kind: PairKind,
     question: &RoundQuestion<S>,
     rows: &[VertexRow<S>],
     indices: &[[u32; 4]],
@@ -143,7 +144,7 @@ fn one_by_one<S: Scalar>(
             *own = known;
         }
     }
-    let Some(round) = S::round(level, shape, question, rows, &whole, &mut whole_times) else {
+    let Some(round) = S::round(level, kind, question, rows, &whole, &mut whole_times) else {
         return all;
     };
     for (lane, (time, new)) in times.iter_mut().zip(whole_times).enumerate() {
@@ -170,7 +171,7 @@ pub(super) struct LaneRound<L: Lanes> {
 macro_rules! for_each_corner {
     ($shape:ty, $corners:expr, |$corner:ident| $action:block) => {{
         let [a, b, c, d] = $corners;
-        if matches!(<$shape>::SHAPE, Shape::EdgeEdge) {
+        if matches!(<$shape>::KIND, PairKind::EdgeEdge) {
             let $corner = a;
             $action
         }
@@ -273,12 +274,12 @@ where
 /// a number for some degenerate pairs.
 #[inline(always)]
 fn closest<P: PairShape, L: Quotients>(corners: [Vector<L>; 4]) -> Vector<L> {
-    match P::SHAPE {
-        Shape::VertexFace => {
+    match P::KIND {
+        PairKind::VertexFace => {
             let [_, a, b, c] = corners;
             in_triangle(a, b, c)
         }
-        Shape::EdgeEdge => {
+        PairKind::EdgeEdge => {
             let [a, b, c, _] = corners;
             in_parallelogram(a, b, c)
         }
@@ -391,13 +392,13 @@ where
     let two = time.splat(L::Scalar::small(2));
     let three = time.splat(L::Scalar::small(3));
     let ([a0, b0, c0, d0], [a1, b1, c1, d1]) = (*start, *end);
-    let tetrahedron = match P::SHAPE {
-        Shape::VertexFace => MovingTetrahedron {
+    let tetrahedron = match P::KIND {
+        PairKind::VertexFace => MovingTetrahedron {
             p: [b0, b1],
             b: [c0, c1],
             c: [d0, d1],
         },
-        Shape::EdgeEdge => MovingTetrahedron {
+        PairKind::EdgeEdge => MovingTetrahedron {
             p: [a0, a1],
             b: [b0, b1],
             c: [c0, c1],

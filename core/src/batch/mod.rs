@@ -38,12 +38,13 @@ pub use fearless_simd::{Level, Simd};
 pub use rows::VertexRow;
 pub use tile::Tile;
 
+use crate::PairKind;
 use crate::boxes;
 use crate::filter::certified::{Bound, Decision};
 use crate::filter::{Filter, inside, plain};
 use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
-use crate::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
+use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
 use crate::scalar::Scalar;
 pub(crate) use simd::{BatchScalar, Sixteen};
 
@@ -118,7 +119,7 @@ impl PointTest {
     #[inline(always)]
     fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask {
         match self {
-            Self::Segment if matches!(P::SHAPE, Shape::VertexFace) => boxes::segment::misses_face(points),
+            Self::Segment if matches!(P::KIND, PairKind::VertexFace) => boxes::segment::misses_face(points),
             Self::Swept | Self::Segment => boxes::have_disjoint_swept_boxes::<P, L>(points),
             Self::ThreeAxes => boxes::relative::are_apart_along_three_axes::<P, L>(points),
             Self::NineDirections => boxes::relative::are_apart_along_nine_directions::<P, L>(points),
@@ -131,7 +132,7 @@ impl PointTest {
 
 /// What can be asked of a batch: a [`Test`], or a [`Filter`] of any tier and separation.
 pub trait BatchTest<S: Scalar>: Copy + sealed::Sealed {
-    /// Which of sixteen pairs of this shape it culls. `None` if an index is not in the rows.
+    /// Which of sixteen pairs of this kind it culls. `None` if an index is not in the rows.
     #[doc(hidden)]
     fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask>;
 }
@@ -145,7 +146,7 @@ mod sealed {
 impl<S: Scalar> BatchTest<S> for Test {
     #[inline(always)]
     fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask> {
-        Some(S::sixteen(level, P::SHAPE, self.kernel(), pairs)?.culled)
+        Some(S::sixteen(level, P::KIND, self.kernel(), pairs)?.culled)
     }
 }
 
@@ -154,7 +155,7 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
     #[inline(always)]
     fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask> {
         let kernel = Kernel::Bounded(self.tier().bound(), self.positive_separation());
-        let Decision { mut culled, settled } = S::sixteen(level, P::SHAPE, kernel, pairs)?;
+        let Decision { mut culled, settled } = S::sixteen(level, P::KIND, kernel, pairs)?;
         // One by one, of those that the tier has more to say of.
         let mut open = self.tier().open(culled, settled);
         while open != 0 {
@@ -178,11 +179,17 @@ pub fn culled<S: Scalar, P: PrimitivePair<S>>(level: Level, test: impl BatchTest
 }
 
 /// Which pairs of `tiles` `test` culls, a mask for each tile: the fastest form, for pairs that lie side by side already.
-pub fn culled_from_tiles<S: Scalar>(level: Level, shape: Shape, test: impl BatchTest<S>, tiles: &[Tile<S>], masks: &mut [Mask]) {
+pub fn culled_from_tiles<S: Scalar>(
+    level: Level,
+    kind: PairKind,
+    test: impl BatchTest<S>,
+    tiles: &[Tile<S>],
+    masks: &mut [Mask],
+) {
     for (tile, mask) in tiles.iter().zip(masks) {
-        *mask = match shape {
-            Shape::VertexFace => of_tile::<S, VertexAndFace>(level, test, tile),
-            Shape::EdgeEdge => of_tile::<S, EdgeAndEdge>(level, test, tile),
+        *mask = match kind {
+            PairKind::VertexFace => of_tile::<S, VertexAndFace>(level, test, tile),
+            PairKind::EdgeEdge => of_tile::<S, EdgeAndEdge>(level, test, tile),
         };
     }
 }
@@ -193,17 +200,17 @@ pub fn culled_from_tiles<S: Scalar>(level: Level, shape: Shape, test: impl Batch
 /// one another should name rows that are close in memory.
 pub fn culled_from_rows<S: Scalar>(
     level: Level,
-    shape: Shape,
+    kind: PairKind,
     test: impl BatchTest<S>,
     rows: &[VertexRow<S>],
     indices: &[[u32; 4]],
     masks: &mut [Mask],
 ) {
-    match shape {
-        Shape::VertexFace => {
+    match kind {
+        PairKind::VertexFace => {
             of_mesh::<S, VertexAndFace>(level, test, rows, indices, masks);
         }
-        Shape::EdgeEdge => of_mesh::<S, EdgeAndEdge>(level, test, rows, indices, masks),
+        PairKind::EdgeEdge => of_mesh::<S, EdgeAndEdge>(level, test, rows, indices, masks),
     }
 }
 

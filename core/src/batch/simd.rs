@@ -2,27 +2,28 @@
 
 use super::advance::{LaneRound, Round, RoundQuestion, round};
 use super::{Kernel, LANES, Level, Mask, Tile, VertexRow};
+use crate::PairKind;
 use crate::coplanarity::MovingTetrahedron;
 use crate::filter::certified::{Decision, decide};
 use crate::lanes::Lanes;
-use crate::points::{EdgeAndEdge, PairPoints, PairShape, Shape, VertexAndFace};
+use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
 use crate::vector::Vector;
 use fearless_simd::{ExtractToken, Select, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f32x8, f32x16, f64x8};
 
 /// What [`Scalar`](crate::Scalar) needs to go sixteen at a time.
 ///
-/// The method is not generic, so that its many kernels (for each instruction set, test and shape) are compiled once, in
+/// The method is not generic, so that its many kernels (for each instruction set, test and kind) are compiled once, in
 /// this crate, and not in every crate that calls it.
 pub trait BatchScalar: Copy {
     /// What `kernel` says of sixteen pairs. `None` if an index is not in the rows.
     #[doc(hidden)]
-    fn sixteen(level: Level, shape: Shape, kernel: Kernel<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
+    fn sixteen(level: Level, kind: PairKind, kernel: Kernel<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
 
     /// One round of advancing for sixteen pairs, from their times on. `None` if an index is not in the rows.
     #[doc(hidden)]
     fn round(
         level: Level,
-        shape: Shape,
+        kind: PairKind,
         question: &RoundQuestion<Self>,
         rows: &[VertexRow<Self>],
         indices: &[[u32; 4]; LANES],
@@ -346,16 +347,16 @@ macro_rules! vectorized {
 }
 
 impl BatchScalar for f32 {
-    fn sixteen(level: Level, shape: Shape, kernel: Kernel<f32>, pairs: Sixteen<'_, f32>) -> Option<Decision<Mask>> {
-        vectorized!(level, simd => match shape {
-            Shape::VertexFace => sixteen_f32::<_, VertexAndFace>(simd, kernel, pairs, 0),
-            Shape::EdgeEdge => sixteen_f32::<_, EdgeAndEdge>(simd, kernel, pairs, 0),
+    fn sixteen(level: Level, kind: PairKind, kernel: Kernel<f32>, pairs: Sixteen<'_, f32>) -> Option<Decision<Mask>> {
+        vectorized!(level, simd => match kind {
+            PairKind::VertexFace => sixteen_f32::<_, VertexAndFace>(simd, kernel, pairs, 0),
+            PairKind::EdgeEdge => sixteen_f32::<_, EdgeAndEdge>(simd, kernel, pairs, 0),
         })
     }
 
     fn round(
         level: Level,
-        shape: Shape,
+        kind: PairKind,
         question: &RoundQuestion<f32>,
         rows: &[VertexRow<f32>],
         indices: &[[u32; 4]; LANES],
@@ -363,9 +364,9 @@ impl BatchScalar for f32 {
     ) -> Option<Round> {
         vectorized!(level, simd => {
             let from = f32x16::load_array_ref(simd, times);
-            let all = match shape {
-                Shape::VertexFace => round_f32::<_, VertexAndFace>(simd, question, rows, indices, from, 0),
-                Shape::EdgeEdge => round_f32::<_, EdgeAndEdge>(simd, question, rows, indices, from, 0),
+            let all = match kind {
+                PairKind::VertexFace => round_f32::<_, VertexAndFace>(simd, question, rows, indices, from, 0),
+                PairKind::EdgeEdge => round_f32::<_, EdgeAndEdge>(simd, question, rows, indices, from, 0),
             }?;
             *times = all.time.to_array();
             Some(Round {
@@ -378,26 +379,26 @@ impl BatchScalar for f32 {
 }
 
 impl BatchScalar for f64 {
-    fn sixteen(level: Level, shape: Shape, kernel: Kernel<f64>, pairs: Sixteen<'_, f64>) -> Option<Decision<Mask>> {
-        vectorized!(level, simd => match shape {
-            Shape::VertexFace => sixteen_f64::<_, VertexAndFace>(simd, kernel, pairs),
-            Shape::EdgeEdge => sixteen_f64::<_, EdgeAndEdge>(simd, kernel, pairs),
+    fn sixteen(level: Level, kind: PairKind, kernel: Kernel<f64>, pairs: Sixteen<'_, f64>) -> Option<Decision<Mask>> {
+        vectorized!(level, simd => match kind {
+            PairKind::VertexFace => sixteen_f64::<_, VertexAndFace>(simd, kernel, pairs),
+            PairKind::EdgeEdge => sixteen_f64::<_, EdgeAndEdge>(simd, kernel, pairs),
         })
     }
 
     fn round(
         level: Level,
-        shape: Shape,
+        kind: PairKind,
         question: &RoundQuestion<f64>,
         rows: &[VertexRow<f64>],
         indices: &[[u32; 4]; LANES],
         times: &mut [f64; LANES],
     ) -> Option<Round> {
-        vectorized!(level, simd => match shape {
-            Shape::VertexFace => {
+        vectorized!(level, simd => match kind {
+            PairKind::VertexFace => {
                 sixteen_rounds_f64::<_, VertexAndFace>(simd, question, rows, indices, times)
             }
-            Shape::EdgeEdge => {
+            PairKind::EdgeEdge => {
                 sixteen_rounds_f64::<_, EdgeAndEdge>(simd, question, rows, indices, times)
             }
         })

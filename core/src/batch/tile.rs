@@ -22,14 +22,14 @@ impl<S: Scalar> Tile<S> {
     ///
     /// ```
     /// use selvedge_core::batch::{culled_from_tiles, Level, Test, Tile};
-    /// use selvedge_core::{glam::Vec3, points::Shape, Motion, PrimitivePair, VertexFace};
+    /// use selvedge_core::{glam::Vec3, PairKind, Motion, PrimitivePair, VertexFace};
     /// let pairs = [Vec3::ZERO, Vec3::Z].map(|vertex| VertexFace {
     ///     vertex: Motion::resting(vertex),
     ///     face: [Vec3::ZERO, Vec3::X, Vec3::Y].map(Motion::resting),
     /// });
     /// let tile = Tile::new(pairs.iter().map(PrimitivePair::motions));
     /// let mut masks = [0];
-    /// culled_from_tiles(Level::baseline(), Shape::VertexFace, Test::SweptBoxes, &[tile], &mut masks);
+    /// culled_from_tiles(Level::baseline(), PairKind::VertexFace, Test::SweptBoxes, &[tile], &mut masks);
     /// assert_eq!(masks, [0b10]);
     /// ```
     #[inline]

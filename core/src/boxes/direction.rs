@@ -16,10 +16,11 @@
 //! Only M < [`Rounding::LARGEST_EDGE`] culls; W is then at most 8·M².
 
 use super::are_beyond;
+use crate::PairKind;
 use crate::coplanarity::{MovingTetrahedron, is_in_range, zero_if_finite};
 use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape, Shape};
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 use crate::verdict::Verdict;
@@ -49,9 +50,9 @@ pub fn normal<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
 pub fn are_apart_along_normal<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
     let MovingTetrahedron { b, c, p } = points.tetrahedron::<P>();
     let ([b0, b1], [c0, c1], [p0, p1]) = (b, c, p);
-    let normal = match P::SHAPE {
-        Shape::VertexFace => b0.cross(c0) + b1.cross(c1),
-        Shape::EdgeEdge => (c0 - b0).cross(p0) + (c1 - b1).cross(p1),
+    let normal = match P::KIND {
+        PairKind::VertexFace => b0.cross(c0) + b1.cross(c1),
+        PairKind::EdgeEdge => (c0 - b0).cross(p0) + (c1 - b1).cross(p1),
     };
     are_apart_along(P::corners(points.start), P::corners(points.end), normal)
 }

@@ -15,8 +15,9 @@
 use super::closest::closest;
 use super::corners::Corners;
 use super::{Impact, Reason};
+use crate::PairKind;
 use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape, Shape};
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
@@ -41,9 +42,9 @@ pub const ROUNDS: u32 = 100_000;
 #[inline]
 pub fn time_of_impact<S: Scalar, P: PrimitivePair<S>>(pair: &P, separation: S) -> Impact<S> {
     let points = pair.points();
-    match P::Shape::SHAPE {
-        Shape::VertexFace => advance(&points, &Corners::of_vertex_face(&points), 1, separation),
-        Shape::EdgeEdge => advance(&points, &Corners::of_edge_edge(&points), 2, separation),
+    match P::Shape::KIND {
+        PairKind::VertexFace => advance(&points, &Corners::of_vertex_face(&points), 1, separation),
+        PairKind::EdgeEdge => advance(&points, &Corners::of_edge_edge(&points), 2, separation),
     }
 }
 

@@ -22,8 +22,9 @@
 //! than misses. Written from the paper's description.
 
 use super::cubic::Cubic;
+use crate::PairKind;
 use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape, Shape};
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
@@ -56,9 +57,9 @@ pub fn touches<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> bool {
         let [a, b, c, d] = corners::<S, P::Shape>(&piece);
         let cubic = Cubic::new(piece.tetrahedron::<P::Shape>());
         touches = cubic.may_have_a_root()
-            && match P::Shape::SHAPE {
-                Shape::VertexFace => contains_origin_at_root([b, c, d], &cubic),
-                Shape::EdgeEdge => contains_origin_at_root([a, b, d, c], &cubic),
+            && match P::Shape::KIND {
+                PairKind::VertexFace => contains_origin_at_root([b, c, d], &cubic),
+                PairKind::EdgeEdge => contains_origin_at_root([a, b, d, c], &cubic),
             };
         touches
     });

@@ -31,9 +31,10 @@
 use super::advance::confirm::certain_contact;
 use super::advance::{time_of_impact, time_of_impact_within};
 use super::{Impact, Limits};
+use crate::PairKind;
 use crate::exact;
 use crate::motion::{EdgeEdge, Motion, PrimitivePair, VertexFace};
-use crate::points::{PairShape, Shape};
+use crate::points::PairShape;
 use crate::scalar::Scalar;
 use glam::DVec3;
 
@@ -130,12 +131,12 @@ fn settled_in_f64<S: Scalar, P: PrimitivePair<S>>(pair: &P, time: S) -> Option<(
         .motions()
         .map(|point| Motion::new(exactly(point.start), exactly(point.end)));
     let from = time.to_f64();
-    match P::Shape::SHAPE {
-        Shape::VertexFace => {
+    match P::Shape::KIND {
+        PairKind::VertexFace => {
             let face = [b, c, d];
             proven(&VertexFace { vertex: a, face }, from)
         }
-        Shape::EdgeEdge => {
+        PairKind::EdgeEdge => {
             let (first, second) = ([a, b], [c, d]);
             proven(&EdgeEdge { first, second }, from)
         }

@@ -24,8 +24,9 @@
 
 use super::corners::{largest_extent, less_roundoffs};
 use super::{Impact, Limits, Reason};
+use crate::PairKind;
 use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape, Shape};
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 use arrayvec::ArrayVec;
@@ -105,7 +106,7 @@ fn search<S: Scalar, P: PairShape>(points: &PairPoints<S>, limits: &Limits<S>) -
             || -high.x > room.x
             || -high.y > room.y
             || -high.z > room.z
-            || (P::SHAPE == Shape::VertexFace && cell.low[1] + cell.low[2] > S::ONE);
+            || (P::KIND == PairKind::VertexFace && cell.low[1] + cell.low[2] > S::ONE);
         if excluded {
             continue;
         }
@@ -167,9 +168,9 @@ fn at<S: Scalar>(points: &PairPoints<S>, time: S) -> [Vector<S>; 4] {
 #[inline(always)]
 fn difference<S: Scalar, P: PairShape>(positions: [Vector<S>; 4], u: S, v: S) -> Vector<S> {
     let [a, b, c, d] = positions;
-    match P::SHAPE {
-        Shape::VertexFace => a - ((b.scaled(S::ONE - u - v) + c.scaled(u)) + d.scaled(v)),
-        Shape::EdgeEdge => (a.scaled(S::ONE - u) + b.scaled(u)) - (c.scaled(S::ONE - v) + d.scaled(v)),
+    match P::KIND {
+        PairKind::VertexFace => a - ((b.scaled(S::ONE - u - v) + c.scaled(u)) + d.scaled(v)),
+        PairKind::EdgeEdge => (a.scaled(S::ONE - u) + b.scaled(u)) - (c.scaled(S::ONE - v) + d.scaled(v)),
     }
 }
 
@@ -188,7 +189,7 @@ fn halves<S: Scalar, P: PairShape>(points: &PairPoints<S>, cell: &Cell<S>) -> Op
         let corner = |u, v| difference::<S, P>(at, u, v);
         by_u = change(corner(u, v), corner(u + du, v)).larger(by_u);
         by_v = change(corner(u, v), corner(u, v + dv)).larger(by_v);
-        if P::SHAPE == Shape::VertexFace {
+        if P::KIND == PairKind::VertexFace {
             continue;
         }
         by_u = change(corner(u, v + dv), corner(u + du, v + dv)).larger(by_u);

@@ -2,7 +2,8 @@
 
 use super::integer::Integer;
 use super::magnitude::Magnitude;
-use crate::points::{PairPoints, PairShape, Shape};
+use crate::PairKind;
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 
 /// An odd number, or zero, times a power of two.
@@ -108,7 +109,7 @@ pub(super) struct Units(pub(super) [i32; 3]);
 /// A pair's coordinates as whole numbers, each axis in its own unit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AlignedPair {
-    shape: Shape,
+    kind: PairKind,
     axes: [Axis; 3],
     pub(super) units: Units,
 }
@@ -136,7 +137,7 @@ impl AlignedPair {
         let unit = |axis: &Axis| i32::try_from(axis.unit).unwrap_or(0);
         let [x, y, z] = &axes;
         Some(Self {
-            shape: P::SHAPE,
+            kind: P::KIND,
             units: Units([x, y, z].map(|axis| unit(axis) - bias::<S>())),
             axes,
         })
@@ -173,12 +174,12 @@ impl AlignedPair {
     /// b, c, p along one axis.
     #[inline(always)]
     fn differences<const N: usize>(&self, points: [Integer<N>; 4]) -> [Integer<N>; 3] {
-        match self.shape {
-            Shape::VertexFace => {
+        match self.kind {
+            PairKind::VertexFace => {
                 let [vertex, a, b, c] = points;
                 [b.minus(&a), c.minus(&a), vertex.minus(&a)]
             }
-            Shape::EdgeEdge => {
+            PairKind::EdgeEdge => {
                 let [u, v, k, l] = points;
                 [v.minus(&u), l.minus(&k), u.minus(&k)]
             }

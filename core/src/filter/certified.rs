@@ -83,7 +83,7 @@ pub fn decide<P: PairShape, L: Lanes>(
         reason = "a closure is not always inlined into code for a wider instruction set"
     )]
     let clearance = match separation {
-        Some(separation) => Some(separation * tetrahedron.largest_normal(P::SHAPE)),
+        Some(separation) => Some(separation * tetrahedron.largest_normal(P::KIND)),
         None => None,
     };
     decide_beyond(bound, tetrahedron, clearance)

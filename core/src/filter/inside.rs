@@ -33,9 +33,10 @@
 //!
 //! Only M < ½ [`Rounding::LARGEST_EDGE`] culls (2²⁹, `f64` 2²⁴⁹): 24·A·A is then below 2¹²⁵ (2¹⁰⁰⁵).
 
+use crate::PairKind;
 use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape, Shape};
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 use crate::verdict::Verdict;
@@ -69,15 +70,15 @@ pub fn is_outside_of_one_side<P: PairShape, L: Lanes>(points: &PairPoints<L>) ->
     let extent = extent.larger(a1.abs().larger(b1.abs()).larger(c1.abs().larger(d1.abs())));
     let limit = Limit::of(extent);
     let (a, b, c, d) = ([a0, a1], [b0, b1], [c0, c1], [d0, d1]);
-    let outside = match P::SHAPE {
+    let outside = match P::KIND {
         // The first corner stands twice.
-        Shape::VertexFace => {
+        PairKind::VertexFace => {
             let (first, second, third) = (Turn::of(b, c), Turn::of(c, d), Turn::of(d, b));
             let all = first.plus(&second).plus(&third);
             first.is_negative(&all, &limit) | second.is_negative(&all, &limit) | third.is_negative(&all, &limit)
         }
         // 00, 01, 11, 10: the last two stand in the other order.
-        Shape::EdgeEdge => {
+        PairKind::EdgeEdge => {
             let (first, second) = (Turn::of(a, b), Turn::of(b, d));
             let (third, fourth) = (Turn::of(d, c), Turn::of(c, a));
             let all = first.plus(&second).plus(&third.plus(&fourth));

@@ -50,7 +50,7 @@ pub(super) fn never_touches<P: PairShape, S: Scalar>(points: &PairPoints<S>, sep
     let [b0, b1, b2, b3] = volumes.map(Lanes::abs);
     let size = b0.larger(b1).larger(b2.larger(b3));
     let clearance = if separation > S::ZERO {
-        three * (separation * tetrahedron.largest_normal(P::SHAPE))
+        three * (separation * tetrahedron.largest_normal(P::KIND))
     } else {
         S::ZERO
     };

@@ -1,9 +1,10 @@
 use super::pair::{self, Numbers};
+use selvedge::PairKind;
 use selvedge::core::Verdict;
 use selvedge::core::coplanarity::MovingTetrahedron;
 use selvedge::core::filter::certified::{Bound, is_never_coplanar, non_coplanarity};
 use selvedge_verification::generator::{Format, PairCase};
-use selvedge_verification::oracle::{Kind, coplanar};
+use selvedge_verification::oracle::coplanar;
 
 /// A culled pair is never coplanar; NaN and infinities are kept; and where nothing is rounded, the filter culls exactly when
 /// the control values of the volume have one sign.
@@ -28,8 +29,8 @@ fn check<S: Format>(case: &PairCase<S>) {
 
 fn verdict<S: Format>(case: &PairCase<S>) -> Verdict {
     match case.kind {
-        Kind::VertexFace => non_coplanarity(&case.vertex_face()),
-        Kind::EdgeEdge => non_coplanarity(&case.edge_edge()),
+        PairKind::VertexFace => non_coplanarity(&case.vertex_face()),
+        PairKind::EdgeEdge => non_coplanarity(&case.edge_edge()),
     }
 }
 
@@ -37,7 +38,7 @@ fn verdict<S: Format>(case: &PairCase<S>) -> Verdict {
 /// bound, below 20u·2²⁷ + 2¹⁵η (384u·2²¹ + 2¹⁵η by magnitudes), is less than the least control value, 1.
 fn whole_numbers(points: &[[[i8; 3]; 2]; 4]) {
     let double = |position: [i8; 3]| position.map(f64::from);
-    let case = PairCase::<f64>::new(Kind::VertexFace, points.map(|ends| ends.map(double)));
+    let case = PairCase::<f64>::new(PairKind::VertexFace, points.map(|ends| ends.map(double)));
     let expected = one_sign(tripled_control_values(points));
     assert_eq!(verdict(&case).is_culled(), expected, "{case:?}");
     let tetrahedron: MovingTetrahedron<f64> = case.tetrahedron();

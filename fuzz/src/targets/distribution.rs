@@ -4,7 +4,7 @@ use selvedge::core::{Motion, Scalar};
 use selvedge::mesh::Topology;
 use selvedge::pipeline::{Contact, Pipeline, Preset, Stages};
 use selvedge_verification::generator::{Format, MeshCase};
-use selvedge_verification::oracle::{Kind, Pair, collides};
+use selvedge_verification::oracle::{Pair, collides};
 use std::collections::BTreeSet;
 
 /// Every vertex–face and edge–edge pair without a common vertex whose swept boxes overlap is distributed exactly once, with
@@ -122,7 +122,7 @@ fn overlapping_pairs<S: Format>(case: &MeshCase<S>, topology: &Topology) -> BTre
 }
 
 fn share_vertex(kind: PairKind, pair: [u32; 2], topology: &Topology) -> bool {
-    let vertices = kind.vertices(pair, topology);
+    let vertices = topology.vertices_of(kind, pair);
     let (first, second) = vertices.split_at(first_points(kind));
     first.iter().any(|vertex| second.contains(vertex))
 }
@@ -135,7 +135,7 @@ const fn first_points(kind: PairKind) -> usize {
 }
 
 fn boxes_overlap<S: Format>(case: &MeshCase<S>, topology: &Topology, kind: PairKind, pair: [u32; 2]) -> bool {
-    let motions = kind.vertices(pair, topology).map(|vertex| {
+    let motions = topology.vertices_of(kind, pair).map(|vertex| {
         let [start, end] = case.positions[vertex as usize];
         Motion::<S> {
             start: start.into(),
@@ -147,13 +147,10 @@ fn boxes_overlap<S: Format>(case: &MeshCase<S>, topology: &Topology, kind: PairK
 }
 
 fn question<S: Format>(case: &MeshCase<S>, topology: &Topology, kind: PairKind, pair: [u32; 2]) -> Pair {
-    let vertices = kind.vertices(pair, topology);
+    let vertices = topology.vertices_of(kind, pair);
     let at = |end: usize| vertices.map(|vertex| case.positions[vertex as usize][end].map(S::to_f64));
     Pair {
-        kind: match kind {
-            PairKind::VertexFace => Kind::VertexFace,
-            PairKind::EdgeEdge => Kind::EdgeEdge,
-        },
+        kind: kind,
         start: at(0),
         end: at(1),
     }

@@ -1,10 +1,10 @@
 use super::pair::{self, Numbers};
 use rug::{Integer, Rational};
+use selvedge::PairKind;
 use selvedge::core::PrimitivePair;
 use selvedge::core::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar};
 use selvedge::core::points::{EdgeAndEdge, PairShape, VertexAndFace};
 use selvedge_verification::generator::{Format, PairCase};
-use selvedge_verification::oracle::Kind;
 use std::cmp::Ordering;
 
 /// The exact signs are those of the control values in rationals, by another formula; so is what rounded values prove of them;
@@ -18,8 +18,8 @@ pub fn exact_signs(data: &[u8]) {
 
 fn check<S: Format>(case: &PairCase<S>) {
     match case.kind {
-        Kind::VertexFace => check_pair::<VertexAndFace, S, _>(case, &case.vertex_face()),
-        Kind::EdgeEdge => check_pair::<EdgeAndEdge, S, _>(case, &case.edge_edge()),
+        PairKind::VertexFace => check_pair::<VertexAndFace, S, _>(case, &case.vertex_face()),
+        PairKind::EdgeEdge => check_pair::<EdgeAndEdge, S, _>(case, &case.edge_edge()),
     }
 }
 

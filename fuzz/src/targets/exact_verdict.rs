@@ -1,10 +1,11 @@
 use super::pair::{self, Numbers};
+use selvedge::PairKind;
 use selvedge::core::PrimitivePair;
 use selvedge::core::elementary::{Contact, contact};
 use selvedge::core::exact::touches;
 use selvedge::core::points::{EdgeAndEdge, VertexAndFace};
 use selvedge_verification::generator::{Format, PairCase};
-use selvedge_verification::oracle::{Kind, collides};
+use selvedge_verification::oracle::collides;
 
 /// The exact verdict, and the one in whole numbers alone, are the oracle's; they stay the same when time is reversed or points
 /// trade places; NaN and infinities have none. On the numbers of the generator, and on small whole ones.
@@ -14,7 +15,7 @@ pub fn exact_verdict(data: &[u8]) {
         Numbers::Double(case) => check(&case),
     }
     let points = pair::whole(data);
-    for kind in [Kind::VertexFace, Kind::EdgeEdge] {
+    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         let small = |position: [i8; 3]| position.map(|x| f64::from(x / 8));
         check(&PairCase::new(kind, points.map(|ends| ends.map(small))));
     }
@@ -30,8 +31,8 @@ fn check<S: Format>(case: &PairCase<S>) {
         Contact::Undefined
     };
     let order = match case.kind {
-        Kind::VertexFace => [0, 2, 3, 1],
-        Kind::EdgeEdge => [3, 2, 0, 1],
+        PairKind::VertexFace => [0, 2, 3, 1],
+        PairKind::EdgeEdge => [3, 2, 0, 1],
     };
     assert_eq!(verdicts(case), [expected; 2], "{case:?}");
     assert_eq!(verdicts(&case.reversed()), [expected; 2], "{case:?}");
@@ -41,11 +42,11 @@ fn check<S: Format>(case: &PairCase<S>) {
 /// After floating point, and in whole numbers alone.
 fn verdicts<S: Format>(case: &PairCase<S>) -> [Contact; 2] {
     let (verdict, touches) = match case.kind {
-        Kind::VertexFace => {
+        PairKind::VertexFace => {
             let pair = case.vertex_face();
             (contact(&pair), touches::<VertexAndFace, S>(&pair.points()))
         }
-        Kind::EdgeEdge => {
+        PairKind::EdgeEdge => {
             let pair = case.edge_edge();
             (contact(&pair), touches::<EdgeAndEdge, S>(&pair.points()))
         }

@@ -1,8 +1,8 @@
 //! Primitive pairs from bytes. The first byte decides on the kind of pair, the number format and whether NaN and
 //! infinities are allowed; the rest goes to the generator that the property tests use too.
 
+use selvedge::PairKind;
 use selvedge_verification::generator::PairCase;
-use selvedge_verification::oracle::Kind;
 
 /// A pair in one of the two number formats.
 pub(super) enum Numbers {
@@ -12,7 +12,11 @@ pub(super) enum Numbers {
 
 pub(super) fn numbers(data: &[u8]) -> Numbers {
     let (&first, rest) = data.split_first().unwrap_or((&0, &[]));
-    let kind = if first & 1 == 0 { Kind::VertexFace } else { Kind::EdgeEdge };
+    let kind = if first & 1 == 0 {
+        PairKind::VertexFace
+    } else {
+        PairKind::EdgeEdge
+    };
     let any = first & 0b111_0000 == 0b111_0000;
     match (first & 2 == 0, any) {
         (true, false) => Numbers::Double(PairCase::from_bytes(kind, rest)),

@@ -1,10 +1,11 @@
 use super::pair::{self, Numbers};
+use selvedge::PairKind;
 use selvedge::core::PrimitivePair;
 use selvedge::core::elementary::advance::confirm::certain_contact;
 use selvedge::core::elementary::advance::{ROUNDS, time_of_impact_and_work};
 use selvedge::core::elementary::{Impact, Limits};
 use selvedge_verification::generator::{Format, PairCase};
-use selvedge_verification::oracle::{AlgebraicTime, Kind, collides};
+use selvedge_verification::oracle::{AlgebraicTime, collides};
 use std::cmp::Ordering;
 
 /// Never misses and is never late, whatever the tolerance; a confirmed contact is one; the work is bounded; and of NaN and
@@ -29,8 +30,8 @@ fn check<S: Format>(case: &PairCase<S>, exponent: i32) {
     let mut first = None;
     for tolerance in [S::ZERO, size * S::exact(1, -exponent)] {
         match case.kind {
-            Kind::VertexFace => check_pair(case, &case.vertex_face(), tolerance, &mut first),
-            Kind::EdgeEdge => check_pair(case, &case.edge_edge(), tolerance, &mut first),
+            PairKind::VertexFace => check_pair(case, &case.vertex_face(), tolerance, &mut first),
+            PairKind::EdgeEdge => check_pair(case, &case.edge_edge(), tolerance, &mut first),
         }
     }
 }

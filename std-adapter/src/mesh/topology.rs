@@ -1,5 +1,6 @@
 //! The vertices, edges and triangles of a mesh, and how they hang together.
 
+use crate::PairKind;
 use std::fmt;
 
 /// The vertices, edges and triangles of a mesh that may be anything a file can hold: edges with
@@ -95,6 +96,25 @@ impl Topology {
             edges,
             triangle_edges,
         })
+    }
+
+    /// The four vertices of a pair of this kind: the vertex and the face's three, or the two edges' ends.
+    ///
+    /// # Panics
+    /// If the pair is not of this mesh.
+    #[must_use]
+    pub fn vertices_of(&self, kind: PairKind, pair: [u32; 2]) -> [u32; 4] {
+        let [first, second] = pair.map(|feature| feature as usize);
+        match kind {
+            PairKind::VertexFace => {
+                let [a, b, c] = self.triangles[second];
+                [pair[0], a, b, c]
+            }
+            PairKind::EdgeEdge => {
+                let ([a, b], [c, d]) = (self.edges[first], self.edges[second]);
+                [a, b, c, d]
+            }
+        }
     }
 
     /// How many vertices there are, those without a triangle included.

@@ -5,15 +5,14 @@ use super::assignment::FeatureAssignment;
 use super::pairs::MovingMesh;
 use super::preset::{CullingTest, ElementaryTest, Stages};
 use super::stored::{BoundingVolume, Stored};
+use crate::PairCounts;
 use crate::PairKind;
-use crate::pair_kind::PairCounts;
 use crate::step::Contact;
 use arrayvec::ArrayVec;
 use selvedge_core::batch::{LANES, Level, Mask, Test, culled_from_rows};
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
 use selvedge_core::elementary::{Contact as Verdict, Limits, advance::time_of_impact, contact::settled};
-use selvedge_core::points::Shape;
 use selvedge_core::{EdgeEdge, PrimitivePair, Scalar, VertexFace, elementary};
 use std::time::Instant;
 
@@ -130,15 +129,12 @@ impl<S: Scalar> Batch<S> {
             };
             let topology = step.mesh.topology;
             self.indices.clear();
-            self.indices.extend(pairs.iter().map(|&pair| kind.vertices(pair, topology)));
+            self.indices
+                .extend(pairs.iter().map(|&pair| topology.vertices_of(kind, pair)));
             self.masks.clear();
             self.masks.resize(pairs.len().div_ceil(LANES), 0);
-            let shape = match kind {
-                PairKind::VertexFace => Shape::VertexFace,
-                PairKind::EdgeEdge => Shape::EdgeEdge,
-            };
             let rows = step.mesh.rows;
-            culled_from_rows(step.level, shape, test, rows, &self.indices, &mut self.masks);
+            culled_from_rows(step.level, kind, test, rows, &self.indices, &mut self.masks);
 
             let masks = &self.masks;
             let mut index = 0;

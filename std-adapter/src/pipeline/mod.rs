@@ -49,13 +49,13 @@ mod stored;
 mod swept;
 
 pub use crate::frame::StepError;
-pub use crate::pair_kind::PairCounts;
 pub use crate::parallel::ThreadError;
 pub use crate::step::Contact;
 pub use assignment::FeatureAssignment;
 pub use preset::{CullingTest, ElementaryTest, Preset, Redundancy, Source, Stage, Stages, UnknownPreset};
 pub use report::{StageReport, StepReport};
 
+use crate::PairCounts;
 use crate::PairKind;
 use crate::broad_phase::{BroadPhase, SweptBox};
 use crate::dispatch::{Level, best_level};

@@ -1,7 +1,7 @@
 //! What a step counted and how long its stages took.
 
 use super::preset::Stage;
-use crate::pair_kind::PairCounts;
+use crate::PairCounts;
 use arrayvec::ArrayVec;
 
 /// One stage after the broad phase.

@@ -146,7 +146,7 @@ pub enum QueryError {
         line: u64,
         /// `x`, `y` or `z`.
         coordinate: &'static str,
-        /// The point's name, as in [`PairKind::point_names`](crate::PairKind::point_names).
+        /// The point's name: `v`, `f0`, `f1`, `f2` of a vertex and a face, `a0`, `a1`, `b0`, `b1` of two edges.
         point: &'static str,
         /// 0 for the start of the step, 1 for its end.
         time: u8,

@@ -28,6 +28,7 @@
 //! ```
 
 mod error;
+mod kind;
 mod query;
 mod rational;
 mod read;
@@ -35,5 +36,6 @@ mod read;
 mod tests;
 
 pub use error::QueryError;
+pub use kind::kind_of_path;
 pub use query::{Query, QueryFile, SinglePrecision};
 pub use read::{read, read_from};

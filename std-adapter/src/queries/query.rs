@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use selvedge_core::glam::{DVec3, Vec3};
 
 use super::QueryError;
+use super::kind::point_names;
 use crate::PairKind;
 
 /// Four points that move linearly from `start` to `end` over the step, and whether they collide.
@@ -83,7 +84,7 @@ impl QueryFile {
                         path: self.path.clone(),
                         line: query.line,
                         coordinate: ["x", "y", "z"][axis],
-                        point: self.kind.point_names()[index],
+                        point: point_names(self.kind)[index],
                         time,
                         value: wide[axis],
                     });

@@ -5,6 +5,7 @@ use std::{fs::File, io::Read, path::Path};
 use csv::{ByteRecord, ReaderBuilder, Terminator, Trim};
 use selvedge_core::glam::DVec3;
 
+use super::kind::kind_of_path;
 use super::{
     Query, QueryError, QueryFile,
     rational::{self, RatioError},
@@ -20,7 +21,7 @@ const COORDINATE_COLUMNS: usize = 6;
 /// Reads all queries of the file at `path`.
 ///
 /// `kind` says which kind of pairs the file holds; if it is `None`, the path has to
-/// ([`PairKind::from_path`]). Every coordinate becomes the nearest `f64`, ties to even;
+/// ([`kind_of_path`]). Every coordinate becomes the nearest `f64`, ties to even;
 /// [`QueryFile::inexact`] counts those for which that is not the value itself.
 ///
 /// # Errors
@@ -39,7 +40,7 @@ pub fn read(path: &Path, kind: Option<PairKind>) -> Result<QueryFile, QueryError
     }
     let source = File::open(path).map_err(unreadable)?;
     let kind = kind
-        .or_else(|| PairKind::from_path(path))
+        .or_else(|| kind_of_path(path))
         .ok_or_else(|| QueryError::UnknownKind { path: path.to_owned() })?;
     read_from(source, path, kind)
 }

@@ -90,7 +90,7 @@ pub fn contacts_csv<S: Scalar>(topology: &Topology, contacts: &[Contact<S>], out
     writer.write_record(["kind", "i0", "i1", "i2", "i3", "time"])?;
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         for contact in contacts.iter().filter(|contact| contact.kind == kind) {
-            let vertices = kind.vertices(contact.pair, topology);
+            let vertices = topology.vertices_of(kind, contact.pair);
             // As text in its own precision: the shortest that reads back.
             writer.serialize((kind.name(), vertices, contact.time.to_string()))?;
         }
@@ -107,7 +107,7 @@ pub fn pairs_csv(topology: &Topology, vertex_face: &[[u32; 2]], edge_edge: &[[u3
     writer.write_record(["kind", "i0", "i1", "i2", "i3"])?;
     for (kind, pairs) in [(PairKind::VertexFace, vertex_face), (PairKind::EdgeEdge, edge_edge)] {
         for &pair in pairs {
-            writer.serialize((kind.name(), kind.vertices(pair, topology)))?;
+            writer.serialize((kind.name(), topology.vertices_of(kind, pair)))?;
         }
     }
     writer.flush()

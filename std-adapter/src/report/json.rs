@@ -6,9 +6,10 @@ use super::findings::findings;
 use super::n_log_n_ratios;
 use super::paper::paper_row;
 use super::step::{StepQuestion, StepSummary};
+use crate::PairCounts;
 #[cfg(feature = "files")]
 use crate::hard_cases::Contact;
-use crate::pipeline::{PairCounts, Preset, Stage, StepReport};
+use crate::pipeline::{Preset, Stage, StepReport};
 #[cfg(all(feature = "accuracy", feature = "files"))]
 use crate::study::elementary::ElementaryAccuracy;
 #[cfg(feature = "accuracy")]

@@ -239,7 +239,8 @@ fn power_of_ten_time(seconds: f64) -> String {
 mod tests {
     use super::super::svg_texts::texts;
     use super::*;
-    use crate::pipeline::{PairCounts, StageReport, StepReport};
+    use crate::PairCounts;
+    use crate::pipeline::{StageReport, StepReport};
     use proptest::prelude::*;
     use roxmltree::Document;
 

@@ -19,17 +19,16 @@
 
 use super::sweep::{Left, MOST, Open, Sweep, rounded_up};
 use super::{Bound, Contact, Question, Wanted};
+use crate::PairCounts;
 use crate::PairKind;
 use crate::broad_phase::moving::{CHUNK, Hierarchies, Rows, Sink};
 use crate::dispatch::Level;
 use crate::mesh::Topology;
-use crate::pair_kind::PairCounts;
 use selvedge_core::batch::{LANES, Mask, VertexRow, culled_from_rows};
 use selvedge_core::elementary::advance::time_of_impact_within;
 use selvedge_core::elementary::contact::settled;
 use selvedge_core::elementary::{Contact as Verdict, Impact, Limits, Reason};
 use selvedge_core::filter::{Filter, Tier};
-use selvedge_core::points::Shape;
 use selvedge_core::{EdgeEdge, Scalar, VertexFace};
 use std::time::{Duration, Instant};
 
@@ -54,7 +53,7 @@ impl<S: Scalar> Numbers<'_, S> {
     fn vertices(&self, kind: PairKind, pair: [u32; 2]) -> [u32; 4] {
         match self {
             Self::Positions(hierarchies) => hierarchies.vertices(kind, pair),
-            Self::Mesh(topology) => kind.vertices(pair, topology),
+            Self::Mesh(topology) => topology.vertices_of(kind, pair),
         }
     }
 
@@ -64,7 +63,7 @@ impl<S: Scalar> Numbers<'_, S> {
             Self::Positions(hierarchies) => hierarchies.vertices_of_all(kind, pairs, rows),
             Self::Mesh(topology) => {
                 for (rows, &pair) in rows.iter_mut().zip(pairs) {
-                    *rows = kind.vertices(pair, topology);
+                    *rows = topology.vertices_of(kind, pair);
                 }
             }
         }
@@ -238,7 +237,7 @@ impl Chunk {
         let pairs = &mut self.pairs[first..];
         self.masks.clear();
         self.masks.resize(indices.len().div_ceil(LANES), 0);
-        culled_from_rows(level, shape(kind), filter, rows, indices, &mut self.masks);
+        culled_from_rows(level, kind, filter, rows, indices, &mut self.masks);
         let mut kept = 0;
         for read in 0..pairs.len() {
             pairs[kept] = pairs[read];
@@ -292,7 +291,7 @@ impl Chunk {
         let limits = &step.question.limits;
         let sweep = Sweep {
             level: step.level,
-            shape: shape(kind),
+            kind,
             rows,
             limits: Limits {
                 // This one proves nothing: it only tells when to leave a pair to `f64`.
@@ -317,7 +316,7 @@ impl Chunk {
         let Self { double, impacts, .. } = self;
         let sweep = Sweep {
             level: step.level,
-            shape: shape(kind),
+            kind,
             rows: step.rows.double(),
             limits: step.question.limits,
             until,
@@ -357,13 +356,6 @@ fn touches<S: Scalar>(step: &StepInput<'_, S>, kind: PairKind, pair: [u32; 2], t
         Primitives::EdgeEdge(pair) => settled(&pair, &impact),
     };
     verdict != Verdict::Never
-}
-
-fn shape(kind: PairKind) -> Shape {
-    match kind {
-        PairKind::VertexFace => Shape::VertexFace,
-        PairKind::EdgeEdge => Shape::EdgeEdge,
-    }
 }
 
 fn count(counts: &mut PairCounts, kind: PairKind) -> &mut u64 {

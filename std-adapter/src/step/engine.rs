@@ -3,13 +3,13 @@
 use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
 use super::given::PrimitiveBoxes;
 use super::{Bound, CandidateBoxes, Contact, Question, Wanted, power_of_two, widened};
+use crate::PairCounts;
 use crate::PairKind;
 use crate::broad_phase::buffer::settle;
 use crate::broad_phase::moving::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
 use crate::dispatch::Level;
 use crate::frame::{StepError, check_frames};
 use crate::mesh::Topology;
-use crate::pair_kind::PairCounts;
 use crate::parallel;
 use crate::pipeline::{Stage, StageReport, StepReport};
 use selvedge_core::Scalar;

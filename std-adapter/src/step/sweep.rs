@@ -3,10 +3,10 @@
 use super::power_of_two;
 use crate::broad_phase::moving::CHUNK;
 use crate::dispatch::Level;
+use selvedge_core::PairKind;
 use selvedge_core::Scalar;
 use selvedge_core::batch::{LANES, Round, RoundQuestion, VertexRow, advance_from_rows};
 use selvedge_core::elementary::Limits;
-use selvedge_core::points::Shape;
 
 /// The first sweep that asks the signed volume as well: from the second on takes 7 ms more on cloth-ball, from the third 1.
 const VOLUME_SWEEP: usize = 3;
@@ -71,7 +71,7 @@ pub(super) enum Left {
 /// Sweeps that all ask the same.
 pub(super) struct Sweep<'a, F> {
     pub(super) level: Level,
-    pub(super) shape: Shape,
+    pub(super) kind: PairKind,
     pub(super) rows: &'a [VertexRow<F>],
     pub(super) limits: Limits<F>,
     /// Up to when pairs are of interest.
@@ -96,8 +96,8 @@ impl<F: Scalar> Sweep<'_, F> {
             until: self.until,
             with_volume: number >= VOLUME_SWEEP,
         };
-        let (level, shape) = (self.level, self.shape);
-        advance_from_rows(level, shape, &question, self.rows, indices, times, rounds);
+        let (level, kind) = (self.level, self.kind);
+        advance_from_rows(level, kind, &question, self.rows, indices, times, rounds);
         let mut kept = 0;
         for (first, round) in (0..).step_by(LANES).zip(rounds.iter()) {
             let mut leaving = round.near | round.stuck;

@@ -1,8 +1,9 @@
 //! The paper's Table 1, for every method, on the same steps in one run.
 
 use super::Frames;
+use crate::PairCounts;
 use crate::PairKind;
-use crate::pipeline::{Contact, PairCounts, Pipeline, Preset, Stage, StepReport};
+use crate::pipeline::{Contact, Pipeline, Preset, Stage, StepReport};
 use std::error::Error;
 
 /// Means per step.

@@ -9,7 +9,7 @@
 
 use crate::campaign::{self, Findings};
 use crate::generator::{Choices, Format, PairCase};
-use crate::oracle::{self, Kind};
+use crate::oracle::{self, PairKind};
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use selvedge_core::PrimitivePair;
@@ -221,7 +221,7 @@ fn look_at_chunk<S: Format>(seed: u64, chunk: u64, pairs: u64) -> Vec<Tally> {
     for _ in 0..pairs {
         random.fill_bytes(&mut bytes);
         let mut choices = Choices::new(&bytes);
-        let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
+        let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
         let pair = match choices.below(16) {
             0 => PairCase::<S>::choose_graze_of_a_box(&mut choices),
             1 => PairCase::choose_any(kind, &mut choices),
@@ -231,10 +231,10 @@ fn look_at_chunk<S: Format>(seed: u64, chunk: u64, pairs: u64) -> Vec<Tally> {
         let [[x, ..], _] = pair.points[choices.below(4) as usize];
         let separation = (x.abs() * S::exact(1, -(choices.below(32) as i32))).made_finite();
         match pair.kind {
-            Kind::VertexFace => {
+            PairKind::VertexFace => {
                 Judged::new(&pair, pair.vertex_face(), separation).by(&rules, &mut tallies, chunk);
             }
-            Kind::EdgeEdge => {
+            PairKind::EdgeEdge => {
                 Judged::new(&pair, pair.edge_edge(), separation).by(&rules, &mut tallies, chunk);
             }
         }

@@ -1,7 +1,7 @@
 //! A primitive pair as plain numbers, which prints as the Rust that makes it.
 
 use super::Format;
-use crate::oracle::{Kind, Pair};
+use crate::oracle::{Pair, PairKind};
 use selvedge_core::coplanarity::MovingTetrahedron;
 use selvedge_core::{EdgeEdge, Motion, PrimitivePair, VertexFace};
 use std::fmt;
@@ -13,7 +13,7 @@ use std::fmt;
 #[derive(Clone, Copy, PartialEq)]
 pub struct PairCase<S> {
     /// What the points are.
-    pub kind: Kind,
+    pub kind: PairKind,
     /// Positions at times 0 and 1 of each point.
     pub points: [[[S; 3]; 2]; 4],
 }
@@ -21,7 +21,7 @@ pub struct PairCase<S> {
 impl<S: Format> PairCase<S> {
     /// From the two positions of each point.
     #[must_use]
-    pub const fn new(kind: Kind, points: [[[S; 3]; 2]; 4]) -> Self {
+    pub const fn new(kind: PairKind, points: [[[S; 3]; 2]; 4]) -> Self {
         Self { kind, points }
     }
 
@@ -55,8 +55,8 @@ impl<S: Format> PairCase<S> {
     #[must_use]
     pub fn tetrahedron(&self) -> MovingTetrahedron<S> {
         match self.kind {
-            Kind::VertexFace => self.vertex_face().tetrahedron(),
-            Kind::EdgeEdge => self.edge_edge().tetrahedron(),
+            PairKind::VertexFace => self.vertex_face().tetrahedron(),
+            PairKind::EdgeEdge => self.edge_edge().tetrahedron(),
         }
     }
 
@@ -149,14 +149,14 @@ impl<S: Format> fmt::Debug for PairCase<S> {
         };
         let name = S::NAME;
         match self.kind {
-            Kind::VertexFace => {
+            PairKind::VertexFace => {
                 writeln!(f, "VertexFace::<{name}> {{")?;
                 writeln!(f, "    vertex: {}", motion(0))?;
                 writeln!(f, "    face: [")?;
                 (1..4).try_for_each(|k| writeln!(f, "        {}", motion(k)))?;
                 writeln!(f, "    ],")?;
             }
-            Kind::EdgeEdge => {
+            PairKind::EdgeEdge => {
                 writeln!(f, "EdgeEdge::<{name}> {{")?;
                 for (edge, k) in [("first", 0), ("second", 2)] {
                     writeln!(f, "    {edge}: [")?;

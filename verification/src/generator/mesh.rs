@@ -3,9 +3,8 @@
 use super::numbers::{exponent, finite, fraction};
 use super::pairs::{complexity, simpler_number};
 use super::{Choices, Format, PairCase, Simplify};
-use crate::oracle::Kind;
-use selvedge::PairKind;
 use selvedge::mesh::Topology;
+use selvedge_core::PairKind;
 use std::fmt;
 
 /// Triangles over 4 to 12 vertices: any three indices, so that degenerate triangles (v, v, w), duplicates, edges with many
@@ -57,10 +56,10 @@ impl<S: Format> MeshCase<S> {
     /// If there are none with these indices.
     #[must_use]
     pub fn pair(&self, topology: &Topology, (kind, pair): (PairKind, [u32; 2])) -> PairCase<S> {
-        let points = kind.vertices(pair, topology).map(|vertex| self.positions[vertex as usize]);
+        let points = topology.vertices_of(kind, pair).map(|vertex| self.positions[vertex as usize]);
         match kind {
-            PairKind::VertexFace => PairCase::new(Kind::VertexFace, points),
-            PairKind::EdgeEdge => PairCase::new(Kind::EdgeEdge, points),
+            PairKind::VertexFace => PairCase::new(PairKind::VertexFace, points),
+            PairKind::EdgeEdge => PairCase::new(PairKind::EdgeEdge, points),
         }
     }
 

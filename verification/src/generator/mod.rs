@@ -24,11 +24,11 @@ pub use numbers::Format;
 pub(crate) use numbers::power_of_two;
 pub use strategy::{FromChoices, Simplification, Simplify, check, from_choices};
 
-use crate::oracle::Kind;
 use proptest::prelude::Strategy;
+use selvedge_core::PairKind;
 
 /// Pairs with finite coordinates.
-pub fn pairs<S: Format>(kind: Kind) -> impl Strategy<Value = PairCase<S>> + Clone {
+pub fn pairs<S: Format>(kind: PairKind) -> impl Strategy<Value = PairCase<S>> + Clone {
     from_choices(move |choices| PairCase::choose(kind, choices))
 }
 
@@ -62,6 +62,6 @@ pub fn meshes<S: Format>() -> impl Strategy<Value = MeshCase<S>> + Clone {
     from_choices(MeshCase::choose)
 }
 
-fn any_kind(choices: &mut Choices<'_>) -> Kind {
-    choices.pick(&[Kind::VertexFace, Kind::EdgeEdge])
+fn any_kind(choices: &mut Choices<'_>) -> PairKind {
+    choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge])
 }

@@ -3,8 +3,8 @@
 use super::numbers::{exponent, whole};
 use super::strategy::Simplify;
 use super::{Choices, Format, PairCase};
-use crate::oracle::Kind;
 use rug::Rational;
+use selvedge_core::PairKind;
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -22,7 +22,7 @@ pub enum Meeting {
 #[derive(Clone, PartialEq)]
 pub struct Moment<S> {
     /// What the points are.
-    pub kind: Kind,
+    pub kind: PairKind,
     numerator: i64,
     bits: u32,
     target: [[i64; 3]; 4],
@@ -35,7 +35,7 @@ pub struct Moment<S> {
 impl<S: Format> Moment<S> {
     /// Chooses one.
     #[must_use]
-    pub fn choose(kind: Kind, meeting: Meeting, choices: &mut Choices<'_>) -> Self {
+    pub fn choose(kind: PairKind, meeting: Meeting, choices: &mut Choices<'_>) -> Self {
         // A target has 4 bits more than `reach`, a velocity no more than a target; the time adds 3 and the sum 1.
         let reach = S::PRECISION - 10;
         let reach = choices.pick(&[2, 1, 3, 6, 10.min(reach), reach]);
@@ -91,7 +91,7 @@ impl<S: Format> Moment<S> {
 }
 
 /// Four positions that touch, or are coplanar, each up to 2^(reach + 4).
-fn target(kind: Kind, meeting: Meeting, reach: u32, choices: &mut Choices<'_>) -> [[i64; 3]; 4] {
+fn target(kind: PairKind, meeting: Meeting, reach: u32, choices: &mut Choices<'_>) -> [[i64; 3]; 4] {
     let position = |choices: &mut Choices<'_>| -> [i64; 3] { std::array::from_fn(|_| whole(choices, reach)) };
     let combine = |from: [i64; 3], terms: [(i64, [i64; 3]); 2]| -> [i64; 3] {
         std::array::from_fn(|axis| {
@@ -103,14 +103,14 @@ fn target(kind: Kind, meeting: Meeting, reach: u32, choices: &mut Choices<'_>) -
     let minus = |x: [i64; 3], y: [i64; 3]| combine(x, [(-1, y), (0, y)]);
     let zero = [0; 3];
     match (kind, meeting) {
-        (Kind::VertexFace, Meeting::Touching) => {
+        (PairKind::VertexFace, Meeting::Touching) => {
             let [a, b, c] = std::array::from_fn(|_| position(choices));
             let i = i64::from(choices.below(5));
             let j = i64::from(choices.below(5)).min(4 - i);
             let p = combine(quarters(a), [(i, minus(b, a)), (j, minus(c, a))]);
             [p, quarters(a), quarters(b), quarters(c)]
         }
-        (Kind::EdgeEdge, Meeting::Touching) => {
+        (PairKind::EdgeEdge, Meeting::Touching) => {
             let common = position(choices);
             let edge = |choices: &mut Choices<'_>| {
                 let along = position(choices);

@@ -3,24 +3,24 @@
 use super::numbers::{binary_exponent, exponent, extraordinary, finite, fraction};
 use super::strategy::Simplify;
 use super::{Choices, Format, Meeting, Moment, PairCase};
-use crate::oracle::Kind;
+use selvedge_core::PairKind;
 
 impl<S: Format> PairCase<S> {
     /// A pair of finite coordinates from any bytes: what the property tests see, for the fuzz targets.
     #[must_use]
-    pub fn from_bytes(kind: Kind, bytes: &[u8]) -> Self {
+    pub fn from_bytes(kind: PairKind, bytes: &[u8]) -> Self {
         Self::choose(kind, &mut Choices::new(bytes))
     }
 
     /// A pair from any bytes; some coordinates may be NaN, infinite, or so large that everything overflows.
     #[must_use]
-    pub fn any_from_bytes(kind: Kind, bytes: &[u8]) -> Self {
+    pub fn any_from_bytes(kind: PairKind, bytes: &[u8]) -> Self {
         Self::choose_any(kind, &mut Choices::new(bytes))
     }
 
     /// Chooses a pair of finite coordinates.
     #[must_use]
-    pub fn choose(kind: Kind, choices: &mut Choices<'_>) -> Self {
+    pub fn choose(kind: PairKind, choices: &mut Choices<'_>) -> Self {
         let mut case = match choices.below(12) {
             0 => grid(kind, choices),
             1 | 2 => Moment::choose(kind, Meeting::Touching, choices).pair(),
@@ -69,12 +69,12 @@ impl<S: Format> PairCase<S> {
         let any = exponent::<S>(choices);
         let factor = S::exact(1, choices.pick(&[0, products_underflow, any]));
         let [one, other] = corners.map(|corner| [corner; 2]);
-        Self::new(Kind::VertexFace, [[start, end], one, other, one]).map(|x| (x * factor).made_finite())
+        Self::new(PairKind::VertexFace, [[start, end], one, other, one]).map(|x| (x * factor).made_finite())
     }
 
     /// Chooses a pair with extraordinary coordinates.
     #[must_use]
-    pub fn choose_any(kind: Kind, choices: &mut Choices<'_>) -> Self {
+    pub fn choose_any(kind: PairKind, choices: &mut Choices<'_>) -> Self {
         let mut case = Self::choose(kind, choices);
         for _ in 0..=choices.below(4) {
             *coordinate(&mut case, choices) = extraordinary(choices);
@@ -93,21 +93,21 @@ fn coordinate<'a, S>(case: &'a mut PairCase<S>, choices: &mut Choices<'_>) -> &'
 }
 
 /// Whole numbers as points of the format, moved and scaled together.
-fn scaled<S: Format>(kind: Kind, points: [[[i64; 3]; 2]; 4], choices: &mut Choices<'_>) -> PairCase<S> {
+fn scaled<S: Format>(kind: PairKind, points: [[[i64; 3]; 2]; 4], choices: &mut Choices<'_>) -> PairCase<S> {
     let exponent = exponent::<S>(choices);
     let points = points.map(|ends| ends.map(|x| x.map(|x| S::exact(x, exponent))));
     PairCase::new(kind, points)
 }
 
 /// Small whole numbers: most often degenerate in some way.
-fn grid<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
+fn grid<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     let limit = choices.pick(&[1, 2, 4]);
     let points = each_coordinate(|| choices.within(limit));
     scaled(kind, points, choices)
 }
 
 /// All eight positions in one plane, through the origin or not, along the axes or not.
-fn coplanar_throughout<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
+fn coplanar_throughout<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     let limit = choices.pick(&[2, 60]);
     let (slope, other_slope, height) = (choices.within(2), choices.within(2), choices.within(9));
     let axes = permutation(choices);
@@ -123,7 +123,7 @@ fn coplanar_throughout<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> Pair
 /// A volume proportional to (t − τ)² − εβ: a double root at τ where εβ = 0, else none or two close ones.
 ///
 /// B = (β, t − τ, z₁), C = (0, 0, c), P = (t − τ, ε, z₂), in any order, from a base that moves.
-fn graze<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
+fn graze<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     let bits = choices.below(6);
     let numerator = i64::from(choices.below((1 << bits) + 1));
     let base: [[i64; 3]; 2] = std::array::from_fn(|_| std::array::from_fn(|_| choices.within(60)));
@@ -148,7 +148,7 @@ fn graze<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
 }
 
 /// All four points meet in one position at one time: a triple root.
-fn gathering<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
+fn gathering<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     let bits = choices.below(4);
     let numerator = i64::from(choices.below((1 << bits) + 1));
     let place: [i64; 3] = std::array::from_fn(|_| choices.within(60));
@@ -163,7 +163,7 @@ fn gathering<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
 }
 
 /// Of about unit size, all bits random, moving little or much.
-fn everyday<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
+fn everyday<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     let motion = S::exact(1, -choices.pick(&[0, 1, 4, 12, 22]));
     let points = std::array::from_fn(|_| {
         let start: [S; 3] = std::array::from_fn(|_| fraction(choices));
@@ -174,7 +174,7 @@ fn everyday<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
 }
 
 /// Coplanar but for rounding, at one end of the step or at both.
-fn nearly_coplanar<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
+fn nearly_coplanar<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     let mut case = everyday(kind, choices);
     let order = order(choices);
     let [p, a, b, c] = order;

@@ -5,7 +5,7 @@ use super::geometry::{
     AtRest, EDGES, Point, Ring, Signs, coplanar_point_in_triangle, coplanar_segments_meet, cross, dot, normal, point_in_triangle,
     segments_meet, subtract, volume,
 };
-use super::motion::{Kind, Motion, Pair};
+use super::motion::{Motion, Pair, PairKind};
 use super::polynomial::{Polynomial, SturmSequence};
 use rug::{Integer, Rational};
 
@@ -80,31 +80,31 @@ pub fn touches_at(pair: &Pair, t: &Rational) -> bool {
     touches(pair.kind, &Motion::new(&pair.start, &pair.end), t)
 }
 
-fn touches(kind: Kind, motion: &Motion, t: &Rational) -> bool {
+fn touches(kind: PairKind, motion: &Motion, t: &Rational) -> bool {
     let [a, b, c, d] = &motion.at(t);
     match kind {
-        Kind::VertexFace => point_in_triangle(&mut AtRest, a, [b, c, d]),
-        Kind::EdgeEdge => segments_meet(&mut AtRest, [a, b], [c, d]),
+        PairKind::VertexFace => point_in_triangle(&mut AtRest, a, [b, c, d]),
+        PairKind::EdgeEdge => segments_meet(&mut AtRest, [a, b], [c, d]),
     }
 }
 
 /// The same at a time when the four points are coplanar.
-fn touches_when_coplanar<R: Ring>(kind: Kind, signs: &mut impl Signs<R>, [a, b, c, d]: &[Point<R>; 4]) -> bool {
+fn touches_when_coplanar<R: Ring>(kind: PairKind, signs: &mut impl Signs<R>, [a, b, c, d]: &[Point<R>; 4]) -> bool {
     match kind {
-        Kind::VertexFace => coplanar_point_in_triangle(signs, a, [b, c, d]),
-        Kind::EdgeEdge => coplanar_segments_meet(signs, [a, b], [c, d]),
+        PairKind::VertexFace => coplanar_point_in_triangle(signs, a, [b, c, d]),
+        PairKind::EdgeEdge => coplanar_segments_meet(signs, [a, b], [c, d]),
     }
 }
 
 /// Every polynomial whose sign [`touches_when_coplanar`] can ask for (some up to their sign).
-fn predicates_in_the_plane(kind: Kind, [a, b, c, d]: &[Point<Polynomial>; 4]) -> Vec<Polynomial> {
+fn predicates_in_the_plane(kind: PairKind, [a, b, c, d]: &[Point<Polynomial>; 4]) -> Vec<Polynomial> {
     // Which end or vertex is tested against which segment.
     let (normal, tests) = match kind {
-        Kind::VertexFace => {
+        PairKind::VertexFace => {
             let face = [b, c, d];
             (normal(b, c, d), EDGES.map(|[i, j]| (a, face[i], face[j])).to_vec())
         }
-        Kind::EdgeEdge => (
+        PairKind::EdgeEdge => (
             cross(&subtract(b, a), &subtract(d, c)),
             vec![(a, c, d), (b, c, d), (c, a, b), (d, a, b)],
         ),

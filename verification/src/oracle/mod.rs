@@ -32,7 +32,7 @@ mod signs;
 pub use algebraic::AlgebraicTime;
 pub use collision::{collides, coplanar, touches_at};
 pub use mesh::{mesh_intersections, mesh_self_intersections, triangles_intersect};
-pub use motion::{Kind, Pair};
+pub use motion::{Pair, PairKind};
 pub use polynomial::Polynomial;
 pub use separation::{first_within, within, within_at};
 pub use signs::triangles_intersect_by_signs;

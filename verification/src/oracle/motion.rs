@@ -3,21 +3,14 @@
 use super::geometry::{Point, Ring};
 use super::polynomial::Polynomial;
 use rug::{Integer, Rational};
-
-/// Which four points a primitive pair is made of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
-    /// A vertex, then the three vertices of a face.
-    VertexFace,
-    /// The two ends of one edge, then the two ends of the other.
-    EdgeEdge,
-}
+// A name, not arithmetic.
+pub use selvedge_core::PairKind;
 
 /// Four points that move linearly from their positions at time 0 to those at time 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
     /// What the points are.
-    pub kind: Kind,
+    pub kind: PairKind,
     /// Positions at time 0.
     pub start: [[f64; 3]; 4],
     /// Positions at time 1.
@@ -88,10 +81,10 @@ impl Motion {
 
     /// Are the two sides of the pair more than `separation` apart along one coordinate axis, in the
     /// same order at both ends of the step? Linear motion then keeps them so in between.
-    pub(crate) fn apart_along_an_axis(&self, kind: Kind, separation: &Integer) -> bool {
+    pub(crate) fn apart_along_an_axis(&self, kind: PairKind, separation: &Integer) -> bool {
         let first = match kind {
-            Kind::VertexFace => 1,
-            Kind::EdgeEdge => 2,
+            PairKind::VertexFace => 1,
+            PairKind::EdgeEdge => 2,
         };
         let apart = |low: usize, high: usize, axis: usize| {
             [&self.start, &self.end]

@@ -2,7 +2,7 @@
 
 use super::algebraic::AlgebraicTime;
 use super::geometry::{AtRest, EDGES, Point, Ring, Signs, cross, dot, subtract};
-use super::motion::{Kind, Motion, Pair};
+use super::motion::{Motion, Pair, PairKind};
 use super::polynomial::Polynomial;
 use rug::{Integer, Rational};
 
@@ -60,7 +60,7 @@ pub fn within_at(pair: &Pair, t: &Rational, separation: f64) -> bool {
 
 /// A pair and a distance, at a common scale.
 struct Question {
-    kind: Kind,
+    kind: PairKind,
     motion: Motion,
     separation: Integer,
 }
@@ -131,7 +131,7 @@ impl<R> FeaturePair<R> {
 
 /// All pairs of features: two closed sets of their kind are within the separation exactly if one of
 /// these is near.
-fn features<R: Ring>(kind: Kind, points: &[Point<R>; 4], squared: &R) -> Vec<FeaturePair<R>> {
+fn features<R: Ring>(kind: PairKind, points: &[Point<R>; 4], squared: &R) -> Vec<FeaturePair<R>> {
     let [a, b, c, d] = points;
     let point_point = |x: &Point<R>, y: &Point<R>| {
         let between = subtract(x, y);
@@ -166,7 +166,7 @@ fn features<R: Ring>(kind: Kind, points: &[Point<R>; 4], squared: &R) -> Vec<Fea
     };
     let mut features = Vec::new();
     match kind {
-        Kind::VertexFace => {
+        PairKind::VertexFace => {
             let face = [b, c, d];
             for [i, j] in EDGES {
                 features.push(point_point(a, face[i]));
@@ -179,7 +179,7 @@ fn features<R: Ring>(kind: Kind, points: &[Point<R>; 4], squared: &R) -> Vec<Fea
                 vec![height(0), height(1), height(2)]
             }));
         }
-        Kind::EdgeEdge => {
+        PairKind::EdgeEdge => {
             for (x, y) in [(a, c), (a, d), (b, c), (b, d)] {
                 features.push(point_point(x, y));
             }

@@ -2,13 +2,14 @@
 //! nothing.
 
 use proptest::prelude::*;
+use selvedge_core::PairKind;
 use selvedge_core::elementary::{Impact, Limits, additive, bernstein_sign, cubic, tight_inclusion};
 use selvedge_verification::generator::{PairCase, check};
-use selvedge_verification::oracle::{Kind, collides};
+use selvedge_verification::oracle::collides;
 
 /// Coordinates anywhere from −1 to 1, all different: half of the pairs are coplanar at some time, one in twenty touch, and
 /// hardly any so closely that rounding to 53 bits could matter.
-fn any_pairs(kind: Kind) -> impl Strategy<Value = PairCase<f64>> + Clone {
+fn any_pairs(kind: PairKind) -> impl Strategy<Value = PairCase<f64>> + Clone {
     let coordinate = || -1.0..1.0_f64;
     let position = move || [coordinate(), coordinate(), coordinate()];
     let motion = move || [position(), position()];
@@ -22,7 +23,7 @@ fn compare(
     edge_edge: fn(&PairCase<f64>) -> bool,
     is_allowed: fn(truth: bool, answer: bool) -> bool,
 ) {
-    for (kind, asked) in [(Kind::VertexFace, vertex_face), (Kind::EdgeEdge, edge_edge)] {
+    for (kind, asked) in [(PairKind::VertexFace, vertex_face), (PairKind::EdgeEdge, edge_edge)] {
         check(cases, any_pairs(kind), |pair| {
             let (truth, answer) = (collides(&pair.question()).is_some(), asked(pair));
             prop_assert!(is_allowed(truth, answer), "{truth}, answered {answer}");

@@ -3,14 +3,13 @@
 use proptest::prelude::*;
 use selvedge::dispatch::available_levels;
 use selvedge::pipeline::{CullingTest, Pipeline, Preset};
+use selvedge_core::PairKind;
 use selvedge_core::Verdict;
 use selvedge_core::batch::{BatchTest, LANES, Mask, Test, Tile, VertexRow, culled, culled_from_rows, culled_from_tiles};
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::{Filter, Tier, inside};
-use selvedge_core::points::Shape;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, meshes};
-use selvedge_verification::oracle::Kind;
 
 const TESTS: [(Test, CullingTest); 5] = [
     (Test::SweptBoxes, CullingTest::SweptBoxes),
@@ -22,27 +21,27 @@ const TESTS: [(Test, CullingTest); 5] = [
 
 fn direction_verdict<S: Format>(case: &PairCase<S>) -> Verdict {
     match case.kind {
-        Kind::VertexFace => direction::normal(&case.vertex_face()),
-        Kind::EdgeEdge => direction::normal(&case.edge_edge()),
+        PairKind::VertexFace => direction::normal(&case.vertex_face()),
+        PairKind::EdgeEdge => direction::normal(&case.edge_edge()),
     }
 }
 
 fn inside_verdict<S: Format>(case: &PairCase<S>) -> Verdict {
     match case.kind {
-        Kind::VertexFace => inside::never_inside(&case.vertex_face()),
-        Kind::EdgeEdge => inside::never_inside(&case.edge_edge()),
+        PairKind::VertexFace => inside::never_inside(&case.vertex_face()),
+        PairKind::EdgeEdge => inside::never_inside(&case.edge_edge()),
     }
 }
 
 fn filter_verdict<S: Format>(filter: Filter<S>, case: &PairCase<S>) -> Verdict {
     match case.kind {
-        Kind::VertexFace => filter.verdict(&case.vertex_face()),
-        Kind::EdgeEdge => filter.verdict(&case.edge_edge()),
+        PairKind::VertexFace => filter.verdict(&case.vertex_face()),
+        PairKind::EdgeEdge => filter.verdict(&case.edge_edge()),
     }
 }
 
 /// Pairs of one kind, now and then with coordinates that are NaN, infinite or huge.
-fn some_pairs<S: Format>(kind: Kind) -> impl Strategy<Value = Vec<PairCase<S>>> {
+fn some_pairs<S: Format>(kind: PairKind) -> impl Strategy<Value = Vec<PairCase<S>>> {
     let pair = from_choices(move |choices: &mut Choices<'_>| {
         if choices.once_in(8) {
             PairCase::choose_any(kind, choices)
@@ -59,7 +58,7 @@ fn bits(masks: &[Mask], count: usize) -> Vec<bool> {
 
 /// Some pairs, one by one, as rows and as tiles.
 struct Batch<S: Format> {
-    shape: Shape,
+    kind: PairKind,
     pairs: Vec<PairCase<S>>,
     rows: Vec<VertexRow<S>>,
     indices: Vec<[u32; 4]>,
@@ -67,7 +66,7 @@ struct Batch<S: Format> {
 }
 
 impl<S: Format> Batch<S> {
-    fn new(kind: Kind, pairs: &[PairCase<S>]) -> Self {
+    fn new(kind: PairKind, pairs: &[PairCase<S>]) -> Self {
         let rows = pairs.iter().flat_map(|pair| pair.motions());
         let of_pair = |k: u32| [0, 1, 2, 3].map(|point| 4 * k + point);
         let mut tiles = vec![Tile::unknown(); pairs.len().div_ceil(LANES)];
@@ -75,10 +74,7 @@ impl<S: Format> Batch<S> {
             tiles[k / LANES].set(k % LANES, pair.motions());
         }
         Self {
-            shape: match kind {
-                Kind::VertexFace => Shape::VertexFace,
-                Kind::EdgeEdge => Shape::EdgeEdge,
-            },
+            kind,
             pairs: pairs.to_vec(),
             rows: rows.map(VertexRow::new).collect(),
             indices: (0..pairs.len() as u32).map(of_pair).collect(),
@@ -98,18 +94,18 @@ impl<S: Format> Batch<S> {
             // One mask more than needed: it must be left alone.
             let untouched = vec![0xABCD; count.div_ceil(LANES) + 1];
             let [mut one_by_one, mut rows, mut tiles] = [(); 3].map(|()| untouched.clone());
-            match self.shape {
-                Shape::VertexFace => {
+            match self.kind {
+                PairKind::VertexFace => {
                     let pairs: Vec<_> = self.pairs.iter().map(PairCase::vertex_face).collect();
                     culled(level, test, &pairs, &mut one_by_one);
                 }
-                Shape::EdgeEdge => {
+                PairKind::EdgeEdge => {
                     let pairs: Vec<_> = self.pairs.iter().map(PairCase::edge_edge).collect();
                     culled(level, test, &pairs, &mut one_by_one);
                 }
             }
-            culled_from_rows(level, self.shape, test, &self.rows, &self.indices, &mut rows);
-            culled_from_tiles(level, self.shape, test, &self.tiles, &mut tiles);
+            culled_from_rows(level, self.kind, test, &self.rows, &self.indices, &mut rows);
+            culled_from_tiles(level, self.kind, test, &self.tiles, &mut tiles);
             for (form, masks) in [("list", one_by_one), ("rows", rows), ("tiles", tiles)] {
                 prop_assert_eq!(masks.last(), Some(&0xABCD), "{} {:?} {}", name, test, form);
                 prop_assert_eq!(bits(&masks, count), &expected[..], "{} {:?} {}", name, test, form);
@@ -122,7 +118,7 @@ impl<S: Format> Batch<S> {
     }
 }
 
-fn verdicts_agree<S: Format>(kind: Kind) {
+fn verdicts_agree<S: Format>(kind: PairKind) {
     let config = ProptestConfig {
         cases: 250,
         failure_persistence: None,
@@ -147,22 +143,22 @@ fn verdicts_agree<S: Format>(kind: Kind) {
 
 #[test]
 fn vertex_face_f32() {
-    verdicts_agree::<f32>(Kind::VertexFace);
+    verdicts_agree::<f32>(PairKind::VertexFace);
 }
 
 #[test]
 fn vertex_face_f64() {
-    verdicts_agree::<f64>(Kind::VertexFace);
+    verdicts_agree::<f64>(PairKind::VertexFace);
 }
 
 #[test]
 fn edge_edge_f32() {
-    verdicts_agree::<f32>(Kind::EdgeEdge);
+    verdicts_agree::<f32>(PairKind::EdgeEdge);
 }
 
 #[test]
 fn edge_edge_f64() {
-    verdicts_agree::<f64>(Kind::EdgeEdge);
+    verdicts_agree::<f64>(PairKind::EdgeEdge);
 }
 
 #[test]
@@ -174,7 +170,7 @@ fn an_index_that_names_no_vertex_keeps_its_pair_and_no_other() {
         for (test, _) in &TESTS[..4] {
             let mut masks = [0];
             let indices = [[0, 1, 1, 1], [0, 1, 1, 2]];
-            culled_from_rows(level, Shape::VertexFace, *test, &rows, &indices, &mut masks);
+            culled_from_rows(level, PairKind::VertexFace, *test, &rows, &indices, &mut masks);
             assert_eq!(masks, [0b01], "{name} {test:?}");
         }
     }

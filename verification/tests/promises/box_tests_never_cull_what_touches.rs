@@ -6,12 +6,13 @@ use selvedge::pipeline::CullingTest::{
     self, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, StoredSweptBoxes, SweptBoxes,
 };
 use selvedge_core::Motion;
+use selvedge_core::PairKind;
 use selvedge_core::boxes::{Aabb, segment};
 use selvedge_verification::culling::{certified, verdict};
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, extraordinary_pairs, from_choices, grazes_of_a_box, pairs, pairs_of_any_kind, touching_pairs,
 };
-use selvedge_verification::oracle::{Kind, collides};
+use selvedge_verification::oracle::collides;
 
 /// Needs no oracle: the pair touches by construction.
 fn nothing_certified_culls_a_pair_built_to_touch<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
@@ -128,7 +129,7 @@ fn rational<S: Format>(position: [S; 3]) -> RationalPoint {
 
 /// Whether `direction` · x strictly separates the two sets, in the same order at both ends. From the definition.
 fn keeps_order<S: Format>(pair: &PairCase<S>, direction: [i32; 3]) -> bool {
-    let first = if pair.kind == Kind::VertexFace { 1 } else { 2 };
+    let first = if pair.kind == PairKind::VertexFace { 1 } else { 2 };
     let heights = pair.points.map(|ends| {
         ends.map(|position| {
             let terms = rational(position).into_iter().zip(direction);
@@ -171,7 +172,7 @@ fn relative_boxes_cull_exactly_on_axes_and_soundly_on_diagonals_f32() {
 #[test]
 fn relative_boxes_are_exact_on_all_nine_directions_where_sums_are() {
     let small = from_choices(|choices| {
-        let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
+        let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
         let limit = choices.pick(&[2, 5, 100]);
         let points = std::array::from_fn(|_| std::array::from_fn(|_| std::array::from_fn(|_| choices.within(limit) as f64)));
         PairCase::<f64>::new(kind, points)
@@ -221,7 +222,7 @@ fn a_path_that_meets_the_box_is_kept<S: Format>(pair: &PairCase<S>) -> Result<()
 
 #[test]
 fn a_path_that_meets_the_swept_box_is_kept_f64() {
-    check(100_000, pairs::<f64>(Kind::VertexFace), a_path_that_meets_the_box_is_kept);
+    check(100_000, pairs::<f64>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
 }
 
 #[test]
@@ -236,7 +237,7 @@ fn a_path_that_grazes_the_swept_box_is_kept_f32() {
 
 #[test]
 fn a_path_that_meets_the_swept_box_is_kept_f32() {
-    check(100_000, pairs::<f32>(Kind::VertexFace), a_path_that_meets_the_box_is_kept);
+    check(100_000, pairs::<f32>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
 }
 
 /// Found by search with the test's underflow term removed, which culls both: their cross products are subnormal, and a rounded
@@ -245,7 +246,7 @@ fn a_path_that_meets_the_swept_box_is_kept_f32() {
 fn a_tiny_path_that_meets_the_box_is_kept_by_the_underflow_term_alone() {
     let resting = |position: [f32; 3]| [position; 2];
     let in_f32 = PairCase::<f32>::new(
-        Kind::VertexFace,
+        PairKind::VertexFace,
         [
             [
                 [5.916_622_6e-21, 0.0, -3.142_964_8e-21],
@@ -258,7 +259,7 @@ fn a_tiny_path_that_meets_the_box_is_kept_by_the_underflow_term_alone() {
     );
     let resting = |position: [f64; 3]| [position; 2];
     let in_f64 = PairCase::<f64>::new(
-        Kind::VertexFace,
+        PairKind::VertexFace,
         [
             [
                 [0.0, -5.879_625_518_037_162e-158, 8.139_709_717_471_553e-156],
@@ -282,7 +283,7 @@ fn a_tiny_path_that_meets_the_box_is_kept_by_the_underflow_term_alone() {
 #[test]
 fn a_path_that_meets_the_box_by_less_than_its_rounding_error_is_kept() {
     let pair = PairCase::<f32>::new(
-        Kind::VertexFace,
+        PairKind::VertexFace,
         [
             [[-1.884_149_1, -0.034_371_793, 0.0], [0.277_877_8, -1.877_597_8, 0.0]],
             [[-1.0, -1.113_415_8, 0.0]; 2],
@@ -352,7 +353,7 @@ fn a_path_clearly_past_the_box_is_culled<S: Format>() {
                 })
             })
         });
-        PairCase::<S>::new(Kind::VertexFace, points)
+        PairCase::<S>::new(PairKind::VertexFace, points)
     });
     let culled = std::cell::Cell::new(0);
     check(10_000, paths, |pair| {

@@ -2,11 +2,12 @@
 
 use proptest::prelude::*;
 use selvedge::pipeline::CullingTest::{CertifiedNonCoplanarity, PlainNonCoplanarity};
+use selvedge_core::PairKind;
 use selvedge_core::filter::certified::Bound;
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, pairs_of_any_kind};
-use selvedge_verification::oracle::{Kind, collides, coplanar};
+use selvedge_verification::oracle::{collides, coplanar};
 
 fn culls<S: Format>(pair: &PairCase<S>) -> bool {
     verdict(CertifiedNonCoplanarity, pair).is_culled()
@@ -142,7 +143,7 @@ fn other_constants_are_put_into_the_filter_itself() {
 
 /// Two edges of about 1e-107, whose volume of 1e-321 is lost in underflow. Found by search, then shortened.
 const TINY_AND_TOUCHING: PairCase<f64> = PairCase::new(
-    Kind::EdgeEdge,
+    PairKind::EdgeEdge,
     [
         [
             [
@@ -183,7 +184,7 @@ fn without_the_underflow_term_a_tiny_touching_pair_would_be_culled_f64() {
 fn without_the_underflow_term_a_tiny_touching_pair_would_be_culled_f32() {
     let resting = |position: [f32; 3]| [position; 2];
     let pair = PairCase::<f32>::new(
-        Kind::VertexFace,
+        PairKind::VertexFace,
         [
             resting([-5.355_958_7e-16, 7.723_856_3e-16, -5.000_340_4e-16]),
             resting([-1.994_932e-16, -3.001_071_6e-16, -1.091_141_1e-15]),
@@ -198,7 +199,7 @@ fn without_the_underflow_term_a_tiny_touching_pair_would_be_culled_f32() {
 
 /// A vertex that starts inside the face. Found by search, then shortened.
 const INSIDE_AT_THE_START: PairCase<f64> = PairCase::new(
-    Kind::VertexFace,
+    PairKind::VertexFace,
     [
         [
             [0.901_926_164_773_954, -0.246_246_277_764_612_4, 0.353_010_188_642_770_1],
@@ -229,7 +230,7 @@ fn with_a_sixteenth_of_the_rounding_bound_a_touching_pair_would_be_culled() {
 #[test]
 fn the_plain_filter_culls_a_vertex_that_starts_on_a_corner_of_the_face_f32() {
     let pair = PairCase::<f32>::new(
-        Kind::VertexFace,
+        PairKind::VertexFace,
         [
             [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
             [[1.0, -1.0, 1.615_234_4], [0.0, 0.0, 1.0]],
@@ -245,7 +246,7 @@ fn the_plain_filter_culls_a_vertex_that_starts_on_a_corner_of_the_face_f32() {
 #[test]
 fn the_plain_filter_culls_a_colliding_pair_that_certified_keeps_f64() {
     let pair = PairCase::<f64>::new(
-        Kind::VertexFace,
+        PairKind::VertexFace,
         [
             [
                 [0.0, 0.0, 0.0],

@@ -6,17 +6,17 @@
 use crate::support::environment::Environment;
 use proptest::prelude::*;
 use selvedge::dispatch::available_levels;
+use selvedge_core::PairKind;
 use selvedge_core::batch::{BatchTest, Level, Test, Tile, culled_from_tiles};
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::certified::Bound;
 use selvedge_core::filter::{Filter, Tier, inside};
-use selvedge_core::points::Shape;
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling;
 use selvedge_verification::generator::{
     Choices, Format, Meeting, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, touching_pairs,
 };
-use selvedge_verification::oracle::{Kind, collides};
+use selvedge_verification::oracle::collides;
 use std::hint::black_box;
 
 const BOX_TESTS: [Test; 6] = [
@@ -44,8 +44,8 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
         }
     };
     let (vertex_face, edge_edge) = (pair.vertex_face(), pair.edge_edge());
-    let is_face = pair.kind == Kind::VertexFace;
-    let shape = if is_face { Shape::VertexFace } else { Shape::EdgeEdge };
+    let is_face = pair.kind == PairKind::VertexFace;
+    let kind = if is_face { PairKind::VertexFace } else { PairKind::EdgeEdge };
     let mut tile = Tile::unknown();
     tile.set(5, pair.motions());
     for tier in tiers(touches) {
@@ -57,7 +57,7 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
         };
         note(verdict.is_culled(), &|| format!("{tier:?}"));
         for (name, level) in available_levels() {
-            let culled = batch_culls(level, shape, filter, &tile);
+            let culled = batch_culls(level, kind, filter, &tile);
             note(culled, &|| format!("{tier:?} on {name}"));
         }
     }
@@ -79,7 +79,7 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
         note(outside.is_culled(), &|| "inside functions".into());
         for test in BOX_TESTS {
             for (name, level) in available_levels() {
-                let culled = batch_culls(level, shape, test, &tile);
+                let culled = batch_culls(level, kind, test, &tile);
                 note(culled, &|| format!("{test:?} on {name}"));
             }
         }
@@ -87,9 +87,9 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
     culling
 }
 
-fn batch_culls<S: Format>(level: Level, shape: Shape, test: impl BatchTest<S>, tile: &Tile<S>) -> bool {
+fn batch_culls<S: Format>(level: Level, kind: PairKind, test: impl BatchTest<S>, tile: &Tile<S>) -> bool {
     let mut masks = [0];
-    culled_from_tiles(level, shape, test, std::slice::from_ref(tile), &mut masks);
+    culled_from_tiles(level, kind, test, std::slice::from_ref(tile), &mut masks);
     masks != [0]
 }
 
@@ -104,7 +104,7 @@ fn nothing_culls<S: Format>(pair: &PairCase<S>, touches: bool) -> Result<(), Tes
 /// As the generator makes them, but brought to where differences, products of two or of three are subnormal, or beyond the limit from
 /// which overflow is possible.
 fn at_the_limits<S: Format>(meeting: Meeting, choices: &mut Choices<'_>) -> PairCase<S> {
-    let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
+    let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
     let pair = Moment::<S>::choose(kind, meeting, choices).pair();
     let largest = pair.coordinates().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
     if largest == 0.0 {
@@ -228,7 +228,7 @@ impl Factors for AnEighth {
 const PERMANENT: Kernel = Kernel::Bounded(Bound::Permanent);
 
 /// A touching pair that a kernel would cull in an environment if it were not for one of its constants.
-fn is_culled_but_for<F: Factors, S: Format>(kernel: Kernel, environment: Environment, kind: Kind, points: [[[S; 3]; 2]; 4]) {
+fn is_culled_but_for<F: Factors, S: Format>(kernel: Kernel, environment: Environment, kind: PairKind, points: [[[S; 3]; 2]; 4]) {
     if !Environment::all().contains(&environment) {
         return;
     }
@@ -254,7 +254,7 @@ fn without_the_underflow_term_flushing_would_cull_a_tiny_touching_pair_f32() {
         [-5.115_907_7e-13, -2.273_736_8e-13, 1.136_868_4e-13],
     ];
     let environment = Environment::FLUSHING;
-    is_culled_but_for::<NoUnderflowTerm, f32>(PERMANENT, environment, Kind::EdgeEdge, at_rest(points));
+    is_culled_but_for::<NoUnderflowTerm, f32>(PERMANENT, environment, PairKind::EdgeEdge, at_rest(points));
 }
 
 #[test]
@@ -278,7 +278,7 @@ fn without_the_underflow_term_flushing_would_cull_a_tiny_touching_pair_f64() {
         ],
     ];
     let environment = Environment::FLUSHING;
-    is_culled_but_for::<NoUnderflowTerm, f64>(PERMANENT, environment, Kind::EdgeEdge, at_rest(points));
+    is_culled_but_for::<NoUnderflowTerm, f64>(PERMANENT, environment, PairKind::EdgeEdge, at_rest(points));
 }
 
 /// To nearest, and with subnormal numbers.
@@ -291,7 +291,7 @@ fn without_the_underflow_term_the_normal_direction_would_cull_a_tiny_touching_pa
         [-2.664_535_3e-15, 6.217_249e-15, 0.0],
     ];
     let environment = Environment::DEFAULT;
-    is_culled_but_for::<NoUnderflowTerm, f32>(Kernel::Normal, environment, Kind::VertexFace, at_rest(points));
+    is_culled_but_for::<NoUnderflowTerm, f32>(Kernel::Normal, environment, PairKind::VertexFace, at_rest(points));
 }
 
 #[test]
@@ -303,7 +303,7 @@ fn without_the_gap_between_sums_flushing_would_cull_a_touching_pair_f32() {
         [0.0, -2.297_609_3e-38, 1.591_337e-38],
     ];
     let environment = Environment::FLUSHING;
-    is_culled_but_for::<NoGap, f32>(Kernel::NineDirections, environment, Kind::VertexFace, at_rest(points));
+    is_culled_but_for::<NoGap, f32>(Kernel::NineDirections, environment, PairKind::VertexFace, at_rest(points));
 }
 
 #[test]
@@ -315,7 +315,7 @@ fn without_the_gap_between_sums_flushing_would_cull_a_touching_pair_f64() {
         [0.0, 2.302_381_333_398_36e-308, -4.504_944_627_446_78e-308],
     ];
     let environment = Environment::FLUSHING;
-    is_culled_but_for::<NoGap, f64>(Kernel::NineDirections, environment, Kind::EdgeEdge, at_rest(points));
+    is_culled_but_for::<NoGap, f64>(Kernel::NineDirections, environment, PairKind::EdgeEdge, at_rest(points));
 }
 
 /// Volumes above the largest number become that number.
@@ -332,7 +332,7 @@ fn without_the_limit_of_edges_rounding_downward_would_cull_a_large_touching_pair
         [-1.429_023_079_063_106_8e140, -4.763_410_263_543_689_3e139, 0.0],
     ];
     let environment = Environment::DOWNWARD;
-    is_culled_but_for::<NoLimit, f64>(PERMANENT, environment, Kind::VertexFace, at_rest(points));
+    is_culled_but_for::<NoLimit, f64>(PERMANENT, environment, PairKind::VertexFace, at_rest(points));
 }
 
 #[test]
@@ -344,7 +344,7 @@ fn without_the_limit_of_edges_rounding_downward_would_cull_a_long_path_f32() {
         [[0.0; 3]; 2],
     ];
     let environment = Environment::DOWNWARD;
-    is_culled_but_for::<NoLimit, f32>(Kernel::Segment, environment, Kind::VertexFace, points);
+    is_culled_but_for::<NoLimit, f32>(Kernel::Segment, environment, PairKind::VertexFace, points);
 }
 
 /// Half of the bounds, which is enough to nearest, was not seen to fail in millions of pairs in other directions: that takes the
@@ -358,7 +358,7 @@ fn with_an_eighth_of_the_rounding_bound_rounding_upward_would_cull_a_touching_pa
         [[-15_851.0, -7613.0, -7441.0], [-15_851.0, -7613.0, -7442.0]],
     ];
     let environment = Environment::UPWARD;
-    is_culled_but_for::<AnEighth, f32>(PERMANENT, environment, Kind::EdgeEdge, points);
+    is_culled_but_for::<AnEighth, f32>(PERMANENT, environment, PairKind::EdgeEdge, points);
 }
 
 /// A vertex at rest that much above a triangle at rest, and a separation larger than it but subnormal, which flushing compares as
@@ -367,7 +367,7 @@ fn keeps_within_a_subnormal_separation<S: Format>(height: S, separation: S) {
     let o = S::ZERO;
     let face = [[o, o, o], [S::ONE, o, o], [o, S::ONE, o]];
     let pair = PairCase {
-        kind: Kind::VertexFace,
+        kind: PairKind::VertexFace,
         points: at_rest([[o, o, height], face[0], face[1], face[2]]),
     };
     for tier in tiers(true) {
@@ -392,7 +392,7 @@ fn a_subnormal_separation_counts_when_flushing_f64() {
 /// what is compared, to make one vector operation of it and the sums beside: see "compilers" in `boxes`.
 fn keeps_edges_of_dust_on_one_line<S: Format>() {
     let at = |height: i64| [[S::ZERO, S::ZERO, S::exact(height, S::MIN_EXPONENT)]; 2];
-    let pair = PairCase::new(Kind::EdgeEdge, [at(-4), at(8), at(3), at(2)]);
+    let pair = PairCase::new(PairKind::EdgeEdge, [at(-4), at(8), at(3), at(2)]);
     assert!(collides(&pair.question()).is_some());
     nothing_culls(&pair, true).expect("kept");
 }

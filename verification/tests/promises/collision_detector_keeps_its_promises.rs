@@ -178,7 +178,7 @@ fn what_rests_changes_nothing_for_what_moves<S: Format>(mesh: &MeshCase<S>) -> R
     for number in 0..3 {
         let mesh = step(number);
         let moves = |contact: &Contact<S>| {
-            let vertices = contact.kind.vertices(contact.pair, &topology);
+            let vertices = topology.vertices_of(contact.kind, contact.pair);
             vertices.iter().any(|&vertex| moving[vertex as usize])
         };
         let mut expected = contacts(&mut whole, &mesh);

@@ -3,6 +3,7 @@
 use crate::support::environment::Environment;
 use crate::support::widths::at_the_limit_of_a_width;
 use proptest::prelude::*;
+use selvedge_core::PairKind;
 use selvedge_core::PrimitivePair;
 use selvedge_core::elementary::Contact;
 use selvedge_core::elementary::contact::{Evidence, contact_and_evidence};
@@ -12,24 +13,24 @@ use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs, pairs_of_any_kind,
     touching_pairs,
 };
-use selvedge_verification::oracle::{Kind, collides};
+use selvedge_verification::oracle::collides;
 use std::cell::Cell;
 
-const KINDS: [Kind; 2] = [Kind::VertexFace, Kind::EdgeEdge];
+const KINDS: [PairKind; 2] = [PairKind::VertexFace, PairKind::EdgeEdge];
 
 /// In whole numbers alone; `None` if a coordinate is not finite.
 fn touches<S: Format>(pair: &PairCase<S>) -> Option<bool> {
     match pair.kind {
-        Kind::VertexFace => exact::touches::<VertexAndFace, S>(&pair.vertex_face().points()),
-        Kind::EdgeEdge => exact::touches::<EdgeAndEdge, S>(&pair.edge_edge().points()),
+        PairKind::VertexFace => exact::touches::<VertexAndFace, S>(&pair.vertex_face().points()),
+        PairKind::EdgeEdge => exact::touches::<EdgeAndEdge, S>(&pair.edge_edge().points()),
     }
 }
 
 /// The same, after floating point has had its try.
 fn verdict<S: Format>(pair: &PairCase<S>) -> (Contact, Evidence) {
     match pair.kind {
-        Kind::VertexFace => contact_and_evidence(&pair.vertex_face()),
-        Kind::EdgeEdge => contact_and_evidence(&pair.edge_edge()),
+        PairKind::VertexFace => contact_and_evidence(&pair.vertex_face()),
+        PairKind::EdgeEdge => contact_and_evidence(&pair.edge_edge()),
     }
 }
 
@@ -84,7 +85,7 @@ property!(
 );
 
 /// The pair number `index` of those with coordinates 0 and 1 on `axes` axes, and 0 on the others.
-fn of_bits(kind: Kind, axes: usize, index: usize) -> PairCase<f64> {
+fn of_bits(kind: PairKind, axes: usize, index: usize) -> PairCase<f64> {
     let coordinate = |point: usize, end: usize, axis: usize| {
         let place = (point * 2 + end) * axes + axis;
         if axis < axes && index >> place & 1 == 1 { 1.0 } else { 0.0 }
@@ -192,7 +193,7 @@ property!(
 property!(
     permuting_the_faces_vertices_changes_no_verdict,
     10_000,
-    pairs(Kind::VertexFace),
+    pairs(PairKind::VertexFace),
     |pair| {
         [[0, 2, 3, 1], [0, 3, 1, 2], [0, 2, 1, 3]]
             .into_iter()
@@ -203,7 +204,7 @@ property!(
 property!(
     exchanging_edges_and_their_ends_changes_no_verdict,
     5_000,
-    pairs(Kind::EdgeEdge),
+    pairs(PairKind::EdgeEdge),
     |pair| {
         [[2, 3, 0, 1], [1, 0, 2, 3], [0, 1, 3, 2], [3, 2, 0, 1]]
             .into_iter()
@@ -262,7 +263,7 @@ fn decides_the_largest_spread_there_is<S: Format>() {
         let face = [[-large, -large], [large, -large], [small, large]];
         let [a, b, c] = face.map(|[x, y]| [[x, y, S::ZERO], [x, y, S::ZERO]]);
         let vertex = [[small, large, height], [small, S::ZERO, height]];
-        let pair = PairCase::new(Kind::VertexFace, [vertex, a, b, c]);
+        let pair = PairCase::new(PairKind::VertexFace, [vertex, a, b, c]);
         for axes in [[0, 1, 2], [2, 0, 1], [1, 2, 0]] {
             let pair = pair.with_axes(axes);
             let checked = both_say(&pair, happens);

@@ -3,13 +3,12 @@
 use proptest::prelude::*;
 use rug::{Float, Rational, ops::Pow};
 use selvedge::pipeline::CullingTest::PlainNonCoplanarity;
+use selvedge_core::PairKind;
 use selvedge_core::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
 use selvedge_core::filter::certified::{Bound, is_never_coplanar};
-use selvedge_core::points::Shape;
 use selvedge_core::{Lanes, PrimitivePair, Rounding, Vector};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs_of_any_kind};
-use selvedge_verification::oracle::Kind;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// Whole numbers, so that core's own source computes without rounding. Panics on overflow.
@@ -149,7 +148,7 @@ proptest! {
     #[test]
     fn the_plain_filter_is_right_where_nothing_rounds(points in whole_points(20)) {
         let [a, b, c, p] = points.map(|ends| ends.map(|position| position.map(|x| x as f64)));
-        let pair = PairCase::new(Kind::VertexFace, [p, a, b, c]);
+        let pair = PairCase::new(PairKind::VertexFace, [p, a, b, c]);
         let culled = verdict(PlainNonCoplanarity, &pair).is_culled();
         prop_assert_eq!(culled, is_never_coplanar(Bound::Permanent, &tetrahedron(&points)));
     }
@@ -159,8 +158,8 @@ proptest! {
     fn an_edge_pair_is_the_tetrahedron_k_u_v_l(points in whole_points(1 << 20)) {
         let points = points.map(|ends| ends.map(|position| position.map(|x| x as f64)));
         let [u, v, k, l] = points;
-        let edges = PairCase::new(Kind::EdgeEdge, [u, v, k, l]).edge_edge().tetrahedron();
-        let face = PairCase::new(Kind::VertexFace, [l, k, u, v]).vertex_face().tetrahedron();
+        let edges = PairCase::new(PairKind::EdgeEdge, [u, v, k, l]).edge_edge().tetrahedron();
+        let face = PairCase::new(PairKind::VertexFace, [l, k, u, v]).vertex_face().tetrahedron();
         prop_assert_eq!((edges.b, edges.c, edges.p), (face.b, face.c, face.p));
     }
 }
@@ -178,8 +177,8 @@ fn rational<S: Format>(x: S) -> Rational {
 /// In the order k₀, 3k₁, 3k₂, k₃, from the definition: the coefficient of (1−t)^(3−i)·t^i in det(P, B, C).
 fn exact_control_values<S: Format>(pair: &PairCase<S>) -> [ExactControlValue; 4] {
     let order = match pair.kind {
-        Kind::VertexFace => [1, 2, 3, 0],
-        Kind::EdgeEdge => [2, 0, 1, 3],
+        PairKind::VertexFace => [1, 2, 3, 0],
+        PairKind::EdgeEdge => [2, 0, 1, 3],
     };
     let [a, b, c, p] = order.map(|k| pair.points[k].map(|position| position.map(rational)));
     let from_a = |x: &[[Rational; 3]; 2]| -> [[Rational; 3]; 2] {
@@ -414,8 +413,8 @@ property!(
 fn squared_normals<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
     // As two moving vectors whose cross product is the normal.
     let [from_0, to_0, from_1, to_1] = match pair.kind {
-        Kind::VertexFace => [1, 2, 1, 3],
-        Kind::EdgeEdge => [0, 1, 2, 3],
+        PairKind::VertexFace => [1, 2, 1, 3],
+        PairKind::EdgeEdge => [0, 1, 2, 3],
     };
     let points = pair.points.map(|ends| ends.map(|x| x.map(rational)));
     let vector = |from: usize, to: usize, end: usize| -> [Rational; 3] {
@@ -436,11 +435,8 @@ fn squared_normals<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
 }
 
 fn largest_normal<S: Format>(pair: &PairCase<S>) -> S {
-    let shape = match pair.kind {
-        Kind::VertexFace => Shape::VertexFace,
-        Kind::EdgeEdge => Shape::EdgeEdge,
-    };
-    pair.tetrahedron().largest_normal(shape)
+    let kind = pair.kind;
+    pair.tetrahedron().largest_normal(kind)
 }
 
 property!(no_normal_is_longer_than_its_bound, 40_000, pairs_of_any_kind(), |pair| {
@@ -456,7 +452,7 @@ property!(no_normal_is_longer_than_its_bound, 40_000, pairs_of_any_kind(), |pair
 /// (√(|n|² + η) + 128u·M²)·(1 + 32u). On small whole numbers all is exact up to the root: what remains rounds five times.
 fn the_bound_of_the_normal_is_the_documented_one<S: Format>() {
     let whole = from_choices(|choices: &mut Choices<'_>| {
-        let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
+        let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
         let number = |choices: &mut Choices<'_>| S::exact(choices.within(20), 0);
         let points = [(); 4].map(|()| [(); 2].map(|()| [(); 3].map(|()| number(choices))));
         PairCase::<S>::new(kind, points)

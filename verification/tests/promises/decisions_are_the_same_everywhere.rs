@@ -7,6 +7,7 @@
 
 use fearless_simd::dispatch;
 use selvedge::dispatch::available_levels;
+use selvedge_core::PairKind;
 use selvedge_core::PrimitivePair;
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, direction, relative, segment, swept_boxes};
@@ -17,11 +18,10 @@ use selvedge_core::elementary::contact::contact_and_evidence;
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within, touches};
 use selvedge_core::filter::{Filter, Tier, inside, plain};
-use selvedge_core::points::{PairShape, Shape};
+use selvedge_core::points::PairShape;
 use selvedge_verification::campaign::exact::{Source, sample};
 use selvedge_verification::culling;
 use selvedge_verification::generator::{Format, PairCase};
-use selvedge_verification::oracle::Kind;
 
 /// FNV-1a, of which there is only one.
 struct Digest(u64);
@@ -61,7 +61,7 @@ impl Digest {
 }
 
 /// A pair of whole numbers so small that values are often equal, and often zero.
-fn on_a_grid<S: Format>(kind: Kind, index: usize) -> PairCase<S> {
+fn on_a_grid<S: Format>(kind: PairKind, index: usize) -> PairCase<S> {
     let mut coordinate = 0;
     let mut next = || {
         coordinate += 1;
@@ -74,7 +74,7 @@ fn on_a_grid<S: Format>(kind: Kind, index: usize) -> PairCase<S> {
 
 /// Random and adversarial pairs, of which one in sixteen has a coordinate that no mesh should have, random ones so large or small
 /// that products nearly overflow or underflow, and pairs on a grid.
-fn cases<S: Format>(kind: Kind, count: usize) -> Vec<PairCase<S>> {
+fn cases<S: Format>(kind: PairKind, count: usize) -> Vec<PairCase<S>> {
     let mut cases = sample(Source::Random, kind, 1, count);
     cases.append(&mut sample(Source::Adversarial, kind, 2, count));
     let odd = [
@@ -107,12 +107,12 @@ trait Question {
     fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, pair: &P, digest: &mut Digest);
 }
 
-fn digest<S: Format, Q: Question>(kind: Kind, count: usize) -> u64 {
+fn digest<S: Format, Q: Question>(kind: PairKind, count: usize) -> u64 {
     let mut digest = Digest::new();
     for case in cases::<S>(kind, count) {
         match kind {
-            Kind::VertexFace => Q::ask(&case, &case.vertex_face(), &mut digest),
-            Kind::EdgeEdge => Q::ask(&case, &case.edge_edge(), &mut digest),
+            PairKind::VertexFace => Q::ask(&case, &case.vertex_face(), &mut digest),
+            PairKind::EdgeEdge => Q::ask(&case, &case.edge_edge(), &mut digest),
         }
     }
     digest.0
@@ -121,10 +121,10 @@ fn digest<S: Format, Q: Question>(kind: Kind, count: usize) -> u64 {
 /// Of vertex and face, `f32` and `f64`, and of two edges.
 fn digests<Q: Question>(count: usize) -> String {
     let all = [
-        digest::<f32, Q>(Kind::VertexFace, count),
-        digest::<f64, Q>(Kind::VertexFace, count),
-        digest::<f32, Q>(Kind::EdgeEdge, count),
-        digest::<f64, Q>(Kind::EdgeEdge, count),
+        digest::<f32, Q>(PairKind::VertexFace, count),
+        digest::<f64, Q>(PairKind::VertexFace, count),
+        digest::<f32, Q>(PairKind::EdgeEdge, count),
+        digest::<f64, Q>(PairKind::EdgeEdge, count),
     ];
     all.map(|digest| format!("{digest:016x}")).join(" ")
 }
@@ -176,8 +176,8 @@ impl Question for Volume {
             digest.add_number(error_bound_by_magnitudes(largest));
             digest.add(u64::from(is_in_range(largest.largest())));
         }
-        for shape in [Shape::VertexFace, Shape::EdgeEdge] {
-            digest.add_number(volume.largest_normal(shape));
+        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+            digest.add_number(volume.largest_normal(kind));
         }
         digest.add(u64::from(values.one_sign_beyond(bounds)));
     }
@@ -410,8 +410,8 @@ impl Question for Thresholds {
                     end[0] = end[0] + by;
                 }
                 match case.kind {
-                    Kind::VertexFace => answers_yes(test, &case.vertex_face(), zero),
-                    Kind::EdgeEdge => answers_yes(test, &case.edge_edge(), zero),
+                    PairKind::VertexFace => answers_yes(test, &case.vertex_face(), zero),
+                    PairKind::EdgeEdge => answers_yes(test, &case.edge_edge(), zero),
                 }
             });
             for found in [separation, moved] {

@@ -2,8 +2,9 @@
 
 use proptest::prelude::*;
 use selvedge::study::elementary::{ExactAnswer, WIDEST, exact_answer};
+use selvedge_core::PairKind;
 use selvedge_verification::generator::{Format, PairCase, check, coplanar_pairs, pairs_of_any_kind, touching_pairs};
-use selvedge_verification::oracle::{Kind, collides};
+use selvedge_verification::oracle::collides;
 use std::cell::Cell;
 
 /// How many touch, and of how many it is known when.
@@ -19,8 +20,8 @@ fn add(count: &Cell<u32>) {
 
 fn is_true<S: Format>(pair: &PairCase<S>, counts: &Counts) -> Result<(), TestCaseError> {
     let answer = match pair.kind {
-        Kind::VertexFace => exact_answer(&pair.vertex_face()),
-        Kind::EdgeEdge => exact_answer(&pair.edge_edge()),
+        PairKind::VertexFace => exact_answer(&pair.vertex_face()),
+        PairKind::EdgeEdge => exact_answer(&pair.edge_edge()),
     };
     let exact = collides(&pair.question());
     match (answer, exact) {

@@ -6,6 +6,7 @@ use crate::support::widths::at_the_limit_of_a_width;
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge::pipeline::CullingTest;
+use selvedge_core::PairKind;
 use selvedge_core::PrimitivePair;
 use selvedge_core::coplanarity::is_in_range;
 use selvedge_core::exact::{KnownSigns, UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within};
@@ -14,27 +15,27 @@ use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
 };
-use selvedge_verification::oracle::{Kind, coplanar, within};
+use selvedge_verification::oracle::{coplanar, within};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 fn signs<S: Format>(pair: &PairCase<S>) -> Option<[Ordering; 4]> {
     match pair.kind {
-        Kind::VertexFace => control_value_signs::<VertexAndFace, S>(&pair.vertex_face().points()),
-        Kind::EdgeEdge => control_value_signs::<EdgeAndEdge, S>(&pair.edge_edge().points()),
+        PairKind::VertexFace => control_value_signs::<VertexAndFace, S>(&pair.vertex_face().points()),
+        PairKind::EdgeEdge => control_value_signs::<EdgeAndEdge, S>(&pair.edge_edge().points()),
     }
 }
 
 fn never_coplanar<S: Format>(pair: &PairCase<S>, known: KnownSigns) -> bool {
     match pair.kind {
-        Kind::VertexFace => is_never_coplanar::<VertexAndFace, S>(&pair.vertex_face().points(), known),
-        Kind::EdgeEdge => is_never_coplanar::<EdgeAndEdge, S>(&pair.edge_edge().points(), known),
+        PairKind::VertexFace => is_never_coplanar::<VertexAndFace, S>(&pair.vertex_face().points(), known),
+        PairKind::EdgeEdge => is_never_coplanar::<EdgeAndEdge, S>(&pair.edge_edge().points(), known),
     }
 }
 
 fn never_within<S: Format>(pair: &PairCase<S>, separation: S, known: KnownSigns) -> bool {
     match pair.kind {
-        Kind::VertexFace => is_never_within::<VertexAndFace, S>(&pair.vertex_face().points(), separation, known),
-        Kind::EdgeEdge => is_never_within::<EdgeAndEdge, S>(&pair.edge_edge().points(), separation, known),
+        PairKind::VertexFace => is_never_within::<VertexAndFace, S>(&pair.vertex_face().points(), separation, known),
+        PairKind::EdgeEdge => is_never_within::<EdgeAndEdge, S>(&pair.edge_edge().points(), separation, known),
     }
 }
 
@@ -263,7 +264,7 @@ fn the_unit_of_large_powers_of_two_is_their_own() {
     let large = f64::exact(1 << 40, 960);
     let corners = [[0.0; 3], [large, 0.0, 0.0], [0.0, large / 2.0, 0.0]];
     let [a, b, c] = corners.map(|corner| [corner; 2]);
-    let pair = PairCase::new(Kind::VertexFace, [[[0.0, 0.0, 1.0]; 2], a, b, c]);
+    let pair = PairCase::new(PairKind::VertexFace, [[[0.0, 0.0, 1.0]; 2], a, b, c]);
     assert!(never_within(&pair, 1.0.down(), UNKNOWN));
     assert!(!never_within(&pair, 1.0, UNKNOWN));
     // The same where each axis has another unit.
@@ -279,7 +280,7 @@ fn decides_the_largest_spread_there_is<S: Format>() {
     for (height, sign) in [(S::ZERO, Greater), (-small, Equal), (-small.up(), Less)] {
         let vertex = [[small, small, height]; 2];
         let pair = PairCase::new(
-            Kind::VertexFace,
+            PairKind::VertexFace,
             [vertex, corner(-large, -large), corner(large, -large), corner(small, large)],
         );
         assert_eq!(signs(&pair), Some([sign; 4]), "{pair:?}");

@@ -2,12 +2,13 @@
 
 use proptest::prelude::*;
 use selvedge::pipeline::CullingTest::CertifiedNonCoplanarity;
+use selvedge_core::PairKind;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
     Choices, Format, Meeting, MeshCase, Moment, PairCase, Simplify, check, coplanar_pairs, from_choices, meshes,
     pairs_of_any_kind, touching_pairs,
 };
-use selvedge_verification::oracle::{Kind, collides, coplanar, touches_at};
+use selvedge_verification::oracle::{collides, coplanar, touches_at};
 use std::cell::Cell;
 
 fn touches_when_it_says<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError> {
@@ -49,7 +50,7 @@ fn any_bytes_make_a_pair_of_finite_coordinates() {
         ..ProptestConfig::default()
     };
     proptest!(settings, |(bytes in bytes)| {
-        for kind in [Kind::VertexFace, Kind::EdgeEdge] {
+        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
             prop_assert!(PairCase::<f32>::from_bytes(kind, &bytes).is_finite());
             prop_assert!(PairCase::<f64>::from_bytes(kind, &bytes).is_finite());
         }
@@ -124,7 +125,7 @@ fn shrinking_ends_in_a_pair_of_small_numbers() {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 56) as u8
         });
-        let pair = PairCase::from_bytes(Kind::EdgeEdge, &bytes);
+        let pair = PairCase::from_bytes(PairKind::EdgeEdge, &bytes);
         if culled(&pair) {
             culled_pairs += 1;
             let simplest = simplest(pair, culled);
@@ -138,7 +139,7 @@ fn shrinking_ends_in_a_pair_of_small_numbers() {
 
 #[test]
 fn shrinking_a_meeting_keeps_it() {
-    let strategy = from_choices(|choices| Moment::<f32>::choose(Kind::VertexFace, Meeting::Touching, choices));
+    let strategy = from_choices(|choices| Moment::<f32>::choose(PairKind::VertexFace, Meeting::Touching, choices));
     check(300, strategy, |moment| {
         for attempt in 0..moment.attempts() {
             if let Some(simpler) = moment.simpler(attempt) {
@@ -157,7 +158,7 @@ fn a_case_prints_as_the_rust_that_makes_it() {
         [[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
         [[0.0, 1.0, 0.0], [0.0, 1e300, f64::NAN]],
     ];
-    let text = format!("{:?}", PairCase::new(Kind::VertexFace, points));
+    let text = format!("{:?}", PairCase::new(PairKind::VertexFace, points));
     assert_eq!(
         text,
         "VertexFace::<f64> {

@@ -9,7 +9,7 @@ use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Contact as Verdict, Impact, Limits, contact};
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::hard_cases::table;
-use selvedge_verification::oracle::{Kind, collides};
+use selvedge_verification::oracle::collides;
 use std::cmp::Ordering;
 use std::fs;
 use std::path::Path;
@@ -29,10 +29,7 @@ fn the_file_is_what_the_oracle_says() {
 }
 
 fn pair(case: &HardCase) -> PairCase<f64> {
-    let kind = match case.kind {
-        PairKind::VertexFace => Kind::VertexFace,
-        PairKind::EdgeEdge => Kind::EdgeEdge,
-    };
+    let kind = case.kind;
     let points = [0, 1, 2, 3].map(|point| [case.start[point].to_array(), case.end[point].to_array()]);
     PairCase::new(kind, points)
 }
@@ -71,21 +68,18 @@ fn culling<S: Format>(pair: &PairCase<S>) -> Vec<QueryMethod> {
 }
 
 fn kind<S>(pair: &PairCase<S>) -> PairKind {
-    match pair.kind {
-        Kind::VertexFace => PairKind::VertexFace,
-        Kind::EdgeEdge => PairKind::EdgeEdge,
-    }
+    pair.kind
 }
 
 /// Ours keep what touches, are not late, exclude nothing of what is not finite, and the exact verdict is exact.
 fn is_right<S: Format>(name: &str, pair: &PairCase<S>) {
     let limits = Limits::default();
     let (impact, contact) = match pair.kind {
-        Kind::VertexFace => {
+        PairKind::VertexFace => {
             let pair = pair.vertex_face();
             (time_of_impact(&pair, &limits), contact(&pair))
         }
-        Kind::EdgeEdge => {
+        PairKind::EdgeEdge => {
             let pair = pair.edge_edge();
             (time_of_impact(&pair, &limits), contact(&pair))
         }

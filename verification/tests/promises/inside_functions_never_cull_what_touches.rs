@@ -5,18 +5,19 @@
 //! (`certified_in_every_floating_point_environment.rs`), its lanes in `batches_agree_with_one_pair.rs`.
 
 use proptest::prelude::*;
+use selvedge_core::PairKind;
 use selvedge_core::Verdict;
 use selvedge_core::filter::inside;
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, pairs_of_any_kind, touching_pairs,
 };
-use selvedge_verification::oracle::{Kind, collides};
+use selvedge_verification::oracle::collides;
 use std::cell::Cell;
 
 fn verdict<S: Format>(pair: &PairCase<S>) -> Verdict {
     match pair.kind {
-        Kind::VertexFace => inside::never_inside(&pair.vertex_face()),
-        Kind::EdgeEdge => inside::never_inside(&pair.edge_edge()),
+        PairKind::VertexFace => inside::never_inside(&pair.vertex_face()),
+        PairKind::EdgeEdge => inside::never_inside(&pair.edge_edge()),
     }
 }
 

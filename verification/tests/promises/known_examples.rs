@@ -5,10 +5,11 @@ use selvedge::PairKind::{EdgeEdge, VertexFace};
 use selvedge::mesh::Topology;
 use selvedge::pipeline::CullingTest::{self, CertifiedNonCoplanarity};
 use selvedge::pipeline::{Pipeline, Preset};
+use selvedge_core::PairKind;
 use selvedge_core::glam::DVec3;
 use selvedge_verification::culling::{ALL, certified, verdict};
 use selvedge_verification::generator::{Format, PairCase};
-use selvedge_verification::oracle::{Kind, collides};
+use selvedge_verification::oracle::collides;
 
 type Ends = [[f32; 3]; 2];
 
@@ -24,11 +25,11 @@ const FLOOR: [Ends; 3] = [
 ];
 
 fn vertex_face(vertex: Ends, [a, b, c]: [Ends; 3]) -> PairCase<f32> {
-    PairCase::new(Kind::VertexFace, [vertex, a, b, c])
+    PairCase::new(PairKind::VertexFace, [vertex, a, b, c])
 }
 
 fn edge_edge([u, v]: [Ends; 2], [k, l]: [Ends; 2]) -> PairCase<f32> {
-    PairCase::new(Kind::EdgeEdge, [u, v, k, l])
+    PairCase::new(PairKind::EdgeEdge, [u, v, k, l])
 }
 
 fn culling<S: Format>(pair: &PairCase<S>) -> Vec<CullingTest> {
@@ -41,8 +42,8 @@ fn touches_first_at(pair: &PairCase<f32>, time: (i32, i32)) {
     let earliest = collides(&pair.question()).expect("a contact");
     assert_eq!(earliest.as_rational(), Some(&Rational::from(time)));
     let orders: &[[usize; 4]] = match pair.kind {
-        Kind::VertexFace => &[[0, 1, 2, 3], [0, 2, 3, 1], [0, 3, 1, 2], [0, 1, 3, 2]],
-        Kind::EdgeEdge => &[[0, 1, 2, 3], [2, 3, 0, 1], [1, 0, 2, 3], [0, 1, 3, 2]],
+        PairKind::VertexFace => &[[0, 1, 2, 3], [0, 2, 3, 1], [0, 3, 1, 2], [0, 1, 3, 2]],
+        PairKind::EdgeEdge => &[[0, 1, 2, 3], [2, 3, 0, 1], [1, 0, 2, 3], [0, 1, 3, 2]],
     };
     for &order in orders {
         for pair in [pair.reordered(order), pair.reordered(order).reversed()] {

@@ -11,7 +11,7 @@ use selvedge::scene::ArmScene;
 use selvedge::step::StepError;
 use selvedge_core::Scalar;
 use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
-use selvedge_verification::oracle::{Kind, within};
+use selvedge_verification::oracle::within;
 use std::cell::Cell;
 use std::collections::BTreeSet;
 
@@ -59,8 +59,8 @@ fn all_pairs(topology: &Topology) -> BTreeSet<MeshPair> {
 /// Whether, along one axis, all of one primitive is above all of the other at the ends given, in one order.
 fn keeps_order<S: Format>(pair: &PairCase<S>, above: impl Fn([S; 2], [S; 2]) -> bool) -> bool {
     let (one, other) = pair.points.split_at(match pair.kind {
-        Kind::VertexFace => 1,
-        Kind::EdgeEdge => 2,
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
     });
     (0..3).any(|axis| {
         let along = |points: &[[[S; 3]; 2]]| -> Vec<[S; 2]> { points.iter().map(|ends| ends.map(|x| x[axis])).collect() };

@@ -4,10 +4,11 @@ use crate::support::distance::{SLACK, advance, distance};
 use crate::support::{at, common_part};
 use proptest::prelude::*;
 use rug::Rational;
-use selvedge_verification::oracle::{Kind, Pair, collides, first_within, touches_at, within, within_at};
+use selvedge_core::PairKind;
+use selvedge_verification::oracle::{Pair, collides, first_within, touches_at, within, within_at};
 
-fn kind() -> impl Strategy<Value = Kind> {
-    prop_oneof![Just(Kind::VertexFace), Just(Kind::EdgeEdge)]
+fn kind() -> impl Strategy<Value = PairKind> {
+    prop_oneof![Just(PairKind::VertexFace), Just(PairKind::EdgeEdge)]
 }
 
 fn pair_of(coordinate: impl Strategy<Value = f64> + Clone) -> impl Strategy<Value = Pair> {
@@ -59,8 +60,8 @@ fn any_pair() -> impl Strategy<Value = Pair> {
 fn touches_by_clipping(pair: &Pair, t: &Rational) -> bool {
     let points: Vec<_> = (0..4).map(|i| at(pair.start[i], pair.end[i], t)).collect();
     let (first, second) = points.split_at(match pair.kind {
-        Kind::VertexFace => 1,
-        Kind::EdgeEdge => 2,
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
     });
     !common_part(first, second).is_empty()
 }
@@ -211,10 +212,10 @@ proptest! {
         mirror in prop::array::uniform3(any::<bool>()),
     ) {
         let written = match pair.kind {
-            Kind::VertexFace => [
+            PairKind::VertexFace => [
                 [0, 1, 2, 3], [0, 2, 3, 1], [0, 3, 1, 2], [0, 1, 3, 2], [0, 2, 1, 3], [0, 3, 2, 1],
             ][order],
-            Kind::EdgeEdge => {
+            PairKind::EdgeEdge => {
                 let [a, b] = [[0, 1], [1, 0]][order % 2];
                 let [c, d] = [[2, 3], [3, 2]][order / 2 % 2];
                 if swap { [c, d, a, b] } else { [a, b, c, d] }

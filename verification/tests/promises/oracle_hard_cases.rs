@@ -1,7 +1,8 @@
 //! Named hard cases with their exact answers.
 
 use rug::Rational;
-use selvedge_verification::oracle::{AlgebraicTime, Kind, Pair, collides, within};
+use selvedge_core::PairKind;
+use selvedge_verification::oracle::{AlgebraicTime, Pair, collides, within};
 use std::cmp::Ordering;
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -9,7 +10,7 @@ type Positions = [[f64; 3]; 4];
 
 fn vertex_face(start: Positions, end: Positions) -> Pair {
     Pair {
-        kind: Kind::VertexFace,
+        kind: PairKind::VertexFace,
         start,
         end,
     }
@@ -17,7 +18,7 @@ fn vertex_face(start: Positions, end: Positions) -> Pair {
 
 fn edge_edge(start: Positions, end: Positions) -> Pair {
     Pair {
-        kind: Kind::EdgeEdge,
+        kind: PairKind::EdgeEdge,
         start,
         end,
     }

@@ -2,17 +2,18 @@
 //! every preset ends with the pairs that its own tests leave.
 
 use proptest::prelude::*;
+use selvedge::PairCounts;
 use selvedge::PairKind::{self, EdgeEdge, VertexFace};
 use selvedge::broad_phase::moving::MovingBroadPhase;
 use selvedge::mesh::Topology;
-use selvedge::pipeline::{ElementaryTest, PairCounts, Pipeline, Preset, Redundancy, Source, Stage, Stages};
+use selvedge::pipeline::{ElementaryTest, Pipeline, Preset, Redundancy, Source, Stage, Stages};
 use selvedge::scene::ArmScene;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Contact, Limits, contact, cubic};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
-use selvedge_verification::oracle::{Kind, collides};
+use selvedge_verification::oracle::collides;
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,10 +31,10 @@ fn in_order(kind: PairKind, [a, b]: [u32; 2]) -> MeshPair {
 
 /// The four points of a pair.
 fn points<S: Format>(mesh: &MeshCase<S>, topology: &Topology, (kind, pair): MeshPair) -> PairCase<S> {
-    let of_pair = kind.vertices(pair, topology);
+    let of_pair = topology.vertices_of(kind, pair);
     let kind = match kind {
-        VertexFace => Kind::VertexFace,
-        EdgeEdge => Kind::EdgeEdge,
+        VertexFace => PairKind::VertexFace,
+        EdgeEdge => PairKind::EdgeEdge,
     };
     PairCase::new(kind, of_pair.map(|vertex| mesh.positions[vertex as usize]))
 }
@@ -63,8 +64,8 @@ fn all_pairs(topology: &Topology) -> Vec<MeshPair> {
 /// Whether the closed boxes that the two primitives sweep have a point in common, by definition.
 fn swept_boxes_overlap<S: Format>(pair: &PairCase<S>) -> bool {
     let (one, other) = pair.points.split_at(match pair.kind {
-        Kind::VertexFace => 1,
-        Kind::EdgeEdge => 2,
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
     });
     (0..3).all(|axis| {
         let apart = |low: &[[[S; 3]; 2]], high: &[[[S; 3]; 2]]| {
@@ -251,20 +252,20 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>
             let pair = points(mesh, &topology, pair);
             let limits = Limits::default();
             match (stages.elementary, pair.kind) {
-                (ElementaryTest::Cubic, Kind::VertexFace) => cubic::vertex_face(&pair.vertex_face()),
-                (ElementaryTest::Cubic, Kind::EdgeEdge) => cubic::edge_edge(&pair.edge_edge()),
-                (ElementaryTest::TimeOfImpact, Kind::VertexFace) => time_of_impact(&pair.vertex_face(), &limits).time(),
-                (ElementaryTest::Exact, Kind::VertexFace) => {
+                (ElementaryTest::Cubic, PairKind::VertexFace) => cubic::vertex_face(&pair.vertex_face()),
+                (ElementaryTest::Cubic, PairKind::EdgeEdge) => cubic::edge_edge(&pair.edge_edge()),
+                (ElementaryTest::TimeOfImpact, PairKind::VertexFace) => time_of_impact(&pair.vertex_face(), &limits).time(),
+                (ElementaryTest::Exact, PairKind::VertexFace) => {
                     let exact = pair.vertex_face();
                     let time = time_of_impact(&exact, &limits).time();
                     time.filter(|_| contact(&exact) == Contact::Happens)
                 }
-                (ElementaryTest::Exact, Kind::EdgeEdge) => {
+                (ElementaryTest::Exact, PairKind::EdgeEdge) => {
                     let exact = pair.edge_edge();
                     let time = time_of_impact(&exact, &limits).time();
                     time.filter(|_| contact(&exact) == Contact::Happens)
                 }
-                (ElementaryTest::TimeOfImpact, Kind::EdgeEdge) => time_of_impact(&pair.edge_edge(), &limits).time(),
+                (ElementaryTest::TimeOfImpact, PairKind::EdgeEdge) => time_of_impact(&pair.edge_edge(), &limits).time(),
             }
         };
         candidates.retain(|pair| time(pair).is_some());

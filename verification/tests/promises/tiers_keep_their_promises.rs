@@ -3,12 +3,13 @@
 use crate::support::distance::distance;
 use crate::support::rationals::{InRationals, separations};
 use proptest::prelude::*;
+use selvedge_core::PairKind;
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::{Depth, Filter, Tier};
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, grazes_of_a_box, pairs_of_any_kind, touching_pairs,
 };
-use selvedge_verification::oracle::{Kind, collides, coplanar, within};
+use selvedge_verification::oracle::{collides, coplanar, within};
 
 const DEPTHS: [Depth; 4] = [Depth::One, Depth::Two, Depth::Three, Depth::Four];
 
@@ -18,8 +19,8 @@ fn certified() -> impl Iterator<Item = Tier> {
 
 fn filter_culls<S: Format>(filter: Filter<S>, pair: &PairCase<S>) -> bool {
     match pair.kind {
-        Kind::VertexFace => filter.verdict(&pair.vertex_face()),
-        Kind::EdgeEdge => filter.verdict(&pair.edge_edge()),
+        PairKind::VertexFace => filter.verdict(&pair.vertex_face()),
+        PairKind::EdgeEdge => filter.verdict(&pair.edge_edge()),
     }
     .is_culled()
 }
@@ -35,8 +36,8 @@ fn culls_beyond<S: Format>(tier: Tier, separation: S, pair: &PairCase<S>) -> boo
 
 fn normal_culls<S: Format>(pair: &PairCase<S>) -> bool {
     match pair.kind {
-        Kind::VertexFace => direction::normal(&pair.vertex_face()),
-        Kind::EdgeEdge => direction::normal(&pair.edge_edge()),
+        PairKind::VertexFace => direction::normal(&pair.vertex_face()),
+        PairKind::EdgeEdge => direction::normal(&pair.edge_edge()),
     }
     .is_culled()
 }
@@ -295,7 +296,7 @@ fn uncertified_culls_a_vertex_on_a_corner<S: Format>(pair: &PairCase<S>) {
 fn uncertified_culls_a_vertex_on_a_corner_of_the_face_f32() {
     let resting = |position: [f32; 3]| [position; 2];
     uncertified_culls_a_vertex_on_a_corner(&PairCase::new(
-        Kind::VertexFace,
+        PairKind::VertexFace,
         [
             resting([13_780.0, 54_168.0, 15_324.0]),
             resting([-13_464.0, -53_076.0, 42_424.0]),
@@ -310,7 +311,7 @@ fn uncertified_culls_a_vertex_on_a_corner_of_the_face_f64() {
     let resting = |position: [f64; 3]| [position; 2];
     let corner = resting([-7_172_806_750_584.0, 25_238_060_115_324.0, -25_166_202_288_376.0]);
     uncertified_culls_a_vertex_on_a_corner(&PairCase::new(
-        Kind::VertexFace,
+        PairKind::VertexFace,
         [
             corner,
             resting([-3_263_883_216_216.0, 27_459_903_486_776.0, 19_004_056_350_876.0]),

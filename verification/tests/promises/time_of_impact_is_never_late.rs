@@ -5,18 +5,18 @@ use crate::support::environment::Environment;
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge::dispatch::{available_levels, best_level};
+use selvedge_core::PairKind;
 use selvedge_core::batch::{Level, Round, RoundQuestion, VertexRow, advance_from_rows};
 use selvedge_core::elementary::advance::confirm::certain_contact;
 use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact, time_of_impact_and_work, time_of_impact_within};
 use selvedge_core::elementary::{Impact, Limits, Reason, tight_inclusion};
 use selvedge_core::glam::DVec3;
-use selvedge_core::points::Shape;
 use selvedge_core::{Motion, PrimitivePair, Scalar, VertexFace};
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
     touching_pairs,
 };
-use selvedge_verification::oracle::{Kind, collides, first_within, within, within_at};
+use selvedge_verification::oracle::{collides, first_within, within, within_at};
 use std::cell::Cell;
 
 /// A pair, and lengths on its own scale.
@@ -29,7 +29,7 @@ struct Question<S: Format> {
 
 impl<S: Format> Question<S> {
     fn choose(choices: &mut Choices<'_>) -> Self {
-        let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
+        let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
         let pair = PairCase::choose(kind, choices);
         Self {
             tolerance: tolerance(&pair, choices),
@@ -76,8 +76,8 @@ fn questions<S: Format>() -> impl Strategy<Value = Question<S>> + Clone {
 fn answer<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S) -> (Impact<S>, Work) {
     let limits = Limits { tolerance, separation };
     match pair.kind {
-        Kind::VertexFace => time_of_impact_and_work(&pair.vertex_face(), &limits),
-        Kind::EdgeEdge => time_of_impact_and_work(&pair.edge_edge(), &limits),
+        PairKind::VertexFace => time_of_impact_and_work(&pair.vertex_face(), &limits),
+        PairKind::EdgeEdge => time_of_impact_and_work(&pair.edge_edge(), &limits),
     }
 }
 
@@ -85,9 +85,9 @@ fn answer<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S) -> (Impact
 /// times the same pair, so that lanes that are not used are there too.
 fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, level: Level) -> Impact<S> {
     let limits = Limits { tolerance, separation };
-    let (shape, motions) = match pair.kind {
-        Kind::VertexFace => (Shape::VertexFace, pair.vertex_face().motions()),
-        Kind::EdgeEdge => (Shape::EdgeEdge, pair.edge_edge().motions()),
+    let (kind, motions) = match pair.kind {
+        PairKind::VertexFace => (PairKind::VertexFace, pair.vertex_face().motions()),
+        PairKind::EdgeEdge => (PairKind::EdgeEdge, pair.edge_edge().motions()),
     };
     let rows = motions.map(VertexRow::new);
     let mut times = [S::ZERO; 3];
@@ -98,7 +98,7 @@ fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, 
             with_volume: sweep > 1,
         };
         let mut rounds = [Round::default()];
-        advance_from_rows(level, shape, &question, &rows, &[[0, 1, 2, 3]; 3], &mut times, &mut rounds);
+        advance_from_rows(level, kind, &question, &rows, &[[0, 1, 2, 3]; 3], &mut times, &mut rounds);
         let Round { apart, near, stuck } = rounds[0];
         for mask in [apart, near, stuck] {
             assert!(mask == 0 || mask == 0b111, "{rounds:?}");
@@ -118,16 +118,16 @@ fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, 
         }
     }
     match pair.kind {
-        Kind::VertexFace => time_of_impact_within(&pair.vertex_face(), &limits, times[0], S::ONE),
-        Kind::EdgeEdge => time_of_impact_within(&pair.edge_edge(), &limits, times[0], S::ONE),
+        PairKind::VertexFace => time_of_impact_within(&pair.vertex_face(), &limits, times[0], S::ONE),
+        PairKind::EdgeEdge => time_of_impact_within(&pair.edge_edge(), &limits, times[0], S::ONE),
     }
 }
 
 /// The largest difference along an axis between points of the two sets, exactly.
 fn extents<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
     let first = match pair.kind {
-        Kind::VertexFace => 1,
-        Kind::EdgeEdge => 2,
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
     };
     std::array::from_fn(|axis| {
         let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
@@ -426,8 +426,8 @@ fn confirms_only_contacts<S: Format>(
     let times = [impact.time(), Some(S::exact(1, -1)), Some(S::ZERO)];
     for near in times.into_iter().flatten() {
         let interval = environment.run(pair, |pair| match pair.kind {
-            Kind::VertexFace => certain_contact(&pair.vertex_face(), near),
-            Kind::EdgeEdge => certain_contact(&pair.edge_edge(), near),
+            PairKind::VertexFace => certain_contact(&pair.vertex_face(), near),
+            PairKind::EdgeEdge => certain_contact(&pair.edge_edge(), near),
         });
         let Some([from, to]) = interval else { continue };
         confirmed.set(confirmed.get() + 1);
@@ -490,8 +490,8 @@ fn bisection_is_not_late<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseEr
         separation: S::ZERO,
     };
     let impact = match pair.kind {
-        Kind::VertexFace => tight_inclusion::time_of_impact(&pair.vertex_face(), &limits),
-        Kind::EdgeEdge => tight_inclusion::time_of_impact(&pair.edge_edge(), &limits),
+        PairKind::VertexFace => tight_inclusion::time_of_impact(&pair.vertex_face(), &limits),
+        PairKind::EdgeEdge => tight_inclusion::time_of_impact(&pair.edge_edge(), &limits),
     };
     let found = impact.time().map(|time| time.to_f64());
     prop_assert!(found.is_some_and(|found| found <= moment.time()), "{impact:?}");

@@ -28,10 +28,10 @@ use proptest::prelude::*;
 use selvedge::pipeline::CullingTest::{
     self, CertifiedNonCoplanarity, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, SweptBoxes,
 };
+use selvedge_core::PairKind;
 use selvedge_core::Verdict;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs, pairs_of_any_kind};
-use selvedge_verification::oracle::Kind;
 
 const EXACT_BOXES: [CullingTest; 4] = [SweptBoxes, StoredDop18, RelativeBoxes, RelativeBoxesNine];
 
@@ -90,14 +90,14 @@ property!(
 property!(
     exchanging_the_faces_second_and_third_vertex_changes_no_verdict,
     30_000,
-    pairs(Kind::VertexFace),
+    pairs(PairKind::VertexFace),
     |pair| same(all_but([]), pair, &pair.reordered([0, 1, 3, 2]))
 );
 
 property!(
     permuting_the_faces_vertices_changes_no_verdict_of_a_box_test,
     30_000,
-    pairs(Kind::VertexFace),
+    pairs(PairKind::VertexFace),
     |pair| [[0, 2, 3, 1], [0, 3, 1, 2], [0, 2, 1, 3], [0, 3, 2, 1]]
         .into_iter()
         .try_for_each(|order| same(all_but([CertifiedNonCoplanarity]), pair, &pair.reordered(order)))
@@ -106,14 +106,14 @@ property!(
 property!(
     exchanging_the_first_edges_ends_changes_no_verdict,
     30_000,
-    pairs(Kind::EdgeEdge),
+    pairs(PairKind::EdgeEdge),
     |pair| same(all_but([]), pair, &pair.reordered([1, 0, 2, 3]))
 );
 
 property!(
     exchanging_the_edges_or_the_seconds_ends_changes_no_verdict_of_a_box_test,
     30_000,
-    pairs(Kind::EdgeEdge),
+    pairs(PairKind::EdgeEdge),
     |pair| [[2, 3, 0, 1], [0, 1, 3, 2], [3, 2, 1, 0]]
         .into_iter()
         .try_for_each(|order| same(all_but([CertifiedNonCoplanarity]), pair, &pair.reordered(order)))
@@ -123,7 +123,7 @@ property!(
 /// nobody) or at least 2⁻³⁰. With u = 2⁻²⁴ the bound is then at least 2⁻⁵⁰, of which the last bit is worth 2⁻⁷³, and
 /// (1 + M)²·η < 2⁻¹⁰⁶ vanishes in it. Scaled by 2¹² more so; by 2⁻¹² the last bit is worth 2⁻¹⁰⁹, and M < 1 makes the other term
 /// less than 2⁻¹¹⁵. The segment test's products are larger.
-fn on_a_grid<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
+fn on_a_grid<S: Format>(kind: PairKind, choices: &mut Choices<'_>) -> PairCase<S> {
     // A few values only, or any: what is nearly coplanar matters.
     let limit = choices.pick(&[2, 64, 16_384]);
     let points = std::array::from_fn(|_| {
@@ -139,7 +139,7 @@ fn on_a_grid<S: Format>(kind: Kind, choices: &mut Choices<'_>) -> PairCase<S> {
 
 fn grids<S: Format>() -> impl Strategy<Value = PairCase<S>> {
     from_choices(|choices| {
-        let kind = choices.pick(&[Kind::VertexFace, Kind::EdgeEdge]);
+        let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
         on_a_grid(kind, choices)
     })
 }

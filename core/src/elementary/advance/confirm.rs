@@ -20,9 +20,10 @@
 //! What can not be confirmed so: contact at the very ends of the step, touching without passing through, coplanar motion.
 
 use super::volume::SignedVolume;
+use crate::PairKind;
 use crate::elementary::corners::{Corners, of_format};
 use crate::motion::PrimitivePair;
-use crate::points::{PairShape, Shape};
+use crate::points::PairShape;
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
@@ -51,9 +52,9 @@ pub fn certain_contact<S: Scalar, P: PrimitivePair<S>>(pair: &P, near: S) -> Opt
     if !(points.is_finite() && near >= S::ZERO && near <= S::ONE) {
         return None;
     }
-    match P::Shape::SHAPE {
-        Shape::VertexFace => prove(&Corners::of_vertex_face(&points), near),
-        Shape::EdgeEdge => prove(&Corners::of_edge_edge(&points), near),
+    match P::Shape::KIND {
+        PairKind::VertexFace => prove(&Corners::of_vertex_face(&points), near),
+        PairKind::EdgeEdge => prove(&Corners::of_edge_edge(&points), near),
     }
 }
 

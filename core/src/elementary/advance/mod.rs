@@ -67,9 +67,10 @@ mod volume;
 use super::closest::{Closest, Feature, closest};
 use super::corners::{Corners, largest_extent};
 use super::{Impact, Limits, Reason};
+use crate::PairKind;
 use crate::boxes::relative;
 use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape, Shape};
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 use directions::{Apart, are_apart_turning};
@@ -132,12 +133,12 @@ fn advanced<S: Scalar, P: PrimitivePair<S>, const IS_CERTIFIED: bool>(
         return (Impact::Never, Work::default());
     }
     let points = pair.points();
-    match P::Shape::SHAPE {
-        Shape::VertexFace => {
+    match P::Shape::KIND {
+        PairKind::VertexFace => {
             let corners = Corners::of_vertex_face(&points);
             decide::<S, 3, IS_CERTIFIED>(&points, corners, limits, span)
         }
-        Shape::EdgeEdge => {
+        PairKind::EdgeEdge => {
             let corners = Corners::of_edge_edge(&points);
             decide::<S, 4, IS_CERTIFIED>(&points, corners, limits, span)
         }

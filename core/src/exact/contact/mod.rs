@@ -49,7 +49,8 @@ mod whole;
 use super::aligned::AlignedPair;
 use super::integer::Integer;
 use super::kernel::bits_in;
-use crate::points::{PairPoints, PairShape, Shape};
+use crate::PairKind;
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use core::cmp::Ordering;
 use moment::{Crossing, Moment, Root, sign_before_end};
@@ -94,9 +95,9 @@ pub fn touches<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<bool> 
 #[inline(never)]
 fn in_words<P: PairShape, const N: usize, const N2: usize, const N3: usize, const R: usize>(pair: &AlignedPair) -> bool {
     let axes = pair.coordinates::<N>();
-    match P::SHAPE {
-        Shape::VertexFace => Polygon::<3, N>::of_vertex_face(&axes).touches::<N2, N3, R>(),
-        Shape::EdgeEdge => Polygon::<4, N>::of_edge_edge(&axes).touches::<N2, N3, R>(),
+    match P::KIND {
+        PairKind::VertexFace => Polygon::<3, N>::of_vertex_face(&axes).touches::<N2, N3, R>(),
+        PairKind::EdgeEdge => Polygon::<4, N>::of_edge_edge(&axes).touches::<N2, N3, R>(),
     }
 }
 

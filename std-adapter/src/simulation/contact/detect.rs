@@ -134,7 +134,7 @@ impl Detector {
             (PairKind::VertexFace, &mut *vertex_face, counts[0]),
             (PairKind::EdgeEdge, &mut *edge_edge, counts[1]),
         ] {
-            parallel::retain(found, |&pair| !sieve.keep_apart(kind, kind.vertices(pair, topology)));
+            parallel::retain(found, |&pair| !sieve.keep_apart(kind, topology.vertices_of(kind, pair)));
             sort(found, count, sorted, places);
         }
         pairs.clear();
@@ -149,7 +149,7 @@ impl Detector {
     /// The pair, unless nobody asked for it, or all of it follows one motion, which never changes it.
     #[inline(always)]
     fn pair(&self, kind: PairKind, [first, second]: [u32; 2]) -> Option<Pair> {
-        let vertices = kind.vertices([first, second], &self.topology);
+        let vertices = self.topology.vertices_of(kind, [first, second]);
         let last_of_first = match kind {
             PairKind::VertexFace => vertices[0],
             PairKind::EdgeEdge => vertices[1],

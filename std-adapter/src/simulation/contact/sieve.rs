@@ -26,7 +26,7 @@ pub(super) fn are_many(topology: &Arc<Topology>, rest: &[DVec3], cloth_vertices:
         broad_phase.candidates(&mut vertex_face, &mut edge_edge);
     }
     let near = |kind: PairKind, pair: [u32; 2]| {
-        let vertices = kind.vertices(pair, topology).map(|v| v as usize);
+        let vertices = topology.vertices_of(kind, pair).map(|v| v as usize);
         vertices.iter().all(|&vertex| is_cloth(vertex)) && Closest::of(kind, vertices.map(|v| rest[v])).distance() < distance
     };
     let vertex_face = vertex_face.iter().map(|&pair| (PairKind::VertexFace, pair));

@@ -2,9 +2,10 @@
 
 use super::{AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, MeasuredFilter, PairSet};
 use crate::dispatch::{Level, available_levels};
+use selvedge_core::PairKind;
 use selvedge_core::batch::{LANES, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::filter::{Filter, Tier, plain};
-use selvedge_core::points::{EdgeAndEdge, PairShape, Shape, VertexAndFace};
+use selvedge_core::points::{EdgeAndEdge, PairShape, VertexAndFace};
 use selvedge_core::{EdgeEdge, Motion, PrimitivePair, Scalar, Verdict, VertexFace, exact};
 use std::hint::black_box;
 use std::time::Instant;
@@ -37,11 +38,11 @@ pub(super) fn measure<S: Scalar>(
     let mut done = 0;
     let timed_every = (set.pairs() / TIMED).max(1);
     let mut chunk = 0;
-    let lists = [(Shape::VertexFace, &set.vertex_face), (Shape::EdgeEdge, &set.edge_edge)];
-    for (shape, indices) in lists {
+    let lists = [(PairKind::VertexFace, &set.vertex_face), (PairKind::EdgeEdge, &set.edge_edge)];
+    for (kind, indices) in lists {
         for indices in indices.chunks(CHUNK) {
             let pairs = Pairs {
-                shape,
+                kind,
                 rows: &rows,
                 indices,
             };
@@ -75,7 +76,7 @@ pub(super) fn measure<S: Scalar>(
 
 /// Pairs of one kind, as the pipeline has them.
 struct Pairs<'a, S> {
-    shape: Shape,
+    kind: PairKind,
     rows: &'a [VertexRow<S>],
     indices: &'a [[u32; 4]],
 }
@@ -102,12 +103,12 @@ impl<S: Scalar> Pairs<'_, S> {
             *mask = 0;
             for (lane, &indices) in indices.iter().enumerate() {
                 let [a, b, c, d] = self.motions(indices);
-                let culled = match self.shape {
-                    Shape::VertexFace => vertex_face(&VertexFace {
+                let culled = match self.kind {
+                    PairKind::VertexFace => vertex_face(&VertexFace {
                         vertex: a,
                         face: [b, c, d],
                     }),
-                    Shape::EdgeEdge => edge_edge(&EdgeEdge {
+                    PairKind::EdgeEdge => edge_edge(&EdgeEdge {
                         first: [a, b],
                         second: [c, d],
                     }),
@@ -220,7 +221,7 @@ impl<S: Scalar> Measurement<S> {
             let seconds = fastest(repeat, || {
                 for _ in 0..TILED_PASSES {
                     let tiles = black_box(tiles);
-                    from_tiles(filter, separation, level, pairs.shape, tiles, &mut masks);
+                    from_tiles(filter, separation, level, pairs.kind, tiles, &mut masks);
                 }
             });
             self.tiled_seconds += seconds / TILED_PASSES as f64;
@@ -277,14 +278,14 @@ fn one_at_a_time<S: Scalar>(filter: MeasuredFilter, separation: S, pairs: &Pairs
 
 /// Verdicts on pairs that are gathered sixteen at a time.
 fn from_rows<S: Scalar>(filter: MeasuredFilter, separation: S, level: Level, pairs: &Pairs<'_, S>, masks: &mut [Mask]) {
-    let Pairs { shape, rows, indices } = *pairs;
+    let Pairs { kind, rows, indices } = *pairs;
     match filter {
         MeasuredFilter::Paper => {
-            culled_from_rows(level, shape, Test::PlainNonCoplanarity, rows, indices, masks);
+            culled_from_rows(level, kind, Test::PlainNonCoplanarity, rows, indices, masks);
         }
         MeasuredFilter::Tier(tier) => {
             let filter = with_separation(tier, separation);
-            culled_from_rows(level, shape, filter, rows, indices, masks);
+            culled_from_rows(level, kind, filter, rows, indices, masks);
         }
     }
 }
@@ -294,17 +295,17 @@ fn from_tiles<S: Scalar>(
     filter: MeasuredFilter,
     separation: S,
     level: Level,
-    shape: Shape,
+    kind: PairKind,
     tiles: &[Tile<S>],
     masks: &mut [Mask],
 ) {
     match filter {
         MeasuredFilter::Paper => {
-            culled_from_tiles(level, shape, Test::PlainNonCoplanarity, tiles, masks);
+            culled_from_tiles(level, kind, Test::PlainNonCoplanarity, tiles, masks);
         }
         MeasuredFilter::Tier(tier) => {
             let filter = with_separation(tier, separation);
-            culled_from_tiles(level, shape, filter, tiles, masks);
+            culled_from_tiles(level, kind, filter, tiles, masks);
         }
     }
 }

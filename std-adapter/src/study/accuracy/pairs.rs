@@ -73,7 +73,7 @@ impl PairSet {
                 let wanted = (share * all.len() as f64).round() as usize;
                 let drawn = sample(all, wanted);
                 indices.extend(drawn.map(|&pair| {
-                    let vertices = kind.vertices(pair, topology);
+                    let vertices = topology.vertices_of(kind, pair);
                     vertices.map(|vertex| first + vertex)
                 }));
             }

@@ -4,7 +4,7 @@ use super::judge::Judge;
 use super::pairs::{Maker, Random};
 use super::{Claim, Scenes, Source, Tally};
 use crate::generator::{Format, PairCase};
-use crate::oracle::Kind;
+use selvedge_core::PairKind;
 use selvedge_core::batch::{LANES, Level, Test, culled};
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Impact, Limits};
@@ -20,11 +20,11 @@ pub(super) const fn source(chunk: u64) -> Source {
     Source::ALL[(chunk / 2 % 3) as usize]
 }
 
-const fn kind(chunk: u64) -> Kind {
+const fn kind(chunk: u64) -> PairKind {
     if (chunk / 6).is_multiple_of(2) {
-        Kind::VertexFace
+        PairKind::VertexFace
     } else {
-        Kind::EdgeEdge
+        PairKind::EdgeEdge
     }
 }
 
@@ -42,10 +42,10 @@ impl Chunk<'_> {
     /// Makes its pairs, tests them, and judges every claim: a tally for each.
     pub(super) fn look_at(&self) -> Vec<Tally> {
         match (format(self.index), kind(self.index)) {
-            (0, Kind::VertexFace) => self.tallies::<f32, VertexFace<f32>>(PairCase::vertex_face),
-            (0, Kind::EdgeEdge) => self.tallies::<f32, EdgeEdge<f32>>(PairCase::edge_edge),
-            (_, Kind::VertexFace) => self.tallies::<f64, VertexFace<f64>>(PairCase::vertex_face),
-            (_, Kind::EdgeEdge) => self.tallies::<f64, EdgeEdge<f64>>(PairCase::edge_edge),
+            (0, PairKind::VertexFace) => self.tallies::<f32, VertexFace<f32>>(PairCase::vertex_face),
+            (0, PairKind::EdgeEdge) => self.tallies::<f32, EdgeEdge<f32>>(PairCase::edge_edge),
+            (_, PairKind::VertexFace) => self.tallies::<f64, VertexFace<f64>>(PairCase::vertex_face),
+            (_, PairKind::EdgeEdge) => self.tallies::<f64, EdgeEdge<f64>>(PairCase::edge_edge),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Claim, SAMPLE, Tally};
 use crate::generator::{Format, PairCase};
-use crate::oracle::{self, Kind};
+use crate::oracle::{self, PairKind};
 use selvedge_core::PrimitivePair;
 use selvedge_core::exact::{control_value_signs, touches};
 use std::cmp::Ordering::{Greater, Less};
@@ -92,8 +92,8 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judge<'a, S, P> {
     /// One set ahead of the other along an axis, at both ends of the step.
     fn is_apart_along_an_axis(&self) -> bool {
         let of_first = match self.case.kind {
-            Kind::VertexFace => 1,
-            Kind::EdgeEdge => 2,
+            PairKind::VertexFace => 1,
+            PairKind::EdgeEdge => 2,
         };
         let (first, second) = self.case.points.split_at(of_first);
         let ahead = |one: &[[[S; 3]; 2]], other: &[[[S; 3]; 2]], axis: usize| {

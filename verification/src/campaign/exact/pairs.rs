@@ -1,7 +1,7 @@
 //! Pairs that cost little to make, and where they come from.
 
 use crate::generator::{Choices, Format, PairCase};
-use crate::oracle::Kind;
+use selvedge_core::PairKind;
 
 /// Where pairs come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,16 +33,16 @@ pub struct Scenes {
 /// Makes the pairs of a chunk.
 pub(super) struct Maker<'a> {
     source: Source,
-    kind: Kind,
+    kind: PairKind,
     of_scene: &'a [Points],
     random: Random,
 }
 
 impl<'a> Maker<'a> {
-    pub(super) fn new(source: Source, kind: Kind, scenes: &'a Scenes, random: Random) -> Self {
+    pub(super) fn new(source: Source, kind: PairKind, scenes: &'a Scenes, random: Random) -> Self {
         let of_scene = match kind {
-            Kind::VertexFace => &scenes.vertex_face,
-            Kind::EdgeEdge => &scenes.edge_edge,
+            PairKind::VertexFace => &scenes.vertex_face,
+            PairKind::EdgeEdge => &scenes.edge_edge,
         };
         Self {
             source,
@@ -81,7 +81,7 @@ impl<'a> Maker<'a> {
 
 /// The first `count` pairs of `source` ([`Source::Scene`] has none here, and gives random ones): the same on every machine.
 #[must_use]
-pub fn sample<S: Format>(source: Source, kind: Kind, seed: u64, count: usize) -> Vec<PairCase<S>> {
+pub fn sample<S: Format>(source: Source, kind: PairKind, seed: u64, count: usize) -> Vec<PairCase<S>> {
     let (scenes, mut cases) = (Scenes::default(), Vec::new());
     Maker::new(source, kind, &scenes, Random::new(seed, 0)).make(count, &mut cases);
     cases
@@ -95,7 +95,7 @@ fn is_wide<S: Format>(case: &PairCase<S>) -> bool {
 }
 
 /// Three in four pairs have coordinates of few enough bits for whole numbers of one word, which takes a fraction of the time.
-fn at_random<S: Format>(kind: Kind, random: &mut Random) -> PairCase<S> {
+fn at_random<S: Format>(kind: PairKind, random: &mut Random) -> PairCase<S> {
     let bits = if random.below(4) > 0 { 26 } else { 52 };
     let motion = [1.0, 0.5, 1.0 / 16.0, 1.0 / 4096.0, 1.0 / 4_194_304.0][random.below(5) as usize];
     let points = std::array::from_fn(|_| {

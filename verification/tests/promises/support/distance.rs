@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 use selvedge_core::glam;
-use selvedge_verification::oracle::{Kind, Pair};
+use selvedge_verification::oracle::{Pair, PairKind};
 
 fn position(pair: &Pair, i: usize, t: f64) -> DVec3 {
     DVec3::from(pair.start[i]) * (1.0 - t) + DVec3::from(pair.end[i]) * t
@@ -65,8 +65,8 @@ fn edge_edge([a, b, c, d]: [DVec3; 4]) -> f64 {
 pub(crate) fn distance(pair: &Pair, t: f64) -> f64 {
     let points = [0, 1, 2, 3].map(|i| position(pair, i, t));
     match pair.kind {
-        Kind::VertexFace => vertex_face(points),
-        Kind::EdgeEdge => edge_edge(points),
+        PairKind::VertexFace => vertex_face(points),
+        PairKind::EdgeEdge => edge_edge(points),
     }
 }
 
@@ -78,8 +78,8 @@ pub(crate) const SLACK: f64 = 1e-9;
 pub(crate) fn advance(pair: &Pair, separation: f64) -> Option<f64> {
     let velocity = |i: usize| DVec3::from(pair.end[i]) - DVec3::from(pair.start[i]);
     let first = match pair.kind {
-        Kind::VertexFace => 1,
-        Kind::EdgeEdge => 2,
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
     };
     let relative = (0..first).flat_map(|i| (first..4).map(move |j| (velocity(i) - velocity(j)).length()));
     let fastest = relative.fold(0.0, f64::max);

@@ -1,9 +1,9 @@
 //! The signed volume's control values in rational arithmetic, and the separations where they change the answer.
 
 use rug::{Float, Rational};
+use selvedge_core::PairKind;
 use selvedge_core::Scalar;
 use selvedge_verification::generator::{Format, PairCase};
-use selvedge_verification::oracle::Kind;
 use std::cmp::Ordering::{self, Greater, Less};
 
 type Point = [Rational; 3];
@@ -45,13 +45,13 @@ impl InRationals {
             })
         };
         let volume = |[a, b, c, d]: [Point; 4]| match pair.kind {
-            Kind::VertexFace => dot(&minus(&a, &b), &cross(&minus(&c, &b), &minus(&d, &b))),
+            PairKind::VertexFace => dot(&minus(&a, &b), &cross(&minus(&c, &b), &minus(&d, &b))),
             // a, b, c, p are the points k, u, v, l.
-            Kind::EdgeEdge => dot(&minus(&d, &c), &cross(&minus(&a, &c), &minus(&b, &c))),
+            PairKind::EdgeEdge => dot(&minus(&d, &c), &cross(&minus(&a, &c), &minus(&b, &c))),
         };
         let normal = |[a, b, c, d]: [Point; 4]| match pair.kind {
-            Kind::VertexFace => cross(&minus(&c, &b), &minus(&d, &b)),
-            Kind::EdgeEdge => cross(&minus(&b, &a), &minus(&d, &c)),
+            PairKind::VertexFace => cross(&minus(&c, &b), &minus(&d, &b)),
+            PairKind::EdgeEdge => cross(&minus(&b, &a), &minus(&d, &c)),
         };
 
         let [v0, v1, v2, v3] = [0, 1, 2, 3].map(|third| volume(at(third, 3)));

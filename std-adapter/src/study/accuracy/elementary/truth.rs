@@ -1,8 +1,9 @@
+use selvedge_core::PairKind;
 use selvedge_core::elementary::advance::confirm::certain_contact;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Contact, Limits, contact};
 use selvedge_core::glam::DVec3;
-use selvedge_core::points::{PairShape, Shape};
+use selvedge_core::points::PairShape;
 use selvedge_core::{EdgeEdge, Motion, PrimitivePair, Scalar, VertexFace};
 
 /// A first contact that is enclosed less closely than this, in steps, counts as one of unknown time.
@@ -29,12 +30,12 @@ pub fn exact_answer<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> ExactAnswer {
         start: in_f64::<S>(point.start),
         end: in_f64::<S>(point.end),
     });
-    match <P::Shape as PairShape>::SHAPE {
-        Shape::VertexFace => answer(&VertexFace {
+    match <P::Shape as PairShape>::KIND {
+        PairKind::VertexFace => answer(&VertexFace {
             vertex: a,
             face: [b, c, d],
         }),
-        Shape::EdgeEdge => answer(&EdgeEdge {
+        PairKind::EdgeEdge => answer(&EdgeEdge {
             first: [a, b],
             second: [c, d],
         }),
