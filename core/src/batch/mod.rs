@@ -29,6 +29,8 @@
 //! ```
 
 mod advance;
+mod chunk;
+mod kernels;
 mod rows;
 mod simd;
 mod tile;
@@ -46,7 +48,7 @@ use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
 use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
 use crate::scalar::Scalar;
-pub(crate) use simd::{BatchScalar, Sixteen};
+pub(crate) use kernels::{BatchScalar, Sixteen};
 
 /// How many pairs go side by side.
 pub const LANES: usize = 16;

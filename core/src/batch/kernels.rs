@@ -1,0 +1,213 @@
+//! The code that is compiled for each instruction set: loops over the chunks of sixteen pairs.
+//!
+//! One function for each level, format, kind of pair and kind of work, and in each a loop at the width of the machine's registers. So
+//! the crate is compiled in seconds: with all of it in one function, sixteen lanes wide, it took more than a minute and gigabytes.
+
+use super::advance::{Round, RoundQuestion, round};
+use super::chunk::{Chunk, edge, points};
+use super::{Kernel, LANES, Level, Mask, PointTest, Tile, VertexRow};
+use crate::PairKind;
+use crate::coplanarity::MovingTetrahedron;
+use crate::filter::certified::{Bound, Decision, decide};
+use crate::points::{EdgeAndEdge, PairShape, VertexAndFace};
+#[cfg(not(unoptimised))]
+use fearless_simd::{Simd, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
+
+/// What [`Scalar`](crate::Scalar) needs to go sixteen at a time.
+///
+/// The method is not generic, so that its many kernels (for each instruction set, test and kind) are compiled once, in
+/// this crate, and not in every crate that calls it.
+pub trait BatchScalar: Copy {
+    /// What `kernel` says of sixteen pairs. `None` if an index is not in the rows.
+    #[doc(hidden)]
+    fn sixteen(level: Level, kind: PairKind, kernel: Kernel<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
+
+    /// One round of advancing for sixteen pairs, from their times on. `None` if an index is not in the rows.
+    #[doc(hidden)]
+    fn round(
+        level: Level,
+        kind: PairKind,
+        question: &RoundQuestion<Self>,
+        rows: &[VertexRow<Self>],
+        indices: &[[u32; 4]; LANES],
+        times: &mut [Self; LANES],
+    ) -> Option<Round>;
+}
+
+/// Sixteen pairs' four points.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub enum Sixteen<'a, S> {
+    /// Indices of rows.
+    Mesh {
+        rows: &'a [VertexRow<S>],
+        indices: &'a [[u32; 4]; LANES],
+    },
+    Tile(&'a Tile<S>),
+}
+
+#[inline(always)]
+fn test_points<P: PairShape, L: Chunk>(
+    token: L::Token,
+    test: PointTest,
+    pairs: Sixteen<'_, L::Scalar>,
+) -> Option<Decision<Mask>> {
+    let (mut culled, mut first) = (0, 0);
+    while first < LANES {
+        culled |= L::bits(test.on::<P, L>(&points(token, pairs, first)?)) << first;
+        first += L::WIDTH;
+    }
+    Some(Decision { culled, settled: 0 })
+}
+
+#[inline(always)]
+fn test_volume<P: PairShape, L: Chunk>(
+    token: L::Token,
+    bound: Bound,
+    separation: Option<L::Scalar>,
+    pairs: Sixteen<'_, L::Scalar>,
+) -> Option<Decision<Mask>> {
+    let separation = match separation {
+        Some(separation) => Some(L::constant(token, separation)),
+        None => None,
+    };
+    let (mut culled, mut settled, mut first) = (0, 0, 0);
+    while first < LANES {
+        let tetrahedron = match pairs {
+            Sixteen::Tile(_) => points::<L>(token, pairs, first)?.tetrahedron::<P>(),
+            Sixteen::Mesh { rows, indices } => {
+                // The edge from the volume's first point to another.
+                macro_rules! to {
+                    ($point:literal) => {
+                        edge(
+                            token,
+                            rows,
+                            indices,
+                            first,
+                            #[inline(always)]
+                            |pair| {
+                                let points = P::volume_points(pair);
+                                [points[0], points[$point]]
+                            },
+                        )?
+                    };
+                }
+                MovingTetrahedron {
+                    b: to!(1),
+                    c: to!(2),
+                    p: to!(3),
+                }
+            }
+        };
+        let decision = decide::<P, L>(bound, &tetrahedron, separation);
+        culled |= L::bits(decision.culled) << first;
+        settled |= L::bits(decision.settled) << first;
+        first += L::WIDTH;
+    }
+    Some(Decision { culled, settled })
+}
+
+/// Times are written only when all of the pairs are known to be in the rows, so that they are the same for each width.
+#[inline(always)]
+fn advance<P: PairShape, L: Chunk>(
+    token: L::Token,
+    question: &RoundQuestion<L::Scalar>,
+    rows: &[VertexRow<L::Scalar>],
+    indices: &[[u32; 4]; LANES],
+    times: &mut [L::Scalar; LANES],
+) -> Option<Round> {
+    let (mut all, mut new, mut first) = (Round::default(), *times, 0);
+    while first < LANES {
+        let points = points::<L>(token, Sixteen::Mesh { rows, indices }, first)?;
+        let found = round::<P, L>(&points, L::load(token, times, first), question);
+        found.time.store(&mut new, first);
+        all.apart |= L::bits(found.apart) << first;
+        all.near |= L::bits(found.near) << first;
+        all.stuck |= L::bits(found.stuck) << first;
+        first += L::WIDTH;
+    }
+    *times = new;
+    Some(all)
+}
+
+/// Calls a function of lanes and a token as code for `$level`, its lanes being the first of four types with AVX-512, the second with
+/// AVX2, the third on machines whose registers hold 128 bits, else the last.
+///
+/// On x86 without code of its own for SSE4.2, which has next to nothing over SSE2 for these kernels.
+#[cfg(not(unoptimised))]
+macro_rules! vectorized {
+    ($level:expr, [$wide:ident, $middle:ident, $narrow:ident, $one:ident], $function:ident::<$pair:ty>($($argument:expr),*)) => {{
+        macro_rules! run {
+            ($token:expr, $lanes:ident) => {
+                if let Some(token) = $token {
+                    return token.vectorize(
+                        #[inline(always)]
+                        || $function::<$pair, $lanes<_>>(token, $($argument),*),
+                    );
+                }
+            };
+        }
+        let level: Level = $level;
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        {
+            run!(level.as_avx512(), $wide);
+            run!(level.as_avx2(), $middle);
+            run!(level.as_sse2(), $narrow);
+        }
+        #[cfg(target_arch = "aarch64")]
+        run!(level.as_neon(), $narrow);
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        run!(level.as_wasm_simd128(), $narrow);
+        // Nothing that we have code for.
+        let _ = level;
+        $function::<$pair, $one>((), $($argument),*)
+    }};
+}
+
+#[cfg(unoptimised)]
+macro_rules! vectorized {
+    ($level:expr, [$wide:ident, $middle:ident, $narrow:ident, $one:ident], $function:ident::<$pair:ty>($($argument:expr),*)) => {{
+        let _: Level = $level;
+        $function::<$pair, $one>((), $($argument),*)
+    }};
+}
+
+/// Calls a function of a pair's shape with that of a kind.
+macro_rules! of_kind {
+    ($kind:expr, $level:expr, $lanes:tt, $function:ident($($argument:expr),*)) => {
+        match $kind {
+            PairKind::VertexFace => vectorized!($level, $lanes, $function::<VertexAndFace>($($argument),*)),
+            PairKind::EdgeEdge => vectorized!($level, $lanes, $function::<EdgeAndEdge>($($argument),*)),
+        }
+    };
+}
+
+macro_rules! batch_scalar {
+    ($scalar:ident, $lanes:tt, rounds: $round_lanes:tt) => {
+        impl BatchScalar for $scalar {
+            fn sixteen(level: Level, kind: PairKind, kernel: Kernel<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>> {
+                match kernel {
+                    Kernel::Points(test) => of_kind!(kind, level, $lanes, test_points(test, pairs)),
+                    Kernel::Bounded(bound, separation) => {
+                        of_kind!(kind, level, $lanes, test_volume(bound, separation, pairs))
+                    }
+                }
+            }
+
+            fn round(
+                level: Level,
+                kind: PairKind,
+                question: &RoundQuestion<Self>,
+                rows: &[VertexRow<Self>],
+                indices: &[[u32; 4]; LANES],
+                times: &mut [Self; LANES],
+            ) -> Option<Round> {
+                of_kind!(kind, level, $round_lanes, advance(question, rows, indices, times))
+            }
+        }
+    };
+}
+
+// Rounds have long chains of dependent operations: two registers of `f32` at a time keep the machine busy.
+batch_scalar!(f32, [f32x16, f32x8, f32x4, f32], rounds: [f32x16, f32x16, f32x8, f32]);
+batch_scalar!(f64, [f64x8, f64x4, f64x2, f64], rounds: [f64x8, f64x4, f64x2, f64]);
