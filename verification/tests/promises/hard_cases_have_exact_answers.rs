@@ -2,11 +2,11 @@
 //! neighbours in the last place.
 
 use selvedge::PairKind;
-use selvedge::hard_cases::{Contact, HardCase, hard_cases};
-use selvedge::study::QueryMethod;
 use selvedge_core::Scalar;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Contact as Verdict, Impact, Limits, contact};
+use selvedge_laboratory::hard_cases::{Contact, HardCase, hard_cases};
+use selvedge_laboratory::study::QueryMethod;
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::hard_cases::table;
 use selvedge_verification::oracle::collides;

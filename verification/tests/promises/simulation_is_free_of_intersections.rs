@@ -1,6 +1,6 @@
 //! Every state that a simulation accepts is free of intersections, exactly: cloth with itself and cloth with bodies.
 
-use selvedge::simulation::{Scene, Simulation};
+use selvedge_cloth::{Scene, Simulation};
 use selvedge_verification::oracle::mesh_intersections;
 use std::path::{Path, PathBuf};
 
