@@ -42,6 +42,7 @@ impl Threads {
 }
 
 /// Whether work should be split between threads.
+#[must_use]
 pub fn has_many_threads() -> bool {
     rayon::current_thread_index().is_some() && rayon::current_num_threads() > 1
 }
@@ -163,11 +164,13 @@ pub fn for_each_chunk_with_chunk<T: Send, U: Send>(
 }
 
 /// The number of the thread that calls, below [`threads`].
+#[must_use]
 pub fn own_index() -> usize {
     rayon::current_thread_index().unwrap_or(0)
 }
 
 /// How many threads work is split between.
+#[must_use]
 pub fn threads() -> usize {
     if has_many_threads() { rayon::current_num_threads() } else { 1 }
 }

@@ -2,6 +2,7 @@
 
 /// The beginning of `text`, at most `limit` characters and an ellipsis where it is cut. Control characters are written
 /// as escapes: a file must not be able to write over the terminal that a message is shown on.
+#[must_use]
 pub fn excerpt(text: &str, limit: usize) -> String {
     let mut excerpt = String::new();
     let mut characters = text.chars();

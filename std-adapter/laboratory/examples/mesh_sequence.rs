@@ -1,8 +1,8 @@
 //! The contacts of a mesh sequence, step by step, as an engine would ask for them.
 //!
 //! ```sh
-//! cargo run --release --example mesh_sequence -- frame-0.ply frame-1.ply frame-2.ply …
-//! cargo run --release --example mesh_sequence      # a sleeve on a bending arm
+//! cargo run --release -p selvedge-laboratory --example mesh_sequence -- frame-0.ply frame-1.ply frame-2.ply …
+//! cargo run --release -p selvedge-laboratory --example mesh_sequence      # a sleeve on a bending arm
 //! ```
 //!
 //! Meshes are OBJ or PLY files of equal topology. The detector is made once; each step takes two slices of positions and fills

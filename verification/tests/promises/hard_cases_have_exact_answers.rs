@@ -18,7 +18,7 @@ use std::path::Path;
 #[test]
 fn the_file_is_what_the_oracle_says() {
     let text = table();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../std-adapter/data/hard-cases.csv");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../std-adapter/laboratory/data/hard-cases.csv");
     if std::env::var_os("UPDATE_HARD_CASES").is_some() {
         fs::write(&path, &text).expect("a folder that can be written");
     }

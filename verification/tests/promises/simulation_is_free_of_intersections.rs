@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 fn scene_file(name: &str) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
-    root.join("std-adapter/scenes").join(name)
+    root.join("std-adapter/cloth/scenes").join(name)
 }
 
 fn load(name: &str, change: impl Fn(String) -> String) -> Simulation {

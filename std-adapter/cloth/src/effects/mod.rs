@@ -47,7 +47,7 @@ pub(crate) struct Registration {
 }
 
 /// The registrations of these modules, but for those that `--cfg without_effect="NAME"` leaves out of the program: with it
-/// `std-adapter/instruction-counts/run.sh` shows that an effect costs nothing where it is not named.
+/// `std-adapter/cloth/instruction-counts/run.sh` shows that an effect costs nothing where it is not named.
 macro_rules! registry {
     ($($module:ident $name:literal)*) => {
         &[$(

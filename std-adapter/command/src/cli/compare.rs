@@ -55,7 +55,7 @@ impl Arm {
 #[command(after_help = "\
 Examples:
   selvedge compare
-  selvedge compare std-adapter/scenes/twist.toml --steps 100
+  selvedge compare std-adapter/cloth/scenes/twist.toml --steps 100
   selvedge compare --pipelines lv_2014,selvedge --refinement 100 --threads 0
   selvedge compare frame-92.ply frame-93.ply --csv table.csv")]
 pub(crate) struct Compare {

@@ -20,12 +20,12 @@ use std::time::{Duration, Instant};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  selvedge simulate std-adapter/scenes/arm-sleeve.toml
+  selvedge simulate std-adapter/cloth/scenes/arm-sleeve.toml
   selvedge simulate scene.toml --frames gltf --output out    for Blender
   selvedge simulate scene.toml --effects-one-by-one          what each costs
   selvedge simulate scene.toml --resume                      after an interruption
 
-Scenes that come with the program are in std-adapter/scenes.")]
+Scenes that come with the program are in std-adapter/cloth/scenes.")]
 pub(crate) struct Simulate {
     /// The scene, a TOML file
     scene: PathBuf,

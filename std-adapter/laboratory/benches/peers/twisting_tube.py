@@ -186,7 +186,7 @@ def crossings(points: np.ndarray, triangles: np.ndarray) -> int:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--selvedge", type=Path, default=HERE / "../../../target/release/selvedge", help="the binary")
+    parser.add_argument("--selvedge", type=Path, default=HERE / "../../../../target/release/selvedge", help="the binary")
     parser.add_argument("--seconds", type=float, default=2.0, help="simulated time; the turns take 2 s (default: %(default)s)")
     parser.add_argument("--newton-from", type=float, default=0.0, help="start timing newton at this simulated time (default: 0)")
     parser.add_argument("--refinement", type=int, default=1, help="this many times the cells, along each side")
@@ -197,7 +197,7 @@ def main() -> None:
     parser.add_argument("--only", choices=["selvedge", "newton"], help="run one side")
     options = parser.parse_args()
     h = 0.001
-    scene = (HERE / "../../scenes/twist.toml").read_text()
+    scene = (HERE / "../../../cloth/scenes/twist.toml").read_text()
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
         if options.only == "newton":
