@@ -150,7 +150,7 @@ fn question<S: Format>(case: &MeshCase<S>, topology: &Topology, kind: PairKind, 
     let vertices = topology.vertices_of(kind, pair);
     let at = |end: usize| vertices.map(|vertex| case.positions[vertex as usize][end].map(S::to_f64));
     Pair {
-        kind: kind,
+        kind,
         start: at(0),
         end: at(1),
     }
