@@ -9,8 +9,9 @@
 //! exit status 1 if there is one or the input is at fault.
 
 use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};
-use selvedge::mesh::{Mesh, read};
+use selvedge::mesh::Mesh;
 use selvedge_core::PairKind;
+use selvedge_files::mesh::read;
 use selvedge_verification::oracle::{Pair, collides};
 use std::path::Path;
 use std::process::ExitCode;

@@ -8,7 +8,7 @@
 //! a row for the table of long runs; exit status 1 if a state is at fault, the step could not be made, or the scene cannot be read.
 
 use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};
-use selvedge::simulation::{Scene, Simulation};
+use selvedge_cloth::{Scene, Simulation};
 use selvedge_verification::oracle::mesh_intersections;
 use std::path::PathBuf;
 use std::process::ExitCode;

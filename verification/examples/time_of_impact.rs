@@ -12,13 +12,13 @@
 //! count as well.
 
 use selvedge::PairKind;
-use selvedge::pipeline::{CullingTest, ElementaryTest, Pipeline, Redundancy, Source, Stages};
-use selvedge::queries::read as read_queries;
 use selvedge_core::elementary::advance::confirm::certain_contact;
 use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact, time_of_impact_and_work};
 use selvedge_core::elementary::contact::{Evidence, contact_and_evidence};
 use selvedge_core::elementary::{Contact, Impact, Limits, Reason, contact};
 use selvedge_core::{EdgeEdge, PrimitivePair, VertexFace};
+use selvedge_files::queries::read as read_queries;
+use selvedge_laboratory::pipeline::{CullingTest, ElementaryTest, Pipeline, Redundancy, Source, Stages};
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::collides;
 use std::collections::HashSet;
@@ -109,7 +109,7 @@ fn queries(files: &[&str]) -> Result<usize> {
 
 /// All pairs whose swept boxes overlap; those of the lists that are true collide.
 fn scene(start: &str, end: &str, lists: &[&str]) -> Result<usize> {
-    let step = selvedge::mesh::read_step(Path::new(start), Path::new(end)).map_err(|error| error.to_string())?;
+    let step = selvedge_files::mesh::read_step(Path::new(start), Path::new(end)).map_err(|error| error.to_string())?;
     let (start, end) = (&step.start, &step.end);
     let edges_from = start.len();
     let mut edges = step.topology.edges().to_vec();

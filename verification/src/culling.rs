@@ -2,10 +2,10 @@
 //! what the pipeline does in batches can be done again by hand.
 
 use crate::generator::{Format, PairCase};
-use selvedge::pipeline::CullingTest;
 use selvedge_core::PairKind;
 use selvedge_core::boxes::{Aabb, Dop18, relative, segment, swept_boxes};
 use selvedge_core::{PrimitivePair, Verdict, filter};
+use selvedge_laboratory::pipeline::CullingTest;
 
 /// Every test there is.
 pub const ALL: [CullingTest; 10] = [

@@ -1,6 +1,6 @@
 //! The hard cases of the literature by name, rebuilt from their geometry, with exact answers.
 //!
-//! `std-adapter/data/hard-cases.csv`, which `selvedge hard-cases` reads, is what [`table`] writes; a test demands it. Answers are
+//! `std-adapter/laboratory/data/hard-cases.csv`, which `selvedge hard-cases` reads, is what [`table`] writes; a test demands it. Answers are
 //! the [`oracle`](crate::oracle)'s; where a case is placed exactly, its answer must be the one that its geometry says.
 
 use crate::generator::{Format, PairCase};

@@ -2,7 +2,7 @@ use selvedge::PairKind;
 use selvedge::core::boxes::Aabb;
 use selvedge::core::{Motion, Scalar};
 use selvedge::mesh::Topology;
-use selvedge::pipeline::{Contact, Pipeline, Preset, Stages};
+use selvedge_laboratory::pipeline::{Contact, Pipeline, Preset, Stages};
 use selvedge_verification::generator::{Format, MeshCase};
 use selvedge_verification::oracle::{Pair, collides};
 use std::collections::BTreeSet;
@@ -150,7 +150,7 @@ fn question<S: Format>(case: &MeshCase<S>, topology: &Topology, kind: PairKind, 
     let vertices = topology.vertices_of(kind, pair);
     let at = |end: usize| vertices.map(|vertex| case.positions[vertex as usize][end].map(S::to_f64));
     Pair {
-        kind: kind,
+        kind,
         start: at(0),
         end: at(1),
     }

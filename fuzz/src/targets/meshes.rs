@@ -1,5 +1,6 @@
 use super::message;
-use selvedge::mesh::{FileFormat, Mesh, PlyEncoding, read_bytes, write_bytes};
+use selvedge::mesh::Mesh;
+use selvedge_files::mesh::{FileFormat, PlyEncoding, read_bytes, write_bytes};
 
 const FORMATS: [FileFormat; 4] = [
     FileFormat::Obj,

@@ -1,7 +1,7 @@
 use super::message;
 use rug::{Integer, Rational};
 use selvedge::PairKind;
-use selvedge::queries::{Query, QueryFile, read_from};
+use selvedge_files::queries::{Query, QueryFile, read_from};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -33,7 +33,7 @@ pub fn query_csv(data: &[u8]) {
     check_single_precision(&file, &read);
 }
 
-fn read(data: &[u8]) -> Result<QueryFile, selvedge::queries::QueryError> {
+fn read(data: &[u8]) -> Result<QueryFile, selvedge_files::queries::QueryError> {
     read_from(data, Path::new("fuzz.csv"), PairKind::VertexFace)
 }
 

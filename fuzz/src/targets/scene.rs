@@ -1,5 +1,5 @@
 use super::message;
-use selvedge::simulation::{Scene, Simulation};
+use selvedge_cloth::{Scene, Simulation};
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 

@@ -1,6 +1,6 @@
 //! The arm scene starts without any intersection, exactly.
 
-use selvedge::scene::ArmScene;
+use selvedge_laboratory::scene::ArmScene;
 use selvedge_verification::oracle::mesh_self_intersections;
 
 fn intersections_at_the_start(refinement: u32) -> Vec<[u32; 2]> {

@@ -2,12 +2,12 @@
 
 use proptest::prelude::*;
 use selvedge::dispatch::available_levels;
-use selvedge::pipeline::{CullingTest, Pipeline, Preset};
 use selvedge_core::PairKind;
 use selvedge_core::Verdict;
 use selvedge_core::batch::{BatchTest, LANES, Mask, Test, Tile, VertexRow, culled, culled_from_rows, culled_from_tiles};
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::{Filter, Tier, inside};
+use selvedge_laboratory::pipeline::{CullingTest, Pipeline, Preset};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, meshes};
 

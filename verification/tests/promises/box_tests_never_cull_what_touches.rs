@@ -2,12 +2,12 @@
 
 use proptest::prelude::*;
 use rug::Rational;
-use selvedge::pipeline::CullingTest::{
-    self, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, StoredSweptBoxes, SweptBoxes,
-};
 use selvedge_core::Motion;
 use selvedge_core::PairKind;
 use selvedge_core::boxes::{Aabb, segment};
+use selvedge_laboratory::pipeline::CullingTest::{
+    self, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, StoredSweptBoxes, SweptBoxes,
+};
 use selvedge_verification::culling::{certified, verdict};
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, extraordinary_pairs, from_choices, grazes_of_a_box, pairs, pairs_of_any_kind, touching_pairs,

@@ -1,9 +1,9 @@
 //! The certified non-coplanarity filter never culls four points that are coplanar at some time of the step.
 
 use proptest::prelude::*;
-use selvedge::pipeline::CullingTest::{CertifiedNonCoplanarity, PlainNonCoplanarity};
 use selvedge_core::PairKind;
 use selvedge_core::filter::certified::Bound;
+use selvedge_laboratory::pipeline::CullingTest::{CertifiedNonCoplanarity, PlainNonCoplanarity};
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, pairs_of_any_kind};

@@ -2,11 +2,11 @@
 
 use proptest::prelude::*;
 use rug::{Float, Rational, ops::Pow};
-use selvedge::pipeline::CullingTest::PlainNonCoplanarity;
 use selvedge_core::PairKind;
 use selvedge_core::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
 use selvedge_core::filter::certified::{Bound, is_never_coplanar};
 use selvedge_core::{Lanes, PrimitivePair, Rounding, Vector};
+use selvedge_laboratory::pipeline::CullingTest::PlainNonCoplanarity;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs_of_any_kind};
 use std::ops::{Add, Mul, Neg, Sub};

@@ -1,8 +1,8 @@
 //! What `selvedge accuracy` takes for the truth of a pair is the truth: whether it touches, and between which times it does first.
 
 use proptest::prelude::*;
-use selvedge::study::elementary::{ExactAnswer, WIDEST, exact_answer};
 use selvedge_core::PairKind;
+use selvedge_laboratory::study::elementary::{ExactAnswer, WIDEST, exact_answer};
 use selvedge_verification::generator::{Format, PairCase, check, coplanar_pairs, pairs_of_any_kind, touching_pairs};
 use selvedge_verification::oracle::collides;
 use std::cell::Cell;

@@ -5,12 +5,12 @@ use crate::support::rationals::{InRationals, rational, separations};
 use crate::support::widths::at_the_limit_of_a_width;
 use proptest::prelude::*;
 use rug::Rational;
-use selvedge::pipeline::CullingTest;
 use selvedge_core::PairKind;
 use selvedge_core::PrimitivePair;
 use selvedge_core::coplanarity::is_in_range;
 use selvedge_core::exact::{KnownSigns, UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within};
 use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
+use selvedge_laboratory::pipeline::CullingTest;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,

@@ -1,8 +1,8 @@
 //! The generator of the other tests' inputs: exact where it says so, and never dull.
 
 use proptest::prelude::*;
-use selvedge::pipeline::CullingTest::CertifiedNonCoplanarity;
 use selvedge_core::PairKind;
+use selvedge_laboratory::pipeline::CullingTest::CertifiedNonCoplanarity;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
     Choices, Format, Meeting, MeshCase, Moment, PairCase, Simplify, check, coplanar_pairs, from_choices, meshes,

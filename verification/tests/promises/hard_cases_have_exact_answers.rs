@@ -2,11 +2,11 @@
 //! neighbours in the last place.
 
 use selvedge::PairKind;
-use selvedge::hard_cases::{Contact, HardCase, hard_cases};
-use selvedge::study::QueryMethod;
 use selvedge_core::Scalar;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Contact as Verdict, Impact, Limits, contact};
+use selvedge_laboratory::hard_cases::{Contact, HardCase, hard_cases};
+use selvedge_laboratory::study::QueryMethod;
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::hard_cases::table;
 use selvedge_verification::oracle::collides;
@@ -18,7 +18,7 @@ use std::path::Path;
 #[test]
 fn the_file_is_what_the_oracle_says() {
     let text = table();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../std-adapter/data/hard-cases.csv");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../std-adapter/laboratory/data/hard-cases.csv");
     if std::env::var_os("UPDATE_HARD_CASES").is_some() {
         fs::write(&path, &text).expect("a folder that can be written");
     }

@@ -3,10 +3,10 @@
 use rug::Rational;
 use selvedge::PairKind::{EdgeEdge, VertexFace};
 use selvedge::mesh::Topology;
-use selvedge::pipeline::CullingTest::{self, CertifiedNonCoplanarity};
-use selvedge::pipeline::{Pipeline, Preset};
 use selvedge_core::PairKind;
 use selvedge_core::glam::DVec3;
+use selvedge_laboratory::pipeline::CullingTest::{self, CertifiedNonCoplanarity};
+use selvedge_laboratory::pipeline::{Pipeline, Preset};
 use selvedge_verification::culling::{ALL, certified, verdict};
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::collides;

@@ -1,12 +1,12 @@
 //! Every state that a simulation accepts is free of intersections, exactly: cloth with itself and cloth with bodies.
 
-use selvedge::simulation::{Scene, Simulation};
+use selvedge_cloth::{Scene, Simulation};
 use selvedge_verification::oracle::mesh_intersections;
 use std::path::{Path, PathBuf};
 
 fn scene_file(name: &str) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
-    root.join("std-adapter/scenes").join(name)
+    root.join("std-adapter/cloth/scenes").join(name)
 }
 
 fn load(name: &str, change: impl Fn(String) -> String) -> Simulation {

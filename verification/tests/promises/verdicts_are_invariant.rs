@@ -25,11 +25,11 @@
 //! The *plain* filter is not symmetric in time, since it computes from velocities; nothing is promised for it.
 
 use proptest::prelude::*;
-use selvedge::pipeline::CullingTest::{
-    self, CertifiedNonCoplanarity, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, SweptBoxes,
-};
 use selvedge_core::PairKind;
 use selvedge_core::Verdict;
+use selvedge_laboratory::pipeline::CullingTest::{
+    self, CertifiedNonCoplanarity, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, SweptBoxes,
+};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs, pairs_of_any_kind};
 

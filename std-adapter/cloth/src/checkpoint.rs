@@ -1,0 +1,195 @@
+//! The state of a simulation as bytes, and what it has measured so far.
+
+use super::contact::{ContactCounts, ContactSeconds};
+use super::simulator::State;
+use selvedge_core::glam::DVec3;
+use selvedge_files::bytes::Reader;
+
+const MAGIC: &[u8; 16] = b"selvedge state 2";
+
+/// Bytes from which a simulation cannot go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CheckpointError {
+    /// Something else.
+    #[error("this is not a checkpoint of a simulation")]
+    NotOne,
+    /// Of another scene, or of an earlier version of it.
+    #[error("the checkpoint is of another scene, or of this scene before it was changed")]
+    OtherScene,
+    /// Cut short, or with numbers that no simulation has.
+    #[error("the checkpoint is damaged")]
+    Damaged,
+}
+
+/// A simulation at one moment. What was measured has no influence on how it goes on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Checkpoint {
+    pub(super) state: State,
+    /// Of each body; none without contact.
+    pub(super) yielding: Vec<bool>,
+    /// Seconds of each effect.
+    pub(super) effects: Vec<f64>,
+    /// All zero without contact.
+    pub(super) counts: ContactCounts,
+    /// All zero without contact.
+    pub(super) stages: ContactSeconds,
+}
+
+/// How much there is of what, in a simulation of the scene.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shape {
+    pub(super) vertices: usize,
+    pub(super) yielding: usize,
+    pub(super) effects: usize,
+}
+
+impl Checkpoint {
+    pub(super) fn write(&self, fingerprint: u64) -> Vec<u8> {
+        let mut bytes = MAGIC.to_vec();
+        let state = &self.state;
+        let numbers = [fingerprint, state.step, state.blocked_steps, state.clock.to_bits()];
+        bytes.extend(numbers.into_iter().flat_map(u64::to_le_bytes));
+        let vectors = state.positions.iter().chain(&state.velocities);
+        let numbers = vectors.flat_map(|vector| vector.to_array());
+        bytes.extend(numbers.flat_map(f64::to_le_bytes));
+        bytes.extend(self.yielding.iter().map(|&yields| u8::from(yields)));
+        bytes.extend(self.effects.iter().flat_map(|x| x.to_le_bytes()));
+        let ContactCounts {
+            candidates,
+            looked_at,
+            pushed,
+            violated,
+            zone_rounds,
+            held,
+            cuts,
+        } = self.counts;
+        let pairs = [candidates, looked_at, pushed, violated];
+        let counts = pairs.into_iter().chain([zone_rounds, held, cuts]);
+        bytes.extend(counts.flat_map(u64::to_le_bytes));
+        let stages = self.stages.stages().map(|(_, seconds)| seconds);
+        bytes.extend(stages.into_iter().flat_map(f64::to_le_bytes));
+        bytes
+    }
+
+    pub(super) fn read(bytes: &[u8], fingerprint: u64, shape: Shape) -> Result<Self, CheckpointError> {
+        let bytes = bytes.strip_prefix(MAGIC).ok_or(CheckpointError::NotOne)?;
+        let mut reader = Reader(bytes);
+        let found = reader.u64().ok_or(CheckpointError::Damaged)?;
+        if found != fingerprint {
+            return Err(CheckpointError::OtherScene);
+        }
+        let checkpoint = Self::read_on(&mut reader, shape).ok_or(CheckpointError::Damaged)?;
+        let state = &checkpoint.state;
+        let all = state.positions.iter().chain(&state.velocities);
+        let is_finite = state.clock.is_finite() && { all }.all(|vector| vector.is_finite());
+        if is_finite && reader.0.is_empty() {
+            Ok(checkpoint)
+        } else {
+            Err(CheckpointError::Damaged)
+        }
+    }
+
+    fn read_on(reader: &mut Reader<'_>, shape: Shape) -> Option<Self> {
+        let [step, blocked_steps] = [reader.u64()?, reader.u64()?];
+        let clock = reader.f64()?;
+        let mut vectors = || {
+            let vector = |_| {
+                let [x, y, z] = [reader.f64()?, reader.f64()?, reader.f64()?];
+                Some(DVec3::new(x, y, z))
+            };
+            (0..shape.vertices).map(vector).collect::<Option<_>>()
+        };
+        let (positions, velocities) = (vectors()?, vectors()?);
+        let yielding = reader.bytes(shape.yielding)?;
+        let effects = (0..shape.effects).map(|_| reader.f64());
+        Some(Self {
+            state: State {
+                step,
+                blocked_steps,
+                clock,
+                positions,
+                velocities,
+            },
+            yielding: { yielding.iter() }
+                .map(|&byte| (byte <= 1).then_some(byte == 1))
+                .collect::<Option<_>>()?,
+            effects: effects.collect::<Option<_>>()?,
+            counts: ContactCounts {
+                candidates: reader.u64()?,
+                looked_at: reader.u64()?,
+                pushed: reader.u64()?,
+                violated: reader.u64()?,
+                zone_rounds: reader.u64()?,
+                held: reader.u64()?,
+                cuts: reader.u64()?,
+            },
+            stages: ContactSeconds {
+                candidates: reader.f64()?,
+                rows: reader.f64()?,
+                certificates: reader.f64()?,
+                repairs: reader.f64()?,
+            },
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHAPE: Shape = Shape {
+        vertices: 2,
+        yielding: 2,
+        effects: 1,
+    };
+
+    fn checkpoint() -> Checkpoint {
+        Checkpoint {
+            state: State {
+                step: 400,
+                blocked_steps: 3,
+                clock: 0.1,
+                positions: vec![DVec3::new(1.0, -0.0, 1e-300), DVec3::X],
+                velocities: vec![DVec3::Y, DVec3::splat(f64::MIN_POSITIVE)],
+            },
+            yielding: vec![true, false],
+            effects: vec![0.25],
+            counts: ContactCounts {
+                candidates: 1,
+                looked_at: 2,
+                pushed: 3,
+                violated: 4,
+                zone_rounds: 5,
+                held: 6,
+                cuts: 7,
+            },
+            stages: ContactSeconds {
+                candidates: 0.1,
+                rows: 0.2,
+                certificates: 0.3,
+                repairs: 0.4,
+            },
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_to_the_last_bit() {
+        let bytes = checkpoint().write(7);
+        assert_eq!(Checkpoint::read(&bytes, 7, SHAPE), Ok(checkpoint()));
+    }
+
+    #[test]
+    fn other_scenes_and_damage_are_noticed() {
+        let bytes = checkpoint().write(7);
+        let read = |bytes: &[u8], fingerprint| Checkpoint::read(bytes, fingerprint, SHAPE);
+        assert_eq!(read(&bytes, 8), Err(CheckpointError::OtherScene));
+        assert_eq!(read(b"v 0 0 0", 7), Err(CheckpointError::NotOne));
+        for length in MAGIC.len()..bytes.len() {
+            assert_eq!(read(&bytes[..length], 7), Err(CheckpointError::Damaged), "{length}");
+        }
+        assert!(read(&[&bytes[..], &[0]].concat(), 7).is_err());
+        let mut damaged = bytes.clone();
+        damaged[MAGIC.len() + 32..][..8].copy_from_slice(&f64::NAN.to_le_bytes());
+        assert_eq!(read(&damaged, 7), Err(CheckpointError::Damaged));
+    }
+}

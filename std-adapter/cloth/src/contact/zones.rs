@@ -1,0 +1,240 @@
+//! Zones: cloth that moves together so that a step can be accepted.
+//!
+//! The vertices of a zone follow a common motion D, and only their motion relative to it is scaled by s: x → x + D + s·(y − x − D).
+//! Two vertices of one zone keep the difference of their original motions on [0, s], plus a common translation; so a pair inside a
+//! zone is free exactly if s is before its time of impact on the path x → y − D. A zone's D is its mean motion, which keeps its
+//! momentum, or that of the body or pin (its *frame*) that it touches, which keeps it on the body. With s = 0 a zone is carried
+//! rigidly.
+
+use super::pair::Pair;
+use crate::plan::{FREE, Frame};
+use selvedge_core::glam::DVec3;
+
+/// How much of a time of impact a zone takes up, level by level; at the last level nothing.
+const SHARES: [f64; 4] = [0.9, 0.45, 0.2, 0.0];
+const LAST_LEVEL: usize = SHARES.len() - 1;
+
+/// The step cannot be made: two frames pull at one zone, or a zone that is carried rigidly is still not free.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cut;
+
+#[derive(Clone, Debug)]
+struct Zone {
+    members: Vec<u32>,
+    scale: f64,
+    level: usize,
+    frame: Frame,
+    /// Its mean motion, if it has no frame.
+    mean: DVec3,
+    changed: bool,
+    raised: bool,
+}
+
+/// The zones of one step; at first each vertex is its own.
+#[derive(Debug, Default)]
+pub(super) struct Zones {
+    /// Of each vertex; `u32::MAX` if it is still alone.
+    zone_of: Vec<u32>,
+    zones: Vec<Zone>,
+}
+
+/// What zones are made from: the motion that was wanted.
+#[derive(Clone, Copy)]
+pub(super) struct Motions<'a> {
+    pub(super) start: &'a [DVec3],
+    pub(super) wanted: &'a [DVec3],
+    pub(super) inverse_masses: &'a [f64],
+    /// Of each vertex, with frames that do not move in this step taken for one.
+    pub(super) frames: &'a [Frame],
+    /// Where a frame takes a point in this step.
+    pub(super) carry: &'a dyn Fn(Frame, DVec3) -> DVec3,
+}
+
+impl Zones {
+    pub(super) fn reset(&mut self, vertices: usize) {
+        self.zone_of.clear();
+        self.zone_of.resize(vertices, u32::MAX);
+        self.zones.clear();
+    }
+
+    /// Vertices that do not get all of their motion.
+    pub(super) fn held(&self) -> usize {
+        let held = self.zones.iter().filter(|zone| zone.scale < 1.0);
+        held.map(|zone| zone.members.len()).sum()
+    }
+
+    fn zone(&mut self, vertex: u32) -> usize {
+        let zone = &mut self.zone_of[vertex as usize];
+        if *zone == u32::MAX {
+            *zone = self.zones.len() as u32;
+            self.zones.push(Zone {
+                members: vec![vertex],
+                scale: 1.0,
+                level: 0,
+                frame: FREE,
+                mean: DVec3::ZERO,
+                changed: false,
+                raised: false,
+            });
+        }
+        *zone as usize
+    }
+
+    /// Deals with the pairs that are not free, in order: merges their zones, or slows down the one that a pair is inside of.
+    /// Writes new positions of the vertices concerned to `end`.
+    pub(super) fn resolve(
+        &mut self,
+        pairs: &[&Pair],
+        separation: impl Fn(&Pair) -> f64,
+        motions: Motions<'_>,
+        end: &mut [DVec3],
+        scratch: &mut Vec<DVec3>,
+    ) -> Result<(), Cut> {
+        let inside: Vec<bool> = pairs.iter().map(|pair| self.is_inside(pair, motions.frames)).collect();
+        for (pair, _) in pairs.iter().zip(&inside).filter(|(_, inside)| !**inside) {
+            self.merge(pair, motions.frames)?;
+        }
+        for (pair, _) in pairs.iter().zip(&inside).filter(|(_, inside)| **inside) {
+            let zone = self.zone_of_pair(pair, motions.frames).ok_or(Cut)?;
+            let zone = &mut self.zones[zone];
+            zone.changed = true;
+            if !zone.raised {
+                if zone.level == LAST_LEVEL {
+                    return Err(Cut);
+                }
+                zone.raised = true;
+                zone.level += 1;
+            }
+        }
+        self.find_means(motions);
+        for pair in pairs {
+            let Some(index) = self.zone_of_pair(pair, motions.frames) else {
+                return Err(Cut);
+            };
+            if self.zones[index].level == LAST_LEVEL {
+                self.zones[index].scale = 0.0;
+                continue;
+            }
+            // The relative path. `scratch` is only right where this pair's vertices are.
+            scratch.resize(end.len(), DVec3::ZERO);
+            for vertex in pair.vertices.map(|v| v as usize) {
+                let common = self.common(vertex, index, motions);
+                scratch[vertex] = motions.wanted[vertex] - common;
+            }
+            if let Some(time) = pair.time_of_impact([motions.start, scratch], separation(pair)) {
+                let zone = &mut self.zones[index];
+                zone.scale = zone.scale.min(SHARES[zone.level] * time);
+            }
+        }
+        for index in 0..self.zones.len() {
+            if !std::mem::take(&mut self.zones[index].changed) {
+                continue;
+            }
+            self.zones[index].raised = false;
+            let scale = self.zones[index].scale;
+            for &vertex in &self.zones[index].members {
+                let vertex = vertex as usize;
+                let start = motions.start[vertex];
+                let common = self.common(vertex, index, motions);
+                end[vertex] = (start + common) + (motions.wanted[vertex] - start - common) * scale;
+            }
+        }
+        Ok(())
+    }
+
+    /// D at a vertex, as zone `index` has it.
+    fn common(&self, vertex: usize, index: usize, motions: Motions<'_>) -> DVec3 {
+        let zone = &self.zones[index];
+        match zone.frame {
+            FREE => zone.mean,
+            frame => (motions.carry)(frame, motions.start[vertex]) - motions.start[vertex],
+        }
+    }
+
+    /// Whether the pair's cloth is in one zone already, and that has the frame of whatever else the pair touches.
+    fn is_inside(&mut self, pair: &Pair, frames: &[Frame]) -> bool {
+        let mut one = None;
+        for &vertex in &pair.vertices {
+            if frames[vertex as usize] == FREE {
+                let zone = self.zone(vertex);
+                if *one.get_or_insert(zone) != zone {
+                    return false;
+                }
+            }
+        }
+        let Some(zone) = one else { return true };
+        let others = pair.vertices.iter().map(|&v| frames[v as usize]);
+        let frame = self.zones[zone].frame;
+        others.filter(|&other| other != FREE).all(|other| other == frame)
+    }
+
+    /// The zone of the pair's cloth; `None` if all of the pair is prescribed.
+    fn zone_of_pair(&self, pair: &Pair, frames: &[Frame]) -> Option<usize> {
+        let mut free = pair.vertices.iter().filter(|&&v| frames[v as usize] == FREE);
+        free.next().map(|&v| self.zone_of[v as usize] as usize)
+    }
+
+    fn merge(&mut self, pair: &Pair, frames: &[Frame]) -> Result<(), Cut> {
+        let mut into = None;
+        for &vertex in pair.vertices.iter().filter(|&&v| frames[v as usize] == FREE) {
+            let zone = self.zone(vertex);
+            into = Some(match into {
+                None => zone,
+                Some(other) => self.union(other, zone)?,
+            });
+        }
+        let Some(zone) = into else { return Err(Cut) };
+        for frame in pair.vertices.map(|v| frames[v as usize]) {
+            let own = &mut self.zones[zone].frame;
+            *own = common_frame(*own, frame)?;
+        }
+        self.zones[zone].changed = true;
+        Ok(())
+    }
+
+    fn union(&mut self, a: usize, b: usize) -> Result<usize, Cut> {
+        if a == b {
+            return Ok(a);
+        }
+        let frame = common_frame(self.zones[a].frame, self.zones[b].frame)?;
+        let (large, small) = if self.zones[a].members.len() >= self.zones[b].members.len() {
+            (a, b)
+        } else {
+            (b, a)
+        };
+        let moved = std::mem::take(&mut self.zones[small].members);
+        for &vertex in &moved {
+            self.zone_of[vertex as usize] = large as u32;
+        }
+        let (scale, level) = (self.zones[small].scale, self.zones[small].level);
+        self.zones[small].changed = false;
+        let zone = &mut self.zones[large];
+        zone.members.extend(moved);
+        zone.scale = zone.scale.min(scale);
+        zone.level = zone.level.max(level);
+        zone.frame = frame;
+        Ok(large)
+    }
+
+    fn find_means(&mut self, motions: Motions<'_>) {
+        let changed = self.zones.iter_mut().filter(|zone| zone.changed && zone.frame == FREE);
+        for zone in changed {
+            let (mut mass, mut momentum) = (0.0, DVec3::ZERO);
+            for vertex in zone.members.iter().map(|&v| v as usize) {
+                let own = 1.0 / motions.inverse_masses[vertex];
+                mass += own;
+                momentum += (motions.wanted[vertex] - motions.start[vertex]) * own;
+            }
+            zone.mean = momentum / mass;
+        }
+    }
+}
+
+/// The frame of a zone that touches both.
+fn common_frame(a: Frame, b: Frame) -> Result<Frame, Cut> {
+    match (a, b) {
+        (FREE, frame) | (frame, FREE) => Ok(frame),
+        (a, b) if a == b => Ok(a),
+        _ => Err(Cut),
+    }
+}

@@ -1,0 +1,117 @@
+//! Body contact: the cloth keeps a thickness from bodies, and every step is certified not to pass through their triangles.
+//!
+//! Capsules and balls push vertices by their exact distance, so that cloth slides on a smooth surface; edges and faces of the
+//! cloth are kept off by the pairs with the body's mesh, as for any other body.
+
+use super::{Effect, Registration};
+use crate::contact::{RECOVERY, Thickness};
+use crate::plan::{Constraint, Plan, StepInput, Touch, Touches};
+use crate::scene::Pose;
+use selvedge_core::glam::DVec3;
+
+pub(super) const REGISTRATION: Registration = Registration {
+    name: "body_contact",
+    keys: &["thickness", "separation"],
+    needs: &[],
+    read: |table, world| {
+        if world.bodies.is_empty() {
+            let message = "body contact has nothing to act on: the scene has no [[body]]";
+            return Err(table.error("", message.to_owned()));
+        }
+        Ok(Box::new(BodyContact(Thickness::read(table)?)))
+    },
+};
+
+#[derive(Debug)]
+struct BodyContact(Thickness);
+
+impl Effect for BodyContact {
+    fn settings(&self) -> Vec<(&'static str, String)> {
+        self.0.settings()
+    }
+
+    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+        plan.contact.bodies = Some((plan.effect, self.0));
+        let cloth_vertices = plan.world.cloth.mesh.positions.len();
+        let bodies = plan.world.bodies.iter().enumerate();
+        let capsules: Vec<_> = bodies
+            .filter_map(|(frame, body)| {
+                let (ends, radius) = body.capsule?;
+                Some(Capsule { frame, ends, radius })
+            })
+            .collect();
+        if !capsules.is_empty() {
+            plan.add_constraint(Push {
+                capsules,
+                cloth_vertices,
+                thickness: self.0.thickness,
+            });
+        }
+    }
+}
+
+#[derive(Debug)]
+struct Capsule {
+    frame: usize,
+    /// At rest.
+    ends: [DVec3; 2],
+    radius: f64,
+}
+
+#[derive(Debug)]
+struct Push {
+    capsules: Vec<Capsule>,
+    cloth_vertices: usize,
+    thickness: f64,
+}
+
+/// The way out of a capsule's axis to a point, at one pose.
+fn outward(capsule: &Capsule, pose: &Pose, point: DVec3) -> DVec3 {
+    let [from, to] = capsule.ends.map(|end| pose.apply(end));
+    point - nearest(from, to - from, point)
+}
+
+/// The point of a line, from `from` along `axis`, that is nearest.
+#[inline(always)]
+fn nearest(from: DVec3, axis: DVec3, point: DVec3) -> DVec3 {
+    let squared = axis.length_squared();
+    if squared > 0.0 {
+        from + axis * ((point - from).dot(axis) / squared).clamp(0.0, 1.0)
+    } else {
+        from
+    }
+}
+
+impl Constraint for Push {
+    fn project(&mut self, step: &StepInput<'_>, positions: &mut [DVec3], touches: &mut Touches) {
+        for capsule in &self.capsules {
+            let [before, now] = step.poses[capsule.frame];
+            let [from, to] = capsule.ends.map(|end| now.apply(end));
+            let axis = to - from;
+            let reach = capsule.radius + self.thickness;
+            let cloth = positions[..self.cloth_vertices].iter_mut().enumerate();
+            for (vertex, position) in cloth {
+                let way = *position - nearest(from, axis, *position);
+                let distance = way.length();
+                if !(distance < reach && distance > 0.0 && step.inverse_masses[vertex] > 0.0) {
+                    continue;
+                }
+                // What starts too deep comes out slowly.
+                let start = step.start[vertex];
+                let depth = outward(capsule, &before, start).length();
+                let push = reach.min(depth + RECOVERY * step.h) - distance;
+                if push > 0.0 {
+                    let normal = way / distance;
+                    *position += normal * push;
+                    touches.record(|| Touch {
+                        vertices: [vertex as u32; 4],
+                        weights: [1.0, 0.0, 0.0, 0.0],
+                        normal,
+                        push,
+                        drift: before.carry(&now, start) - start,
+                    });
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! Friction: Coulomb's law on positions (Macklin et al. 2014), for every contact that pushed in this step.
+//!
+//! A contact that moved its two sides apart by p may undo up to μ·p of their sliding since the start of the step.
+
+use super::{Effect, Registration};
+use crate::plan::{Constraint, Plan, StepInput, Touches};
+use crate::scene::RATIO;
+use selvedge_core::glam::DVec3;
+
+pub(super) const REGISTRATION: Registration = Registration {
+    name: "friction",
+    keys: &["coefficient"],
+    needs: &["self_collision", "body_contact"],
+    read: |table, _| {
+        let coefficient = table.required_number("coefficient", RATIO, 0.0..=10.0)?;
+        Ok(Box::new(Friction { coefficient }))
+    },
+};
+
+#[derive(Debug)]
+struct Friction {
+    coefficient: f64,
+}
+
+impl Effect for Friction {
+    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+        plan.add_friction(*self);
+    }
+}
+
+impl Constraint for Friction {
+    fn project(&mut self, step: &StepInput<'_>, positions: &mut [DVec3], touches: &mut Touches) {
+        for touch in &touches.list {
+            let vertices = touch.vertices.map(|v| v as usize);
+            let mut sliding = -touch.drift;
+            let mut mobility = 0.0;
+            for (vertex, weight) in vertices.into_iter().zip(touch.weights) {
+                sliding += (positions[vertex] - step.start[vertex]) * weight;
+                mobility += step.inverse_masses[vertex] * weight * weight;
+            }
+            sliding -= touch.normal * sliding.dot(touch.normal);
+            let length = sliding.length();
+            if !(length > 0.0 && mobility > 0.0) {
+                continue;
+            }
+            let undone = (self.coefficient * touch.push / length).min(1.0);
+            let back: DVec3 = sliding * (-undone / mobility);
+            for (vertex, weight) in vertices.into_iter().zip(touch.weights) {
+                positions[vertex] += back * (step.inverse_masses[vertex] * weight);
+            }
+        }
+    }
+}

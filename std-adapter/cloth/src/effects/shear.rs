@@ -1,0 +1,67 @@
+//! Shear: C = w_u·w_v (Baraff and Witkin 1998), compliance 1/(k·A).
+
+use super::membrane::{Membrane, all, image, membranes};
+use super::{Effect, Registration};
+use crate::colour::{Coloured, Local};
+use crate::plan::Plan;
+use crate::scene::MEMBRANE_STIFFNESS;
+use selvedge_core::glam::DVec3;
+
+pub(super) const REGISTRATION: Registration = Registration {
+    name: "shear",
+    keys: &["stiffness"],
+    needs: &[],
+    read: |table, _| {
+        let stiffness = table.required_number("stiffness", MEMBRANE_STIFFNESS, 1e-3..=1e9)?;
+        Ok(Box::new(Shear { stiffness }))
+    },
+};
+
+#[derive(Debug)]
+struct Shear {
+    /// In N/m.
+    stiffness: f64,
+}
+
+impl Effect for Shear {
+    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+        let cloth = plan.world.cloth;
+        let angles = membranes(cloth).into_iter().map(|(membrane, area)| Angle {
+            membrane,
+            compliance: 1.0 / (self.stiffness * area),
+        });
+        let vertex_count = cloth.mesh.positions.len();
+        plan.add_constraint(Coloured::new(angles.collect(), vertex_count));
+    }
+}
+
+#[derive(Debug)]
+struct Angle {
+    membrane: Membrane,
+    compliance: f64,
+}
+
+impl Local<3> for Angle {
+    #[inline(always)]
+    fn vertices(&self) -> [u32; 3] {
+        self.membrane.vertices
+    }
+
+    #[inline(always)]
+    fn corrections(&self, x: [DVec3; 3], w: [f64; 3], stiffening: f64) -> [DVec3; 3] {
+        let Membrane { a, b, .. } = self.membrane;
+        let (warp, weft) = (image(a, x), image(b, x));
+        let (a, b) = (all(a), all(b));
+        let mut gradients = [DVec3::ZERO; 3];
+        let mut weight = self.compliance * stiffening;
+        for k in 0..3 {
+            gradients[k] = weft * a[k] + warp * b[k];
+            weight += w[k] * gradients[k].length_squared();
+        }
+        let multiplier = -warp.dot(weft) / weight;
+        for k in 0..3 {
+            gradients[k] *= multiplier * w[k];
+        }
+        gradients
+    }
+}

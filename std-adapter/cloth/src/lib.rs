@@ -1,0 +1,41 @@
+//! Cloth simulation that pays only for the effects that its scene calls for.
+//!
+//! A [`Scene`] is read from a TOML file; a [`Simulation`] runs it, step by step. An effect that the scene does not name is not
+//! constructed, allocates nothing, runs nothing and is in no report.
+//!
+//! ```text
+//! scene file ──▶ Scene ──▶ effects register into a plan ──▶ Simulation
+//!                                                             │ each step
+//!                          forces ▸ prediction ▸ constraints ▸ contacts ▸ friction ▸ certified pass ▸ velocities
+//! ```
+//!
+//! | item | what it is |
+//! |---|---|
+//! | [`Scene`] | **start here**: what a scene file says, checked |
+//! | [`Simulation`] | runs a scene: positions after each step, what each effect took, checkpoints |
+//! | [`effect_names`] | every effect that a scene may name |
+//! | [`sleeve`] | the paper's sleeve at any size, of which scenes can be made |
+
+#![expect(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "a comparison is false with NaN, which must then take the side that does nothing"
+)]
+
+mod checkpoint;
+mod colour;
+mod contact;
+mod effects;
+mod plan;
+mod scene;
+mod simulator;
+pub mod sleeve;
+mod sweeps;
+
+pub use checkpoint::CheckpointError;
+pub use contact::{Blocker, ContactCounts, ContactSeconds};
+pub use effects::effect_names;
+pub use scene::{Body, Cloth, OnBlocked, RigidMotion, Scene, SceneError};
+pub use simulator::{Blocked, CHECKPOINT_STEPS, EffectTime, FASTEST, SetupError, Simulation};
+
+/// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
+pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");

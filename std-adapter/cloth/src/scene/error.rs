@@ -1,0 +1,110 @@
+//! What is wrong with a scene, and where.
+
+use selvedge_files::excerpt::excerpt;
+use std::fmt;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// A scene that cannot be used. `Display` says `FILE:LINE:COLUMN: what is wrong and what to do`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneError {
+    /// The scene's file.
+    pub path: PathBuf,
+    /// Line and column, from 1, the column in characters; `None` if the file as a whole is meant.
+    pub place: Option<(usize, usize)>,
+    /// What is wrong, and what would be right.
+    pub message: String,
+}
+
+/// A message has at most so many characters, whatever the names are that it quotes.
+const LONGEST: usize = 600;
+
+/// The message itself, but for control characters and endless lists.
+fn readable(message: String) -> String {
+    if message.len() <= LONGEST && !message.chars().any(char::is_control) {
+        message
+    } else {
+        excerpt(&message, LONGEST)
+    }
+}
+
+impl SceneError {
+    /// An error about the bytes `span` of `text`.
+    pub(crate) fn at(path: &Path, text: &str, span: &Range<usize>, message: String) -> Self {
+        let before = text.get(..span.start).unwrap_or(text);
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let line = 1 + before.bytes().filter(|&byte| byte == b'\n').count();
+        let column = 1 + before[line_start..].chars().count();
+        Self {
+            path: path.to_owned(),
+            place: Some((line, column)),
+            message: readable(message),
+        }
+    }
+
+    /// An error about the file as a whole.
+    pub(crate) fn whole(path: &Path, message: String) -> Self {
+        Self {
+            path: path.to_owned(),
+            place: None,
+            message: readable(message),
+        }
+    }
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.path.display())?;
+        if let Some((line, column)) = self.place {
+            write!(f, ":{line}:{column}")?;
+        }
+        write!(f, ": {}", self.message)
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+/// The candidate that `name` is probably meant to be: at most a third of its letters differ, or both begin much alike.
+pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let name = name.to_lowercase();
+    let likeness = |candidate: &'a str| {
+        let lower = candidate.to_lowercase();
+        let distance = strsim::damerau_levenshtein(&name, &lower);
+        let longer = lower.chars().count().max(name.chars().count());
+        let is_like = 3 * distance <= longer || strsim::jaro_winkler(&name, &lower) >= 0.87;
+        is_like.then_some((distance, candidate))
+    };
+    let alike = candidates.into_iter().filter_map(likeness);
+    alike.min_by_key(|&(distance, _)| distance).map(|(_, candidate)| candidate)
+}
+
+/// `; did you mean 'a'?`, or `; choose one of a, b`.
+pub(crate) fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
+    let candidates: Vec<_> = candidates.into_iter().collect();
+    match nearest(name, candidates.iter().copied()) {
+        Some(nearest) => format!("; did you mean '{nearest}'?"),
+        None if candidates.is_empty() => "; there are none".to_owned(),
+        None => format!("; choose from {}", candidates.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_count_characters_and_lines_begin_at_one() {
+        let text = "a = 1\nöö = 2\n";
+        let at = text.find("= 2").unwrap();
+        let error = SceneError::at(Path::new("s.toml"), text, &(at..at + 1), "no".into());
+        assert_eq!(error.to_string(), "s.toml:2:4: no");
+    }
+
+    #[test]
+    fn only_a_similar_name_is_suggested() {
+        assert_eq!(nearest("gravty", ["wind", "gravity"]), Some("gravity"));
+        assert_eq!(nearest("gravitation", ["wind", "gravity"]), Some("gravity"));
+        assert_eq!(nearest("Thickness", ["thickness"]), Some("thickness"));
+        assert_eq!(nearest("colour", ["wind", "gravity"]), None);
+    }
+}

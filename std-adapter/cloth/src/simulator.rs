@@ -1,0 +1,537 @@
+//! One step after another.
+//!
+//! Extended position-based dynamics with small steps and one iteration each (Macklin et al. 2016, 2019): velocities take the
+//! forces, positions are predicted, constraints move them, and the velocity is what comes out of it.
+//!
+//! With a contact effect the motion that comes out is then certified ([`contact`](super::contact)), repaired or cut. Bodies and
+//! pins have a clock of their own, which may have to wait.
+//!
+//! **Finite whatever the scene says**: no constraint divides by what may vanish, and no vertex moves faster than
+//! [`FASTEST`].
+
+use super::checkpoint::{Checkpoint, CheckpointError, Shape};
+use super::contact::{Blocker, Contact, ContactCounts, ContactSeconds, LARGEST_TURN};
+use super::plan::{Constraint, Entry, FREE, Force, Frame, Plan, StepInput, Touches};
+use super::scene::{OnBlocked, Pose, RigidMotion, Scene, World};
+use selvedge::mesh::{Mesh, TopologyError};
+use selvedge::parallel::{ThreadError, Threads};
+use selvedge_core::glam::DVec3;
+use std::time::Instant;
+
+/// In m/s: twice the speed of sound and more. What would move faster is slowed down to this.
+pub const FASTEST: f64 = 1000.0;
+
+/// A checkpoint can be taken when so many steps are done, and again so many later. There contact forgets what it knows besides
+/// the positions, which a resumed simulation does not know either.
+pub const CHECKPOINT_STEPS: u64 = 200;
+
+/// How often a step may be cut in half.
+const CUTS: u32 = 6;
+
+/// A scene in motion.
+#[derive(Debug)]
+pub struct Simulation {
+    name: String,
+    time_step: f64,
+    fingerprint: u64,
+    cloth_vertices: usize,
+    cloth_triangles: usize,
+    triangles: Vec<[u32; 3]>,
+    inverse_masses: Vec<f64>,
+    /// Of each vertex: whose motion it follows.
+    carriers: Vec<Frame>,
+    /// Of vertices whose motion is prescribed, where they are when their frame is at rest.
+    rest: Vec<DVec3>,
+    frames: Vec<RigidMotion>,
+    forces: Vec<Entry<dyn Force>>,
+    constraints: Vec<Entry<dyn Constraint>>,
+    contact: Option<Contact>,
+    friction: Vec<Entry<dyn Constraint>>,
+    effects: Vec<EffectTime>,
+    on_blocked: OnBlocked,
+    body_names: Vec<String>,
+    threads: Threads,
+    state: State,
+    work: Work,
+}
+
+/// What a checkpoint has to hold.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct State {
+    /// Steps done.
+    pub(crate) step: u64,
+    /// Steps in which bodies or pins had to wait, or to be let pass.
+    pub(crate) blocked_steps: u64,
+    /// Of bodies and pins, in seconds; behind the time when they had to wait.
+    pub(crate) clock: f64,
+    pub(crate) positions: Vec<DVec3>,
+    pub(crate) velocities: Vec<DVec3>,
+}
+
+/// Filled anew in each step.
+#[derive(Debug, Default)]
+struct Work {
+    velocities: Vec<DVec3>,
+    predicted: Vec<DVec3>,
+    poses: Vec<[Pose; 2]>,
+    touches: Touches,
+}
+
+/// An effect that the scene calls for, and the time that it has taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EffectTime {
+    /// As in the scene.
+    pub name: &'static str,
+    /// Seconds, so far.
+    pub seconds: f64,
+}
+
+/// A step that could not be made without an intersection, and was not.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "blocked at {time:.6} s: no motion was found that leaves {what} free{}",
+    .body.as_ref().map_or(String::new(), |body| format!(" of the body '{body}'"))
+)]
+pub struct Blocked {
+    /// In seconds.
+    pub time: f64,
+    /// The pair that is in the way, in words.
+    pub what: String,
+    /// The body that is in the way; `None` if it is a pin.
+    pub body: Option<String>,
+}
+
+/// A simulation could not be set up.
+#[derive(Debug, thiserror::Error)]
+pub enum SetupError {
+    /// Cloth and bodies together have too many triangles.
+    #[error(transparent)]
+    Topology(#[from] TopologyError),
+    /// The scene starts with an intersection, which no certificate can end.
+    #[error("the scene starts with an intersection: {0} touches")]
+    Touching(String),
+    /// The operating system refused the threads.
+    #[error(transparent)]
+    Threads(#[from] ThreadError),
+}
+
+impl Simulation {
+    /// Sets a scene up, on `threads` threads (0: one for each core). The number of threads changes no bit of the result.
+    ///
+    /// # Errors
+    /// If the operating system refuses the threads.
+    pub fn new(scene: Scene, threads: usize) -> Result<Self, SetupError> {
+        let threads = Threads::new(threads)?;
+        let Scene {
+            name,
+            cloth,
+            bodies,
+            time_step,
+            effects,
+            on_blocked,
+            fingerprint,
+            ..
+        } = scene;
+        let mut plan = Plan::new(World {
+            cloth: &cloth,
+            bodies: &bodies,
+            time_step,
+        });
+        let mut times = Vec::with_capacity(effects.len());
+        for (index, (name, effect)) in effects.into_iter().enumerate() {
+            times.push(EffectTime { name, seconds: 0.0 });
+            plan.effect = index;
+            effect.register(&mut plan);
+        }
+        let Plan {
+            mut inverse_masses,
+            mut carriers,
+            frames,
+            forces,
+            constraints,
+            contact,
+            friction,
+            ..
+        } = plan;
+        let mut rest = cloth.mesh.positions.clone();
+        let mut triangles = cloth.mesh.triangles.clone();
+        for (frame, body) in bodies.iter().enumerate() {
+            append(&mut rest, &mut triangles, &body.mesh);
+            carriers.resize(rest.len(), frame as Frame);
+        }
+        inverse_masses.resize(rest.len(), 0.0);
+        let poses: Vec<Pose> = frames.iter().map(|frame| frame.pose(0.0)).collect();
+        let start = rest
+            .iter()
+            .zip(&carriers)
+            .map(|(&point, &carrier)| poses.get(carrier as usize).map_or(point, |pose| pose.apply(point)));
+        let positions: Vec<DVec3> = start.collect();
+        let velocities = carriers.iter().map(|&carrier| match carrier {
+            FREE => cloth.velocity,
+            _ => DVec3::ZERO,
+        });
+        let cloth_vertices = cloth.mesh.positions.len();
+        let mut contact = Contact::new(contact, &triangles, &rest, &carriers, cloth_vertices, bodies.len())?;
+        if let Some(contact) = &mut contact {
+            contact.refresh(&positions);
+            if let Some(pair) = contact.first_touching(&positions) {
+                return Err(SetupError::Touching(pair));
+            }
+        }
+        Ok(Self {
+            name,
+            time_step,
+            on_blocked,
+            body_names: bodies.into_iter().map(|body| body.name).collect(),
+            contact,
+            fingerprint,
+            cloth_triangles: cloth.mesh.triangles.len(),
+            cloth_vertices,
+            triangles,
+            inverse_masses,
+            frames,
+            forces,
+            constraints,
+            effects: times,
+            threads,
+            state: State {
+                step: 0,
+                blocked_steps: 0,
+                clock: 0.0,
+                velocities: velocities.collect(),
+                positions,
+            },
+            work: Work {
+                touches: Touches {
+                    wanted: !friction.is_empty(),
+                    list: Vec::new(),
+                },
+                ..Work::default()
+            },
+            friction,
+            carriers,
+            rest,
+        })
+    }
+
+    /// The scene's name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Steps done so far.
+    #[must_use]
+    pub fn steps_done(&self) -> u64 {
+        self.state.step
+    }
+
+    /// The time simulated so far, in seconds.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.state.step as f64 * self.time_step
+    }
+
+    /// Where everything is: the cloth's vertices, then the bodies'.
+    #[must_use]
+    pub fn positions(&self) -> &[DVec3] {
+        &self.state.positions
+    }
+
+    /// Triangles on [`positions`](Self::positions): the cloth's, then the bodies'.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// How many of the vertices are the cloth's.
+    #[must_use]
+    pub fn cloth_vertices(&self) -> usize {
+        self.cloth_vertices
+    }
+
+    /// How many of the triangles are the cloth's.
+    #[must_use]
+    pub fn cloth_triangles(&self) -> usize {
+        self.cloth_triangles
+    }
+
+    /// The effects that were constructed, in the order in which they run, and the time that each has taken.
+    #[must_use]
+    pub fn effects(&self) -> &[EffectTime] {
+        &self.effects
+    }
+
+    /// What contact has counted so far; `None` if the scene has no contact effect.
+    #[must_use]
+    pub fn contact_counts(&self) -> Option<&ContactCounts> {
+        self.contact.as_ref().map(|contact| &contact.counts)
+    }
+
+    /// What contact has taken so far, besides the pushes; `None` if the scene has no contact effect.
+    #[must_use]
+    pub fn contact_seconds(&self) -> Option<&ContactSeconds> {
+        self.contact.as_ref().map(|contact| &contact.stages)
+    }
+
+    /// Steps in which bodies or pins had to wait, or to be let pass.
+    #[must_use]
+    pub fn blocked_steps(&self) -> u64 {
+        self.state.blocked_steps
+    }
+
+    /// Whether the state is certified to be free of intersections of whatever the scene's contact effects name: not without any,
+    /// and not while a body is let pass.
+    #[must_use]
+    pub fn is_certified(&self) -> bool {
+        let contact = self.contact.as_ref();
+        contact.is_some_and(|contact| !contact.yielding().contains(&true))
+    }
+
+    /// How far bodies and pins are behind their keyframes, in seconds.
+    #[must_use]
+    pub fn lag(&self) -> f64 {
+        // Below a millionth of a step it is rounding.
+        let lag = self.time() - self.state.clock;
+        if lag > 1e-6 * self.time_step { lag } else { 0.0 }
+    }
+
+    /// Does one step.
+    ///
+    /// # Errors
+    /// If bodies or pins force the cloth where it cannot go without intersecting, and the scene wants to stop then. What is
+    /// done of the step stays.
+    pub fn step(&mut self) -> Result<(), Blocked> {
+        // Taken out so that they can run what borrows the rest.
+        let threads = std::mem::take(&mut self.threads);
+        let result = threads.run(|| self.whole_step());
+        self.threads = threads;
+        result
+    }
+
+    fn whole_step(&mut self) -> Result<(), Blocked> {
+        let mut left = self.time_step;
+        let mut was_blocked = false;
+        while left > 0.0 {
+            let blocker = match self.part(left) {
+                Ok(h) => {
+                    left = if h < left { left - h } else { 0.0 };
+                    continue;
+                }
+                Err(blocker) => blocker,
+            };
+            was_blocked = true;
+            match (self.on_blocked, blocker.body, &mut self.contact) {
+                (OnBlocked::Yield, Some(body), Some(contact)) => contact.let_pass(body),
+                (OnBlocked::Yield | OnBlocked::Hold, ..) => {
+                    // Without anything that is forced to move a step can always be made.
+                    self.attempt(left, 0.0).map_err(|blocker| self.described(blocker))?;
+                    left = 0.0;
+                }
+                (OnBlocked::Stop, ..) => return Err(self.described(blocker)),
+            }
+        }
+        self.state.step += 1;
+        self.state.blocked_steps += u64::from(was_blocked);
+        if let Some(contact) = &mut self.contact {
+            contact.take_back(&self.state.positions);
+            if self.state.step.is_multiple_of(CHECKPOINT_STEPS) {
+                contact.refresh(&self.state.positions);
+            }
+        }
+        Ok(())
+    }
+
+    /// All that the rest of the simulation depends on, and what has been measured so far, every [`CHECKPOINT_STEPS`] steps;
+    /// `None` in between.
+    #[must_use]
+    pub fn checkpoint(&self) -> Option<Vec<u8>> {
+        if !self.state.step.is_multiple_of(CHECKPOINT_STEPS) {
+            return None;
+        }
+        let mut checkpoint = Checkpoint {
+            state: self.state.clone(),
+            effects: self.effects.iter().map(|effect| effect.seconds).collect(),
+            ..Checkpoint::default()
+        };
+        if let Some(contact) = &self.contact {
+            checkpoint.yielding = contact.yielding().to_vec();
+            (checkpoint.counts, checkpoint.stages) = (contact.counts, contact.stages);
+        }
+        Some(checkpoint.write(self.fingerprint))
+    }
+
+    /// Goes on from a checkpoint of the same scene: with the same bits as if it had never ended. Counters and times go on as well.
+    ///
+    /// # Errors
+    /// If it is not a checkpoint, is damaged, or is one of another scene; then nothing has changed.
+    pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), CheckpointError> {
+        let shape = Shape {
+            vertices: self.state.positions.len(),
+            yielding: self.contact.as_ref().map_or(0, |c| c.yielding().len()),
+            effects: self.effects.len(),
+        };
+        let checkpoint = Checkpoint::read(checkpoint, self.fingerprint, shape)?;
+        if let Some(contact) = &mut self.contact {
+            contact.set_yielding(&checkpoint.yielding);
+            contact.refresh(&checkpoint.state.positions);
+            (contact.counts, contact.stages) = (checkpoint.counts, checkpoint.stages);
+        }
+        for (effect, seconds) in self.effects.iter_mut().zip(checkpoint.effects) {
+            effect.seconds = seconds;
+        }
+        self.state = checkpoint.state;
+        Ok(())
+    }
+
+    /// Goes on by as much of `left` seconds as possible: returns how much. Half of it if that fails, and so on.
+    fn part(&mut self, left: f64) -> Result<f64, Blocker> {
+        let mut h = self.without_large_turn(left);
+        let mut cuts = 0;
+        loop {
+            match self.attempt(h, h) {
+                Err(_) if cuts < CUTS => {
+                    h *= 0.5;
+                    cuts += 1;
+                    if let Some(contact) = &mut self.contact {
+                        contact.counts.cuts += 1;
+                    }
+                }
+                result => return result.map(|()| h),
+            }
+        }
+    }
+
+    /// `h`, halved until no frame turns by more in that time than contact can certify.
+    fn without_large_turn(&self, mut h: f64) -> f64 {
+        let clock = self.state.clock;
+        let turns_too_far =
+            |frame: &RigidMotion, h: f64| (frame.pose(clock + h).angle - frame.pose(clock).angle).abs() > LARGEST_TURN;
+        if self.contact.is_some() {
+            while self.frames.iter().any(|frame| turns_too_far(frame, h)) {
+                h *= 0.5;
+            }
+        }
+        h
+    }
+
+    fn described(&self, blocker: Blocker) -> Blocked {
+        Blocked {
+            time: blocker.time,
+            what: blocker.pair(),
+            body: blocker.body.map(|body| self.body_names[body].clone()),
+        }
+    }
+
+    /// Goes on by `h` seconds, bodies and pins by `ticks` seconds of their clock. If that is not possible nothing changes.
+    fn attempt(&mut self, h: f64, ticks: f64) -> Result<(), Blocker> {
+        self.predict(h, ticks);
+        let Self {
+            state,
+            work,
+            inverse_masses,
+            carriers,
+            effects,
+            ..
+        } = self;
+        let step = StepInput {
+            time: state.step as f64 * self.time_step,
+            h,
+            start: &state.positions,
+            inverse_masses,
+            poses: &work.poses,
+        };
+        for constraint in &mut self.constraints {
+            let begin = Instant::now();
+            constraint.action.project(&step, &mut work.predicted, &mut work.touches);
+            effects[constraint.effect].seconds += begin.elapsed().as_secs_f64();
+        }
+        if let Some(contact) = &mut self.contact {
+            contact.prepare(step.start, &work.predicted, h);
+            let settings = contact.settings;
+            for (with_body, setting) in [(true, settings.bodies), (false, settings.cloth)] {
+                let Some((effect, _)) = setting else { continue };
+                let begin = Instant::now();
+                contact.push(with_body, &step, &mut work.predicted, &mut work.touches);
+                effects[effect].seconds += begin.elapsed().as_secs_f64();
+            }
+        }
+        for friction in &mut self.friction {
+            let begin = Instant::now();
+            friction.action.project(&step, &mut work.predicted, &mut work.touches);
+            effects[friction.effect].seconds += begin.elapsed().as_secs_f64();
+        }
+        for (vertex, position) in work.predicted.iter_mut().enumerate() {
+            if carriers[vertex] == FREE {
+                let start = step.start[vertex];
+                *position = start + limited(*position - start, FASTEST * h);
+            }
+        }
+        if let Some(contact) = &mut self.contact {
+            contact.certify(&step, &mut work.predicted)?;
+        }
+        for (vertex, &position) in work.predicted.iter().enumerate() {
+            state.velocities[vertex] = (position - state.positions[vertex]) / h;
+        }
+        std::mem::swap(&mut state.positions, &mut work.predicted);
+        state.clock += ticks;
+        Ok(())
+    }
+
+    /// Applies the forces, and fills `work.predicted` with where inertia leads, and bodies and pins go.
+    fn predict(&mut self, h: f64, ticks: f64) {
+        let Self {
+            state,
+            work,
+            inverse_masses,
+            carriers,
+            rest,
+            frames,
+            effects,
+            ..
+        } = self;
+        let clock = state.clock;
+        work.poses.clear();
+        let poses = frames.iter().map(|frame| [clock, clock + ticks].map(|time| frame.pose(time)));
+        work.poses.extend(poses);
+        let step = StepInput {
+            time: state.step as f64 * self.time_step,
+            h,
+            start: &state.positions,
+            inverse_masses,
+            poses: &work.poses,
+        };
+        work.velocities.clone_from(&state.velocities);
+        for force in &mut self.forces {
+            let begin = Instant::now();
+            force.action.apply(&step, &mut work.velocities);
+            effects[force.effect].seconds += begin.elapsed().as_secs_f64();
+        }
+        work.predicted.clear();
+        work.predicted.extend(
+            (0..state.positions.len()).map(|vertex| match work.poses.get(carriers[vertex] as usize) {
+                Some([_, pose]) => pose.apply(rest[vertex]),
+                None => state.positions[vertex] + limited(work.velocities[vertex], FASTEST) * h,
+            }),
+        );
+        work.touches.list.clear();
+    }
+}
+
+/// The vector, no longer than `longest`; zero if it is not finite.
+fn limited(vector: DVec3, longest: f64) -> DVec3 {
+    let squared = vector.length_squared();
+    if squared <= longest * longest {
+        vector
+    } else if squared.is_finite() {
+        vector * (longest / squared.sqrt())
+    } else {
+        DVec3::ZERO
+    }
+}
+
+fn append(positions: &mut Vec<DVec3>, triangles: &mut Vec<[u32; 3]>, mesh: &Mesh) {
+    let first = positions.len() as u32;
+    positions.extend_from_slice(&mesh.positions);
+    triangles.extend(mesh.triangles.iter().map(|t| t.map(|vertex| first + vertex)));
+}

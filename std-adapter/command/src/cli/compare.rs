@@ -1,0 +1,212 @@
+//! `selvedge compare`.
+
+use super::Failure;
+use super::options::{Threads, preset_parser, refinement_parser};
+use super::output::{self, OutputFiles};
+use super::progress::Progress;
+use super::simulate::run_steps;
+use clap::CommandFactory;
+use clap::error::ErrorKind;
+use selvedge_cloth::{Scene, Simulation};
+use selvedge_files::mesh::read_step;
+use selvedge_laboratory::pipeline::Preset;
+use selvedge_laboratory::report::{FigurePairs, comparison_csv, comparison_svg, figure_3, json, tables};
+use selvedge_laboratory::scene::ArmScene;
+use selvedge_laboratory::study::{
+    self, ArmFrames, Comparison, Frames, SimulatedSteps, StepCandidates, TwoFrames, busiest_step, step_candidates,
+};
+use std::path::{Path, PathBuf};
+
+/// How the comparison is run and printed.
+#[derive(Debug, clap::Args)]
+pub(super) struct Run {
+    #[command(flatten)]
+    pub(super) threads: Threads,
+    /// How often each method runs each step; the fastest counts
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
+    rounds: u32,
+    /// Print one JSON document instead of tables
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// How finely the arm scene is cut, in time and in space.
+#[derive(Debug, clap::Args)]
+struct Arm {
+    /// Bend the arm in this many steps; of a scene file, compare on this many steps, evenly spread
+    #[arg(long, value_name = "N", default_value_t = ArmScene::STEPS as u32, value_parser = clap::value_parser!(u32).range(1..))]
+    steps: u32,
+    /// Multiply the sleeve's 1,345 triangles by this
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = refinement_parser())]
+    refinement: u32,
+}
+
+impl Arm {
+    fn frames(&self) -> Result<ArmFrames, Failure> {
+        Ok(ArmFrames::new(self.refinement, self.steps as usize)?)
+    }
+}
+
+/// Runs every method on the same steps: the paper's Table 1.
+///
+/// Takes the built-in arm scene, a scene file (TOML), which is simulated first, or the step between two meshes of equal
+/// topology (OBJ or PLY). All methods share one broad phase and run each step in turn, so that their times compare.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  selvedge compare
+  selvedge compare std-adapter/cloth/scenes/twist.toml --steps 100
+  selvedge compare --pipelines lv_2014,selvedge --refinement 100 --threads 0
+  selvedge compare frame-92.ply frame-93.ply --csv table.csv")]
+pub(crate) struct Compare {
+    /// The mesh at the start of the step, or a scene file; without it, the arm scene
+    #[arg(conflicts_with = "refinement")]
+    start: Option<PathBuf>,
+    /// The mesh at the end of the step
+    #[arg(conflicts_with = "steps")]
+    end: Option<PathBuf>,
+    /// The methods to run, with commas between; all of them if left out
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = preset_parser())]
+    pipelines: Vec<Preset>,
+    #[command(flatten)]
+    arm: Arm,
+    #[command(flatten)]
+    run: Run,
+    /// Write the table to this file
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write the comparison (CSV, SVG) and a picture of candidates (PNG) to this folder
+    #[arg(long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+impl Compare {
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        match (&self.start, &self.end) {
+            (Some(start), Some(end)) => self.run_on(&read_frames(start, end)?),
+            (Some(scene), None) => self.run_on(&self.simulated(scene)?),
+            (None, _) => self.run_on(&self.arm.frames()?),
+        }
+    }
+
+    /// The steps of a scene.
+    fn simulated(&self, path: &Path) -> Result<SimulatedSteps, Failure> {
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            let message = format!(
+                "{}: one file alone must be a scene, a .toml file; after a mesh, name the mesh at the end of the step as well",
+                path.display()
+            );
+            let mut command = super::Cli::command();
+            command.error(ErrorKind::MissingRequiredArgument, message).exit();
+        }
+        let of_file = |failure: Failure| format!("{}: {failure}", path.display());
+        let scene = Scene::read(path)?;
+        let steps = scene.steps();
+        let mut frames = SimulatedSteps::new(&scene, self.arm.steps as usize);
+        let mut simulation = Simulation::new(scene, self.run.threads.get()).map_err(|error| of_file(error.into()))?;
+        frames.observe(&simulation);
+        run_steps(&mut simulation, steps, |simulation| {
+            frames.observe(simulation);
+            Ok(())
+        })
+        .map_err(of_file)?;
+        Ok(frames)
+    }
+
+    fn run_on(&self, frames: &impl Frames) -> Result<(), Failure> {
+        if let Some(path) = &self.csv {
+            OutputFiles::check(path)?;
+        }
+        if let Some(folder) = &self.output {
+            OutputFiles::check_folder(folder)?;
+        }
+        let comparison = self.run.compare(frames, &self.presets())?;
+        let mut files = OutputFiles::default();
+        if let Some(path) = &self.csv {
+            files.add(path.clone(), |out| comparison_csv(&comparison, out))?;
+        }
+        if let Some(folder) = &self.output {
+            add_report(&mut files, folder, frames, &comparison)?;
+        }
+        files.publish()?;
+        self.run.print(&comparison)
+    }
+
+    /// Each method once, in the order asked for.
+    fn presets(&self) -> Vec<Preset> {
+        let mut presets = Vec::new();
+        for &preset in &self.pipelines {
+            if !presets.contains(&preset) {
+                presets.push(preset);
+            }
+        }
+        if presets.is_empty() {
+            presets.extend(Preset::ALL);
+        }
+        presets
+    }
+}
+
+impl Run {
+    pub(super) fn compare(&self, frames: &impl Frames, presets: &[Preset]) -> Result<Comparison, Failure> {
+        let progress = Progress::bar("comparing");
+        let rounds = self.rounds as usize;
+        study::compare(frames, presets, self.threads.get(), rounds, &mut |share| {
+            progress.set(share);
+        })
+    }
+
+    fn print(&self, comparison: &Comparison) -> Result<(), Failure> {
+        if self.json {
+            output::print_json(&json::comparison(comparison))
+        } else {
+            output::print(&tables::comparison(comparison))
+        }
+    }
+}
+
+fn read_frames(start: &Path, end: &Path) -> Result<TwoFrames, Failure> {
+    let step = {
+        let _progress = Progress::spinner("reading");
+        read_step(start, end)?
+    };
+    output::say(format_args!("{}: {}", start.display(), step.notes));
+    Ok(TwoFrames {
+        name: format!("{} to {}", start.display(), end.display()),
+        topology: step.topology,
+        start: step.start,
+        end: step.end,
+    })
+}
+
+/// Everything that a run leaves in its folder: the table as CSV and SVG, and the paper's Figure 3, on the step in which
+/// ours has the most candidates left.
+pub(super) fn add_report(
+    files: &mut OutputFiles,
+    folder: &Path,
+    frames: &impl Frames,
+    comparison: &Comparison,
+) -> Result<(), Failure> {
+    let _progress = Progress::spinner("drawing");
+    files.add(folder.join("comparison.csv"), |out| comparison_csv(comparison, out))?;
+    let table = comparison_svg(comparison);
+    files.add_bytes(folder.join("comparison.svg"), table.as_bytes())?;
+
+    let threads = comparison.threads;
+    let step = busiest_step(frames, Preset::Selvedge, threads)?;
+    let basic = step_candidates(frames, step, Preset::Basic, threads)?;
+    let ours = step_candidates(frames, step, Preset::Selvedge, threads)?;
+    let (mut start, mut positions) = (Vec::new(), Vec::new());
+    frames.step(step, &mut start, &mut positions);
+    let [basic, ours] = [&basic, &ours].map(panel);
+    let figure = figure_3(frames.topology(), &positions, &basic, &ours)?;
+    files.add_bytes(folder.join("figure-3.png"), &figure)
+}
+
+fn panel(candidates: &StepCandidates) -> FigurePairs<'_> {
+    FigurePairs {
+        name: candidates.preset.to_string(),
+        vertex_face: &candidates.vertex_face,
+        edge_edge: &candidates.edge_edge,
+    }
+}

@@ -1,0 +1,281 @@
+//! `selvedge cull`.
+
+use super::Failure;
+use super::options::{ScalarChoice, Simd, Threads, preset_parser};
+use super::output::{self, OutputFiles};
+use super::progress::Progress;
+use selvedge::PairKind;
+use selvedge::core::Scalar;
+use selvedge::glam::DVec3;
+use selvedge::mesh::Topology;
+use selvedge::step::{CandidateBoxes, CollisionDetector};
+use selvedge_files::mesh::{MeshStep, read_step};
+use selvedge_laboratory::pipeline::{Pipeline, Preset, StepReport};
+use selvedge_laboratory::report::{StepQuestion, StepSummary, contacts_csv, json, pairs_csv, tables};
+use std::path::{Path, PathBuf};
+
+/// Finds the pairs of a mesh that may collide during one time step.
+///
+/// Reads the mesh at the start and at the end of the step (OBJ or PLY, the same vertices and triangles in the same
+/// order; vertices move on straight lines), runs one method, and prints what each stage left over.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  selvedge cull frame-92.ply frame-93.ply
+  selvedge cull a.obj b.obj --pipeline lv_2014 --threads 0 --json
+  selvedge cull a.ply b.ply --pairs contacts.csv --candidates candidates.csv
+  selvedge cull a.ply b.ply --earliest
+
+Pairs are written as kind,i0,i1,i2,i3: the vertex and the face's three vertices,
+or the two edges' vertices, numbered from 0 in the order of the file. Times are
+in [0, 1] of the step.")]
+pub(crate) struct Cull {
+    /// The mesh at the start of the step
+    start: PathBuf,
+    /// The mesh at the end of the step
+    end: PathBuf,
+    /// The method: author and year, or ours
+    #[arg(long, value_name = "NAME", default_value_t = Preset::Selvedge, value_parser = preset_parser())]
+    pipeline: Preset,
+    #[command(flatten)]
+    threads: Threads,
+    #[command(flatten)]
+    simd: Simd,
+    /// The format to compute in
+    #[arg(long, value_enum, default_value_t = ScalarChoice::F64)]
+    scalar: ScalarChoice,
+    /// Write the contacts, with their times, to this file
+    #[arg(long, value_name = "OUT.csv")]
+    pairs: Option<PathBuf>,
+    /// Write the pairs that reach the elementary test to this file; with --candidates-only or --swept-boxes, those of the
+    /// broad phase
+    #[arg(long, value_name = "OUT.csv")]
+    candidates: Option<PathBuf>,
+    /// End after the broad phase: the pairs that moving boxes leave (pipeline selvedge only)
+    #[arg(long, conflicts_with_all = ["earliest", "pairs"])]
+    candidates_only: bool,
+    /// Take the pairs whose swept boxes overlap, which are more: those that other systems count. All stages after the
+    /// broad phase then start from these, as from pairs of a caller's own (pipelines selvedge and selvedge_exact only)
+    #[arg(long, conflicts_with = "earliest")]
+    swept_boxes: bool,
+    /// Find the earliest contact and no other (pipeline selvedge only)
+    #[arg(long, conflicts_with = "candidates")]
+    earliest: bool,
+    /// Run the step so often and tell the fastest run's times (the first builds the hierarchy and makes the buffers)
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    repeat: u32,
+    /// Print one JSON document instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+impl Cull {
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        let step = {
+            let _progress = Progress::spinner("reading");
+            read_step(&self.start, &self.end)?
+        };
+        output::say(format_args!("{}: {}", self.start.display(), step.notes));
+        match self.scalar {
+            ScalarChoice::F32 => self.run_in::<f32>(step),
+            ScalarChoice::F64 => self.run_in::<f64>(step),
+        }
+    }
+
+    fn run_in<S: Scalar>(&self, step: MeshStep) -> Result<(), Failure> {
+        let start = positions::<S>(&step.start, &self.start)?;
+        let end = positions::<S>(&step.end, &self.end)?;
+        for path in [&self.pairs, &self.candidates].into_iter().flatten() {
+            OutputFiles::check(path)?;
+        }
+        if self.pairs.is_some() && self.pairs == self.candidates {
+            return Err("--pairs and --candidates name the same file".into());
+        }
+
+        if let Some(question) = self.question() {
+            let is_exact = self.pipeline == Preset::SelvedgeExact;
+            if !(self.pipeline == Preset::Selvedge || is_exact && question == Question::Swept) {
+                return Err(format!(
+                    "only the pipeline {} answers {}, not {}",
+                    Preset::Selvedge,
+                    question.option(),
+                    self.pipeline
+                )
+                .into());
+            }
+            return self.ask::<S>(question, step.topology, &start, &end);
+        }
+        let mut pipeline = Pipeline::<S>::new(step.topology, self.pipeline.stages(), self.threads.get())?;
+        pipeline.set_level(self.simd.level());
+        pipeline.keep_candidates(self.candidates.is_some());
+        let mut fastest = {
+            let _progress = Progress::spinner("culling");
+            pipeline.step(&start, &end)?.clone()
+        };
+        let first_run_seconds = fastest.seconds;
+        for _ in 1..self.repeat {
+            let report = pipeline.step(&start, &end)?;
+            if report.seconds < fastest.seconds {
+                fastest.clone_from(report);
+            }
+        }
+
+        let mut files = OutputFiles::default();
+        let topology = pipeline.topology();
+        if let Some(path) = &self.pairs {
+            files.add(path.clone(), |out| contacts_csv(topology, pipeline.contacts(), out))?;
+        }
+        if let Some(path) = &self.candidates {
+            let of = |kind| pipeline.candidates(kind);
+            files.add(path.clone(), |out| {
+                pairs_csv(topology, of(PairKind::VertexFace), of(PairKind::EdgeEdge), out)
+            })?;
+        }
+        files.publish()?;
+
+        let mut summary = StepSummary::new(self.pipeline, &pipeline);
+        summary.report = fastest;
+        summary.first_run_seconds = first_run_seconds;
+        if self.json {
+            output::print_json(&json::step(&summary))
+        } else {
+            output::print(&tables::step(&summary))
+        }
+    }
+}
+
+/// What a detector is asked instead of all contacts from the moving boxes on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Question {
+    Candidates,
+    Earliest,
+    /// All contacts of the pairs whose swept boxes overlap.
+    Swept,
+}
+
+impl Question {
+    const fn option(self) -> &'static str {
+        match self {
+            Self::Candidates => "--candidates-only",
+            Self::Earliest => "--earliest",
+            Self::Swept => "--swept-boxes",
+        }
+    }
+}
+
+impl Cull {
+    fn question(&self) -> Option<Question> {
+        match (self.candidates_only, self.earliest, self.swept_boxes) {
+            (true, ..) => Some(Question::Candidates),
+            (_, true, _) => Some(Question::Earliest),
+            (_, _, true) => Some(Question::Swept),
+            _ => None,
+        }
+    }
+
+    /// One of the questions that pipelines do not answer.
+    fn ask<S: Scalar>(
+        &self,
+        question: Question,
+        topology: Topology,
+        start: &[S::Vector],
+        end: &[S::Vector],
+    ) -> Result<(), Failure> {
+        let mut detector = CollisionDetector::<S>::new(topology, self.threads.get())?;
+        detector.set_exact(self.pipeline == Preset::SelvedgeExact);
+        detector.set_level(self.simd.level());
+        let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+        let mut contacts = Vec::new();
+        let boxes = if self.swept_boxes {
+            CandidateBoxes::Swept
+        } else {
+            CandidateBoxes::Moving
+        };
+        let mut fastest: Option<StepReport> = None;
+        let mut first_run_seconds = None;
+        {
+            let _progress = Progress::spinner("culling");
+            for _ in 0..self.repeat {
+                if question == Question::Earliest {
+                    contacts = detector.earliest(start, end)?.into_iter().collect();
+                } else {
+                    detector.candidates(start, end, boxes, &mut vertex_face, &mut edge_edge)?;
+                }
+                let mut report = StepReport::of_detector(detector.tally());
+                match question {
+                    Question::Earliest => {}
+                    Question::Candidates => report.stages.clear(),
+                    Question::Swept => {
+                        let pairs = (&vertex_face, &edge_edge);
+                        detector.contacts_of(start, end, pairs.0, pairs.1, &mut contacts)?;
+                        report = StepReport::of_detector_after(detector.tally(), report.seconds);
+                    }
+                }
+                first_run_seconds.get_or_insert(report.seconds);
+                let is_faster = |fastest: &StepReport| report.seconds < fastest.seconds;
+                if fastest.as_ref().is_none_or(is_faster) {
+                    fastest = Some(report);
+                }
+            }
+        }
+        let times = contacts.iter().map(|contact| contact.time.to_f64());
+        let earliest = times.min_by(f64::total_cmp);
+        let mut files = OutputFiles::default();
+        if let Some(path) = &self.candidates {
+            files.add(path.clone(), |out| {
+                pairs_csv(detector.topology(), &vertex_face, &edge_edge, out)
+            })?;
+        }
+        if let Some(path) = &self.pairs {
+            files.add(path.clone(), |out| contacts_csv(detector.topology(), &contacts, out))?;
+        }
+        files.publish()?;
+        let question = match question {
+            Question::Candidates => StepQuestion::Candidates,
+            Question::Earliest => StepQuestion::Earliest,
+            Question::Swept => StepQuestion::Contacts,
+        };
+        let report = fastest.unwrap_or_default();
+        let mut summary = StepSummary::of_detector(question, &detector, report, earliest);
+        summary.preset = self.pipeline;
+        summary.first_run_seconds = first_run_seconds.unwrap_or_default();
+        if self.json {
+            output::print_json(&json::step(&summary))
+        } else {
+            output::print(&tables::step(&summary))
+        }
+    }
+}
+
+/// Positions in the format `S`.
+fn positions<S: Scalar>(positions: &[DVec3], file: &Path) -> Result<Vec<S::Vector>, Failure> {
+    let mut rounded = 0_usize;
+    let converted = positions.iter().enumerate().map(|(vertex, position)| {
+        let coordinates = position.to_array();
+        let narrow = coordinates.map(S::from_f64);
+        for axis in 0..3 {
+            if !narrow[axis].is_finite() {
+                return Err(format!(
+                    "{}: the {} coordinate of vertex {vertex} is {:e}, too large for {}; use --scalar f64",
+                    file.display(),
+                    ["x", "y", "z"][axis],
+                    coordinates[axis],
+                    S::NAME,
+                )
+                .into());
+            }
+            rounded += usize::from(narrow[axis].to_f64() != coordinates[axis]);
+        }
+        Ok(S::Vector::from(narrow))
+    });
+    let converted = converted.collect::<Result<Vec<_>, Failure>>()?;
+    if rounded > 0 {
+        output::say(format_args!(
+            "{}: {} rounded to {}",
+            file.display(),
+            output::coordinates_were(rounded),
+            S::NAME
+        ));
+    }
+    Ok(converted)
+}

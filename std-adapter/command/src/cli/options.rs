@@ -1,0 +1,72 @@
+//! Arguments that several subcommands share.
+
+use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
+use selvedge::dispatch::{Level, available_levels, best_level};
+use selvedge_laboratory::pipeline::Preset;
+
+/// More threads than any machine has cores; each needs buffers of its own.
+const MAX_THREADS: i64 = 1024;
+
+/// A sleeve of 13 million triangles: what a large machine's memory takes.
+const MAX_REFINEMENT: i64 = 10_000;
+
+/// The format that positions are computed in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ScalarChoice {
+    /// 32-bit floating point; positions are rounded.
+    F32,
+    /// 64-bit floating point.
+    F64,
+}
+
+/// `--simd`.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct Simd {
+    /// The instruction set to compute with; the machine's widest unless given. Changes no result, only the time
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(available_levels().into_iter().map(|(name, _)| name)))]
+    simd: Option<String>,
+}
+
+impl Simd {
+    /// The one named, which the machine has, or its best.
+    pub(crate) fn level(&self) -> Level {
+        let named = self.simd.as_ref().and_then(|wanted| {
+            let mut levels = available_levels().into_iter();
+            levels.find(|(name, _)| name == wanted)
+        });
+        named.map_or_else(best_level, |(_, level)| level)
+    }
+}
+
+/// `--threads`.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct Threads {
+    /// How many threads to use; 0 for one on each core
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1,
+        value_parser = clap::value_parser!(u16).range(0..=MAX_THREADS)
+    )]
+    threads: u16,
+}
+
+impl Threads {
+    /// At least one.
+    pub(crate) fn get(self) -> usize {
+        match self.threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            threads => threads.into(),
+        }
+    }
+}
+
+/// A method by its name; lists the known ones when it is not one of them.
+pub(crate) fn preset_parser() -> impl TypedValueParser<Value = Preset> {
+    PossibleValuesParser::new(Preset::ALL.map(Preset::name)).try_map(|name| name.parse::<Preset>())
+}
+
+/// How many times the sleeve's 1,345 triangles.
+pub(crate) fn refinement_parser() -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=MAX_REFINEMENT)
+}

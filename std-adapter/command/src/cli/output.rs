@@ -1,0 +1,107 @@
+//! Where the answer goes: standard output and files, in one piece or not at all.
+
+use super::Failure;
+use selvedge_files::temporary_file;
+use std::fmt;
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// Prints the answer. A reader that has seen enough (`| head`) is no error.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(format!("standard output cannot be written: {error}").into()),
+        _ => Ok(()),
+    }
+}
+
+/// Prints a JSON document.
+pub(crate) fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
+    print(&format!("{value:#}\n"))
+}
+
+/// Says something on standard error; nobody there to hear it is no error.
+pub(crate) fn say(message: fmt::Arguments<'_>) {
+    let _ = writeln!(io::stderr().lock(), "{message}");
+}
+
+/// `1 coordinate was`, `2 coordinates were`.
+pub(crate) fn coordinates_were(count: usize) -> String {
+    match count {
+        1 => "1 coordinate was".to_owned(),
+        count => format!("{count} coordinates were"),
+    }
+}
+
+/// Files that appear together, complete, once all of them could be written; until then nothing is visible.
+#[derive(Debug, Default)]
+pub(crate) struct OutputFiles {
+    complete: Vec<(NamedTempFile, PathBuf)>,
+}
+
+impl OutputFiles {
+    /// Refuses a path that cannot be written, before long work and not after it.
+    pub(crate) fn check(path: &Path) -> Result<(), Failure> {
+        if path.is_dir() {
+            return Err(unwritable(path, "it is a folder"));
+        }
+        temporary(path).map(drop)
+    }
+
+    /// Makes `folder` if it is not there, and refuses one that cannot be written to.
+    pub(crate) fn check_folder(folder: &Path) -> Result<(), Failure> {
+        std::fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))?;
+        Self::check(&folder.join("file"))
+    }
+
+    /// Writes a file, not yet under its name.
+    pub(crate) fn add(
+        &mut self,
+        path: PathBuf,
+        write: impl FnOnce(&mut BufWriter<NamedTempFile>) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let mut out = BufWriter::new(temporary(&path)?);
+        let written = write(&mut out).and_then(|()| out.flush());
+        let file = written
+            .and_then(|()| out.into_inner().map_err(io::IntoInnerError::into_error))
+            .map_err(|error| unwritable(&path, error))?;
+        self.complete.push((file, path));
+        Ok(())
+    }
+
+    /// Writes a file that is all there, not yet under its name.
+    pub(crate) fn add_bytes(&mut self, path: PathBuf, bytes: &[u8]) -> Result<(), Failure> {
+        self.add(path, |out| out.write_all(bytes))
+    }
+
+    /// Gives all files their names, replacing older ones, and says so.
+    pub(crate) fn publish(self) -> Result<(), Failure> {
+        self.publish_and(|path| say(format_args!("wrote {}", path.display())))
+    }
+
+    /// Gives all files their names, replacing older ones.
+    pub(crate) fn publish_quietly(self) -> Result<(), Failure> {
+        self.publish_and(|_| {})
+    }
+
+    fn publish_and(self, then: impl Fn(&Path)) -> Result<(), Failure> {
+        for (file, path) in self.complete {
+            file.persist(&path).map_err(|error| unwritable(&path, error.error))?;
+            then(&path);
+        }
+        Ok(())
+    }
+}
+
+fn temporary(path: &Path) -> Result<NamedTempFile, Failure> {
+    temporary_file::beside(path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => unwritable(path, "there is no such folder"),
+        // Without the temporary file's own name, which tells the user nothing.
+        kind => unwritable(path, io::Error::from(kind)),
+    })
+}
+
+fn unwritable(path: &Path, reason: impl fmt::Display) -> Failure {
+    format!("{}: cannot be written: {reason}", path.display()).into()
+}

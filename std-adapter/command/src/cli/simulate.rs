@@ -1,0 +1,214 @@
+//! `selvedge simulate`.
+
+use super::Failure;
+use super::options::Threads;
+use super::output::{self, OutputFiles};
+use super::progress::Progress;
+use selvedge::mesh::Mesh;
+use selvedge_cloth::{CheckpointError, Scene, SceneError, Simulation};
+use selvedge_files::mesh;
+use selvedge_laboratory::report::{SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, tables};
+use selvedge_laboratory::study::{EffectCost, effects_one_by_one};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Simulates the cloth of a scene file, and pays only for the effects that the scene calls for.
+///
+/// Writes a report that works offline: the animation, candidate pairs over time, the time of each effect. A run that was
+/// interrupted goes on from its last checkpoint with --resume, to the same bits.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  selvedge simulate std-adapter/cloth/scenes/arm-sleeve.toml
+  selvedge simulate scene.toml --frames gltf --output out    for Blender
+  selvedge simulate scene.toml --effects-one-by-one          what each costs
+  selvedge simulate scene.toml --resume                      after an interruption
+
+Scenes that come with the program are in std-adapter/cloth/scenes.")]
+pub(crate) struct Simulate {
+    /// The scene, a TOML file
+    scene: PathBuf,
+    /// Write to this folder
+    #[arg(long, value_name = "DIR", default_value = "selvedge-out")]
+    output: PathBuf,
+    /// Write the frames as well
+    #[arg(long, value_enum)]
+    frames: Option<Frames>,
+    /// Run the scene also without effects, with the first one, with the first two, and so on, and report what a step costs
+    #[arg(long)]
+    effects_one_by_one: bool,
+    /// Go on from the last checkpoint in the output folder
+    #[arg(long)]
+    resume: bool,
+    #[command(flatten)]
+    threads: Threads,
+    /// Print one JSON document instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Frames {
+    /// Binary PLY, one file for each frame
+    Ply,
+    /// Text, exact all the same, one file for each frame
+    Obj,
+    /// One animated file, which Blender opens
+    Gltf,
+}
+
+/// The two parts of a checkpoint file: the simulation's state, and what was recorded.
+fn split(saved: &[u8]) -> Option<(&[u8], &[u8])> {
+    let (&length, rest) = saved.split_first_chunk()?;
+    rest.split_at_checked(usize::try_from(u64::from_le_bytes(length)).ok()?)
+}
+
+/// Runs a simulation up to step `steps`, and shows it to `then` after each step.
+pub(super) fn run_steps(
+    simulation: &mut Simulation,
+    steps: u64,
+    mut then: impl FnMut(&Simulation) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let progress = Progress::steps("simulating", steps);
+    while simulation.steps_done() < steps {
+        simulation.step()?;
+        then(simulation)?;
+        progress.set_steps(simulation.steps_done());
+    }
+    Ok(())
+}
+
+/// What each effect of a scene costs.
+pub(super) fn effect_costs(
+    read: impl Fn() -> Result<Scene, SceneError>,
+    steps: u64,
+    threads: usize,
+) -> Result<Vec<EffectCost>, Failure> {
+    let progress = Progress::bar("effects one by one");
+    effects_one_by_one(read, steps, threads, &mut |share| progress.set(share))
+}
+
+/// Between two checkpoints, at least; the first is written as soon as it can be.
+const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(5);
+
+impl Simulate {
+    pub(crate) fn run(&self) -> Result<(), Failure> {
+        let scene = Scene::read(&self.scene)?;
+        let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
+        let subject = Subject::new(&scene);
+        let path = self.scene.display();
+        let mut simulation = Simulation::new(scene, self.threads.get()).map_err(|error| format!("{path}: {error}"))?;
+        OutputFiles::check_folder(&self.output)?;
+        let mut recorder = SimulationRecorder::new(subject, &simulation)?;
+        // Seconds that this run took before it was interrupted.
+        let mut earlier = 0.0;
+        if self.resume {
+            let saved = self.read_checkpoint()?;
+            let of_file = |error: String| format!("{}: {error}", self.file("checkpoint").display());
+            let (state, recorded) = split(&saved).ok_or_else(|| of_file(CheckpointError::Damaged.to_string()))?;
+            simulation.resume(state).map_err(|error| of_file(error.to_string()))?;
+            earlier = recorder
+                .restore(recorded)
+                .ok_or_else(|| of_file(CheckpointError::Damaged.to_string()))?;
+        } else {
+            self.write_frame(&simulation, 0)?;
+        }
+
+        let begin = Instant::now();
+        let seconds = || earlier + begin.elapsed().as_secs_f64();
+        let mut last_checkpoint: Option<Instant> = None;
+        let result = run_steps(&mut simulation, steps, |simulation| {
+            recorder.step(simulation);
+            let step = simulation.steps_done();
+            if step.is_multiple_of(steps_per_frame) || step == steps {
+                recorder.frame(simulation)?;
+                self.write_frame(simulation, step.div_ceil(steps_per_frame))?;
+            }
+            if last_checkpoint.is_none_or(|last| last.elapsed() >= CHECKPOINT_INTERVAL)
+                && let Some(state) = simulation.checkpoint()
+            {
+                self.write_checkpoint(&state, &recorder.save(seconds()))?;
+                last_checkpoint = Some(Instant::now());
+            }
+            Ok(())
+        });
+        let result = result.map_err(|failure| Failure::from(format!("{path}: {failure}")));
+        let seconds = seconds();
+        if let Err(failure) = &result {
+            // Where it was blocked, or could not go on.
+            recorder.frame(&simulation)?;
+            recorder.remark(failure.to_string());
+        }
+        let mut recording = recorder.finish(seconds);
+        let costs = match self.effects_one_by_one {
+            true => effect_costs(|| Scene::read(&self.scene), steps, self.threads.get())?,
+            false => Vec::new(),
+        };
+        recording.added = costs_of_added_effects(&costs);
+
+        let mut files = OutputFiles::default();
+        files.add_bytes(self.file("html"), page::html(&recording).as_bytes())?;
+        if self.frames == Some(Frames::Gltf) {
+            files.add_bytes(self.file("glb"), &gltf::binary(&recording)?)?;
+        }
+        files.publish()?;
+        // What has been simulated is written and told all the same.
+        let printed = if self.json {
+            let mut document = json::simulation(&simulation, seconds);
+            if self.effects_one_by_one {
+                document["effects_one_by_one"] = json::effects_one_by_one(&costs);
+            }
+            output::print_json(&document)
+        } else {
+            let mut text = tables::simulation(&simulation, seconds);
+            if self.effects_one_by_one {
+                text += "\n";
+                text += &tables::effects_one_by_one(&costs);
+            }
+            output::print(&text)
+        };
+        result.and(printed)
+    }
+
+    /// One file with both, so that they are always of the same step.
+    fn write_checkpoint(&self, state: &[u8], recorded: &[u8]) -> Result<(), Failure> {
+        let mut files = OutputFiles::default();
+        files.add(self.file("checkpoint"), |out| {
+            out.write_all(&(state.len() as u64).to_le_bytes())?;
+            out.write_all(state)?;
+            out.write_all(recorded)
+        })?;
+        files.publish_quietly()
+    }
+
+    fn read_checkpoint(&self) -> Result<Vec<u8>, Failure> {
+        let path = self.file("checkpoint");
+        let read = std::fs::read(&path);
+        read.map_err(|error| {
+            let path = path.display();
+            format!("{path}: cannot be read: {error}; was there a checkpoint yet?").into()
+        })
+    }
+
+    /// The output file with this extension, called as the scene's.
+    fn file(&self, extension: &str) -> PathBuf {
+        let stem = self.scene.file_stem().unwrap_or_default();
+        self.output.join(Path::new(stem).with_extension(extension))
+    }
+
+    fn write_frame(&self, simulation: &Simulation, frame: u64) -> Result<(), Failure> {
+        let extension = match self.frames {
+            None | Some(Frames::Gltf) => return Ok(()),
+            Some(Frames::Ply) => "ply",
+            Some(Frames::Obj) => "obj",
+        };
+        let stem = self.scene.file_stem().unwrap_or_default().to_string_lossy();
+        let name = format!("{stem}-{frame:05}.{extension}");
+        let mesh = Mesh {
+            positions: simulation.positions().to_vec(),
+            triangles: simulation.triangles().to_vec(),
+        };
+        Ok(mesh::write(&self.output.join(name), &mesh)?)
+    }
+}

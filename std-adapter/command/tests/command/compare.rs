@@ -1,0 +1,197 @@
+//! `selvedge`, `selvedge compare` and `selvedge scaling`.
+
+use crate::support::{SHEET, Workplace, keys};
+use selvedge_laboratory::pipeline::Preset;
+
+/// Small enough for a test.
+const SHORT: [&str; 4] = ["--steps", "2", "--rounds", "1"];
+
+const REPORT: [&str; 3] = ["comparison.csv", "comparison.svg", "figure-3.png"];
+
+#[test]
+fn the_main_job_simulates_the_sleeve_compares_every_method_and_writes_its_report() {
+    let place = Workplace::new();
+    let text = place.stdout(&SHORT);
+    assert!(text.starts_with("arm sleeve: 1,500 steps in "), "{text}");
+    assert!(text.contains("arm sleeve, 2 of its 1500 simulated steps"));
+    for preset in Preset::ALL {
+        assert!(text.contains(preset.name()), "{preset} is missing");
+    }
+    assert!(text.contains("693 vertices") && text.contains("1,345 triangles"));
+    let written = REPORT.map(|name| format!("selvedge-out/{name}"));
+    let first = ["selvedge-out", "selvedge-out/arm-sleeve.html"].map(str::to_owned);
+    assert_eq!(place.listing(), [&first[..], &written].concat());
+    let page = place.read("selvedge-out/arm-sleeve.html");
+    assert!(page.contains("<h1>arm sleeve</h1>"));
+    let picture = std::fs::read(place.path("selvedge-out/figure-3.png")).unwrap();
+    assert_eq!(&picture[..8], b"\x89PNG\r\n\x1a\n");
+    assert!(place.read("selvedge-out/comparison.svg").contains("</svg>"));
+}
+
+#[test]
+fn the_main_job_takes_another_folder() {
+    let place = Workplace::new();
+    place.stdout(&[&SHORT[..], &["--output", "a/b"]].concat());
+    assert_eq!(place.listing().len(), 3 + REPORT.len());
+    assert!(place.path("a/b/comparison.csv").exists());
+}
+
+#[test]
+fn the_papers_numbers_stand_beside_ours() {
+    let text = Workplace::new().stdout(&[&["compare"], &SHORT[..]].concat());
+    for (preset, numbers) in [
+        ("basic ", ["1,122", "2,056", "12.70"]),
+        ("curtis_2008 ", ["74", "475", "32.00"]),
+        ("tang_2010 ", ["44", "338", "37.54"]),
+        ("lv_2014 ", ["31", "137", "34.22"]),
+    ] {
+        let row = text.lines().find(|line| line.starts_with(preset)).unwrap();
+        let words: Vec<_> = row.split_whitespace().collect();
+        assert_eq!(words[words.len() - 3..], numbers, "{row}");
+    }
+}
+
+#[test]
+fn reconstructed_methods_are_marked() {
+    let place = Workplace::new();
+    let text = place.stdout(&[&["compare"], &SHORT[..]].concat());
+    assert!(text.contains("tang_c_2010*") && text.contains("tang_c_2011*"));
+    assert!(text.contains("* reconstructed"));
+    let unmarked = place.stdout(&[&["compare", "--pipelines", "basic"], &SHORT[..]].concat());
+    assert!(!unmarked.contains("reconstructed"));
+}
+
+#[test]
+fn json_has_a_row_for_each_method_with_means_per_step() {
+    let place = Workplace::new();
+    let arguments = ["compare", "--pipelines", "basic,tang_c_2010,lv_2014", "--json"];
+    let document = place.json(&[&arguments[..], &SHORT].concat());
+    assert_eq!(document["steps"], 2);
+    let rows = document["rows"].as_array().unwrap();
+    let names: Vec<_> = rows.iter().map(|row| &row["pipeline"]).collect();
+    assert_eq!(names, ["basic", "tang_c_2010", "lv_2014"]);
+    for row in rows {
+        assert_eq!(row["reconstructed"], row["pipeline"] == "tang_c_2010");
+        assert_eq!(row["missed"], 0.0, "{row}");
+        assert!(row["frames_per_second"].as_f64().unwrap() > 0.0);
+        for kind in ["vertex_face", "edge_edge"] {
+            assert_eq!(keys(&row[kind]), ["distributed", "after_boxes", "after_filter", "contacts"]);
+            let counts: Vec<_> = row[kind]
+                .as_object()
+                .unwrap()
+                .values()
+                .map(|count| count.as_f64().unwrap())
+                .collect();
+            assert!(counts.is_sorted_by(|more, fewer| more >= fewer), "{row}");
+        }
+        let stages = row["stages"].as_array().unwrap();
+        assert_eq!(stages.first().unwrap()["stage"], "broad-phase");
+        assert_eq!(stages.last().unwrap()["stage"], "elementary");
+    }
+    assert!(place.listing().is_empty());
+}
+
+#[test]
+fn two_meshes_are_compared_as_one_step() {
+    let place = Workplace::with_step();
+    let document = place.json(&["compare", "start.obj", "end.obj", "--json"]);
+    assert_eq!(document["steps"], 1);
+    assert_eq!(document["triangles"], 2);
+    let rows = document["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), Preset::ALL.len());
+    for row in rows {
+        assert_eq!(row["vertex_face"]["contacts"], 3.0, "{row}");
+    }
+}
+
+#[test]
+fn a_scene_is_simulated_and_compared_on_steps_of_its_own() {
+    let place = Workplace::new();
+    let short = SHEET.replace("duration = \"1 s\"", "duration = \"40 ms\"");
+    place.write("sheet.toml", short);
+    let arguments = ["compare", "sheet.toml", "--json", "--steps", "4"];
+    let document = place.json(&arguments);
+    assert_eq!((&document["steps"], &document["triangles"]), (&4.into(), &128.into()));
+    let name = "a </script> sheet, 4 of its 20 simulated steps";
+    assert_eq!(document["scene"], name);
+    // More steps than the scene has: all of them.
+    let document = place.json(&["compare", "sheet.toml", "--json", "--steps", "99"]);
+    assert_eq!(document["steps"], 20);
+    for row in document["rows"].as_array().unwrap() {
+        assert_eq!(row["missed"], 0.0, "{row}");
+        // What the simulation has certified no method may find.
+        assert_eq!(row["vertex_face"]["contacts"], 0.0, "{row}");
+    }
+}
+
+#[test]
+fn two_meshes_get_a_report_as_well() {
+    let place = Workplace::with_step();
+    place.stdout(&["compare", "start.obj", "end.obj", "--output", "out"]);
+    for name in REPORT {
+        assert!(place.path("out").join(name).exists(), "{name}");
+    }
+}
+
+#[test]
+fn csv_has_a_row_for_each_method_and_the_papers_numbers() {
+    let place = Workplace::with_step();
+    place.stdout(&["compare", "start.obj", "end.obj", "--csv", "table.csv"]);
+    let mut reader = csv::Reader::from_path(place.path("table.csv")).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let column = |name: &str| header.iter().position(|column| column == name).unwrap();
+    let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), Preset::ALL.len());
+    for (row, preset) in rows.iter().zip(Preset::ALL) {
+        assert_eq!(&row[0], preset.name());
+        assert_eq!(&row[column("vf_contacts")], "3");
+        let has_boxes = !row[column("boxes_seconds")].is_empty();
+        assert_eq!(
+            has_boxes,
+            preset.stages().tests.iter().any(|test| test.stage().name() == "boxes")
+        );
+        let paper = if preset == Preset::Lv2014 { "34.22" } else { "" };
+        if matches!(preset, Preset::Lv2014 | Preset::Selvedge) {
+            assert_eq!(&row[column("paper_frames_per_second")], paper);
+        }
+    }
+}
+
+#[test]
+fn a_method_asked_for_twice_runs_once() {
+    let arguments = [
+        "compare",
+        "start.obj",
+        "end.obj",
+        "--json",
+        "--pipelines",
+        "basic,naive,basic",
+    ];
+    let document = Workplace::with_step().json(&arguments);
+    assert_eq!(document["rows"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn scaling_has_a_row_for_each_size_and_a_plot() {
+    let place = Workplace::new();
+    let document = place.json(&["scaling", "--sizes", "1,4", "--json", "--output", "out"]);
+    let sizes = document["sizes"].as_array().unwrap();
+    assert_eq!(sizes[0]["triangles"], 1345);
+    assert_eq!(sizes[0]["seconds_over_n_log_n"], 1.0);
+    assert!(sizes[1]["triangles"].as_u64().unwrap() > 4 * 1300);
+    assert!(sizes[1]["seconds"].as_f64().unwrap() > 0.0);
+    assert!(place.read("out/scaling.svg").contains("</svg>"));
+    let text = place.stdout(&["scaling", "--sizes", "1"]);
+    assert!(text.contains("1,345"), "{text}");
+}
+
+#[test]
+fn the_arm_scene_can_be_written_in_both_formats() {
+    let place = Workplace::new();
+    place.stdout(&["arm", "--frames", "0,60", "--output", "frames"]);
+    place.stdout(&["arm", "--frames", "60", "--format", "obj", "--output", "frames"]);
+    let arguments = ["cull", "frames/arm-60.ply", "frames/arm-60.obj", "--json"];
+    let document = place.json(&arguments);
+    assert_eq!(document["triangles"], 1345);
+    assert_eq!(place.listing().len(), 4);
+}

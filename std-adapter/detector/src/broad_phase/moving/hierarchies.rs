@@ -1,0 +1,441 @@
+//! The three hierarchies of a mesh, and their share of a step: refit, or build, and traversal.
+
+use super::MovingStatistics;
+use super::mapping::Mapping;
+use super::pairs::Sink;
+use super::rows::{Rows, row};
+use super::traversal::{BlockPair, Scratch, Trees};
+use super::tree::Tree;
+use crate::PairKind;
+use crate::broad_phase::degradation::{Degradation, Prices};
+use crate::dispatch::{Level, best_level};
+use crate::frame::{StepError, check_frames};
+use crate::mesh::Topology;
+use crate::parallel;
+use selvedge_core::Scalar;
+use selvedge_core::boxes::{Aabb, moving::MovingBox};
+use std::sync::Arc;
+
+/// An item is an edge; there are about as many vertices and faces together.
+///
+/// Build: measured as the time of building all three hierarchies over the time of a test, 0.6 to 0.7 of a test for each edge and
+/// halving on cloth-ball (46,598 vertices) and cloth-funnel (9,450).
+///
+/// Item: measured just after a build, 9.5 tests an edge with 12.8 candidates an edge (cloth-ball), 5.6 with 0.8
+/// (cloth-funnel), hence a third for a candidate and 5.3 for an edge besides.
+const PRICES: Prices = Prices { build: 0.65, item: 16.0 };
+
+/// What boxes are to hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Fit<S> {
+    /// How far apart pairs must be not to be candidates; not negative, finite.
+    pub(crate) separation: S,
+    /// When in the step the boxes of the end are taken, in (0, 1].
+    pub(crate) until: S,
+    /// Boxes for the whole step instead of two for its ends.
+    pub(crate) is_swept: bool,
+}
+
+impl<S: Scalar> Default for Fit<S> {
+    fn default() -> Self {
+        Self {
+            separation: S::ZERO,
+            until: S::ONE,
+            is_swept: false,
+        }
+    }
+}
+
+/// A part of a traversal, of about the same work as others.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Share<'a> {
+    /// What it finds.
+    pub(crate) kind: PairKind,
+    tasks: &'a [BlockPair],
+}
+
+/// Trees over vertices, edges and faces. Everything is numbered by its position in its tree: what lies close together is so
+/// in memory as well, whatever the mesh's own order.
+#[derive(Debug)]
+pub(crate) struct Hierarchies<S: Scalar> {
+    topology: Arc<Topology>,
+    level: Level,
+    vertices: Tree<1>,
+    edges: Tree<2>,
+    faces: Tree<3>,
+    /// For each edge by position the positions of its two ends, and the edge as the mesh numbers it: what makes an EE pair's
+    /// vertices, in one place.
+    edge_ends: Vec<EdgeEnds>,
+    /// The position of each of the mesh's vertices; isolated ones have none.
+    positions: Vec<u32>,
+    rows: Rows,
+    boxes: Vec<MovingBox<f32>>,
+    /// Which vertices move, if not all.
+    moving: Option<Vec<bool>>,
+    /// Whether what does not count as moving may move all the same.
+    refit_all: bool,
+    /// What the boxes of what rests were fitted with, if they are still good.
+    fitted: Option<Mapping>,
+    /// What the boxes hold.
+    fit: Fit<S>,
+    extent: Aabb<f64>,
+    tasks: [Vec<BlockPair>; 2],
+    task_tests: u64,
+    scratch: Scratch,
+    degradation: Degradation,
+    /// Whether the next update builds, whatever they have cost.
+    must_build: bool,
+    statistics: MovingStatistics,
+}
+
+impl<S: Scalar> Hierarchies<S> {
+    pub(crate) fn new(topology: Arc<Topology>) -> Self {
+        Self {
+            topology,
+            level: best_level(),
+            vertices: Tree::default(),
+            edges: Tree::default(),
+            faces: Tree::default(),
+            edge_ends: Vec::new(),
+            positions: Vec::new(),
+            rows: Rows::default(),
+            boxes: Vec::new(),
+            moving: None,
+            refit_all: false,
+            fitted: None,
+            fit: Fit::default(),
+            extent: Aabb::empty(),
+            tasks: [Vec::new(), Vec::new()],
+            task_tests: 0,
+            scratch: Scratch::new(),
+            degradation: Degradation::default(),
+            must_build: true,
+            statistics: MovingStatistics::default(),
+        }
+    }
+
+    pub(crate) const fn set_level(&mut self, level: Level) {
+        self.level = level;
+    }
+
+    pub(crate) const fn level(&self) -> Level {
+        self.level
+    }
+
+    pub(crate) const fn topology(&self) -> &Arc<Topology> {
+        &self.topology
+    }
+
+    pub(crate) const fn statistics(&self) -> MovingStatistics {
+        self.statistics
+    }
+
+    /// The motion of each vertex, by position.
+    pub(crate) const fn rows(&self) -> &Rows {
+        &self.rows
+    }
+
+    /// Makes the rows in `f32` too, if they are exact.
+    pub(crate) fn narrow(&mut self) {
+        self.rows.narrow();
+    }
+
+    /// From the next update on only pairs with a vertex that moves are found; `None`: all. The others' positions are taken
+    /// from the next update, and not looked at after it.
+    pub(crate) fn set_moving(&mut self, moving: Option<Vec<bool>>) {
+        self.moving = moving;
+        self.fitted = None;
+        self.mark();
+    }
+
+    /// From the next update on only pairs with a wanted vertex are found. All vertices may move.
+    pub(crate) fn set_wanted(&mut self, wanted: Vec<bool>) {
+        self.refit_all = true;
+        // Then nobody has to be asked.
+        let are_all = wanted.iter().all(|&wanted| wanted);
+        self.set_moving((!are_all).then_some(wanted));
+    }
+
+    /// From the next update on only pairs with a wanted vertex are found, and only wanted vertices are looked at: the boxes of the
+    /// others stay as the last update left them.
+    pub(crate) fn narrow_to(&mut self, wanted: Vec<bool>) {
+        self.refit_all = false;
+        self.moving = Some(wanted);
+        self.mark();
+    }
+
+    /// The next update builds: what is found then, and in what order, does not depend on the steps before.
+    pub(crate) fn forget(&mut self) {
+        self.must_build = true;
+    }
+
+    /// Takes the positions of a step and finds where to look for pairs.
+    pub(crate) fn update(&mut self, start: &[S::Vector], end: &[S::Vector], fit: &Fit<S>) -> Result<(), StepError> {
+        check_frames::<S>(start, end, self.topology.vertex_count())?;
+        let items = self.edges.len();
+        if self.must_build || self.degradation.is_worth_a_build(PRICES, items) {
+            self.build(start, end);
+        }
+        let mapping = Mapping::new(&self.extent, fit.separation, fit.until, fit.is_swept);
+        self.refit(start, end, mapping);
+        self.fit = *fit;
+        self.find_tasks();
+        Ok(())
+    }
+
+    fn build(&mut self, start: &[S::Vector], end: &[S::Vector]) {
+        self.extent = extent::<S>(start, end);
+        let middles = Mapping::new(&self.extent, S::ZERO, S::ONE, false);
+        let middle = |vertex: u32| {
+            let vertex = vertex as usize;
+            let moving = middles.vertex::<S>(start[vertex].into(), end[vertex].into());
+            [0, 1, 2].map(|axis| {
+                let middle = 0.5 * moving.start.lower[axis] + 0.5 * moving.end.lower[axis];
+                if middle.is_finite() { middle } else { 0.0 }
+            })
+        };
+        let topology = &*self.topology;
+        let (edges, faces) = (topology.edges(), topology.triangles());
+        // Which vertices have a triangle.
+        self.positions.clear();
+        self.positions.resize(topology.vertex_count(), NOWHERE);
+        for &vertex in faces.iter().flatten() {
+            self.positions[vertex as usize] = 0;
+        }
+        let positions = &self.positions;
+        let used = (0..topology.vertex_count() as u32).filter(|&vertex| positions[vertex as usize] != NOWHERE);
+        self.vertices.build(used, middle);
+        for (position, &vertex) in (0..).zip(&self.vertices.primitives) {
+            self.positions[vertex as usize] = position;
+        }
+        self.edges
+            .build(0..edges.len() as u32, |edge| mean(edges[edge as usize].map(middle)));
+        self.faces
+            .build(0..faces.len() as u32, |face| mean(faces[face as usize].map(middle)));
+
+        let positions = &self.positions;
+        let position = |vertex: u32| positions[vertex as usize];
+        self.vertices.connect(|vertex| [position(vertex)]);
+        self.edges.connect(|edge| edges[edge as usize].map(position));
+        self.faces.connect(|face| faces[face as usize].map(position));
+        let edges = self.edges.vertices.iter().zip(&self.edges.primitives);
+        self.edge_ends.clear();
+        self.edge_ends.extend(edges.map(|(&ends, &edge)| EdgeEnds { ends, edge }));
+        self.rows.clear();
+        self.boxes.clear();
+        self.fitted = None;
+        self.mark();
+        self.degradation = Degradation::default();
+        self.must_build = false;
+        self.statistics.builds += 1;
+    }
+
+    fn mark(&mut self) {
+        let Some(moving) = &self.moving else {
+            self.vertices.mark_all();
+            self.edges.mark_all();
+            self.faces.mark_all();
+            return;
+        };
+        let vertices = self.vertices.primitives.iter();
+        let of_vertices: Vec<bool> = vertices.map(|&vertex| moving[vertex as usize]).collect();
+        let moves = |position: u32| of_vertices[position as usize];
+        self.vertices.mark(moves);
+        self.edges.mark(moves);
+        self.faces.mark(moves);
+    }
+
+    fn refit(&mut self, start: &[S::Vector], end: &[S::Vector], mapping: Mapping) {
+        // What rests keeps the rows and boxes that it has.
+        let only_moving = self.moving.is_some() && !self.refit_all && self.fitted == Some(mapping);
+        let vertices = &self.vertices.primitives;
+        let rows = self.rows.resize(vertices.len());
+        self.boxes.resize(vertices.len(), MovingBox::empty());
+        let moving = self.moving.as_deref().filter(|_| only_moving);
+        parallel::for_each_chunk_with_chunk(rows, &mut self.boxes, VERTICES, |first, rows, boxes| {
+            let own = rows.iter_mut().zip(boxes).zip(&vertices[first..]);
+            for ((own_row, moving_box), &vertex) in own {
+                let vertex = vertex as usize;
+                if moving.is_none_or(|moving| moving[vertex]) {
+                    let (start, end) = (start[vertex], end[vertex]);
+                    *own_row = row::<S>(start, end);
+                    *moving_box = mapping.vertex::<S>(start.into(), end.into());
+                }
+            }
+        });
+        self.vertices.refit(&self.boxes, only_moving);
+        self.edges.refit(&self.boxes, only_moving);
+        self.faces.refit(&self.boxes, only_moving);
+        self.fitted = Some(mapping);
+    }
+
+    fn find_tasks(&mut self) {
+        let [vertex_face, edge_edge] = &mut self.tasks;
+        let vertex_face_trees = Trees {
+            first: &self.vertices,
+            second: &self.faces,
+            are_same: false,
+        };
+        let edge_edge_trees = Trees {
+            first: &self.edges,
+            second: &self.edges,
+            are_same: true,
+        };
+        let (level, scratch) = (self.level, &mut self.scratch);
+        self.task_tests = vertex_face_trees.tasks(level, TASK_LEVEL, scratch, vertex_face);
+        self.task_tests += edge_edge_trees.tasks(level, TASK_LEVEL, scratch, edge_edge);
+        crate::broad_phase::buffer::settle(vertex_face);
+        crate::broad_phase::buffer::settle(edge_edge);
+    }
+
+    /// Into how many parts the traversal is split on the threads there are: those of VF first.
+    pub(crate) fn shares(&self) -> usize {
+        2 * self.shares_of_kind()
+    }
+
+    fn shares_of_kind(&self) -> usize {
+        // So many that an unlucky one does not keep the others waiting.
+        match parallel::threads() {
+            1 => 1,
+            threads => SHARES * threads,
+        }
+    }
+
+    /// One of the [`shares`](Self::shares). All of them, one after the other, are the traversal.
+    pub(crate) fn share(&self, index: usize) -> Share<'_> {
+        let shares = self.shares_of_kind();
+        let (kind, index) = match index.checked_sub(shares) {
+            None => (PairKind::VertexFace, index),
+            Some(index) => (PairKind::EdgeEdge, index),
+        };
+        let tasks = &self.tasks[kind as usize];
+        let bound = |index: usize| tasks.len() * index.min(shares) / shares;
+        Share {
+            kind,
+            tasks: &tasks[bound(index)..bound(index + 1)],
+        }
+    }
+
+    /// Gives `sink` the candidates of a share, by their positions. Returns the number of tests, or `None` if the sink has had
+    /// enough.
+    pub(crate) fn visit(&self, share: Share<'_>, scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
+        match share.kind {
+            PairKind::VertexFace => Trees {
+                first: &self.vertices,
+                second: &self.faces,
+                are_same: false,
+            }
+            .pairs(self.level, share.tasks, scratch, sink),
+            PairKind::EdgeEdge => Trees {
+                first: &self.edges,
+                second: &self.edges,
+                are_same: true,
+            }
+            .pairs(self.level, share.tasks, scratch, sink),
+        }
+    }
+
+    /// The candidates were found in so many tests, besides those of [`update`](Self::update).
+    pub(crate) fn observe(&mut self, tests: u64, candidates: usize) {
+        let tests = tests + self.task_tests;
+        // Boxes of another kind cost something else.
+        if self.fit.until == S::ONE && !self.fit.is_swept {
+            self.degradation.observe(PRICES, tests, self.edges.len(), candidates);
+        }
+        self.statistics.box_tests = tests;
+        self.statistics.candidates = candidates;
+    }
+
+    /// The positions of a pair's four vertices: vertex, face; or two edges, the one with the mesh's smaller number first, so that
+    /// what is computed of them does not depend on where they are in the hierarchy.
+    #[inline(always)]
+    pub(crate) fn vertices(&self, kind: PairKind, [first, second]: [u32; 2]) -> [u32; 4] {
+        let (first, second) = (first as usize, second as usize);
+        match kind {
+            PairKind::VertexFace => {
+                let [a, b, c] = self.faces.vertices[second];
+                [first as u32, a, b, c]
+            }
+            PairKind::EdgeEdge => {
+                let (first, second) = (&self.edge_ends[first], &self.edge_ends[second]);
+                let ([a, b], [c, d]) = (first.ends, second.ends);
+                if first.edge < second.edge {
+                    [a, b, c, d]
+                } else {
+                    [c, d, a, b]
+                }
+            }
+        }
+    }
+
+    /// The same of many pairs of a kind, which is asked about once.
+    pub(crate) fn vertices_of_all(&self, kind: PairKind, pairs: &[[u32; 2]], vertices: &mut [[u32; 4]]) {
+        let own = vertices.iter_mut().zip(pairs);
+        match kind {
+            PairKind::VertexFace => {
+                for (vertices, &pair) in own {
+                    *vertices = self.vertices(PairKind::VertexFace, pair);
+                }
+            }
+            PairKind::EdgeEdge => {
+                for (vertices, &pair) in own {
+                    *vertices = self.vertices(PairKind::EdgeEdge, pair);
+                }
+            }
+        }
+    }
+
+    /// The pair as the topology numbers it: vertex and face; or two edges, the smaller number first.
+    #[inline(always)]
+    pub(crate) fn in_mesh(&self, kind: PairKind, [first, second]: [u32; 2]) -> [u32; 2] {
+        let (first, second) = (first as usize, second as usize);
+        match kind {
+            PairKind::VertexFace => [self.vertices.primitives[first], self.faces.primitives[second]],
+            PairKind::EdgeEdge => {
+                let (a, b) = (self.edges.primitives[first], self.edges.primitives[second]);
+                [a.min(b), a.max(b)]
+            }
+        }
+    }
+}
+
+/// An edge by its vertices' positions, and its number in the mesh. Never on two cache lines.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(16))]
+struct EdgeEnds {
+    ends: [u32; 2],
+    edge: u32,
+}
+
+/// No position.
+const NOWHERE: u32 = u32::MAX;
+
+/// Pairs of blocks of this level are what a share is made of: of 256 primitives each.
+const TASK_LEVEL: usize = 1;
+
+/// Parts of the traversal for each thread and kind.
+const SHARES: usize = 16;
+
+/// Vertices that one thread refits in one go.
+const VERTICES: usize = 1024;
+
+/// The box of all positions of both frames.
+pub(crate) fn extent<S: Scalar>(start: &[S::Vector], end: &[S::Vector]) -> Aabb<f64> {
+    let mut extent = Aabb::<f64>::empty();
+    for &position in start.iter().chain(end) {
+        let position: [S; 3] = position.into();
+        for axis in 0..3 {
+            let x = position[axis].to_f64();
+            extent.lower[axis] = extent.lower[axis].min(x);
+            extent.upper[axis] = extent.upper[axis].max(x);
+        }
+    }
+    extent
+}
+
+fn mean<const N: usize>(positions: [[f32; 3]; N]) -> [f32; 3] {
+    [0, 1, 2].map(|axis| {
+        let sum: f32 = positions.iter().map(|position| position[axis] / N as f32).sum();
+        sum
+    })
+}

@@ -1,0 +1,440 @@
+//! The stages joined, on the threads of whoever calls.
+
+use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
+use super::given::PrimitiveBoxes;
+use super::{Bound, CandidateBoxes, Contact, Question, Wanted, power_of_two};
+use crate::PairCounts;
+use crate::PairKind;
+use crate::broad_phase::buffer::settle;
+use crate::broad_phase::moving::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
+use crate::dispatch::Level;
+use crate::frame::{StepError, check_frames};
+use crate::mesh::Topology;
+use crate::parallel;
+use selvedge_core::Scalar;
+use selvedge_core::elementary::Limits;
+use std::cmp::Ordering;
+use std::sync::atomic::{self, AtomicBool};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+/// A part of the step from its start, in which contacts are looked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Probe {
+    /// Its end, in (0, 1].
+    until: f64,
+}
+
+impl Probe {
+    /// The whole step.
+    pub(crate) const WHOLE: Self = Self { until: 1.0 };
+}
+
+/// Where the earliest contact is looked for: few pairs come near each other in a short part of the step.
+///
+/// Measured: on cloth-ball, with a contact at 7e-6 of the step, a probe of 1/128 to 1/16 takes 36 ms and one of 1/4 42, where
+/// the whole step takes three times as long; on cloth-funnel, with a contact at 0.045, the traversal is nearly all of the time and
+/// takes as long for any part, so that a second probe would double it.
+pub(super) const PROBES: [Probe; 2] = [Probe { until: 1.0 / 16.0 }, Probe::WHOLE];
+
+/// What a step counted, and its seconds. With several threads the seconds of stages are sums over them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepTally {
+    /// The caller's own pairs, if it has brought some.
+    pub given: PairCounts,
+    /// Pairs that moving boxes leave, of a caller's pairs as well.
+    pub candidates: PairCounts,
+    /// Those that may become coplanar.
+    pub filtered: PairCounts,
+    /// Contacts.
+    pub contacts: PairCounts,
+    /// Boxes, refit or build, traversal; for a caller's pairs, boxes and their comparison.
+    pub broad_phase_seconds: f64,
+    /// The certified non-coplanarity filter.
+    pub filter_seconds: f64,
+    /// The time of impact.
+    pub elementary_seconds: f64,
+    /// The whole step by the clock on the wall.
+    pub seconds: f64,
+}
+
+/// See the [module](super).
+#[derive(Debug)]
+pub(crate) struct Engine<S: Scalar> {
+    broad_phase: MovingBroadPhase<S>,
+    /// One for each share of the work.
+    workers: Vec<Worker>,
+    /// One for each thread.
+    spaces: Vec<Mutex<Space>>,
+    /// The motion of each vertex as the mesh numbers them, for pairs of the caller's.
+    rows: Rows,
+    boxes: PrimitiveBoxes,
+    tally: StepTally,
+}
+
+/// What a thread works in.
+#[derive(Debug)]
+struct Space {
+    scratch: Scratch,
+    chunk: Chunk,
+    /// A caller's pairs that boxes leave.
+    near: Vec<[u32; 2]>,
+}
+
+/// One share of the work.
+#[derive(Debug)]
+struct Worker {
+    found: Found,
+    kind: PairKind,
+    tests: u64,
+    seconds: f64,
+}
+
+impl Worker {
+    fn new() -> Self {
+        Self {
+            found: Found::nothing(),
+            kind: PairKind::VertexFace,
+            tests: 0,
+            seconds: 0.0,
+        }
+    }
+}
+
+impl<S: Scalar> Engine<S> {
+    pub(crate) fn new(topology: Arc<Topology>) -> Self {
+        Self {
+            broad_phase: MovingBroadPhase::new(topology),
+            workers: Vec::new(),
+            spaces: Vec::new(),
+            rows: Rows::default(),
+            boxes: PrimitiveBoxes::default(),
+            tally: StepTally::default(),
+        }
+    }
+
+    pub(crate) const fn set_level(&mut self, level: Level) {
+        self.broad_phase.set_level(level);
+    }
+
+    pub(crate) fn set_moving(&mut self, moving: Option<Vec<bool>>) {
+        self.broad_phase.hierarchies.set_moving(moving);
+    }
+
+    pub(crate) fn topology(&self) -> &Topology {
+        self.broad_phase.hierarchies.topology()
+    }
+
+    pub(crate) const fn tally(&self) -> &StepTally {
+        &self.tally
+    }
+
+    /// What several runs took together.
+    pub(super) const fn set_seconds(&mut self, seconds: f64) {
+        self.tally.seconds = seconds;
+    }
+
+    /// Finds the contacts of a step, or of a part of it.
+    pub(super) fn run(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        question: &Question,
+        probe: Probe,
+    ) -> Result<(), StepError> {
+        let begin = Instant::now();
+        let fit = Fit {
+            separation: S::from_f64(question.limits.separation),
+            until: S::from_f64(probe.until),
+            is_swept: false,
+        };
+        self.broad_phase.hierarchies.update(start, end, &fit)?;
+        self.broad_phase.hierarchies.narrow();
+        let update = begin.elapsed().as_secs_f64();
+
+        let hierarchies = &self.broad_phase.hierarchies;
+        self.workers.resize_with(hierarchies.shares(), Worker::new);
+        let spaces = spaces_for_threads(&mut self.spaces);
+        let bound = Bound::new(probe.until);
+        let step = StepInput {
+            level: hierarchies.level(),
+            numbers: Numbers::Positions(hierarchies),
+            rows: hierarchies.rows(),
+            question: *question,
+            bound: &bound,
+        };
+        parallel::for_each(&mut self.workers, |index, worker| {
+            let begin = Instant::now();
+            let share = hierarchies.share(index);
+            worker.kind = share.kind;
+            worker.found.clear();
+            worker.tests = 0;
+            let has_enough = question.wanted == Wanted::Any && bound.is_lowered();
+            if !has_enough {
+                let Space { scratch, chunk, .. } = &mut *own_space(spaces);
+                chunk.clear();
+                let mut sink = ChunkSink {
+                    chunk,
+                    found: &mut worker.found,
+                    step: &step,
+                    kind: share.kind,
+                };
+                let tests = hierarchies.visit(share, scratch, &mut sink);
+                if let Some(tests) = tests {
+                    worker.tests = tests;
+                    chunk.finish(&step, share.kind, &mut worker.found);
+                }
+            }
+            worker.seconds = begin.elapsed().as_secs_f64();
+        });
+        self.count(begin, update);
+        let tests = self.workers.iter().map(|worker| worker.tests).sum();
+        let candidates = self.tally.candidates.total() as usize;
+        // A traversal that ended early, or of a part of the step, tells nothing of how good the hierarchies are.
+        if question.wanted == Wanted::All {
+            self.broad_phase.hierarchies.observe(tests, candidates);
+        }
+        Ok(())
+    }
+
+    /// Finds the contacts of pairs that the caller has: VF, EE.
+    pub(crate) fn run_on(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        question: &Question,
+        pairs: [&[[u32; 2]]; 2],
+    ) -> Result<(), StepError> {
+        let begin = Instant::now();
+        let hierarchies = &self.broad_phase.hierarchies;
+        let topology = hierarchies.topology();
+        check_frames::<S>(start, end, topology.vertex_count())?;
+        self.rows.set::<S>(start, end);
+        self.rows.narrow();
+        let separation = S::from_f64(question.limits.separation);
+        self.boxes.fit::<S>(topology, start, end, separation);
+        let update = begin.elapsed().as_secs_f64();
+
+        let shares = match parallel::threads() {
+            1 => 1,
+            threads => 8 * threads,
+        };
+        self.workers.resize_with(2 * shares, Worker::new);
+        let spaces = spaces_for_threads(&mut self.spaces);
+        let bound = Bound::new(1.0);
+        let step = StepInput {
+            level: hierarchies.level(),
+            numbers: Numbers::<S>::Mesh(topology),
+            rows: &self.rows,
+            question: *question,
+            bound: &bound,
+        };
+        let boxes = &self.boxes;
+        let is_strange = AtomicBool::new(false);
+        parallel::for_each(&mut self.workers, |index, worker| {
+            let begin = Instant::now();
+            let (kind, index) = match index.checked_sub(shares) {
+                None => (PairKind::VertexFace, index),
+                Some(index) => (PairKind::EdgeEdge, index),
+            };
+            let pairs = pairs[kind as usize];
+            let place = |index: usize| pairs.len() * index / shares;
+            worker.kind = kind;
+            worker.found.clear();
+            let Space { chunk, near, .. } = &mut *own_space(spaces);
+            chunk.clear();
+            for pairs in pairs[place(index)..place(index + 1)].chunks(CHUNK) {
+                if boxes.keep_near(step.level, kind, pairs, near).is_none() {
+                    is_strange.store(true, atomic::Ordering::Relaxed);
+                    return;
+                }
+                chunk.take(&step, kind, near, &mut worker.found);
+            }
+            chunk.finish(&step, kind, &mut worker.found);
+            worker.seconds = begin.elapsed().as_secs_f64();
+        });
+        if is_strange.into_inner() {
+            check_pairs(topology, pairs)?;
+        }
+        self.count(begin, update);
+        self.tally.given = PairCounts {
+            vertex_face: pairs[0].len() as u64,
+            edge_edge: pairs[1].len() as u64,
+        };
+        Ok(())
+    }
+
+    /// The pairs that moving boxes leave.
+    pub(crate) fn candidates(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        limits: &Limits<S>,
+        boxes: CandidateBoxes,
+        vertex_face: &mut Vec<[u32; 2]>,
+        edge_edge: &mut Vec<[u32; 2]>,
+    ) -> Result<(), StepError> {
+        let begin = Instant::now();
+        let fit = Fit {
+            separation: limits.separation,
+            is_swept: boxes == CandidateBoxes::Swept,
+            ..Fit::default()
+        };
+        self.broad_phase.hierarchies.update(start, end, &fit)?;
+        self.broad_phase.candidates(vertex_face, edge_edge);
+        let seconds = begin.elapsed().as_secs_f64();
+        self.tally = StepTally {
+            candidates: PairCounts {
+                vertex_face: vertex_face.len() as u64,
+                edge_edge: edge_edge.len() as u64,
+            },
+            broad_phase_seconds: seconds,
+            seconds,
+            ..StepTally::default()
+        };
+        Ok(())
+    }
+
+    #[cfg(feature = "verification")]
+    /// Replaces both by the pairs that were kept for the caller in the last run.
+    pub(crate) fn collect_kept(&mut self, vertex_face: &mut Vec<[u32; 2]>, edge_edge: &mut Vec<[u32; 2]>) {
+        vertex_face.clear();
+        edge_edge.clear();
+        for worker in &mut self.workers {
+            match worker.kind {
+                PairKind::VertexFace => vertex_face.extend_from_slice(&worker.found.kept),
+                PairKind::EdgeEdge => edge_edge.extend_from_slice(&worker.found.kept),
+            }
+            settle(&mut worker.found.kept);
+        }
+        settle(vertex_face);
+        settle(edge_edge);
+    }
+
+    /// Replaces `contacts` by those of the last run.
+    pub(crate) fn collect_contacts(&mut self, contacts: &mut Vec<Contact<S>>) {
+        let begin = Instant::now();
+        contacts.clear();
+        for worker in &mut self.workers {
+            let found = &worker.found.contacts;
+            contacts.extend(found.iter().map(in_format_of_positions));
+            settle(&mut worker.found.contacts);
+        }
+        settle(contacts);
+        self.tally.seconds += begin.elapsed().as_secs_f64();
+    }
+
+    /// The earliest contact of the last run.
+    pub(super) fn earliest(&self) -> Option<Contact<S>> {
+        let contacts = self.workers.iter().flat_map(|worker| &worker.found.contacts);
+        let earliest = contacts.min_by(|a, b| {
+            let by_time = a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal);
+            by_time.then((a.kind, a.pair).cmp(&(b.kind, b.pair)))
+        });
+        earliest.map(in_format_of_positions)
+    }
+
+    fn count(&mut self, begin: Instant, update: f64) {
+        let mut tally = StepTally {
+            broad_phase_seconds: update,
+            ..StepTally::default()
+        };
+        for worker in &self.workers {
+            let Tally {
+                candidates,
+                filtered,
+                filter_time,
+                elementary_time,
+            } = worker.found.tally;
+            tally.candidates += candidates;
+            tally.filtered += filtered;
+            let contacts = worker.found.contacts.len() as u64;
+            match worker.kind {
+                PairKind::VertexFace => tally.contacts.vertex_face += contacts,
+                PairKind::EdgeEdge => tally.contacts.edge_edge += contacts,
+            }
+            let (filter, elementary) = (filter_time.as_secs_f64(), elementary_time.as_secs_f64());
+            tally.filter_seconds += filter;
+            tally.elementary_seconds += elementary;
+            tally.broad_phase_seconds += worker.seconds - filter - elementary;
+        }
+        tally.seconds = begin.elapsed().as_secs_f64();
+        self.tally = tally;
+    }
+}
+
+/// A contact with its time rounded down, so that it is no later.
+fn in_format_of_positions<S: Scalar>(contact: &Contact<f64>) -> Contact<S> {
+    let &Contact { kind, pair, time } = contact;
+    Contact {
+        kind,
+        pair,
+        time: rounded_down(time),
+    }
+}
+
+/// A time in another format, not later, in any direction of rounding, and by no more than 2⁻²² of it, or 2⁻¹⁰⁰, earlier.
+///
+/// Where the nearest number is later, what is 2⁻²² of it earlier has one that is not: rounding adds at most 2⁻²³ of it.
+fn rounded_down<S: Scalar>(time: f64) -> S {
+    let nearest = S::from_f64(time);
+    if nearest.to_f64() <= time {
+        nearest
+    } else if time < power_of_two(-100) {
+        S::ZERO
+    } else {
+        S::from_f64(time * (1.0 - power_of_two(-22)))
+    }
+}
+
+/// Makes a space for each thread, if they are not there.
+fn spaces_for_threads(spaces: &mut Vec<Mutex<Space>>) -> &[Mutex<Space>] {
+    let new = || {
+        Mutex::new(Space {
+            scratch: Scratch::new(),
+            chunk: Chunk::new(),
+            near: Vec::with_capacity(CHUNK),
+        })
+    };
+    if spaces.len() < parallel::threads() {
+        spaces.resize_with(parallel::threads(), new);
+    }
+    spaces
+}
+
+/// The space of the thread that calls. Nobody else asks for it: a thread has one share at a time.
+fn own_space(spaces: &[Mutex<Space>]) -> MutexGuard<'_, Space> {
+    let space = &spaces[parallel::own_index() % spaces.len()];
+    // What a panic has left behind is cleared before use.
+    space.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Every pair must be of the mesh.
+fn check_pairs(topology: &Topology, [vertex_face, edge_edge]: [&[[u32; 2]]; 2]) -> Result<(), StepError> {
+    let counts = [topology.vertex_count(), topology.triangles().len(), topology.edges().len()];
+    let [vertices, faces, edges] = counts;
+    let is_bad =
+        |[first, second]: [u32; 2], [firsts, seconds]: [usize; 2]| first as usize >= firsts || second as usize >= seconds;
+    let bad = |kind, pairs: &[[u32; 2]], counts| {
+        let pair = pairs.iter().copied().find(|&pair| is_bad(pair, counts));
+        pair.map_or(Ok(()), |pair| Err(StepError::NoSuchPair { kind, pair }))
+    };
+    bad(PairKind::VertexFace, vertex_face, [vertices, faces])?;
+    bad(PairKind::EdgeEdge, edge_edge, [edges, edges])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded_down;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn rounding_down_makes_no_time_later_and_hardly_earlier(time in prop_oneof![0.0..=1.0, 1e-60..1e-30, 0.0..1e-300]) {
+            let rounded = f64::from(rounded_down::<f32>(time));
+            prop_assert!(rounded <= time && rounded >= 0.0);
+            prop_assert!(rounded >= time * (1.0 - 0.5_f64.powi(21)) || time <= 0.5_f64.powi(100));
+            prop_assert_eq!(rounded_down::<f64>(time), time);
+        }
+    }
+}

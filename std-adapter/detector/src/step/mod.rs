@@ -1,0 +1,402 @@
+//! **For an engine**: a mesh's contacts, step by step.
+//!
+//! ```text
+//! once per mesh   topology
+//! every step      positions at the start and at the end
+//!   │  broad phase   hierarchies of moving boxes, refitted: candidate VF and EE pairs
+//!   │  filter        certified non-coplanarity, sixteen pairs at a time
+//!   │  elementary    certified time of impact, in sweeps over all open pairs
+//!   ▼
+//! contacts with their times, in a buffer of the caller's
+//! ```
+//!
+//! ```
+//! use selvedge::{glam::DVec3, mesh::Topology, step::CollisionDetector};
+//!
+//! // Once: a small triangle above a large one.
+//! let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?;
+//! let mut detector = CollisionDetector::<f64>::new(topology, 1)?;
+//! let mut contacts = Vec::new();
+//!
+//! let mut start = vec![DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, -5.0, 0.0), DVec3::new(0.0, 5.0, 0.0)];
+//! start.extend([DVec3::new(0.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 1.1), DVec3::new(0.0, 1.0, 1.2)]);
+//! for _ in 0..3 {
+//!     // Each step: it falls by 0.4.
+//!     let mut end = start.clone();
+//!     for vertex in &mut end[3..] {
+//!         vertex.z -= 0.4;
+//!     }
+//!     detector.contacts(&start, &end, &mut contacts)?;
+//!     start = end;
+//! }
+//! // In the third step its three vertices go through the large face.
+//! assert_eq!(contacts.len(), 3);
+//! assert_eq!(contacts[0].pair[1], 0);
+//! let first = contacts.iter().map(|contact| contact.time).fold(1.0, f64::min);
+//! assert!(first <= 0.5 && first > 0.5 - 1e-8);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # What can be asked
+//! | question | method | what it saves |
+//! |---|---|---|
+//! | all contacts with their times | [`contacts`](CollisionDetector::contacts) | |
+//! | the earliest contact | [`earliest`](CollisionDetector::earliest) | looks at a short part of the step first, and never beyond the earliest contact so far |
+//! | is the step free of contact? | [`is_free`](CollisionDetector::is_free) | ends at the first contact |
+//! | which pairs come near each other? | [`candidates`](CollisionDetector::candidates) | ends after the broad phase |
+//! | contacts of pairs that the caller has | [`contacts_of`](CollisionDetector::contacts_of) | no broad phase |
+//!
+//! Vertices that rest, and meshes that never move, are named once
+//! ([`set_moving`](CollisionDetector::set_moving)): pairs in which nothing moves are not looked at, and boxes of what rests
+//! are fitted once. Several meshes are one topology, the triangles of each with their own vertices.
+//!
+//! # What is promised
+//! * **No contact is missed** and no time is later than the exact one, rounding included, in every floating-point environment
+//!   ([`selvedge_core`](crate::core)). Pairs that come within the tolerance of the separation, or too close for
+//!   rounding to tell, count as contacts.
+//! * Positions in `f32` are computed with in `f64` where `f32` leaves a pair open: contacts are as sharp, and times, rounded
+//!   down, as late as if they were given in `f64`. Positions in `f64` that are all `f32` numbers are as fast as those in `f32`.
+//! * The same contacts with the same times in the same order, on any number of threads and every instruction set. (The order is
+//!   that of the hierarchies, which depends on the steps before; the set and the times do not.)
+//! * After the first step nothing is allocated, unless there are more pairs than ever or hierarchies are built anew. (With
+//!   several threads rayon may still allocate for its queues.)
+//! * Frames of the wrong length, and positions that are not finite, are errors.
+
+mod chunk;
+mod engine;
+mod given;
+mod sweep;
+
+pub use crate::frame::StepError;
+pub use crate::parallel::ThreadError;
+pub use engine::StepTally;
+
+use crate::PairKind;
+use crate::dispatch::Level;
+use crate::frame::check_length;
+use crate::mesh::Topology;
+use crate::parallel::Threads;
+use engine::{Engine, PROBES, Probe};
+use selvedge_core::Scalar;
+use selvedge_core::elementary::Limits;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+/// A pair for which contact during the step is not excluded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact<S> {
+    /// Vertex–face or edge–edge.
+    pub kind: PairKind,
+    /// The vertex and the face, or the two edges, as numbered by the [`Topology`].
+    pub pair: [u32; 2],
+    /// When, in [0, 1] of the step. With the certified time of impact not after the exact time, and hardly before
+    /// it; with the plain cubic as computed.
+    pub time: S,
+}
+
+/// Which boxes tell candidates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CandidateBoxes {
+    /// Those at the start and at the end of the step, that are not in one order along an axis at both: relative boxes. Fewer pairs,
+    /// in less time.
+    #[default]
+    Moving,
+    /// The boxes that primitives sweep, that overlap: what other systems call candidates.
+    Swept,
+}
+
+/// What of a step is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// Every contact.
+    All,
+    /// The earliest; of several at the same time, all are found.
+    Earliest,
+    /// Whether there is one.
+    Any,
+}
+
+/// What is asked of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Question {
+    pub(crate) limits: Limits<f64>,
+    pub(crate) wanted: Wanted,
+    /// Whether pairs that the filter keeps are wanted as well.
+    pub(crate) keeps_filtered: bool,
+    /// Whether only pairs that truly touch are contacts, by the exact verdict. For separation zero.
+    pub(crate) is_exact: bool,
+}
+
+/// Two to an exponent for which that is a normal number.
+const fn power_of_two(exponent: i64) -> f64 {
+    f64::from_bits(((1023 + exponent) as u64) << 52)
+}
+
+/// The same limits in `f64`, which decides in the end whatever the positions' format. A subnormal separation counts as the
+/// smallest normal number, as in all tests.
+fn widened<S: Scalar>(limits: &Limits<S>) -> Limits<f64> {
+    Limits {
+        tolerance: limits.tolerance.to_f64(),
+        separation: limits.separation.raised_to_normal().to_f64(),
+    }
+}
+
+/// How late a contact may be to be of interest: shared by all threads, lowered by each contact where only the earliest is wanted.
+///
+/// A time is as its bits, which are in the same order, times being no less than zero. In which order threads lower it changes
+/// no answer: a pair is dropped only if it is proven to be apart until *after* the bound, which never is before the earliest
+/// contact.
+#[derive(Debug)]
+pub(crate) struct Bound(AtomicU64);
+
+impl Bound {
+    fn new(time: f64) -> Self {
+        Self(AtomicU64::new(time.to_bits()))
+    }
+
+    fn get(&self) -> f64 {
+        f64::from_bits(self.0.load(Ordering::Relaxed))
+    }
+
+    /// There is a contact at `time`.
+    fn lower(&self, wanted: Wanted, time: f64) {
+        match wanted {
+            Wanted::All => {}
+            Wanted::Earliest => {
+                // Adding zero makes a negative zero positive.
+                let bits = (time + 0.0).to_bits();
+                self.0.fetch_min(bits, Ordering::Relaxed);
+            }
+            Wanted::Any => self.0.store(0, Ordering::Relaxed),
+        }
+    }
+
+    /// Whether any contact was found, of which the caller wants one.
+    fn is_lowered(&self) -> bool {
+        self.0.load(Ordering::Relaxed) == 0
+    }
+}
+
+/// Finds the contacts of a mesh, one step after another; see the [module](self).
+#[derive(Debug)]
+pub struct CollisionDetector<S: Scalar> {
+    engine: Engine<S>,
+    threads: Threads,
+    limits: Limits<S>,
+    is_exact: bool,
+}
+
+impl<S: Scalar> CollisionDetector<S> {
+    /// A detector for a mesh, on `threads` threads (0: one for each core; 1: the calling thread).
+    ///
+    /// # Errors
+    /// If the operating system refuses the threads.
+    pub fn new(topology: impl Into<Arc<Topology>>, threads: usize) -> Result<Self, ThreadError> {
+        Ok(Self {
+            engine: Engine::new(topology.into()),
+            threads: Threads::new(threads)?,
+            limits: Limits::default(),
+            is_exact: false,
+        })
+    }
+
+    /// The separation that pairs must keep and the tolerance of times, in the unit of the positions. At first
+    /// [`Limits::default`]: no separation.
+    ///
+    /// # Errors
+    /// If one of them is negative, infinite or NaN. Then both stay as they were.
+    pub fn set_limits(&mut self, limits: Limits<S>) -> Result<(), StepError> {
+        check_length(limits.separation)?;
+        check_length(limits.tolerance)?;
+        self.limits = limits;
+        Ok(())
+    }
+
+    /// Whether only pairs that truly touch count as contacts, by the [exact verdict](mod@selvedge_core::elementary::contact); at
+    /// first not. With a separation it has no effect: touching is all that the verdict decides.
+    pub const fn set_exact(&mut self, is_exact: bool) {
+        self.is_exact = is_exact;
+    }
+
+    /// Forces the instruction set; the best that the machine has is the default. Changes no result.
+    pub const fn set_level(&mut self, level: Level) {
+        self.engine.set_level(level);
+    }
+
+    /// Names the vertices that move, true for each that does; `None`: all of them, as at first.
+    ///
+    /// From the next step on, pairs of which no vertex moves are not looked at. The positions of vertices that do
+    /// not move are taken from the next step's start and end, and **not looked at again** until this is called anew.
+    ///
+    /// # Errors
+    /// If the slice's length is not the mesh's number of vertices.
+    pub fn set_moving(&mut self, moving: Option<&[bool]>) -> Result<(), StepError> {
+        let expected = self.topology().vertex_count();
+        match moving {
+            Some(moving) if moving.len() != expected => Err(StepError::WrongLength {
+                frame: "moving",
+                found: moving.len(),
+                expected,
+            }),
+            _ => {
+                self.engine.set_moving(moving.map(<[bool]>::to_vec));
+                Ok(())
+            }
+        }
+    }
+
+    /// Replaces `contacts` by all contacts of the step from `start` to `end`, one position for each vertex: vertex–face first.
+    ///
+    /// # Errors
+    /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
+    pub fn contacts(&mut self, start: &[S::Vector], end: &[S::Vector], contacts: &mut Vec<Contact<S>>) -> Result<(), StepError> {
+        let question = self.question(Wanted::All);
+        let engine = &mut self.engine;
+        self.threads.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        self.engine.collect_contacts(contacts);
+        Ok(())
+    }
+
+    /// The earliest contact of the step; of several at the same time the one with the smallest numbers, vertex–face first.
+    ///
+    /// It is the first of all that [`contacts`](Self::contacts) finds, with the same time. Writing s for the separation and δ for the
+    /// tolerance of the [limits](Self::set_limits):
+    /// * **The time is a certified lower bound.** Before it no two primitives are within s of each other, rounding included. So the
+    ///   step may be taken up to it (`start + (end − start)·time`, but for the rounding of these positions), and any step shorter
+    ///   than it is free. `None` is a proof that the whole step is.
+    /// * **How early it may be.** At that time the distance of the pair is at most s + δ and a rounding error
+    ///   ([bounded there](selvedge_core::elementary::advance#what-is-promised)). If it comes closer at a speed of v there,
+    ///   in lengths a step, and goes on to come within s, the exact time is about δ/v later. But it need not: a pair that comes within
+    ///   s + δ and turns back, a near miss, is a contact as any other, and then the exact first contact is that of another pair, or
+    ///   there is none. A near miss at more than s + δ never is; the time may well come after it.
+    /// * **The exception**: a pair too close for rounding to tell, within some 2⁻⁴⁸ of the size of its
+    ///   differences, counts from when that cannot be excluded, which may be long before it touches, or though it never does.
+    ///
+    /// So it is not a proof of contact. Where a step without contact must not be cut short,
+    /// [`elementary::contact`](selvedge_core::elementary::contact()) decides whether the pair touches, exactly.
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts).
+    pub fn earliest(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<Option<Contact<S>>, StepError> {
+        let question = self.question(Wanted::Earliest);
+        let begin = Instant::now();
+        let mut earliest = None;
+        for probe in PROBES {
+            let engine = &mut self.engine;
+            self.threads.run(|| engine.run(start, end, &question, probe))?;
+            earliest = self.engine.earliest();
+            if earliest.is_some() {
+                break;
+            }
+        }
+        self.engine.set_seconds(begin.elapsed().as_secs_f64());
+        Ok(earliest)
+    }
+
+    /// Whether the step is certainly free of contact.
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts).
+    pub fn is_free(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<bool, StepError> {
+        let question = self.question(Wanted::Any);
+        let engine = &mut self.engine;
+        self.threads.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        Ok(self.engine.tally().contacts.total() == 0)
+    }
+
+    /// Replaces `vertex_face` and `edge_edge` by the pairs that boxes leave: vertex and face, or two edges, the smaller
+    /// number first. All others are certainly farther apart than the separation throughout the step.
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts).
+    pub fn candidates(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        boxes: CandidateBoxes,
+        vertex_face: &mut Vec<[u32; 2]>,
+        edge_edge: &mut Vec<[u32; 2]>,
+    ) -> Result<(), StepError> {
+        let limits = self.limits;
+        let engine = &mut self.engine;
+        self.threads
+            .run(|| engine.candidates(start, end, &limits, boxes, vertex_face, edge_edge))
+    }
+
+    /// Replaces `contacts` by those of the pairs given, in their order, vertex–face first: a vertex and a face, or two edges.
+    ///
+    /// Pairs that share a vertex are in contact at time 0. Each pair goes through moving boxes first, those of all primitives of the
+    /// mesh made for the step: for a list that is much shorter than the mesh that is most of the time.
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts), and if a pair names what the mesh does not have.
+    pub fn contacts_of(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        vertex_face: &[[u32; 2]],
+        edge_edge: &[[u32; 2]],
+        contacts: &mut Vec<Contact<S>>,
+    ) -> Result<(), StepError> {
+        let question = self.question(Wanted::All);
+        let engine = &mut self.engine;
+        self.threads
+            .run(|| engine.run_on(start, end, &question, [vertex_face, edge_edge]))?;
+        self.engine.collect_contacts(contacts);
+        Ok(())
+    }
+
+    /// As [`contacts`](Self::contacts), and replaces `vertex_face` and `edge_edge` by the pairs that the filter leaves.
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts).
+    #[cfg(feature = "verification")]
+    #[doc(hidden)]
+    pub fn contacts_and_filtered(
+        &mut self,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        contacts: &mut Vec<Contact<S>>,
+        vertex_face: &mut Vec<[u32; 2]>,
+        edge_edge: &mut Vec<[u32; 2]>,
+    ) -> Result<(), StepError> {
+        let question = Question {
+            keeps_filtered: true,
+            ..self.question(Wanted::All)
+        };
+        let engine = &mut self.engine;
+        self.threads.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        self.engine.collect_contacts(contacts);
+        self.engine.collect_kept(vertex_face, edge_edge);
+        Ok(())
+    }
+
+    /// What the last step counted and how long its stages took.
+    #[must_use]
+    pub const fn tally(&self) -> &StepTally {
+        self.engine.tally()
+    }
+
+    /// The mesh's vertices, edges and triangles.
+    #[must_use]
+    pub fn topology(&self) -> &Topology {
+        self.engine.topology()
+    }
+
+    /// How many threads a step uses.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        self.threads.count()
+    }
+
+    fn question(&self, wanted: Wanted) -> Question {
+        let limits = widened(&self.limits);
+        Question {
+            limits,
+            wanted,
+            keeps_filtered: false,
+            is_exact: self.is_exact && limits.separation <= 0.0,
+        }
+    }
+}

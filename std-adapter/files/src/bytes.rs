@@ -1,0 +1,50 @@
+//! Numbers as bytes and back: every number in full, least significant byte first.
+
+/// Takes numbers off the front of bytes; `None` where there are too few.
+#[derive(Clone, Copy, Debug)]
+pub struct Reader<'a>(pub &'a [u8]);
+
+impl<'a> Reader<'a> {
+    pub fn bytes(&mut self, count: usize) -> Option<&'a [u8]> {
+        let (taken, rest) = self.0.split_at_checked(count)?;
+        self.0 = rest;
+        Some(taken)
+    }
+
+    fn array<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let (&taken, rest) = self.0.split_first_chunk()?;
+        self.0 = rest;
+        Some(taken)
+    }
+
+    pub fn u64(&mut self) -> Option<u64> {
+        self.array().map(u64::from_le_bytes)
+    }
+
+    pub fn f64(&mut self) -> Option<f64> {
+        self.array().map(f64::from_le_bytes)
+    }
+
+    pub fn f32(&mut self) -> Option<f32> {
+        self.array().map(f32::from_le_bytes)
+    }
+
+    /// How many items follow, each of at least `size` bytes: `None` if there is no room for so many, so that damaged bytes make
+    /// nobody reserve memory for them.
+    pub fn count(&mut self, size: usize) -> Option<usize> {
+        let count = usize::try_from(self.u64()?).ok()?;
+        (count.checked_mul(size)? <= self.0.len()).then_some(count)
+    }
+
+    /// Bytes that a [`block`](put_block) holds.
+    pub fn block(&mut self) -> Option<&'a [u8]> {
+        let count = self.count(1)?;
+        self.bytes(count)
+    }
+}
+
+/// Appends bytes after their number.
+pub fn put_block(bytes: &mut Vec<u8>, block: &[u8]) {
+    bytes.extend((block.len() as u64).to_le_bytes());
+    bytes.extend_from_slice(block);
+}

@@ -1,0 +1,16 @@
+//! Files of meshes and of collision queries, read exactly and with errors that say where and what to do.
+//!
+//! | module | what it is |
+//! |---|---|
+//! | [`mesh`] | **start here**: OBJ and PLY files, one mesh or both frames of a step |
+//! | [`queries`] | primitive-pair queries of the public continuous collision detection benchmark |
+
+// What the project's other crates use besides; nothing is promised of it.
+#[doc(hidden)]
+pub mod bytes;
+#[doc(hidden)]
+pub mod excerpt;
+pub mod mesh;
+pub mod queries;
+#[doc(hidden)]
+pub mod temporary_file;

@@ -1,0 +1,245 @@
+//! What can be wrong with a mesh file, each with a message that says where and what to do.
+
+use selvedge::mesh::{Topology, TopologyError};
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a mesh could not be read or written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// One file is at fault.
+    #[error("{}: {problem}", path.display())]
+    File {
+        /// The file, as named by the caller.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: FileProblem,
+    },
+    /// Two files are not two frames of one mesh.
+    #[error("{} and {} are not frames of the same mesh: {difference}; export both with the same vertices and triangles in the same order", start.display(), end.display())]
+    Frames {
+        /// The frame at the start of the step.
+        start: PathBuf,
+        /// The frame at the end of the step.
+        end: PathBuf,
+        /// The first difference.
+        difference: FrameDifference,
+    },
+}
+
+impl MeshError {
+    pub(super) fn file(path: &Path, problem: FileProblem) -> Self {
+        Self::File {
+            path: path.to_owned(),
+            problem,
+        }
+    }
+}
+
+/// What is wrong with a mesh file. Vertices and faces are numbered from 0 in their order in the
+/// file; lines from 1, where the file has lines.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FileProblem {
+    /// There is no such file.
+    #[error("there is no such file")]
+    Missing,
+    /// The path names a folder.
+    #[error("this is a folder; name a mesh file in it")]
+    Folder,
+    /// The file has no bytes.
+    #[error("the file is empty")]
+    Empty,
+    /// The extension names no format.
+    #[error("the file's extension must be .obj or .ply")]
+    UnknownExtension,
+    /// The system could not read the file.
+    #[error("cannot be read: {0}")]
+    Read(io::Error),
+    /// The system could not write the file.
+    #[error("cannot be written: {0}")]
+    Write(io::Error),
+    /// The text is not UTF-8.
+    #[error("line {line} is not UTF-8 text; is this the right kind of file?")]
+    NotUtf8 {
+        /// The first such line.
+        line: usize,
+    },
+    /// A line cannot be understood.
+    #[error("line {line}: {reason}")]
+    Line {
+        /// Which line.
+        line: usize,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The header declares something that is no triangle mesh.
+    #[error("the header {0}")]
+    Header(String),
+    /// The header declares more than the rest of the file can hold.
+    #[error(
+        "the header declares {declared} '{element}' elements, which take at least {needed} bytes, but only {left} are left; is the file complete?"
+    )]
+    TooShort {
+        /// Name of the element.
+        element: String,
+        /// How many the header declares.
+        declared: usize,
+        /// The least that they need.
+        needed: usize,
+        /// How many bytes are left.
+        left: usize,
+    },
+    /// The file ends before all declared elements were read.
+    #[error("the file ends after {found} of the {declared} '{element}' elements that its header declares; is it complete?")]
+    Truncated {
+        /// Name of the element.
+        element: String,
+        /// How many the header declares.
+        declared: usize,
+        /// How many are complete.
+        found: usize,
+    },
+    /// An element of a binary file cannot be understood.
+    #[error("'{element}' element {index}: {reason}")]
+    Element {
+        /// Name of the element.
+        element: String,
+        /// Which one.
+        index: usize,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The file goes on after all declared elements.
+    #[error("{}the file goes on for {bytes} bytes after the elements that its header declares; do the counts in the header match?", Place(*line))]
+    Trailing {
+        /// Where it goes on, in a file with lines.
+        line: Option<usize>,
+        /// For how many bytes.
+        bytes: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("{}the {coordinate} coordinate of vertex {vertex} is {value}, but must be finite", Place(*line))]
+    NonFinite {
+        /// Where, in a file with lines.
+        line: Option<usize>,
+        /// Which vertex.
+        vertex: usize,
+        /// `x`, `y` or `z`.
+        coordinate: char,
+        /// The value.
+        value: f64,
+    },
+    /// A face names a vertex that does not exist.
+    #[error("{}face {face} names vertex {vertex}, but there are {vertex_count} vertices, numbered from {first}", Place(*line))]
+    IndexOutOfRange {
+        /// Where, in a file with lines.
+        line: Option<usize>,
+        /// Which face.
+        face: usize,
+        /// The vertex as the file names it.
+        vertex: i64,
+        /// The number of the first vertex in this kind of file.
+        first: u32,
+        /// How many vertices there are.
+        vertex_count: usize,
+    },
+    /// A face has fewer than three vertices.
+    #[error("{}face {face} has {corners} vertices, but needs three or more", Place(*line))]
+    TooFewCorners {
+        /// Where, in a file with lines.
+        line: Option<usize>,
+        /// Which face.
+        face: usize,
+        /// How many vertices it has.
+        corners: usize,
+    },
+    /// The triangles have no topology: there are none, or too many.
+    #[error(transparent)]
+    Topology(#[from] TopologyError),
+}
+
+impl FileProblem {
+    pub(super) fn from_read(error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::NotFound => Self::Missing,
+            io::ErrorKind::IsADirectory => Self::Folder,
+            _ => Self::Read(error),
+        }
+    }
+}
+
+/// `line 7: `, or nothing in a file without lines.
+struct Place(Option<usize>);
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.map_or(Ok(()), |line| write!(f, "line {line}: "))
+    }
+}
+
+/// The first difference between the topologies of two frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FrameDifference {
+    /// Different numbers of vertices.
+    #[error("the first has {start} vertices, the second {end}")]
+    VertexCount {
+        /// At the start of the step.
+        start: usize,
+        /// At the end of the step.
+        end: usize,
+    },
+    /// A triangle with different vertices, or with the same in another order.
+    #[error("triangle {triangle} is {} in the first, {} in the second", Corners(*start), Corners(*end))]
+    Triangle {
+        /// Which triangle, numbered from 0 after polygons were split.
+        triangle: usize,
+        /// Its vertices at the start of the step.
+        start: [u32; 3],
+        /// Its vertices at the end of the step.
+        end: [u32; 3],
+    },
+    /// Different numbers of triangles, all alike as far as both go.
+    #[error("the first has {start} triangles, the second {end}")]
+    TriangleCount {
+        /// At the start of the step.
+        start: usize,
+        /// At the end of the step.
+        end: usize,
+    },
+}
+
+impl FrameDifference {
+    /// The first difference between a topology and another mesh's vertices and triangles, if any.
+    pub(super) fn find(start: &Topology, vertices: usize, end: &[[u32; 3]]) -> Option<Self> {
+        let triangles = start.triangles();
+        if start.vertex_count() != vertices {
+            return Some(Self::VertexCount {
+                start: start.vertex_count(),
+                end: vertices,
+            });
+        }
+        if let Some(triangle) = triangles.iter().zip(end).position(|(a, b)| a != b) {
+            return Some(Self::Triangle {
+                triangle,
+                start: triangles[triangle],
+                end: end[triangle],
+            });
+        }
+        (triangles.len() != end.len()).then_some(Self::TriangleCount {
+            start: triangles.len(),
+            end: end.len(),
+        })
+    }
+}
+
+struct Corners([u32; 3]);
+
+impl fmt::Display for Corners {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [a, b, c] = self.0;
+        write!(f, "{a} {b} {c}")
+    }
+}

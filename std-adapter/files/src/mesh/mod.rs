@@ -1,0 +1,265 @@
+//! Mesh files: OBJ and PLY, read and written exactly.
+//!
+//! Positions keep their order and their number, and every bit that the file holds: a vertex that
+//! no face names is kept, several objects in one file are one mesh, nothing is merged. Polygons
+//! are split into triangles, as a fan from their first vertex. Whatever else a file holds
+//! (normals, colours, texture coordinates, lines, materials) is left out.
+
+mod error;
+mod obj;
+mod ply;
+mod step;
+#[cfg(test)]
+mod tests;
+
+pub use error::{FileProblem, FrameDifference, MeshError};
+pub use ply::PlyEncoding;
+pub use step::{MeshStep, read_step};
+
+use crate::temporary_file;
+use selvedge::mesh::{Mesh, Topology, TopologyError, TopologyStatistics};
+use selvedge_core::glam::DVec3;
+use std::fmt;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+/// A kind of mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileFormat {
+    /// Wavefront OBJ: text, vertices numbered from 1.
+    Obj,
+    /// PLY, the Stanford polygon format. A reader finds the encoding in the header.
+    Ply(PlyEncoding),
+}
+
+impl FileFormat {
+    /// The format that the extension of `path` names, in capitals or not: `.obj`, or `.ply`, which
+    /// is written as binary, little endian.
+    #[must_use]
+    pub fn from_path(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?;
+        if extension.eq_ignore_ascii_case("obj") {
+            Some(Self::Obj)
+        } else if extension.eq_ignore_ascii_case("ply") {
+            Some(Self::Ply(PlyEncoding::default()))
+        } else {
+            None
+        }
+    }
+}
+
+/// A mesh and what its file looked like.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshFile {
+    /// The mesh: all vertices finite, all triangles in range, at least one of them.
+    pub mesh: Mesh,
+    /// What is worth telling the user.
+    pub notes: MeshNotes,
+}
+
+/// What is worth telling the user about a file that was read; `Display` says it in one line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MeshNotes {
+    /// Faces with more than three vertices, which were split into triangles.
+    pub polygons_triangulated: usize,
+    /// What the triangles look like after that, duplicates and degenerates included.
+    pub statistics: TopologyStatistics,
+}
+
+impl fmt::Display for MeshNotes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.statistics)?;
+        match self.polygons_triangulated {
+            0 => Ok(()),
+            1 => write!(f, ", 1 polygon split into triangles"),
+            count => write!(f, ", {count} polygons split into triangles"),
+        }
+    }
+}
+
+/// Reads the mesh file at `path`, in the format that its extension names.
+///
+/// # Errors
+/// If the file cannot be read, is not in its format, ends early or goes on too long, has a
+/// coordinate that is not finite, a face with fewer than three vertices or one that does not
+/// exist, or no face at all. The message names the file and the line, element or vertex.
+pub fn read(path: &Path) -> Result<MeshFile, MeshError> {
+    let (parsed, topology) = load(path).map_err(|problem| MeshError::file(path, problem))?;
+    Ok(MeshFile {
+        notes: parsed.notes(&topology),
+        mesh: parsed.mesh,
+    })
+}
+
+/// Reads a mesh from the bytes of a file. For [`FileFormat::Ply`] the header decides on the
+/// encoding, not the argument. Never panics, whatever the bytes, and asks for memory only in
+/// proportion to them.
+///
+/// # Errors
+/// Those of [`read`], without the file's name.
+///
+/// ```
+/// use selvedge_files::mesh::{FileFormat, read_bytes};
+///
+/// let file = read_bytes(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", FileFormat::Obj)?;
+/// assert_eq!(file.mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+/// assert_eq!(file.notes.polygons_triangulated, 1);
+/// # Ok::<(), selvedge_files::mesh::FileProblem>(())
+/// ```
+pub fn read_bytes(bytes: &[u8], format: FileFormat) -> Result<MeshFile, FileProblem> {
+    let (parsed, topology) = parse(bytes, format)?;
+    Ok(MeshFile {
+        notes: parsed.notes(&topology),
+        mesh: parsed.mesh,
+    })
+}
+
+/// Writes `mesh` to `path`, in the format that its extension names; a reader gets every bit back.
+///
+/// The file appears in one piece: it is written under another name in the same folder and renamed
+/// when complete. On an error nothing is left behind and an older file stays as it was.
+///
+/// # Errors
+/// If the extension is unknown, the file cannot be written, or the mesh is one that [`read`] would
+/// refuse.
+pub fn write(path: &Path, mesh: &Mesh) -> Result<(), MeshError> {
+    match FileFormat::from_path(path) {
+        Some(format) => write_as(path, mesh, format),
+        None => Err(MeshError::file(path, FileProblem::UnknownExtension)),
+    }
+}
+
+/// Writes `mesh` to `path` like [`write()`], but in the given format whatever the extension.
+///
+/// # Errors
+/// Those of [`write()`], but for the extension.
+pub fn write_as(path: &Path, mesh: &Mesh, format: FileFormat) -> Result<(), MeshError> {
+    check(mesh)
+        .and_then(|()| save(path, mesh, format).map_err(FileProblem::Write))
+        .map_err(|problem| MeshError::file(path, problem))
+}
+
+/// The bytes of a file that holds `mesh`, as [`write()`] would write it: the counterpart of [`read_bytes`].
+///
+/// # Errors
+/// If the mesh is one that [`read`] would refuse.
+///
+/// ```
+/// use selvedge::{glam::DVec3, mesh::Mesh};
+/// use selvedge_files::mesh::{FileFormat, write_bytes};
+///
+/// let mesh = Mesh {
+///     positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+///     triangles: vec![[0, 1, 2]],
+/// };
+/// let bytes = write_bytes(&mesh, FileFormat::Obj)?;
+/// assert_eq!(bytes, b"v 0.0 0.0 0.0\nv 1.0 0.0 0.0\nv 0.0 1.0 0.0\nf 1 2 3\n");
+/// # Ok::<(), selvedge_files::mesh::FileProblem>(())
+/// ```
+pub fn write_bytes(mesh: &Mesh, format: FileFormat) -> Result<Vec<u8>, FileProblem> {
+    check(mesh)?;
+    let mut bytes = Vec::new();
+    write_to(&mut bytes, mesh, format).map_err(FileProblem::Write)?;
+    Ok(bytes)
+}
+
+/// A mesh as a parser hands it over: finite and in range, but perhaps without triangles.
+#[derive(Default)]
+struct Parsed {
+    mesh: Mesh,
+    polygons_triangulated: usize,
+}
+
+impl Parsed {
+    /// Adds a face of three or more corners, as a fan from the first.
+    fn push_face(&mut self, corners: &[u32]) {
+        if corners.len() > 3 {
+            self.polygons_triangulated += 1;
+        }
+        let fan = corners.windows(2).skip(1);
+        let triangles = fan.map(|pair| [corners[0], pair[0], pair[1]]);
+        self.mesh.triangles.extend(triangles);
+    }
+
+    fn notes(&self, topology: &Topology) -> MeshNotes {
+        MeshNotes {
+            polygons_triangulated: self.polygons_triangulated,
+            statistics: topology.statistics(),
+        }
+    }
+}
+
+fn load(path: &Path) -> Result<(Parsed, Topology), FileProblem> {
+    let metadata = std::fs::metadata(path).map_err(FileProblem::from_read)?;
+    if metadata.is_dir() {
+        return Err(FileProblem::Folder);
+    }
+    let format = FileFormat::from_path(path).ok_or(FileProblem::UnknownExtension)?;
+    let bytes = std::fs::read(path).map_err(FileProblem::from_read)?;
+    parse(&bytes, format)
+}
+
+fn parse(bytes: &[u8], format: FileFormat) -> Result<(Parsed, Topology), FileProblem> {
+    if bytes.is_empty() {
+        return Err(FileProblem::Empty);
+    }
+    let parsed = match format {
+        FileFormat::Obj => obj::parse(bytes)?,
+        FileFormat::Ply(_) => ply::parse(bytes)?,
+    };
+    let topology = parsed.mesh.topology()?;
+    Ok((parsed, topology))
+}
+
+/// Refuses what could not be read again.
+fn check(mesh: &Mesh) -> Result<(), FileProblem> {
+    for (vertex, position) in mesh.positions.iter().enumerate() {
+        check_finite(vertex, *position, None)?;
+    }
+    if mesh.triangles.is_empty() {
+        return Err(TopologyError::NoTriangles.into());
+    }
+    let vertex_count = mesh.positions.len();
+    for (face, triangle) in mesh.triangles.iter().enumerate() {
+        if let Some(&vertex) = triangle.iter().find(|&&v| v as usize >= vertex_count) {
+            return Err(FileProblem::IndexOutOfRange {
+                line: None,
+                face,
+                vertex: i64::from(vertex),
+                first: 0,
+                vertex_count,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_finite(vertex: usize, position: DVec3, line: Option<usize>) -> Result<(), FileProblem> {
+    for (coordinate, value) in ['x', 'y', 'z'].into_iter().zip(position.to_array()) {
+        if !value.is_finite() {
+            return Err(FileProblem::NonFinite {
+                line,
+                vertex,
+                coordinate,
+                value,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn save(path: &Path, mesh: &Mesh, format: FileFormat) -> io::Result<()> {
+    let mut out = BufWriter::new(temporary_file::beside(path)?);
+    write_to(&mut out, mesh, format)?;
+    out.flush()?;
+    let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
+    file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+fn write_to(out: &mut impl Write, mesh: &Mesh, format: FileFormat) -> io::Result<()> {
+    match format {
+        FileFormat::Obj => obj::write(out, mesh),
+        FileFormat::Ply(encoding) => ply::write(out, mesh, encoding),
+    }
+}

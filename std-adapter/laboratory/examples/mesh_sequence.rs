@@ -1,0 +1,63 @@
+//! The contacts of a mesh sequence, step by step, as an engine would ask for them.
+//!
+//! ```sh
+//! cargo run --release -p selvedge-laboratory --example mesh_sequence -- frame-0.ply frame-1.ply frame-2.ply …
+//! cargo run --release -p selvedge-laboratory --example mesh_sequence      # a sleeve on a bending arm
+//! ```
+//!
+//! Meshes are OBJ or PLY files of equal topology. The detector is made once; each step takes two slices of positions and fills
+//! the same list of contacts.
+
+use selvedge::glam::DVec3;
+use selvedge::mesh::Topology;
+use selvedge::step::CollisionDetector;
+use selvedge_files::mesh::read_step;
+use selvedge_laboratory::scene::ArmScene;
+use std::error::Error;
+use std::path::PathBuf;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let files: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
+    let (topology, frames) = match &files[..] {
+        [] => arm()?,
+        [_] => return Err("a sequence has two meshes at least".into()),
+        files => read(files)?,
+    };
+
+    // 0: a thread for each core.
+    let mut detector = CollisionDetector::<f64>::new(topology, 0)?;
+    let mut contacts = Vec::new();
+    println!(" step   candidates   contacts   earliest         ms");
+    for (step, frames) in frames.windows(2).enumerate() {
+        detector.contacts(&frames[0], &frames[1], &mut contacts)?;
+        let tally = detector.tally();
+        let earliest = contacts.iter().map(|contact| contact.time);
+        let earliest = earliest.min_by(f64::total_cmp);
+        println!(
+            "{step:>5} {:>12} {:>10} {:>10} {:>10.3}",
+            tally.candidates.total(),
+            contacts.len(),
+            earliest.map_or_else(String::new, |time| format!("{time:.6}")),
+            tally.seconds * 1e3,
+        );
+    }
+    Ok(())
+}
+
+type Sequence = (Topology, Vec<Vec<DVec3>>);
+
+fn read(files: &[PathBuf]) -> Result<Sequence, Box<dyn Error>> {
+    let mut sequence: Option<Sequence> = None;
+    for pair in files.windows(2) {
+        let step = read_step(&pair[0], &pair[1])?;
+        let (_, frames) = sequence.get_or_insert((step.topology, vec![step.start]));
+        frames.push(step.end);
+    }
+    sequence.ok_or_else(|| "no meshes".into())
+}
+
+fn arm() -> Result<Sequence, Box<dyn Error>> {
+    let scene = ArmScene::new(10)?;
+    let frames = (0..=ArmScene::STEPS).map(|frame| scene.frame(frame));
+    Ok((scene.topology().clone(), frames.collect()))
+}

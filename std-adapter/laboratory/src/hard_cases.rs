@@ -1,0 +1,113 @@
+//! Hard cases of the literature by name, with exact answers: degenerate pairs, Erleben's shapes rebuilt from their geometry, each
+//! at several sizes and places.
+//!
+//! The file `data/hard-cases.csv` is part of the program. Its answers were found by exact rational arithmetic on the very
+//! numbers that it holds, which the project's tests repeat.
+
+use selvedge::PairKind;
+use selvedge_core::Motion;
+use selvedge_core::glam::DVec3;
+use std::sync::OnceLock;
+
+/// A primitive pair with its exact answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HardCase {
+    /// What it is.
+    pub name: String,
+    /// Its size, and where it is; units are metres. `far` is 1e7 from the origin along each axis.
+    pub placement: String,
+    /// The kind of pair.
+    pub kind: PairKind,
+    /// The four points at time 0: vertex and face, or the ends of the first and of the second edge.
+    pub start: [DVec3; 4],
+    /// The four points at time 1.
+    pub end: [DVec3; 4],
+    /// Whether and when the pair first touches.
+    pub contact: Contact,
+}
+
+/// The exact answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Contact {
+    /// The pair does not touch at any time in [0, 1].
+    Never,
+    /// It touches.
+    First {
+        /// For readers: a ratio of small numbers, or the beginning of a decimal.
+        exact: String,
+        /// The time is not before this.
+        from: f64,
+        /// Nor after this: the next number, or the same.
+        to: f64,
+    },
+    /// A coordinate is NaN or infinite: nothing may be excluded.
+    Undefined,
+}
+
+impl HardCase {
+    /// The four points' motions.
+    #[must_use]
+    pub fn motions(&self) -> [Motion<f64>; 4] {
+        [0, 1, 2, 3].map(|point| Motion::new(self.start[point], self.end[point]))
+    }
+}
+
+/// All cases, in the order of the file.
+///
+/// # Panics
+/// If the file, which is part of the program, is not well-formed: a test reads it.
+#[must_use]
+pub fn hard_cases() -> &'static [HardCase] {
+    static CASES: OnceLock<Vec<HardCase>> = OnceLock::new();
+    CASES.get_or_init(|| {
+        let text = include_str!("../data/hard-cases.csv");
+        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+        let rows = reader.records().map(|row| row.ok().as_ref().and_then(case));
+        rows.map(|case| case.expect("the built-in file is well-formed")).collect()
+    })
+}
+
+/// name, placement, kind, first, from, to, and 24 coordinates.
+fn case(row: &csv::StringRecord) -> Option<HardCase> {
+    let fields: Vec<&str> = row.iter().collect();
+    let [name, placement, kind, first, from, to, coordinates @ ..] = fields.as_slice() else {
+        return None;
+    };
+    let coordinates: Result<Vec<f64>, _> = coordinates.iter().map(|number| number.parse()).collect();
+    let coordinates = coordinates.ok()?;
+    let points: Vec<DVec3> = coordinates.chunks_exact(3).map(DVec3::from_slice).collect();
+    let (start, end) = points.split_at_checked(4)?;
+    Some(HardCase {
+        name: (*name).to_owned(),
+        placement: (*placement).to_owned(),
+        kind: kind.parse().ok()?,
+        start: start.try_into().ok()?,
+        end: end.try_into().ok()?,
+        contact: match *first {
+            "never" => Contact::Never,
+            "undefined" => Contact::Undefined,
+            exact => Contact::First {
+                exact: exact.to_owned(),
+                from: from.parse().ok()?,
+                to: to.parse().ok()?,
+            },
+        },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Contact, hard_cases};
+    use std::collections::HashSet;
+
+    #[test]
+    fn the_built_in_file_is_read_and_each_case_has_a_name_of_its_own() {
+        let cases = hard_cases();
+        assert!(cases.len() > 300, "only {}", cases.len());
+        let names: HashSet<_> = cases.iter().map(|case| (&case.name, &case.placement, case.kind)).collect();
+        assert_eq!(names.len(), cases.len());
+        for contact in [Contact::Never, Contact::Undefined] {
+            assert!(cases.iter().any(|case| case.contact == contact));
+        }
+    }
+}

@@ -1,0 +1,18 @@
+//! The laboratory: measures Selvedge and compares it with the methods published before it.
+//!
+//! **Nothing here is a promise.** Some of these methods are known to miss contacts, and stand here to show it. What is certified or
+//! exact is in [`selvedge_core`] and [`selvedge`]; an engine links those and has no need of this crate.
+//!
+//! | module | what it is |
+//! |---|---|
+//! | [`pipeline`] | **start here**: every published method, and ours, as a choice of stages, counted and timed |
+//! | [`scene`] | the built-in motion: a sleeve on a bending arm |
+//! | [`study`] | experiments: methods compared, cost against size, benchmark queries, accuracy against time; data only |
+//! | [`hard_cases`] | hard cases of the literature by name, with exact answers |
+//! | [`report`] | what studies and simulations found, as tables, CSV, JSON, plots, pictures, pages and glTF |
+
+pub mod hard_cases;
+pub mod pipeline;
+pub mod report;
+pub mod scene;
+pub mod study;

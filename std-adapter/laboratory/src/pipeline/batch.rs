@@ -1,0 +1,219 @@
+//! The stages after the broad phase, on one batch of candidate triangle pairs that stays in the cache.
+
+use super::Distributed;
+use super::assignment::FeatureAssignment;
+use super::pairs::MovingMesh;
+use super::preset::{CullingTest, ElementaryTest, Stages};
+use super::stored::{BoundingVolume, Stored};
+use arrayvec::ArrayVec;
+use selvedge::PairCounts;
+use selvedge::PairKind;
+use selvedge::step::Contact;
+use selvedge_core::batch::{LANES, Level, Mask, Test, culled_from_rows};
+use selvedge_core::boxes::{Aabb, Dop18};
+use selvedge_core::distribution::distribute;
+use selvedge_core::elementary::{Contact as Verdict, Limits, advance::time_of_impact, contact::settled};
+use selvedge_core::{EdgeEdge, PrimitivePair, Scalar, VertexFace, elementary};
+use std::time::Instant;
+
+/// What every batch of a step reads.
+#[derive(Clone, Copy)]
+pub(super) struct StepInput<'a, S: Scalar> {
+    pub(super) level: Level,
+    pub(super) mesh: MovingMesh<'a, S>,
+    pub(super) boxes: &'a Stored<Aabb<S>>,
+    pub(super) dops: &'a Stored<Dop18<S>>,
+    pub(super) stages: Stages,
+}
+
+/// Survivors and seconds of one stage.
+pub(super) type Tally = (PairCounts, f64);
+
+/// Primitive pairs on their way through the stages. Each stage drops pairs in place; their order never changes.
+#[derive(Clone, Debug)]
+pub(super) struct Batch<S> {
+    pub(super) vertex_face: Vec<[u32; 2]>,
+    pub(super) edge_edge: Vec<[u32; 2]>,
+    pub(super) contacts: Vec<Contact<S>>,
+    /// The vertices of each pair, and what a batched test says of them.
+    indices: Vec<[u32; 4]>,
+    masks: Vec<Mask>,
+    /// Distribution, each culling test, the elementary test.
+    pub(super) tallies: ArrayVec<Tally, 8>,
+}
+
+impl<S: Scalar> Batch<S> {
+    /// Room for the primitive pairs of so many candidate triangle pairs, so that no step has to make more.
+    pub(super) fn with_capacity(triangle_pairs: usize) -> Self {
+        Self {
+            vertex_face: Vec::with_capacity(6 * triangle_pairs),
+            edge_edge: Vec::with_capacity(9 * triangle_pairs),
+            contacts: Vec::with_capacity(15 * triangle_pairs),
+            indices: Vec::with_capacity(9 * triangle_pairs),
+            masks: Vec::with_capacity((9 * triangle_pairs).div_ceil(LANES)),
+            tallies: ArrayVec::new(),
+        }
+    }
+
+    pub(super) fn counts(&self) -> PairCounts {
+        PairCounts {
+            vertex_face: self.vertex_face.len() as u64,
+            edge_edge: self.edge_edge.len() as u64,
+        }
+    }
+
+    /// Replaces the batch by the primitive pairs of `triangle_pairs`.
+    pub(super) fn distribute(&mut self, triangle_pairs: &[[u32; 2]], assignment: &FeatureAssignment) {
+        let begin = Instant::now();
+        self.vertex_face.clear();
+        self.edge_edge.clear();
+        self.contacts.clear();
+        self.tallies.clear();
+        let triangles = assignment.triangles();
+        for &[a, b] in triangle_pairs {
+            let pairs = distribute(&triangles[a as usize], &triangles[b as usize]);
+            self.vertex_face.extend_from_slice(&pairs.vertex_face);
+            self.edge_edge.extend_from_slice(&pairs.edge_edge);
+        }
+        self.tallies.push((self.counts(), begin.elapsed().as_secs_f64()));
+    }
+
+    /// Drops the pairs that were distributed before, and notes the others. Belongs to distribution, and is counted there.
+    pub(super) fn keep_new(&mut self, distributed: &mut Distributed) {
+        let begin = Instant::now();
+        keep_where(&mut self.vertex_face, |pair| distributed.vertex_face.insert(pair));
+        keep_where(&mut self.edge_edge, |[a, b]| {
+            distributed.edge_edge.insert([a.min(b), a.max(b)])
+        });
+        let counts = self.counts();
+        if let Some((survivors, seconds)) = self.tallies.first_mut() {
+            *survivors = counts;
+            *seconds += begin.elapsed().as_secs_f64();
+        }
+    }
+
+    /// The culling tests in their order.
+    pub(super) fn cull(&mut self, step: &StepInput<'_, S>) {
+        for &test in step.stages.tests {
+            let begin = Instant::now();
+            self.cull_by(test, step);
+            self.tallies.push((self.counts(), begin.elapsed().as_secs_f64()));
+        }
+    }
+
+    fn cull_by(&mut self, test: CullingTest, step: &StepInput<'_, S>) {
+        match test {
+            CullingTest::StoredSweptBoxes => self.keep_overlapping(step.boxes),
+            CullingTest::StoredDop18 => self.keep_overlapping(step.dops),
+            CullingTest::SweptBoxes => self.keep_by_lanes(step, Test::SweptBoxes),
+            CullingTest::SegmentBox => self.keep_by_lanes(step, Test::SegmentBox),
+            CullingTest::RelativeBoxes | CullingTest::SubspaceThree => {
+                self.keep_by_lanes(step, Test::RelativeBoxes);
+            }
+            CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => {
+                self.keep_by_lanes(step, Test::RelativeBoxesNine);
+            }
+            CullingTest::PlainNonCoplanarity => self.keep_by_lanes(step, Test::PlainNonCoplanarity),
+            CullingTest::CertifiedNonCoplanarity => {
+                self.keep_by_lanes(step, Test::CertifiedNonCoplanarity);
+            }
+        }
+    }
+
+    /// Drops what `test` culls, sixteen pairs at a time.
+    fn keep_by_lanes(&mut self, step: &StepInput<'_, S>, test: Test) {
+        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+            let pairs = match kind {
+                PairKind::VertexFace => &mut self.vertex_face,
+                PairKind::EdgeEdge => &mut self.edge_edge,
+            };
+            let topology = step.mesh.topology;
+            self.indices.clear();
+            self.indices
+                .extend(pairs.iter().map(|&pair| topology.vertices_of(kind, pair)));
+            self.masks.clear();
+            self.masks.resize(pairs.len().div_ceil(LANES), 0);
+            let rows = step.mesh.rows;
+            culled_from_rows(step.level, kind, test, rows, &self.indices, &mut self.masks);
+
+            let masks = &self.masks;
+            let mut index = 0;
+            keep_where(pairs, |_| {
+                let culled = masks[index / LANES] >> (index % LANES) & 1;
+                index += 1;
+                culled == 0
+            });
+        }
+    }
+
+    /// Drops the pairs whose stored volumes do not overlap.
+    fn keep_overlapping(&mut self, stored: &Stored<impl BoundingVolume<S>>) {
+        keep_where(&mut self.vertex_face, |pair| stored.vertex_face_overlap(pair));
+        keep_where(&mut self.edge_edge, |pair| stored.edge_edge_overlap(pair));
+    }
+
+    /// The elementary test of what is left: fills `contacts`, vertex–face first.
+    pub(super) fn find_contacts(&mut self, step: &StepInput<'_, S>) {
+        let limits = Limits::default();
+        match step.stages.elementary {
+            ElementaryTest::Cubic => self.find_contacts_by(step, elementary::cubic::vertex_face, elementary::cubic::edge_edge),
+            ElementaryTest::TimeOfImpact => self.find_contacts_by(
+                step,
+                |pair| time_of_impact(pair, &limits).time(),
+                |pair| time_of_impact(pair, &limits).time(),
+            ),
+            ElementaryTest::Exact => self.find_contacts_by(
+                step,
+                |pair| time_of_exact_contact(pair, &limits),
+                |pair| time_of_exact_contact(pair, &limits),
+            ),
+        }
+    }
+
+    /// The same with the elementary test given, for each kind: the time, if there is contact.
+    fn find_contacts_by(
+        &mut self,
+        step: &StepInput<'_, S>,
+        vertex_face: impl Fn(&VertexFace<S>) -> Option<S>,
+        edge_edge: impl Fn(&EdgeEdge<S>) -> Option<S>,
+    ) {
+        let begin = Instant::now();
+        let mesh = step.mesh;
+        let contact = |kind, pair| move |time| Contact { kind, pair, time };
+        let found = self.vertex_face.iter().filter_map(|&pair| {
+            let time = vertex_face(&mesh.vertex_face(pair));
+            time.map(contact(PairKind::VertexFace, pair))
+        });
+        self.contacts.extend(found);
+        let found_vertex_face = self.contacts.len() as u64;
+        let found = self.edge_edge.iter().filter_map(|&pair| {
+            let time = edge_edge(&mesh.edge_edge(pair));
+            time.map(contact(PairKind::EdgeEdge, pair))
+        });
+        self.contacts.extend(found);
+        let found = PairCounts {
+            vertex_face: found_vertex_face,
+            edge_edge: self.contacts.len() as u64 - found_vertex_face,
+        };
+        self.tallies.push((found, begin.elapsed().as_secs_f64()));
+    }
+}
+
+/// The certified time of impact of a pair that truly touches.
+fn time_of_exact_contact<S: Scalar>(pair: &impl PrimitivePair<S>, limits: &Limits<S>) -> Option<S> {
+    let impact = time_of_impact(pair, limits);
+    let time = impact.time()?;
+    let (verdict, _) = settled(pair, &impact);
+    (verdict != Verdict::Never).then_some(time)
+}
+
+/// Like `Vec::retain`, without a branch on the outcome: what survives is hard to predict.
+fn keep_where(pairs: &mut Vec<[u32; 2]>, mut keep: impl FnMut([u32; 2]) -> bool) {
+    let mut kept = 0;
+    for read in 0..pairs.len() {
+        let pair = pairs[read];
+        pairs[kept] = pair;
+        kept += usize::from(keep(pair));
+    }
+    pairs.truncate(kept);
+}

@@ -1,0 +1,390 @@
+//! From two frames of a mesh to the primitive pairs that may collide, and those that do.
+//!
+//! ```text
+//! triangles, positions at the start and at the end of the step
+//!   │  once per mesh    feature assignment: each vertex and edge gets one representative triangle
+//!   │  every step       broad phase over swept triangle boxes
+//!   ▼
+//! candidate triangle pairs
+//!   │  distribution     at most 6 VF and 9 EE pairs each
+//!   │  culling tests    boxes, relative boxes, non-coplanarity: a method's choice
+//!   ▼
+//! candidate primitive pairs
+//!   │  elementary test
+//!   ▼
+//! contacts
+//! ```
+//!
+//! A published method is a [`Preset`]: a choice of stages ([`Stages`]), never another loop. All of them run the
+//! same code, on the same broad phase, so their times compare; every test goes sixteen pairs at a time
+//! ([`selvedge_core::batch`]). The presets `selvedge` and `selvedge_exact` alone have no triangle pairs
+//! ([`Source::MovingBoxes`]): they are [`step`](selvedge::step), counted as the others are.
+//!
+//! ```
+//! use selvedge::{glam::DVec3, mesh::Topology};
+//! use selvedge_laboratory::pipeline::{Pipeline, Preset};
+//!
+//! // A small triangle falls through a large one.
+//! let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?;
+//! let mut start = vec![DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, -5.0, 0.0), DVec3::new(0.0, 5.0, 0.0)];
+//! start.extend([DVec3::new(0.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 1.1), DVec3::new(0.0, 1.0, 1.2)]);
+//! let mut end = start.clone();
+//! for vertex in &mut end[3..] {
+//!     vertex.z -= 4.0;
+//! }
+//!
+//! let mut pipeline = Pipeline::<f64>::new(topology, Preset::Selvedge.stages(), 1)?;
+//! let report = pipeline.step(&start, &end)?;
+//! assert_eq!((report.candidates().vertex_face, report.contacts().vertex_face), (3, 3));
+//! let time = pipeline.contacts()[0].time;
+//! assert!(time <= 0.25 && time > 0.25 - 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod assignment;
+mod batch;
+mod pairs;
+mod preset;
+mod report;
+mod stored;
+mod swept;
+
+pub use assignment::FeatureAssignment;
+pub use preset::{CullingTest, ElementaryTest, Preset, Redundancy, Source, Stage, Stages, UnknownPreset};
+pub use report::{StageReport, StepReport};
+pub use selvedge::frame::StepError;
+pub use selvedge::parallel::ThreadError;
+pub use selvedge::step::Contact;
+
+use batch::{Batch, StepInput};
+use pairs::MovingMesh;
+use rustc_hash::FxHashSet;
+use selvedge::PairCounts;
+use selvedge::PairKind;
+use selvedge::broad_phase::{BroadPhase, SweptBox};
+use selvedge::dispatch::{Level, best_level};
+use selvedge::frame::check_frames;
+use selvedge::mesh::Topology;
+use selvedge::parallel::{self, Threads};
+use selvedge::step::CollisionDetector;
+use selvedge_core::batch::VertexRow;
+use selvedge_core::boxes::{Aabb, Dop18};
+use selvedge_core::{Motion, Scalar};
+use std::sync::Arc;
+use std::time::Instant;
+use stored::Stored;
+
+/// Candidate triangle pairs in a batch. Their primitive pairs take at most a quarter of a megabyte, so that a batch
+/// goes through all stages in a core's own cache; smaller batches gain nothing and pay for the clock more often.
+const BATCH: usize = 2048;
+
+/// A method, set up for one mesh; [`step`](Self::step) runs it on one time step after another.
+///
+/// Contacts and counts are the same, in the same order, for any number of threads. Buffers grow with some room to spare and
+/// never shrink: after the first step nothing is allocated unless some part of the mesh has more pairs than ever. (With
+/// several threads rayon may still allocate for its queues.)
+#[derive(Debug)]
+pub struct Pipeline<S: Scalar> {
+    topology: Arc<Topology>,
+    stages: Stages,
+    route: Route<S>,
+    /// Those of the route with triangle pairs; a detector has its own.
+    threads: Threads,
+    buffers: Buffers<S>,
+    report: StepReport,
+}
+
+/// Where primitive pairs come from.
+#[derive(Debug)]
+enum Route<S: Scalar> {
+    TrianglePairs(Redundancy, FeatureAssignment),
+    MovingBoxes(Box<CollisionDetector<S>>),
+}
+
+/// What is filled anew in each step.
+#[derive(Debug)]
+struct Buffers<S: Scalar> {
+    keep_candidates: bool,
+    level: Level,
+    rows: Vec<VertexRow<S>>,
+    swept: Vec<SweptBox>,
+    broad_phase: BroadPhase,
+    triangle_pairs: Vec<[u32; 2]>,
+    boxes: Stored<Aabb<S>>,
+    dops: Stored<Dop18<S>>,
+    batches: Vec<Batch<S>>,
+    distributed: Distributed,
+    candidates: [Vec<[u32; 2]>; 2],
+    contacts: Vec<Contact<S>>,
+}
+
+/// The primitive pairs distributed so far in this step, for [`Redundancy::HashSets`].
+#[derive(Debug, Default)]
+struct Distributed {
+    vertex_face: FxHashSet<[u32; 2]>,
+    edge_edge: FxHashSet<[u32; 2]>,
+}
+
+impl<S: Scalar> Pipeline<S> {
+    /// Prepares `stages` for a mesh, on `threads` threads (0: one for each core).
+    ///
+    /// With one thread everything runs on the calling thread, and no pool is made.
+    ///
+    /// # Errors
+    /// If the operating system refuses the threads.
+    pub fn new(topology: impl Into<Arc<Topology>>, stages: Stages, threads: usize) -> Result<Self, ThreadError> {
+        let topology = topology.into();
+        let mut own_threads = Threads::default();
+        let route = match stages.source {
+            Source::MovingBoxes => {
+                let mut detector = CollisionDetector::new(topology.clone(), threads)?;
+                detector.set_exact(stages.elementary == ElementaryTest::Exact);
+                Route::MovingBoxes(Box::new(detector))
+            }
+            Source::TrianglePairs(redundancy) => {
+                own_threads = Threads::new(threads)?;
+                let assignment = match redundancy {
+                    Redundancy::RepresentativeTriangles => FeatureAssignment::representative(&topology),
+                    Redundancy::Kept | Redundancy::HashSets => FeatureAssignment::every_feature(&topology),
+                };
+                Route::TrianglePairs(redundancy, assignment)
+            }
+        };
+        // A few batches for each thread, so that an unlucky one does not keep the others waiting.
+        let batches = match (&route, own_threads.count()) {
+            (Route::MovingBoxes(_), _) => 0,
+            (_, 1) => 1,
+            (_, count) => 4 * count,
+        };
+        Ok(Self {
+            buffers: Buffers {
+                keep_candidates: false,
+                level: best_level(),
+                rows: Vec::new(),
+                swept: Vec::new(),
+                broad_phase: BroadPhase::new(),
+                triangle_pairs: Vec::new(),
+                boxes: Stored::new(),
+                dops: Stored::new(),
+                batches: vec![Batch::with_capacity(BATCH); batches],
+                distributed: Distributed::default(),
+                candidates: [Vec::new(), Vec::new()],
+                contacts: Vec::new(),
+            },
+            report: StepReport::default(),
+            topology,
+            stages,
+            route,
+            threads: own_threads,
+        })
+    }
+
+    /// Whether the pairs that reach the elementary test are kept for [`candidates`](Self::candidates). Off at first.
+    pub const fn keep_candidates(&mut self, keep: bool) {
+        self.buffers.keep_candidates = keep;
+    }
+
+    /// Forces the instruction set of the batched kernels; the best that the machine has is the default. Changes no result.
+    pub const fn set_level(&mut self, level: Level) {
+        self.buffers.level = level;
+        if let Route::MovingBoxes(detector) = &mut self.route {
+            detector.set_level(level);
+        }
+    }
+
+    /// Runs the step from `start` to `end`, one position for each vertex, in any length unit.
+    ///
+    /// # Errors
+    /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
+    pub fn step(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<&StepReport, StepError> {
+        check_frames::<S>(start, end, self.topology.vertex_count())?;
+        let Self {
+            topology,
+            stages,
+            route,
+            threads,
+            buffers,
+            report,
+        } = self;
+        match route {
+            Route::TrianglePairs(redundancy, assignment) => {
+                let mesh = Distributor {
+                    topology,
+                    assignment,
+                    redundancy: *redundancy,
+                };
+                threads.run(|| buffers.step(mesh, *stages, start, end, report));
+            }
+            Route::MovingBoxes(detector) => {
+                buffers.ask(detector, start, end)?;
+                *report = StepReport::of_detector(detector.tally());
+            }
+        }
+        Ok(report)
+    }
+
+    /// The contacts of the last step: batch by batch in the order of candidate triangle pairs; without them vertex–face first,
+    /// in the order of the hierarchies.
+    #[must_use]
+    pub fn contacts(&self) -> &[Contact<S>] {
+        &self.buffers.contacts
+    }
+
+    /// The pairs of the last step that reached the elementary test, if they are [kept](Self::keep_candidates).
+    #[must_use]
+    pub fn candidates(&self, kind: PairKind) -> &[[u32; 2]] {
+        &self.buffers.candidates[kind as usize]
+    }
+
+    /// What the last step counted and how long it took.
+    #[must_use]
+    pub const fn report(&self) -> &StepReport {
+        &self.report
+    }
+
+    /// The mesh's vertices, edges and triangles.
+    #[must_use]
+    pub fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    /// How many threads a step uses.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        match &self.route {
+            Route::MovingBoxes(detector) => detector.threads(),
+            Route::TrianglePairs(..) => self.threads.count(),
+        }
+    }
+}
+
+/// What makes primitive pairs of triangle pairs.
+#[derive(Clone, Copy)]
+struct Distributor<'a> {
+    topology: &'a Topology,
+    assignment: &'a FeatureAssignment,
+    redundancy: Redundancy,
+}
+
+impl<S: Scalar> Buffers<S> {
+    /// Our own detector's contacts, and its candidates if they are kept.
+    fn ask(&mut self, detector: &mut CollisionDetector<S>, start: &[S::Vector], end: &[S::Vector]) -> Result<(), StepError> {
+        let [vertex_face, edge_edge] = &mut self.candidates;
+        if self.keep_candidates {
+            detector.contacts_and_filtered(start, end, &mut self.contacts, vertex_face, edge_edge)
+        } else {
+            vertex_face.clear();
+            edge_edge.clear();
+            detector.contacts(start, end, &mut self.contacts)
+        }
+    }
+
+    fn step(
+        &mut self,
+        distributor: Distributor<'_>,
+        stages: Stages,
+        start: &[S::Vector],
+        end: &[S::Vector],
+        report: &mut StepReport,
+    ) {
+        let begin = Instant::now();
+        self.rows.clear();
+        let moving = start.iter().zip(end).map(|(&start, &end)| Motion::new(start, end));
+        self.rows.extend(moving.map(VertexRow::new));
+        let mesh = MovingMesh {
+            topology: distributor.topology,
+            rows: &self.rows,
+        };
+        self.boxes.refit_vertices_and_faces(mesh);
+        swept::map_boxes(&mut self.swept, self.boxes.faces());
+        self.broad_phase.update(&self.swept);
+        self.broad_phase.candidate_triangle_pairs(&mut self.triangle_pairs);
+        report.broad_phase_seconds = begin.elapsed().as_secs_f64();
+        report.triangle_pairs = self.triangle_pairs.len() as u64;
+
+        self.primitive_stages(distributor, stages, report);
+        report.seconds = begin.elapsed().as_secs_f64();
+    }
+
+    fn primitive_stages(&mut self, distributor: Distributor<'_>, stages: Stages, report: &mut StepReport) {
+        let Distributor {
+            topology,
+            assignment,
+            redundancy,
+        } = distributor;
+        report.broad_phase_pairs = None;
+        let names = std::iter::once(Stage::Distribution)
+            .chain(stages.tests.iter().map(|test| test.stage()))
+            .chain([Stage::Elementary]);
+        report.stages = names
+            .map(|stage| StageReport {
+                stage,
+                survivors: PairCounts::default(),
+                seconds: 0.0,
+            })
+            .collect();
+        self.contacts.clear();
+        self.candidates.iter_mut().for_each(Vec::clear);
+        self.distributed.vertex_face.clear();
+        self.distributed.edge_edge.clear();
+
+        let mesh = MovingMesh {
+            topology,
+            rows: &self.rows,
+        };
+        // What only some methods keep is refitted in the stage that uses it.
+        for (test, report) in stages.tests.iter().zip(&mut report.stages[1..]) {
+            let begin = Instant::now();
+            match test {
+                CullingTest::StoredSweptBoxes => self.boxes.refit_edges(mesh),
+                CullingTest::StoredDop18 => {
+                    self.dops.refit_vertices_and_faces(mesh);
+                    self.dops.refit_edges(mesh);
+                }
+                _ => continue,
+            }
+            report.seconds += begin.elapsed().as_secs_f64();
+        }
+        let step = StepInput {
+            level: self.level,
+            mesh,
+            boxes: &self.boxes,
+            dops: &self.dops,
+            stages,
+        };
+
+        for pairs in self.triangle_pairs.chunks(BATCH * self.batches.len()) {
+            let batches = &mut self.batches[..pairs.len().div_ceil(BATCH)];
+            let distribute = |index: usize, batch: &mut Batch<S>| {
+                let pairs = &pairs[index * BATCH..pairs.len().min((index + 1) * BATCH)];
+                batch.distribute(pairs, assignment);
+            };
+            let finish = |batch: &mut Batch<S>| {
+                batch.cull(&step);
+                batch.find_contacts(&step);
+            };
+            if redundancy == Redundancy::HashSets {
+                // The sets are asked in order, by one thread: whichever pair comes first stays.
+                parallel::for_each(batches, distribute);
+                batches.iter_mut().for_each(|batch| batch.keep_new(&mut self.distributed));
+                parallel::for_each(batches, |_, batch| finish(batch));
+            } else {
+                parallel::for_each(batches, |index, batch| {
+                    distribute(index, batch);
+                    finish(batch);
+                });
+            }
+            for batch in batches {
+                for (stage, &(survivors, seconds)) in report.stages.iter_mut().zip(&batch.tallies) {
+                    stage.survivors += survivors;
+                    stage.seconds += seconds;
+                }
+                if self.keep_candidates {
+                    self.candidates[PairKind::VertexFace as usize].extend_from_slice(&batch.vertex_face);
+                    self.candidates[PairKind::EdgeEdge as usize].extend_from_slice(&batch.edge_edge);
+                }
+                self.contacts.extend_from_slice(&batch.contacts);
+            }
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! The broad phase's boxes: `f32` whatever the positions are.
+//!
+//! Boxes must overlap whenever the exact ones do. A coordinate x becomes fl₃₂(fl(x − m)), m a middle of the mesh. Both
+//! roundings are monotone: x ≤ y implies that x's image is at most y's. Two boxes overlap if each one's lower bound is at
+//! most the other's upper bound, on each axis; so boxes that overlap still do after the mapping, **without rounding
+//! outwards**. Some pairs that were narrowly apart may be added; the primitive box tests see the exact positions. Taking m
+//! off first keeps `f32` precise for a mesh that is far from the origin.
+
+use selvedge::broad_phase::SweptBox;
+use selvedge::parallel;
+use selvedge_core::Scalar;
+use selvedge_core::boxes::Aabb;
+
+/// Replaces `mapped` by the mapped boxes.
+pub(super) fn map_boxes<S: Scalar>(mapped: &mut Vec<SweptBox>, boxes: &[Aabb<S>]) {
+    let middle = middle(boxes);
+    parallel::fill(mapped, boxes, |swept| {
+        let map = |bounds: [S; 3]| [0, 1, 2].map(|axis| nearest_f32(bounds[axis].to_f64() - middle[axis]));
+        SweptBox {
+            lower: map(swept.lower),
+            upper: map(swept.upper),
+        }
+    });
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    reason = "rounding to nearest is monotone, which is all that is needed"
+)]
+fn nearest_f32(value: f64) -> f32 {
+    value as f32
+}
+
+/// The middle of all boxes; zero where that overflows.
+fn middle<S: Scalar>(boxes: &[Aabb<S>]) -> [f64; 3] {
+    let all = boxes.iter().fold(Aabb::empty(), |all, swept| all.merged(swept));
+    [0, 1, 2].map(|axis| {
+        let middle = 0.5 * (all.lower[axis].to_f64() + all.upper[axis].to_f64());
+        if middle.is_finite() { middle } else { 0.0 }
+    })
+}

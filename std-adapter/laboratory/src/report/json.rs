@@ -1,0 +1,364 @@
+//! What `--json` prints: names are lower case with underscores, values lower case with hyphens, times are seconds
+//! unless the name says nanoseconds.
+
+use super::distributed;
+use super::findings::findings;
+use super::n_log_n_ratios;
+use super::paper::paper_row;
+use super::step::{StepQuestion, StepSummary};
+use crate::hard_cases::Contact;
+use crate::pipeline::{Preset, Stage, StepReport};
+use crate::study::elementary::ElementaryAccuracy;
+use crate::study::{Accuracy, AccuracySet};
+use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
+use crate::study::{HardAnswer, HardResult, QueryMethod, QueryResult};
+use selvedge::PairCounts;
+use serde_json::{Value, json};
+
+/// One step: `selvedge cull`.
+#[must_use]
+pub fn step(summary: &StepSummary) -> Value {
+    let contacts = summary.report.contacts();
+    // Null is what was not asked.
+    let contacts = match summary.question {
+        StepQuestion::Contacts => json!({
+            "vertex_face": contacts.vertex_face,
+            "edge_edge": contacts.edge_edge,
+            "earliest": summary.earliest,
+        }),
+        StepQuestion::Earliest => json!({
+            "vertex_face": Value::Null,
+            "edge_edge": Value::Null,
+            "earliest": summary.earliest,
+        }),
+        StepQuestion::Candidates => Value::Null,
+    };
+    json!({
+        "pipeline": summary.preset.name(),
+        "scalar": summary.scalar,
+        "vertices": summary.vertices,
+        "edges": summary.edges,
+        "triangles": summary.triangles,
+        "threads": summary.threads,
+        "stages": step_stages(&summary.report),
+        "contacts": contacts,
+        "seconds": summary.report.seconds,
+        "first_run_seconds": summary.first_run_seconds,
+    })
+}
+
+fn step_stages(report: &StepReport) -> Vec<Value> {
+    let of_pairs = |stage: Stage, pairs: PairCounts, seconds: f64| {
+        json!({
+            "stage": stage.name(),
+            "vertex_face": pairs.vertex_face,
+            "edge_edge": pairs.edge_edge,
+            "seconds": seconds,
+        })
+    };
+    let mut stages = vec![match report.broad_phase_pairs {
+        Some(pairs) => of_pairs(Stage::BroadPhase, pairs, report.broad_phase_seconds),
+        None => json!({
+            "stage": Stage::BroadPhase.name(),
+            "triangle_pairs": report.triangle_pairs,
+            "seconds": report.broad_phase_seconds,
+        }),
+    }];
+    let later = report.stages.iter();
+    stages.extend(later.map(|stage| of_pairs(stage.stage, stage.survivors, stage.seconds)));
+    stages
+}
+
+/// Every method on the same steps: `selvedge compare`.
+#[must_use]
+pub fn comparison(comparison: &Comparison) -> Value {
+    json!({
+        "scene": comparison.name,
+        "vertices": comparison.vertices,
+        "edges": comparison.edges,
+        "triangles": comparison.triangles,
+        "steps": comparison.steps,
+        "threads": comparison.threads,
+        "rounds": comparison.rounds,
+        "rows": comparison.rows.iter().map(comparison_row).collect::<Vec<_>>(),
+        "findings": findings(comparison)
+            .iter()
+            .map(|finding| json!({"text": finding.text, "as_expected": finding.as_expected}))
+            .collect::<Vec<_>>(),
+    })
+}
+
+fn comparison_row(row: &ComparisonRow) -> Value {
+    let kind = |pick: fn(&MeanCounts) -> f64| {
+        json!({
+            "distributed": distributed(row).as_ref().map(pick),
+            "after_boxes": pick(&row.after_boxes),
+            "after_filter": pick(&row.candidates),
+            "contacts": pick(&row.contacts),
+        })
+    };
+    json!({
+        "pipeline": row.preset.name(),
+        "reconstructed": row.preset.is_reconstructed(),
+        "vertex_face": kind(|counts| counts.vertex_face),
+        "edge_edge": kind(|counts| counts.edge_edge),
+        "missed": row.missed.vertex_face + row.missed.edge_edge,
+        "frames_per_second": row.frames_per_second,
+        "stages": comparison_stages(row),
+        "paper": paper_row(row.preset).map(|paper| json!({
+            "row": paper.label,
+            "vertex_face": paper.vertex_face,
+            "edge_edge": paper.edge_edge,
+            "frames_per_second": paper.frames_per_second,
+        })),
+    })
+}
+
+fn comparison_stages(row: &ComparisonRow) -> Vec<Value> {
+    let of_pairs = |stage: Stage, pairs: MeanCounts, seconds: f64| {
+        json!({
+            "stage": stage.name(),
+            "vertex_face": pairs.vertex_face,
+            "edge_edge": pairs.edge_edge,
+            "seconds": seconds,
+        })
+    };
+    let mut stages = vec![if row.has_triangle_pairs {
+        json!({
+            "stage": Stage::BroadPhase.name(),
+            "triangle_pairs": row.triangle_pairs,
+            "seconds": row.broad_phase_seconds,
+        })
+    } else {
+        of_pairs(Stage::BroadPhase, row.after_boxes, row.broad_phase_seconds)
+    }];
+    let later = row.stages.iter();
+    stages.extend(later.map(|stage| of_pairs(stage.stage, stage.survivors, stage.seconds)));
+    stages
+}
+
+/// What each method said of queries: `selvedge queries`.
+#[must_use]
+pub fn queries(scalar: &str, results: &[QueryResult]) -> Value {
+    let methods = results.iter().map(|result| {
+        let time = result.nanoseconds;
+        json!({
+            "method": result.method.name(),
+            "kind": result.kind.name(),
+            "certified": result.method.is_certified(),
+            "queries": result.queries,
+            "positives": result.positives,
+            "truth_positives": result.truth.map(|truth| truth.positives),
+            "false_positives": result.truth.map(|truth| truth.false_positives),
+            "false_negatives": result.truth.map(|truth| truth.false_negatives),
+            "nanoseconds": {
+                "mean": time.mean,
+                "median": time.median,
+                "p99": time.p99,
+                "max": time.max,
+            },
+        })
+    });
+    json!({"scalar": scalar, "methods": methods.collect::<Vec<_>>()})
+}
+
+/// What a step costs with the first of the effects, with the first two, and so on.
+#[must_use]
+pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
+    let costs = costs
+        .iter()
+        .map(|cost| json!({"added": cost.added, "steps": cost.steps, "seconds_a_step": cost.seconds}));
+    costs.collect()
+}
+
+/// A simulation that has taken `seconds` so far: `selvedge simulate`.
+#[must_use]
+pub fn simulation(simulation: &selvedge_cloth::Simulation, seconds: f64) -> Value {
+    let steps = simulation.steps_done();
+    let effects = simulation.effects().iter();
+    let effects: Vec<_> = effects
+        .map(|effect| json!({"effect": effect.name, "seconds": effect.seconds}))
+        .collect();
+    let counts = simulation.contact_counts();
+    let pairs = counts.iter().flat_map(|counts| counts.pairs());
+    let pairs = pairs.map(|(stage, count)| json!({"stage": stage, "pairs": count}));
+    let stages = simulation.contact_seconds().into_iter();
+    let stages = stages.flat_map(|seconds| seconds.stages());
+    let stages = stages.map(|(stage, seconds)| json!({"stage": stage, "seconds": seconds}));
+    json!({
+        "scene": simulation.name(),
+        "steps": steps,
+        "seconds": seconds,
+        "steps_per_second": steps as f64 / seconds,
+        "simulated_seconds": simulation.time(),
+        "effects": effects,
+        "pairs": pairs.collect::<Vec<_>>(),
+        "stages": stages.collect::<Vec<_>>(),
+        "contacts_resolved": counts.map(|counts| counts.pushed),
+        "vertices_held": counts.map(|counts| counts.held),
+        "cuts": counts.map(|counts| counts.cuts),
+        "blocked_steps": simulation.blocked_steps(),
+        "lag_seconds": simulation.lag(),
+        // Certified for cloth with whatever the scene's contact effects name; nobody looks if there are none.
+        "intersections_at_end": simulation.is_certified().then_some(0),
+    })
+}
+
+/// Cost against size: `selvedge scaling`.
+#[must_use]
+pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Value {
+    let ratios = n_log_n_ratios(points);
+    let sizes = points.iter().zip(ratios).map(|(point, ratio)| {
+        let candidates = point.step.candidates();
+        json!({
+            "triangles": point.triangles,
+            "triangle_pairs": point.step.broad_phase_pairs.is_none().then_some(point.step.triangle_pairs),
+            "candidates": {
+                "vertex_face": candidates.vertex_face,
+                "edge_edge": candidates.edge_edge,
+            },
+            "setup_seconds": point.setup_seconds,
+            "first_step_seconds": point.first_step_seconds,
+            "seconds": point.step.seconds,
+            "seconds_over_n_log_n": ratio,
+            "stages": step_stages(&point.step),
+        })
+    });
+    json!({
+        "pipeline": preset.name(),
+        "threads": threads,
+        "sizes": sizes.collect::<Vec<_>>(),
+    })
+}
+
+/// What accuracy costs in time: `selvedge accuracy`. One row for each set, format, filter and backend.
+#[must_use]
+pub fn accuracy(accuracy: &Accuracy) -> Value {
+    let options = accuracy.options;
+    let sets = accuracy.sets.iter().map(|set| {
+        let more = [
+            ("drawn_from", set.drawn_from),
+            ("timed", set.timed),
+            ("cullable", set.cullable),
+        ];
+        pairs_of(&set.name, set.scalar, [set.vertex_face, set.edge_edge], &more)
+    });
+    json!({
+        "seed": options.seed,
+        "repeat": options.repeat,
+        "separation": options.separation,
+        "sets": sets.collect::<Vec<_>>(),
+        "rows": accuracy.sets.iter().flat_map(accuracy_rows).collect::<Vec<_>>(),
+    })
+}
+
+/// A set of pairs: how many of each kind, and what else was counted.
+fn pairs_of(name: &str, scalar: &str, pairs: [usize; 2], more: &[(&str, usize)]) -> Value {
+    let [vertex_face, edge_edge] = pairs;
+    let mut set = json!({
+        "set": name,
+        "scalar": scalar,
+        "vertex_face": vertex_face,
+        "edge_edge": edge_edge,
+    });
+    for &(key, count) in more {
+        set[key] = count.into();
+    }
+    set
+}
+
+fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
+    let share = |count: usize, of: usize| count as f64 / of as f64;
+    let mut rows = Vec::new();
+    for row in &set.rows {
+        for &time in &row.times {
+            let is_best = row.best_time() == Some(time);
+            let proves_the_same = row.false_culls().is_some();
+            rows.push(json!({
+                "set": set.name,
+                "tier": row.filter.name(),
+                "certified": row.filter.is_certified(),
+                "scalar": set.scalar,
+                "backend": time.backend,
+                "nanoseconds_per_pair": time.nanoseconds,
+                "nanoseconds_per_pair_in_first_cache": row.in_first_cache.filter(|_| is_best),
+                "over_uncertified": set.over_uncertified(time),
+                "culled_fraction": share(row.culled, set.pairs()),
+                "cullable_fraction": share(set.cullable, set.pairs()),
+                "kept_of_cullable_fraction": share(row.kept_cullable, set.cullable),
+                "false_culls": row.false_culls(),
+                "culled_beyond_exact": (!proves_the_same).then_some(row.culled_beyond_exact),
+            }));
+        }
+    }
+    rows
+}
+
+/// Every elementary test, its time and what it gets wrong: a part of `selvedge accuracy`.
+#[must_use]
+pub fn elementary(accuracy: &ElementaryAccuracy) -> Value {
+    let sets = accuracy.sets.iter().map(|set| {
+        let more = [("touching", set.touching), ("with_time", set.with_time)];
+        pairs_of(&set.name, set.scalar, [set.vertex_face, set.edge_edge], &more)
+    });
+    let rows = accuracy.sets.iter().flat_map(|set| {
+        set.rows.iter().map(|row| {
+            json!({
+                "set": set.name,
+                "scalar": set.scalar,
+                "method": row.method.name(),
+                "tolerance": row.method.tolerance(),
+                "certified": row.method.is_certified(),
+                "pairs": row.asked,
+                "touching": row.touching,
+                "nanoseconds_per_pair": row.nanoseconds,
+                "false_negatives": row.missed,
+                "late": row.late,
+                "latest": row.latest,
+                "false_positives": row.false_alarms,
+                "early_median": row.early,
+                "early_most": row.early.map(|_| row.earliest),
+            })
+        })
+    });
+    json!({
+        "seed": accuracy.options.seed,
+        "repeat": accuracy.options.repeat,
+        "sets": sets.collect::<Vec<_>>(),
+        "rows": rows.collect::<Vec<_>>(),
+    })
+}
+
+/// What every method said of the hard cases: `selvedge hard-cases`.
+#[must_use]
+pub fn hard_cases(scalar: &str, results: &[HardResult]) -> Value {
+    let cases = results.iter().map(|result| {
+        let case = result.case;
+        let (first, enclosure) = match &case.contact {
+            Contact::Never => ("never", None),
+            Contact::Undefined => ("undefined", None),
+            Contact::First { exact, from, to } => (exact.as_str(), Some([*from, *to])),
+        };
+        let answers = QueryMethod::ALL.into_iter().zip(result.answers);
+        let answers = answers.map(|(method, answer)| {
+            let answer = match answer {
+                HardAnswer::Right => "right",
+                HardAnswer::FalseAlarm => "false-alarm",
+                HardAnswer::Missed => "missed",
+            };
+            (method.name().to_owned(), Value::from(answer))
+        });
+        json!({
+            "case": case.name,
+            "placement": case.placement,
+            "kind": case.kind.name(),
+            "first_contact": first,
+            "between": enclosure,
+            "answers": answers.collect::<serde_json::Map<_, _>>(),
+        })
+    });
+    json!({
+        "scalar": scalar,
+        "cases": cases.collect::<Vec<_>>(),
+    })
+}

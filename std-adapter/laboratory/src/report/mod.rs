@@ -1,0 +1,53 @@
+//! What studies and simulations found, as tables, CSV, JSON, plots, pictures, a page that works offline, and animated glTF.
+//! Everything is returned as text or bytes, or written to what the caller hands over; nothing here opens a file. The same data
+//! gives the same bytes, on every machine.
+//!
+//! A simulation is handed over as a [`Recording`], which a [`Recorder`] makes.
+
+mod accuracy_svg;
+mod csv;
+mod figure;
+mod findings;
+pub mod gltf;
+pub mod json;
+mod number;
+pub mod page;
+mod paper;
+mod plot;
+mod recording;
+mod step;
+#[cfg(test)]
+mod svg_texts;
+mod table_svg;
+pub mod tables;
+
+pub use self::csv::{comparison_csv, contacts_csv, pairs_csv};
+pub use accuracy_svg::accuracy_svg;
+pub use accuracy_svg::elementary_svg;
+pub use figure::{FIGURE_SIZE, FigureError, FigurePairs, figure_3};
+pub use findings::{Finding, findings};
+pub use paper::{PaperRow, paper_row};
+pub use plot::scaling_svg;
+pub use recording::{About, Added, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind};
+pub use recording::{SimulationRecorder, Subject, costs_of_added_effects};
+pub use step::{StepQuestion, StepSummary};
+pub use table_svg::comparison_svg;
+
+use crate::pipeline::Stage;
+use crate::study::{ComparisonRow, MeanCounts, ScalingPoint};
+
+/// The primitive pairs of a method before any culling test, if it distributes triangle pairs.
+fn distributed(row: &ComparisonRow) -> Option<MeanCounts> {
+    let stage = row.stages.iter().find(|stage| stage.stage == Stage::Distribution);
+    stage.map(|stage| stage.survivors)
+}
+
+/// Each size's time for a step over n log n, as a multiple of the first size's: 1 throughout for a cost of n log n.
+fn n_log_n_ratios(points: &[ScalingPoint]) -> Vec<f64> {
+    let cost = |point: &ScalingPoint| {
+        let n = point.triangles as f64;
+        point.step.seconds / (n * n.ln())
+    };
+    let first = points.first().map_or(1.0, cost);
+    points.iter().map(|point| cost(point) / first).collect()
+}

@@ -1,0 +1,227 @@
+//! What accuracy costs in time, of the elementary test: every test on the same pairs, at tolerances from 1e-2 to 1e-12.
+//!
+//! # Pairs
+//! The [hard cases](crate::hard_cases), as far as a format holds them exactly; candidates of real steps and nearly coplanar pairs, as for
+//! the filters, of which those are asked whose swept boxes overlap. A test that is slow is asked about fewer of them: in
+//! random order until [`BUDGET`] seconds are over. Its counts are of the pairs that it was asked about.
+//!
+//! # Truth
+//! *Whether* a pair touches is decided exactly, in whole numbers, by [`selvedge_core::elementary::contact`](mod@contact), on
+//! the coordinates in the format at hand.
+//!
+//! *When* it does first is an algebraic number. The hard cases come with it, enclosed by two neighbouring numbers: `verification/`
+//! has computed it with exact rationals. This crate has no such arithmetic, and cutting steps short so that whole numbers could
+//! decide by bisection is no way: positions within a step are not floating-point numbers. For scenes it is therefore
+//! *enclosed*, in `f64`, on the same coordinates: from below by advancing with a tolerance of zero, from above by the end of an
+//! interval in which contact is certain ([`certain_contact`]). Both are proven; `verification/` checks that the exact time is in
+//! between. Where they are no nearer to each other than [`WIDEST`] (touching without passing through, resting, sliding) the time is not
+//! known here, and such a pair counts for misses only.
+//!
+//! # Errors
+//! A time before the exact one is early by so much. One after it is *late*, which is as bad as a miss: a step up to it
+//! goes through.
+
+mod measure;
+mod method;
+mod truth;
+
+pub use method::ElementaryMethod;
+pub use truth::{ExactAnswer, WIDEST, exact_answer};
+
+use super::{AccuracyOptions, PairSet, ScenePairs, scene_pairs};
+use crate::hard_cases::{Contact, hard_cases};
+use crate::study::Frames;
+use crate::study::hard_cases::exactly;
+use selvedge::PairKind;
+use selvedge_core::{EdgeEdge, Motion, Scalar, VertexFace, boxes};
+use std::error::Error;
+
+#[cfg(doc)]
+use selvedge_core::elementary::{advance::confirm::certain_contact, contact};
+
+/// Seconds that one test may take on one set in one format, or a little more.
+pub const BUDGET: f64 = 0.4;
+
+/// Every elementary test on every set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElementaryAccuracy {
+    /// How it was measured. The separation counts for nothing.
+    pub options: AccuracyOptions,
+    /// Each set in `f32`, then in `f64`.
+    pub sets: Vec<ElementarySet>,
+}
+
+/// Every elementary test on one set of pairs in one format.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElementarySet {
+    /// What the pairs are.
+    pub name: String,
+    /// `"f32"` or `"f64"`.
+    pub scalar: &'static str,
+    /// Vertex–face pairs.
+    pub vertex_face: usize,
+    /// Edge–edge pairs.
+    pub edge_edge: usize,
+    /// Pairs that touch.
+    pub touching: usize,
+    /// Those of which it is known when.
+    pub with_time: usize,
+    /// A row for each test, in the order of [`ElementaryMethod::ALL`].
+    pub rows: Vec<ElementaryRow>,
+}
+
+/// One test on one set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElementaryRow {
+    /// Which test.
+    pub method: ElementaryMethod,
+    /// So many pairs it was asked about.
+    pub asked: usize,
+    /// So many of them touch.
+    pub touching: usize,
+    /// Nanoseconds a pair, one at a time, gathered.
+    pub nanoseconds: f64,
+    /// Touching pairs that it calls free of contact.
+    pub missed: usize,
+    /// Contacts whose time is after the exact one.
+    pub late: usize,
+    /// The most that one is late, in steps.
+    pub latest: f64,
+    /// Pairs that it does not call free of contact, though they are.
+    pub false_alarms: usize,
+    /// How much too early contacts are, in steps, the median; late ones count as not at all. `None` without a contact of known time.
+    pub early: Option<f64>,
+    /// The most that one is early.
+    pub earliest: f64,
+}
+
+impl ElementaryRow {
+    /// Whether some answer of it would let a step go through a contact.
+    #[must_use]
+    pub const fn is_wrong(&self) -> bool {
+        self.missed > 0 || self.late > 0
+    }
+}
+
+/// Pairs in one format, with what is true of them.
+struct Questions<S: Scalar> {
+    name: String,
+    pairs: Vec<Pair<S>>,
+    truth: Vec<ExactAnswer>,
+}
+
+/// A pair of either kind.
+#[derive(Clone, Copy, Debug)]
+enum Pair<S: Scalar> {
+    VertexFace(VertexFace<S>),
+    EdgeEdge(EdgeEdge<S>),
+}
+
+impl<S: Scalar> Pair<S> {
+    fn new(kind: PairKind, [a, b, c, d]: [Motion<S>; 4]) -> Self {
+        match kind {
+            PairKind::VertexFace => Self::VertexFace(VertexFace {
+                vertex: a,
+                face: [b, c, d],
+            }),
+            PairKind::EdgeEdge => Self::EdgeEdge(EdgeEdge {
+                first: [a, b],
+                second: [c, d],
+            }),
+        }
+    }
+}
+
+/// Measures every elementary test on hard cases, on candidates of the arm scene and of `mesh` (all its steps) if there is one, and on
+/// nearly coplanar pairs. `progress` is told the share that is done.
+///
+/// # Errors
+/// If threads cannot be started or a frame is not finite.
+pub fn measure_elementary_accuracy<F: Frames>(
+    mesh: Option<&F>,
+    options: AccuracyOptions,
+    progress: &mut dyn FnMut(f64),
+) -> Result<ElementaryAccuracy, Box<dyn Error + Send + Sync>> {
+    let ScenePairs {
+        arm,
+        mesh,
+        near_coplanar: [single, double],
+    } = scene_pairs(mesh, options)?;
+    let scenes: Vec<_> = [Some(arm), mesh].into_iter().flatten().collect();
+    let mut in_each_format: Vec<_> = scenes.iter().map(|set| (set, set)).collect();
+    in_each_format.push((&single, &double));
+    let count = (2 * in_each_format.len() + 2) as f64;
+    let mut sets = Vec::new();
+    ask(&of_hard_cases::<f32>(), options, count, &mut sets, progress);
+    ask(&of_hard_cases::<f64>(), options, count, &mut sets, progress);
+    for (single, double) in in_each_format {
+        ask(&of_pairs::<f32>(single), options, count, &mut sets, progress);
+        ask(&of_pairs::<f64>(double), options, count, &mut sets, progress);
+    }
+    Ok(ElementaryAccuracy { options, sets })
+}
+
+/// Adds one set to those of `count` that are measured.
+fn ask<S: Scalar>(
+    questions: &Questions<S>,
+    options: AccuracyOptions,
+    count: f64,
+    sets: &mut Vec<ElementarySet>,
+    progress: &mut dyn FnMut(f64),
+) {
+    let done = sets.len() as f64;
+    let share = &mut |part| progress((done + part) / count);
+    sets.push(measure::measure(questions, options, share));
+}
+
+fn of_hard_cases<S: Scalar>() -> Questions<S> {
+    let mut questions = Questions {
+        name: "Hard cases".to_owned(),
+        pairs: Vec::new(),
+        truth: Vec::new(),
+    };
+    for case in hard_cases() {
+        let truth = match &case.contact {
+            Contact::Never => ExactAnswer::Never,
+            Contact::First { from, to, .. } => ExactAnswer::Touches {
+                first: Some([*from, *to]),
+            },
+            // What is not finite has no exact answer.
+            Contact::Undefined => continue,
+        };
+        if let Some(points) = exactly::<S>(case) {
+            questions.pairs.push(Pair::new(case.kind, points));
+            questions.truth.push(truth);
+        }
+    }
+    questions
+}
+
+/// The pairs whose swept boxes overlap.
+fn of_pairs<S: Scalar>(set: &PairSet) -> Questions<S> {
+    let rows = set.rows::<S>();
+    let mut pairs = Vec::new();
+    for (kind, indices) in [(PairKind::VertexFace, &set.vertex_face), (PairKind::EdgeEdge, &set.edge_edge)] {
+        let points = |&indices: &[u32; 4]| indices.map(|index| rows[index as usize].motion());
+        let all = indices.iter().map(|indices| Pair::new(kind, points(indices)));
+        pairs.extend(all.filter(|pair| {
+            let verdict = match pair {
+                Pair::VertexFace(pair) => boxes::swept_boxes(pair),
+                Pair::EdgeEdge(pair) => boxes::swept_boxes(pair),
+            };
+            !verdict.is_culled()
+        }));
+    }
+    let truth = pairs.iter().map(|pair| match pair {
+        Pair::VertexFace(pair) => exact_answer(pair),
+        Pair::EdgeEdge(pair) => exact_answer(pair),
+    });
+    Questions {
+        name: set.name.clone(),
+        truth: truth.collect(),
+        pairs,
+    }
+}
+
+#[cfg(test)]
+mod tests;

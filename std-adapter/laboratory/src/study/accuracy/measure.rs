@@ -1,0 +1,332 @@
+//! The clock and the counts, on one set of pairs in one format.
+
+use super::{AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, MeasuredFilter, PairSet};
+use selvedge::dispatch::{Level, available_levels};
+use selvedge_core::PairKind;
+use selvedge_core::batch::{LANES, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles};
+use selvedge_core::filter::{Filter, Tier, plain};
+use selvedge_core::points::{EdgeAndEdge, PairShape, VertexAndFace};
+use selvedge_core::{EdgeEdge, Motion, PrimitivePair, Scalar, Verdict, VertexFace, exact};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Pairs that are tested in one go. Rows of pairs that share none take 512 kB in `f64`, which stays in a core's own
+/// cache; and reading the clock, 25 ns or so, is small against the fastest filter's 2 µs.
+const CHUNK: usize = 2048;
+/// About so many pairs of a set are timed, in evenly spaced chunks; all are counted.
+const TIMED: usize = 50_000;
+/// Of each timed chunk so many pairs are tested as tiles as well: 24 kB in `f64`, which stays in the first cache.
+const TILED: usize = 128;
+/// So often in one go, to outlast the clock.
+const TILED_PASSES: usize = 32;
+
+/// Runs every filter on `set` in the format `S`, `repeat` times.
+pub(super) fn measure<S: Scalar>(
+    set: &PairSet,
+    repeat: u32,
+    separation: f64,
+    progress: &mut dyn FnMut(f64),
+) -> Result<AccuracySet, BackendsDisagree> {
+    let separation = S::from_f64(separation);
+    let rows = set.rows::<S>();
+    let mut filters: Vec<Measurement<S>> = MeasuredFilter::ALL
+        .into_iter()
+        .filter_map(|filter| Measurement::new(filter, separation))
+        .collect();
+    let mut cullable = 0;
+    let mut timed = 0;
+    let mut done = 0;
+    let timed_every = (set.pairs() / TIMED).max(1);
+    let mut chunk = 0;
+    let lists = [(PairKind::VertexFace, &set.vertex_face), (PairKind::EdgeEdge, &set.edge_edge)];
+    for (kind, indices) in lists {
+        for indices in indices.chunks(CHUNK) {
+            let pairs = Pairs {
+                kind,
+                rows: &rows,
+                indices,
+            };
+            let exact = pairs.exact_masks(separation);
+            cullable += ones(&exact);
+            let masks = filters.iter_mut().map(|filter| filter.count(&pairs, &exact));
+            let masks: Vec<_> = masks.collect();
+            if chunk % timed_every == 0 {
+                timed += indices.len();
+                let tiles = pairs.tiles();
+                for (filter, masks) in filters.iter_mut().zip(&masks) {
+                    filter.time(&pairs, &tiles, masks, repeat)?;
+                }
+            }
+            chunk += 1;
+            done += indices.len();
+            progress(done as f64 / set.pairs() as f64);
+        }
+    }
+    Ok(AccuracySet {
+        name: set.name.clone(),
+        scalar: S::NAME,
+        vertex_face: set.vertex_face.len(),
+        edge_edge: set.edge_edge.len(),
+        drawn_from: set.drawn_from,
+        timed,
+        cullable,
+        rows: filters.into_iter().map(|filter| filter.row(timed)).collect(),
+    })
+}
+
+/// Pairs of one kind, as the pipeline has them.
+struct Pairs<'a, S> {
+    kind: PairKind,
+    rows: &'a [VertexRow<S>],
+    indices: &'a [[u32; 4]],
+}
+
+impl<S: Scalar> Pairs<'_, S> {
+    fn mask_count(&self) -> usize {
+        self.indices.len().div_ceil(LANES)
+    }
+
+    #[inline(always)]
+    fn motions(&self, indices: [u32; 4]) -> [Motion<S>; 4] {
+        indices.map(|index| self.rows[index as usize].motion())
+    }
+
+    /// A mask bit for each pair for which `culls` is true, the pairs made from their rows one by one.
+    #[inline(always)]
+    fn one_by_one(
+        &self,
+        vertex_face: impl Fn(&VertexFace<S>) -> bool,
+        edge_edge: impl Fn(&EdgeEdge<S>) -> bool,
+        masks: &mut [Mask],
+    ) {
+        for (indices, mask) in self.indices.chunks(LANES).zip(masks) {
+            *mask = 0;
+            for (lane, &indices) in indices.iter().enumerate() {
+                let [a, b, c, d] = self.motions(indices);
+                let culled = match self.kind {
+                    PairKind::VertexFace => vertex_face(&VertexFace {
+                        vertex: a,
+                        face: [b, c, d],
+                    }),
+                    PairKind::EdgeEdge => edge_edge(&EdgeEdge {
+                        first: [a, b],
+                        second: [c, d],
+                    }),
+                };
+                *mask |= Mask::from(culled) << lane;
+            }
+        }
+    }
+
+    /// What exact arithmetic culls.
+    fn exact_masks(&self, separation: S) -> Vec<Mask> {
+        fn culls<S: Scalar, P: PairShape>(pair: &impl PrimitivePair<S, Shape = P>, separation: S) -> bool {
+            exact::is_never_within::<P, S>(&pair.points(), separation, exact::UNKNOWN)
+        }
+        let mut masks = vec![0; self.mask_count()];
+        self.one_by_one(
+            |pair| culls::<S, VertexAndFace>(pair, separation),
+            |pair| culls::<S, EdgeAndEdge>(pair, separation),
+            &mut masks,
+        );
+        masks
+    }
+
+    /// The first pairs, side by side.
+    fn tiles(&self) -> Vec<Tile<S>> {
+        let tiled = &self.indices[..self.indices.len().min(TILED)];
+        let tiles = tiled
+            .chunks(LANES)
+            .map(|indices| Tile::new(indices.iter().map(|&indices| self.motions(indices))));
+        tiles.collect()
+    }
+}
+
+/// One filter: its times and counts so far.
+struct Measurement<S> {
+    filter: MeasuredFilter,
+    separation: S,
+    /// Seconds in all, for one pair at a time and for each level.
+    backends: Vec<(Backend, f64)>,
+    tiled_seconds: f64,
+    tiled: usize,
+    culled: usize,
+    kept_cullable: usize,
+    culled_beyond_exact: usize,
+}
+
+#[derive(Clone, Copy)]
+enum Backend {
+    OneAtATime,
+    Lanes(&'static str, Level),
+}
+
+impl<S: Scalar> Measurement<S> {
+    /// Nothing for a filter that would repeat another's row, or does not know separations.
+    fn new(filter: MeasuredFilter, separation: S) -> Option<Self> {
+        let is_widest = S::FRACTION_BITS == f64::MANTISSA_DIGITS - 1;
+        let is_left_out = match filter {
+            MeasuredFilter::Paper => separation > S::ZERO,
+            MeasuredFilter::Tier(tier) => tier == Tier::Widened && is_widest,
+        };
+        if is_left_out {
+            return None;
+        }
+        let levels = available_levels();
+        let levels = levels.into_iter().map(|(name, level)| Backend::Lanes(name, level));
+        let backends = std::iter::once(Backend::OneAtATime).chain(levels);
+        Some(Self {
+            filter,
+            separation,
+            backends: backends.map(|backend| (backend, 0.0)).collect(),
+            tiled_seconds: 0.0,
+            tiled: 0,
+            culled: 0,
+            kept_cullable: 0,
+            culled_beyond_exact: 0,
+        })
+    }
+
+    /// What it culls, one pair at a time, compared with exact arithmetic.
+    fn count(&mut self, pairs: &Pairs<'_, S>, exact: &[Mask]) -> Vec<Mask> {
+        let mut masks = vec![0; pairs.mask_count()];
+        one_at_a_time(self.filter, self.separation, pairs, &mut masks);
+        self.culled += ones(&masks);
+        for (&culled, &exact) in masks.iter().zip(exact) {
+            self.kept_cullable += (exact & !culled).count_ones() as usize;
+            self.culled_beyond_exact += (culled & !exact).count_ones() as usize;
+        }
+        masks
+    }
+
+    /// The time on every backend, each of which must give the verdicts `expected`.
+    fn time(&mut self, pairs: &Pairs<'_, S>, tiles: &[Tile<S>], expected: &[Mask], repeat: u32) -> Result<(), BackendsDisagree> {
+        let (filter, separation) = (self.filter, self.separation);
+        let mut masks = vec![0; expected.len()];
+        for (backend, seconds) in &mut self.backends {
+            *seconds += fastest(repeat, || match *backend {
+                Backend::OneAtATime => {
+                    one_at_a_time(filter, separation, pairs, black_box(&mut masks));
+                }
+                Backend::Lanes(_, level) => {
+                    from_rows(filter, separation, level, pairs, black_box(&mut masks));
+                }
+            });
+            if masks != expected {
+                return Err(BackendsDisagree::new(filter, backend.name()));
+            }
+        }
+        if let Some(&(Backend::Lanes(name, level), _)) = self.backends.last() {
+            self.tiled += TILED.min(pairs.indices.len());
+            let seconds = fastest(repeat, || {
+                for _ in 0..TILED_PASSES {
+                    let tiles = black_box(tiles);
+                    from_tiles(filter, separation, level, pairs.kind, tiles, &mut masks);
+                }
+            });
+            self.tiled_seconds += seconds / TILED_PASSES as f64;
+            if masks != expected {
+                return Err(BackendsDisagree::new(filter, name));
+            }
+        }
+        Ok(())
+    }
+
+    fn row(self, timed: usize) -> AccuracyRow {
+        let nanoseconds = |seconds: f64, pairs: usize| seconds * 1e9 / pairs as f64;
+        let times = self.backends.iter().map(|&(backend, seconds)| BackendTime {
+            backend: backend.name(),
+            nanoseconds: nanoseconds(seconds, timed),
+        });
+        AccuracyRow {
+            filter: self.filter,
+            culled: self.culled,
+            kept_cullable: self.kept_cullable,
+            culled_beyond_exact: self.culled_beyond_exact,
+            times: times.collect(),
+            in_first_cache: (self.tiled > 0).then(|| nanoseconds(self.tiled_seconds, self.tiled)),
+        }
+    }
+}
+
+impl Backend {
+    fn name(self) -> &'static str {
+        match self {
+            Self::OneAtATime => BackendTime::ONE_AT_A_TIME,
+            Self::Lanes(name, _) => name,
+        }
+    }
+}
+
+/// Verdicts as the core's functions for one pair give them.
+fn one_at_a_time<S: Scalar>(filter: MeasuredFilter, separation: S, pairs: &Pairs<'_, S>, masks: &mut [Mask]) {
+    fn paper<S: Scalar>(pair: &impl PrimitivePair<S>) -> bool {
+        plain::non_coplanarity(pair).is_culled()
+    }
+    match filter {
+        MeasuredFilter::Paper => pairs.one_by_one(paper, paper, masks),
+        MeasuredFilter::Tier(tier) => {
+            let filter = with_separation(tier, separation);
+            pairs.one_by_one(
+                |pair| filter.verdict(pair) == Verdict::Culled,
+                |pair| filter.verdict(pair) == Verdict::Culled,
+                masks,
+            );
+        }
+    }
+}
+
+/// Verdicts on pairs that are gathered sixteen at a time.
+fn from_rows<S: Scalar>(filter: MeasuredFilter, separation: S, level: Level, pairs: &Pairs<'_, S>, masks: &mut [Mask]) {
+    let Pairs { kind, rows, indices } = *pairs;
+    match filter {
+        MeasuredFilter::Paper => {
+            culled_from_rows(level, kind, Test::PlainNonCoplanarity, rows, indices, masks);
+        }
+        MeasuredFilter::Tier(tier) => {
+            let filter = with_separation(tier, separation);
+            culled_from_rows(level, kind, filter, rows, indices, masks);
+        }
+    }
+}
+
+/// Verdicts on pairs that lie side by side.
+fn from_tiles<S: Scalar>(
+    filter: MeasuredFilter,
+    separation: S,
+    level: Level,
+    kind: PairKind,
+    tiles: &[Tile<S>],
+    masks: &mut [Mask],
+) {
+    match filter {
+        MeasuredFilter::Paper => {
+            culled_from_tiles(level, kind, Test::PlainNonCoplanarity, tiles, masks);
+        }
+        MeasuredFilter::Tier(tier) => {
+            let filter = with_separation(tier, separation);
+            culled_from_tiles(level, kind, filter, tiles, masks);
+        }
+    }
+}
+
+/// Without the separation if it is none; see [`AccuracyOptions`](super::AccuracyOptions).
+fn with_separation<S: Scalar>(tier: Tier, separation: S) -> Filter<S> {
+    let filter = Filter::new(tier);
+    filter.with_separation(separation).unwrap_or(filter)
+}
+
+/// The seconds of the fastest of `repeat` runs.
+fn fastest(repeat: u32, mut run: impl FnMut()) -> f64 {
+    let mut fastest = f64::INFINITY;
+    for _ in 0..repeat.max(1) {
+        let begin = Instant::now();
+        run();
+        fastest = fastest.min(begin.elapsed().as_secs_f64());
+    }
+    fastest
+}
+
+fn ones(masks: &[Mask]) -> usize {
+    masks.iter().map(|mask| mask.count_ones() as usize).sum()
+}

@@ -1,0 +1,351 @@
+//! What accuracy costs in time: every non-coplanarity filter on the same pairs.
+//!
+//! # Pairs
+//! A [`PairSet`] is measured in `f32` and in `f64`. In either format a filter is compared with exact arithmetic **on the
+//! coordinates that it is given**: those of a scene rounded to that format, those of nearly coplanar pairs made in it. So all
+//! rows of one set and one format are about the same pairs and the same truth, while `f32` and `f64` are about the pairs
+//! that a program with positions in that format would have.
+//!
+//! # Truth
+//! Exact arithmetic ([`selvedge_core::exact`]) culls a pair if the four control values have one strict sign (with a
+//! separation: and exceed it). That is what every filter here computes with some rounding, so a filter that culls another
+//! pair has no proof of it: a *false cull*. Only [`Tier::Subdivided`](selvedge_core::filter::Tier::Subdivided) may cull
+//! more, namely coplanar pairs that do not touch; there is no exact collision test here to check that with (the
+//! project's `verification/` has one), so such pairs are counted apart.
+//!
+//! # Time
+//! All pairs are counted, about 50,000 of a set are timed. They are gathered by index from rows of vertices, as in the pipeline, in chunks that stay in a core's own cache (2,048
+//! pairs). Each chunk goes through all filters and backends before the next one, each as often as is asked for, and the
+//! fastest run counts. Every backend's verdicts are compared, and must be the same.
+//!
+//! A second time is that of tiles in the first cache (128 pairs of each chunk, again and again), on the best instruction set
+//! alone: the arithmetic, without the gathering, and with branches that the processor has learnt.
+
+pub mod elementary;
+mod filter;
+mod measure;
+mod near_coplanar;
+mod pairs;
+
+pub use filter::MeasuredFilter;
+pub use pairs::PairSet;
+
+use super::{ArmFrames, Frames};
+use crate::scene::ArmScene;
+use selvedge::glam::DVec3;
+use selvedge_core::filter::Tier;
+use std::error::Error;
+
+/// How the filters are measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AccuracyOptions {
+    /// At most so many pairs in each set.
+    pub pairs: usize,
+    /// How often each chunk goes through each filter; the fastest counts.
+    pub repeat: u32,
+    /// Where random pairs begin.
+    pub seed: u64,
+    /// What pairs must stay farther apart than, in the unit of the positions; rounded to the format in use. Neither
+    /// negative nor infinite.
+    pub separation: f64,
+}
+
+/// Every filter on every set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accuracy {
+    /// How it was measured.
+    pub options: AccuracyOptions,
+    /// Each set in `f32`, then in `f64`.
+    pub sets: Vec<AccuracySet>,
+}
+
+/// Every filter on one set of pairs in one format.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AccuracySet {
+    /// What the pairs are.
+    pub name: String,
+    /// `"f32"` or `"f64"`.
+    pub scalar: &'static str,
+    /// Vertex–face pairs.
+    pub vertex_face: usize,
+    /// Edge–edge pairs.
+    pub edge_edge: usize,
+    /// How many pairs there were before a sample was drawn.
+    pub drawn_from: usize,
+    /// How many of them were timed; all were counted.
+    pub timed: usize,
+    /// Pairs that exact arithmetic culls.
+    pub cullable: usize,
+    /// A row for each filter, in the order of [`MeasuredFilter::ALL`]. Without the paper's where a separation is asked for,
+    /// and in `f64` without the widened tier, which is the permanent there.
+    pub rows: Vec<AccuracyRow>,
+}
+
+/// One filter on one set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AccuracyRow {
+    /// Which filter.
+    pub filter: MeasuredFilter,
+    /// Pairs that it culls.
+    pub culled: usize,
+    /// Pairs that it keeps although exact arithmetic culls them.
+    pub kept_cullable: usize,
+    /// Pairs that it culls although exact arithmetic does not.
+    pub culled_beyond_exact: usize,
+    /// One pair at a time first, then each instruction set, the plainest first.
+    pub times: Vec<BackendTime>,
+    /// Nanoseconds a pair for tiles in the first cache, on the best instruction set.
+    pub in_first_cache: Option<f64>,
+}
+
+/// What a pair takes on one backend.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BackendTime {
+    /// [`ONE_AT_A_TIME`](Self::ONE_AT_A_TIME), or the instruction set.
+    pub backend: &'static str,
+    /// Nanoseconds a pair, gathered.
+    pub nanoseconds: f64,
+}
+
+impl BackendTime {
+    /// The name of the backend without lanes.
+    pub const ONE_AT_A_TIME: &'static str = "one";
+}
+
+impl AccuracySet {
+    /// How many pairs there are.
+    #[must_use]
+    pub const fn pairs(&self) -> usize {
+        self.vertex_face + self.edge_edge
+    }
+
+    /// The row of a filter, if it was measured.
+    #[must_use]
+    pub fn row(&self, filter: MeasuredFilter) -> Option<&AccuracyRow> {
+        self.rows.iter().find(|row| row.filter == filter)
+    }
+
+    /// A row's time on a backend over that of [`Tier::Uncertified`] on the same.
+    #[must_use]
+    pub fn over_uncertified(&self, time: BackendTime) -> Option<f64> {
+        let uncertified = self.row(MeasuredFilter::Tier(Tier::Uncertified))?;
+        Some(time.nanoseconds / uncertified.time(time.backend)?)
+    }
+}
+
+impl AccuracyRow {
+    /// Pairs culled without proof; `None` for a filter that proves something else.
+    #[must_use]
+    pub fn false_culls(&self) -> Option<usize> {
+        self.filter.decides_by_whole_step().then_some(self.culled_beyond_exact)
+    }
+
+    /// The best instruction set's time.
+    #[must_use]
+    pub fn best_time(&self) -> Option<BackendTime> {
+        self.times.last().copied()
+    }
+
+    /// Nanoseconds a pair on a backend.
+    #[must_use]
+    pub fn time(&self, backend: &str) -> Option<f64> {
+        let mut times = self.times.iter();
+        Some(times.find(|time| time.backend == backend)?.nanoseconds)
+    }
+}
+
+/// A filter does not give the same verdicts on all backends: a defect of this program or of the machine.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the filter `{filter}` on {backend} does not cull the same pairs as one pair at a time")]
+pub struct BackendsDisagree {
+    filter: MeasuredFilter,
+    backend: &'static str,
+}
+
+impl BackendsDisagree {
+    fn new(filter: MeasuredFilter, backend: &'static str) -> Self {
+        Self { filter, backend }
+    }
+}
+
+/// One in so many steps of the arm scene is looked at, the last one included.
+const ARM_STRIDE: usize = 5;
+/// How far they are moved in turn for pairs far from the origin, in metres.
+const DISTANCES: [f64; 4] = [1e3, 1e4, 1e5, 1e6];
+/// Where to: no coordinate much smaller than the others.
+const DIRECTION: DVec3 = DVec3::new(0.7, -0.6, 0.39);
+/// No more nearly coplanar pairs than this are made: they take half a kilobyte each.
+const MOST_GENERATED: usize = 200_000;
+
+/// What every study of accuracy takes its pairs from.
+struct ScenePairs {
+    arm: PairSet,
+    mesh: Option<PairSet>,
+    /// Made in `f32`, and in `f64`.
+    near_coplanar: [PairSet; 2],
+}
+
+fn arm_frames() -> Result<ArmFrames, Box<dyn Error + Send + Sync>> {
+    Ok(ArmFrames::new(1, ArmScene::STEPS)?)
+}
+
+fn arm_steps() -> impl Iterator<Item = usize> {
+    (ARM_STRIDE - 1..ArmScene::STEPS).step_by(ARM_STRIDE)
+}
+
+fn scene_pairs<F: Frames>(mesh: Option<&F>, options: AccuracyOptions) -> Result<ScenePairs, Box<dyn Error + Send + Sync>> {
+    let AccuracyOptions { pairs, seed, .. } = options;
+    let arm = arm_frames()?;
+    let here: Vec<_> = arm_steps().map(|step| (step, DVec3::ZERO)).collect();
+    let of_mesh = |mesh: &F| {
+        let steps: Vec<_> = (0..mesh.step_count()).map(|step| (step, DVec3::ZERO)).collect();
+        PairSet::of_steps(mesh.name(), mesh, &steps, pairs)
+    };
+    let generated = pairs.min(MOST_GENERATED);
+    Ok(ScenePairs {
+        arm: PairSet::of_steps(arm.name(), &arm, &here, pairs)?,
+        mesh: mesh.map(of_mesh).transpose()?,
+        near_coplanar: [
+            PairSet::near_coplanar::<f32>(seed, generated),
+            PairSet::near_coplanar::<f64>(seed, generated),
+        ],
+    })
+}
+
+/// Measures every filter on the candidate pairs of the arm scene, those of `mesh` (all its steps) if there is one, nearly
+/// coplanar pairs and pairs far from the origin. `progress` is told the share that is done.
+///
+/// # Errors
+/// If threads cannot be started, a frame is not finite, or backends disagree.
+pub fn measure_accuracy<F: Frames>(
+    mesh: Option<&F>,
+    options: AccuracyOptions,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Accuracy, Box<dyn Error + Send + Sync>> {
+    let AccuracyOptions {
+        pairs,
+        repeat,
+        separation,
+        ..
+    } = options;
+    let ScenePairs {
+        arm,
+        mesh,
+        near_coplanar,
+    } = scene_pairs(mesh, options)?;
+    let distances = DISTANCES.into_iter().cycle();
+    let far: Vec<_> = arm_steps()
+        .zip(distances)
+        .map(|(step, distance)| (step, distance * DIRECTION))
+        .collect();
+    let name = "Arm scene, 1 km to 1,000 km from the origin".to_owned();
+    let far = PairSet::of_steps(name, &arm_frames()?, &far, pairs)?;
+    let scenes: Vec<_> = [Some(arm), mesh, Some(far)].into_iter().flatten().collect();
+
+    let mut in_each_format: Vec<_> = scenes.iter().map(|set| (set, set)).collect();
+    in_each_format.push((&near_coplanar[0], &near_coplanar[1]));
+    let count = 2 * in_each_format.len();
+    let mut sets = Vec::with_capacity(count);
+    for (single, double) in in_each_format {
+        let done = sets.len() as f64;
+        let mut share = |part: f64| progress((done + part) / count as f64);
+        sets.push(measure::measure::<f32>(single, repeat, separation, &mut share)?);
+        let mut share = |part: f64| progress((done + 1.0 + part) / count as f64);
+        sets.push(measure::measure::<f64>(double, repeat, separation, &mut share)?);
+    }
+    Ok(Accuracy { options, sets })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::TwoFrames;
+
+    fn measured(separation: f64) -> Accuracy {
+        let options = AccuracyOptions {
+            pairs: 3000,
+            repeat: 1,
+            seed: 7,
+            separation,
+        };
+        measure_accuracy::<TwoFrames>(None, options, &mut |_| ()).unwrap()
+    }
+
+    fn row(set: &AccuracySet, tier: Tier) -> &AccuracyRow {
+        set.row(MeasuredFilter::Tier(tier)).unwrap()
+    }
+
+    #[test]
+    fn every_set_is_there_in_both_formats() {
+        let mut shares = Vec::new();
+        let options = AccuracyOptions {
+            pairs: 100,
+            repeat: 1,
+            seed: 0,
+            separation: 0.0,
+        };
+        let accuracy = measure_accuracy::<TwoFrames>(None, options, &mut |share| shares.push(share)).unwrap();
+        let scalars: Vec<_> = accuracy.sets.iter().map(|set| set.scalar).collect();
+        assert_eq!(scalars, ["f32", "f64"].repeat(3));
+        assert!(shares.is_sorted() && shares.last() == Some(&1.0), "{shares:?}");
+    }
+
+    #[test]
+    fn certified_filters_cull_nothing_that_exact_arithmetic_does_not() {
+        for separation in [0.0, 1e-3] {
+            for set in measured(separation).sets {
+                assert!(set.cullable > 0 || separation > 0.0, "{}", set.name);
+                for row in &set.rows {
+                    assert_eq!(row.culled + row.kept_cullable, set.cullable + row.culled_beyond_exact);
+                    let is_sound = row.filter.is_certified() && row.filter.decides_by_whole_step();
+                    if is_sound {
+                        assert_eq!(row.false_culls(), Some(0), "{}, {}", set.name, row.filter);
+                    }
+                }
+                assert_eq!(row(&set, Tier::Exact).kept_cullable, 0, "{}", set.name);
+            }
+        }
+    }
+
+    #[test]
+    fn filters_that_ignore_rounding_are_caught_on_nearly_coplanar_pairs() {
+        let accuracy = measured(0.0);
+        for set in accuracy.sets.iter().filter(|set| set.name == "Nearly coplanar pairs") {
+            assert!(row(set, Tier::Uncertified).culled_beyond_exact > 0);
+            assert!(set.row(MeasuredFilter::Paper).unwrap().culled_beyond_exact > 0);
+        }
+    }
+
+    #[test]
+    fn sharper_bounds_keep_less_and_parts_of_the_step_cull_more() {
+        use selvedge_core::filter::Depth;
+        for set in measured(0.0).sets {
+            let [by_axis, permanent] = [Tier::MagnitudesByAxis, Tier::Permanent].map(|tier| row(&set, tier).kept_cullable);
+            assert!(permanent <= by_axis, "{}: {permanent}, {by_axis}", set.name);
+            let [one, four] = [Depth::One, Depth::Four].map(|depth| row(&set, Tier::Subdivided(depth)).culled);
+            assert!(row(&set, Tier::Permanent).culled <= one && one <= four, "{}", set.name);
+        }
+    }
+
+    #[test]
+    fn every_tier_is_timed_on_every_backend() {
+        let levels = selvedge::dispatch::available_levels().len();
+        for set in measured(0.0).sets {
+            let rows = if set.scalar == "f32" { 11 } else { 10 };
+            assert_eq!(set.rows.len(), rows);
+            for row in &set.rows {
+                assert_eq!(row.times.len(), 1 + levels);
+                assert!(row.times.iter().all(|time| time.nanoseconds > 0.0));
+            }
+            let uncertified = row(&set, Tier::Uncertified).times[0];
+            assert_eq!(set.over_uncertified(uncertified), Some(1.0));
+        }
+    }
+
+    #[test]
+    fn a_separation_leaves_out_the_filter_that_knows_none() {
+        for set in measured(1e-3).sets {
+            assert_eq!(set.row(MeasuredFilter::Paper), None);
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Which pairs a method leaves for the elementary test in one step: what the paper's Figure 3 shows.
+
+use super::Frames;
+use crate::pipeline::{Pipeline, Preset};
+use selvedge::PairKind;
+use std::error::Error;
+
+/// The candidate primitive pairs of one method in one step.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StepCandidates {
+    /// Which method.
+    pub preset: Preset,
+    /// Vertex and face of each pair, as numbered by the topology.
+    pub vertex_face: Vec<[u32; 2]>,
+    /// The two edges of each pair, as numbered by the topology.
+    pub edge_edge: Vec<[u32; 2]>,
+}
+
+/// The candidates of `preset` in a step of `frames`.
+///
+/// # Errors
+/// If threads cannot be started or a frame is not finite.
+pub fn step_candidates(
+    frames: &impl Frames,
+    step: usize,
+    preset: Preset,
+    threads: usize,
+) -> Result<StepCandidates, Box<dyn Error + Send + Sync>> {
+    let (mut start, mut end) = (Vec::new(), Vec::new());
+    frames.step(step, &mut start, &mut end);
+    let mut pipeline = Pipeline::<f64>::new(frames.topology().clone(), preset.stages(), threads)?;
+    pipeline.keep_candidates(true);
+    pipeline.step(&start, &end)?;
+    Ok(StepCandidates {
+        preset,
+        vertex_face: pipeline.candidates(PairKind::VertexFace).to_vec(),
+        edge_edge: pipeline.candidates(PairKind::EdgeEdge).to_vec(),
+    })
+}
+
+/// The step in which `preset` leaves the most candidates; the earliest of several.
+///
+/// # Errors
+/// If threads cannot be started or a frame is not finite.
+pub fn busiest_step(frames: &impl Frames, preset: Preset, threads: usize) -> Result<usize, Box<dyn Error + Send + Sync>> {
+    let mut pipeline = Pipeline::<f64>::new(frames.topology().clone(), preset.stages(), threads)?;
+    let (mut start, mut end) = (Vec::new(), Vec::new());
+    let mut busiest = (0, 0);
+    for step in 0..frames.step_count() {
+        frames.step(step, &mut start, &mut end);
+        let candidates = pipeline.step(&start, &end)?.candidates().total();
+        if candidates > busiest.1 {
+            busiest = (step, candidates);
+        }
+    }
+    Ok(busiest.0)
+}

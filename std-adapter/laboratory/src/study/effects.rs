@@ -1,0 +1,51 @@
+//! What each effect of a scene costs: a simulation with the first one alone, with the first two, and so on.
+
+use selvedge_cloth::{Scene, SceneError, Simulation};
+use std::error::Error;
+use std::time::Instant;
+
+/// A simulation with some of a scene's effects.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EffectCost {
+    /// The last of them; `None`: no effect at all.
+    pub added: Option<&'static str>,
+    /// How many steps were done: fewer than asked for if the simulation was blocked.
+    pub steps: u64,
+    /// Seconds a step, by the clock on the wall.
+    pub seconds: f64,
+}
+
+/// Runs the scene that `read` returns once without effects, once with the first, and so on, in the order in which they run: `steps`
+/// steps from the start each. `progress` is called with the share that is done.
+///
+/// # Errors
+/// If the scene cannot be read or set up.
+pub fn effects_one_by_one(
+    read: impl Fn() -> Result<Scene, SceneError>,
+    steps: u64,
+    threads: usize,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Vec<EffectCost>, Box<dyn Error + Send + Sync>> {
+    let names = read()?.effect_names();
+    let mut costs = Vec::with_capacity(names.len() + 1);
+    for count in 0..=names.len() {
+        let mut scene = read()?;
+        scene.keep_first_effects(count);
+        let mut simulation = Simulation::new(scene, threads)?;
+        let begin = Instant::now();
+        for step in 0..steps {
+            if simulation.step().is_err() {
+                break;
+            }
+            let share = (step + 1) as f64 / steps as f64;
+            progress((count as f64 + share) / (names.len() + 1) as f64);
+        }
+        let done = simulation.steps_done();
+        costs.push(EffectCost {
+            added: count.checked_sub(1).map(|last| names[last]),
+            steps: done,
+            seconds: begin.elapsed().as_secs_f64() / done.max(1) as f64,
+        });
+    }
+    Ok(costs)
+}

@@ -1,0 +1,49 @@
+//! A mesh in motion, step by step.
+
+use selvedge::glam::DVec3;
+use selvedge::mesh::Topology;
+
+/// Steps of one mesh, each from one frame to another. A step need not begin where the one before ends.
+pub trait Frames {
+    /// What the motion is called in reports: a scene's name, or the files.
+    fn name(&self) -> String;
+    /// The mesh.
+    fn topology(&self) -> &Topology;
+    /// How many steps there are.
+    fn step_count(&self) -> usize;
+    /// Replaces `start` and `end` by the positions before and after a step, which is below
+    /// [`step_count`](Self::step_count), in the caller's length unit.
+    fn step(&self, step: usize, start: &mut Vec<DVec3>, end: &mut Vec<DVec3>);
+}
+
+/// One step from one frame to another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TwoFrames {
+    /// What the step is called in reports.
+    pub name: String,
+    /// The mesh.
+    pub topology: Topology,
+    /// Positions at time 0.
+    pub start: Vec<DVec3>,
+    /// Positions at time 1.
+    pub end: Vec<DVec3>,
+}
+
+impl Frames for TwoFrames {
+    fn name(&self) -> String {
+        self.name.clone()
+    }
+
+    fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    fn step_count(&self) -> usize {
+        1
+    }
+
+    fn step(&self, _: usize, start: &mut Vec<DVec3>, end: &mut Vec<DVec3>) {
+        start.clone_from(&self.start);
+        end.clone_from(&self.end);
+    }
+}
