@@ -141,10 +141,8 @@ fn a_kind_reads_back_as_it_is_written() {
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         assert_eq!(kind.to_string().parse(), Ok(kind));
     }
-    assert_names(
-        &"vf".parse::<PairKind>().unwrap_err().to_string(),
-        &["'vf'", "vertex-face", "edge-edge"],
-    );
+    // Core, which has no strings to keep, leaves it to the caller to quote the text.
+    assert_names(&"vf".parse::<PairKind>().unwrap_err().to_string(), &["vertex-face", "edge-edge"]);
 }
 
 #[test]
