@@ -1,6 +1,6 @@
 //! What a comparison says about the paper's claims and about ours, computed from its numbers.
 
-use super::number::{mean, rate};
+use super::number::{figures, mean};
 use super::paper::paper_row;
 use crate::pipeline::{Preset, Redundancy, Source, Stages};
 use crate::study::{Comparison, ComparisonRow};
@@ -83,13 +83,13 @@ fn speed_beside_paper(a: &ComparisonRow, b: &ComparisonRow) -> Option<Finding> {
         a.preset,
         if faster { "faster" } else { "not faster" },
         b.preset,
-        rate(a.frames_per_second),
-        rate(b.frames_per_second),
-        rate(a.frames_per_second / b.frames_per_second),
+        figures(a.frames_per_second),
+        figures(b.frames_per_second),
+        figures(a.frames_per_second / b.frames_per_second),
         beside_paper(as_expected),
         paper_a.frames_per_second,
         paper_b.frames_per_second,
-        rate(paper_a.frames_per_second / paper_b.frames_per_second),
+        figures(paper_a.frames_per_second / paper_b.frames_per_second),
     );
     Some(Finding { text, as_expected })
 }
@@ -119,7 +119,7 @@ fn fastest(ours: &ComparisonRow, comparison: &Comparison) -> Option<Finding> {
     let others = comparison.rows.iter().filter(|row| !row.preset.is_ours());
     let best = others.max_by(|a, b| a.frames_per_second.total_cmp(&b.frames_per_second))?;
     let as_expected = ours.frames_per_second > best.frames_per_second;
-    let (ours_rate, best_rate) = (rate(ours.frames_per_second), rate(best.frames_per_second));
+    let (ours_rate, best_rate) = (figures(ours.frames_per_second), figures(best.frames_per_second));
     let text = if as_expected {
         format!(
             "{} is the fastest: {ours_rate} steps a second, before {} with {best_rate}.",
