@@ -109,7 +109,7 @@ pub fn comparison_markdown(comparison: &Comparison) -> String {
     for row in &comparison.rows {
         let (name, numbers) = cells(row);
         let is_ours = row.preset == Preset::Selvedge;
-        let emphasised = |cell: String| match is_ours && !cell.is_empty() {
+        let emphasised = |cell: String| match is_ours && !cell.is_empty() && cell != ABSENT {
             true => format!("**{cell}**"),
             false => cell,
         };
