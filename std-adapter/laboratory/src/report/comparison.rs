@@ -1,9 +1,9 @@
 //! The paper's Table 1 from our run: as a page, and as Markdown.
 
 use super::findings::findings;
-use super::number::{ABSENT, counted, figures, grouped, mean};
+use super::number::{ABSENT, counted, figures, mean};
 use super::page;
-use super::paper::paper_row;
+use super::paper::{paper_row, printed};
 use super::{mesh_size, printable};
 use crate::pipeline::{Preset, Stage};
 use crate::study::{Comparison, ComparisonRow, MeanCounts};
@@ -42,10 +42,7 @@ fn cells(row: &ComparisonRow) -> (String, Vec<String>) {
     let counts = [distributed, after_boxes, Some(row.candidates), contacts];
     let mut numbers = counts.map(pairs).concat();
     numbers.push(figures(row.frames_per_second));
-    numbers.extend(paper_row(row.preset).map_or_else(Default::default, |paper| {
-        let frames_per_second = format!("{:.2}", paper.frames_per_second);
-        [grouped(paper.vertex_face), grouped(paper.edge_edge), frames_per_second]
-    }));
+    numbers.extend(printed(row.preset));
     let dagger = if row.preset.is_reconstructed() { " †" } else { "" };
     (format!("{}{dagger}", row.preset), numbers)
 }
@@ -276,7 +273,8 @@ mod tests {
     fn our_row_alone_is_highlighted() {
         let mut comparison = every_preset(1e4);
         assert_eq!(texts(&comparison_html(&comparison), ".ours > th"), ["selvedge"]);
-        assert_eq!(comparison_markdown(&comparison).matches("| **").count(), 10);
+        // Its name and seven numbers: it has no box test, and is not in the paper's table.
+        assert_eq!(comparison_markdown(&comparison).matches("| **").count(), 8);
         comparison.rows.retain(|row| row.preset != Preset::Selvedge);
         assert_eq!(texts(&comparison_html(&comparison), ".ours").len(), 0);
         assert!(!comparison_markdown(&comparison).contains("**"));

@@ -58,13 +58,10 @@ fn candidates_beside_paper(a: &ComparisonRow, b: &ComparisonRow) -> Option<Findi
         [false, true] => "fewer EE candidates, but no fewer VF",
     };
     let text = format!(
-        "{} leaves {relation} than {} ({} against {} VF, {} against {} EE), {} ({} against {}, {} against {}).",
+        "{} leaves {relation} than {} ({}), {} ({} against {}, {} against {}).",
         a.preset,
         b.preset,
-        mean(a.candidates.vertex_face),
-        mean(b.candidates.vertex_face),
-        mean(a.candidates.edge_edge),
-        mean(b.candidates.edge_edge),
+        candidates_against(a, b),
         beside_paper(as_expected),
         paper_a.vertex_face,
         paper_b.vertex_face,
@@ -94,6 +91,11 @@ fn speed_beside_paper(a: &ComparisonRow, b: &ComparisonRow) -> Option<Finding> {
     Some(Finding { text, as_expected })
 }
 
+fn candidates_against(a: &ComparisonRow, b: &ComparisonRow) -> String {
+    let [a, b] = [a, b].map(|row| [row.candidates.vertex_face, row.candidates.edge_edge].map(mean));
+    format!("{} against {} VF, {} against {} EE", a[0], b[0], a[1], b[1])
+}
+
 const fn beside_paper(as_expected: bool) -> &'static str {
     if as_expected { "as in the paper" } else { "against the paper" }
 }
@@ -102,14 +104,11 @@ fn no_more_candidates(ours: &ComparisonRow, paper: &ComparisonRow) -> Finding {
     let (a, b) = (ours.candidates, paper.candidates);
     let as_expected = a.vertex_face <= b.vertex_face && a.edge_edge <= b.edge_edge;
     let text = format!(
-        "{} leaves {} candidates than {} ({} against {} VF, {} against {} EE).",
+        "{} leaves {} candidates than {} ({}).",
         ours.preset,
         if as_expected { "no more" } else { "more" },
         paper.preset,
-        mean(a.vertex_face),
-        mean(b.vertex_face),
-        mean(a.edge_edge),
-        mean(b.edge_edge),
+        candidates_against(ours, paper),
     );
     Finding { text, as_expected }
 }

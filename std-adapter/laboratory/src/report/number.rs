@@ -77,7 +77,7 @@ pub(super) fn percent(part: usize, whole: usize, decimals: usize) -> String {
 
 /// A share as a percentage with three figures or so, however small.
 pub(super) fn share(share: f64) -> String {
-    format!("{}\u{a0}%", few(100.0 * share))
+    finite(share, |share| format!("{}\u{a0}%", few(100.0 * share)))
 }
 
 /// A time in the unit that fits it, with three figures: `12.3 ms`.
@@ -161,6 +161,7 @@ mod tests {
     fn a_share_of_nothing_is_a_dash() {
         assert_eq!(percent(2, 3, 1), "66.7\u{a0}%");
         assert_eq!(percent(0, 0, 1), "–");
+        assert_eq!([0.0123, f64::NAN].map(share), ["1.23\u{a0}%", "–"]);
     }
 
     #[test]

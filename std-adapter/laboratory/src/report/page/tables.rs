@@ -11,7 +11,7 @@ const NONE: f64 = f64::NAN;
 pub(super) fn pairs(recording: &Recording) -> Markup {
     let mut before = NONE;
     let rows = recording.series_of(|kind| kind == SeriesKind::Pairs).map(|series| {
-        let of_stage_before = std::mem::replace(&mut before, series.total).recip() * series.total;
+        let of_stage_before = series.total / std::mem::replace(&mut before, series.total);
         let [a_step, most, all] = counts(recording, series);
         (&*series.name, [a_step, share(of_stage_before), most, all])
     });

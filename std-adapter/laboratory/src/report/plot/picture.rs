@@ -199,7 +199,8 @@ impl Plot<'_> {
             let to_the_right = a.at[0].total_cmp(&b.at[0]);
             let is_low = line_of(a) > 0.8 * height;
             let on_line = if is_low { to_the_right } else { to_the_right.reverse() };
-            line_of(a).total_cmp(&line_of(b)).then(on_line)
+            let higher = a.at[1].total_cmp(&b.at[1]);
+            line_of(a).total_cmp(&line_of(b)).then(on_line).then(higher)
         });
         let wanted: Vec<f64> = named.iter().map(|(mark, _)| line_of(mark)).collect();
         let places = spread(&wanted, NAME_SPACING, height);

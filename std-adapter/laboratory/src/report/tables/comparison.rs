@@ -1,7 +1,7 @@
 use super::table;
 use crate::pipeline::Stage;
-use crate::report::number::{counted, figures, grouped, mean, milliseconds};
-use crate::report::paper::paper_row;
+use crate::report::number::{counted, figures, mean, milliseconds};
+use crate::report::paper::printed;
 use crate::report::{distributed, findings, mesh_size};
 use crate::study::{Comparison, ComparisonRow, MeanCounts};
 
@@ -41,16 +41,15 @@ fn name(row: &ComparisonRow) -> String {
 
 fn table_1(comparison: &Comparison) -> String {
     let rows = comparison.rows.iter().map(|row| {
-        let paper = paper_row(row.preset);
-        let printed = |text: Option<String>| text.unwrap_or_default();
+        let [vertex_face, edge_edge, frames_per_second] = printed(row.preset);
         [
             name(row),
             mean(row.candidates.vertex_face),
             mean(row.candidates.edge_edge),
             figures(row.frames_per_second),
-            printed(paper.map(|paper| grouped(paper.vertex_face))),
-            printed(paper.map(|paper| grouped(paper.edge_edge))),
-            printed(paper.map(|paper| format!("{:.2}", paper.frames_per_second))),
+            vertex_face,
+            edge_edge,
+            frames_per_second,
         ]
     });
     let header = [
