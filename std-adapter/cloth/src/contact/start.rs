@@ -6,6 +6,7 @@
 //! face decides. Of triangles with a common vertex only the edges without it are asked about.
 
 use selvedge::broad_phase::{BroadPhase, SweptBox};
+use selvedge_core::boxes::mapping::image;
 use selvedge_core::elementary::contact::{Contact, contact};
 use selvedge_core::glam::DVec3;
 use selvedge_core::{Motion, VertexFace};
@@ -56,13 +57,13 @@ fn edge_through(triangle: &[u32; 3], face: &[u32; 3], positions: &[DVec3]) -> Op
     })
 }
 
-/// The box of some points, rounded outwards.
+/// The box of some points: rounded, which leaves it in no other order with others.
 fn around(points: &[DVec3]) -> SweptBox {
     let lower = points.iter().fold(DVec3::INFINITY, |all, &p| all.min(p));
     let upper = points.iter().fold(DVec3::NEG_INFINITY, |all, &p| all.max(p));
     SweptBox {
-        lower: lower.to_array().map(|x| (x as f32).next_down()),
-        upper: upper.to_array().map(|x| (x as f32).next_up()),
+        lower: lower.to_array().map(image),
+        upper: upper.to_array().map(image),
     }
 }
 

@@ -79,6 +79,7 @@ use crate::parallel::Threads;
 use engine::{Engine, PROBES, Probe};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
+use selvedge_core::narrowing::widened;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
@@ -126,20 +127,6 @@ pub(crate) struct Question {
     pub(crate) keeps_filtered: bool,
     /// Whether only pairs that truly touch are contacts, by the exact verdict. For separation zero.
     pub(crate) is_exact: bool,
-}
-
-/// Two to an exponent for which that is a normal number.
-const fn power_of_two(exponent: i64) -> f64 {
-    f64::from_bits(((1023 + exponent) as u64) << 52)
-}
-
-/// The same limits in `f64`, which decides in the end whatever the positions' format. A subnormal separation counts as the
-/// smallest normal number, as in all tests.
-fn widened<S: Scalar>(limits: &Limits<S>) -> Limits<f64> {
-    Limits {
-        tolerance: limits.tolerance.to_f64(),
-        separation: limits.separation.raised_to_normal().to_f64(),
-    }
 }
 
 /// How late a contact may be to be of interest: shared by all threads, lowered by each contact where only the earliest is wanted.

@@ -1,7 +1,6 @@
 //! The three hierarchies of a mesh, and their share of a step: refit, or build, and traversal.
 
 use super::MovingStatistics;
-use super::mapping::Mapping;
 use super::pairs::Sink;
 use super::rows::{Rows, row};
 use super::traversal::{BlockPair, Scratch, Trees};
@@ -13,6 +12,7 @@ use crate::frame::{StepError, check_frames};
 use crate::mesh::Topology;
 use crate::parallel;
 use selvedge_core::Scalar;
+use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::{Aabb, moving::MovingBox};
 use std::sync::Arc;
 

@@ -30,20 +30,18 @@
 //! # Which pairs
 //! Exactly those that [relative boxes along three axes](selvedge_core::boxes::relative::three_axes) leave, of `f32` positions
 //! and of `f64` positions that are `f32` numbers, unless the mesh is far from the origin for its size. Other `f64` positions are
-//! rounded to `f32` for the boxes (`mapping`): pairs that are apart by less than that are candidates too, none is lost.
+//! [rounded to `f32`](selvedge_core::boxes::mapping) for the boxes: pairs that are apart by less than that are candidates too, none is lost.
 //!
 //! The order of the candidates depends on the hierarchies, and so on the steps before: the same sequence of steps gives the
 //! same candidates in the same order, on any number of threads and every instruction set.
 
 mod hierarchies;
-mod mapping;
 mod pairs;
 mod rows;
 mod traversal;
 mod tree;
 
 pub(crate) use hierarchies::{Fit, Hierarchies, Share, extent};
-pub(crate) use mapping::Mapping;
 pub(crate) use pairs::{CHUNK, Sink};
 pub(crate) use rows::Rows;
 pub(crate) use traversal::Scratch;
