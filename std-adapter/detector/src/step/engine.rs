@@ -13,7 +13,7 @@ use crate::mesh::Topology;
 use crate::parallel;
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
-use selvedge_core::narrowing::{rounded_down, widened};
+use selvedge_core::narrowing::rounded_down;
 use std::cmp::Ordering;
 use std::sync::atomic::{self, AtomicBool};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
