@@ -55,8 +55,9 @@ impl Horizon {
 
     /// Begins with the step from `start` to `end` in `h` seconds. Returns the motion to find candidates for.
     ///
-    /// Looks twice as far ahead as before if that lasted, half as far if it did not last half of its time.
-    pub(super) fn begin<'a>(&'a mut self, start: &'a [DVec3], end: &[DVec3], h: f64) -> [&'a [DVec3]; 2] {
+    /// Looks twice as far ahead as before if that lasted, half as far if it did not last half of its time. Vertices are to stay within
+    /// `room` of it.
+    pub(super) fn begin<'a>(&'a mut self, start: &'a [DVec3], end: &[DVec3], h: f64, room: f64) -> [&'a [DVec3]; 2] {
         if self.span > 0.0 {
             if self.elapsed > 0.9 * self.span {
                 let farthest = if self.is_fine { FARTHEST_OF_FINE } else { FARTHEST };
@@ -76,6 +77,12 @@ impl Horizon {
         let ways = start.iter().zip(&self.drift);
         self.far.extend(ways.map(|(&from, &drift)| expected(from, drift, span)));
         self.largest = largest_coordinate(start).larger(largest_coordinate(&self.far));
+        if !is_certain(room, self.largest) {
+            // Rounding is too coarse to tell who strays: for this step only, and exactly for it.
+            self.steps = 1;
+            self.span = h;
+            self.far.copy_from_slice(end);
+        }
         [start, &self.far]
     }
 
@@ -135,7 +142,7 @@ mod tests {
         let mut found = 0;
         for step in 0..64 {
             if !horizon.covers(&at(step + 1), 1.0, 0.1) {
-                horizon.begin(&at(step), &at(step + 1), 1.0);
+                horizon.begin(&at(step), &at(step + 1), 1.0, 0.1);
                 found += 1;
             }
             horizon.advance(1.0);
@@ -150,7 +157,7 @@ mod tests {
             steps: 4,
             ..Horizon::default()
         };
-        horizon.begin(&[DVec3::ZERO; 2], &[DVec3::X; 2], 1.0);
+        horizon.begin(&[DVec3::ZERO; 2], &[DVec3::X; 2], 1.0, 0.1);
         horizon.advance(1.0);
         let (start, end) = ([DVec3::X; 2], [DVec3::new(2.0, 0.05, 0.0), DVec3::X]);
         let mut strayed = Vec::new();
@@ -165,12 +172,25 @@ mod tests {
     }
 
     #[test]
+    fn far_from_the_origin_for_its_room_a_motion_is_one_step_and_nobody_has_room() {
+        let mut horizon = Horizon {
+            steps: 4,
+            ..Horizon::default()
+        };
+        let (start, end) = ([DVec3::X * 1e12], [DVec3::X * 1e12 + DVec3::Y]);
+        assert_eq!(horizon.begin(&start, &end, 1.0, 0.1), [&start[..], &end[..]]);
+        assert!(horizon.lasts(1.0) && !horizon.covers(&end, 1.0, 0.1));
+        horizon.advance(1.0);
+        assert!(!horizon.lasts(1.0));
+    }
+
+    #[test]
     fn a_vertex_that_strays_ends_it() {
         let mut horizon = Horizon {
             steps: 4,
             ..Horizon::default()
         };
-        horizon.begin(&[DVec3::ZERO], &[DVec3::X], 1.0);
+        horizon.begin(&[DVec3::ZERO], &[DVec3::X], 1.0, 0.1);
         horizon.advance(1.0);
         assert!(horizon.covers(&[DVec3::new(2.0, 0.09, 0.0)], 1.0, 0.1));
         assert!(!horizon.covers(&[DVec3::new(2.0, 0.11, 0.0)], 1.0, 0.1));

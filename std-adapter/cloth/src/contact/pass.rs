@@ -153,7 +153,7 @@ impl Contact {
 
     /// Candidates for a motion.
     pub(super) fn find_candidates(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
-        let motion = self.horizon.begin(start, end, h);
+        let motion = self.horizon.begin(start, end, h, self.slack);
         self.detector.candidates(motion, &mut self.found);
         self.take_found();
     }
