@@ -9,7 +9,7 @@
 //! its terms through at most 3 roundings; its error is at most 3ε·3·1.01B to first order. A gap is the difference of two of them, itself
 //! rounded: 18.2εB + 6.1εB ≤ 49uB. [`GapError`] allows 64u·B.
 //!
-//! **σ = 1 + 2⁻²⁰** ([`slack`]) makes up for the length of d and for what is rounded after that:
+//! **σ = 1 + 2⁻²⁰** (`slack`) makes up for the length of d and for what is rounded after that:
 //! * The length that is accepted: fl(d·d) ≤ 1 + 2⁻²⁰ shows that |d| ≤ 1 + 2⁻²⁰·0.8 in both formats.
 //! * A lower bound of the distance: fl(gap/σ − 64uB) is at most (gap − 49uB)/|d|.
 //! * What is stored, fl₃₂((gap − 64uB)/σ), is as well: `f32` rounds by 2⁻²³. Below 2⁻¹⁰⁰, where it might round up by more, zero is
@@ -85,7 +85,7 @@ pub fn gap<P: Position>(kind: PairKind, points: [P; 4], direction: [P::Scalar; 3
     low - high
 }
 
-/// Whether a direction is no longer than what [`slack`] allows. False with NaN.
+/// Whether a direction is no longer than σ allows. False with NaN.
 #[inline(always)]
 fn is_short<S: Scalar>(direction: [S; 3]) -> bool {
     let direction = Vector::from(direction);
@@ -127,7 +127,7 @@ pub fn distance_from_below<P: Position>(kind: PairKind, points: [P; 4], directio
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeparatingDirection {
-    /// No longer than [`slack`] allows.
+    /// No longer than σ allows.
     direction: [f32; 3],
     /// Not more than the distance.
     gap: f32,
