@@ -21,7 +21,7 @@
 //! 2⁻²⁴v. Flushed numbers lose 2⁻¹²⁶ (`f32`) or 2⁻¹⁰²² each, less than 2⁻¹⁰⁰ altogether. So two images that are in strict
 //! order belong to coordinates more than s apart. Overflow makes a bound infinite, or in directed rounding the largest number;
 //! neither is beyond a bound that it should not be beyond, for both are at least as far out as any that is not widened.
-//! What is NaN or infinite, or becomes so when o is taken off, has no bounds.
+//! What is NaN or infinite, or so large that a vertex's coordinates add up to that, has no bounds.
 
 use super::Aabb;
 use super::moving::MovingBox;
@@ -68,9 +68,11 @@ impl Mapping {
     #[must_use]
     pub fn vertex<S: Scalar>(&self, start: [S; 3], end: [S; 3]) -> MovingBox<f32> {
         let mut moving = MovingBox::empty();
+        let mut sum = 0.0;
         for axis in 0..3 {
             let from = start[axis].to_f64() - self.origin[axis];
             let to = end[axis].to_f64() - self.origin[axis];
+            sum += from.abs() + to.abs();
             let ([a, b], [c, d]) = if self.half == 0.0 && self.until == 1.0 {
                 ([from; 2], [to; 2])
             } else {
@@ -79,16 +81,17 @@ impl Mapping {
                 let until = (1.0 - self.until) * from + self.until * to;
                 ([from - widening, from + widening], [until - widening, until + widening])
             };
-            if !(from.is_finite() && to.is_finite()) {
-                return MovingBox {
-                    start: Aabb::everything(),
-                    end: Aabb::everything(),
-                };
-            }
             moving.start.lower[axis] = image(a);
             moving.start.upper[axis] = image(b);
             moving.end.lower[axis] = image(c);
             moving.end.upper[axis] = image(d);
+        }
+        // Of what is NaN or infinite so is the sum.
+        if !sum.is_finite() {
+            return MovingBox {
+                start: Aabb::everything(),
+                end: Aabb::everything(),
+            };
         }
         if self.is_swept {
             let swept = moving.swept();

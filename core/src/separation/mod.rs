@@ -15,8 +15,8 @@ pub mod gap;
 use crate::lanes::{Lanes, Rounding};
 use crate::scalar::{Position, Scalar};
 
-/// The largest magnitude of any coordinate; infinite if one of them is NaN or infinite, so that nothing that depends on it is proven.
-/// Zero of no positions.
+/// The largest magnitude of any coordinate; infinite if one of them is NaN or infinite, or their sum is, so that nothing that depends on it
+/// is proven. Zero of no positions.
 ///
 /// ```
 /// use selvedge_core::{glam::DVec3, separation::largest_coordinate};
@@ -27,11 +27,13 @@ use crate::scalar::{Position, Scalar};
 #[must_use]
 pub fn largest_coordinate<P: Position>(positions: &[P]) -> P::Scalar {
     let mut largest = P::Scalar::ZERO;
-    let mut is_finite = true;
+    let mut sum = P::Scalar::ZERO;
     for &position in positions {
         let [x, y, z]: [P::Scalar; 3] = position.into();
-        is_finite &= x.is_finite() & y.is_finite() & z.is_finite();
-        largest = x.abs().larger(y.abs()).larger(z.abs()).larger(largest);
+        let (x, y, z) = (x.abs(), y.abs(), z.abs());
+        largest = x.larger(y).larger(z).larger(largest);
+        // A maximum may drop NaN.
+        sum = sum + ((x + y) + z);
     }
-    if is_finite { largest } else { P::Scalar::INFINITY }
+    if sum.is_finite() { largest } else { P::Scalar::INFINITY }
 }

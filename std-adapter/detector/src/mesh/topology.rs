@@ -102,6 +102,7 @@ impl Topology {
     ///
     /// # Panics
     /// If the pair is not of this mesh.
+    #[inline]
     #[must_use]
     pub fn vertices_of(&self, kind: PairKind, pair: [u32; 2]) -> [u32; 4] {
         let [first, second] = pair.map(|feature| feature as usize);
