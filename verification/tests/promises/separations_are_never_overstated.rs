@@ -314,13 +314,9 @@ fn course_of<S: Format>(question: &Question<S>) -> Option<Course<S>> {
     let largest = largest_coordinate(&[origin, end]);
     let part = S::from_f64([0.0, 1.0, 100.0, -1.0, -1.7][choice(9, 8) as usize % 5]);
     let is_certain = |stray: S| course::is_certain(course::room(stray, part * stray), largest);
-    let mut stray = S::exact(1, S::MIN_EXPONENT / 2);
-    while !is_certain(stray) {
-        stray = stray * S::from_f64(2.0);
-        if !Scalar::is_finite(stray) {
-            return None;
-        }
-    }
+    // The least that is certain.
+    let powers = S::MIN_EXPONENT / 2..S::MAX_EXPONENT / 2;
+    let stray = powers.map(|power| S::exact(1, power)).find(|&stray| is_certain(stray))?;
     let spare = part * stray;
     let room = course::room(stray, spare);
     let time = course::time_after(elapsed, h, span)?;
