@@ -22,14 +22,13 @@
 )]
 
 mod checkpoint;
-mod colour;
 mod contact;
 mod effects;
 mod plan;
 mod scene;
+mod schedule;
 mod simulator;
 pub mod sleeve;
-mod sweeps;
 
 pub use checkpoint::CheckpointError;
 pub use contact::{Blocker, ContactCounts, ContactSeconds};

@@ -3,9 +3,9 @@
 //! constant, there is no trigonometry and no singular fold. Rest is flat.
 
 use super::{Effect, Registration};
-use crate::colour::{Coloured, Local};
 use crate::plan::Plan;
 use crate::scene::{BENDING_STIFFNESS, Cloth};
+use crate::schedule::{Local, On, Schedule};
 use selvedge::mesh::Topology;
 use selvedge_core::glam::DVec3;
 
@@ -29,19 +29,18 @@ impl Effect for Bend {
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
         let hinges = hinges(cloth, self.stiffness);
-        plan.add_constraint(Coloured::new(hinges, cloth.mesh.positions.len()));
+        plan.add_constraint(Schedule::once(hinges, cloth.mesh.positions.len()));
     }
 }
 
 #[derive(Debug)]
 struct Hinge {
-    vertices: [u32; 4],
     weights: [f64; 4],
     compliance: f64,
 }
 
 /// One for each edge between two triangles.
-fn hinges(cloth: &Cloth, stiffness: f64) -> Vec<Hinge> {
+fn hinges(cloth: &Cloth, stiffness: f64) -> Vec<On<Hinge, 4>> {
     let topology = &cloth.topology;
     let mut opposite = vec![[u32::MAX; 2]; topology.edges().len()];
     for (triangle, edges) in topology.triangles().iter().zip(topology.triangle_edges()) {
@@ -64,21 +63,16 @@ fn hinges(cloth: &Cloth, stiffness: f64) -> Vec<Hinge> {
             [cotangent(a - b, c - b), cotangent(a - b, d - b)],
         );
         let area = 0.5 * ((b - a).cross(c - a).length() + (b - a).cross(d - a).length());
-        Hinge {
-            vertices,
+        let hinge = Hinge {
             weights: [at_b[0] + at_b[1], at_a[0] + at_a[1], -at_a[0] - at_b[0], -at_a[1] - at_b[1]],
             compliance: area / (3.0 * stiffness),
-        }
+        };
+        (vertices, hinge)
     };
     inner.map(make).collect()
 }
 
 impl Local<4> for Hinge {
-    #[inline(always)]
-    fn vertices(&self) -> [u32; 4] {
-        self.vertices
-    }
-
     #[inline(always)]
     fn corrections(&self, x: [DVec3; 4], w: [f64; 4], stiffening: f64) -> [DVec3; 4] {
         let k = self.weights;
@@ -115,8 +109,8 @@ mod tests {
         let scene = Scene::parse(text, Path::new("sheet.toml")).unwrap();
         let hinges = hinges(&scene.cloth, 1.0);
         assert_eq!(hinges.len(), 3 * 3 + 2 * 3 * 2);
-        for hinge in hinges {
-            let rest = hinge.vertices.map(|v| scene.cloth.mesh.positions[v as usize]);
+        for (vertices, hinge) in hinges {
+            let rest = vertices.map(|v| scene.cloth.mesh.positions[v as usize]);
             let moves = hinge.corrections(rest, [1.0; 4], 1.0);
             assert!(moves.iter().all(|m| m.length() < 1e-14));
             let mut folded = rest;

@@ -1,14 +1,14 @@
 //! What the effects in the plane of the cloth have in common.
 
 use crate::scene::Cloth;
+use crate::schedule::On;
 use selvedge_core::glam::DVec3;
 
-/// A triangle of cloth with its material directions (Baraff and Witkin 1998): positions xᵢ give the images
+/// The material directions of a triangle of cloth (Baraff and Witkin 1998): positions xᵢ give the images
 /// w_u = Σaᵢxᵢ of a unit of warp and w_v = Σbᵢxᵢ of a unit of weft. At rest both have length one and are perpendicular. The
 /// coefficients of each sum to zero: of three, the last two are here.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Membrane {
-    pub(super) vertices: [u32; 3],
     pub(super) a: [f64; 2],
     pub(super) b: [f64; 2],
 }
@@ -25,8 +25,8 @@ pub(super) fn all(c: [f64; 2]) -> [f64; 3] {
     [-c[0] - c[1], c[0], c[1]]
 }
 
-/// All triangles, each with its area at rest, in m².
-pub(super) fn membranes(cloth: &Cloth) -> Vec<(Membrane, f64)> {
+/// A constraint for each triangle, made from its material directions and its area at rest, in m².
+pub(super) fn of_triangles<C>(cloth: &Cloth, constraint: impl Fn(Membrane, f64) -> C) -> Vec<On<C, 3>> {
     let make = |&vertices: &[u32; 3]| {
         let [p, q, r] = vertices.map(|v| cloth.mesh.positions[v as usize]);
         let (first, second) = (q - p, r - p);
@@ -44,11 +44,10 @@ pub(super) fn membranes(cloth: &Cloth) -> Vec<(Membrane, f64)> {
         let (qu, qv) = (second.dot(along), second.dot(across));
         let scale = 1.0 / (pu * qv - qu * pv);
         let membrane = Membrane {
-            vertices,
             a: [qv * scale, -pv * scale],
             b: [-qu * scale, pu * scale],
         };
-        (membrane, 0.5 * cross.length())
+        (vertices, constraint(membrane, 0.5 * cross.length()))
     };
     cloth.mesh.triangles.iter().map(make).collect()
 }

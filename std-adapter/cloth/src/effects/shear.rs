@@ -1,10 +1,10 @@
 //! Shear: C = w_u·w_v (Baraff and Witkin 1998), compliance 1/(k·A).
 
-use super::membrane::{Membrane, all, image, membranes};
+use super::membrane::{Membrane, all, image, of_triangles};
 use super::{Effect, Registration};
-use crate::colour::{Coloured, Local};
 use crate::plan::Plan;
 use crate::scene::MEMBRANE_STIFFNESS;
+use crate::schedule::{Local, Schedule};
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
@@ -26,12 +26,11 @@ struct Shear {
 impl Effect for Shear {
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
-        let angles = membranes(cloth).into_iter().map(|(membrane, area)| Angle {
+        let angles = of_triangles(cloth, |membrane, area| Angle {
             membrane,
             compliance: 1.0 / (self.stiffness * area),
         });
-        let vertex_count = cloth.mesh.positions.len();
-        plan.add_constraint(Coloured::new(angles.collect(), vertex_count));
+        plan.add_constraint(Schedule::once(angles, cloth.mesh.positions.len()));
     }
 }
 
@@ -42,11 +41,6 @@ struct Angle {
 }
 
 impl Local<3> for Angle {
-    #[inline(always)]
-    fn vertices(&self) -> [u32; 3] {
-        self.membrane.vertices
-    }
-
     #[inline(always)]
     fn corrections(&self, x: [DVec3; 3], w: [f64; 3], stiffening: f64) -> [DVec3; 3] {
         let Membrane { a, b, .. } = self.membrane;

@@ -5,12 +5,11 @@
 //! with coefficients d_u·a + d_v·b, and no compliance. One triangle's correction stretches its neighbours, so some are left a
 //! little above the limit: more `sweeps` bring them closer (an accuracy–time choice).
 
-use super::membrane::{Membrane, all, image, membranes};
+use super::membrane::{Membrane, all, image, of_triangles};
 use super::{Effect, Registration};
-use crate::colour::Local;
 use crate::plan::Plan;
 use crate::scene::RATIO;
-use crate::sweeps::Sweeps;
+use crate::schedule::{Local, Schedule};
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
@@ -39,11 +38,8 @@ impl Effect for StrainLimit {
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
         let limit = self.limit;
-        let limits = membranes(cloth)
-            .into_iter()
-            .map(|(membrane, _)| Limit { membrane, limit })
-            .collect();
-        plan.add_constraint(Sweeps::new(limits, &cloth.mesh.positions, self.sweeps));
+        let limits = of_triangles(cloth, |membrane, _| Limit { membrane, limit });
+        plan.add_constraint(Schedule::in_blocks(limits, &cloth.mesh.positions, self.sweeps));
     }
 }
 
@@ -71,11 +67,6 @@ impl Limit {
 }
 
 impl Local<3> for Limit {
-    #[inline(always)]
-    fn vertices(&self) -> [u32; 3] {
-        self.membrane.vertices
-    }
-
     #[inline(always)]
     fn moves_nothing(&self, x: [DVec3; 3]) -> bool {
         self.is_far_below(self.squared_stretch(x))
@@ -118,7 +109,6 @@ mod tests {
 
     fn moved(x: [DVec3; 3]) -> [DVec3; 3] {
         let membrane = Membrane {
-            vertices: [0, 1, 2],
             a: [1.0, 0.0],
             b: [0.0, 1.0],
         };

@@ -3,11 +3,11 @@
 //! Extended position-based dynamics (Macklin et al. 2016) with one iteration a step: Δx = −C·W∇C / (∇C·W∇C + α/h²). Where w
 //! vanishes it has no direction, and nothing is done.
 
-use super::membrane::{Membrane, all, image, membranes};
+use super::membrane::{Membrane, all, image, of_triangles};
 use super::{Effect, Registration};
-use crate::colour::{Coloured, Local};
 use crate::plan::Plan;
 use crate::scene::MEMBRANE_STIFFNESS;
+use crate::schedule::{Local, Schedule};
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
@@ -33,12 +33,11 @@ struct Stretch {
 impl Effect for Stretch {
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
-        let springs = membranes(cloth).into_iter().map(|(membrane, area)| Spring {
+        let springs = of_triangles(cloth, |membrane, area| Spring {
             membrane,
             compliance: self.stiffness.map(|k| 1.0 / (k * area)),
         });
-        let vertex_count = cloth.mesh.positions.len();
-        plan.add_constraint(Coloured::new(springs.collect(), vertex_count));
+        plan.add_constraint(Schedule::once(springs, cloth.mesh.positions.len()));
     }
 }
 
@@ -50,11 +49,6 @@ struct Spring {
 }
 
 impl Local<3> for Spring {
-    #[inline(always)]
-    fn vertices(&self) -> [u32; 3] {
-        self.membrane.vertices
-    }
-
     #[inline(always)]
     fn corrections(&self, x: [DVec3; 3], w: [f64; 3], stiffening: f64) -> [DVec3; 3] {
         let mut moves = [DVec3::ZERO; 3];

@@ -1,0 +1,412 @@
+//! In which order constraints on a few vertices each are projected: the same for any number of threads.
+//!
+//! Constraints are coloured greedily, once per mesh: those of one colour share no vertex, so that they may run in any order or at once,
+//! with the same bits. One colour after another is a sweep of Gauss and Seidel's method.
+//!
+//! A block is what runs on positions of its own, copied to it and back. All constraints of a mesh are one block; or, where several
+//! sweeps follow each other, blocks of a few hundred that are near each other, whose vertices stay in the nearest cache. Then blocks are
+//! coloured as well. Inside a block colours serve speed too: a constraint that had to wait for the vertices of the one before would take
+//! three times as long.
+//!
+//! A block in which nothing moved sleeps until a block that shares a vertex with it moves something: what it would do is nothing.
+
+use super::plan::{Constraint, StepInput, Touches};
+use selvedge::parallel;
+use selvedge_core::glam::DVec3;
+use std::fmt::Debug;
+use std::ops::Range;
+
+/// A constraint on `N` vertices.
+pub(crate) trait Local<const N: usize>: Debug + Send + Sync {
+    /// Whether all corrections are certainly zero there: a quick test, where there is one.
+    fn moves_nothing(&self, _positions: [DVec3; N]) -> bool {
+        false
+    }
+
+    /// By how much each vertex has to move. `stiffening` is 1/h²: what a compliance is multiplied by.
+    fn corrections(&self, positions: [DVec3; N], inverse_masses: [f64; N], stiffening: f64) -> [DVec3; N];
+}
+
+/// The vertices of a constraint, and the constraint.
+pub(crate) type On<C, const N: usize> = ([u32; N], C);
+
+/// Constraints that are projected in a fixed order, a number of times.
+#[derive(Debug)]
+pub(crate) struct Schedule<C, const N: usize> {
+    /// By colour.
+    blocks: Vec<Block<C, N>>,
+    /// The blocks of each colour.
+    colours: Vec<Range<usize>>,
+    sweeps: u64,
+    /// Of each block, whether it may have something to move.
+    is_awake: Vec<bool>,
+}
+
+#[derive(Debug)]
+struct Block<C, const N: usize> {
+    /// By colour; each on the places that its vertices have among the block's.
+    constraints: Vec<On<C, N>>,
+    /// The constraints of each colour that has so many that threads should share them.
+    shared: Vec<Range<usize>>,
+    vertices: Vec<u32>,
+    /// Blocks that share a vertex with it.
+    neighbours: Vec<u32>,
+    /// The vertices' positions while it runs, and whether it moved any.
+    positions: Vec<DVec3>,
+    has_moved: bool,
+    /// Of the constraints that threads share.
+    corrections: Vec<[DVec3; N]>,
+}
+
+/// Most constraints of one of many blocks: its vertices, positions and constraints take some 30 kB.
+const MOST: usize = 256;
+/// Fewer constraints than this are done before another thread has begun.
+const WORTH_A_THREAD: usize = 1024;
+
+impl<C: Local<N>, const N: usize> Schedule<C, N> {
+    /// Once, all in one block, on a mesh of so many vertices.
+    pub(crate) fn once(constraints: Vec<On<C, N>>, vertex_count: usize) -> Self {
+        Self::of(vec![constraints], vertex_count, 1)
+    }
+
+    /// Several times, in blocks of constraints that are near each other, on vertices that are at `rest` at rest.
+    pub(crate) fn in_blocks(constraints: Vec<On<C, N>>, rest: &[DVec3], sweeps: u64) -> Self {
+        let centre = |(vertices, _): &On<C, N>| vertices.iter().map(|&v| rest[v as usize]).sum();
+        let centres: Vec<DVec3> = constraints.iter().map(centre).collect();
+        let mut order: Vec<u32> = (0..constraints.len() as u32).collect();
+        let mut groups = Vec::new();
+        split(&mut order, &centres, &mut groups);
+
+        let mut constraints: Vec<_> = constraints.into_iter().map(Some).collect();
+        let mut take = |mut group: Vec<u32>| {
+            group.sort_unstable();
+            let own = group.into_iter().filter_map(|k| constraints[k as usize].take());
+            own.collect()
+        };
+        let groups = groups.into_iter().map(&mut take).collect();
+        Self::of(groups, rest.len(), sweeps)
+    }
+
+    fn of(groups: Vec<Vec<On<C, N>>>, vertex_count: usize, sweeps: u64) -> Self {
+        let mut place_of = vec![u32::MAX; vertex_count];
+        let mut blocks: Vec<_> = groups.into_iter().map(|group| Block::new(group, &mut place_of)).collect();
+        let colours = sort_by_colour(&mut blocks, |block| &block.vertices, vertex_count);
+        let mut blocks_of = vec![Vec::new(); vertex_count];
+        for (index, block) in blocks.iter().enumerate() {
+            block.vertices.iter().for_each(|&v| blocks_of[v as usize].push(index as u32));
+        }
+        for (index, block) in blocks.iter_mut().enumerate() {
+            let around = block.vertices.iter().flat_map(|&v| &blocks_of[v as usize]);
+            block.neighbours = around.copied().filter(|&k| k as usize != index).collect();
+            block.neighbours.sort_unstable();
+            block.neighbours.dedup();
+        }
+        Self {
+            is_awake: vec![true; blocks.len()],
+            blocks,
+            colours,
+            sweeps,
+        }
+    }
+
+    /// Runs the blocks of one colour that are awake.
+    fn run(&mut self, colour: Range<usize>, step: &StepInput<'_>, positions: &mut [DVec3]) {
+        let (read, is_awake, first) = (&*positions, &self.is_awake, colour.start);
+        parallel::for_each(&mut self.blocks[colour.clone()], |index, block| {
+            block.has_moved = is_awake[first + index] && block.run(step, read);
+        });
+        self.is_awake[colour.clone()].fill(false);
+        for index in colour {
+            let block = &self.blocks[index];
+            if !block.has_moved {
+                continue;
+            }
+            for (&vertex, &at) in block.vertices.iter().zip(&block.positions) {
+                positions[vertex as usize] = at;
+            }
+            self.is_awake[index] = true;
+            for &other in &block.neighbours {
+                self.is_awake[other as usize] = true;
+            }
+        }
+    }
+}
+
+impl<C: Local<N>, const N: usize> Constraint for Schedule<C, N> {
+    fn project(&mut self, step: &StepInput<'_>, positions: &mut [DVec3], _: &mut Touches) {
+        self.is_awake.fill(true);
+        for _ in 0..self.sweeps {
+            for colour in 0..self.colours.len() {
+                self.run(self.colours[colour].clone(), step, positions);
+            }
+        }
+    }
+}
+
+impl<C: Local<N>, const N: usize> Block<C, N> {
+    /// `place_of` holds nothing before, and afterwards, of all vertices of a mesh.
+    fn new(mut constraints: Vec<On<C, N>>, place_of: &mut [u32]) -> Self {
+        let mut vertices = Vec::new();
+        for vertex in constraints.iter_mut().flat_map(|(own, _)| own) {
+            let place = &mut place_of[*vertex as usize];
+            if *place == u32::MAX {
+                *place = vertices.len() as u32;
+                vertices.push(*vertex);
+            }
+            *vertex = *place;
+        }
+        vertices.iter().for_each(|&vertex| place_of[vertex as usize] = u32::MAX);
+        let colours = sort_by_colour(&mut constraints, |(places, _)| places, vertices.len());
+        Self {
+            constraints,
+            shared: colours.into_iter().filter(|colour| colour.len() >= WORTH_A_THREAD).collect(),
+            vertices,
+            neighbours: Vec::new(),
+            positions: Vec::new(),
+            has_moved: false,
+            corrections: Vec::new(),
+        }
+    }
+
+    /// Runs the constraints on the block's own positions. Returns whether anything moved.
+    fn run(&mut self, step: &StepInput<'_>, positions: &[DVec3]) -> bool {
+        let mut own = std::mem::take(&mut self.positions);
+        own.clear();
+        own.extend(self.vertices.iter().map(|&v| positions[v as usize]));
+        let (mut has_moved, mut done) = (false, 0);
+        if parallel::has_many_threads() {
+            for index in 0..self.shared.len() {
+                let colour = self.shared[index].clone();
+                has_moved |= self.in_turn(done..colour.start, step, &mut own);
+                has_moved |= self.at_once(colour.clone(), step, &mut own);
+                done = colour.end;
+            }
+        }
+        has_moved |= self.in_turn(done..self.constraints.len(), step, &mut own);
+        self.positions = own;
+        has_moved
+    }
+
+    fn in_turn(&self, range: Range<usize>, step: &StepInput<'_>, own: &mut [DVec3]) -> bool {
+        let stiffening = stiffening(step);
+        let mut has_moved = false;
+        for (places, constraint) in &self.constraints[range] {
+            let at = places.map(|place| own[place as usize]);
+            if !constraint.moves_nothing(at) {
+                let moves = constraint.corrections(at, self.inverse_masses(places, step), stiffening);
+                has_moved |= add(own, places, &moves);
+            }
+        }
+        has_moved
+    }
+
+    /// The constraints of a colour, shared by all threads.
+    fn at_once(&mut self, colour: Range<usize>, step: &StepInput<'_>, own: &mut [DVec3]) -> bool {
+        let stiffening = stiffening(step);
+        let mut corrections = std::mem::take(&mut self.corrections);
+        let read = &*own;
+        let constraints = &self.constraints[colour];
+        parallel::fill(&mut corrections, constraints, |(places, constraint)| {
+            let at = places.map(|place| read[place as usize]);
+            constraint.corrections(at, self.inverse_masses(places, step), stiffening)
+        });
+        let mut has_moved = false;
+        for ((places, _), moves) in constraints.iter().zip(&corrections) {
+            has_moved |= add(own, places, moves);
+        }
+        self.corrections = corrections;
+        has_moved
+    }
+
+    #[inline(always)]
+    fn inverse_masses(&self, places: &[u32; N], step: &StepInput<'_>) -> [f64; N] {
+        places.map(|place| step.inverse_masses[self.vertices[place as usize] as usize])
+    }
+}
+
+/// What a compliance is multiplied by.
+fn stiffening(step: &StepInput<'_>) -> f64 {
+    1.0 / (step.h * step.h)
+}
+
+/// Returns whether anything moved.
+#[inline(always)]
+fn add<const N: usize>(positions: &mut [DVec3], places: &[u32; N], moves: &[DVec3; N]) -> bool {
+    let mut has_moved = false;
+    // By index: with an iterator the moves go through memory, and wait there.
+    for k in 0..N {
+        positions[places[k] as usize] += moves[k];
+        has_moved |= moves[k] != DVec3::ZERO;
+    }
+    has_moved
+}
+
+/// Splits constraints in two by where they are, again and again, until each group fits into a block.
+fn split(order: &mut [u32], centres: &[DVec3], groups: &mut Vec<Vec<u32>>) {
+    if order.len() <= MOST {
+        groups.push(order.to_vec());
+        return;
+    }
+    let points = || order.iter().map(|&k| centres[k as usize]);
+    let lower = points().fold(DVec3::INFINITY, DVec3::min);
+    let upper = points().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let axis = (upper - lower).max_position();
+    let middle = order.len() / 2;
+    order.select_nth_unstable_by(middle, |&a, &b| {
+        let [x, y] = [a, b].map(|k| centres[k as usize][axis]);
+        x.total_cmp(&y).then(a.cmp(&b))
+    });
+    let (first, second) = order.split_at_mut(middle);
+    split(first, centres, groups);
+    split(second, centres, groups);
+}
+
+/// Sorts items so that those of one colour, which share no vertex, follow each other. Returns those of each colour.
+///
+/// Greedily: each takes the first colour that nothing before it has on any of its vertices. What finds none, since a vertex has more
+/// neighbours than there are colours, is alone.
+fn sort_by_colour<T>(items: &mut Vec<T>, vertices: impl Fn(&T) -> &[u32], vertex_count: usize) -> Vec<Range<usize>> {
+    let mut taken = vec![0_u128; vertex_count];
+    let colour_of = |item: T| {
+        let all = vertices(&item).iter().map(|&v| taken[v as usize]);
+        let colour = all.fold(0, |all, own| all | own).trailing_ones();
+        let bit = 1_u128.checked_shl(colour).unwrap_or(0);
+        vertices(&item).iter().for_each(|&v| taken[v as usize] |= bit);
+        (colour, item)
+    };
+    let mut by_colour: Vec<_> = items.drain(..).map(colour_of).collect();
+    by_colour.sort_by_key(|(colour, _)| *colour);
+    let mut end = 0;
+    let colours = by_colour.chunk_by(|a, b| a.0 == b.0 && a.0 < u128::BITS).map(|group| {
+        let begin = end;
+        end += group.len();
+        begin..end
+    });
+    let colours = colours.collect();
+    items.extend(by_colour.into_iter().map(|(_, item)| item));
+    colours
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use selvedge::parallel::Threads;
+
+    /// Keeps two vertices no farther apart than one.
+    #[derive(Clone, Debug)]
+    struct Rope;
+
+    impl Local<2> for Rope {
+        fn corrections(&self, [a, b]: [DVec3; 2], _: [f64; 2], _: f64) -> [DVec3; 2] {
+            let way = b - a;
+            let length = way.length();
+            if length <= 1.0 {
+                return [DVec3::ZERO; 2];
+            }
+            let half = way * (0.5 * (length - 1.0) / length);
+            [half, -half]
+        }
+
+        fn moves_nothing(&self, [a, b]: [DVec3; 2]) -> bool {
+            (b - a).length() <= 0.9
+        }
+    }
+
+    fn run(start: &[DVec3], project: &mut dyn Constraint, threads: usize) -> Vec<DVec3> {
+        let mut positions = start.to_vec();
+        let step = StepInput {
+            time: 0.0,
+            h: 1.0,
+            start,
+            inverse_masses: &vec![1.0; start.len()],
+            poses: &[],
+        };
+        let threads = Threads::new(threads).unwrap();
+        threads.run(|| project.project(&step, &mut positions, &mut Touches::default()));
+        positions
+    }
+
+    /// Points on a wave, and ropes from each to the next and to the one after that.
+    fn wave(count: u32, spread: f64) -> (Vec<DVec3>, Vec<On<Rope, 2>>) {
+        let at = |k: f64| DVec3::new(k, (k * 0.7).cos(), 0.3 * (k * 1.3).sin()) * spread;
+        let ropes = (0..count - 2).flat_map(|k| [([k, k + 1], Rope), ([k, k + 2], Rope)]);
+        ((0..count).map(|k| at(f64::from(k))).collect(), ropes.collect())
+    }
+
+    fn share_no_vertex<'a>(mut vertices: impl Iterator<Item = &'a u32>) -> bool {
+        let mut seen = std::collections::HashSet::new();
+        vertices.all(|&v| seen.insert(v))
+    }
+
+    #[test]
+    fn constraints_of_one_colour_share_no_vertex_and_all_are_there() {
+        let mut constraints: Vec<[u32; 2]> = (0..300).map(|k| [k % 40, 40 + (k * 7) % 31]).collect();
+        let colours = sort_by_colour(&mut constraints, |own| own, 71);
+        assert_eq!((constraints.len(), colours.last().unwrap().end), (300, 300));
+        assert!(
+            colours
+                .into_iter()
+                .all(|colour| share_no_vertex(constraints[colour].as_flattened().iter()))
+        );
+    }
+
+    #[test]
+    fn blocks_hold_every_constraint_once_and_those_of_a_colour_share_no_vertex() {
+        let (rest, ropes) = wave(3000, 0.6);
+        let schedule = Schedule::in_blocks(ropes.clone(), &rest, 1);
+        let Schedule { blocks, colours, .. } = &schedule;
+        assert!(blocks.len() > 16 && colours.len() < 5);
+        let vertices = |block: &Block<Rope, 2>| -> Vec<_> {
+            let all = block.constraints.iter();
+            all.map(|(places, _)| places.map(|place| block.vertices[place as usize]))
+                .collect()
+        };
+        let mut all: Vec<_> = blocks.iter().flat_map(vertices).collect();
+        all.sort_unstable();
+        assert_eq!(all, ropes.into_iter().map(|(own, _)| own).collect::<Vec<_>>());
+        let of_colour = |colour: &Range<usize>| &blocks[colour.clone()];
+        let share_none = |colour| share_no_vertex(of_colour(colour).iter().flat_map(|block| &block.vertices));
+        assert!(colours.iter().all(share_none));
+        assert_eq!(colours.last().unwrap().end, blocks.len());
+    }
+
+    #[test]
+    fn a_vertex_with_more_constraints_than_colours_is_dealt_with() {
+        let star = |count: u32| (1..=count).map(|k| ([0, k], Rope)).collect();
+        let start: Vec<_> = (0..=200).map(|k| DVec3::new((k as f64).sin(), 0.0, k as f64)).collect();
+        let pulled = |count| run(&start, &mut Schedule::once(star(count), 201), 1)[200];
+        assert_ne!(pulled(200), pulled(199));
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn letting_blocks_sleep_changes_no_bit(
+            count in 3..4000_u32, spread in 0.3..0.9_f64, pulled in any::<prop::sample::Index>(),
+            far in 0.0..3.0_f64, sweeps in 1..6_u64,
+        ) {
+            let (mut start, ropes) = wave(count, spread);
+            let mut once = Schedule::in_blocks(ropes.clone(), &start, 1);
+            let mut many = Schedule::in_blocks(ropes, &start, sweeps);
+            start[pulled.index(count as usize)] += DVec3::Y * far;
+            let all = (0..sweeps).fold(start.clone(), |at, _| run(&at, &mut once, 1));
+            prop_assert_eq!(run(&start, &mut many, 1), all);
+        }
+    }
+
+    #[test]
+    fn any_number_of_threads_gives_the_same_bits() {
+        let (start, ropes) = wave(8 * WORTH_A_THREAD as u32, 0.9);
+        for mut schedule in [
+            Schedule::once(ropes.clone(), start.len()),
+            Schedule::in_blocks(ropes.clone(), &start, 4),
+        ] {
+            let one = run(&start, &mut schedule, 1);
+            assert_ne!(one, start);
+            assert_eq!(one, run(&start, &mut schedule, 2));
+            assert_eq!(one, run(&start, &mut schedule, 3));
+        }
+    }
+}
