@@ -54,6 +54,8 @@ struct Block<C, const N: usize> {
     /// The vertices' positions while it runs, and whether it moved any.
     positions: Vec<DVec3>,
     has_moved: bool,
+    /// Of the vertices.
+    inverse_masses: Vec<f64>,
     /// Of the constraints that threads share.
     corrections: Vec<[DVec3; N]>,
 }
@@ -135,6 +137,10 @@ impl<C: Local<N>, const N: usize> Schedule<C, N> {
 impl<C: Local<N>, const N: usize> Constraint for Schedule<C, N> {
     fn project(&mut self, step: &StepInput<'_>, positions: &mut [DVec3], _: &mut Touches) {
         self.is_awake.fill(true);
+        for block in &mut self.blocks {
+            block.inverse_masses.clear();
+            block.inverse_masses.extend(at(&block.vertices, step.inverse_masses));
+        }
         for _ in 0..self.sweeps {
             for colour in 0..self.colours.len() {
                 self.run(self.colours[colour].clone(), step, positions);
@@ -164,63 +170,59 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
             neighbours: Vec::new(),
             positions: Vec::new(),
             has_moved: false,
+            inverse_masses: Vec::new(),
             corrections: Vec::new(),
         }
     }
 
     /// Runs the constraints on the block's own positions. Returns whether anything moved.
     fn run(&mut self, step: &StepInput<'_>, positions: &[DVec3]) -> bool {
-        let mut own = std::mem::take(&mut self.positions);
-        own.clear();
-        own.extend(self.vertices.iter().map(|&v| positions[v as usize]));
-        let (mut has_moved, mut done) = (false, 0);
+        self.positions.clear();
+        self.positions.extend(at(&self.vertices, positions));
+        let mut done = 0;
         if parallel::has_many_threads() {
             for index in 0..self.shared.len() {
                 let colour = self.shared[index].clone();
-                has_moved |= self.in_turn(done..colour.start, step, &mut own);
-                has_moved |= self.at_once(colour.clone(), step, &mut own);
+                self.in_turn(done..colour.start, step);
+                self.at_once(colour.clone(), step);
                 done = colour.end;
             }
         }
-        has_moved |= self.in_turn(done..self.constraints.len(), step, &mut own);
-        self.positions = own;
-        has_moved
+        self.in_turn(done..self.constraints.len(), step);
+        !at(&self.vertices, positions).eq(self.positions.iter().copied())
     }
 
-    fn in_turn(&self, range: Range<usize>, step: &StepInput<'_>, own: &mut [DVec3]) -> bool {
+    fn in_turn(&mut self, range: Range<usize>, step: &StepInput<'_>) {
         let stiffening = stiffening(step);
-        let mut has_moved = false;
+        let (own, inverse_masses) = (&mut self.positions[..], &self.inverse_masses[..]);
         for (places, constraint) in &self.constraints[range] {
-            let at = places.map(|place| own[place as usize]);
+            let at = of(places, own);
             if !constraint.moves_nothing(at) {
-                let moves = constraint.corrections(at, self.inverse_masses(places, step), stiffening);
-                has_moved |= add(own, places, &moves);
+                add(
+                    own,
+                    places,
+                    constraint.corrections(at, of(places, inverse_masses), stiffening),
+                );
             }
         }
-        has_moved
     }
 
     /// The constraints of a colour, shared by all threads.
-    fn at_once(&mut self, colour: Range<usize>, step: &StepInput<'_>, own: &mut [DVec3]) -> bool {
+    fn at_once(&mut self, colour: Range<usize>, step: &StepInput<'_>) {
         let stiffening = stiffening(step);
-        let mut corrections = std::mem::take(&mut self.corrections);
-        let read = &*own;
-        let constraints = &self.constraints[colour];
-        parallel::fill(&mut corrections, constraints, |(places, constraint)| {
-            let at = places.map(|place| read[place as usize]);
-            constraint.corrections(at, self.inverse_masses(places, step), stiffening)
+        let Self {
+            constraints,
+            positions,
+            inverse_masses,
+            corrections,
+            ..
+        } = self;
+        parallel::fill(corrections, &constraints[colour.clone()], |(places, constraint)| {
+            constraint.corrections(of(places, positions), of(places, inverse_masses), stiffening)
         });
-        let mut has_moved = false;
-        for ((places, _), moves) in constraints.iter().zip(&corrections) {
-            has_moved |= add(own, places, moves);
+        for ((places, _), &moves) in constraints[colour].iter().zip(&*corrections) {
+            add(positions, places, moves);
         }
-        self.corrections = corrections;
-        has_moved
-    }
-
-    #[inline(always)]
-    fn inverse_masses(&self, places: &[u32; N], step: &StepInput<'_>) -> [f64; N] {
-        places.map(|place| step.inverse_masses[self.vertices[place as usize] as usize])
     }
 }
 
@@ -229,16 +231,27 @@ fn stiffening(step: &StepInput<'_>) -> f64 {
     1.0 / (step.h * step.h)
 }
 
-/// Returns whether anything moved.
+/// What vertices have.
+fn at<T: Copy>(vertices: &[u32], all: &[T]) -> impl Iterator<Item = T> {
+    vertices.iter().map(|&vertex| all[vertex as usize])
+}
+
+/// What is at these places. By index, like the next: `map` would not be inlined, and with an iterator moves go through memory, and wait
+/// there.
 #[inline(always)]
-fn add<const N: usize>(positions: &mut [DVec3], places: &[u32; N], moves: &[DVec3; N]) -> bool {
-    let mut has_moved = false;
-    // By index: with an iterator the moves go through memory, and wait there.
+fn of<T: Copy + Default, const N: usize>(places: &[u32; N], all: &[T]) -> [T; N] {
+    let mut own = [T::default(); N];
+    for k in 0..N {
+        own[k] = all[places[k] as usize];
+    }
+    own
+}
+
+#[inline(always)]
+fn add<const N: usize>(positions: &mut [DVec3], places: &[u32; N], moves: [DVec3; N]) {
     for k in 0..N {
         positions[places[k] as usize] += moves[k];
-        has_moved |= moves[k] != DVec3::ZERO;
     }
-    has_moved
 }
 
 /// Splits constraints in two by where they are, again and again, until each group fits into a block.
