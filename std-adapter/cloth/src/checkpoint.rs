@@ -1,7 +1,7 @@
 //! The state of a simulation as bytes, and what it has measured so far.
 
 use super::contact::{ContactCounts, ContactSeconds};
-use super::simulator::State;
+use super::state::State;
 use selvedge_core::glam::DVec3;
 use selvedge_files::bytes::Reader;
 
@@ -37,7 +37,7 @@ pub(super) struct Checkpoint {
 
 /// How much there is of what, in a simulation of the scene.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shape {
+pub(super) struct Sizes {
     pub(super) vertices: usize,
     pub(super) yielding: usize,
     pub(super) effects: usize,
@@ -71,14 +71,14 @@ impl Checkpoint {
         bytes
     }
 
-    pub(super) fn read(bytes: &[u8], fingerprint: u64, shape: Shape) -> Result<Self, CheckpointError> {
+    pub(super) fn read(bytes: &[u8], fingerprint: u64, sizes: Sizes) -> Result<Self, CheckpointError> {
         let bytes = bytes.strip_prefix(MAGIC).ok_or(CheckpointError::NotOne)?;
         let mut reader = Reader(bytes);
         let found = reader.u64().ok_or(CheckpointError::Damaged)?;
         if found != fingerprint {
             return Err(CheckpointError::OtherScene);
         }
-        let checkpoint = Self::read_on(&mut reader, shape).ok_or(CheckpointError::Damaged)?;
+        let checkpoint = Self::read_on(&mut reader, sizes).ok_or(CheckpointError::Damaged)?;
         let state = &checkpoint.state;
         let all = state.positions.iter().chain(&state.velocities);
         let is_finite = state.clock.is_finite() && { all }.all(|vector| vector.is_finite());
@@ -89,7 +89,7 @@ impl Checkpoint {
         }
     }
 
-    fn read_on(reader: &mut Reader<'_>, shape: Shape) -> Option<Self> {
+    fn read_on(reader: &mut Reader<'_>, sizes: Sizes) -> Option<Self> {
         let [step, blocked_steps] = [reader.u64()?, reader.u64()?];
         let clock = reader.f64()?;
         let mut vectors = || {
@@ -97,11 +97,11 @@ impl Checkpoint {
                 let [x, y, z] = [reader.f64()?, reader.f64()?, reader.f64()?];
                 Some(DVec3::new(x, y, z))
             };
-            (0..shape.vertices).map(vector).collect::<Option<_>>()
+            (0..sizes.vertices).map(vector).collect::<Option<_>>()
         };
         let (positions, velocities) = (vectors()?, vectors()?);
-        let yielding = reader.bytes(shape.yielding)?;
-        let effects = (0..shape.effects).map(|_| reader.f64());
+        let yielding = reader.bytes(sizes.yielding)?;
+        let effects = (0..sizes.effects).map(|_| reader.f64());
         Some(Self {
             state: State {
                 step,
@@ -137,7 +137,7 @@ impl Checkpoint {
 mod tests {
     use super::*;
 
-    const SHAPE: Shape = Shape {
+    const SIZES: Sizes = Sizes {
         vertices: 2,
         yielding: 2,
         effects: 1,
@@ -175,13 +175,13 @@ mod tests {
     #[test]
     fn what_is_written_is_read_back_to_the_last_bit() {
         let bytes = checkpoint().write(7);
-        assert_eq!(Checkpoint::read(&bytes, 7, SHAPE), Ok(checkpoint()));
+        assert_eq!(Checkpoint::read(&bytes, 7, SIZES), Ok(checkpoint()));
     }
 
     #[test]
     fn other_scenes_and_damage_are_noticed() {
         let bytes = checkpoint().write(7);
-        let read = |bytes: &[u8], fingerprint| Checkpoint::read(bytes, fingerprint, SHAPE);
+        let read = |bytes: &[u8], fingerprint| Checkpoint::read(bytes, fingerprint, SIZES);
         assert_eq!(read(&bytes, 8), Err(CheckpointError::OtherScene));
         assert_eq!(read(b"v 0 0 0", 7), Err(CheckpointError::NotOne));
         for length in MAGIC.len()..bytes.len() {

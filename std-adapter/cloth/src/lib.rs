@@ -24,17 +24,23 @@
 mod checkpoint;
 mod contact;
 mod effects;
+mod input;
 mod plan;
 mod scene;
 mod schedule;
 mod simulator;
 pub mod sleeve;
+mod state;
+mod step;
+mod world;
 
 pub use checkpoint::CheckpointError;
 pub use contact::{Blocker, ContactCounts, ContactSeconds};
 pub use effects::effect_names;
-pub use scene::{Body, Cloth, OnBlocked, RigidMotion, Scene, SceneError};
+pub use input::SceneError;
+pub use scene::{OnBlocked, Scene};
 pub use simulator::{Blocked, CHECKPOINT_STEPS, EffectTime, FASTEST, SetupError, Simulation};
+pub use world::{Body, Cloth, RigidMotion};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
 pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");

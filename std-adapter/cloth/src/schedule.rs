@@ -10,7 +10,7 @@
 //!
 //! A block in which nothing moved sleeps until a block that shares a vertex with it moves something: what it would do is nothing.
 
-use super::plan::{Constraint, StepInput, Touches};
+use super::step::{Constraint, TimeStep, Touches};
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
@@ -112,7 +112,7 @@ impl<C: Local<N>, const N: usize> Schedule<C, N> {
     }
 
     /// Runs the blocks of one colour that are awake.
-    fn run(&mut self, colour: Range<usize>, step: &StepInput<'_>, positions: &mut [DVec3]) {
+    fn run(&mut self, colour: Range<usize>, step: &TimeStep<'_>, positions: &mut [DVec3]) {
         let (read, is_awake, first) = (&*positions, &self.is_awake, colour.start);
         parallel::for_each(&mut self.blocks[colour.clone()], |index, block| {
             block.has_moved = is_awake[first + index] && block.run(step, read);
@@ -135,7 +135,7 @@ impl<C: Local<N>, const N: usize> Schedule<C, N> {
 }
 
 impl<C: Local<N>, const N: usize> Constraint for Schedule<C, N> {
-    fn project(&mut self, step: &StepInput<'_>, positions: &mut [DVec3], _: &mut Touches) {
+    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
         self.is_awake.fill(true);
         for block in &mut self.blocks {
             block.inverse_masses.clear();
@@ -176,7 +176,7 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
     }
 
     /// Runs the constraints on the block's own positions. Returns whether anything moved.
-    fn run(&mut self, step: &StepInput<'_>, positions: &[DVec3]) -> bool {
+    fn run(&mut self, step: &TimeStep<'_>, positions: &[DVec3]) -> bool {
         self.positions.clear();
         self.positions.extend(at(&self.vertices, positions));
         let mut done = 0;
@@ -192,7 +192,7 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
         !at(&self.vertices, positions).eq(self.positions.iter().copied())
     }
 
-    fn in_turn(&mut self, range: Range<usize>, step: &StepInput<'_>) {
+    fn in_turn(&mut self, range: Range<usize>, step: &TimeStep<'_>) {
         let stiffening = stiffening(step);
         let (own, inverse_masses) = (&mut self.positions[..], &self.inverse_masses[..]);
         for (places, constraint) in &self.constraints[range] {
@@ -208,7 +208,7 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
     }
 
     /// The constraints of a colour, shared by all threads.
-    fn at_once(&mut self, colour: Range<usize>, step: &StepInput<'_>) {
+    fn at_once(&mut self, colour: Range<usize>, step: &TimeStep<'_>) {
         let stiffening = stiffening(step);
         let Self {
             constraints,
@@ -227,7 +227,7 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
 }
 
 /// What a compliance is multiplied by.
-fn stiffening(step: &StepInput<'_>) -> f64 {
+fn stiffening(step: &TimeStep<'_>) -> f64 {
     1.0 / (step.h * step.h)
 }
 
@@ -328,7 +328,7 @@ mod tests {
 
     fn run(start: &[DVec3], project: &mut dyn Constraint, threads: usize) -> Vec<DVec3> {
         let mut positions = start.to_vec();
-        let step = StepInput {
+        let step = TimeStep {
             time: 0.0,
             h: 1.0,
             start,

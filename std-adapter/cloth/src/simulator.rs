@@ -9,10 +9,13 @@
 //! **Finite whatever the scene says**: no constraint divides by what may vanish, and no vertex moves faster than
 //! [`FASTEST`].
 
-use super::checkpoint::{Checkpoint, CheckpointError, Shape};
+use super::checkpoint::{Checkpoint, CheckpointError, Sizes};
 use super::contact::{Blocker, Contact, ContactCounts, ContactSeconds, LARGEST_TURN};
-use super::plan::{Constraint, Entry, FREE, Force, Frame, Plan, StepInput, Touches};
-use super::scene::{OnBlocked, Pose, RigidMotion, Scene, World};
+use super::plan::{Entry, Plan};
+use super::scene::{OnBlocked, Scene};
+use super::state::State;
+use super::step::{Carrier, Constraint, FREE, Force, TimeStep, Touches};
+use super::world::{Pose, RigidMotion, World};
 use selvedge::mesh::{Mesh, TopologyError};
 use selvedge::parallel::{ThreadError, Threads};
 use selvedge_core::glam::DVec3;
@@ -39,10 +42,11 @@ pub struct Simulation {
     triangles: Vec<[u32; 3]>,
     inverse_masses: Vec<f64>,
     /// Of each vertex: whose motion it follows.
-    carriers: Vec<Frame>,
-    /// Of vertices whose motion is prescribed, where they are when their frame is at rest.
+    carriers: Vec<Carrier>,
+    /// Of kinematic vertices, where they are when their motion is at rest.
     rest: Vec<DVec3>,
-    frames: Vec<RigidMotion>,
+    /// Kinematic ones: bodies', then those of pins.
+    motions: Vec<RigidMotion>,
     forces: Vec<Entry<dyn Force>>,
     constraints: Vec<Entry<dyn Constraint>>,
     contact: Option<Contact>,
@@ -53,19 +57,6 @@ pub struct Simulation {
     threads: Threads,
     state: State,
     work: Work,
-}
-
-/// What a checkpoint has to hold.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct State {
-    /// Steps done.
-    pub(crate) step: u64,
-    /// Steps in which bodies or pins had to wait, or to be let pass.
-    pub(crate) blocked_steps: u64,
-    /// Of bodies and pins, in seconds; behind the time when they had to wait.
-    pub(crate) clock: f64,
-    pub(crate) positions: Vec<DVec3>,
-    pub(crate) velocities: Vec<DVec3>,
 }
 
 /// Filled anew in each step.
@@ -146,7 +137,7 @@ impl Simulation {
         let Plan {
             mut inverse_masses,
             mut carriers,
-            frames,
+            motions,
             forces,
             constraints,
             contact,
@@ -155,12 +146,12 @@ impl Simulation {
         } = plan;
         let mut rest = cloth.mesh.positions.clone();
         let mut triangles = cloth.mesh.triangles.clone();
-        for (frame, body) in bodies.iter().enumerate() {
+        for (carrier, body) in bodies.iter().enumerate() {
             append(&mut rest, &mut triangles, &body.mesh);
-            carriers.resize(rest.len(), frame as Frame);
+            carriers.resize(rest.len(), carrier as Carrier);
         }
         inverse_masses.resize(rest.len(), 0.0);
-        let poses: Vec<Pose> = frames.iter().map(|frame| frame.pose(0.0)).collect();
+        let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
         let start = rest
             .iter()
             .zip(&carriers)
@@ -189,7 +180,7 @@ impl Simulation {
             cloth_vertices,
             triangles,
             inverse_masses,
-            frames,
+            motions,
             forces,
             constraints,
             effects: times,
@@ -366,12 +357,12 @@ impl Simulation {
     /// # Errors
     /// If it is not a checkpoint, is damaged, or is one of another scene; then nothing has changed.
     pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), CheckpointError> {
-        let shape = Shape {
+        let sizes = Sizes {
             vertices: self.state.positions.len(),
             yielding: self.contact.as_ref().map_or(0, |c| c.yielding().len()),
             effects: self.effects.len(),
         };
-        let checkpoint = Checkpoint::read(checkpoint, self.fingerprint, shape)?;
+        let checkpoint = Checkpoint::read(checkpoint, self.fingerprint, sizes)?;
         if let Some(contact) = &mut self.contact {
             contact.set_yielding(&checkpoint.yielding);
             contact.refresh(&checkpoint.state.positions);
@@ -402,13 +393,13 @@ impl Simulation {
         }
     }
 
-    /// `h`, halved until no frame turns by more in that time than contact can certify.
+    /// `h`, halved until no body or pin turns by more in that time than contact can certify.
     fn without_large_turn(&self, mut h: f64) -> f64 {
         let clock = self.state.clock;
         let turns_too_far =
-            |frame: &RigidMotion, h: f64| (frame.pose(clock + h).angle - frame.pose(clock).angle).abs() > LARGEST_TURN;
+            |motion: &RigidMotion, h: f64| (motion.pose(clock + h).angle - motion.pose(clock).angle).abs() > LARGEST_TURN;
         if self.contact.is_some() {
-            while self.frames.iter().any(|frame| turns_too_far(frame, h)) {
+            while self.motions.iter().any(|motion| turns_too_far(motion, h)) {
                 h *= 0.5;
             }
         }
@@ -425,97 +416,79 @@ impl Simulation {
 
     /// Goes on by `h` seconds, bodies and pins by `ticks` seconds of their clock. If that is not possible nothing changes.
     fn attempt(&mut self, h: f64, ticks: f64) -> Result<(), Blocker> {
-        self.predict(h, ticks);
-        let Self {
-            state,
-            work,
-            inverse_masses,
-            carriers,
-            effects,
-            ..
-        } = self;
-        let step = StepInput {
-            time: state.step as f64 * self.time_step,
-            h,
-            start: &state.positions,
-            inverse_masses,
-            poses: &work.poses,
-        };
-        for constraint in &mut self.constraints {
-            let begin = Instant::now();
-            constraint.action.project(&step, &mut work.predicted, &mut work.touches);
-            effects[constraint.effect].seconds += begin.elapsed().as_secs_f64();
-        }
-        if let Some(contact) = &mut self.contact {
-            contact.prepare(step.start, &work.predicted, h);
-            let settings = contact.settings;
-            for (with_body, setting) in [(true, settings.bodies), (false, settings.cloth)] {
-                let Some((effect, _)) = setting else { continue };
-                let begin = Instant::now();
-                contact.push(with_body, &step, &mut work.predicted, &mut work.touches);
-                effects[effect].seconds += begin.elapsed().as_secs_f64();
-            }
-        }
-        for friction in &mut self.friction {
-            let begin = Instant::now();
-            friction.action.project(&step, &mut work.predicted, &mut work.touches);
-            effects[friction.effect].seconds += begin.elapsed().as_secs_f64();
-        }
-        for (vertex, position) in work.predicted.iter_mut().enumerate() {
-            if carriers[vertex] == FREE {
-                let start = step.start[vertex];
-                *position = start + limited(*position - start, FASTEST * h);
-            }
-        }
-        if let Some(contact) = &mut self.contact {
-            contact.certify(&step, &mut work.predicted)?;
-        }
-        for (vertex, &position) in work.predicted.iter().enumerate() {
-            state.velocities[vertex] = (position - state.positions[vertex]) / h;
-        }
-        std::mem::swap(&mut state.positions, &mut work.predicted);
-        state.clock += ticks;
-        Ok(())
-    }
-
-    /// Applies the forces, and fills `work.predicted` with where inertia leads, and bodies and pins go.
-    fn predict(&mut self, h: f64, ticks: f64) {
         let Self {
             state,
             work,
             inverse_masses,
             carriers,
             rest,
-            frames,
             effects,
+            contact,
             ..
         } = self;
         let clock = state.clock;
         work.poses.clear();
-        let poses = frames.iter().map(|frame| [clock, clock + ticks].map(|time| frame.pose(time)));
-        work.poses.extend(poses);
-        let step = StepInput {
+        let poses = |motion: &RigidMotion| [clock, clock + ticks].map(|time| motion.pose(time));
+        work.poses.extend(self.motions.iter().map(poses));
+        work.touches.list.clear();
+        let step = TimeStep {
             time: state.step as f64 * self.time_step,
             h,
             start: &state.positions,
             inverse_masses,
             poses: &work.poses,
         };
-        work.velocities.clone_from(&state.velocities);
-        for force in &mut self.forces {
-            let begin = Instant::now();
-            force.action.apply(&step, &mut work.velocities);
-            effects[force.effect].seconds += begin.elapsed().as_secs_f64();
+        let velocities = &mut work.velocities;
+        velocities.clone_from(&state.velocities);
+        for Entry { effect, action } in &mut self.forces {
+            timed(effects, *effect, || action.apply(&step, velocities));
         }
-        work.predicted.clear();
-        work.predicted.extend(
-            (0..state.positions.len()).map(|vertex| match work.poses.get(carriers[vertex] as usize) {
-                Some([_, pose]) => pose.apply(rest[vertex]),
-                None => state.positions[vertex] + limited(work.velocities[vertex], FASTEST) * h,
-            }),
-        );
-        work.touches.list.clear();
+        // Where inertia leads, and bodies and pins go.
+        let predicted = |vertex: usize| match step.poses.get(carriers[vertex] as usize) {
+            Some([_, pose]) => pose.apply(rest[vertex]),
+            None => step.start[vertex] + limited(velocities[vertex], FASTEST) * h,
+        };
+        let (positions, touches) = (&mut work.predicted, &mut work.touches);
+        positions.clear();
+        positions.extend((0..step.start.len()).map(predicted));
+        for Entry { effect, action } in &mut self.constraints {
+            timed(effects, *effect, || action.project(&step, positions, touches));
+        }
+        if let Some(contact) = contact {
+            contact.prepare(step.start, positions, h);
+            let settings = contact.settings;
+            for (with_body, setting) in [(true, settings.bodies), (false, settings.cloth)] {
+                if let Some((effect, _)) = setting {
+                    timed(effects, effect, || contact.push(with_body, &step, positions, touches));
+                }
+            }
+        }
+        for Entry { effect, action } in &mut self.friction {
+            timed(effects, *effect, || action.project(&step, positions, touches));
+        }
+        for (vertex, position) in positions.iter_mut().enumerate() {
+            if carriers[vertex] == FREE {
+                let start = step.start[vertex];
+                *position = start + limited(*position - start, FASTEST * h);
+            }
+        }
+        if let Some(contact) = contact {
+            contact.certify(&step, positions)?;
+        }
+        for (vertex, &position) in positions.iter().enumerate() {
+            state.velocities[vertex] = (position - state.positions[vertex]) / h;
+        }
+        std::mem::swap(&mut state.positions, positions);
+        state.clock += ticks;
+        Ok(())
     }
+}
+
+/// Runs what an effect does, and adds the time to it.
+fn timed(effects: &mut [EffectTime], effect: usize, action: impl FnOnce()) {
+    let begin = Instant::now();
+    action();
+    effects[effect].seconds += begin.elapsed().as_secs_f64();
 }
 
 /// The vector, no longer than `longest`; zero if it is not finite.

@@ -6,7 +6,7 @@
 use super::pair::Pair;
 use super::sieve::{Distances, Sieve};
 use super::start::first_crossing;
-use crate::plan::{FREE, Frame};
+use crate::step::{Carrier, FREE};
 use selvedge::PairKind;
 use selvedge::broad_phase::moving::MovingBroadPhase;
 use selvedge::mesh::Topology;
@@ -29,7 +29,7 @@ pub(super) struct Detector {
     /// Whether the broad phase looks for pairs of a few vertices only.
     is_narrowed: bool,
     /// Of each vertex: whose motion it follows.
-    carriers: Vec<Frame>,
+    carriers: Vec<Carrier>,
     /// Vertices from here on are bodies'.
     cloth_vertices: usize,
     broad_phase: MovingBroadPhase<f64>,
@@ -46,7 +46,7 @@ impl Detector {
     pub(super) fn new(
         topology: Arc<Topology>,
         rest: &[DVec3],
-        carriers: &[Frame],
+        carriers: &[Carrier],
         cloth_vertices: usize,
         distances: Distances,
         wanted: Wanted,
@@ -171,7 +171,7 @@ impl Detector {
 
     /// The body of two vertices that are to be kept apart, [`FREE`] for cloth and cloth; `None` if nobody asked for that.
     #[inline(always)]
-    fn body_of_pair(&self, one: u32, other: u32) -> Option<Frame> {
+    fn body_of_pair(&self, one: u32, other: u32) -> Option<Carrier> {
         match (self.body(one), self.body(other)) {
             (FREE, FREE) if self.wanted.cloth => Some(FREE),
             (FREE, body) | (body, FREE) if body != FREE && self.wanted.bodies => Some(body),
@@ -180,7 +180,7 @@ impl Detector {
     }
 
     /// The body of a vertex; [`FREE`] for cloth, pinned or not.
-    fn body(&self, vertex: u32) -> Frame {
+    fn body(&self, vertex: u32) -> Carrier {
         match vertex as usize {
             vertex if vertex < self.cloth_vertices => FREE,
             vertex => self.carriers[vertex],

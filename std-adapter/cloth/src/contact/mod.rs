@@ -26,9 +26,7 @@ pub use pass::ContactCounts;
 pub(crate) use pass::LARGEST_TURN;
 pub(super) use rows::RECOVERY;
 
-use super::plan::{Frame, StepInput, Touches};
-use super::scene::table::Table;
-use super::scene::{LENGTH, SceneError};
+use super::step::{Carrier, TimeStep, Touches};
 use detect::{Detector, Wanted};
 use horizon::Horizon;
 use pair::Pair;
@@ -79,28 +77,6 @@ impl ContactSeconds {
             ("contact set-up", self.rows),
             ("certificates", self.certificates),
             ("repairs", self.repairs),
-        ]
-    }
-}
-
-impl Thickness {
-    pub(crate) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
-        let thickness = table.required_number("thickness", LENGTH, 1e-5..=0.1)?;
-        let separation = table.number("separation", LENGTH, 1e-6..=0.1)?;
-        let separation = separation.unwrap_or(0.1 * thickness);
-        if separation > 0.9 * thickness {
-            let message =
-                format!("`separation` is {separation} m, but must be at most nine tenths of the thickness, {thickness} m");
-            return Err(table.error("separation", message));
-        }
-        Ok(Self { thickness, separation })
-    }
-
-    /// Both, as settings of an effect.
-    pub(crate) fn settings(&self) -> Vec<(&'static str, String)> {
-        vec![
-            ("thickness", LENGTH.written_short(self.thickness)),
-            ("separation", LENGTH.written_short(self.separation)),
         ]
     }
 }
@@ -176,7 +152,7 @@ pub(crate) struct Contact {
     pub(crate) settings: ContactSettings,
     detector: Detector,
     /// Of each vertex: whose motion it follows.
-    carriers: Vec<Frame>,
+    carriers: Vec<Carrier>,
     /// Of each vertex, for the thickness that neighbours can have.
     rest: Vec<DVec3>,
     /// How far vertices may stray along each axis, for candidates to hold every pair within the thickness.
@@ -206,7 +182,7 @@ impl Contact {
         mut settings: ContactSettings,
         triangles: &[[u32; 3]],
         rest: &[DVec3],
-        carriers: &[Frame],
+        carriers: &[Carrier],
         cloth_vertices: usize,
         bodies: usize,
     ) -> Result<Option<Self>, TopologyError> {
@@ -299,7 +275,7 @@ impl Contact {
     }
 
     /// Pushes apart what is too near: cloth and bodies, or cloth and cloth.
-    pub(crate) fn push(&mut self, with_body: bool, step: &StepInput<'_>, positions: &mut [DVec3], touches: &mut Touches) {
+    pub(crate) fn push(&mut self, with_body: bool, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
         self.counts.pushed += rows::project(&self.rows, with_body, step, positions, touches);
     }
 
@@ -324,7 +300,7 @@ impl Contact {
             if !self.yielding[body] {
                 continue;
             }
-            let pairs = self.pairs.iter().filter(|pair| pair.body == body as Frame);
+            let pairs = self.pairs.iter().filter(|pair| pair.body == body as Carrier);
             let is_apart = |pair: &Pair| {
                 let separation = self.settings.of(pair).map_or(0.0, |t| t.separation);
                 pair.distance_from_below(positions, self.error) > separation

@@ -4,7 +4,7 @@
 
 use super::closest::Closest;
 use super::sieve::are_neighbours;
-use crate::plan::{FREE, Frame};
+use crate::step::{Carrier, FREE};
 use selvedge::PairKind;
 use selvedge_core::elementary::Limits;
 use selvedge_core::elementary::advance::time_of_impact;
@@ -24,11 +24,11 @@ pub(super) struct Pair {
     pub(super) thickness: f32,
     pub(super) kind: PairKind,
     /// The body that it is a pair with; [`FREE`] for cloth with itself.
-    pub(super) body: Frame,
+    pub(super) body: Carrier,
 }
 
 impl Pair {
-    pub(super) fn new(key: u64, kind: PairKind, vertices: [u32; 4], body: Frame) -> Self {
+    pub(super) fn new(key: u64, kind: PairKind, vertices: [u32; 4], body: Carrier) -> Self {
         Self {
             key,
             vertices,

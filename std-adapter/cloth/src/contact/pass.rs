@@ -22,7 +22,7 @@
 use super::pair::Pair;
 use super::zones::{Cut, Motions};
 use super::{Blocker, Contact, ContactSettings};
-use crate::plan::{FREE, Frame, StepInput};
+use crate::step::{Carrier, FREE, TimeStep};
 use selvedge::PairKind;
 use selvedge::parallel;
 use selvedge_core::Lanes;
@@ -91,7 +91,7 @@ impl Contact {
     ///
     /// # Errors
     /// If the step has to be cut; then nothing has changed but `end`.
-    pub(crate) fn certify(&mut self, step: &StepInput<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
+    pub(crate) fn certify(&mut self, step: &TimeStep<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
         let start = step.start;
         self.error = error(start, end);
         let begin = Instant::now();
@@ -214,7 +214,7 @@ impl Contact {
 
     /// The candidates that are not free after some vertices have moved (`self.moved`): of those in `open`, and those of the
     /// vertices. Clears the marks.
-    fn check_moved(&mut self, open: &[usize], step: &StepInput<'_>, end: &[DVec3]) -> Vec<usize> {
+    fn check_moved(&mut self, open: &[usize], step: &TimeStep<'_>, end: &[DVec3]) -> Vec<usize> {
         let start = step.start;
         // What was moved may be farther out than anything before.
         self.error = self.error.larger(error(start, end));
@@ -266,7 +266,7 @@ impl Contact {
     }
 
     /// Projects each open pair, in order, to a little more than the separation that it keeps.
-    fn project(&mut self, open: &[usize], step: &StepInput<'_>, end: &mut [DVec3]) {
+    fn project(&mut self, open: &[usize], step: &TimeStep<'_>, end: &mut [DVec3]) {
         for &index in open {
             let pair = &self.pairs[index];
             let Some(separation) = self.separation(pair) else {
@@ -294,13 +294,13 @@ impl Contact {
         }
     }
 
-    fn move_in_zones(&mut self, mut open: Vec<usize>, step: &StepInput<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
+    fn move_in_zones(&mut self, mut open: Vec<usize>, step: &TimeStep<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
         if open.is_empty() {
             return Ok(());
         }
         let wanted = end.to_vec();
         let frames = self.frames_of_the_step(step);
-        let carry = |frame: Frame, point: DVec3| {
+        let carry = |frame: Carrier, point: DVec3| {
             let [before, now] = &step.poses[frame as usize];
             before.carry(now, point)
         };
@@ -342,18 +342,18 @@ impl Contact {
     }
 
     /// Each vertex's frame, those that rest in this step taken for one: a zone may touch any number of them.
-    fn frames_of_the_step(&self, step: &StepInput<'_>) -> Vec<Frame> {
+    fn frames_of_the_step(&self, step: &TimeStep<'_>) -> Vec<Carrier> {
         let rests = |frame: usize| step.poses[frame][0] == step.poses[frame][1];
         let first_at_rest = (0..step.poses.len()).find(|&frame| rests(frame));
-        let merged = |&carrier: &Frame| match first_at_rest {
-            Some(first) if carrier != FREE && rests(carrier as usize) => first as Frame,
+        let merged = |&carrier: &Carrier| match first_at_rest {
+            Some(first) if carrier != FREE && rests(carrier as usize) => first as Carrier,
             _ => carrier,
         };
         self.carriers.iter().map(merged).collect()
     }
 
     /// Whom to name when the step cannot be made: the first pair that touches a body or a pin.
-    fn blocker(&self, open: &[usize], step: &StepInput<'_>) -> Blocker {
+    fn blocker(&self, open: &[usize], step: &TimeStep<'_>) -> Blocker {
         let prescribed = |pair: &Pair| pair.vertices.iter().any(|&v| self.carriers[v as usize] != FREE);
         let first = open.iter().find(|&&index| prescribed(&self.pairs[index]));
         let index = first.or(open.first()).copied().unwrap_or_default();
@@ -437,7 +437,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn pairs(keys: &std::collections::BTreeSet<u64>, body: Frame) -> Vec<Pair> {
+    fn pairs(keys: &std::collections::BTreeSet<u64>, body: Carrier) -> Vec<Pair> {
         let pair = |&key: &u64| Pair::new(key, PairKind::EdgeEdge, [0; 4], body);
         keys.iter().map(pair).collect()
     }

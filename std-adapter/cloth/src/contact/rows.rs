@@ -7,7 +7,7 @@
 
 use super::pair::Pair;
 use super::{ContactSettings, Thickness};
-use crate::plan::{StepInput, Touch, Touches};
+use crate::step::{TimeStep, Touch, Touches};
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
@@ -88,13 +88,7 @@ fn row(
 }
 
 /// Pushes once along the rows of bodies, or of the cloth with itself.
-pub(super) fn project(
-    rows: &[Row],
-    with_body: bool,
-    step: &StepInput<'_>,
-    positions: &mut [DVec3],
-    touches: &mut Touches,
-) -> u64 {
+pub(super) fn project(rows: &[Row], with_body: bool, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) -> u64 {
     let mut pushed = 0;
     for row in rows.iter().filter(|row| row.with_body == with_body) {
         let vertices = row.vertices.map(|v| v as usize);

@@ -7,7 +7,7 @@
 //! rigidly.
 
 use super::pair::Pair;
-use crate::plan::{FREE, Frame};
+use crate::step::{Carrier, FREE};
 use selvedge_core::glam::DVec3;
 
 /// How much of a time of impact a zone takes up, level by level; at the last level nothing.
@@ -23,7 +23,7 @@ struct Zone {
     members: Vec<u32>,
     scale: f64,
     level: usize,
-    frame: Frame,
+    frame: Carrier,
     /// Its mean motion, if it has no frame.
     mean: DVec3,
     changed: bool,
@@ -45,9 +45,9 @@ pub(super) struct Motions<'a> {
     pub(super) wanted: &'a [DVec3],
     pub(super) inverse_masses: &'a [f64],
     /// Of each vertex, with frames that do not move in this step taken for one.
-    pub(super) frames: &'a [Frame],
+    pub(super) frames: &'a [Carrier],
     /// Where a frame takes a point in this step.
-    pub(super) carry: &'a dyn Fn(Frame, DVec3) -> DVec3,
+    pub(super) carry: &'a dyn Fn(Carrier, DVec3) -> DVec3,
 }
 
 impl Zones {
@@ -152,7 +152,7 @@ impl Zones {
     }
 
     /// Whether the pair's cloth is in one zone already, and that has the frame of whatever else the pair touches.
-    fn is_inside(&mut self, pair: &Pair, frames: &[Frame]) -> bool {
+    fn is_inside(&mut self, pair: &Pair, frames: &[Carrier]) -> bool {
         let mut one = None;
         for &vertex in &pair.vertices {
             if frames[vertex as usize] == FREE {
@@ -169,12 +169,12 @@ impl Zones {
     }
 
     /// The zone of the pair's cloth; `None` if all of the pair is prescribed.
-    fn zone_of_pair(&self, pair: &Pair, frames: &[Frame]) -> Option<usize> {
+    fn zone_of_pair(&self, pair: &Pair, frames: &[Carrier]) -> Option<usize> {
         let mut free = pair.vertices.iter().filter(|&&v| frames[v as usize] == FREE);
         free.next().map(|&v| self.zone_of[v as usize] as usize)
     }
 
-    fn merge(&mut self, pair: &Pair, frames: &[Frame]) -> Result<(), Cut> {
+    fn merge(&mut self, pair: &Pair, frames: &[Carrier]) -> Result<(), Cut> {
         let mut into = None;
         for &vertex in pair.vertices.iter().filter(|&&v| frames[v as usize] == FREE) {
             let zone = self.zone(vertex);
@@ -231,7 +231,7 @@ impl Zones {
 }
 
 /// The frame of a zone that touches both.
-fn common_frame(a: Frame, b: Frame) -> Result<Frame, Cut> {
+fn common_frame(a: Carrier, b: Carrier) -> Result<Carrier, Cut> {
     match (a, b) {
         (FREE, frame) | (frame, FREE) => Ok(frame),
         (a, b) if a == b => Ok(a),

@@ -1,13 +1,13 @@
 //! Air drag: still air slows every vertex down at the same rate, v′ = −r·v. Solved exactly, so stable for any rate.
 
-use super::{Effect, Registration};
-use crate::plan::{Force, Plan, StepInput};
-use crate::scene::FREQUENCY;
+use super::registration::{Effect, Registration};
+use crate::input::FREQUENCY;
+use crate::plan::Plan;
+use crate::step::{Force, TimeStep};
 use libm::exp;
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    name: "air_drag",
     keys: &["rate"],
     needs: &[],
     read: |table, _| {
@@ -29,7 +29,7 @@ impl Effect for AirDrag {
 }
 
 impl Force for AirDrag {
-    fn apply(&mut self, step: &StepInput<'_>, velocities: &mut [DVec3]) {
+    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
         let factor = exp(-self.rate * step.h);
         for velocity in velocities {
             *velocity *= factor;

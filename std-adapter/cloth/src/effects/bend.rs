@@ -2,15 +2,15 @@
 //! the cotangents of its angles at rest. The energy is (3k/2A)·|C|², A the area of both triangles: gradients are
 //! constant, there is no trigonometry and no singular fold. Rest is flat.
 
-use super::{Effect, Registration};
+use super::registration::{Effect, Registration};
+use crate::input::BENDING_STIFFNESS;
 use crate::plan::Plan;
-use crate::scene::{BENDING_STIFFNESS, Cloth};
 use crate::schedule::{Local, On, Schedule};
+use crate::world::Cloth;
 use selvedge::mesh::Topology;
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    name: "bend",
     keys: &["stiffness"],
     needs: &[],
     read: |table, _| {
@@ -91,7 +91,7 @@ impl Local<4> for Hinge {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Scene;
+    use crate::scene::Scene;
     use std::path::Path;
 
     /// A flat sheet has no bending force however it is moved rigidly; a folded one has.

@@ -3,14 +3,15 @@
 //! Capsules and balls push vertices by their exact distance, so that cloth slides on a smooth surface; edges and faces of the
 //! cloth are kept off by the pairs with the body's mesh, as for any other body.
 
-use super::{Effect, Registration};
+use super::registration::{Effect, Registration};
+use super::thickness;
 use crate::contact::{RECOVERY, Thickness};
-use crate::plan::{Constraint, Plan, StepInput, Touch, Touches};
-use crate::scene::Pose;
+use crate::plan::Plan;
+use crate::step::{Constraint, TimeStep, Touch, Touches};
+use crate::world::Pose;
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    name: "body_contact",
     keys: &["thickness", "separation"],
     needs: &[],
     read: |table, world| {
@@ -18,7 +19,7 @@ pub(super) const REGISTRATION: Registration = Registration {
             let message = "body contact has nothing to act on: the scene has no [[body]]";
             return Err(table.error("", message.to_owned()));
         }
-        Ok(Box::new(BodyContact(Thickness::read(table)?)))
+        Ok(Box::new(BodyContact(thickness::read(table)?)))
     },
 };
 
@@ -27,7 +28,7 @@ struct BodyContact(Thickness);
 
 impl Effect for BodyContact {
     fn settings(&self) -> Vec<(&'static str, String)> {
-        self.0.settings()
+        thickness::settings(&self.0)
     }
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
@@ -35,9 +36,9 @@ impl Effect for BodyContact {
         let cloth_vertices = plan.world.cloth.mesh.positions.len();
         let bodies = plan.world.bodies.iter().enumerate();
         let capsules: Vec<_> = bodies
-            .filter_map(|(frame, body)| {
+            .filter_map(|(carrier, body)| {
                 let (ends, radius) = body.capsule?;
-                Some(Capsule { frame, ends, radius })
+                Some(Capsule { carrier, ends, radius })
             })
             .collect();
         if !capsules.is_empty() {
@@ -52,7 +53,7 @@ impl Effect for BodyContact {
 
 #[derive(Debug)]
 struct Capsule {
-    frame: usize,
+    carrier: usize,
     /// At rest.
     ends: [DVec3; 2],
     radius: f64,
@@ -83,9 +84,9 @@ fn nearest(from: DVec3, axis: DVec3, point: DVec3) -> DVec3 {
 }
 
 impl Constraint for Push {
-    fn project(&mut self, step: &StepInput<'_>, positions: &mut [DVec3], touches: &mut Touches) {
+    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
         for capsule in &self.capsules {
-            let [before, now] = step.poses[capsule.frame];
+            let [before, now] = step.poses[capsule.carrier];
             let [from, to] = capsule.ends.map(|end| now.apply(end));
             let axis = to - from;
             let reach = capsule.radius + self.thickness;

@@ -2,13 +2,13 @@
 //!
 //! A contact that moved its two sides apart by p may undo up to μ·p of their sliding since the start of the step.
 
-use super::{Effect, Registration};
-use crate::plan::{Constraint, Plan, StepInput, Touches};
-use crate::scene::RATIO;
+use super::registration::{Effect, Registration};
+use crate::input::RATIO;
+use crate::plan::Plan;
+use crate::step::{Constraint, TimeStep, Touches};
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    name: "friction",
     keys: &["coefficient"],
     needs: &["self_collision", "body_contact"],
     read: |table, _| {
@@ -29,7 +29,7 @@ impl Effect for Friction {
 }
 
 impl Constraint for Friction {
-    fn project(&mut self, step: &StepInput<'_>, positions: &mut [DVec3], touches: &mut Touches) {
+    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
         for touch in &touches.list {
             let vertices = touch.vertices.map(|v| v as usize);
             let mut sliding = -touch.drift;

@@ -1,12 +1,12 @@
 //! Gravity: the same acceleration everywhere.
 
-use super::{Effect, Registration};
-use crate::plan::{Force, Plan, StepInput};
-use crate::scene::ACCELERATION;
+use super::registration::{Effect, Registration};
+use crate::input::ACCELERATION;
+use crate::plan::Plan;
+use crate::step::{Force, TimeStep};
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    name: "gravity",
     keys: &["acceleration"],
     needs: &[],
     read: |table, _| {
@@ -26,7 +26,7 @@ impl Effect for Gravity {
 }
 
 impl Force for Gravity {
-    fn apply(&mut self, step: &StepInput<'_>, velocities: &mut [DVec3]) {
+    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
         let change = self.0 * step.h;
         for (velocity, &inverse_mass) in velocities.iter_mut().zip(step.inverse_masses) {
             if inverse_mass > 0.0 {

@@ -1,7 +1,7 @@
 //! What the effects in the plane of the cloth have in common.
 
-use crate::scene::Cloth;
 use crate::schedule::On;
+use crate::world::Cloth;
 use selvedge_core::glam::DVec3;
 
 /// The material directions of a triangle of cloth (Baraff and Witkin 1998): positions xᵢ give the images

@@ -8,43 +8,20 @@ mod gravity;
 mod membrane;
 mod pins;
 mod pressure;
+mod registration;
 mod self_collision;
 mod shear;
 mod strain_limit;
 mod stretch;
+mod thickness;
 mod wind;
 
-use super::plan::Plan;
-use super::scene::table::Table;
-use super::scene::{SceneError, World, suggestion};
-use std::fmt::Debug;
-
-/// What a scene's `[effects.NAME]` has been read into.
-pub(crate) trait Effect: Debug + Send {
-    /// Puts what the effect does into the plan.
-    fn register(self: Box<Self>, plan: &mut Plan<'_>);
-
-    /// What trades time for accuracy, with its unit.
-    fn settings(&self) -> Vec<(&'static str, String)> {
-        Vec::new()
-    }
-}
+use super::input::{SceneError, Table, suggestion};
+use super::world::World;
+use registration::{Effect, Registration};
 
 /// An effect and its name in scenes.
 pub(crate) type Named = (&'static str, Box<dyn Effect>);
-
-/// Reads an effect's table.
-type Read = fn(&Table<'_>, &World<'_>) -> Result<Box<dyn Effect>, SceneError>;
-
-/// An effect that scenes can call for.
-pub(crate) struct Registration {
-    pub(crate) name: &'static str,
-    /// The keys of its table.
-    pub(crate) keys: &'static [&'static str],
-    /// It makes no sense unless one of these is there too; if any are named.
-    pub(crate) needs: &'static [&'static str],
-    pub(crate) read: Read,
-}
 
 /// The registrations of these modules, but for those that `--cfg without_effect="NAME"` leaves out of the program: with it
 /// `std-adapter/cloth/instruction-counts/run.sh` shows that an effect costs nothing where it is not named.
@@ -52,14 +29,14 @@ macro_rules! registry {
     ($($module:ident $name:literal)*) => {
         &[$(
             #[cfg(not(without_effect = $name))]
-            $module::REGISTRATION,
+            ($name, $module::REGISTRATION),
         )*]
     };
 }
 
 /// Every effect, in the order in which they run.
 #[rustfmt::skip]
-const REGISTRY: &[Registration] = registry![
+const REGISTRY: &[(&str, Registration)] = registry![
     gravity "gravity"
     wind "wind"
     air_drag "air_drag"
@@ -77,15 +54,14 @@ const REGISTRY: &[Registration] = registry![
 /// Reads the effects that `table` names, and constructs no other.
 pub(crate) fn read(table: &Table<'_>, world: &World<'_>) -> Result<Vec<Named>, SceneError> {
     for (name, place) in table.keys() {
-        if !REGISTRY.iter().any(|effect| effect.name == name) {
-            let names = REGISTRY.iter().map(|effect| effect.name);
+        if !REGISTRY.iter().any(|(known, _)| *known == name) {
+            let names = REGISTRY.iter().map(|(name, _)| *name);
             let message = format!("there is no effect '{name}'{}", suggestion(name, names));
             return Err(table.complain(place, message));
         }
     }
     let mut effects = Vec::new();
-    for registration in REGISTRY {
-        let name = registration.name;
+    for (name, registration) in REGISTRY {
         let Some(settings) = table.table(name)? else {
             continue;
         };
@@ -98,7 +74,7 @@ pub(crate) fn read(table: &Table<'_>, world: &World<'_>) -> Result<Vec<Named>, S
             return Err(table.error(name, message));
         }
         settings.expect_keys(registration.keys)?;
-        effects.push((name, (registration.read)(&settings, world)?));
+        effects.push((*name, (registration.read)(&settings, world)?));
     }
     Ok(effects)
 }
@@ -106,5 +82,5 @@ pub(crate) fn read(table: &Table<'_>, world: &World<'_>) -> Result<Vec<Named>, S
 /// The names of all effects.
 #[must_use]
 pub fn effect_names() -> Vec<&'static str> {
-    REGISTRY.iter().map(|effect| effect.name).collect()
+    REGISTRY.iter().map(|(name, _)| *name).collect()
 }

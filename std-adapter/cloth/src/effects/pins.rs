@@ -1,12 +1,12 @@
-//! Pins: vertices whose motion is prescribed, by keyframes of their own or by the body that they follow.
+//! Pins: vertices that are kinematic, moved by keyframes of their own or by the body that they follow.
 
-use super::{Effect, Registration};
-use crate::plan::{Frame, Plan};
-use crate::scene::table::Table;
-use crate::scene::{LENGTH, RigidMotion, SceneError, WORLD, World, suggestion};
+use super::registration::{Effect, Registration};
+use crate::input::{LARGEST_COORDINATE, LENGTH, SceneError, Table, suggestion};
+use crate::plan::Plan;
+use crate::step::Carrier;
+use crate::world::{RigidMotion, World};
 
 pub(super) const REGISTRATION: Registration = Registration {
-    name: "pins",
     keys: &["group"],
     needs: &[],
     read: |table, world| {
@@ -31,11 +31,11 @@ struct Pins {
 #[derive(Debug)]
 struct Group {
     vertices: Vec<u32>,
-    carrier: Carrier,
+    follows: Follows,
 }
 
 #[derive(Debug)]
-enum Carrier {
+enum Follows {
     Body(usize),
     Own(RigidMotion),
 }
@@ -75,8 +75,8 @@ fn read_group(table: &Table<'_>, world: &World<'_>, taken: &mut [bool]) -> Resul
             return Err(table.error("vertices", message));
         }
     }
-    let carrier = match table.text("follow")? {
-        None => Carrier::Own(RigidMotion::read(table, world.time_step)?),
+    let follows = match table.text("follow")? {
+        None => Follows::Own(RigidMotion::read(table, world.time_step)?),
         Some(_) if table.has("keyframes") => {
             let message = "pins that `follow` a body have no keyframes of their own".to_owned();
             return Err(table.error("keyframes", message));
@@ -87,16 +87,16 @@ fn read_group(table: &Table<'_>, world: &World<'_>, taken: &mut [bool]) -> Resul
                 let message = format!("there is no body '{name}'{}", suggestion(name, names()));
                 return Err(table.error("follow", message));
             };
-            Carrier::Body(body)
+            Follows::Body(body)
         }
     };
-    Ok(Group { vertices, carrier })
+    Ok(Group { vertices, follows })
 }
 
 fn in_box(table: &Table<'_>, world: &World<'_>) -> Result<Vec<u32>, SceneError> {
     table.expect_keys(&["lower", "upper"])?;
-    let lower = table.required_vector("lower", LENGTH, WORLD)?;
-    let upper = table.required_vector("upper", LENGTH, WORLD)?;
+    let lower = table.required_vector("lower", LENGTH, LARGEST_COORDINATE)?;
+    let upper = table.required_vector("upper", LENGTH, LARGEST_COORDINATE)?;
     let positions = world.cloth.mesh.positions.iter().enumerate();
     let inside = positions.filter(|(_, p)| p.cmpge(lower).all() && p.cmple(upper).all());
     Ok(inside.map(|(vertex, _)| vertex as u32).collect())
@@ -104,8 +104,8 @@ fn in_box(table: &Table<'_>, world: &World<'_>) -> Result<Vec<u32>, SceneError> 
 
 fn in_ball(table: &Table<'_>, world: &World<'_>) -> Result<Vec<u32>, SceneError> {
     table.expect_keys(&["centre", "radius"])?;
-    let centre = table.required_vector("centre", LENGTH, WORLD)?;
-    let radius = table.required_number("radius", LENGTH, 1e-6..=WORLD)?;
+    let centre = table.required_vector("centre", LENGTH, LARGEST_COORDINATE)?;
+    let radius = table.required_number("radius", LENGTH, 1e-6..=LARGEST_COORDINATE)?;
     let positions = world.cloth.mesh.positions.iter().enumerate();
     let inside = positions.filter(|(_, p)| p.distance(centre) <= radius);
     Ok(inside.map(|(vertex, _)| vertex as u32).collect())
@@ -114,15 +114,15 @@ fn in_ball(table: &Table<'_>, world: &World<'_>) -> Result<Vec<u32>, SceneError>
 impl Effect for Pins {
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         for group in self.groups {
-            let frame = match group.carrier {
-                Carrier::Body(body) => body as Frame,
-                Carrier::Own(motion) => {
-                    plan.frames.push(motion);
-                    plan.frames.len() as Frame - 1
+            let carrier = match group.follows {
+                Follows::Body(body) => body as Carrier,
+                Follows::Own(motion) => {
+                    plan.motions.push(motion);
+                    plan.motions.len() as Carrier - 1
                 }
             };
             for vertex in group.vertices {
-                plan.pin(vertex, frame);
+                plan.pin(vertex, carrier);
             }
         }
     }

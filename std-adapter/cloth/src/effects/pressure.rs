@@ -4,14 +4,14 @@
 //! volume is taken relative to the first vertex, so that it does not depend on where the cloth is.
 
 use super::membrane::Incidence;
-use super::{Effect, Registration};
-use crate::plan::{Constraint, Plan, StepInput, Touches};
-use crate::scene::{PRESSURE, RATIO};
+use super::registration::{Effect, Registration};
+use crate::input::{PRESSURE, RATIO};
+use crate::plan::Plan;
+use crate::step::{Constraint, TimeStep, Touches};
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    name: "internal_pressure",
     keys: &["volume", "modulus"],
     needs: &[],
     read: |table, world| {
@@ -73,7 +73,7 @@ fn volume(triangles: &[[u32; 3]], positions: &[DVec3]) -> f64 {
 }
 
 impl Constraint for Filling {
-    fn project(&mut self, step: &StepInput<'_>, positions: &mut [DVec3], _: &mut Touches) {
+    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
         let read: &[DVec3] = positions;
         parallel::fill(&mut self.normals, &self.triangles, |triangle| {
             let [a, b, c] = triangle.map(|v| read[v as usize]);

@@ -2,15 +2,15 @@
 //!
 //! The effect only says so; the work is that of [`contact`](crate::contact), shared with body contact.
 
-use super::{Effect, Registration};
+use super::registration::{Effect, Registration};
+use super::thickness;
 use crate::contact::Thickness;
 use crate::plan::Plan;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    name: "self_collision",
     keys: &["thickness", "separation"],
     needs: &[],
-    read: |table, _| Ok(Box::new(SelfCollision(Thickness::read(table)?))),
+    read: |table, _| Ok(Box::new(SelfCollision(thickness::read(table)?))),
 };
 
 #[derive(Debug)]
@@ -18,7 +18,7 @@ struct SelfCollision(Thickness);
 
 impl Effect for SelfCollision {
     fn settings(&self) -> Vec<(&'static str, String)> {
-        self.0.settings()
+        thickness::settings(&self.0)
     }
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {

@@ -1,14 +1,13 @@
 //! Shear: C = w_u·w_v (Baraff and Witkin 1998), compliance 1/(k·A).
 
 use super::membrane::{Membrane, all, image, of_triangles};
-use super::{Effect, Registration};
+use super::registration::{Effect, Registration};
+use crate::input::MEMBRANE_STIFFNESS;
 use crate::plan::Plan;
-use crate::scene::MEMBRANE_STIFFNESS;
 use crate::schedule::{Local, Schedule};
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    name: "shear",
     keys: &["stiffness"],
     needs: &[],
     read: |table, _| {

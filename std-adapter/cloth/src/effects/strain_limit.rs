@@ -6,14 +6,13 @@
 //! little above the limit: more `sweeps` bring them closer (an accuracy–time choice).
 
 use super::membrane::{Membrane, all, image, of_triangles};
-use super::{Effect, Registration};
+use super::registration::{Effect, Registration};
+use crate::input::RATIO;
 use crate::plan::Plan;
-use crate::scene::RATIO;
 use crate::schedule::{Local, Schedule};
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    name: "strain_limit",
     keys: &["limit", "sweeps"],
     needs: &[],
     read: |table, _| {

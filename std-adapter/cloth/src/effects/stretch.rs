@@ -4,14 +4,13 @@
 //! vanishes it has no direction, and nothing is done.
 
 use super::membrane::{Membrane, all, image, of_triangles};
-use super::{Effect, Registration};
+use super::registration::{Effect, Registration};
+use crate::input::MEMBRANE_STIFFNESS;
 use crate::plan::Plan;
-use crate::scene::MEMBRANE_STIFFNESS;
 use crate::schedule::{Local, Schedule};
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    name: "stretch",
     keys: &["stiffness", "weft_stiffness"],
     needs: &[],
     read: |table, _| {

@@ -8,9 +8,10 @@
 //! Gusts: the wind's speed varies as 1 + g·sin(2πft − q·x) with x along the wind, q one wave in [`GUST_LENGTH`] metres.
 
 use super::membrane::Incidence;
-use super::{Effect, Registration};
-use crate::plan::{Force, Plan, StepInput};
-use crate::scene::{AIR_DENSITY, FREQUENCY, RATIO, SPEED};
+use super::registration::{Effect, Registration};
+use crate::input::{AIR_DENSITY, FREQUENCY, RATIO, SPEED};
+use crate::plan::Plan;
+use crate::step::{Force, TimeStep};
 use libm::sin;
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
@@ -20,7 +21,6 @@ use std::f64::consts::TAU;
 const GUST_LENGTH: f64 = 1.0;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    name: "wind",
     keys: &["velocity", "air_density", "drag", "gust", "gust_frequency"],
     needs: &[],
     read: |table, _| {
@@ -73,7 +73,7 @@ struct Blow {
 }
 
 impl Force for Blow {
-    fn apply(&mut self, step: &StepInput<'_>, velocities: &mut [DVec3]) {
+    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
         let Self {
             wind,
             factor,

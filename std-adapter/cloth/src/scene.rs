@@ -25,38 +25,12 @@
 //! # Ok::<(), selvedge_cloth::SceneError>(())
 //! ```
 
-mod body;
-mod cloth;
-mod error;
-mod motion;
-mod quantity;
-mod shapes;
-pub(crate) mod table;
-
-pub use body::Body;
-pub use cloth::Cloth;
-pub use error::SceneError;
-pub use motion::RigidMotion;
-
-pub(crate) use error::suggestion;
-pub(crate) use motion::Pose;
-pub(crate) use quantity::{
-    ACCELERATION, AIR_DENSITY, BENDING_STIFFNESS, FREQUENCY, LENGTH, MEMBRANE_STIFFNESS, PRESSURE, RATIO, SPEED,
-};
-
 use super::effects::{self, Named};
-use quantity::TIME;
-use selvedge::mesh::Mesh;
+use super::input::{ACCELERATION, FREQUENCY, LARGEST_TIME, SceneError, Source, TIME, Table};
+use super::world::{Body, Cloth, World};
 use selvedge_core::glam::DVec3;
 use selvedge_files::excerpt::excerpt;
-use selvedge_files::mesh;
 use std::path::Path;
-use table::{Source, Table};
-
-/// The largest coordinate that a scene may give, in metres.
-pub(crate) const WORLD: f64 = 1e3;
-/// The longest time that a scene may give, in seconds.
-const LARGEST_TIME: f64 = 1e5;
 
 /// What to do when bodies or pins force the cloth where it cannot go without intersecting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -95,15 +69,6 @@ pub struct Scene {
     pub(crate) fingerprint: u64,
     /// The effects called for, in the order of the registry.
     pub(crate) effects: Vec<Named>,
-}
-
-/// What effects are checked against.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct World<'a> {
-    pub(crate) cloth: &'a Cloth,
-    pub(crate) bodies: &'a [Body],
-    /// Seconds.
-    pub(crate) time_step: f64,
 }
 
 impl Scene {
@@ -251,21 +216,4 @@ fn read_bodies(root: &Table<'_>, time_step: f64) -> Result<Vec<Body>, SceneError
         bodies.push(body);
     }
     Ok(bodies)
-}
-
-/// The mesh of the file that `file` names.
-fn mesh_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
-    let Some(file) = table.text("file")? else {
-        let message = "shape \"file\" needs `file`, such as \"shirt.obj\"".to_owned();
-        return Err(table.error("file", message));
-    };
-    let read = mesh::read(&table.folder().join(file));
-    let mesh = read.map_err(|error| table.error("file", error.to_string()))?.mesh;
-    match mesh.positions.iter().find(|p| p.abs().max_element() > WORLD) {
-        None => Ok(mesh),
-        Some(far) => {
-            let message = format!("the mesh has a vertex at {far}, more than {WORLD} metres away");
-            Err(table.error("file", message))
-        }
-    }
 }

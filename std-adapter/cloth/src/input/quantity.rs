@@ -34,6 +34,11 @@ quantities! {
     PRESSURE = "a pressure" ["Pa" 1.0, "kPa" 1e3];
 }
 
+/// The largest coordinate that a scene may give, in metres.
+pub(crate) const LARGEST_COORDINATE: f64 = 1e3;
+/// The longest time that a scene may give, in seconds.
+pub(crate) const LARGEST_TIME: f64 = 1e5;
+
 impl Quantity {
     /// Reads text such as `3 mm`, in SI units. What is wrong with it, if it is no such quantity.
     pub(crate) fn parse(&self, text: &str) -> Result<f64, String> {

@@ -1,8 +1,10 @@
-//! Meshes of simple shapes. Positions are the same bits on every platform: sines come from the `libm` crate.
+//! Meshes: of simple shapes, and of files. Positions of the former are the same bits on every platform: sines come from the `libm` crate.
 
+use crate::input::{LARGEST_COORDINATE, SceneError, Table};
 use libm::{cos, sin};
 use selvedge::mesh::Mesh;
 use selvedge_core::glam::DVec3;
+use selvedge_files::mesh;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// A parallelogram with a corner and two sides, in `cells` along each. Diagonals alternate, so that no direction is favoured.
@@ -99,6 +101,23 @@ pub(crate) fn capsule([from, to]: [DVec3; 2], radius: f64, around: u32) -> Mesh 
         mesh.triangles.push([end, outermost + point, outermost + next]);
     }
     mesh
+}
+
+/// The mesh of the file that `file` names.
+pub(super) fn of_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
+    let Some(file) = table.text("file")? else {
+        let message = "shape \"file\" needs `file`, such as \"shirt.obj\"".to_owned();
+        return Err(table.error("file", message));
+    };
+    let read = mesh::read(&table.folder().join(file));
+    let mesh = read.map_err(|error| table.error("file", error.to_string()))?.mesh;
+    match mesh.positions.iter().find(|p| p.abs().max_element() > LARGEST_COORDINATE) {
+        None => Ok(mesh),
+        Some(far) => {
+            let message = format!("the mesh has a vertex at {far}, more than {LARGEST_COORDINATE} metres away");
+            Err(table.error("file", message))
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,9 +1,6 @@
 //! Keyframed motion of bodies and pins.
 
-use super::error::SceneError;
-use super::quantity::{ANGLE, LENGTH, RATIO, TIME};
-use super::table::Table;
-use super::{LARGEST_TIME, WORLD};
+use crate::input::{ANGLE, LARGEST_COORDINATE, LARGEST_TIME, LENGTH, RATIO, SceneError, TIME, Table};
 use libm::{cos, sin};
 use selvedge_core::glam::DVec3;
 
@@ -56,8 +53,8 @@ impl RigidMotion {
     ///
     /// What turns by more than [`FASTEST_TURN`] in `time_step` seconds is refused.
     pub(crate) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
-        let pivot = table.vector("pivot", LENGTH, WORLD)?.unwrap_or_default();
-        let axis = table.vector("axis", RATIO, WORLD)?.unwrap_or(DVec3::Z);
+        let pivot = table.vector("pivot", LENGTH, LARGEST_COORDINATE)?.unwrap_or_default();
+        let axis = table.vector("axis", RATIO, LARGEST_COORDINATE)?.unwrap_or(DVec3::Z);
         let Some(axis) = axis.try_normalize() else {
             let message = "`axis` must not be zero: it is the direction to turn about".to_owned();
             return Err(table.error("axis", message));
@@ -73,7 +70,7 @@ impl RigidMotion {
             let next = Key {
                 time,
                 angle: key.number("angle", ANGLE, -1e4..=1e4)?.unwrap_or(0.0),
-                translation: key.vector("translation", LENGTH, WORLD)?.unwrap_or_default(),
+                translation: key.vector("translation", LENGTH, LARGEST_COORDINATE)?.unwrap_or_default(),
             };
             if let Some(last) = keys.last() {
                 // Half-way it is half as fast again as on average.

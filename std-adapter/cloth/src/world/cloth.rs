@@ -1,9 +1,7 @@
 //! `[cloth]`: the mesh and its mass.
 
-use super::error::{SceneError, suggestion};
-use super::quantity::{AREA_DENSITY, LENGTH, RATIO, SPEED};
-use super::table::Table;
-use super::{WORLD, shapes};
+use super::shapes;
+use crate::input::{AREA_DENSITY, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, SceneError, Table, suggestion};
 use crate::sleeve::{RefinementError, ring_sizes, sleeve};
 use selvedge::mesh::{Mesh, Topology};
 use selvedge_core::glam::DVec3;
@@ -26,38 +24,38 @@ pub struct Cloth {
 }
 
 #[derive(Clone, Copy)]
-enum Shape {
+enum ClothShape {
     Sleeve,
     Sheet,
     Tube,
     File,
 }
 
-const SHAPES: [(&str, Shape); 4] = [
-    ("sleeve", Shape::Sleeve),
-    ("sheet", Shape::Sheet),
-    ("tube", Shape::Tube),
-    ("file", Shape::File),
+const SHAPES: [(&str, ClothShape); 4] = [
+    ("sleeve", ClothShape::Sleeve),
+    ("sheet", ClothShape::Sheet),
+    ("tube", ClothShape::Tube),
+    ("file", ClothShape::File),
 ];
 const CELLS: std::ops::RangeInclusive<u64> = 1..=2000;
 
 impl Cloth {
-    pub(super) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
+    pub(crate) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
         let shape = table.required_choice("shape", &SHAPES)?;
         let own: &[&str] = match shape {
-            Shape::Sleeve => &["refinement"],
-            Shape::Sheet => &["corner", "sides", "cells"],
-            Shape::Tube => &["from", "to", "radius", "cells"],
-            Shape::File => &["file", "warp"],
+            ClothShape::Sleeve => &["refinement"],
+            ClothShape::Sheet => &["corner", "sides", "cells"],
+            ClothShape::Tube => &["from", "to", "radius", "cells"],
+            ClothShape::File => &["file", "warp"],
         };
         table.expect_keys(&[&["shape", "density", "velocity"], own].concat())?;
         let (mesh, warp, selections) = match shape {
-            Shape::Sleeve => read_sleeve(table)?,
-            Shape::Sheet => read_sheet(table)?,
-            Shape::Tube => read_tube(table)?,
-            Shape::File => {
-                let warp = table.vector("warp", RATIO, WORLD)?.unwrap_or(DVec3::X);
-                (super::mesh_file(table)?, warp, Vec::new())
+            ClothShape::Sleeve => read_sleeve(table)?,
+            ClothShape::Sheet => read_sheet(table)?,
+            ClothShape::Tube => read_tube(table)?,
+            ClothShape::File => {
+                let warp = table.vector("warp", RATIO, LARGEST_COORDINATE)?.unwrap_or(DVec3::X);
+                (shapes::of_file(table)?, warp, Vec::new())
             }
         };
         let topology = mesh.topology().map_err(|error| table.error("shape", error.to_string()))?;
@@ -100,9 +98,9 @@ impl Cloth {
 /// Edges of a hundredth of a millimetre.
 const SMALLEST_AREA: f64 = 1e-10;
 
-type Shaped = (Mesh, DVec3, Vec<(&'static str, Vec<u32>)>);
+type MeshWarpAndParts = (Mesh, DVec3, Vec<(&'static str, Vec<u32>)>);
 
-fn read_sleeve(table: &Table<'_>) -> Result<Shaped, SceneError> {
+fn read_sleeve(table: &Table<'_>) -> Result<MeshWarpAndParts, SceneError> {
     let refinement = table.count("refinement", 1..=1000)?.unwrap_or(1) as u32;
     let complain = |error: RefinementError| table.error("refinement", error.to_string());
     let mesh = sleeve(refinement).map_err(complain)?;
@@ -113,18 +111,18 @@ fn read_sleeve(table: &Table<'_>) -> Result<Shaped, SceneError> {
     Ok((mesh, DVec3::X, selections))
 }
 
-fn read_sheet(table: &Table<'_>) -> Result<Shaped, SceneError> {
+fn read_sheet(table: &Table<'_>) -> Result<MeshWarpAndParts, SceneError> {
     let sides = table.required_table("sides")?;
     sides.expect_keys(&["first", "second"])?;
     let sides = [
-        sides.required_vector("first", LENGTH, WORLD)?,
-        sides.required_vector("second", LENGTH, WORLD)?,
+        sides.required_vector("first", LENGTH, LARGEST_COORDINATE)?,
+        sides.required_vector("second", LENGTH, LARGEST_COORDINATE)?,
     ];
     if sides[0].cross(sides[1]).length() < 0.1 * sides[0].length() * sides[1].length() || sides[0] == DVec3::ZERO {
         let message = "the two sides of the sheet must not be parallel or zero".to_owned();
         return Err(table.error("sides", message));
     }
-    let corner = table.vector("corner", LENGTH, WORLD)?.unwrap_or_default();
+    let corner = table.vector("corner", LENGTH, LARGEST_COORDINATE)?.unwrap_or_default();
     let cells = table.two_counts("cells", CELLS)?.map(|n| n as u32);
     let [columns, rows] = cells;
     let at = |column: u32, row: u32| row * (columns + 1) + column;
@@ -141,15 +139,15 @@ fn read_sheet(table: &Table<'_>) -> Result<Shaped, SceneError> {
     Ok((shapes::sheet(corner, sides, cells), sides[0], selections))
 }
 
-fn read_tube(table: &Table<'_>) -> Result<Shaped, SceneError> {
+fn read_tube(table: &Table<'_>) -> Result<MeshWarpAndParts, SceneError> {
     let ends = [
-        table.required_vector("from", LENGTH, WORLD)?,
-        table.required_vector("to", LENGTH, WORLD)?,
+        table.required_vector("from", LENGTH, LARGEST_COORDINATE)?,
+        table.required_vector("to", LENGTH, LARGEST_COORDINATE)?,
     ];
     if ends[0] == ends[1] {
         return Err(table.error("to", "`from` and `to` are the same point".to_owned()));
     }
-    let radius = table.required_number("radius", LENGTH, 1e-3..=WORLD)?;
+    let radius = table.required_number("radius", LENGTH, 1e-3..=LARGEST_COORDINATE)?;
     let cells = table.two_counts("cells", 3..=2000)?.map(|n| n as u32);
     let mesh = shapes::tube(ends, radius, cells);
     let count = mesh.positions.len() as u32;

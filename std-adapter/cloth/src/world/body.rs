@@ -1,14 +1,12 @@
 //! `[[body]]`: what the cloth meets.
 
-use super::error::SceneError;
 use super::motion::RigidMotion;
-use super::quantity::LENGTH;
-use super::table::Table;
-use super::{WORLD, shapes};
+use super::shapes;
+use crate::input::{LARGEST_COORDINATE, LENGTH, SceneError, Table};
 use selvedge::mesh::Mesh;
 use selvedge_core::glam::DVec3;
 
-/// A rigid body on a prescribed motion.
+/// A rigid, kinematic body: it follows a given motion.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// Its name in the scene and in messages.
@@ -22,20 +20,24 @@ pub struct Body {
 }
 
 #[derive(Clone, Copy)]
-enum Shape {
+enum BodyShape {
     Capsule,
     Ball,
     File,
 }
 
-const SHAPES: [(&str, Shape); 3] = [("capsule", Shape::Capsule), ("ball", Shape::Ball), ("file", Shape::File)];
+const SHAPES: [(&str, BodyShape); 3] = [
+    ("capsule", BodyShape::Capsule),
+    ("ball", BodyShape::Ball),
+    ("file", BodyShape::File),
+];
 
 impl Body {
-    pub(super) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
+    pub(crate) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         let own: &[&str] = match table.required_choice("shape", &SHAPES)? {
-            Shape::Capsule => &["from", "to", "radius", "around"],
-            Shape::Ball => &["centre", "radius", "around"],
-            Shape::File => &["file"],
+            BodyShape::Capsule => &["from", "to", "radius", "around"],
+            BodyShape::Ball => &["centre", "radius", "around"],
+            BodyShape::File => &["file"],
         };
         let keys = [&["name", "shape"], &RigidMotion::KEYS[..], own].concat();
         table.expect_keys(&keys)?;
@@ -43,23 +45,23 @@ impl Body {
             let message = "[body] needs `name`, such as \"arm\"".to_owned();
             return Err(table.error("name", message));
         };
-        let radius = || table.required_number("radius", LENGTH, 1e-4..=WORLD);
+        let radius = || table.required_number("radius", LENGTH, 1e-4..=LARGEST_COORDINATE);
         let around = || table.count("around", 6..=1024).map(|n| n.unwrap_or(24) as u32);
         let (mesh, capsule) = match table.required_choice("shape", &SHAPES)? {
-            Shape::Capsule => {
+            BodyShape::Capsule => {
                 let ends = [
-                    table.required_vector("from", LENGTH, WORLD)?,
-                    table.required_vector("to", LENGTH, WORLD)?,
+                    table.required_vector("from", LENGTH, LARGEST_COORDINATE)?,
+                    table.required_vector("to", LENGTH, LARGEST_COORDINATE)?,
                 ];
                 let radius = radius()?;
                 (shapes::capsule(ends, radius, around()?), Some((ends, radius)))
             }
-            Shape::Ball => {
-                let ends = [table.required_vector("centre", LENGTH, WORLD)?; 2];
+            BodyShape::Ball => {
+                let ends = [table.required_vector("centre", LENGTH, LARGEST_COORDINATE)?; 2];
                 let radius = radius()?;
                 (shapes::capsule(ends, radius, around()?), Some((ends, radius)))
             }
-            Shape::File => (super::mesh_file(table)?, None),
+            BodyShape::File => (shapes::of_file(table)?, None),
         };
         Ok(Self {
             name: name.to_owned(),
