@@ -125,7 +125,7 @@ impl Checkpoint {
             },
             stages: ContactSeconds {
                 candidates: reader.f64()?,
-                rows: reader.f64()?,
+                constraints: reader.f64()?,
                 certificates: reader.f64()?,
                 repairs: reader.f64()?,
             },
@@ -165,7 +165,7 @@ mod tests {
             },
             stages: ContactSeconds {
                 candidates: 0.1,
-                rows: 0.2,
+                constraints: 0.2,
                 certificates: 0.3,
                 repairs: 0.4,
             },

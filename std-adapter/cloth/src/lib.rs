@@ -7,6 +7,11 @@
 //! scene file ──▶ Scene ──▶ effects register into a plan ──▶ Simulation
 //!                                                             │ each step
 //!                          forces ▸ prediction ▸ constraints ▸ contacts ▸ friction ▸ certified pass ▸ velocities
+//!
+//! what is asked      input ▸ world ▸ scene
+//! what is simulated  effects ▸ plan, step
+//! how                schedule, contact, simulator
+//! what changes       state ▸ checkpoint
 //! ```
 //!
 //! | item | what it is |

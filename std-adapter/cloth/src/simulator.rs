@@ -10,7 +10,7 @@
 //! [`FASTEST`].
 
 use super::checkpoint::{Checkpoint, CheckpointError, Sizes};
-use super::contact::{Blocker, Contact, ContactCounts, ContactSeconds, LARGEST_TURN};
+use super::contact::{Blocker, ContactCounts, ContactSeconds, ContactSolver, LARGEST_TURN};
 use super::plan::{Entry, Plan};
 use super::scene::{OnBlocked, Scene};
 use super::state::State;
@@ -49,7 +49,7 @@ pub struct Simulation {
     motions: Vec<RigidMotion>,
     forces: Vec<Entry<dyn Force>>,
     constraints: Vec<Entry<dyn Constraint>>,
-    contact: Option<Contact>,
+    contact: Option<ContactSolver>,
     friction: Vec<Entry<dyn Constraint>>,
     effects: Vec<EffectTime>,
     on_blocked: OnBlocked,
@@ -162,7 +162,7 @@ impl Simulation {
             _ => DVec3::ZERO,
         });
         let cloth_vertices = cloth.mesh.positions.len();
-        let mut contact = Contact::new(contact, &triangles, &rest, &carriers, cloth_vertices, bodies.len())?;
+        let mut contact = ContactSolver::new(contact, &triangles, &rest, &carriers, cloth_vertices, bodies.len())?;
         if let Some(contact) = &mut contact {
             contact.refresh(&positions);
             if let Some(pair) = contact.first_touching(&positions) {

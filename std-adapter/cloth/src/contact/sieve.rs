@@ -5,7 +5,7 @@
 //! candidates of theirs are looked for within less. Certificates hold them apart like any other pair.
 
 use super::closest::Closest;
-use super::rows;
+use super::settings::MARGIN;
 use selvedge::PairKind;
 use selvedge::broad_phase::moving::MovingBroadPhase;
 use selvedge::mesh::Topology;
@@ -53,7 +53,9 @@ pub(super) fn are_neighbours(kind: PairKind, rest: [DVec3; 4], distance: f64) ->
 ///
 /// Boxes along three axes leave many pairs that are farther apart than their reach: nearly all pairs of triangles side by side. What
 /// they keep though their vertices stray, by half of what is looked for beyond the thickness, is their
-/// [clearance](selvedge_core::separation::clearance); [more](MARGIN) is asked for along a direction that is no axis.
+/// [clearance](selvedge_core::separation::clearance); [more](MARGIN) is asked for along a direction that
+/// is no axis: what comes that near is pushed apart before it is within the thickness. With less, cloth that is folded tightly was seen to
+/// slip more.
 #[derive(Debug)]
 pub(super) struct Sieve {
     ways: Vec<Way>,
@@ -66,9 +68,6 @@ pub(super) struct Sieve {
     at_rest: f32,
 }
 
-/// How much more is asked for along a direction that is no axis, in thicknesses: what comes that near is pushed apart before it is within
-/// the thickness. With less, cloth that is folded tightly was seen to slip more.
-const MARGIN: f32 = rows::MARGIN as f32;
 /// Which pairs are to be candidates: all in metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Distances {
@@ -132,7 +131,7 @@ impl Sieve {
             neighbours,
         } = self.distances;
         let of_neighbours = neighbours.map_or(thickness, |near| near.thickness);
-        self.clearances = [of_neighbours, thickness].map(|own| Clearance::new(own, beyond, largest, MARGIN));
+        self.clearances = [of_neighbours, thickness].map(|own| Clearance::new(own, beyond, largest, MARGIN as f32));
         for (vertex, way) in self.ways.iter_mut().enumerate() {
             if only.is_none_or(|only| only[vertex]) {
                 (way.start, way.end) = (start[vertex].as_vec3a(), end[vertex].as_vec3a());

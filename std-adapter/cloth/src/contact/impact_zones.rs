@@ -1,12 +1,13 @@
-//! Zones: cloth that moves together so that a step can be accepted.
+//! Impact zones: cloth that moves together so that a step can be accepted (Provot 1997, who moves each as a rigid body; Harmon et al.
+//! 2008, who let what is inside slide).
 //!
 //! The vertices of a zone follow a common motion D, and only their motion relative to it is scaled by s: x → x + D + s·(y − x − D).
 //! Two vertices of one zone keep the difference of their original motions on [0, s], plus a common translation; so a pair inside a
 //! zone is free exactly if s is before its time of impact on the path x → y − D. A zone's D is its mean motion, which keeps its
-//! momentum, or that of the body or pin (its *frame*) that it touches, which keeps it on the body. With s = 0 a zone is carried
+//! momentum, or that of the body or pin (its carrier) that it touches, which keeps it on the body. With s = 0 a zone is carried
 //! rigidly.
 
-use super::pair::Pair;
+use super::candidate::Candidate;
 use crate::step::{Carrier, FREE};
 use selvedge_core::glam::DVec3;
 
@@ -14,17 +15,17 @@ use selvedge_core::glam::DVec3;
 const SHARES: [f64; 4] = [0.9, 0.45, 0.2, 0.0];
 const LAST_LEVEL: usize = SHARES.len() - 1;
 
-/// The step cannot be made: two frames pull at one zone, or a zone that is carried rigidly is still not free.
+/// The step cannot be made: two carriers pull at one zone, or a zone that is carried rigidly is still not free.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cut;
 
 #[derive(Clone, Debug)]
-struct Zone {
+struct ImpactZone {
     members: Vec<u32>,
     scale: f64,
     level: usize,
-    frame: Carrier,
-    /// Its mean motion, if it has no frame.
+    carrier: Carrier,
+    /// Its mean motion, if it has no carrier.
     mean: DVec3,
     changed: bool,
     raised: bool,
@@ -32,10 +33,10 @@ struct Zone {
 
 /// The zones of one step; at first each vertex is its own.
 #[derive(Debug, Default)]
-pub(super) struct Zones {
+pub(super) struct ImpactZones {
     /// Of each vertex; `u32::MAX` if it is still alone.
     zone_of: Vec<u32>,
-    zones: Vec<Zone>,
+    zones: Vec<ImpactZone>,
 }
 
 /// What zones are made from: the motion that was wanted.
@@ -44,13 +45,13 @@ pub(super) struct Motions<'a> {
     pub(super) start: &'a [DVec3],
     pub(super) wanted: &'a [DVec3],
     pub(super) inverse_masses: &'a [f64],
-    /// Of each vertex, with frames that do not move in this step taken for one.
-    pub(super) frames: &'a [Carrier],
-    /// Where a frame takes a point in this step.
+    /// Of each vertex, with carriers that do not move in this step taken for one.
+    pub(super) carriers: &'a [Carrier],
+    /// Where a carrier takes a point in this step.
     pub(super) carry: &'a dyn Fn(Carrier, DVec3) -> DVec3,
 }
 
-impl Zones {
+impl ImpactZones {
     pub(super) fn reset(&mut self, vertices: usize) {
         self.zone_of.clear();
         self.zone_of.resize(vertices, u32::MAX);
@@ -67,11 +68,11 @@ impl Zones {
         let zone = &mut self.zone_of[vertex as usize];
         if *zone == u32::MAX {
             *zone = self.zones.len() as u32;
-            self.zones.push(Zone {
+            self.zones.push(ImpactZone {
                 members: vec![vertex],
                 scale: 1.0,
                 level: 0,
-                frame: FREE,
+                carrier: FREE,
                 mean: DVec3::ZERO,
                 changed: false,
                 raised: false,
@@ -84,18 +85,18 @@ impl Zones {
     /// Writes new positions of the vertices concerned to `end`.
     pub(super) fn resolve(
         &mut self,
-        pairs: &[&Pair],
-        separation: impl Fn(&Pair) -> f64,
+        pairs: &[&Candidate],
+        separation: impl Fn(&Candidate) -> f64,
         motions: Motions<'_>,
         end: &mut [DVec3],
         scratch: &mut Vec<DVec3>,
     ) -> Result<(), Cut> {
-        let inside: Vec<bool> = pairs.iter().map(|pair| self.is_inside(pair, motions.frames)).collect();
+        let inside: Vec<bool> = pairs.iter().map(|pair| self.is_inside(pair, motions.carriers)).collect();
         for (pair, _) in pairs.iter().zip(&inside).filter(|(_, inside)| !**inside) {
-            self.merge(pair, motions.frames)?;
+            self.merge(pair, motions.carriers)?;
         }
         for (pair, _) in pairs.iter().zip(&inside).filter(|(_, inside)| **inside) {
-            let zone = self.zone_of_pair(pair, motions.frames).ok_or(Cut)?;
+            let zone = self.zone_of_pair(pair, motions.carriers).ok_or(Cut)?;
             let zone = &mut self.zones[zone];
             zone.changed = true;
             if !zone.raised {
@@ -108,7 +109,7 @@ impl Zones {
         }
         self.find_means(motions);
         for pair in pairs {
-            let Some(index) = self.zone_of_pair(pair, motions.frames) else {
+            let Some(index) = self.zone_of_pair(pair, motions.carriers) else {
                 return Err(Cut);
             };
             if self.zones[index].level == LAST_LEVEL {
@@ -145,17 +146,17 @@ impl Zones {
     /// D at a vertex, as zone `index` has it.
     fn common(&self, vertex: usize, index: usize, motions: Motions<'_>) -> DVec3 {
         let zone = &self.zones[index];
-        match zone.frame {
+        match zone.carrier {
             FREE => zone.mean,
-            frame => (motions.carry)(frame, motions.start[vertex]) - motions.start[vertex],
+            carrier => (motions.carry)(carrier, motions.start[vertex]) - motions.start[vertex],
         }
     }
 
-    /// Whether the pair's cloth is in one zone already, and that has the frame of whatever else the pair touches.
-    fn is_inside(&mut self, pair: &Pair, frames: &[Carrier]) -> bool {
+    /// Whether the pair's cloth is in one zone already, and that has the carrier of whatever else the pair touches.
+    fn is_inside(&mut self, pair: &Candidate, carriers: &[Carrier]) -> bool {
         let mut one = None;
         for &vertex in &pair.vertices {
-            if frames[vertex as usize] == FREE {
+            if carriers[vertex as usize] == FREE {
                 let zone = self.zone(vertex);
                 if *one.get_or_insert(zone) != zone {
                     return false;
@@ -163,20 +164,20 @@ impl Zones {
             }
         }
         let Some(zone) = one else { return true };
-        let others = pair.vertices.iter().map(|&v| frames[v as usize]);
-        let frame = self.zones[zone].frame;
-        others.filter(|&other| other != FREE).all(|other| other == frame)
+        let others = pair.vertices.iter().map(|&v| carriers[v as usize]);
+        let carrier = self.zones[zone].carrier;
+        others.filter(|&other| other != FREE).all(|other| other == carrier)
     }
 
-    /// The zone of the pair's cloth; `None` if all of the pair is prescribed.
-    fn zone_of_pair(&self, pair: &Pair, frames: &[Carrier]) -> Option<usize> {
-        let mut free = pair.vertices.iter().filter(|&&v| frames[v as usize] == FREE);
+    /// The zone of the pair's cloth; `None` if all of the pair is kinematic.
+    fn zone_of_pair(&self, pair: &Candidate, carriers: &[Carrier]) -> Option<usize> {
+        let mut free = pair.vertices.iter().filter(|&&v| carriers[v as usize] == FREE);
         free.next().map(|&v| self.zone_of[v as usize] as usize)
     }
 
-    fn merge(&mut self, pair: &Pair, frames: &[Carrier]) -> Result<(), Cut> {
+    fn merge(&mut self, pair: &Candidate, carriers: &[Carrier]) -> Result<(), Cut> {
         let mut into = None;
-        for &vertex in pair.vertices.iter().filter(|&&v| frames[v as usize] == FREE) {
+        for &vertex in pair.vertices.iter().filter(|&&v| carriers[v as usize] == FREE) {
             let zone = self.zone(vertex);
             into = Some(match into {
                 None => zone,
@@ -184,9 +185,9 @@ impl Zones {
             });
         }
         let Some(zone) = into else { return Err(Cut) };
-        for frame in pair.vertices.map(|v| frames[v as usize]) {
-            let own = &mut self.zones[zone].frame;
-            *own = common_frame(*own, frame)?;
+        for carrier in pair.vertices.map(|v| carriers[v as usize]) {
+            let own = &mut self.zones[zone].carrier;
+            *own = common_carrier(*own, carrier)?;
         }
         self.zones[zone].changed = true;
         Ok(())
@@ -196,7 +197,7 @@ impl Zones {
         if a == b {
             return Ok(a);
         }
-        let frame = common_frame(self.zones[a].frame, self.zones[b].frame)?;
+        let carrier = common_carrier(self.zones[a].carrier, self.zones[b].carrier)?;
         let (large, small) = if self.zones[a].members.len() >= self.zones[b].members.len() {
             (a, b)
         } else {
@@ -212,12 +213,12 @@ impl Zones {
         zone.members.extend(moved);
         zone.scale = zone.scale.min(scale);
         zone.level = zone.level.max(level);
-        zone.frame = frame;
+        zone.carrier = carrier;
         Ok(large)
     }
 
     fn find_means(&mut self, motions: Motions<'_>) {
-        let changed = self.zones.iter_mut().filter(|zone| zone.changed && zone.frame == FREE);
+        let changed = self.zones.iter_mut().filter(|zone| zone.changed && zone.carrier == FREE);
         for zone in changed {
             let (mut mass, mut momentum) = (0.0, DVec3::ZERO);
             for vertex in zone.members.iter().map(|&v| v as usize) {
@@ -230,10 +231,10 @@ impl Zones {
     }
 }
 
-/// The frame of a zone that touches both.
-fn common_frame(a: Carrier, b: Carrier) -> Result<Carrier, Cut> {
+/// The carrier of a zone that touches both.
+fn common_carrier(a: Carrier, b: Carrier) -> Result<Carrier, Cut> {
     match (a, b) {
-        (FREE, frame) | (frame, FREE) => Ok(frame),
+        (FREE, carrier) | (carrier, FREE) => Ok(carrier),
         (a, b) if a == b => Ok(a),
         _ => Err(Cut),
     }

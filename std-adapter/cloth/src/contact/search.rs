@@ -3,7 +3,7 @@
 //! They come from [hierarchies of moving boxes](selvedge::broad_phase::moving), through a [sieve](super::sieve): every pair that is no
 //! candidate keeps its order, and more than a distance, along some direction between the start and the end of the motion.
 
-use super::pair::Pair;
+use super::candidate::Candidate;
 use super::sieve::{Distances, Sieve};
 use super::start::first_crossing;
 use crate::step::{Carrier, FREE};
@@ -23,7 +23,7 @@ pub(super) struct Wanted {
 
 /// Finds candidates, with buffers that it keeps.
 #[derive(Debug)]
-pub(super) struct Detector {
+pub(super) struct Search {
     topology: Arc<Topology>,
     wanted: Wanted,
     /// Whether the broad phase looks for pairs of a few vertices only.
@@ -40,7 +40,7 @@ pub(super) struct Detector {
     places: Vec<u32>,
 }
 
-impl Detector {
+impl Search {
     /// Of each vertex its place at rest is in `rest`, its motion in `carriers`; vertices from `cloth_vertices` on are bodies'. Pairs that
     /// come within their thickness and what is looked for beyond it, along every direction, will be candidates.
     pub(super) fn new(
@@ -82,7 +82,7 @@ impl Detector {
     ///
     /// # Panics
     /// If a position is not finite.
-    pub(super) fn candidates(&mut self, motion: [&[DVec3]; 2], pairs: &mut Vec<Pair>) {
+    pub(super) fn candidates(&mut self, motion: [&[DVec3]; 2], pairs: &mut Vec<Candidate>) {
         if std::mem::take(&mut self.is_narrowed) {
             let all = cloth(self.carriers.len(), self.cloth_vertices);
             self.broad_phase.set_wanted(all);
@@ -96,7 +96,7 @@ impl Detector {
     ///
     /// # Panics
     /// If a position is not finite.
-    pub(super) fn candidates_of(&mut self, only: &[bool], motion: [&[DVec3]; 2], pairs: &mut Vec<Pair>) -> bool {
+    pub(super) fn candidates_of(&mut self, only: &[bool], motion: [&[DVec3]; 2], pairs: &mut Vec<Candidate>) -> bool {
         let builds = self.broad_phase.statistics().builds;
         self.broad_phase.narrow_to(only.to_vec());
         self.is_narrowed = true;
@@ -116,7 +116,7 @@ impl Detector {
         updated.expect("the solver keeps every position finite");
     }
 
-    fn find(&mut self, motion: [&[DVec3]; 2], only: Option<&[bool]>, pairs: &mut Vec<Pair>) {
+    fn find(&mut self, motion: [&[DVec3]; 2], only: Option<&[bool]>, pairs: &mut Vec<Candidate>) {
         let Self {
             topology,
             broad_phase,
@@ -148,7 +148,7 @@ impl Detector {
 
     /// The pair, unless nobody asked for it, or all of it follows one motion, which never changes it.
     #[inline(always)]
-    fn pair(&self, kind: PairKind, [first, second]: [u32; 2]) -> Option<Pair> {
+    fn pair(&self, kind: PairKind, [first, second]: [u32; 2]) -> Option<Candidate> {
         let vertices = self.topology.vertices_of(kind, [first, second]);
         let last_of_first = match kind {
             PairKind::VertexFace => vertices[0],
@@ -160,7 +160,7 @@ impl Detector {
             return None;
         }
         let key = u64::from(kind == PairKind::EdgeEdge) << 63 | u64::from(first) << 32 | u64::from(second);
-        Some(Pair::new(key, kind, vertices, body))
+        Some(Candidate::new(key, kind, vertices, body))
     }
 
     /// An edge that passes through a face, of those that are to be kept apart; in words.

@@ -3,7 +3,6 @@
 //! What a direction proves, and how far rounding can move it, is [core's](selvedge_core::separation::gap).
 
 use super::closest::Closest;
-use super::sieve::are_neighbours;
 use crate::step::{Carrier, FREE};
 use selvedge::PairKind;
 use selvedge_core::elementary::Limits;
@@ -14,7 +13,7 @@ use selvedge_core::{EdgeEdge, Motion, VertexFace};
 
 /// A vertex and a face, or two edges, that may come close in this step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pair {
+pub(super) struct Candidate {
     /// Ascends along the list of candidates, and is the same in every step.
     pub(super) key: u64,
     pub(super) vertices: [u32; 4],
@@ -27,7 +26,7 @@ pub(super) struct Pair {
     pub(super) body: Carrier,
 }
 
-impl Pair {
+impl Candidate {
     pub(super) fn new(key: u64, kind: PairKind, vertices: [u32; 4], body: Carrier) -> Self {
         Self {
             key,
@@ -52,10 +51,6 @@ impl Pair {
 
     pub(super) fn closest(&self, positions: &[DVec3]) -> Closest {
         Closest::of(self.kind, self.points(positions))
-    }
-
-    pub(super) fn are_neighbours(&self, rest: &[DVec3], distance: f64) -> bool {
-        are_neighbours(self.kind, self.points(rest), distance)
     }
 
     /// A lower bound of the distance at the end of the last step that was looked at; −∞ if there is none.
@@ -170,7 +165,7 @@ mod tests {
         ) {
             let end = [0, 1, 2, 3].map(|k| start[k] + moves[k] * 0.3);
             let kind = if is_edge { PairKind::EdgeEdge } else { PairKind::VertexFace };
-            let mut pair = Pair::new(0, kind, [0, 1, 2, 3], FREE);
+            let mut pair = Candidate::new(0, kind, [0, 1, 2, 3], FREE);
             let error = GapError::of_coordinates(2.0);
             let until = pair.impact([&start, &end], separation, error);
             let gap = f64::from(pair.gap());

@@ -1,0 +1,134 @@
+//! Contacts as constraints: pairs that are nearer to each other than their thickness are pushed apart.
+//!
+//! A constraint is C = n·Σwᵢxᵢ − h ≥ 0 with the direction n and the weights w of the closest points at the start of the step. A pair that
+//! starts nearer than that comes apart at [`RECOVERY`] at most, whatever the length of the step: a push must not become a
+//! velocity. On a fine mesh neighbours at rest may be nearer than the thickness; such a pair's is at most half its distance at rest,
+//! or the mesh would lock, and [less](super::sieve).
+
+use super::candidate::Candidate;
+use super::settings::{ContactSettings, MARGIN, NEIGHBOURS_AT_REST, RECOVERY, Thickness};
+use super::sieve::are_neighbours;
+use crate::step::{TimeStep, Touch, Touches};
+use selvedge::parallel;
+use selvedge_core::glam::DVec3;
+use selvedge_core::separation::gap::GapError;
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ContactConstraint {
+    vertices: [u32; 4],
+    weights: [f64; 4],
+    normal: DVec3,
+    thickness: f64,
+    with_body: bool,
+}
+
+/// Replaces `constraints` by those of the pairs that are near at the start of the step, and that the direction which kept them apart
+/// there does not keep at their thickness at its predicted end.
+pub(super) fn collect(
+    constraints: &mut Vec<ContactConstraint>,
+    pairs: &mut [Candidate],
+    settings: &ContactSettings,
+    rest: &[DVec3],
+    [start, predicted]: [&[DVec3]; 2],
+    h: f64,
+    error: GapError<f64>,
+) {
+    constraints.clear();
+    parallel::map_chunks(
+        pairs,
+        |_, pairs, constraints: &mut Vec<ContactConstraint>| {
+            let near = pairs.iter_mut();
+            constraints.extend(near.filter_map(|pair| constraint(pair, settings, rest, [start, predicted], h, error)));
+        },
+        constraints,
+        |all, own| all.extend(own),
+    );
+}
+
+/// The constraint of a pair, if it needs one.
+#[inline(always)]
+fn constraint(
+    pair: &mut Candidate,
+    settings: &ContactSettings,
+    rest: &[DVec3],
+    [start, predicted]: [&[DVec3]; 2],
+    h: f64,
+    error: GapError<f64>,
+) -> Option<ContactConstraint> {
+    let Thickness { thickness, .. } = settings.of(pair.is_with_body())?;
+    // The pair's own, once it is known.
+    let aim = match f64::from(pair.thickness) {
+        0.0 => thickness,
+        own => own,
+    };
+    let reach = aim * (1.0 + MARGIN);
+    if f64::from(pair.gap()) > reach || pair.is_kept_at(aim, predicted) {
+        return None;
+    }
+    let closest = pair.closest(start);
+    pair.refresh(closest.direction, start, error);
+    let distance = closest.distance();
+    if distance > reach || closest.direction == DVec3::ZERO {
+        return None;
+    }
+    if pair.thickness == 0.0 {
+        pair.thickness = thickness_of(pair, settings.neighbours, thickness, rest) as f32;
+    }
+    Some(ContactConstraint {
+        vertices: pair.vertices,
+        weights: closest.weights,
+        normal: closest.direction,
+        thickness: f64::from(pair.thickness).min(distance + RECOVERY * h),
+        with_body: pair.is_with_body(),
+    })
+}
+
+/// The thickness that a pair can have: `thickness`, but for neighbours.
+fn thickness_of(pair: &Candidate, neighbours: Option<f64>, thickness: f64, rest: &[DVec3]) -> f64 {
+    if pair.is_with_body() {
+        return thickness;
+    }
+    let are_near = |distance| are_neighbours(pair.kind, pair.points(rest), distance);
+    let own = match neighbours {
+        Some(smaller) if are_near(NEIGHBOURS_AT_REST * thickness) => smaller,
+        _ => thickness,
+    };
+    own.min(0.5 * pair.closest(rest).distance())
+}
+
+/// Pushes once along the constraints of bodies, or of the cloth with itself.
+pub(super) fn project(
+    constraints: &[ContactConstraint],
+    with_body: bool,
+    step: &TimeStep<'_>,
+    positions: &mut [DVec3],
+    touches: &mut Touches,
+) -> u64 {
+    let mut pushed = 0;
+    for constraint in constraints.iter().filter(|constraint| constraint.with_body == with_body) {
+        let vertices = constraint.vertices.map(|v| v as usize);
+        let mut mobility = 0.0;
+        let mut distance = -constraint.thickness;
+        for (vertex, weight) in vertices.into_iter().zip(constraint.weights) {
+            distance += weight * constraint.normal.dot(positions[vertex]);
+            mobility += step.inverse_masses[vertex] * weight * weight;
+        }
+        if distance >= 0.0 || !(mobility > 0.0) {
+            continue;
+        }
+        pushed += 1;
+        let push = -distance;
+        let along = constraint.normal * (push / mobility);
+        for (vertex, weight) in vertices.into_iter().zip(constraint.weights) {
+            positions[vertex] += along * (step.inverse_masses[vertex] * weight);
+        }
+        touches.record(|| Touch {
+            vertices: constraint.vertices,
+            weights: constraint.weights,
+            normal: constraint.normal,
+            push,
+            drift: DVec3::ZERO,
+        });
+    }
+    pushed
+}
