@@ -13,7 +13,7 @@ use selvedge_core::separation::clearance::Clearance;
 use selvedge_core::separation::course;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
 use selvedge_core::separation::largest_coordinate;
-use selvedge_core::{PairKind, Scalar};
+use selvedge_core::PairKind;
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, extraordinary_pairs, from_choices, pairs_of_any_kind, touching_pairs,
 };
