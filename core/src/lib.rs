@@ -75,3 +75,8 @@ pub use motion::{EdgeEdge, Motion, PrimitivePair, VertexFace};
 pub use scalar::{Position, Scalar};
 pub use vector::Vector;
 pub use verdict::Verdict;
+
+/// The readme's examples are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

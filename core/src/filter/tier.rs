@@ -14,7 +14,7 @@ use crate::verdict::Verdict;
 
 /// How sure and how sharp a non-coplanarity filter is.
 ///
-/// What accuracy costs in time, measured, is in the README (`selvedge accuracy`). In short: take
+/// What accuracy costs in time, measured, is in `docs/accuracy.md` (`selvedge accuracy`). In short: take
 /// [`Permanent`](Self::Permanent); take [`Exact`](Self::Exact) where every last pair counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tier {

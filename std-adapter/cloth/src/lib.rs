@@ -49,3 +49,8 @@ pub use world::{Body, Cloth, RigidMotion};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
 pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");
+
+/// The readme's examples are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

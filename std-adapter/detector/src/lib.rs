@@ -32,3 +32,8 @@ pub use selvedge_core as core;
 pub use selvedge_core::glam;
 pub use selvedge_core::{PairKind, ParsePairKindError};
 pub use step::{CollisionDetector, Contact};
+
+/// The readme's examples are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}
