@@ -71,7 +71,7 @@ impl<const N: usize> Integer<N> {
         let mut product = [0; R];
         // In line is faster for a few words; for many it would only be more code.
         if N <= 2 {
-            multiply(&self.0, &other.0, &mut product);
+            multiply(&self.0, &other.0, &mut product, R < N + M);
         } else {
             multiply_significant_words(&self.0, &other.0, &mut product);
         }
@@ -169,7 +169,19 @@ fn sign_word(words: &[u64]) -> u64 {
 #[inline(always)]
 fn without_repeated_sign(words: &[u64]) -> &[u64] {
     let sign = sign_word(words);
-    let length = words.iter().rposition(|&word| word != sign).map_or(0, |top| top + 1);
+    let mut length = words.len();
+    // By eights first, which the compiler makes a comparison of a few registers.
+    while let Some(below) = length.checked_sub(8)
+        && let Some(eight) = words.get(below..length)
+        && eight.iter().fold(0, |bits, word| bits | (word ^ sign)) == 0
+    {
+        length = below;
+    }
+    while let Some(below) = length.checked_sub(1)
+        && words.get(below) == Some(&sign)
+    {
+        length = below;
+    }
     let significant = words.get(..length).unwrap_or_default();
     if sign_word(significant) == sign {
         significant
@@ -184,12 +196,23 @@ fn leading_zero_words(words: &[u64]) -> usize {
     words.iter().position(|&word| word != 0).unwrap_or(words.len())
 }
 
-/// The product of two numbers by their words into `product`, which is zero.
+/// How many of the lowest words are zero, and the others without those above that only repeat the sign.
 #[inline(always)]
-fn multiply(a: &[u64], b: &[u64], product: &mut [u64]) {
+fn significant_words(words: &[u64]) -> (usize, &[u64]) {
+    let words = without_repeated_sign(words);
+    let zeros = leading_zero_words(words);
+    (zeros, words.get(zeros..).unwrap_or_default())
+}
+
+/// The product of two numbers by their words into `product`, which is zero, and may lack words only if `is_cut`.
+#[inline(always)]
+fn multiply(a: &[u64], b: &[u64], product: &mut [u64], is_cut: bool) {
     for (i, &x) in a.iter().enumerate() {
-        // Words that the product lacks are left out.
-        let length = b.len().min(product.len().saturating_sub(i));
+        let length = if is_cut {
+            b.len().min(product.len().saturating_sub(i))
+        } else {
+            b.len()
+        };
         let (row, above) = product
             .get_mut(i..)
             .and_then(|words| words.split_at_mut_checked(length))
@@ -215,13 +238,19 @@ fn multiply(a: &[u64], b: &[u64], product: &mut [u64]) {
 /// The same with less to do where most words are zero or mere sign: numbers have many words when one pair's coordinates
 /// differ in size by hundreds of powers of two, and then each of them has few words of its own.
 #[inline(never)]
-fn multiply_significant_words(a: &[u64], b: &[u64], product: &mut [u64]) {
-    let [(zeros_of_a, a), (zeros_of_b, b)] = [a, b].map(|words| {
-        let words = without_repeated_sign(words);
-        let zeros = leading_zero_words(words);
-        (zeros, words.get(zeros..).unwrap_or_default())
-    });
-    multiply(a, b, product.get_mut(zeros_of_a + zeros_of_b..).unwrap_or_default());
+fn multiply_significant_words<const N: usize, const M: usize, const R: usize>(
+    a: &[u64; N],
+    b: &[u64; M],
+    product: &mut [u64; R],
+) {
+    let (zeros_of_a, a) = significant_words(a);
+    let (zeros_of_b, b) = significant_words(b);
+    multiply(
+        a,
+        b,
+        product.get_mut(zeros_of_a + zeros_of_b..).unwrap_or_default(),
+        R < N + M,
+    );
 }
 
 /// Subtracts `other`, each word masked by `mask`, from the words `from`; a borrow beyond the last is dropped.
@@ -326,7 +355,7 @@ mod tests {
         for_each_number(&|a| {
             for_each_number(&|b| {
                 let [mut expected, mut product] = [[0; 12]; 2];
-                multiply(&a.0, &b.0, &mut expected);
+                multiply(&a.0, &b.0, &mut expected, false);
                 multiply_significant_words(&a.0, &b.0, &mut product);
                 assert_eq!(product, expected, "{a:?} · {b:?}");
             });

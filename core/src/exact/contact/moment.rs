@@ -7,9 +7,10 @@
 //!
 //! # Head-room
 //! Let coefficients of the corners be below 2ᵐ, as [`kernel`](crate::exact::kernel) has it: m = 64·N − 2 bits for coordinates of
-//! N words. Then cross products are quadratics with coefficients below 2^(2m+2); the volume is a cubic with k₀, k₃ ≤ 6·2³ᵐ
-//! and k₁, k₂ ≤ 18·2³ᵐ; its derivatives, and the quadratic that stands for it where the first is zero, stay below
-//! 36·2³ᵐ < 2^(3m+6): all of them, with the sign apart, in `C` = 3·N words.
+//! N words. Then cross products are quadratics with coefficients below 2^(2m+2). A determinant of nine numbers of magnitude one at most
+//! is 4 at most: being linear in each, it is largest where all are ±1. So the volume is a cubic with k₀, k₃ ≤ 4·2³ᵐ and, as sums of
+//! three determinants, k₁, k₂ ≤ 12·2³ᵐ; its derivatives, and the quadratic that stands for it where the first is zero, stay below
+//! 24·2³ᵐ < 2^(3m+5): all of them, with a sign, in `C` = 3·N words.
 //!
 //! A root's sign is that of one of the last numbers of [`terms`], the remainder l of a polynomial divided by the quadratic q, and of q
 //! divided by l. What can come together:

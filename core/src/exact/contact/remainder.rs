@@ -37,9 +37,11 @@ pub(super) fn value_at_quotient<T: Number>([a, b]: [T; 2], polynomial: impl Into
     let mut coefficients = polynomial.into_iter();
     let mut value = coefficients.next().unwrap_or(T::ZERO);
     let mut power = b;
-    for coefficient in coefficients {
+    for (step, coefficient) in coefficients.enumerate() {
+        if step > 0 {
+            power = power.times(&b);
+        }
         value = coefficient.times(&power).minus(&value.times(&a));
-        power = power.times(&b);
     }
     value
 }
@@ -58,10 +60,12 @@ pub(super) fn terms<T: Number>([a, b, c]: [T; 3], polynomial: impl IntoIterator<
     let mut l1 = coefficients.next().unwrap_or(T::ZERO);
     let mut l0 = coefficients.next().unwrap_or(T::ZERO);
     let mut power = c;
-    for coefficient in coefficients {
+    for (step, coefficient) in coefficients.enumerate() {
+        if step > 0 {
+            power = power.times(&c);
+        }
         let next = coefficient.times(&power).minus(&l1.times(&a));
         (l0, l1) = (next, l0.times(&c).minus(&l1.times(&b)));
-        power = power.times(&c);
     }
     let from_l0 = l0.times(&c);
     let half = from_l0.minus(&l1.times(&b));
