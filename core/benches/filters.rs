@@ -159,12 +159,10 @@ fn bench<S: Scalar>(criterion: &mut Criterion) {
             ("relative boxes, three axes", Test::RelativeBoxes),
             ("relative boxes, nine directions", Test::RelativeBoxesNine),
             ("normal direction", Test::NormalDirection),
-            ("the paper's filter", Test::PlainNonCoplanarity),
         ] {
             bench.batched(name, test);
         }
         for (name, tier) in [
-            ("uncertified", Tier::Uncertified),
             ("by edge", Tier::MagnitudesByEdge),
             ("by axis", Tier::MagnitudesByAxis),
             ("permanent", Tier::Permanent),
@@ -177,7 +175,6 @@ fn bench<S: Scalar>(criterion: &mut Criterion) {
         }
         let separated = Filter::new(Tier::Permanent).with_separation(S::from_f64(0.001));
         bench.batched("permanent, separation", separated.expect("is finite"));
-        bench.one_by_one("the paper's filter", |pair| filter::plain::non_coplanarity(pair).is_culled());
         bench.one_by_one("permanent", |pair| filter::certified::non_coplanarity(pair).is_culled());
         bench.group.finish();
     }

@@ -12,7 +12,7 @@
 //!
 //! the polar form (blossom) of the triple product. The paper's equation (14) has n₀ + n₁ − (v_b − v_a)×(v_c − v_a)
 //! in place of h: the same in exact arithmetic, but it cancels, and its rounding error is not bounded by the
-//! magnitudes that bound ours. Only [`filter::plain`](crate::filter::plain) uses it.
+//! magnitudes that bound ours.
 //!
 //! K lies in the convex hull of its control values: if all four are positive, or all four negative, K has no root in [0, 1].
 //! VF and EE share one kernel because the volume does not depend on which of the four points is the base.

@@ -17,14 +17,13 @@
 //! ```
 //!
 //! # What is promised
-//! * Every function marked *certified* or *exact* covers its own rounding: it never culls a pair that
-//!   touches at some time in [0, 1], whatever the input.
+//! * **Nothing in this crate can miss a contact**, but for what [`elementary::advance::uncertified`] measures. What decides is certified or exact: it covers its own rounding, and never culls
+//!   a pair that touches at some time in [0, 1], whatever the input.
 //! * That holds in every floating-point environment of IEEE 754 arithmetic that a thread may have switched to: any
 //!   rounding direction, flush-to-zero, denormals-are-zero ([`Rounding`] says how). Verdicts may differ from one
 //!   environment to another; none of them is wrong.
 //! * NaN, infinite or overflowing input is always kept.
 //! * No allocation, no `unsafe`, no panic, no dependence on `std`.
-//! * The published baselines ([`filter::plain`], [`elementary::cubic`]) promise nothing of the kind and say so.
 //!
 //! # The rooms
 //! | module | what it does | promise |
@@ -32,13 +31,13 @@
 //! | [`motion`] | the two primitive pairs, in [`glam`] types | |
 //! | [`coplanarity`] | the signed volume of four moving points, as a cubic in Bernstein form, and its rounding error | proven bound |
 //! | [`exact`] | the signs of that cubic's control values, how they compare with a separation, and whether a pair touches, in whole numbers | exact |
-//! | [`filter`] | culls pairs that are never coplanar, or never within a separation: a [`Filter`](filter::Filter) of some [`Tier`](filter::Tier) | certified, exact, or plain as in the paper |
+//! | [`filter`] | culls pairs that are never coplanar, or never within a separation: a [`Filter`](filter::Filter) of some [`Tier`](filter::Tier) | certified or exact |
 //! | [`batch`] | the tests of `boxes` and `filter`, and rounds of advancing, on sixteen pairs side by side, alone or from a mesh | the same verdicts, bit for bit; certified |
 //! | [`boxes`] | swept boxes, segment against box, relative boxes, 18-DOPs | exact or certified |
 //! | [`separation`] | how far a pair keeps apart, and for how long: for callers that follow the same pairs step by step | certified |
 //! | [`narrowing`] | times and lengths in another format, rounded to the safe side | certified |
 //! | [`features`], [`distribution`] | representative features of a triangle; a candidate triangle pair to its primitive pairs | each pair once |
-//! | [`elementary`] | whether a pair touches; time of impact | exact; certified; published baselines beside them |
+//! | [`elementary`] | whether a pair touches; time of impact | exact; certified |
 //!
 //! # Words
 //! The paper that this work starts from (Lv, He, Mi: *Improved Method in Lower Tailoring of Self-collision

@@ -39,13 +39,6 @@ impl<S: Scalar> Motion<S> {
         [self.start.into(), self.end.into()]
     }
 
-    /// The position at `time`, rounded.
-    #[inline(always)]
-    pub(crate) fn at(&self, time: S) -> Vector<S> {
-        let [start, end] = self.ends().map(Vector::from);
-        start.scaled(S::ONE - time) + end.scaled(time)
-    }
-
     #[inline(always)]
     pub(crate) fn is_finite(&self) -> bool {
         let [[x, y, z], [u, v, w]] = self.ends();

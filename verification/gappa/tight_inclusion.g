@@ -1,4 +1,4 @@
-# Evaluation on boxes of time and parameters: core/src/elementary/tight_inclusion.rs.
+# Evaluation on boxes of time and parameters: std-adapter/laboratory/src/baselines/tight_inclusion.rs.
 #
 # 1. A monomial passes through 1 - t, a product and a sum; 1 - u - v (2), a product and two sums; and a difference: 9 roundings.
 #    Magnitudes add up to at most 4m.
@@ -6,8 +6,8 @@
 #    into the bound.
 # 3. Underflow: at most 60 operations lose lambda each, weighted by at most 3; the bound is of max(1, m).
 
-error = 80; #! core/src/elementary/tight_inclusion.rs: let error = largest.scaled(S::small(80) * S::UNIT_ROUNDOFF);
-of_room = 8; #~ core/src/elementary/tight_inclusion.rs: let room = (error + apart).scaled(S::ONE + S::small(8) * S::UNIT_ROUNDOFF);
+error = 80; #! std-adapter/laboratory/src/baselines/tight_inclusion.rs: let error = largest.scaled(S::small(80) * S::UNIT_ROUNDOFF);
+of_room = 8; #~ std-adapter/laboratory/src/baselines/tight_inclusion.rs: let room = (error + apart).scaled(S::ONE + S::small(8) * S::UNIT_ROUNDOFF);
 lambda = 1b@lambda@;
 
 f = 1 + d;

@@ -5,6 +5,7 @@ use crate::generator::{Format, PairCase};
 use selvedge_core::PairKind;
 use selvedge_core::boxes::{Aabb, Dop18, relative, segment, swept_boxes};
 use selvedge_core::{PrimitivePair, Verdict, filter};
+use selvedge_laboratory::baselines::plain;
 use selvedge_laboratory::pipeline::CullingTest;
 
 /// Every test there is.
@@ -55,7 +56,7 @@ fn of_either_kind<S: Format>(test: CullingTest, pair: &impl PrimitivePair<S>, fi
         }
         CullingTest::RelativeBoxes | CullingTest::SubspaceThree => relative::three_axes(pair),
         CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => relative::nine_directions(pair),
-        CullingTest::PlainNonCoplanarity => filter::plain::non_coplanarity(pair),
+        CullingTest::PlainNonCoplanarity => plain::non_coplanarity(pair),
         CullingTest::CertifiedNonCoplanarity => filter::certified::non_coplanarity(pair),
     }
 }

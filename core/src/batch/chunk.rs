@@ -17,8 +17,6 @@ pub(super) trait Chunk: Quotients<Scalar: Scalar> {
     /// How many pairs.
     const WIDTH: usize;
 
-    /// The same number in each lane.
-    fn constant(token: Self::Token, value: Self::Scalar) -> Self;
     /// The numbers from `first` on.
     fn load(token: Self::Token, numbers: &[Self::Scalar; LANES], first: usize) -> Self;
     /// Stores the numbers from `first` on.
@@ -94,11 +92,6 @@ macro_rules! one_at_a_time {
             const WIDTH: usize = 1;
 
             #[inline(always)]
-            fn constant((): (), value: $scalar) -> Self {
-                value
-            }
-
-            #[inline(always)]
             fn load((): (), numbers: &[$scalar; LANES], first: usize) -> Self {
                 numbers[first % LANES]
             }
@@ -167,11 +160,6 @@ mod vectors {
                 type Part = $part<V>;
 
                 const WIDTH: usize = $width;
-
-                #[inline(always)]
-                fn constant(simd: V, value: $scalar) -> Self {
-                    Self::splat(simd, value)
-                }
 
                 #[inline(always)]
                 fn load(simd: V, numbers: &[$scalar; LANES], first: usize) -> Self {

@@ -5,22 +5,30 @@
 
 use super::advance::{Round, RoundQuestion, round};
 use super::chunk::{Chunk, edge, points};
-use super::{Kernel, LANES, Level, Mask, PointTest, Tile, VertexRow};
+use super::{Kernel, LANES, Level, Mask, PointsTest, Tile, VertexRow, VolumeTest};
 use crate::PairKind;
 use crate::coplanarity::MovingTetrahedron;
-use crate::filter::certified::{Bound, Decision, decide};
+use crate::filter::certified::Decision;
 use crate::points::{EdgeAndEdge, PairShape, VertexAndFace};
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
 /// What [`Scalar`](crate::Scalar) needs to go sixteen at a time.
 ///
-/// The method is not generic, so that its many kernels (for each instruction set, test and kind) are compiled once, in
-/// this crate, and not in every crate that calls it.
+/// [`sixteen`](Self::sixteen) is not generic, so that its many kernels (for each instruction set, test and kind) are compiled once,
+/// in this crate, and not in every crate that calls it.
 pub trait BatchScalar: Copy {
     /// What `kernel` says of sixteen pairs. `None` if an index is not in the rows.
     #[doc(hidden)]
     fn sixteen(level: Level, kind: PairKind, kernel: Kernel<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
+
+    /// The same of one test, compiled where it is called.
+    #[doc(hidden)]
+    fn by_points(level: Level, kind: PairKind, test: impl PointsTest, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
+
+    /// The same of one test, compiled where it is called.
+    #[doc(hidden)]
+    fn by_volume(level: Level, kind: PairKind, test: impl VolumeTest<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
 
     /// One round of advancing for sixteen pairs, from their times on. `None` if an index is not in the rows.
     #[doc(hidden)]
@@ -49,7 +57,7 @@ pub enum Sixteen<'a, S> {
 #[inline(always)]
 fn test_points<P: PairShape, L: Chunk>(
     token: L::Token,
-    test: PointTest,
+    test: impl PointsTest,
     pairs: Sixteen<'_, L::Scalar>,
 ) -> Option<Decision<Mask>> {
     let (mut culled, mut first) = (0, 0);
@@ -63,14 +71,9 @@ fn test_points<P: PairShape, L: Chunk>(
 #[inline(always)]
 fn test_volume<P: PairShape, L: Chunk>(
     token: L::Token,
-    bound: Bound,
-    separation: Option<L::Scalar>,
+    test: impl VolumeTest<L::Scalar>,
     pairs: Sixteen<'_, L::Scalar>,
 ) -> Option<Decision<Mask>> {
-    let separation = separation.map(
-        #[inline(always)]
-        |separation| L::constant(token, separation),
-    );
     let (mut culled, mut settled, mut first) = (0, 0, 0);
     while first < LANES {
         let tetrahedron = match pairs {
@@ -99,7 +102,7 @@ fn test_volume<P: PairShape, L: Chunk>(
                 }
             }
         };
-        let decision = decide::<P, L>(bound, &tetrahedron, separation);
+        let decision = test.on::<P, L>(&tetrahedron);
         culled |= L::bits(decision.culled) << first;
         settled |= L::bits(decision.settled) << first;
         first += L::WIDTH;
@@ -187,11 +190,29 @@ macro_rules! batch_scalar {
         impl BatchScalar for $scalar {
             fn sixteen(level: Level, kind: PairKind, kernel: Kernel<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>> {
                 match kernel {
-                    Kernel::Points(test) => of_kind!(kind, level, $lanes, test_points(test, pairs)),
-                    Kernel::Bounded(bound, separation) => {
-                        of_kind!(kind, level, $lanes, test_volume(bound, separation, pairs))
-                    }
+                    Kernel::Points(test) => Self::by_points(level, kind, test, pairs),
+                    Kernel::Bounded(test) => Self::by_volume(level, kind, test, pairs),
                 }
+            }
+
+            #[inline]
+            fn by_points(
+                level: Level,
+                kind: PairKind,
+                test: impl PointsTest,
+                pairs: Sixteen<'_, Self>,
+            ) -> Option<Decision<Mask>> {
+                of_kind!(kind, level, $lanes, test_points(test, pairs))
+            }
+
+            #[inline]
+            fn by_volume(
+                level: Level,
+                kind: PairKind,
+                test: impl VolumeTest<Self>,
+                pairs: Sixteen<'_, Self>,
+            ) -> Option<Decision<Mask>> {
+                of_kind!(kind, level, $lanes, test_volume(test, pairs))
             }
 
             fn round(

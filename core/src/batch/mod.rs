@@ -31,19 +31,25 @@
 mod advance;
 mod chunk;
 mod kernels;
+mod lane_test;
 mod rows;
 mod simd;
 mod tile;
 
 pub use advance::{Round, RoundQuestion, advance_from_rows};
 pub use fearless_simd::{Level, Simd};
+#[cfg(feature = "verification")]
+pub use lane_test::{ByPoints, ByVolume, PointsTest, VolumeTest};
+#[cfg(not(feature = "verification"))]
+use lane_test::{PointsTest, VolumeTest};
 pub use rows::VertexRow;
 pub use tile::Tile;
 
 use crate::PairKind;
 use crate::boxes;
-use crate::filter::certified::{Bound, Decision};
-use crate::filter::{Filter, inside, plain};
+use crate::coplanarity::MovingTetrahedron;
+use crate::filter::certified::{Bound, Decision, decide};
+use crate::filter::{Filter, inside};
 use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
 use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
@@ -70,8 +76,6 @@ pub enum Test {
     RelativeBoxesNine,
     /// [`boxes::direction::normal`].
     NormalDirection,
-    /// [`plain::non_coplanarity`], the paper's. **Not certified.**
-    PlainNonCoplanarity,
     /// [`inside::never_inside`].
     InsideFunctions,
     /// [`non_coplanarity`](crate::filter::certified::non_coplanarity).
@@ -88,8 +92,12 @@ impl Test {
             Self::RelativeBoxesNine => PointTest::NineDirections,
             Self::NormalDirection => PointTest::Normal,
             Self::InsideFunctions => PointTest::Inside,
-            Self::PlainNonCoplanarity => PointTest::Plain,
-            Self::CertifiedNonCoplanarity => return Kernel::Bounded(Bound::Permanent, None),
+            Self::CertifiedNonCoplanarity => {
+                return Kernel::Bounded(Bounded {
+                    bound: Bound::Permanent,
+                    separation: None,
+                });
+            }
         };
         Kernel::Points(test)
     }
@@ -102,7 +110,25 @@ pub enum Kernel<S> {
     /// Tests of points.
     Points(PointTest),
     /// Control values and their bound, with a separation if there is one.
-    Bounded(Bound, Option<S>),
+    Bounded(Bounded<S>),
+}
+
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct Bounded<S> {
+    bound: Bound,
+    separation: Option<S>,
+}
+
+impl<S: Scalar> VolumeTest<S> for Bounded<S> {
+    #[inline(always)]
+    fn on<P: PairShape, L: Lanes<Scalar = S>>(self, tetrahedron: &MovingTetrahedron<L>) -> Decision<L::Mask> {
+        let separation = self.separation.map(
+            #[inline(always)]
+            |separation| tetrahedron.p[0].x.splat(separation),
+        );
+        decide::<P, L>(self.bound, tetrahedron, separation)
+    }
 }
 
 #[doc(hidden)]
@@ -114,10 +140,9 @@ pub enum PointTest {
     NineDirections,
     Normal,
     Inside,
-    Plain,
 }
 
-impl PointTest {
+impl PointsTest for PointTest {
     #[inline(always)]
     fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask {
         match self {
@@ -127,7 +152,6 @@ impl PointTest {
             Self::NineDirections => boxes::relative::are_apart_along_nine_directions::<P, L>(points),
             Self::Normal => boxes::direction::are_apart_along_normal::<P, L>(points),
             Self::Inside => inside::is_outside_of_one_side::<P, L>(points),
-            Self::Plain => plain::has_one_sign::<P, L>(points),
         }
     }
 }
@@ -143,6 +167,10 @@ mod sealed {
     pub trait Sealed {}
     impl Sealed for super::Test {}
     impl<S> Sealed for super::Filter<S> {}
+    #[cfg(feature = "verification")]
+    impl<T> Sealed for super::ByPoints<T> {}
+    #[cfg(feature = "verification")]
+    impl<T> Sealed for super::ByVolume<T> {}
 }
 
 impl<S: Scalar> BatchTest<S> for Test {
@@ -156,7 +184,10 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
     /// Side by side as far as the tier's bound goes, then one by one.
     #[inline(always)]
     fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask> {
-        let kernel = Kernel::Bounded(self.tier().bound(), self.positive_separation());
+        let kernel = Kernel::Bounded(Bounded {
+            bound: self.tier().bound(),
+            separation: self.positive_separation(),
+        });
         let Decision { mut culled, settled } = S::sixteen(level, P::KIND, kernel, pairs)?;
         // One by one, of those that the tier has more to say of.
         let mut open = self.tier().open(culled, settled);

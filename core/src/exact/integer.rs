@@ -4,21 +4,10 @@ use core::cmp::Ordering;
 
 /// A whole number of `N` words in two's complement, the lowest word first.
 ///
-/// Every result is taken modulo 2^(64·N): it is the exact one where that fits, which is for
-/// [`kernel`](super::kernel) to show.
+/// Every result is taken modulo 2^(64·words): it is the exact one where that fits, which is for [`kernel`](super::kernel) and
+/// `contact` to show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Integer<const N: usize>([u64; N]);
-
-/// The magnitude of a number as its two leading words.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Leading {
-    /// At least 2⁶⁴ unless all of the number is here.
-    pub(super) words: u128,
-    /// How many bits follow.
-    pub(super) followed_by: i32,
-    /// Whether any of those is set.
-    pub(super) is_cut: bool,
-}
 
 impl<const N: usize> Integer<N> {
     pub(super) const ZERO: Self = Self([0; N]);
@@ -66,66 +55,37 @@ impl<const N: usize> Integer<N> {
         Self(difference)
     }
 
-    /// The exact product.
+    #[inline(always)]
+    pub(super) fn negated(&self) -> Self {
+        Self::ZERO.minus(self)
+    }
+
+    #[inline(always)]
+    pub(super) fn doubled(&self) -> Self {
+        self.plus(self)
+    }
+
+    /// The product, in any number of words.
     #[inline(always)]
     pub(super) fn times<const M: usize, const R: usize>(&self, other: &Integer<M>) -> Integer<R> {
+        let mut product = [0; R];
         // In line is faster for a few words; for many it would only be more code.
         if N <= 2 {
-            self.product(other)
-        } else if N + M < 10 {
-            self.product_out_of_line(other)
+            multiply(&self.0, &other.0, &mut product, R < N + M);
         } else {
-            self.product_of_significant_words(other)
+            multiply_significant_words(&self.0, &other.0, &mut product);
         }
-    }
-
-    #[inline(never)]
-    fn product_out_of_line<const M: usize, const R: usize>(&self, other: &Integer<M>) -> Integer<R> {
-        self.product(other)
-    }
-
-    /// The same with less to do where most words are zero or mere sign: numbers have many words when one pair's coordinates
-    /// differ in size by hundreds of powers of two, and then each of them has few words of its own.
-    #[inline(never)]
-    fn product_of_significant_words<const M: usize, const R: usize>(&self, other: &Integer<M>) -> Integer<R> {
-        const { assert!(R == N + M, "a product has the words of both factors") };
-        let (zeros_of_a, a) = self.significant_words();
-        let (zeros_of_b, b) = other.significant_words();
-        let mut product = [0; R];
-        // All of these words exist, since R = N + M; so nothing is lost by the default.
-        let (own, extension) = product
-            .get_mut(zeros_of_a + zeros_of_b..)
-            .and_then(|words| words.split_at_mut_checked(a.len() + b.len()))
-            .unwrap_or_default();
-        multiply_signed(a, b, own);
-        extension.fill(sign_word(own));
         Integer(product)
     }
 
-    /// How many low words are zero, and the others without those above that only repeat the sign.
+    /// The same number in more words.
     #[inline(always)]
-    fn significant_words(&self) -> (usize, &[u64]) {
-        let sign = self.sign_word();
-        let mut words = self.0.as_slice();
-        while let [rest @ .., below, top] = words
-            && *top == sign
-            && sign_word(&[*below]) == sign
-        {
-            words = words.get(..=rest.len()).unwrap_or_default();
+    pub(super) fn widened<const R: usize>(&self) -> Integer<R> {
+        let mut words = [self.sign_word(); R];
+        for (word, &own) in words.iter_mut().zip(&self.0) {
+            *word = own;
         }
-        let mut zeros = 0;
-        while let [0, rest @ ..] = words {
-            (zeros, words) = (zeros + 1, rest);
-        }
-        (zeros, words)
-    }
-
-    #[inline(always)]
-    fn product<const M: usize, const R: usize>(&self, other: &Integer<M>) -> Integer<R> {
-        const { assert!(R == N + M, "a product has the words of both factors") };
-        let mut product = [0; R];
-        multiply_signed(&self.0, &other.0, &mut product);
-        Integer(product)
+        Integer(words)
     }
 
     /// All ones if negative, else zero.
@@ -144,47 +104,47 @@ impl<const N: usize> Integer<N> {
         bits.cmp(&0)
     }
 
-    /// Whether the number is negative, and the words of its magnitude, the lowest first.
     #[inline(always)]
-    pub(super) fn sign_and_magnitude(&self) -> (bool, [u64; N]) {
-        if self.sign_word() == 0 {
-            return (false, self.0);
-        }
-        let mut magnitude = [0; N];
-        subtract(magnitude.iter_mut(), &self.0, u64::MAX);
-        (true, magnitude)
+    pub(super) fn is_zero(&self) -> bool {
+        self.sign().is_eq()
     }
 
-    /// The leading words of the magnitude.
-    #[inline]
-    pub(super) fn leading(&self) -> Leading {
-        let (_, magnitude) = self.sign_and_magnitude();
-        let mut words = magnitude.iter().rev().copied().skip_while(|&word| word == 0);
-        let high = words.next().unwrap_or(0);
-        let Some(low) = words.next() else {
-            return Leading {
-                words: high.into(),
-                followed_by: 0,
-                is_cut: false,
-            };
-        };
-        let (mut followed_by, mut rest) = (0, 0);
-        for word in words {
-            followed_by += 64;
-            rest |= word;
+    #[inline(always)]
+    pub(super) fn magnitude(&self) -> Self {
+        if self.sign().is_lt() { self.negated() } else { *self }
+    }
+
+    /// The least number of bits beside the sign: the number is in [−2ᵇ, 2ᵇ).
+    #[inline(always)]
+    pub(super) fn bits(&self) -> u32 {
+        let words = without_repeated_sign(&self.0);
+        match words.last() {
+            Some(top) => 64 * words.len() as u32 - (top ^ self.sign_word()).leading_zeros(),
+            None => 0,
         }
-        Leading {
-            words: u128::from(high) << 64 | u128::from(low),
-            followed_by,
-            is_cut: rest != 0,
-        }
+    }
+
+    /// How many of the lowest bits are zero; all of them where the number is.
+    #[inline(always)]
+    pub(super) fn trailing_zeros(&self) -> u32 {
+        let zeros = leading_zero_words(&self.0);
+        64 * zeros as u32 + self.0.get(zeros).map_or(0, |word| word.trailing_zeros())
+    }
+
+    /// The lowest word of the number divided by 2^`dropped`, rounded down.
+    #[inline(always)]
+    pub(super) fn word_above(&self, dropped: u32) -> u64 {
+        let words = self.0.get((dropped / 64) as usize..).unwrap_or_default();
+        let mut words = words.iter().copied().chain(core::iter::repeat(self.sign_word()));
+        let [low, high] = [(); 2].map(|()| words.next().unwrap_or_default());
+        ((u128::from(high) << 64 | u128::from(low)) >> (dropped % 64)) as u64
     }
 }
 
 /// x + y + `carry` without what the word cannot hold, and whether there is such. (The standard library's `carrying_add` is younger than
 /// the oldest compiler we support.)
 #[inline(always)]
-pub(super) const fn add_with_carry(x: u64, y: u64, carry: bool) -> (u64, bool) {
+const fn add_with_carry(x: u64, y: u64, carry: bool) -> (u64, bool) {
     let (partial, first) = x.overflowing_add(y);
     let (whole, second) = partial.overflowing_add(carry as u64);
     (whole, first | second)
@@ -192,7 +152,7 @@ pub(super) const fn add_with_carry(x: u64, y: u64, carry: bool) -> (u64, bool) {
 
 /// x − y − `borrow`, with 2⁶⁴ more where that is negative, and whether it is.
 #[inline(always)]
-pub(super) const fn subtract_with_borrow(x: u64, y: u64, borrow: bool) -> (u64, bool) {
+const fn subtract_with_borrow(x: u64, y: u64, borrow: bool) -> (u64, bool) {
     let (partial, first) = x.overflowing_sub(y);
     let (whole, second) = partial.overflowing_sub(borrow as u64);
     (whole, first | second)
@@ -205,14 +165,57 @@ fn sign_word(words: &[u64]) -> u64 {
     (top.cast_signed() >> 63).cast_unsigned()
 }
 
-/// The product of two numbers by their words into `product`, which has the words of both and is zero.
+/// The words without those above that only repeat the sign.
 #[inline(always)]
-fn multiply_signed(a: &[u64], b: &[u64], product: &mut [u64]) {
+fn without_repeated_sign(words: &[u64]) -> &[u64] {
+    let sign = sign_word(words);
+    let mut length = words.len();
+    // By eights first, which the compiler makes a comparison of a few registers.
+    while let Some(below) = length.checked_sub(8)
+        && let Some(eight) = words.get(below..length)
+        && eight.iter().fold(0, |bits, word| bits | (word ^ sign)) == 0
+    {
+        length = below;
+    }
+    while let Some(below) = length.checked_sub(1)
+        && words.get(below) == Some(&sign)
+    {
+        length = below;
+    }
+    let significant = words.get(..length).unwrap_or_default();
+    if sign_word(significant) == sign {
+        significant
+    } else {
+        words.get(..=length).unwrap_or_default()
+    }
+}
+
+/// How many of the lowest words are zero.
+#[inline(always)]
+fn leading_zero_words(words: &[u64]) -> usize {
+    words.iter().position(|&word| word != 0).unwrap_or(words.len())
+}
+
+/// How many of the lowest words are zero, and the others without those above that only repeat the sign.
+#[inline(always)]
+fn significant_words(words: &[u64]) -> (usize, &[u64]) {
+    let words = without_repeated_sign(words);
+    let zeros = leading_zero_words(words);
+    (zeros, words.get(zeros..).unwrap_or_default())
+}
+
+/// The product of two numbers by their words into `product`, which is zero, and may lack words only if `is_cut`.
+#[inline(always)]
+fn multiply(a: &[u64], b: &[u64], product: &mut [u64], is_cut: bool) {
     for (i, &x) in a.iter().enumerate() {
-        // All of these words exist, so nothing is lost by the default.
+        let length = if is_cut {
+            b.len().min(product.len().saturating_sub(i))
+        } else {
+            b.len()
+        };
         let (row, above) = product
             .get_mut(i..)
-            .and_then(|words| words.split_at_mut_checked(b.len()))
+            .and_then(|words| words.split_at_mut_checked(length))
             .unwrap_or_default();
         let mut carry = 0;
         for (&y, word) in b.iter().zip(row) {
@@ -227,6 +230,27 @@ fn multiply_signed(a: &[u64], b: &[u64], product: &mut [u64]) {
     // That read a negative factor −x as 2^(64·words) − x, which is the other factor times 2^(64·words) too much.
     subtract(product.iter_mut().skip(a.len()), b, sign_word(a));
     subtract(product.iter_mut().skip(b.len()), a, sign_word(b));
+    if let Some((own, above)) = product.split_at_mut_checked(a.len() + b.len()) {
+        above.fill(sign_word(own));
+    }
+}
+
+/// The same with less to do where most words are zero or mere sign: numbers have many words when one pair's coordinates
+/// differ in size by hundreds of powers of two, and then each of them has few words of its own.
+#[inline(never)]
+fn multiply_significant_words<const N: usize, const M: usize, const R: usize>(
+    a: &[u64; N],
+    b: &[u64; M],
+    product: &mut [u64; R],
+) {
+    let (zeros_of_a, a) = significant_words(a);
+    let (zeros_of_b, b) = significant_words(b);
+    multiply(
+        a,
+        b,
+        product.get_mut(zeros_of_a + zeros_of_b..).unwrap_or_default(),
+        R < N + M,
+    );
 }
 
 /// Subtracts `other`, each word masked by `mask`, from the words `from`; a borrow beyond the last is dropped.
@@ -240,8 +264,7 @@ fn subtract<'a>(from: impl Iterator<Item = &'a mut u64>, other: &[u64], mask: u6
 
 #[cfg(test)]
 mod tests {
-    use super::{Integer, Leading};
-    use core::cmp::Ordering;
+    use super::{Integer, multiply, multiply_significant_words};
 
     /// Where carries and signs go wrong.
     const NUMBERS: [i128; 13] = [
@@ -275,6 +298,10 @@ mod tests {
             assert_eq!(x.plus(&y), integer(a.wrapping_add(b)), "{a} + {b}");
             assert_eq!(x.minus(&y), integer(a.wrapping_sub(b)), "{a} - {b}");
             assert_eq!(x.sign(), a.cmp(&0), "{a}");
+            assert_eq!(x.is_zero(), a == 0, "{a}");
+            assert_eq!(x.negated(), integer(a.wrapping_neg()), "{a}");
+            assert_eq!(x.magnitude(), integer(a.wrapping_abs()), "{a}");
+            assert_eq!(x.doubled(), integer(a.wrapping_mul(2)), "{a}");
         }
     }
 
@@ -310,40 +337,92 @@ mod tests {
         }
     }
 
+    /// Numbers with zeros below, or with repeated signs above, or with neither.
+    fn for_each_number(visit: &dyn Fn(&Integer<6>)) {
+        visit(&Integer::ZERO);
+        for significand in [1, -1, 3, -3, i64::MAX, i64::MIN] {
+            for shift in [0, 1, 63, 64, 127, 128, 200, 256, 319, 320] {
+                let number = shifted(significand, shift);
+                visit(&number);
+                visit(&number.minus(&shifted(1, 0)));
+                visit(&number.plus(&shifted(significand, 7)));
+            }
+        }
+    }
+
     #[test]
     fn the_product_of_significant_words_is_the_product() {
-        let for_each_number = |visit: &dyn Fn(&Integer<6>)| {
-            visit(&Integer::ZERO);
-            for significand in [1, -1, 3, -3, i64::MAX, i64::MIN] {
-                for shift in [0, 1, 63, 64, 127, 128, 200, 256, 319, 320] {
-                    let number = shifted(significand, shift);
-                    visit(&number);
-                    visit(&number.minus(&shifted(1, 0)));
-                    visit(&number.plus(&shifted(significand, 7)));
-                }
-            }
-        };
         for_each_number(&|a| {
             for_each_number(&|b| {
-                let expected: Integer<12> = a.product(b);
-                assert_eq!(a.product_of_significant_words(b), expected, "{a:?} · {b:?}");
+                let [mut expected, mut product] = [[0; 12]; 2];
+                multiply(&a.0, &b.0, &mut expected, false);
+                multiply_significant_words(&a.0, &b.0, &mut product);
+                assert_eq!(product, expected, "{a:?} · {b:?}");
             });
         });
     }
 
     #[test]
-    fn leading_words_are_those_of_the_magnitude() {
-        let leading = |words, followed_by, is_cut| Leading {
-            words,
-            followed_by,
-            is_cut,
-        };
-        assert_eq!(shifted::<4>(0, 0).leading(), leading(0, 0, false));
-        assert_eq!(shifted::<4>(-7, 0).leading(), leading(7, 0, false));
-        assert_eq!(shifted::<4>(-7, 64).leading(), leading(7 << 64, 0, false));
-        let long = shifted::<4>(-7, 192).minus(&shifted(1, 0));
-        assert_eq!(long.leading(), leading(7 << 64, 128, true));
-        assert_eq!(shifted::<4>(7, 192).leading(), leading(7 << 64, 128, false));
-        assert_eq!(shifted::<4>(1, 0).sign(), Ordering::Greater);
+    fn in_more_words_a_product_is_the_same_number_and_in_fewer_what_is_left_of_it() {
+        for_each_number(&|a| {
+            for_each_number(&|b| {
+                let product: Integer<12> = a.times(b);
+                assert_eq!(a.times::<6, 20>(b), product.widened(), "{a:?} · {b:?}");
+                let cut: Integer<7> = a.times(b);
+                assert_eq!(cut.0.as_slice(), &product.0[..7], "{a:?} · {b:?}");
+                let cut: Integer<3> = a.times(b);
+                assert_eq!(cut.0.as_slice(), &product.0[..3], "{a:?} · {b:?}");
+            });
+        });
+        for (a, b) in NUMBERS.iter().flat_map(|&a| NUMBERS.map(|b| (a, b))) {
+            let product: Integer<4> = integer(a).times(&integer(b));
+            assert_eq!(integer(a).times::<2, 9>(&integer(b)), product.widened(), "{a} · {b}");
+            assert_eq!(integer(a).times::<2, 2>(&integer(b)), integer(a.wrapping_mul(b)), "{a} · {b}");
+        }
+    }
+
+    #[test]
+    fn products_are_distributive() {
+        for_each_number(&|a| {
+            for_each_number(&|b| {
+                let (b, c): (Integer<7>, Integer<7>) = (b.widened(), shifted(-5, 130));
+                let product: Integer<13> = a.times(&b.plus(&c));
+                assert_eq!(product, a.times::<7, 13>(&b).plus(&a.times(&c)), "{a:?} · ({b:?} + {c:?})");
+            });
+        });
+    }
+
+    #[test]
+    fn in_more_words_a_number_is_the_same() {
+        for number in NUMBERS {
+            let Integer([low, high]) = integer(number);
+            let sign = (number >> 127) as u64;
+            assert_eq!(integer(number).widened(), Integer([low, high, sign, sign]), "{number}");
+        }
+    }
+
+    #[test]
+    fn bits_are_those_beside_the_sign_and_zeros_those_below() {
+        for number in NUMBERS {
+            let repeated = if number < 0 {
+                number.leading_ones()
+            } else {
+                number.leading_zeros()
+            };
+            assert_eq!(integer(number).bits(), 128 - repeated, "{number}");
+            assert_eq!(integer(number).widened::<5>().bits(), 128 - repeated, "{number}");
+            assert_eq!(integer(number).trailing_zeros(), number.trailing_zeros(), "{number}");
+        }
+    }
+
+    #[test]
+    fn the_word_above_some_bits_is_that_of_the_number_rounded_down() {
+        for number in NUMBERS {
+            for dropped in 0..128 {
+                let expected = (number >> dropped) as u64;
+                assert_eq!(integer(number).word_above(dropped), expected, "{number}, {dropped}");
+            }
+            assert_eq!(integer(number).word_above(300), (number >> 127) as u64, "{number}");
+        }
     }
 }

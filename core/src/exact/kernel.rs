@@ -11,8 +11,35 @@ use super::integer::Integer;
 use core::ops::ControlFlow;
 
 /// The widest coordinates for which `N` words serve.
-pub(super) const fn bits_in<const N: usize>() -> u32 {
+const fn bits_in<const N: usize>() -> u32 {
     64 * N as u32 - 3
+}
+
+/// How many words a coordinate has.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Width {
+    Words1,
+    Words2,
+    Words5,
+    Words33,
+}
+
+impl Width {
+    /// The narrowest that serves.
+    #[inline(always)]
+    pub(super) fn of(pair: &AlignedPair) -> Self {
+        // f64 ranges over 2,098 bits, f32 over 277.
+        let bits = pair.bits();
+        if bits <= bits_in::<1>() {
+            Self::Words1
+        } else if bits <= bits_in::<2>() {
+            Self::Words2
+        } else if bits <= bits_in::<5>() {
+            Self::Words5
+        } else {
+            Self::Words33
+        }
+    }
 }
 
 /// What is to be done with the control values.
@@ -34,24 +61,22 @@ pub(super) trait Judge {
 /// Hands the control values to `judge`, the cheap ones first, until it breaks off.
 #[inline(always)]
 pub(super) fn judge(pair: &AlignedPair, judge: &mut impl Judge) -> ControlFlow<()> {
-    // f64 ranges over 2,098 bits, f32 over 277.
-    let bits = pair.bits();
-    if bits <= bits_in::<1>() {
-        in_words::<1, 2, 3>(pair, judge)
-    } else if bits <= bits_in::<2>() {
-        in_words::<2, 4, 6>(pair, judge)
-    } else if bits <= bits_in::<5>() {
-        in_words::<5, 10, 15>(pair, judge)
-    } else {
-        in_words::<33, 66, 99>(pair, judge)
+    match Width::of(pair) {
+        Width::Words1 => in_words::<1, 2, 3>(pair, judge),
+        Width::Words2 => in_words::<2, 4, 6>(pair, judge),
+        Width::Words5 => in_words::<5, 10, 15>(pair, judge),
+        Width::Words33 => in_words::<33, 66, 99>(pair, judge),
     }
 }
 
-/// With coordinates of `N` words; `N2` = 2·`N`, `N3` = 3·`N`.
+/// The same with coordinates of `N` words; `N2` = 2·`N`, `N3` = 3·`N`.
 ///
 /// Out of line, so that a call pays for the stack of its own width only.
 #[inline(never)]
-fn in_words<const N: usize, const N2: usize, const N3: usize>(pair: &AlignedPair, judge: &mut impl Judge) -> ControlFlow<()> {
+pub(super) fn in_words<const N: usize, const N2: usize, const N3: usize>(
+    pair: &AlignedPair,
+    judge: &mut impl Judge,
+) -> ControlFlow<()> {
     let units = pair.units;
     let [start, end]: [Edges<N>; 2] = pair.edges();
     let n0 = cross::<N, N2>(&start.b, &start.c);

@@ -1,6 +1,6 @@
 //! Magnitudes to 64 bits with an exponent that cannot overflow, rounded down or up, without floating point.
 
-use super::integer::Leading;
+use super::integer::Integer;
 
 /// A bound of a non-negative number: `significand` · 2^`exponent`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,13 +32,17 @@ impl Magnitude {
         Self::rounded(significand.into(), false, exponent, Bound::Lower)
     }
 
-    /// Of a whole number times 2^`exponent`.
-    pub(super) fn of(leading: Leading, exponent: i32, bound: Bound) -> Self {
-        let exponent = exponent + leading.followed_by;
-        Self::rounded(leading.words, leading.is_cut, exponent, bound)
+    /// Of a whole number's magnitude times 2^`exponent`.
+    #[inline]
+    pub(super) fn of<const N: usize>(number: &Integer<N>, exponent: i32, bound: Bound) -> Self {
+        let magnitude = number.magnitude();
+        let dropped = magnitude.bits().saturating_sub(64);
+        let is_cut = magnitude.trailing_zeros() < dropped;
+        let exponent = exponent + dropped.cast_signed();
+        Self::rounded(magnitude.word_above(dropped).into(), is_cut, exponent, bound)
     }
 
-    /// `value` · 2^`exponent`, and a little more if `is_cut`, which needs a `value` of at least 2⁶⁴.
+    /// `value` · 2^`exponent`, and a little more if `is_cut`, which needs a `value` of at least 2⁶³.
     fn rounded(value: u128, is_cut: bool, exponent: i32, bound: Bound) -> Self {
         if value == 0 {
             return Self::ZERO;
@@ -93,7 +97,7 @@ impl Magnitude {
 
 #[cfg(test)]
 mod tests {
-    use super::{Bound, Magnitude};
+    use super::{Bound, Integer, Magnitude};
 
     fn exact(significand: u64, exponent: i32) -> Magnitude {
         Magnitude::exact(significand, exponent)
@@ -103,6 +107,31 @@ mod tests {
     fn a_number_has_one_form() {
         assert_eq!(exact(6, -1), exact(3, 0));
         assert_eq!(exact(0, 5), Magnitude::ZERO);
+    }
+
+    #[test]
+    fn a_whole_number_gives_the_bounds_of_its_magnitude() {
+        let bounds = |number: &Integer<4>| [Bound::Lower, Bound::Upper].map(|bound| Magnitude::of(number, 3, bound));
+        let one = Integer::shifted(1, 0);
+        assert_eq!(bounds(&Integer::ZERO), [Magnitude::ZERO; 2]);
+        for shift in [0_u32, 1, 63, 64, 127, 128, 192] {
+            let power = shift.cast_signed() + 3;
+            for sevenfold in [Integer::shifted(7, shift), Integer::shifted(-7, shift)] {
+                assert_eq!(bounds(&sevenfold), [exact(7, power); 2]);
+            }
+            // From 2⁶⁴ on one more, or less, does not fit.
+            if shift > 64 {
+                let above = exact((7 << 61) + 1, power - 61);
+                assert_eq!(bounds(&Integer::shifted(7, shift).plus(&one)), [exact(7, power), above]);
+                assert_eq!(bounds(&Integer::shifted(-7, shift).minus(&one)), [exact(7, power), above]);
+                let below = exact((7 << 61) - 1, power - 61);
+                assert_eq!(bounds(&Integer::shifted(7, shift).minus(&one)), [below, exact(7, power)]);
+            }
+        }
+        // 2⁶⁴ − 1 fits, and 2⁶⁴ + 1 does not.
+        let two_to_64 = Integer::shifted(1, 64);
+        assert_eq!(bounds(&two_to_64.minus(&one)), [exact(u64::MAX, 3); 2]);
+        assert_eq!(bounds(&two_to_64.plus(&one)), [exact(1, 67), exact((1 << 63) + 1, 4)]);
     }
 
     #[test]

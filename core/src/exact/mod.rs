@@ -258,9 +258,9 @@ fn is_beyond<const N2: usize, const N3: usize>(
     squared_separation: Magnitude,
 ) -> bool {
     let [x, y, z] = normal;
-    let squared = |component: &Integer<N2>, unit| Magnitude::of(component.leading(), unit, Bound::Upper).squared(Bound::Upper);
+    let squared = |component: &Integer<N2>, unit| Magnitude::of(component, unit, Bound::Upper).squared(Bound::Upper);
     let squared_normal = squared(x, uy + uz).plus(squared(y, uz + ux)).plus(squared(z, ux + uy));
-    Magnitude::of(value.leading(), ux + uy + uz, Bound::Lower)
+    Magnitude::of(value, ux + uy + uz, Bound::Lower)
         .squared(Bound::Lower)
         .exceeds(squared_separation.times(squared_normal, Bound::Upper))
 }

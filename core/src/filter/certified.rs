@@ -20,8 +20,6 @@ use crate::verdict::Verdict;
 /// [`coplanarity`](crate::coplanarity#rounding).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Bound {
-    /// Zero: the signs are taken as computed. **Not certified**: it can cull a colliding pair.
-    Uncertified,
     /// From the largest components of the tetrahedron's three edges.
     MagnitudesByEdge,
     /// From the largest components along each axis.
@@ -49,8 +47,7 @@ pub fn non_coplanarity<S: Scalar>(pair: &impl PrimitivePair<S>) -> Verdict {
     Verdict::culled_if(is_never_coplanar(Bound::Permanent, &pair.tetrahedron()))
 }
 
-/// The decision on a tetrahedron of any number of lanes: true proves that the lane's points are never coplanar in [0, 1]
-/// (unless `bound` is [`Bound::Uncertified`]).
+/// The decision on a tetrahedron of any number of lanes: true proves that the lane's points are never coplanar in [0, 1].
 #[inline(always)]
 #[must_use]
 pub fn is_never_coplanar<L: Lanes>(bound: Bound, tetrahedron: &MovingTetrahedron<L>) -> L::Mask {
@@ -68,7 +65,7 @@ pub struct Decision<M> {
 }
 
 /// The decision with a separation s on any number of lanes: `culled` proves that at no time in [0, 1] the vertex is within s
-/// of the face's plane, or the line of one edge within s of the other's (unless `bound` is [`Bound::Uncertified`]).
+/// of the face's plane, or the line of one edge within s of the other's.
 ///
 /// The separation must be positive and finite; `None` is zero, and then the shape of the pair does not matter.
 #[inline(always)]
@@ -95,7 +92,6 @@ fn decide_beyond<L: Lanes>(bound: Bound, tetrahedron: &MovingTetrahedron<L>, cle
     let values = tetrahedron.control_values();
     let zero = tetrahedron.p[0].x.splat(L::Scalar::ZERO);
     let culled = match bound {
-        Bound::Uncertified => values.one_sign_beyond(with_clearance([zero; 4], clearance)),
         Bound::MagnitudesByEdge => by_magnitudes(&values, tetrahedron.largest_by_edge(), clearance),
         Bound::MagnitudesByAxis => by_magnitudes(&values, tetrahedron.largest_by_axis(), clearance),
         Bound::Permanent => return by_permanent(tetrahedron, &values, clearance),

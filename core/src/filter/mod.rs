@@ -4,8 +4,6 @@
 //!
 //! | tier | rounding | what it culls |
 //! |---|---|---|
-//! | [`plain`] | ignored: culls a colliding pair now and then | the paper, equations 1 to 14, as printed |
-//! | [`Tier::Uncertified`] | ignored as well | control values of one sign, as computed |
 //! | [`Tier::MagnitudesByEdge`], [`Tier::MagnitudesByAxis`] | covered by cheap bounds | those that clear the bound |
 //! | [`Tier::Permanent`] | covered by the sharpest bound | almost all that [`Tier::Exact`] does |
 //! | [`Tier::Widened`] | covered: `f32`, and `f64` where that does not decide | more near coplanarity, for `f32` positions |
@@ -16,7 +14,6 @@
 
 pub mod certified;
 pub mod inside;
-pub mod plain;
 mod subdivided;
 mod tier;
 mod widened;

@@ -18,8 +18,6 @@ use crate::verdict::Verdict;
 /// [`Permanent`](Self::Permanent); take [`Exact`](Self::Exact) where every last pair counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tier {
-    /// Signs as computed. **Unsafe to rely on**: rounding makes it cull a colliding pair now and then.
-    Uncertified,
     /// Certified by the largest components of the tetrahedron's edges.
     MagnitudesByEdge,
     /// Certified by the largest components along each axis.
@@ -40,8 +38,7 @@ pub enum Tier {
 
 impl Tier {
     /// Every tier, in the order of the accuracy that one may expect.
-    pub const ALL: [Self; 10] = [
-        Self::Uncertified,
+    pub const ALL: [Self; 9] = [
         Self::MagnitudesByEdge,
         Self::MagnitudesByAxis,
         Self::Permanent,
@@ -53,19 +50,12 @@ impl Tier {
         Self::Subdivided(Depth::Four),
     ];
 
-    /// Whether a pair that it culls is proven to be free of contact. False only for
-    /// [`Uncertified`](Self::Uncertified).
-    #[must_use]
-    pub const fn is_certified(self) -> bool {
-        !matches!(self, Self::Uncertified)
-    }
-
     /// Which of the pairs that its bound has or has not culled it looks at again: none, those undecided, or all that are
     /// kept.
     #[inline(always)]
     pub(crate) fn open(self, culled: Mask, settled: Mask) -> Mask {
         match self {
-            Self::Uncertified | Self::MagnitudesByEdge | Self::MagnitudesByAxis | Self::Permanent => 0,
+            Self::MagnitudesByEdge | Self::MagnitudesByAxis | Self::Permanent => 0,
             Self::Widened | Self::Exact => !(culled | settled),
             Self::Subdivided(_) => !culled,
         }
@@ -74,7 +64,6 @@ impl Tier {
     /// The part of the tier that looks at several pairs side by side.
     pub(crate) const fn bound(self) -> Bound {
         match self {
-            Self::Uncertified => Bound::Uncertified,
             Self::MagnitudesByEdge => Bound::MagnitudesByEdge,
             Self::MagnitudesByAxis => Bound::MagnitudesByAxis,
             Self::Permanent | Self::Widened | Self::Subdivided(_) | Self::Exact => Bound::Permanent,
@@ -84,7 +73,7 @@ impl Tier {
 
 /// A non-coplanarity filter: its [`Tier`], and the separation that pairs must keep.
 ///
-/// Certified (unless the tier is [`Tier::Uncertified`]) in every floating-point environment
+/// Certified in every floating-point environment
 /// ([`Rounding`](crate::Rounding)): a pair that it culls is, at no time in [0, 1], coplanar, or within the separation.
 /// ([`Tier::Subdivided`]: does not touch, or come within the separation.) NaN, infinities and coordinates whose
 /// differences exceed [`LARGEST_EDGE`](crate::Rounding::LARGEST_EDGE) keep the pair, except that [`Tier::Exact`] knows no
@@ -169,7 +158,7 @@ impl<S: Scalar> Filter<S> {
     #[cold]
     pub(crate) fn culls_open<P: PairShape>(&self, points: &PairPoints<S>) -> bool {
         match self.tier {
-            Tier::Uncertified | Tier::MagnitudesByEdge | Tier::MagnitudesByAxis | Tier::Permanent => false,
+            Tier::MagnitudesByEdge | Tier::MagnitudesByAxis | Tier::Permanent => false,
             Tier::Widened => {
                 S::UNIT_ROUNDOFF.to_f64() > f64::UNIT_ROUNDOFF && widened::culls::<P, S>(points, self.positive_separation())
             }

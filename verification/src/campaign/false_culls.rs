@@ -15,7 +15,9 @@ use proptest::test_runner::{RngAlgorithm, TestRng};
 use selvedge_core::PrimitivePair;
 use selvedge_core::boxes::relative;
 use selvedge_core::exact::{UNKNOWN, control_value_signs, is_never_within};
-use selvedge_core::filter::{Filter, Tier, plain};
+use selvedge_core::filter::{Filter, Tier};
+use selvedge_laboratory::baselines::as_computed::AsComputed;
+use selvedge_laboratory::baselines::plain;
 use serde::{Deserialize, Serialize};
 use std::cell::OnceCell;
 use std::cmp::Ordering::{Greater, Less};
@@ -29,6 +31,8 @@ const SAMPLE: u64 = 10_000;
 pub enum Rule {
     /// The paper's filter.
     Plain,
+    /// Signs as computed.
+    Uncertified,
     /// A tier, without a separation or with one.
     Tier(Tier, bool),
 }
@@ -38,9 +42,10 @@ impl Rule {
     /// too many: the property tests have them.)
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let whole = |tier: &Tier| tier.is_certified() && !matches!(tier, Tier::Subdivided(_));
+        let whole = |tier: &Tier| !matches!(tier, Tier::Subdivided(_));
         let separated = Tier::ALL.into_iter().filter(whole);
-        std::iter::once(Self::Plain)
+        [Self::Plain, Self::Uncertified]
+            .into_iter()
             .chain(Tier::ALL.map(|tier| Self::Tier(tier, false)))
             .chain(separated.map(|tier| Self::Tier(tier, true)))
             .collect()
@@ -49,7 +54,7 @@ impl Rule {
     /// Whether a false cull is an error.
     #[must_use]
     pub const fn is_certified(self) -> bool {
-        matches!(self, Self::Tier(tier, _) if tier.is_certified())
+        matches!(self, Self::Tier(..))
     }
 }
 
@@ -57,6 +62,7 @@ impl fmt::Display for Rule {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Plain => f.pad("plain (the paper)"),
+            Self::Uncertified => f.pad("Uncertified"),
             Self::Tier(tier, false) => f.pad(&format!("{tier:?}")),
             Self::Tier(tier, true) => f.pad(&format!("{tier:?}, separation")),
         }
@@ -296,6 +302,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judged<'a, S, P> {
     fn is_culled_by(&self, rule: Rule) -> bool {
         match rule {
             Rule::Plain => plain::non_coplanarity(&self.pair),
+            Rule::Uncertified => AsComputed::new().verdict(&self.pair),
             Rule::Tier(tier, false) => Filter::new(tier).verdict(&self.pair),
             Rule::Tier(tier, true) => {
                 let filter = Filter::new(tier).with_separation(self.separation);
@@ -312,7 +319,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judged<'a, S, P> {
                 .is_beyond
                 .get_or_init(|| is_never_within::<P::Shape, S>(&self.pair.points(), self.separation, UNKNOWN)),
             Rule::Tier(Tier::Subdivided(_), false) => self.has_one_sign() || relative::nine_directions(&self.pair).is_culled(),
-            Rule::Plain | Rule::Tier(_, false) => self.has_one_sign(),
+            Rule::Plain | Rule::Uncertified | Rule::Tier(_, false) => self.has_one_sign(),
         }
     }
 
@@ -332,7 +339,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judged<'a, S, P> {
                 .within
                 .get_or_init(|| oracle::within(&self.case.question(), self.separation.to_f64())),
             Rule::Tier(Tier::Subdivided(_), false) => self.touches(),
-            Rule::Plain | Rule::Tier(_, false) => self.is_coplanar(),
+            Rule::Plain | Rule::Uncertified | Rule::Tier(_, false) => self.is_coplanar(),
         }
     }
 

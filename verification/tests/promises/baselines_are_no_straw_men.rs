@@ -3,7 +3,8 @@
 
 use proptest::prelude::*;
 use selvedge_core::PairKind;
-use selvedge_core::elementary::{Impact, Limits, additive, bernstein_sign, cubic, tight_inclusion};
+use selvedge_core::elementary::{Impact, Limits};
+use selvedge_laboratory::baselines::{additive, bernstein_sign, cubic, tight_inclusion};
 use selvedge_verification::generator::{PairCase, check};
 use selvedge_verification::oracle::collides;
 

@@ -4,9 +4,13 @@ use proptest::prelude::*;
 use selvedge::dispatch::available_levels;
 use selvedge_core::PairKind;
 use selvedge_core::Verdict;
-use selvedge_core::batch::{BatchTest, LANES, Mask, Test, Tile, VertexRow, culled, culled_from_rows, culled_from_tiles};
+use selvedge_core::batch::{
+    BatchTest, ByPoints, ByVolume, LANES, Mask, Test, Tile, VertexRow, culled, culled_from_rows, culled_from_tiles,
+};
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::{Filter, Tier, inside};
+use selvedge_laboratory::baselines::as_computed::AsComputed;
+use selvedge_laboratory::baselines::plain::Plain;
 use selvedge_laboratory::pipeline::{CullingTest, Pipeline, Preset};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, meshes};
@@ -34,6 +38,13 @@ fn inside_verdict<S: Format>(case: &PairCase<S>) -> Verdict {
 }
 
 fn filter_verdict<S: Format>(filter: Filter<S>, case: &PairCase<S>) -> Verdict {
+    match case.kind {
+        PairKind::VertexFace => filter.verdict(&case.vertex_face()),
+        PairKind::EdgeEdge => filter.verdict(&case.edge_edge()),
+    }
+}
+
+fn as_computed_verdict<S: Format>(filter: AsComputed<S>, case: &PairCase<S>) -> Verdict {
     match case.kind {
         PairKind::VertexFace => filter.verdict(&case.vertex_face()),
         PairKind::EdgeEdge => filter.verdict(&case.edge_edge()),
@@ -131,6 +142,12 @@ fn verdicts_agree<S: Format>(kind: PairKind) {
         }
         batch.agrees(Test::NormalDirection, direction_verdict)?;
         batch.agrees(Test::InsideFunctions, inside_verdict)?;
+        batch.agrees(ByPoints(Plain), |pair: &PairCase<S>| verdict(CullingTest::PlainNonCoplanarity, pair))?;
+        let as_computed = AsComputed::<S>::new();
+        let separated = as_computed.with_separation(S::exact(1, -scale)).expect("a length");
+        for filter in [as_computed, separated] {
+            batch.agrees(ByVolume(filter), |pair: &PairCase<S>| as_computed_verdict(filter, pair))?;
+        }
         for tier in Tier::ALL {
             let filter = Filter::<S>::new(tier);
             batch.agrees(filter, |pair: &PairCase<S>| filter_verdict(filter, pair))?;

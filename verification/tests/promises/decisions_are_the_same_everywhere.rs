@@ -8,17 +8,19 @@
 use fearless_simd::dispatch;
 use selvedge::dispatch::available_levels;
 use selvedge_core::PairKind;
-use selvedge_core::PrimitivePair;
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, direction, relative, segment, swept_boxes};
 use selvedge_core::coplanarity::{error_bound_by_magnitudes, is_in_range};
 use selvedge_core::elementary::advance::confirm::certain_contact;
-use selvedge_core::elementary::advance::{time_of_impact_and_work, time_of_impact_within, uncertified};
+use selvedge_core::elementary::advance::{time_of_impact_and_work, time_of_impact_within};
 use selvedge_core::elementary::contact::contact_and_evidence;
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within, touches};
-use selvedge_core::filter::{Filter, Tier, inside, plain};
+use selvedge_core::filter::{Filter, Tier, inside};
 use selvedge_core::points::PairShape;
+use selvedge_core::{PrimitivePair, Verdict};
+use selvedge_laboratory::baselines::as_computed::AsComputed;
+use selvedge_laboratory::baselines::{plain, uncertified};
 use selvedge_verification::campaign::exact::{Source, sample};
 use selvedge_verification::culling;
 use selvedge_verification::generator::{Format, PairCase};
@@ -146,11 +148,16 @@ impl Question for Filters {
         }
         let mut bits = u64::from(plain::non_coplanarity(pair).is_culled());
         bits |= u64::from(inside::never_inside(pair).is_culled()) << 1;
+        let mut add = |alone: Verdict, separated: Verdict| {
+            bits = bits << 2 | u64::from(alone.is_culled()) | u64::from(separated.is_culled()) << 1;
+        };
+        let as_computed = AsComputed::new();
+        let separated = as_computed.with_separation(separation_of(case)).expect("positive");
+        add(as_computed.verdict(pair), separated.verdict(pair));
         for tier in Tier::ALL {
             let filter = Filter::new(tier);
             let separated = filter.with_separation(separation_of(case)).expect("positive");
-            bits = bits << 2 | u64::from(filter.verdict(pair).is_culled());
-            bits |= u64::from(separated.verdict(pair).is_culled()) << 1;
+            add(filter.verdict(pair), separated.verdict(pair));
         }
         digest.add(bits);
     }
@@ -385,11 +392,15 @@ fn answers_yes<S: Format>(test: usize, pair: &impl PrimitivePair<S>, separation:
         tolerance: S::ZERO,
         separation,
     };
-    if let Some(&tier) = Tier::ALL.get(test) {
+    if test == 0 {
+        let filter = AsComputed::new().with_separation(separation);
+        return filter.expect("positive").verdict(pair).is_culled();
+    }
+    if let Some(&tier) = Tier::ALL.get(test - 1) {
         let filter = Filter::new(tier).with_separation(separation);
         return filter.expect("positive").verdict(pair).is_culled();
     }
-    match test - Tier::ALL.len() {
+    match test - 1 - Tier::ALL.len() {
         0 => direction::normal(pair).is_culled(),
         1 => relative::nine_directions(pair).is_culled(),
         2 => inside::never_inside(pair).is_culled(),
@@ -401,7 +412,7 @@ fn answers_yes<S: Format>(test: usize, pair: &impl PrimitivePair<S>, separation:
 
 impl Question for Thresholds {
     fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, pair: &P, digest: &mut Digest) {
-        for test in 0..Tier::ALL.len() + 6 {
+        for test in 0..Tier::ALL.len() + 7 {
             let (zero, far) = (S::ZERO, S::from_f64(8.0));
             let separation = threshold(zero, far, |separation| answers_yes(test, pair, separation));
             let moved = threshold(zero, far, |by| {

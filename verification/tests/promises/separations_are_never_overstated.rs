@@ -5,6 +5,7 @@ use crate::support::environment::Environment;
 use crate::support::point;
 use proptest::prelude::*;
 use rug::Rational;
+use selvedge_core::PairKind;
 use selvedge_core::boxes::Aabb;
 use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::glam::DVec3;
@@ -13,7 +14,6 @@ use selvedge_core::separation::clearance::Clearance;
 use selvedge_core::separation::course;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
 use selvedge_core::separation::largest_coordinate;
-use selvedge_core::PairKind;
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, extraordinary_pairs, from_choices, pairs_of_any_kind, touching_pairs,
 };

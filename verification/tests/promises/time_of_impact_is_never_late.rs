@@ -9,9 +9,10 @@ use selvedge_core::PairKind;
 use selvedge_core::batch::{Level, Round, RoundQuestion, VertexRow, advance_from_rows};
 use selvedge_core::elementary::advance::confirm::certain_contact;
 use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact, time_of_impact_and_work, time_of_impact_within};
-use selvedge_core::elementary::{Impact, Limits, Reason, tight_inclusion};
+use selvedge_core::elementary::{Impact, Limits, Reason};
 use selvedge_core::glam::DVec3;
 use selvedge_core::{Motion, PrimitivePair, Scalar, VertexFace};
+use selvedge_laboratory::baselines::tight_inclusion;
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
     touching_pairs,

@@ -3,7 +3,7 @@
 //! # At one time
 //! The two sets touch when the hull of the pair's corners contains the origin: a triangle (VF) or a parallelogram (EE) with corners
 //! e₁ … e_N in order. That is so exactly if
-//! 1. the origin is in a plane with them: K = e₁·(e₂ × e₃) is zero;
+//! 1. the origin is in a plane with them: the signed volume K = e₁·(e₂ × e₃), which is that of [`kernel`], is zero;
 //! 2. along no axis do the cross products e₁×e₂, e₂×e₃, …, e_N×e₁ have components of both signs;
 //! 3. along no axis do all corners have coordinates of one strict sign.
 //!
@@ -41,20 +41,20 @@
 //! Along one axis alone nearly every contact is settled, with a handful of signs. (A polynomial that is zero throughout takes none.)
 
 mod moment;
+mod remainder;
 mod rounded;
 #[cfg(test)]
 mod tests;
-mod whole;
 
-use super::aligned::AlignedPair;
+use super::aligned::{AlignedPair, Units};
 use super::integer::Integer;
-use super::kernel::bits_in;
+use super::kernel::{self, Judge, Width};
 use crate::PairKind;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use core::cmp::Ordering;
+use core::ops::ControlFlow;
 use moment::{Crossing, Moment, Root, sign_before_end};
-use whole::Whole;
 
 /// Whether the closed vertex and face, or the two closed edges, share a point at some time in [0, 1].
 ///
@@ -77,15 +77,11 @@ use whole::Whole;
 #[must_use]
 pub fn touches<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<bool> {
     let pair = AlignedPair::new::<P, S>(points)?;
-    let bits = pair.bits();
-    Some(if bits <= bits_in::<1>() {
-        in_words::<P, 1, 2, 3, 16>(&pair)
-    } else if bits <= bits_in::<2>() {
-        in_words::<P, 2, 4, 6, 32>(&pair)
-    } else if bits <= bits_in::<5>() {
-        in_words::<P, 5, 10, 15, 80>(&pair)
-    } else {
-        in_words::<P, 33, 66, 99, 528>(&pair)
+    Some(match Width::of(&pair) {
+        Width::Words1 => in_words::<P, 1, 2, 3, 16>(&pair),
+        Width::Words2 => in_words::<P, 2, 4, 6, 32>(&pair),
+        Width::Words5 => in_words::<P, 5, 10, 15, 80>(&pair),
+        Width::Words33 => in_words::<P, 33, 66, 99, 528>(&pair),
     })
 }
 
@@ -94,10 +90,37 @@ pub fn touches<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<bool> 
 /// Out of line, so that a call pays for the stack of its own width only.
 #[inline(never)]
 fn in_words<P: PairShape, const N: usize, const N2: usize, const N3: usize, const R: usize>(pair: &AlignedPair) -> bool {
+    let mut volume = Volume([Integer::ZERO; 4]);
+    // It does not break off.
+    let _ = kernel::in_words::<N, N2, N3>(pair, &mut volume);
     let axes = pair.coordinates::<N>();
     match P::KIND {
-        PairKind::VertexFace => Polygon::<3, N>::of_vertex_face(&axes).touches::<N2, N3, R>(),
-        PairKind::EdgeEdge => Polygon::<4, N>::of_edge_edge(&axes).touches::<N2, N3, R>(),
+        PairKind::VertexFace => Polygon::<3, N>::of_vertex_face(&axes).touches::<N3, R>(&volume.0),
+        PairKind::EdgeEdge => Polygon::<4, N>::of_edge_edge(&axes).touches::<N3, R>(&volume.0),
+    }
+}
+
+/// Notes the control values k₀, 3k₁, 3k₂, k₃: the volume's coefficients in s.
+struct Volume<const C: usize>([Integer<C>; 4]);
+
+impl<const C: usize> Judge for Volume<C> {
+    #[inline(always)]
+    fn wants(&self, _: usize) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn judge<const N2: usize, const N3: usize>(
+        &mut self,
+        index: usize,
+        value: &Integer<N3>,
+        _: impl FnOnce() -> [Integer<N2>; 3],
+        _: Units,
+    ) -> ControlFlow<()> {
+        if let Some(coefficient) = self.0.get_mut(index) {
+            *coefficient = value.widened();
+        }
+        ControlFlow::Continue(())
     }
 }
 
@@ -133,47 +156,28 @@ impl<const N: usize> Polygon<4, N> {
 }
 
 impl<const CORNERS: usize, const N: usize> Polygon<CORNERS, N> {
-    fn touches<const N2: usize, const N3: usize, const R: usize>(&self) -> bool {
-        let volume = self.volume::<N2, N3>();
+    fn touches<const C: usize, const R: usize>(&self, volume: &[Integer<C>; 4]) -> bool {
         let signs = volume.each_ref().map(Integer::sign);
         let [at_start, .., at_end] = signs;
-        if at_start.is_eq() && self.touches_at_an_end::<0, N2>() || at_end.is_eq() && self.touches_at_an_end::<1, N2>() {
+        if at_start.is_eq() && self.touches_at_an_end::<0, C>() || at_end.is_eq() && self.touches_at_an_end::<1, C>() {
             return true;
         }
-        let search = Search::<CORNERS, N, N2, N3, R>(self);
+        let search = Search::<CORNERS, N, C, R>(self);
         match changes_of_sign(signs) {
             _ if signs == [Ordering::Equal; 4] => search.touches_in_plane(),
             0 => false,
-            1 => search.touches_when_coplanar(&Crossing::<N3, R>::between_ends(&volume.each_ref().map(Whole::new))),
-            _ => search.touches_at_one_of_many(&volume.each_ref().map(Whole::new)),
+            1 => search.touches_when_coplanar(&Crossing::<C, R>::between_ends(volume)),
+            _ => search.touches_at_one_of_many(volume),
         }
     }
 
     /// At the start (`END` = 0) or end (1) of the step, when the origin is in a plane with the corners.
-    fn touches_at_an_end<const END: usize, const N2: usize>(&self) -> bool {
+    fn touches_at_an_end<const END: usize, const C: usize>(&self) -> bool {
         contains_origin(
             self,
-            |[[a, b], [c, d]]| minor::<N, N2>(&a[END], &b[END], &c[END], &d[END]).sign(),
+            |[[a, b], [c, d]]| minor::<N, C>(&a[END], &b[END], &c[END], &d[END]).sign(),
             |coordinate| coordinate[END].sign(),
         )
-    }
-
-    /// The determinant of the first three corners.
-    fn volume<const N2: usize, const N3: usize>(&self) -> [Integer<N3>; 4] {
-        let mut volume = [Integer::ZERO; 4];
-        for (x, [y, z]) in self.0.iter().zip(self.projections()) {
-            if let ([x0, ..], [_, y1, y2, ..], [_, z1, z2, ..]) = (x.as_slice(), y.as_slice(), z.as_slice()) {
-                let normal = cross::<N, N2>([[y1, z1], [y2, z2]]);
-                for (i, factor) in x0.iter().enumerate() {
-                    for (j, component) in normal.iter().enumerate() {
-                        if let Some(sum) = volume.get_mut(i + j) {
-                            *sum = sum.plus(&factor.times(component));
-                        }
-                    }
-                }
-            }
-        }
-        volume
     }
 
     /// The corners along the two other axes, for each axis.
@@ -225,27 +229,25 @@ fn contains_origin<const CORNERS: usize, const N: usize>(
 }
 
 /// For contact within the step, at roots of polynomials.
-struct Search<'a, const CORNERS: usize, const N: usize, const N2: usize, const N3: usize, const R: usize>(
-    &'a Polygon<CORNERS, N>,
-);
+struct Search<'a, const CORNERS: usize, const N: usize, const C: usize, const R: usize>(&'a Polygon<CORNERS, N>);
 
-impl<const CORNERS: usize, const N: usize, const N2: usize, const N3: usize, const R: usize> Search<'_, CORNERS, N, N2, N3, R> {
+impl<const CORNERS: usize, const N: usize, const C: usize, const R: usize> Search<'_, CORNERS, N, C, R> {
     /// At a time when the origin is in a plane with the corners.
-    fn touches_when_coplanar(&self, moment: &impl Moment<N3>) -> bool {
+    fn touches_when_coplanar(&self, moment: &impl Moment<C>) -> bool {
         contains_origin(
             self.0,
-            |neighbours| moment.sign(&cross::<N, N2>(neighbours).each_ref().map(Whole::new)),
-            |coordinate| moment.sign(&coordinate.each_ref().map(Whole::new)),
+            |neighbours| moment.sign(&cross::<N, C>(neighbours)),
+            |coordinate| moment.sign(&coordinate.each_ref().map(Integer::widened)),
         )
     }
 
     /// In a step with several roots of the volume, or one more than once.
-    fn touches_at_one_of_many(&self, volume: &[Whole<N3>; 4]) -> bool {
+    fn touches_at_one_of_many(&self, volume: &[Integer<C>; 4]) -> bool {
         let [k0, k1, k2, k3] = volume;
-        let derivative: [Whole<N3>; 3] = [*k1, k2.times_small(2), k3.times_small(3)];
+        let derivative: [Integer<C>; 3] = [*k1, k2.doubled(), k3.doubled().plus(k3)];
         // 3K = s·K′ + this: where the derivative is zero it has the volume's sign.
-        let rest: [Whole<N3>; 3] = [k0.times_small(3), k1.times_small(2), *k2];
-        let turning_points = Root::<N3, R>::positive(&derivative);
+        let rest: [Integer<C>; 3] = [k0.doubled().plus(k0), k1.doubled(), *k2];
+        let turning_points = Root::<C, R>::positive(&derivative);
         let mut crossing = Crossing::between_ends(volume);
         for turning_point in turning_points.iter().flatten() {
             let sign = turning_point.sign(&rest);
@@ -272,29 +274,25 @@ impl<const CORNERS: usize, const N: usize, const N2: usize, const N3: usize, con
 
     /// In a step throughout which the origin is in a plane with the corners.
     fn touches_in_plane(&self) -> bool {
-        let touches_at_a_root_of = |polynomial: &[Whole<N3>]| {
-            let roots = Root::<N3, R>::positive(polynomial);
+        let touches_at_a_root_of = |polynomial: &[Integer<C>]| {
+            let roots = Root::<C, R>::positive(polynomial);
             roots.iter().flatten().any(|root| self.touches_when_coplanar(root))
         };
         let mut coordinates = self.0.0.iter().flatten();
         let mut projections = self.0.projections().into_iter();
-        coordinates.any(|coordinate| touches_at_a_root_of(&coordinate.each_ref().map(Whole::new)))
-            || projections.any(|projection| {
-                neighbours(projection).any(|neighbours| {
-                    let cross = cross::<N, N2>(neighbours);
-                    touches_at_a_root_of(&cross.each_ref().map(Whole::new))
-                })
-            })
+        coordinates.any(|coordinate| touches_at_a_root_of(&coordinate.each_ref().map(Integer::widened)))
+            || projections
+                .any(|projection| neighbours(projection).any(|neighbours| touches_at_a_root_of(&cross::<N, C>(neighbours))))
     }
 }
 
 /// a·d − b·c.
-fn minor<const N: usize, const N2: usize>(a: &Integer<N>, b: &Integer<N>, c: &Integer<N>, d: &Integer<N>) -> Integer<N2> {
-    a.times::<N, N2>(d).minus(&b.times::<N, N2>(c))
+fn minor<const N: usize, const C: usize>(a: &Integer<N>, b: &Integer<N>, c: &Integer<N>, d: &Integer<N>) -> Integer<C> {
+    a.times::<N, C>(d).minus(&b.times::<N, C>(c))
 }
 
 /// One component of the cross product of neighbours, a quadratic in s.
-fn cross<const N: usize, const N2: usize>([[[a0, a1], [b0, b1]], [[c0, c1], [d0, d1]]]: Neighbours<'_, N>) -> [Integer<N2>; 3] {
+fn cross<const N: usize, const C: usize>([[[a0, a1], [b0, b1]], [[c0, c1], [d0, d1]]]: Neighbours<'_, N>) -> [Integer<C>; 3] {
     [
         minor(a0, b0, c0, d0),
         minor(a0, b0, c1, d1).plus(&minor(a1, b1, c0, d0)),

@@ -7,9 +7,10 @@
 //!
 //! # Head-room
 //! Let coefficients of the corners be below 2ᵐ, as [`kernel`](crate::exact::kernel) has it: m = 64·N − 2 bits for coordinates of
-//! N words. Then cross products are quadratics with coefficients below 2^(2m+2); the volume is a cubic with k₀, k₃ ≤ 6·2³ᵐ
-//! and k₁, k₂ ≤ 18·2³ᵐ; its derivatives, and the quadratic that stands for it where the first is zero, stay below
-//! 36·2³ᵐ < 2^(3m+6): all of them, with the sign apart, in `C` = 3·N words.
+//! N words. Then cross products are quadratics with coefficients below 2^(2m+2). A determinant of nine numbers of magnitude one at most
+//! is 4 at most: being linear in each, it is largest where all are ±1. So the volume is a cubic with k₀, k₃ ≤ 4·2³ᵐ and, as sums of
+//! three determinants, k₁, k₂ ≤ 12·2³ᵐ; its derivatives, and the quadratic that stands for it where the first is zero, stay below
+//! 24·2³ᵐ < 2^(3m+5): all of them, with a sign, in `C` = 3·N words.
 //!
 //! A root's sign is that of one of the last numbers of [`terms`], the remainder l of a polynomial divided by the quadratic q, and of q
 //! divided by l. What can come together:
@@ -28,32 +29,33 @@
 //!
 //! Before all these words are computed the same is tried with [`rounded`](super::rounded) numbers; most signs are certain from them.
 
-use super::rounded::{Rounded, Scale};
-use super::whole::Whole;
+use super::remainder::{terms, value_at_quotient};
+use super::rounded::Scale;
+use crate::exact::integer::Integer;
 use core::cmp::Ordering;
 
 /// A time at which signs can be told.
 pub(super) trait Moment<const C: usize> {
     /// How the polynomial compares with zero then.
-    fn sign(&self, polynomial: &[Whole<C>]) -> Ordering;
+    fn sign(&self, polynomial: &[Integer<C>]) -> Ordering;
 }
 
 /// A polynomial's sign just after the start.
-fn sign_after_start<const C: usize>(polynomial: &[Whole<C>]) -> Ordering {
+fn sign_after_start<const C: usize>(polynomial: &[Integer<C>]) -> Ordering {
     first_of_signs(polynomial.iter())
 }
 
 /// A polynomial's sign just before the end.
-pub(super) fn sign_before_end<const C: usize>(polynomial: &[Whole<C>]) -> Ordering {
+pub(super) fn sign_before_end<const C: usize>(polynomial: &[Integer<C>]) -> Ordering {
     first_of_signs(polynomial.iter().rev())
 }
 
 /// Of those that are not zero.
 #[inline(always)]
-fn first_of_signs<'a, const C: usize>(mut coefficients: impl Iterator<Item = &'a Whole<C>>) -> Ordering {
+fn first_of_signs<'a, const C: usize>(mut coefficients: impl Iterator<Item = &'a Integer<C>>) -> Ordering {
     coefficients
         .find(|coefficient| !coefficient.is_zero())
-        .map_or(Ordering::Equal, Whole::sign)
+        .map_or(Ordering::Equal, Integer::sign)
 }
 
 /// Which of a quadratic's roots.
@@ -78,19 +80,19 @@ impl Side {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Root<const C: usize, const R: usize> {
     /// The last coefficient that is not zero is positive.
-    quadratic: [Whole<C>; 3],
+    quadratic: [Integer<C>; 3],
     side: Side,
 }
 
 impl<const C: usize, const R: usize> Root<C, R> {
     /// The positive roots of a polynomial of degree two at most, in ascending order, a double one twice. None for zero.
-    pub(super) fn positive(polynomial: &[Whole<C>]) -> [Option<Self>; 2] {
-        let mut quadratic = [Whole::ZERO; 3];
+    pub(super) fn positive(polynomial: &[Integer<C>]) -> [Option<Self>; 2] {
+        let mut quadratic = [Integer::ZERO; 3];
         for (to, from) in quadratic.iter_mut().zip(polynomial) {
             *to = *from;
         }
         if sign_before_end(&quadratic).is_lt() {
-            quadratic = quadratic.map(Whole::negated);
+            quadratic = quadratic.map(|coefficient| coefficient.negated());
         }
         let [a, b, c] = &quadratic;
         let lower = Self {
@@ -105,9 +107,9 @@ impl<const C: usize, const R: usize> Root<C, R> {
             // One change of sign, after which it stays positive.
             (Ordering::Less, ..) | (Ordering::Equal, Ordering::Less, _) => [None, Some(upper)],
             (Ordering::Greater, Ordering::Less, Ordering::Greater) => {
-                let squared: Whole<R> = b.times(b);
-                let product: Whole<R> = a.times(c);
-                let discriminant: Whole<R> = squared.minus(&product.times_small::<R>(4));
+                let squared: Integer<R> = b.times(b);
+                let product: Integer<R> = a.times(c);
+                let discriminant: Integer<R> = squared.minus(&product.doubled().doubled());
                 if discriminant.sign().is_lt() {
                     [None; 2]
                 } else {
@@ -120,9 +122,9 @@ impl<const C: usize, const R: usize> Root<C, R> {
 }
 
 impl<const C: usize, const R: usize> Moment<C> for Root<C, R> {
-    fn sign(&self, polynomial: &[Whole<C>]) -> Ordering {
+    fn sign(&self, polynomial: &[Integer<C>]) -> Ordering {
         // Common where corners move in a plane along an axis; and no rounded number tells that another is zero.
-        if polynomial.iter().all(Whole::is_zero) {
+        if polynomial.iter().all(Integer::is_zero) {
             return Ordering::Equal;
         }
         #[cfg(test)]
@@ -130,8 +132,8 @@ impl<const C: usize, const R: usize> Moment<C> for Root<C, R> {
         if let Some(sign) = self.estimated_sign(polynomial) {
             return sign;
         }
-        let quadratic = self.quadratic.each_ref().map(Whole::widened::<R>);
-        let polynomial = polynomial.iter().rev().map(Whole::widened::<R>);
+        let quadratic = self.quadratic.each_ref().map(Integer::widened::<R>);
+        let polynomial = polynomial.iter().rev().map(Integer::widened::<R>);
         if self.is_of_linear() {
             let [a, b, _] = quadratic;
             return value_at_quotient([a, b], polynomial).sign();
@@ -151,13 +153,13 @@ impl<const C: usize, const R: usize> Moment<C> for Root<C, R> {
 
 impl<const C: usize, const R: usize> Root<C, R> {
     /// Whether it is the root of a linear polynomial.
-    const fn is_of_linear(&self) -> bool {
+    fn is_of_linear(&self) -> bool {
         let [_, _, c] = &self.quadratic;
         c.is_zero()
     }
 
     /// The sign, if rounded numbers tell.
-    fn estimated_sign(&self, polynomial: &[Whole<C>]) -> Option<Ordering> {
+    fn estimated_sign(&self, polynomial: &[Integer<C>]) -> Option<Ordering> {
         let of_quadratic = Scale::of(&self.quadratic);
         let of_polynomial = Scale::of(polynomial);
         let quadratic = self.quadratic.each_ref().map(|x| of_quadratic.rounded(x));
@@ -178,91 +180,6 @@ impl<const C: usize, const R: usize> Root<C, R> {
     }
 }
 
-/// What whole numbers and rounded ones have in common.
-trait Number: Copy {
-    const ZERO: Self;
-    fn plus(&self, other: &Self) -> Self;
-    fn minus(&self, other: &Self) -> Self;
-    fn times(&self, other: &Self) -> Self;
-}
-
-impl<const R: usize> Number for Whole<R> {
-    const ZERO: Self = Self::ZERO;
-
-    #[inline(always)]
-    fn plus(&self, other: &Self) -> Self {
-        Whole::plus(self, other)
-    }
-
-    #[inline(always)]
-    fn minus(&self, other: &Self) -> Self {
-        Whole::minus(self, other)
-    }
-
-    #[inline(always)]
-    fn times(&self, other: &Self) -> Self {
-        Whole::times(self, other)
-    }
-}
-
-impl Number for Rounded {
-    const ZERO: Self = Self::ZERO;
-
-    #[inline(always)]
-    fn plus(&self, other: &Self) -> Self {
-        Rounded::plus(*self, *other)
-    }
-
-    #[inline(always)]
-    fn minus(&self, other: &Self) -> Self {
-        Rounded::minus(*self, *other)
-    }
-
-    #[inline(always)]
-    fn times(&self, other: &Self) -> Self {
-        Rounded::times(*self, *other)
-    }
-}
-
-/// The value v₀·b⁻ⁿ, without the last factor, that a polynomial of degree n, given by its coefficients from the highest down, has at
-/// −a/b, where b > 0 (Horner's rule).
-#[inline(always)]
-fn value_at_quotient<T: Number>([a, b]: [T; 2], polynomial: impl IntoIterator<Item = T>) -> T {
-    let mut coefficients = polynomial.into_iter();
-    let mut value = coefficients.next().unwrap_or(T::ZERO);
-    let mut power = b;
-    for coefficient in coefficients {
-        value = coefficient.times(&power).minus(&value.times(&a));
-        power = power.times(&b);
-    }
-    value
-}
-
-/// The three numbers whose signs decide which sign a polynomial, given by its coefficients from the highest down, has at a root
-/// of q = a + b·s + c·s², c > 0.
-///
-/// First the remainder l₀ + l₁·s, a positive multiple of the polynomial at both roots of q, by Horner's rule: (l₀ + l₁·s)·s,
-/// times c and with c·s² = −a − b·s, is −a·l₁ + (c·l₀ − b·l₁)·s. Its value at σ = (−b ± √D)/2c, D = b² − 4ac, times 2c, is
-/// A ± l₁√D with A = 2c·l₀ − b·l₁. Where the two have opposite signs,
-/// A² − l₁²D = 4c·(c·l₀² − b·l₀l₁ + a·l₁²) says which is larger. (The number in brackets is the resultant of polynomial and q
-/// times a power of c.) Returned are l₁, A and the number in brackets.
-#[inline(always)]
-fn terms<T: Number>([a, b, c]: [T; 3], polynomial: impl IntoIterator<Item = T>) -> [T; 3] {
-    let mut coefficients = polynomial.into_iter();
-    let mut l1 = coefficients.next().unwrap_or(T::ZERO);
-    let mut l0 = coefficients.next().unwrap_or(T::ZERO);
-    let mut power = c;
-    for coefficient in coefficients {
-        let next = coefficient.times(&power).minus(&l1.times(&a));
-        (l0, l1) = (next, l0.times(&c).minus(&l1.times(&b)));
-        power = power.times(&c);
-    }
-    let from_l0 = l0.times(&c);
-    let half = from_l0.minus(&l1.times(&b));
-    let last = l0.times(&half).plus(&l1.times(&l1).times(&a));
-    [l1, half.plus(&from_l0), last]
-}
-
 impl<const C: usize, const R: usize> Root<C, R> {
     /// Compares two roots.
     ///
@@ -280,7 +197,7 @@ impl<const C: usize, const R: usize> Root<C, R> {
                 Side::Upper => Ordering::Less,
             };
         }
-        let slope = self.sign(&[*b, c.times_small(2)]);
+        let slope = self.sign(&[*b, c.doubled()]);
         match (place, other.side, slope) {
             (Ordering::Equal, Side::Lower, Ordering::Less | Ordering::Equal)
             | (Ordering::Equal, Side::Upper, Ordering::Greater | Ordering::Equal) => Ordering::Equal,
@@ -291,7 +208,7 @@ impl<const C: usize, const R: usize> Root<C, R> {
 
 /// Where a cubic changes sign: the only place in an interval.
 pub(super) struct Crossing<'a, const C: usize, const R: usize> {
-    pub(super) cubic: &'a [Whole<C>; 4],
+    pub(super) cubic: &'a [Integer<C>; 4],
     /// The interval: open, from there, or from the start,
     pub(super) after: Option<&'a Root<C, R>>,
     /// to there, or to the end.
@@ -302,7 +219,7 @@ pub(super) struct Crossing<'a, const C: usize, const R: usize> {
 
 impl<'a, const C: usize, const R: usize> Crossing<'a, C, R> {
     /// In all of the step.
-    pub(super) fn between_ends(cubic: &'a [Whole<C>; 4]) -> Self {
+    pub(super) fn between_ends(cubic: &'a [Integer<C>; 4]) -> Self {
         Self {
             cubic,
             after: None,
@@ -328,7 +245,7 @@ impl<'a, const C: usize, const R: usize> Crossing<'a, C, R> {
 
 impl<const C: usize, const R: usize> Moment<C> for Crossing<'_, C, R> {
     /// Of a polynomial of degree two at most: that before the end, unless a root is in between.
-    fn sign(&self, polynomial: &[Whole<C>]) -> Ordering {
+    fn sign(&self, polynomial: &[Integer<C>]) -> Ordering {
         let mut sign = sign_before_end(polynomial);
         for root in Root::positive(polynomial).iter().flatten() {
             match self.compare(root) {
@@ -343,25 +260,9 @@ impl<const C: usize, const R: usize> Moment<C> for Crossing<'_, C, R> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Number, Root, Scale, Whole, terms, value_at_quotient};
+    use super::Root;
     use crate::exact::integer::Integer;
     use core::cmp::Ordering;
-
-    impl Number for i128 {
-        const ZERO: Self = 0;
-
-        fn plus(&self, other: &Self) -> Self {
-            self + other
-        }
-
-        fn minus(&self, other: &Self) -> Self {
-            self - other
-        }
-
-        fn times(&self, other: &Self) -> Self {
-            self * other
-        }
-    }
 
     #[test]
     fn roots_compare_as_the_numbers_that_they_are() {
@@ -374,7 +275,7 @@ mod tests {
             ([-2, 1, 0], [None, Some(2)]),
             ([-5, 1, 0], [None, Some(5)]),
         ];
-        let whole = |x: i64| Whole::<2>::new(&Integer::<1>::shifted(x, 0));
+        let whole = |x: i64| Integer::<2>::shifted(x, 0);
         let roots = polynomials.map(|(polynomial, values)| {
             let roots = Root::<2, 16>::positive(&polynomial.map(whole));
             assert_eq!(roots.each_ref().map(Option::is_some), values.map(|value| value.is_some()));
@@ -389,75 +290,12 @@ mod tests {
 
     #[test]
     fn rounded_numbers_tell_a_sign_that_is_clear() {
-        let whole = |x: i64| Whole::<2>::new(&Integer::<1>::shifted(x, 0));
+        let whole = |x: i64| Integer::<2>::shifted(x, 0);
         // 5 + s and −5 + s at s = 1 and 2.
         for root in Root::<2, 16>::positive(&[2, -3, 1].map(whole)).iter().flatten() {
             for (constant, sign) in [(5, Ordering::Greater), (-5, Ordering::Less)] {
                 assert_eq!(root.estimated_sign(&[constant, 1].map(whole)), Some(sign));
             }
         }
-    }
-
-    /// With coefficients of 16 bits all terms of a cubic fit into 128.
-    #[test]
-    fn rounded_terms_are_as_close_as_documented() {
-        let mut state = 0x9E37_79B9_7F4A_7C15_u64;
-        let mut random = || {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            i64::from(state as i16) >> (state >> 60)
-        };
-        let whole = |x: i64| Whole::<2>::new(&Integer::<1>::shifted(x, 0));
-        let mut largest = [0; 4];
-        for degree in [1, 2, 3] {
-            for _ in 0..100_000 {
-                let quadratic = [random(), random(), random()];
-                let cubic = [random(), random(), random(), random()];
-                let polynomial = cubic.iter().take(degree + 1);
-                let polynomial = polynomial.map(|&x| i128::from(x));
-                let [a, b, c] = quadratic.map(i128::from);
-                let [l1, first, last] = terms([a, b, c], polynomial.clone());
-                let exact = [l1, first, last, value_at_quotient([a, b], polynomial)];
-                // The scale's own power of two, by which the terms are too large.
-                let bits = |coefficients: &[i64]| {
-                    let magnitudes = coefficients.iter().map(|x| x.unsigned_abs());
-                    64 - magnitudes.max().unwrap_or(0).leading_zeros() as i32
-                };
-                let [of_quadratic, of_polynomial] = [bits(&quadratic), bits(cubic.get(..=degree).unwrap_or(&[]))];
-                let steps = degree as i32 - 1;
-                let of_remainder = of_polynomial + steps * of_quadratic;
-                let powers = [
-                    of_remainder,
-                    of_remainder + of_quadratic,
-                    2 * of_remainder + of_quadratic,
-                    of_remainder + of_quadratic,
-                ];
-
-                let quadratic = quadratic.map(whole);
-                let scale = Scale::of(&quadratic);
-                let rounded_quadratic = quadratic.each_ref().map(|x| scale.rounded(x));
-                let mut cubic = cubic.map(whole);
-                let polynomial = cubic.get_mut(..=degree).unwrap_or_default();
-                let scale = Scale::of(polynomial);
-                let rounded = polynomial.iter().map(|x| scale.rounded(x));
-                let [a, b, _] = rounded_quadratic;
-                let [l1, first, last] = terms(rounded_quadratic, rounded.clone());
-                let rounded = [l1, first, last, value_at_quotient([a, b], rounded)];
-                for (i, (exact, rounded)) in exact.into_iter().zip(rounded).enumerate() {
-                    let unit = 56 - powers[i];
-                    let exact = if unit >= 0 { exact << unit } else { exact >> -unit };
-                    let error = (exact - i128::from(rounded.0)).abs();
-                    largest[i] = largest[i].max(error);
-                }
-            }
-        }
-        // One more for the shift of the exact value.
-        assert!(
-            largest[0] <= 19 && largest[1] <= 60 && largest[2] <= 385 && largest[3] <= 26,
-            "{largest:?}"
-        );
-        // With so few bits only the last products are cut off.
-        assert!(largest[2] > 1 && largest[3] > 0, "{largest:?}");
     }
 }

@@ -1,7 +1,7 @@
 //! Fixed-point numbers for a first try at signs, in 64-bit whole numbers and not in floating point: no environment changes them.
 //!
-//! A polynomial's coefficients are divided by a power of two that is larger than all of them, and cut off after [`FRACTION`] = 56
-//! bits; so is every product. Each of that changes a number by less than δ = 2⁻⁵⁶. What [`terms`](super::moment) computes from them, at
+//! A polynomial's coefficients are divided by a power of two that none of them exceeds, and rounded down to [`FRACTION`] = 56 bits
+//! after the point; so is every product. Each of that changes a number by less than δ = 2⁻⁵⁶. What [`terms`](super::remainder) computes from them, at
 //! most a cubic and a quadratic, then has these bounds (an error in a product xy is |x|e_y + |y|e_x + δ, and something of second order):
 //!
 //! | number | magnitude ≤ | error, in δ |
@@ -21,7 +21,7 @@
 //! With 32, 64 and 512 in place of 18, 59 and 384 what is of second order, less than 2⁻⁴⁰ of it, is covered too. A polynomial of lower degree has less.
 //! No number exceeds 64·2⁵⁶ = 2⁶².
 //!
-//! At the root −a/b of a linear polynomial, [`value_at_quotient`](super::moment) of a cubic:
+//! At the root −a/b of a linear polynomial, [`value_at_quotient`](super::remainder) of a cubic:
 //!
 //! | number | magnitude ≤ | error, in δ |
 //! |---|---|---|
@@ -32,56 +32,58 @@
 //!
 //! Here 32 in place of 25 will do.
 
-use super::whole::Whole;
+use super::remainder::Number;
+use crate::exact::integer::Integer;
 use core::cmp::Ordering;
 
 /// Bits after the point.
 const FRACTION: u32 = 56;
 
-/// A number times 2⁵⁶, cut off.
+/// A number times 2⁵⁶, rounded down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Rounded(pub(super) i64);
 
-/// What a polynomial is divided by: two to this power is above every coefficient.
+/// What a polynomial is divided by: no coefficient exceeds two to this power.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale(u32);
 
 impl Scale {
     #[inline(always)]
-    pub(super) fn of<const C: usize>(polynomial: &[Whole<C>]) -> Self {
-        Self(polynomial.iter().map(Whole::bits).max().unwrap_or(0))
+    pub(super) fn of<const C: usize>(polynomial: &[Integer<C>]) -> Self {
+        Self(polynomial.iter().map(Integer::bits).max().unwrap_or(0))
     }
 
     #[inline(always)]
-    pub(super) fn rounded<const C: usize>(self, coefficient: &Whole<C>) -> Rounded {
-        let magnitude = match self.0.checked_sub(FRACTION) {
-            Some(dropped) => coefficient.magnitude_without(dropped),
-            None => coefficient.magnitude_without(0) << (FRACTION - self.0),
+    pub(super) fn rounded<const C: usize>(self, coefficient: &Integer<C>) -> Rounded {
+        let word = match self.0.checked_sub(FRACTION) {
+            Some(dropped) => coefficient.word_above(dropped),
+            None => coefficient.word_above(0) << (FRACTION - self.0),
         };
-        // Below 2⁵⁶ by the choice of the scale.
-        let magnitude = magnitude.cast_signed();
-        Rounded(if coefficient.sign().is_lt() { -magnitude } else { magnitude })
+        // In [−2⁵⁶, 2⁵⁶) by the choice of the scale.
+        Rounded(word.cast_signed())
     }
 }
 
-impl Rounded {
-    pub(super) const ZERO: Self = Self(0);
+impl Number for Rounded {
+    const ZERO: Self = Self(0);
 
     #[inline(always)]
-    pub(super) const fn plus(self, other: Self) -> Self {
+    fn plus(&self, other: &Self) -> Self {
         Self(self.0.wrapping_add(other.0))
     }
 
     #[inline(always)]
-    pub(super) const fn minus(self, other: Self) -> Self {
+    fn minus(&self, other: &Self) -> Self {
         Self(self.0.wrapping_sub(other.0))
     }
 
     #[inline(always)]
-    pub(super) const fn times(self, other: Self) -> Self {
-        Self(((self.0 as i128 * other.0 as i128) >> FRACTION) as i64)
+    fn times(&self, other: &Self) -> Self {
+        Self((i128::from(self.0) * i128::from(other.0) >> FRACTION) as i64)
     }
+}
 
+impl Rounded {
     /// The exact number's sign, if this is off by less than so many δ and farther than that from zero.
     #[inline(always)]
     pub(super) const fn sign_if_beyond(self, error: i64) -> Option<Ordering> {

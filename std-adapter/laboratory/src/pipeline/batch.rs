@@ -5,15 +5,17 @@ use super::assignment::FeatureAssignment;
 use super::pairs::MovingMesh;
 use super::preset::{CullingTest, ElementaryTest, Stages};
 use super::stored::{BoundingVolume, Stored};
+use crate::baselines::cubic;
+use crate::baselines::plain::Plain;
 use arrayvec::ArrayVec;
 use selvedge::PairCounts;
 use selvedge::PairKind;
 use selvedge::step::Contact;
-use selvedge_core::batch::{LANES, Level, Mask, Test, culled_from_rows};
+use selvedge_core::batch::{BatchTest, ByPoints, LANES, Level, Mask, Test, culled_from_rows};
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
 use selvedge_core::elementary::{Contact as Verdict, Limits, advance::time_of_impact, contact::settled};
-use selvedge_core::{EdgeEdge, PrimitivePair, Scalar, VertexFace, elementary};
+use selvedge_core::{EdgeEdge, PrimitivePair, Scalar, VertexFace};
 use std::time::Instant;
 
 /// What every batch of a step reads.
@@ -113,7 +115,7 @@ impl<S: Scalar> Batch<S> {
             CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => {
                 self.keep_by_lanes(step, Test::RelativeBoxesNine);
             }
-            CullingTest::PlainNonCoplanarity => self.keep_by_lanes(step, Test::PlainNonCoplanarity),
+            CullingTest::PlainNonCoplanarity => self.keep_by_lanes(step, ByPoints(Plain)),
             CullingTest::CertifiedNonCoplanarity => {
                 self.keep_by_lanes(step, Test::CertifiedNonCoplanarity);
             }
@@ -121,7 +123,7 @@ impl<S: Scalar> Batch<S> {
     }
 
     /// Drops what `test` culls, sixteen pairs at a time.
-    fn keep_by_lanes(&mut self, step: &StepInput<'_, S>, test: Test) {
+    fn keep_by_lanes(&mut self, step: &StepInput<'_, S>, test: impl BatchTest<S>) {
         for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
             let pairs = match kind {
                 PairKind::VertexFace => &mut self.vertex_face,
@@ -156,7 +158,7 @@ impl<S: Scalar> Batch<S> {
     pub(super) fn find_contacts(&mut self, step: &StepInput<'_, S>) {
         let limits = Limits::default();
         match step.stages.elementary {
-            ElementaryTest::Cubic => self.find_contacts_by(step, elementary::cubic::vertex_face, elementary::cubic::edge_edge),
+            ElementaryTest::Cubic => self.find_contacts_by(step, cubic::vertex_face, cubic::edge_edge),
             ElementaryTest::TimeOfImpact => self.find_contacts_by(
                 step,
                 |pair| time_of_impact(pair, &limits).time(),

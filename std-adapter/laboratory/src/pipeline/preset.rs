@@ -122,7 +122,7 @@ impl CullingTest {
 /// Decides whether, and when, a surviving pair first touches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ElementaryTest {
-    /// [`selvedge_core::elementary::cubic`]: plain, misses contacts.
+    /// [`cubic`](crate::baselines::cubic): plain, misses contacts.
     Cubic,
     /// [`selvedge_core::elementary::advance`], with the default tolerance: certified; a contact's time is not after the exact
     /// one, and a pair that comes within the tolerance, or too close to tell, counts as a contact.

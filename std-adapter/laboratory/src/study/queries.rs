@@ -6,6 +6,7 @@
 //! its length, in the fastest of three runs, so that an interruption is not taken for a slow query. The pair is then in
 //! the cache and the processor's branches are trained on it: what is measured is the arithmetic.
 
+use crate::baselines::{additive, bernstein_sign, cubic, plain, tight_inclusion};
 use crate::pipeline::{CullingTest, Preset, Stages};
 use selvedge::PairKind;
 use selvedge_core::boxes::{self, Dop18};
@@ -40,13 +41,13 @@ pub enum QueryMethod {
     SegmentBox,
     /// [`CullingTest::StoredDop18`] alone, the DOPs made from the pair.
     Dop18,
-    /// [`elementary::cubic`], Provot's test. **Not certified**: it misses contacts.
+    /// [`cubic`], Provot's test. **Not certified**: it misses contacts.
     Cubic,
-    /// [`elementary::bernstein_sign`], Tang et al. 2014 without exact arithmetic. **Not certified**: it misses contacts.
+    /// [`bernstein_sign`], Tang et al. 2014 without exact arithmetic. **Not certified**: it misses contacts.
     BernsteinSign,
-    /// [`elementary::tight_inclusion`], the bisection of Wang et al. 2021, with their default tolerance of 1e-6.
+    /// [`tight_inclusion`], the bisection of Wang et al. 2021, with their default tolerance of 1e-6.
     TightInclusion,
-    /// [`elementary::additive`], Li et al. 2021. **Not certified.**
+    /// [`additive`], Li et al. 2021. **Not certified.**
     Additive,
 }
 
@@ -230,15 +231,15 @@ fn measure<S: Scalar, P: QueryPair<S>>(mut run: Run<'_, S::Vector>) -> QueryResu
         QueryMethod::SegmentBox => run.with(|pair: &P| keeps(Test::SegmentBox, pair)),
         QueryMethod::Dop18 => run.with(|pair: &P| keeps(Test::StoredDop18, pair)),
         QueryMethod::Cubic => run.with(|pair: &P| pair.cubic().is_some()),
-        QueryMethod::BernsteinSign => run.with(|pair: &P| elementary::bernstein_sign::touches(pair)),
+        QueryMethod::BernsteinSign => run.with(|pair: &P| bernstein_sign::touches(pair)),
         QueryMethod::TightInclusion => {
             let limits = Limits {
                 tolerance: S::from_f64(1e-6),
                 separation: S::ZERO,
             };
-            run.with(|pair: &P| elementary::tight_inclusion::time_of_impact(pair, &limits) != Impact::Never)
+            run.with(|pair: &P| tight_inclusion::time_of_impact(pair, &limits) != Impact::Never)
         }
-        QueryMethod::Additive => run.with(|pair: &P| elementary::additive::time_of_impact(pair, S::ZERO) != Impact::Never),
+        QueryMethod::Additive => run.with(|pair: &P| additive::time_of_impact(pair, S::ZERO) != Impact::Never),
     }
 }
 
@@ -253,7 +254,7 @@ fn keeps<S: Scalar>(test: CullingTest, pair: &impl QueryPair<S>) -> bool {
         CullingTest::SegmentBox => pair.segment_box(),
         CullingTest::RelativeBoxes | CullingTest::SubspaceThree => boxes::relative::three_axes(pair),
         CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => boxes::relative::nine_directions(pair),
-        CullingTest::PlainNonCoplanarity => filter::plain::non_coplanarity(pair),
+        CullingTest::PlainNonCoplanarity => plain::non_coplanarity(pair),
         CullingTest::CertifiedNonCoplanarity => filter::certified::non_coplanarity(pair),
     };
     !verdict.is_culled()
@@ -288,7 +289,7 @@ impl<S: Scalar> QueryPair<S> for VertexFace<S> {
 
     #[inline(always)]
     fn cubic(&self) -> Option<S> {
-        elementary::cubic::vertex_face(self)
+        cubic::vertex_face(self)
     }
 }
 
@@ -314,7 +315,7 @@ impl<S: Scalar> QueryPair<S> for EdgeEdge<S> {
 
     #[inline(always)]
     fn cubic(&self) -> Option<S> {
-        elementary::cubic::edge_edge(self)
+        cubic::edge_edge(self)
     }
 }
 

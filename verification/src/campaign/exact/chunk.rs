@@ -5,11 +5,12 @@ use super::pairs::{Maker, Random};
 use super::{Claim, Scenes, Source, Tally};
 use crate::generator::{Format, PairCase};
 use selvedge_core::PairKind;
-use selvedge_core::batch::{LANES, Level, Test, culled};
+use selvedge_core::batch::{ByPoints, LANES, Level, Test, culled};
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::{EdgeEdge, PrimitivePair, VertexFace};
+use selvedge_laboratory::baselines::plain::Plain;
 
 /// The number format of a chunk: 0 is `f32`, 1 is `f64`.
 pub(super) const fn format(chunk: u64) -> usize {
@@ -76,7 +77,10 @@ impl Chunk<'_> {
                     Claim::RelativeBoxes => Test::RelativeBoxesNine,
                     Claim::NormalDirection => Test::NormalDirection,
                     Claim::SegmentBox => Test::SegmentBox,
-                    Claim::Plain => Test::PlainNonCoplanarity,
+                    Claim::Plain => {
+                        culled::<S, P>(self.level, ByPoints(Plain), &pairs, masks);
+                        continue;
+                    }
                     Claim::TimeOfImpact => continue,
                 };
                 culled::<S, P>(self.level, test, &pairs, masks);

@@ -38,7 +38,7 @@ pub enum Claim {
     SegmentBox,
     /// [`time_of_impact`](selvedge_core::elementary::advance::time_of_impact) without a separation, tolerance zero or the default.
     TimeOfImpact,
-    /// [`Test::PlainNonCoplanarity`](selvedge_core::batch::Test::PlainNonCoplanarity): **not certified**, to show that false culls are found.
+    /// [`Plain`](selvedge_laboratory::baselines::plain::Plain): **not certified**, to show that false culls are found.
     Plain,
 }
 

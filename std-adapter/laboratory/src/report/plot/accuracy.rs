@@ -134,7 +134,7 @@ fn is_unsafe(measured: &Measured<'_>) -> bool {
 fn name(measured: &Measured<'_>, set: &AccuracySet) -> String {
     let Measured { row, look, nanoseconds } = *measured;
     let filter = match row.filter {
-        MeasuredFilter::Tier(Tier::Uncertified) => "as computed".to_owned(),
+        MeasuredFilter::Uncertified => "as computed".to_owned(),
         filter => filter.name().replace('_', " "),
     };
     let time = time(nanoseconds * 1e-9);

@@ -4,19 +4,22 @@ use std::fmt;
 /// A non-coplanarity filter whose accuracy and time are measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MeasuredFilter {
-    /// [`selvedge_core::filter::plain`], as printed in the paper. **Not certified.**
+    /// [`plain`](crate::baselines::plain), as printed in the paper. **Not certified.**
     Paper,
+    /// [`AsComputed`](crate::baselines::as_computed::AsComputed): signs as computed. **Not certified.**
+    Uncertified,
     /// [`selvedge_core::filter::Filter`] of this tier.
     Tier(Tier),
 }
 
 impl MeasuredFilter {
-    /// The paper's filter, then every tier in the order of [`Tier::ALL`].
+    /// The paper's filter, signs as computed, then every tier in the order of [`Tier::ALL`].
     pub const ALL: [Self; 11] = {
         let mut all = [Self::Paper; 11];
+        all[1] = Self::Uncertified;
         let mut index = 0;
         while index < Tier::ALL.len() {
-            all[index + 1] = Self::Tier(Tier::ALL[index]);
+            all[index + 2] = Self::Tier(Tier::ALL[index]);
             index += 1;
         }
         all
@@ -27,7 +30,7 @@ impl MeasuredFilter {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Paper => "paper",
-            Self::Tier(Tier::Uncertified) => "uncertified",
+            Self::Uncertified => "uncertified",
             Self::Tier(Tier::MagnitudesByEdge) => "by_edge",
             Self::Tier(Tier::MagnitudesByAxis) => "by_axis",
             Self::Tier(Tier::Permanent) => "permanent",
@@ -43,10 +46,7 @@ impl MeasuredFilter {
     /// Whether a pair that it culls is proven to be free of contact.
     #[must_use]
     pub const fn is_certified(self) -> bool {
-        match self {
-            Self::Paper => false,
-            Self::Tier(tier) => tier.is_certified(),
-        }
+        matches!(self, Self::Tier(_))
     }
 
     /// Whether all that it culls must be culled by exact signs as well. [`Tier::Subdivided`] culls coplanar pairs that do

@@ -1,10 +1,12 @@
 //! The clock and the counts, on one set of pairs in one format.
 
 use super::{AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, MeasuredFilter, PairSet};
+use crate::baselines::as_computed::AsComputed;
+use crate::baselines::plain::{self, Plain};
 use selvedge::dispatch::{Level, available_levels};
 use selvedge_core::PairKind;
-use selvedge_core::batch::{LANES, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles};
-use selvedge_core::filter::{Filter, Tier, plain};
+use selvedge_core::batch::{ByPoints, ByVolume, LANES, Mask, Tile, VertexRow, culled_from_rows, culled_from_tiles};
+use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::points::{EdgeAndEdge, PairShape, VertexAndFace};
 use selvedge_core::{EdgeEdge, Motion, PrimitivePair, Scalar, Verdict, VertexFace, exact};
 use std::hint::black_box;
@@ -167,6 +169,7 @@ impl<S: Scalar> Measurement<S> {
         let is_widest = S::FRACTION_BITS == f64::MANTISSA_DIGITS - 1;
         let is_left_out = match filter {
             MeasuredFilter::Paper => separation > S::ZERO,
+            MeasuredFilter::Uncertified => false,
             MeasuredFilter::Tier(tier) => tier == Tier::Widened && is_widest,
         };
         if is_left_out {
@@ -265,6 +268,14 @@ fn one_at_a_time<S: Scalar>(filter: MeasuredFilter, separation: S, pairs: &Pairs
     }
     match filter {
         MeasuredFilter::Paper => pairs.one_by_one(paper, paper, masks),
+        MeasuredFilter::Uncertified => {
+            let filter = as_computed(separation);
+            pairs.one_by_one(
+                |pair| filter.verdict(pair) == Verdict::Culled,
+                |pair| filter.verdict(pair) == Verdict::Culled,
+                masks,
+            );
+        }
         MeasuredFilter::Tier(tier) => {
             let filter = with_separation(tier, separation);
             pairs.one_by_one(
@@ -281,7 +292,11 @@ fn from_rows<S: Scalar>(filter: MeasuredFilter, separation: S, level: Level, pai
     let Pairs { kind, rows, indices } = *pairs;
     match filter {
         MeasuredFilter::Paper => {
-            culled_from_rows(level, kind, Test::PlainNonCoplanarity, rows, indices, masks);
+            culled_from_rows(level, kind, ByPoints(Plain), rows, indices, masks);
+        }
+        MeasuredFilter::Uncertified => {
+            let test = ByVolume(as_computed(separation));
+            culled_from_rows(level, kind, test, rows, indices, masks);
         }
         MeasuredFilter::Tier(tier) => {
             let filter = with_separation(tier, separation);
@@ -301,13 +316,20 @@ fn from_tiles<S: Scalar>(
 ) {
     match filter {
         MeasuredFilter::Paper => {
-            culled_from_tiles(level, kind, Test::PlainNonCoplanarity, tiles, masks);
+            culled_from_tiles(level, kind, ByPoints(Plain), tiles, masks);
         }
+        MeasuredFilter::Uncertified => culled_from_tiles(level, kind, ByVolume(as_computed(separation)), tiles, masks),
         MeasuredFilter::Tier(tier) => {
             let filter = with_separation(tier, separation);
             culled_from_tiles(level, kind, filter, tiles, masks);
         }
     }
+}
+
+/// Without the separation if it is none.
+fn as_computed<S: Scalar>(separation: S) -> AsComputed<S> {
+    let filter = AsComputed::new();
+    filter.with_separation(separation).unwrap_or(filter)
 }
 
 /// Without the separation if it is none; see [`AccuracyOptions`](super::AccuracyOptions).

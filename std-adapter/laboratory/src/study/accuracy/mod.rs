@@ -33,7 +33,6 @@ pub use pairs::PairSet;
 use super::{ArmFrames, Frames};
 use crate::scene::ArmScene;
 use selvedge::glam::DVec3;
-use selvedge_core::filter::Tier;
 use std::error::Error;
 
 /// How the filters are measured.
@@ -125,10 +124,10 @@ impl AccuracySet {
         self.rows.iter().find(|row| row.filter == filter)
     }
 
-    /// A row's time on a backend over that of [`Tier::Uncertified`] on the same.
+    /// A row's time on a backend over that of [`MeasuredFilter::Uncertified`] on the same.
     #[must_use]
     pub fn over_uncertified(&self, time: BackendTime) -> Option<f64> {
-        let uncertified = self.row(MeasuredFilter::Tier(Tier::Uncertified))?;
+        let uncertified = self.row(MeasuredFilter::Uncertified)?;
         Some(time.nanoseconds / uncertified.time(time.backend)?)
     }
 }
@@ -260,6 +259,7 @@ pub fn measure_accuracy<F: Frames>(
 mod tests {
     use super::*;
     use crate::study::TwoFrames;
+    use selvedge_core::filter::Tier;
 
     fn measured(separation: f64) -> Accuracy {
         let options = AccuracyOptions {
@@ -311,7 +311,7 @@ mod tests {
     fn filters_that_ignore_rounding_are_caught_on_nearly_coplanar_pairs() {
         let accuracy = measured(0.0);
         for set in accuracy.sets.iter().filter(|set| set.name == "Nearly coplanar pairs") {
-            assert!(row(set, Tier::Uncertified).culled_beyond_exact > 0);
+            assert!(set.row(MeasuredFilter::Uncertified).unwrap().culled_beyond_exact > 0);
             assert!(set.row(MeasuredFilter::Paper).unwrap().culled_beyond_exact > 0);
         }
     }
@@ -337,7 +337,7 @@ mod tests {
                 assert_eq!(row.times.len(), 1 + levels);
                 assert!(row.times.iter().all(|time| time.nanoseconds > 0.0));
             }
-            let uncertified = row(&set, Tier::Uncertified).times[0];
+            let uncertified = set.row(MeasuredFilter::Uncertified).unwrap().times[0];
             assert_eq!(set.over_uncertified(uncertified), Some(1.0));
         }
     }

@@ -1,7 +1,6 @@
 use super::Pair;
-use selvedge_core::elementary::{
-    Contact, Limits, additive, advance, advance::uncertified, bernstein_sign, contact::settled, cubic, tight_inclusion,
-};
+use crate::baselines::{additive, bernstein_sign, cubic, tight_inclusion, uncertified};
+use selvedge_core::elementary::{Contact, Limits, advance, contact::settled};
 use selvedge_core::{PrimitivePair, Scalar};
 use std::fmt;
 
@@ -14,13 +13,13 @@ pub enum ElementaryMethod {
     Uncertified(f64),
     /// [`selvedge_core::elementary::contact`](mod@selvedge_core::elementary::contact), with the certified time of the default tolerance.
     Exact,
-    /// [`selvedge_core::elementary::tight_inclusion`]. It never misses.
+    /// [`tight_inclusion`]. It never misses.
     TightInclusion(f64),
     /// [`selvedge_core::elementary::additive`]. **Not certified.**
     Additive,
-    /// [`selvedge_core::elementary::bernstein_sign`], which tells no times. **Not certified.**
+    /// [`bernstein_sign`], which tells no times. **Not certified.**
     BernsteinSign,
-    /// [`selvedge_core::elementary::cubic`]. **Not certified.**
+    /// [`cubic`]. **Not certified.**
     Cubic,
 }
 

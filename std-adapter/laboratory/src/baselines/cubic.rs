@@ -9,14 +9,15 @@
 //!
 //! `selvedge queries --method cubic` shows how often.
 
-use crate::coplanarity::MovingTetrahedron;
-use crate::motion::{EdgeEdge, PrimitivePair, VertexFace};
-use crate::scalar::Scalar;
+use selvedge_core::coplanarity::MovingTetrahedron;
+use selvedge_core::motion::{EdgeEdge, Motion, PrimitivePair, VertexFace};
+use selvedge_core::{Scalar, Vector};
 
 /// The earliest time in [0, 1] at which the vertex is found in the triangle, or `None`. May be wrong: see the module.
 ///
 /// ```
-/// use selvedge_core::{elementary::cubic, glam::DVec3, Motion, VertexFace};
+/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+/// use selvedge_laboratory::baselines::cubic;
 /// let pair = VertexFace {
 ///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -3.0)),
 ///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
@@ -27,8 +28,8 @@ use crate::scalar::Scalar;
 #[must_use]
 pub fn vertex_face<S: Scalar>(pair: &VertexFace<S>) -> Option<S> {
     first_root(pair, |time| {
-        let [a, b, c] = pair.face.map(|vertex| vertex.at(time));
-        let (b, c, p) = (b - a, c - a, pair.vertex.at(time) - a);
+        let [a, b, c] = pair.face.map(|vertex| at(vertex, time));
+        let (b, c, p) = (b - a, c - a, at(pair.vertex, time) - a);
         let normal = b.cross(c);
         let area = normal.dot(normal);
         let along_b = p.cross(c).dot(normal);
@@ -42,7 +43,7 @@ pub fn vertex_face<S: Scalar>(pair: &VertexFace<S>) -> Option<S> {
 #[must_use]
 pub fn edge_edge<S: Scalar>(pair: &EdgeEdge<S>) -> Option<S> {
     first_root(pair, |time| {
-        let [[u, v], [k, l]] = [pair.first, pair.second].map(|edge| edge.map(|end| end.at(time)));
+        let [[u, v], [k, l]] = [pair.first, pair.second].map(|edge| edge.map(|end| at(end, time)));
         let (first, second, between) = (v - u, l - k, k - u);
         let normal = first.cross(second);
         let scale = normal.dot(normal);
@@ -51,6 +52,13 @@ pub fn edge_edge<S: Scalar>(pair: &EdgeEdge<S>) -> Option<S> {
         let on_edge = |along: S| along >= S::ZERO && along <= scale;
         scale > S::ZERO && on_edge(along_first) && on_edge(along_second)
     })
+}
+
+/// The position at `time`, rounded.
+#[inline(always)]
+fn at<S: Scalar>(motion: Motion<S>, time: S) -> Vector<S> {
+    let [start, end] = [motion.start, motion.end].map(|position| Vector::from(position.into()));
+    start.scaled(S::ONE - time) + end.scaled(time)
 }
 
 /// The earliest root of the pair's cubic in [0, 1] that `accept` agrees with.

@@ -22,14 +22,13 @@
 //! m on that axis (|1 − u − v| + u + v ≤ 3). Hence 36εm, and ε = 2u in any direction of rounding; the bound 80u·max(1, m) covers
 //! that and what is of second order. The 1 covers underflow. (The published code has min(1, m), which does not bound the error of large coordinates.)
 
-use super::corners::{largest_extent, less_roundoffs};
-use super::{Impact, Limits, Reason};
-use crate::PairKind;
-use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape};
-use crate::scalar::Scalar;
-use crate::vector::Vector;
 use arrayvec::ArrayVec;
+use selvedge_core::PairKind;
+use selvedge_core::elementary::{Impact, Limits, Reason};
+use selvedge_core::motion::PrimitivePair;
+use selvedge_core::points::{PairPoints, PairShape};
+use selvedge_core::scalar::Scalar;
+use selvedge_core::vector::Vector;
 
 /// After so many boxes the search ends.
 pub const CHECKS: u32 = 1_000_000;
@@ -42,8 +41,9 @@ const OPEN: usize = 160;
 /// NaN, infinite and very large coordinates exclude nothing.
 ///
 /// ```
-/// use selvedge_core::elementary::{Limits, tight_inclusion::time_of_impact};
+/// use selvedge_core::elementary::Limits;
 /// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+/// use selvedge_laboratory::baselines::tight_inclusion::time_of_impact;
 /// let pair = VertexFace {
 ///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)),
 ///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
@@ -73,7 +73,7 @@ fn search<S: Scalar, P: PairShape>(points: &PairPoints<S>, limits: &Limits<S>) -
     for point in points.start.iter().chain(&points.end) {
         largest = point.abs().larger(largest);
     }
-    if !(largest.largest() <= largest_extent() && limits.separation <= largest_extent()) {
+    if !(largest.largest() <= S::LARGEST_EDGE && limits.separation <= S::LARGEST_EDGE) {
         return possible(S::ZERO, Reason::OutOfRange);
     }
     let error = largest.scaled(S::small(80) * S::UNIT_ROUNDOFF);
@@ -196,7 +196,7 @@ fn halves<S: Scalar, P: PairShape>(points: &PairPoints<S>, cell: &Cell<S>) -> Op
         by_v = change(corner(u + du, v), corner(u + du, v + dv)).larger(by_v);
     }
     // A half must be a number of the format: not below its precision at 1.
-    let shortest = (S::ONE - less_roundoffs::<S>(1)) * S::small(4);
+    let shortest = S::small(4) * S::UNIT_ROUNDOFF;
     let mut best: Option<(usize, S)> = None;
     for (variable, change) in [by_t, by_u, by_v].into_iter().enumerate() {
         let size = cell.size.get(variable).copied().unwrap_or(S::ZERO);

@@ -14,7 +14,7 @@
 //!
 //! In exact arithmetic that is a decision. The paper reaches it by expansions where floating point is in doubt; here rounding is
 //! ignored, to show what the classification costs alone and how often it then errs. The reduction is what suffers: where K is nearly
-//! of lower degree, c²·g and q·K nearly cancel. [`exact::touches`](crate::exact::touches) decides exactly, by the same idea with
+//! of lower degree, c²·g and q·K nearly cancel. [`exact::touches`](selvedge_core::exact::touches) decides exactly, by the same idea with
 //! quadratics in place of quartics.
 //!
 //! Where K is zero throughout there is no root to speak of, and the pair is said to touch unless an inside function is
@@ -22,18 +22,19 @@
 //! than misses. Written from the paper's description.
 
 use super::cubic::Cubic;
-use crate::PairKind;
-use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape};
-use crate::scalar::Scalar;
-use crate::vector::Vector;
+use selvedge_core::PairKind;
+use selvedge_core::motion::PrimitivePair;
+use selvedge_core::points::{PairPoints, PairShape};
+use selvedge_core::scalar::Scalar;
+use selvedge_core::vector::Vector;
 
 /// Whether the pair touches at some time in [0, 1]. May be wrong by rounding, either way: see the module.
 ///
 /// NaN and infinite coordinates exclude nothing.
 ///
 /// ```
-/// use selvedge_core::{elementary::bernstein_sign, glam::DVec3, Motion, VertexFace};
+/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+/// use selvedge_laboratory::baselines::bernstein_sign;
 /// let falls_at = |x| VertexFace {
 ///     vertex: Motion::new(DVec3::new(x, 0.2, 1.0), DVec3::new(x, 0.2, -3.0)),
 ///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),

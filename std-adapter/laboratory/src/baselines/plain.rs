@@ -3,14 +3,12 @@
 //! Kept as the baseline that the presets `tang_2010` and `lv_2014` reproduce (Lv, He, Mi, equations 1 to 14; the
 //! same filter as Tang, Manocha, Tong 2010). The plane's normal in the middle of the step comes from the velocities,
 //! n̂ = (n₀ + n₁ − (v_b − v_a)×(v_c − v_a)) / 2, and the signs of A, B, 2C + F and 2D + E are taken as computed.
-//! Prefer [`certified`](super::certified).
+//! Prefer [`certified`](selvedge_core::filter::certified).
 
-use crate::coplanarity::ControlValues;
-use crate::lanes::{Lanes, Rounding};
-use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape};
-use crate::scalar::Scalar;
-use crate::verdict::Verdict;
+use selvedge_core::batch::PointsTest;
+use selvedge_core::coplanarity::ControlValues;
+use selvedge_core::points::{PairPoints, PairShape};
+use selvedge_core::{Lanes, PrimitivePair, Rounding, Scalar, Verdict};
 
 /// Culls `pair` if A, B, 2C + F and 2D + E, as computed, all have the same strict sign.
 ///
@@ -18,6 +16,17 @@ use crate::verdict::Verdict;
 #[inline(always)]
 pub fn non_coplanarity<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
     Verdict::culled_if(has_one_sign::<P::Shape, S>(&pair.points()))
+}
+
+/// The same decision for batches: [`ByPoints`](selvedge_core::batch::ByPoints).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Plain;
+
+impl PointsTest for Plain {
+    #[inline(always)]
+    fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask {
+        has_one_sign::<P, L>(points)
+    }
 }
 
 /// The same decision on any number of lanes.

@@ -1,0 +1,160 @@
+//! The numbers whose signs decide which sign a polynomial has at a root of another: the same formulas for whole numbers and for
+//! rounded ones.
+
+use crate::exact::integer::Integer;
+
+/// What whole numbers and rounded ones have in common.
+pub(super) trait Number: Copy {
+    const ZERO: Self;
+    fn plus(&self, other: &Self) -> Self;
+    fn minus(&self, other: &Self) -> Self;
+    fn times(&self, other: &Self) -> Self;
+}
+
+impl<const R: usize> Number for Integer<R> {
+    const ZERO: Self = Self::ZERO;
+
+    #[inline(always)]
+    fn plus(&self, other: &Self) -> Self {
+        Integer::plus(self, other)
+    }
+
+    #[inline(always)]
+    fn minus(&self, other: &Self) -> Self {
+        Integer::minus(self, other)
+    }
+
+    #[inline(always)]
+    fn times(&self, other: &Self) -> Self {
+        Integer::times(self, other)
+    }
+}
+
+/// The value v₀·b⁻ⁿ, without the last factor, that a polynomial of degree n, given by its coefficients from the highest down, has at
+/// −a/b, where b > 0 (Horner's rule).
+#[inline(always)]
+pub(super) fn value_at_quotient<T: Number>([a, b]: [T; 2], polynomial: impl IntoIterator<Item = T>) -> T {
+    let mut coefficients = polynomial.into_iter();
+    let mut value = coefficients.next().unwrap_or(T::ZERO);
+    let mut power = b;
+    for (step, coefficient) in coefficients.enumerate() {
+        if step > 0 {
+            power = power.times(&b);
+        }
+        value = coefficient.times(&power).minus(&value.times(&a));
+    }
+    value
+}
+
+/// The three numbers whose signs decide which sign a polynomial, given by its coefficients from the highest down, has at a root
+/// of q = a + b·s + c·s², c > 0.
+///
+/// First the remainder l₀ + l₁·s, a positive multiple of the polynomial at both roots of q, by Horner's rule: (l₀ + l₁·s)·s,
+/// times c and with c·s² = −a − b·s, is −a·l₁ + (c·l₀ − b·l₁)·s. Its value at σ = (−b ± √D)/2c, D = b² − 4ac, times 2c, is
+/// A ± l₁√D with A = 2c·l₀ − b·l₁. Where the two have opposite signs,
+/// A² − l₁²D = 4c·(c·l₀² − b·l₀l₁ + a·l₁²) says which is larger. (The number in brackets is the resultant of polynomial and q
+/// times a power of c.) Returned are l₁, A and the number in brackets.
+#[inline(always)]
+pub(super) fn terms<T: Number>([a, b, c]: [T; 3], polynomial: impl IntoIterator<Item = T>) -> [T; 3] {
+    let mut coefficients = polynomial.into_iter();
+    let mut l1 = coefficients.next().unwrap_or(T::ZERO);
+    let mut l0 = coefficients.next().unwrap_or(T::ZERO);
+    let mut power = c;
+    for (step, coefficient) in coefficients.enumerate() {
+        if step > 0 {
+            power = power.times(&c);
+        }
+        let next = coefficient.times(&power).minus(&l1.times(&a));
+        (l0, l1) = (next, l0.times(&c).minus(&l1.times(&b)));
+    }
+    let from_l0 = l0.times(&c);
+    let half = from_l0.minus(&l1.times(&b));
+    let last = l0.times(&half).plus(&l1.times(&l1).times(&a));
+    [l1, half.plus(&from_l0), last]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Number, terms, value_at_quotient};
+    use crate::exact::contact::rounded::Scale;
+    use crate::exact::integer::Integer;
+
+    impl Number for i128 {
+        const ZERO: Self = 0;
+
+        fn plus(&self, other: &Self) -> Self {
+            self + other
+        }
+
+        fn minus(&self, other: &Self) -> Self {
+            self - other
+        }
+
+        fn times(&self, other: &Self) -> Self {
+            self * other
+        }
+    }
+
+    /// With coefficients of 16 bits all terms of a cubic fit into 128.
+    #[test]
+    fn rounded_terms_are_as_close_as_documented() {
+        let mut state = 0x9E37_79B9_7F4A_7C15_u64;
+        let mut random = || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            i64::from(state as i16) >> (state >> 60)
+        };
+        let whole = |x: i64| Integer::<2>::shifted(x, 0);
+        let mut largest = [0; 4];
+        for degree in [1, 2, 3] {
+            for _ in 0..100_000 {
+                let quadratic = [random(), random(), random()];
+                let cubic = [random(), random(), random(), random()];
+                let polynomial = cubic.iter().take(degree + 1);
+                let polynomial = polynomial.map(|&x| i128::from(x));
+                let [a, b, c] = quadratic.map(i128::from);
+                let [l1, first, last] = terms([a, b, c], polynomial.clone());
+                let exact = [l1, first, last, value_at_quotient([a, b], polynomial)];
+                // The scale's own power of two, by which the terms are too large.
+                let bits = |coefficients: &[i64]| {
+                    let bits = coefficients.iter().map(|&x| whole(x).bits());
+                    bits.max().unwrap_or(0).cast_signed()
+                };
+                let [of_quadratic, of_polynomial] = [bits(&quadratic), bits(cubic.get(..=degree).unwrap_or(&[]))];
+                let steps = degree as i32 - 1;
+                let of_remainder = of_polynomial + steps * of_quadratic;
+                let powers = [
+                    of_remainder,
+                    of_remainder + of_quadratic,
+                    2 * of_remainder + of_quadratic,
+                    of_remainder + of_quadratic,
+                ];
+
+                let quadratic = quadratic.map(whole);
+                let scale = Scale::of(&quadratic);
+                let rounded_quadratic = quadratic.each_ref().map(|x| scale.rounded(x));
+                let mut cubic = cubic.map(whole);
+                let polynomial = cubic.get_mut(..=degree).unwrap_or_default();
+                let scale = Scale::of(polynomial);
+                let rounded = polynomial.iter().map(|x| scale.rounded(x));
+                let [a, b, _] = rounded_quadratic;
+                let [l1, first, last] = terms(rounded_quadratic, rounded.clone());
+                let rounded = [l1, first, last, value_at_quotient([a, b], rounded)];
+                for (i, (exact, rounded)) in exact.into_iter().zip(rounded).enumerate() {
+                    let unit = 56 - powers[i];
+                    let exact = if unit >= 0 { exact << unit } else { exact >> -unit };
+                    let error = (exact - i128::from(rounded.0)).abs();
+                    largest[i] = largest[i].max(error);
+                }
+            }
+        }
+        // One more for the shift of the exact value.
+        assert!(
+            largest[0] <= 19 && largest[1] <= 60 && largest[2] <= 385 && largest[3] <= 26,
+            "{largest:?}"
+        );
+        // With so few bits only the last products are cut off.
+        assert!(largest[2] > 1 && largest[3] > 0, "{largest:?}");
+    }
+}

@@ -1,0 +1,75 @@
+//! The signs of the control values as computed. **Not certified**: rounding makes it cull a colliding pair now and then.
+//!
+//! The certified filters ([`Filter`]) compute the same values, and ask in addition whether they exceed a bound of their rounding
+//! error. What that costs, and what it is there for, is seen by comparison with this.
+
+use selvedge_core::batch::VolumeTest;
+use selvedge_core::coplanarity::MovingTetrahedron;
+use selvedge_core::filter::certified::Decision;
+use selvedge_core::filter::{Filter, Tier};
+use selvedge_core::points::PairShape;
+use selvedge_core::{Lanes, PrimitivePair, Scalar, Verdict};
+
+/// Culls pairs whose control values have one strict sign as computed, and exceed a separation if there is one. For batches:
+/// [`ByVolume`](selvedge_core::batch::ByVolume).
+///
+/// ```
+/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+/// use selvedge_laboratory::baselines::as_computed::AsComputed;
+/// let pair = VertexFace {
+///     vertex: Motion::new(DVec3::new(0.2, 0.2, 2.0), DVec3::new(0.2, 0.2, 1.0)),
+///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// };
+/// assert!(AsComputed::new().verdict(&pair).is_culled());
+/// assert!(!AsComputed::new().with_separation(1.5).unwrap().verdict(&pair).is_culled());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AsComputed<S> {
+    separation: S,
+}
+
+impl<S: Scalar> AsComputed<S> {
+    /// For pairs that never touch: separation zero.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { separation: S::ZERO }
+    }
+
+    /// The same for pairs that must stay farther apart than `separation`, which [`Filter::with_separation`] judges.
+    #[must_use]
+    pub fn with_separation(self, separation: S) -> Option<Self> {
+        let separation = Filter::new(Tier::Permanent).with_separation(separation)?.separation();
+        Some(Self { separation })
+    }
+
+    /// Culls `pair`, or keeps it. May be wrong either way.
+    #[inline]
+    pub fn verdict<P: PrimitivePair<S>>(&self, pair: &P) -> Verdict {
+        Verdict::culled_if(self.on::<P::Shape, S>(&pair.tetrahedron()).culled)
+    }
+}
+
+impl<S: Scalar> Default for AsComputed<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<S: Scalar> VolumeTest<S> for AsComputed<S> {
+    #[inline(always)]
+    fn on<P: PairShape, L: Lanes<Scalar = S>>(self, tetrahedron: &MovingTetrahedron<L>) -> Decision<L::Mask> {
+        let constant = |value| tetrahedron.p[0].x.splat(value);
+        let zero = constant(S::ZERO);
+        let clearances = if self.separation > S::ZERO {
+            let outer = constant(self.separation) * tetrahedron.largest_normal(P::KIND);
+            let inner = outer * constant(S::small(3));
+            [outer, inner, inner, outer]
+        } else {
+            [zero; 4]
+        };
+        Decision {
+            culled: tetrahedron.control_values().one_sign_beyond(clearances),
+            settled: zero.greater(zero),
+        }
+    }
+}

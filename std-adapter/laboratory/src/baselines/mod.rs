@@ -1,0 +1,24 @@
+//! Filters and elementary tests that others published, and what certification is compared with. **They promise nothing**: each may
+//! cull a pair that touches, or miss a contact, as its own page says.
+//!
+//! | baseline | what it is | what is not promised |
+//! |---|---|---|
+//! | [`plain`] | the paper's non-coplanarity filter, equations 1 to 14, as printed | rounding is ignored: culls a colliding pair now and then |
+//! | [`as_computed`] | control values of one sign, as computed | rounding is ignored as well |
+//! | [`cubic`] | the plain textbook test (Provot 1997) | misses contacts |
+//! | [`bernstein_sign`] | signs of polynomials (Tang et al. 2014) without their exact arithmetic; whether, not when | misses contacts |
+//! | [`additive`] | additive advancement (Li et al. 2021) | rounding is ignored: in practice no miss, many false alarms |
+//! | [`uncertified`] | our advancing without its bounds | rounding is ignored: misses contacts, or finds them too late |
+//! | [`tight_inclusion`] | bisection of time and parameters (Wang et al. 2021) | no miss, but no useful bound of the work |
+//!
+//! The filters run sixteen pairs at a time by the code that runs core's, at the same width: what is compared is the tests.
+
+pub mod as_computed;
+pub mod bernstein_sign;
+pub mod cubic;
+pub mod plain;
+pub mod tight_inclusion;
+
+// They share parts of core's advancing.
+pub use selvedge_core::elementary::additive;
+pub use selvedge_core::elementary::advance::uncertified;
