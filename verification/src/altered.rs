@@ -8,8 +8,9 @@ use selvedge_core::boxes::{direction, relative, segment};
 use selvedge_core::filter::certified::{Bound, decide};
 use selvedge_core::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
 use selvedge_core::{Lanes, PrimitivePair, Rounding, Vector};
+use std::cmp::Ordering;
 use std::marker::PhantomData;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// What the constants of [`Rounding`] are multiplied by.
 pub trait Factors {
@@ -61,6 +62,25 @@ impl<F, S: Format> Mul for Altered<F, S> {
     }
 }
 
+impl<F, S: Format> Div for Altered<F, S> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        Self::new(self.0 / other.0)
+    }
+}
+
+impl<F, S: Format> PartialEq for Altered<F, S> {
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl<F, S: Format> PartialOrd for Altered<F, S> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.0.partial_cmp(&other.0)
+    }
+}
+
 impl<F, S: Format> Neg for Altered<F, S> {
     type Output = Self;
     fn neg(self) -> Self {
@@ -74,6 +94,10 @@ impl<F, S: Format> Rounding for Altered<F, S> {
     const UNDERFLOW: Self = Self::new(S::UNDERFLOW);
     const LARGEST_EDGE: Self = Self::new(S::LARGEST_EDGE);
     const SUM_GAP: Self = Self::new(S::SUM_GAP);
+    const LARGEST_EXTENT: Self = Self::new(S::LARGEST_EXTENT);
+    const EXTENT_UNDERFLOW: Self = Self::new(S::EXTENT_UNDERFLOW);
+    const SAFE_SQUARE: Self = Self::new(S::SAFE_SQUARE);
+    const LENGTH_UNDERFLOW: Self = Self::new(S::LENGTH_UNDERFLOW);
     const ZERO: Self = Self::new(S::ZERO);
     const ONE: Self = Self::new(S::ONE);
     const HALF: Self = Self::new(S::HALF);
@@ -117,6 +141,12 @@ impl<F: Factors, S: Format> Lanes for Altered<F, S> {
     }
     fn greater(self, other: Self) -> bool {
         self.0.greater(other.0)
+    }
+    fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
+        if mask { if_true } else { if_false }
+    }
+    fn may_leave(open: bool) -> bool {
+        !open
     }
 }
 

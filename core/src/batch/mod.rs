@@ -32,6 +32,7 @@ mod advance;
 mod chunk;
 mod kernels;
 mod rows;
+#[cfg(not(unoptimised))]
 mod simd;
 mod tile;
 

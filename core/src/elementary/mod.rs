@@ -13,9 +13,7 @@
 pub mod additive;
 pub mod advance;
 pub mod bernstein_sign;
-mod closest;
 pub mod contact;
-pub(crate) mod corners;
 pub mod cubic;
 mod impact;
 pub mod tight_inclusion;

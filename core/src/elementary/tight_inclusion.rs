@@ -22,7 +22,6 @@
 //! m on that axis (|1 − u − v| + u + v ≤ 3). Hence 36εm, and ε = 2u in any direction of rounding; the bound 80u·max(1, m) covers
 //! that and what is of second order. The 1 covers underflow. (The published code has min(1, m), which does not bound the error of large coordinates.)
 
-use super::corners::{largest_extent, less_roundoffs};
 use super::{Impact, Limits, Reason};
 use crate::PairKind;
 use crate::motion::PrimitivePair;
@@ -73,7 +72,7 @@ fn search<S: Scalar, P: PairShape>(points: &PairPoints<S>, limits: &Limits<S>) -
     for point in points.start.iter().chain(&points.end) {
         largest = point.abs().larger(largest);
     }
-    if !(largest.largest() <= largest_extent() && limits.separation <= largest_extent()) {
+    if !(largest.largest() <= S::LARGEST_EXTENT && limits.separation <= S::LARGEST_EXTENT) {
         return possible(S::ZERO, Reason::OutOfRange);
     }
     let error = largest.scaled(S::small(80) * S::UNIT_ROUNDOFF);
@@ -196,7 +195,7 @@ fn halves<S: Scalar, P: PairShape>(points: &PairPoints<S>, cell: &Cell<S>) -> Op
         by_v = change(corner(u + du, v), corner(u + du, v + dv)).larger(by_v);
     }
     // A half must be a number of the format: not below its precision at 1.
-    let shortest = (S::ONE - less_roundoffs::<S>(1)) * S::small(4);
+    let shortest = S::UNIT_ROUNDOFF * S::small(4);
     let mut best: Option<(usize, S)> = None;
     for (variable, change) in [by_t, by_u, by_v].into_iter().enumerate() {
         let size = cell.size.get(variable).copied().unwrap_or(S::ZERO);
