@@ -5,6 +5,8 @@
 use crate::generator::{Format, PairCase};
 use selvedge_core::PairKind;
 use selvedge_core::boxes::{direction, relative, segment};
+use selvedge_core::elementary::advance::time_of_impact_of_points;
+use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::filter::certified::{Bound, decide};
 use selvedge_core::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
 use selvedge_core::{Lanes, PrimitivePair, Rounding, Vector};
@@ -150,6 +152,37 @@ impl<F: Factors, S: Format> Lanes for Altered<F, S> {
     }
 }
 
+fn altered<F: Factors, S: Format>(points: &PairPoints<S>) -> PairPoints<Altered<F, S>> {
+    let number = Altered::<F, S>::new;
+    let altered = |v: Vector<S>| Vector::new(number(v.x), number(v.y), number(v.z));
+    PairPoints {
+        start: points.start.map(altered),
+        end: points.end.map(altered),
+    }
+}
+
+/// The pair's time of impact, with the constants of its bounds times `F`. (A subnormal separation is not raised.)
+pub fn time_of_impact<F: Factors, S: Format>(pair: &PairCase<S>, limits: &Limits<S>) -> Impact<S> {
+    let limits = Limits {
+        tolerance: Altered::new(limits.tolerance),
+        separation: Altered::new(limits.separation),
+    };
+    let impact = match pair.kind {
+        PairKind::VertexFace => {
+            let points = altered::<F, S>(&pair.vertex_face().points());
+            time_of_impact_of_points::<VertexAndFace, _>(&points, &limits).0
+        }
+        PairKind::EdgeEdge => {
+            let points = altered::<F, S>(&pair.edge_edge().points());
+            time_of_impact_of_points::<EdgeAndEdge, _>(&points, &limits).0
+        }
+    };
+    match impact {
+        Impact::Never => Impact::Never,
+        Impact::Possible { time, reason } => Impact::Possible { time: time.0, reason },
+    }
+}
+
 /// A kernel whose bound has constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kernel {
@@ -183,12 +216,7 @@ impl Kernel {
     }
 
     fn on<P: PairShape, F: Factors, S: Format>(self, points: &PairPoints<S>) -> bool {
-        let number = Altered::<F, S>::new;
-        let altered = |v: Vector<S>| Vector::new(number(v.x), number(v.y), number(v.z));
-        let points = PairPoints {
-            start: points.start.map(altered),
-            end: points.end.map(altered),
-        };
+        let points = altered::<F, S>(points);
         match self {
             Self::Bounded(bound) => decide::<P, _>(bound, &points.tetrahedron::<P>(), None).culled,
             Self::Segment => P::KIND == PairKind::VertexFace && segment::misses_face(&points),

@@ -264,6 +264,9 @@ impl Trace {
                 let both = [a, b].map(|&x| self.paths_with_last_step(x, last));
                 union(both, 0)
             }
+            Step::Quotient(a, b) if [a, b].iter().all(|x| !matches!(x, Traced::Step(_))) => {
+                Paths::from([(vec![format!("{a:?}/{b:?}")], last)])
+            }
             Step::Quotient(..) | Step::Root(_) => panic!("a quotient or a root is no polynomial"),
         }
     }

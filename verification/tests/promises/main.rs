@@ -35,4 +35,5 @@ mod proofs_are_about_the_code;
 mod simulation_is_free_of_intersections;
 mod tiers_keep_their_promises;
 mod time_of_impact_is_never_late;
+mod time_of_impact_on_tiny_numbers;
 mod verdicts_are_invariant;

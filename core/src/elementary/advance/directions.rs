@@ -84,20 +84,29 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
         let zero = bar.splat(L::Scalar::ZERO);
         let mut is_apart = among;
         let mut until = beyond(bar);
-        for ([start, end], position) in self.ends.iter().zip(positions) {
-            is_apart = is_apart & w.dot(*position).greater(bar);
-            if L::may_leave(is_apart) {
-                break;
-            }
-            let at_end = w.dot(*end);
-            let stays = at_end.greater(bar);
-            if !L::may_leave(!stays) {
-                let at_start = w.dot(*start);
-                let quotient = (at_start - bar) / (at_start - at_end) * less_roundoffs(bar, 32);
-                is_apart = is_apart & (stays | at_start.greater(at_end) & quotient.greater(zero));
-                until = L::select(stays, until, quotient.smaller(until));
-            }
+        // No loop: of several lanes' worth it would not be unrolled.
+        macro_rules! corner {
+            ($index:literal) => {
+                if let (Some(&[start, end]), Some(&position)) = (self.ends.get($index), positions.get($index)) {
+                    is_apart = is_apart & w.dot(position).greater(bar);
+                    if L::may_leave(is_apart) {
+                        return Proven { is_apart, until };
+                    }
+                    let at_end = w.dot(end);
+                    let stays = at_end.greater(bar);
+                    if !L::may_leave(!stays) {
+                        let at_start = w.dot(start);
+                        let quotient = (at_start - bar) / (at_start - at_end) * less_roundoffs(bar, 32);
+                        is_apart = is_apart & (stays | at_start.greater(at_end) & quotient.greater(zero));
+                        until = L::select(stays, until, quotient.smaller(until));
+                    }
+                }
+            };
         }
+        corner!(0);
+        corner!(1);
+        corner!(2);
+        corner!(3);
         Proven { is_apart, until }
     }
 }

@@ -142,10 +142,7 @@ fn a_kind_reads_back_as_it_is_written() {
         assert_eq!(kind.to_string().parse(), Ok(kind));
     }
     // Core, which has no strings to keep, leaves it to the caller to quote the text.
-    assert_names(
-        &"vf".parse::<PairKind>().unwrap_err().to_string(),
-        &["vertex-face", "edge-edge"],
-    );
+    assert_names(&"vf".parse::<PairKind>().unwrap_err().to_string(), &["vertex-face", "edge-edge"]);
 }
 
 #[test]
