@@ -171,9 +171,11 @@ fn every_constant_direction_on_a_grid_of_three_values_with_9_bits() {
         every_constant_direction::<UPWARD>(grid, POINT),
         every_constant_direction::<TOWARDS_ZERO>(grid, POINT),
     ];
-    for seen in all {
-        assert!(seen.proven > 1000 && seen.until > 100 && seen.worst > 0.005, "{seen:?}");
+    for seen in &all {
+        assert!(seen.proven > 1000 && seen.until > 100, "{seen:?}");
     }
+    // To nearest. On this grid nothing that is not positive is computed as positive when all is rounded down.
+    assert!(all[0].worst > 0.005, "{all:?}");
 }
 
 /// About the smallest normal number, 2⁻¹⁴: differences and products are flushed.
