@@ -4,7 +4,7 @@
 //! holds several numbers it serves as many pairs, one per lane, and comparisons yield a mask instead of a
 //! `bool`. Verification instantiates the same source with tiny number formats and tries every input.
 
-use core::ops::{Add, BitAnd, BitOr, BitXor, Mul, Neg, Sub};
+use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 /// The constants of a binary floating-point format that rounding-error bounds are made of.
 ///
@@ -35,6 +35,16 @@ pub trait Rounding: Copy {
     /// What one sum of two coordinates must exceed another by, so that flushed operands do not matter: η/u, 2⁻⁹³ for
     /// `f32`, 2⁻⁹⁴⁷ for `f64`. See [`boxes`](crate::boxes#why-sums-may-round).
     const SUM_GAP: Self;
+    /// Differences of points along an axis up to which the time of impact proves anything: 2²⁹ for `f32`, 2²⁵⁰ for `f64`. Products
+    /// of four numbers of eight times this size do not overflow.
+    const LARGEST_EXTENT: Self;
+    /// μ, added to the extent of a pair along each axis: 20u·μ is more than the seven λ that flushing takes from a component. 2⁻¹⁰⁰ for
+    /// `f32`, 2⁻⁹⁶⁰ for `f64`.
+    const EXTENT_UNDERFLOW: Self;
+    /// A sum of squares above this has lost less than a part u of itself to flushing: 2⁻¹⁰⁰ for `f32`, 2⁻⁹⁰⁰ for `f64`.
+    const SAFE_SQUARE: Self;
+    /// A vector of which the squares underflow is no longer than this: 2⁻⁶² for `f32`, 2⁻⁵¹⁰ for `f64`.
+    const LENGTH_UNDERFLOW: Self;
     /// Zero.
     const ZERO: Self;
     /// One.
@@ -51,11 +61,17 @@ pub trait Rounding: Copy {
 ///
 /// Every operation rounds on its own: no fused multiply-add, no reassociation. That is what makes
 /// verdicts the same for every number of lanes.
-pub trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
+pub trait Lanes:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
     /// The number format of each lane.
     type Scalar: Rounding;
     /// One truth value per lane: `bool`, or a mask.
-    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + BitXor<Output = Self::Mask>;
+    type Mask: Copy
+        + BitAnd<Output = Self::Mask>
+        + BitOr<Output = Self::Mask>
+        + BitXor<Output = Self::Mask>
+        + Not<Output = Self::Mask>;
 
     /// The same value in each lane. It takes `self` (and ignores its value) because a vector type may need a
     /// witness that the machine has its instructions.
@@ -80,15 +96,54 @@ pub trait Lanes: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = S
     /// `self > other`, lane by lane; false where either is NaN.
     #[must_use]
     fn greater(self, other: Self) -> Self::Mask;
+    /// One or the other, lane by lane.
+    #[must_use]
+    fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self;
+    /// Whether no lane is `open`, so that the rest of a computation can be left out. Several lanes say no, whatever they are:
+    /// they agree so rarely that asking costs more than it saves.
+    #[inline(always)]
+    #[must_use]
+    fn may_leave(open: Self::Mask) -> bool {
+        let _ = open;
+        false
+    }
+}
+
+/// One lane alone, whose comparisons are a `bool` that early exits may take: `f32`, `f64`, and what verification puts in their
+/// place.
+pub trait Number: Lanes<Scalar = Self, Mask = bool> + Rounding + PartialOrd {}
+
+impl<T: Lanes<Scalar = T, Mask = bool> + Rounding + PartialOrd> Number for T {}
+
+/// So many unit roundoffs below one, in the lanes of `like`: a factor that makes up for the rounding of a few operations.
+#[inline(always)]
+pub(crate) fn less_roundoffs<L: Lanes>(like: L, count: u8) -> L {
+    like.splat(L::Scalar::ONE) - roundoffs(like, count)
+}
+
+/// So many unit roundoffs above one.
+#[inline(always)]
+pub(crate) fn more_roundoffs<L: Lanes>(like: L, count: u8) -> L {
+    like.splat(L::Scalar::ONE) + roundoffs(like, count)
+}
+
+/// So many unit roundoffs.
+#[inline(always)]
+pub(crate) fn roundoffs<L: Lanes>(like: L, count: u8) -> L {
+    like.splat(L::Scalar::small(count)) * like.splat(L::Scalar::UNIT_ROUNDOFF)
 }
 
 macro_rules! one_lane {
-    ($scalar:ty, $sqrt:path, $roundoff:expr, $underflow:expr, $largest_edge:expr, $sum_gap:expr) => {
+    ($scalar:ty, $sqrt:path, $power_of_two:path, $constants:expr) => {
         impl Rounding for $scalar {
-            const UNIT_ROUNDOFF: Self = $roundoff;
-            const UNDERFLOW: Self = $underflow;
-            const LARGEST_EDGE: Self = $largest_edge;
-            const SUM_GAP: Self = $sum_gap;
+            const UNIT_ROUNDOFF: Self = <$scalar>::EPSILON / 2.0;
+            const UNDERFLOW: Self = $power_of_two($constants.underflow);
+            const LARGEST_EDGE: Self = $power_of_two($constants.largest_edge);
+            const SUM_GAP: Self = $power_of_two($constants.sum_gap);
+            const LARGEST_EXTENT: Self = $power_of_two($constants.largest_extent);
+            const EXTENT_UNDERFLOW: Self = $power_of_two($constants.extent_underflow);
+            const SAFE_SQUARE: Self = $power_of_two($constants.safe_square);
+            const LENGTH_UNDERFLOW: Self = $power_of_two($constants.length_underflow);
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const HALF: Self = 0.5;
@@ -138,12 +193,22 @@ macro_rules! one_lane {
             fn greater(self, other: Self) -> bool {
                 self > other
             }
+
+            #[inline(always)]
+            fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
+                if mask { if_true } else { if_false }
+            }
+
+            #[inline(always)]
+            fn may_leave(open: bool) -> bool {
+                !open
+            }
         }
     };
 }
 
 /// A power of two, whose exponent field is biased by 127.
-const fn power_of_two_f32(exponent: i32) -> f32 {
+const fn power_of_two_f32(exponent: i64) -> f32 {
     f32::from_bits(((127 + exponent) as u32) << 23)
 }
 
@@ -152,22 +217,39 @@ pub(crate) const fn power_of_two_f64(exponent: i64) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
-one_lane!(
-    f32,
-    libm::sqrtf,
-    f32::EPSILON / 2.0,
-    power_of_two_f32(-117),
-    power_of_two_f32(30),
-    power_of_two_f32(-93)
-);
-one_lane!(
-    f64,
-    libm::sqrt,
-    f64::EPSILON / 2.0,
-    power_of_two_f64(-1000),
-    power_of_two_f64(250),
-    power_of_two_f64(-947)
-);
+/// A format's constants, as powers of two.
+struct Exponents {
+    underflow: i64,
+    largest_edge: i64,
+    sum_gap: i64,
+    largest_extent: i64,
+    extent_underflow: i64,
+    safe_square: i64,
+    length_underflow: i64,
+}
+
+const SINGLE: Exponents = Exponents {
+    underflow: -117,
+    largest_edge: 30,
+    sum_gap: -93,
+    largest_extent: 29,
+    extent_underflow: -100,
+    safe_square: -100,
+    length_underflow: -62,
+};
+
+const DOUBLE: Exponents = Exponents {
+    underflow: -1000,
+    largest_edge: 250,
+    sum_gap: -947,
+    largest_extent: 250,
+    extent_underflow: -960,
+    safe_square: -900,
+    length_underflow: -510,
+};
+
+one_lane!(f32, libm::sqrtf, power_of_two_f32, SINGLE);
+one_lane!(f64, libm::sqrt, power_of_two_f64, DOUBLE);
 
 #[cfg(test)]
 mod tests {

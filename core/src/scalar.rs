@@ -1,9 +1,8 @@
 //! `f32` and `f64`, the two number formats that positions come in.
 
 use crate::batch::BatchScalar;
-use crate::lanes::{Lanes, Rounding, power_of_two_f64};
+use crate::lanes::{Number, power_of_two_f64};
 use core::fmt::{Debug, Display};
-use core::ops::Div;
 
 mod sealed {
     pub trait Sealed {}
@@ -14,20 +13,7 @@ mod sealed {
 /// `f32` or `f64`: the format of a caller's positions, with the [`glam`] vector type that goes with it.
 ///
 /// Sealed: the adapter's promises are checked for these two formats only.
-pub trait Scalar:
-    Lanes<Scalar = Self, Mask = bool>
-    + Rounding
-    + BatchScalar
-    + Div<Output = Self>
-    + PartialOrd
-    + Debug
-    + Display
-    + Default
-    + Send
-    + Sync
-    + 'static
-    + sealed::Sealed
-{
+pub trait Scalar: Number + BatchScalar + Debug + Display + Default + Send + Sync + 'static + sealed::Sealed {
     /// [`glam::Vec3`] or [`glam::DVec3`].
     type Vector: Position<Scalar = Self>;
 

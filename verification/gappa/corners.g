@@ -1,9 +1,14 @@
-# Products with corners, and what is proven by them: core/src/elementary/corners.rs, core/src/elementary/advance/directions.rs.
+# Products with corners, and what is proven by them: corners.rs and directions.rs in core/src/elementary/advance.
 #
 # M_k is the largest |e_k| as computed, at both ends; S the sum of |w_k| M_k. An exact e_k is at most M_k / (1 - 2u).
 # 1. w.e(t), e(t) = fl((1 - t) e(0) + t e(1)): the difference, 1 - t, a product, a sum, a product, two additions: 7 roundings. Two
-#    such products, added (a direction that turns): 8.
-# 2. The threshold T: a product and two sums in S, its product with 20u, the sum with eta; M's own sum with mu: 6.
+#    such products, added (a direction that turns): 8. Counted on the code, by tests/promises/proofs_are_about_the_code.rs, like the
+#    roundings of what they must exceed, and its constant:
+#= product 7 6 20
+#= turning 8 7 20
+#= line 4 6 20
+# 2. The threshold T: a product and two sums in S, its product with 20u, the sum with eta; M's own sum with mu: 6. Where a direction
+#    turns, two of them are added.
 # 3. A constant direction. Its values at the ends of the step pass through 4 roundings: the line through them is within 8.1u S of
 #    the exact one. At the quotient q, where that line is T, it is positive. The quotient as computed, with its factor, is below q:
 #    numerator, denominator, quotient and product are rounded.
@@ -11,20 +16,11 @@
 # 5. A separation: s |w| has its square's product and two sums (under the root: 2 of 4, with what 3 flushed squares lose),
 #    the root, its product with 1 + 32u, with s, and the sum with T: 7. Along an axis: the difference, 1 + 8u's product, the sum.
 
-threshold = 20; #! core/src/elementary/corners.rs: S::small(20) * S::UNIT_ROUNDOFF * w.abs().dot(self.extent) + S::UNDERFLOW
-of_quotient = 32; #~ core/src/elementary/advance/directions.rs: let quotient = (at_start - bar) / (at_start - at_end) * less_roundoffs(32);
-of_length = 32; #! core/src/elementary/advance/directions.rs: bar = bar + separation * (length_above(w) * more_roundoffs(32));
-along_axis = 8; #! core/src/elementary/advance/directions.rs: let bar = separation * more_roundoffs(8) + S::UNDERFLOW;
-#~ core/src/elementary/corners.rs: let vanishing = of_format::<S>(-100, -960);
-#~ core/src/elementary/advance/directions.rs: if squared > of_format(-100, -900) {
-# The same, several pairs side by side:
-#~ core/src/batch/advance.rs: time.splat(L::Scalar::small(20) * L::Scalar::UNIT_ROUNDOFF) * w.abs().dot(extent) + time.splat(L::Scalar::UNDERFLOW);
-#~ core/src/batch/advance.rs: let vanishing = time.splat(of_format(-100, -960));
-#~ core/src/batch/advance.rs: let factor = time.splat(more_roundoffs(32));
-#~ core/src/batch/advance.rs: let less = time.splat(less_roundoffs(32));
-#~ core/src/batch/advance.rs: let quotient = (at_start - bar).over(at_start - at_end) * less;
-#~ core/src/batch/advance.rs: let is_safe = squared.greater(squared.splat(of_format(-100, -900)));
-#~ core/src/elementary/advance/directions.rs: before.w.dot(*to) + after.w.dot(*from) > middle_bar
+threshold = 20; #! core/src/elementary/advance/corners.rs: roundoffs(w.x, 20) * w.abs().dot(self.extent) + w.x.splat(L::Scalar::UNDERFLOW)
+of_quotient = 32; #~ core/src/elementary/advance/directions.rs: let quotient = (at_start - bar) / (at_start - at_end) * less_roundoffs(bar, 32);
+of_length = 32; #! core/src/elementary/advance/directions.rs: bar = bar + separation * (length_above(w) * more_roundoffs(separation, 32));
+along_axis = 8; #! core/src/elementary/advance/directions.rs: let bar = separation * more_roundoffs(separation, 8) + separation.splat(L::Scalar::UNDERFLOW);
+#~ core/src/elementary/advance/directions.rs: let is_safe = squared.greater(squared.splat(L::Scalar::SAFE_SQUARE));
 eta = 1b@eta@;
 lambda = 1b@lambda@;
 
@@ -40,7 +36,7 @@ g = 1 + e;
 { d in [-2b@u@, 2b@u@] /\ e in [-2b@u@, 2b@u@]
 ->  ((f7 - 1) / (1 - 2b@u@)) / 1b@u@ in [-14.5, 14.5]
 /\ ((f8 - 1) / (1 - 2b@u@)) / 1b@u@ in [-16.5, 16.5]
-/\ threshold * f6 - 16.5 >= 0
+/\ threshold * f7 - 16.5 >= 0
 /\ ((f4 - 1) / (1 - 2b@u@)) / 1b@u@ in [-8.3, 8.3]
 /\ threshold * f6 - 8.3 >= 0
 /\ (1 - of_quotient * 1b@u@) * (f3 / g) <= 1

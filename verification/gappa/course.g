@@ -11,7 +11,7 @@
 of_coordinates = 64; #! core/src/separation/course.rs: let rounding = S::small(64) * S::UNIT_ROUNDOFF * largest + S::UNDERFLOW;
 #~ core/src/separation/course.rs: largest <= S::LARGEST_EDGE && S::small(128) * rounding <= room
 #~ core/src/separation/course.rs: S::from_f64(0.99) * (S::HALF * (stray + spare / S::from_f64(3.0).sqrt()))
-#~ core/src/separation/course.rs: let spare = if spare < S::ZERO { spare * more_roundoffs(16) } else { spare };
+#~ core/src/separation/course.rs: let spare = if spare < S::ZERO { spare * more_roundoffs(spare, 16) } else { spare };
 eta = 1b@eta@;
 lambda = 1b@lambda@;
 Way = 2 * (1 + 16b@u@);

@@ -5,11 +5,14 @@
 use crate::generator::{Format, PairCase};
 use selvedge_core::PairKind;
 use selvedge_core::boxes::{direction, relative, segment};
+use selvedge_core::elementary::advance::time_of_impact_of_points;
+use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::filter::certified::{Bound, decide};
 use selvedge_core::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
 use selvedge_core::{Lanes, PrimitivePair, Rounding, Vector};
+use std::cmp::Ordering;
 use std::marker::PhantomData;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// What the constants of [`Rounding`] are multiplied by.
 pub trait Factors {
@@ -61,6 +64,25 @@ impl<F, S: Format> Mul for Altered<F, S> {
     }
 }
 
+impl<F, S: Format> Div for Altered<F, S> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        Self::new(self.0 / other.0)
+    }
+}
+
+impl<F, S: Format> PartialEq for Altered<F, S> {
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl<F, S: Format> PartialOrd for Altered<F, S> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.0.partial_cmp(&other.0)
+    }
+}
+
 impl<F, S: Format> Neg for Altered<F, S> {
     type Output = Self;
     fn neg(self) -> Self {
@@ -74,6 +96,10 @@ impl<F, S: Format> Rounding for Altered<F, S> {
     const UNDERFLOW: Self = Self::new(S::UNDERFLOW);
     const LARGEST_EDGE: Self = Self::new(S::LARGEST_EDGE);
     const SUM_GAP: Self = Self::new(S::SUM_GAP);
+    const LARGEST_EXTENT: Self = Self::new(S::LARGEST_EXTENT);
+    const EXTENT_UNDERFLOW: Self = Self::new(S::EXTENT_UNDERFLOW);
+    const SAFE_SQUARE: Self = Self::new(S::SAFE_SQUARE);
+    const LENGTH_UNDERFLOW: Self = Self::new(S::LENGTH_UNDERFLOW);
     const ZERO: Self = Self::new(S::ZERO);
     const ONE: Self = Self::new(S::ONE);
     const HALF: Self = Self::new(S::HALF);
@@ -118,6 +144,43 @@ impl<F: Factors, S: Format> Lanes for Altered<F, S> {
     fn greater(self, other: Self) -> bool {
         self.0.greater(other.0)
     }
+    fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
+        if mask { if_true } else { if_false }
+    }
+    fn may_leave(open: bool) -> bool {
+        !open
+    }
+}
+
+fn altered<F: Factors, S: Format>(points: &PairPoints<S>) -> PairPoints<Altered<F, S>> {
+    let number = Altered::<F, S>::new;
+    let altered = |v: Vector<S>| Vector::new(number(v.x), number(v.y), number(v.z));
+    PairPoints {
+        start: points.start.map(altered),
+        end: points.end.map(altered),
+    }
+}
+
+/// The pair's time of impact, with the constants of its bounds times `F`. (A subnormal separation is not raised.)
+pub fn time_of_impact<F: Factors, S: Format>(pair: &PairCase<S>, limits: &Limits<S>) -> Impact<S> {
+    let limits = Limits {
+        tolerance: Altered::new(limits.tolerance),
+        separation: Altered::new(limits.separation),
+    };
+    let impact = match pair.kind {
+        PairKind::VertexFace => {
+            let points = altered::<F, S>(&pair.vertex_face().points());
+            time_of_impact_of_points::<VertexAndFace, _>(&points, &limits).0
+        }
+        PairKind::EdgeEdge => {
+            let points = altered::<F, S>(&pair.edge_edge().points());
+            time_of_impact_of_points::<EdgeAndEdge, _>(&points, &limits).0
+        }
+    };
+    match impact {
+        Impact::Never => Impact::Never,
+        Impact::Possible { time, reason } => Impact::Possible { time: time.0, reason },
+    }
 }
 
 /// A kernel whose bound has constants.
@@ -153,12 +216,7 @@ impl Kernel {
     }
 
     fn on<P: PairShape, F: Factors, S: Format>(self, points: &PairPoints<S>) -> bool {
-        let number = Altered::<F, S>::new;
-        let altered = |v: Vector<S>| Vector::new(number(v.x), number(v.y), number(v.z));
-        let points = PairPoints {
-            start: points.start.map(altered),
-            end: points.end.map(altered),
-        };
+        let points = altered::<F, S>(points);
         match self {
             Self::Bounded(bound) => decide::<P, _>(bound, &points.tetrahedron::<P>(), None).culled,
             Self::Segment => P::KIND == PairKind::VertexFace && segment::misses_face(&points),

@@ -5,7 +5,7 @@
 use crate::generator::power_of_two;
 use selvedge_core::{Lanes, Rounding};
 use std::fmt;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Rounding to nearest, ties to even; subnormal numbers are kept.
 pub const TO_NEAREST: u32 = 0;
@@ -29,6 +29,7 @@ pub struct Minifloat<const E: u32, const F: u32, const ENVIRONMENT: u32 = TO_NEA
 impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRONMENT> {
     /// Two to this power is the smallest positive number.
     pub const MIN_EXPONENT: i32 = Self::LOWEST_NORMAL - F.cast_signed();
+    const SMALLEST_NORMAL: f64 = 1.0 / (1_u64 << -Self::LOWEST_NORMAL) as f64;
     const LOWEST_NORMAL: i32 = 2 - (1 << (E - 1));
     const HIGHEST_NORMAL: i32 = (1 << (E - 1)) - 1;
     const DIRECTION: u32 = ENVIRONMENT & 3;
@@ -153,6 +154,16 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Mul for Minifloat<E, F,
     }
 }
 
+/// In f64 a quotient of two such numbers that is none itself is no closer to one, or to the middle of two, than a part 2⁻²ᶠ⁻² of it:
+/// f64's rounding does not bring it there.
+impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Div for Minifloat<E, F, ENVIRONMENT> {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        Self::rounded(self.operand() / other.operand())
+    }
+}
+
 impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Neg for Minifloat<E, F, ENVIRONMENT> {
     type Output = Self;
 
@@ -179,6 +190,18 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Rounding for Minifloat<
         Self((1_u64 << ((Self::HIGHEST_NORMAL - 4) / 3)) as f64)
     };
     const SUM_GAP: Self = Self(Self::UNDERFLOW.0 / Self::UNIT_ROUNDOFF.0);
+    /// Squares of normals, 3·(8·x²)² < 2⁸·x⁴, stay below the largest number, and so does all else: `verification/gappa/range.g`. To
+    /// nearest too: this is the time of impact's only guard.
+    const LARGEST_EXTENT: Self = {
+        assert!(Self::HIGHEST_NORMAL >= 7, "the smallest limit is 1");
+        Self((1_u64 << ((Self::HIGHEST_NORMAL - 7) / 4)) as f64)
+    };
+    /// What `corners.g` asks for: 20u·μ ≥ 7λ, and a bit more for second order.
+    const EXTENT_UNDERFLOW: Self = Self(0.5 * Self::SMALLEST_NORMAL / Self::UNIT_ROUNDOFF.0);
+    /// 3λ ≤ u times this.
+    const SAFE_SQUARE: Self = Self(4.0 * Self::SMALLEST_NORMAL / Self::UNIT_ROUNDOFF.0);
+    /// Its square is at least 3λ.
+    const LENGTH_UNDERFLOW: Self = Self(2.0 / (1_u64 << (-Self::LOWEST_NORMAL / 2)) as f64);
     const ZERO: Self = Self(0.0);
     const HALF: Self = Self(0.5);
     const ONE: Self = Self(1.0);
@@ -227,6 +250,14 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Lanes for Minifloat<E, 
 
     fn greater(self, other: Self) -> bool {
         self.operand() > other.operand()
+    }
+
+    fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
+        if mask { if_true } else { if_false }
+    }
+
+    fn may_leave(open: bool) -> bool {
+        !open
     }
 }
 

@@ -6,7 +6,7 @@
 use selvedge_core::{Lanes, Rounding};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number that knows how it was computed. Its steps are kept for the thread: see [`trace`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,6 +21,14 @@ pub enum Traced {
     LargestEdge,
     /// The gap between sums.
     SumGap,
+    /// Where extents are out of range.
+    LargestExtent,
+    /// μ.
+    ExtentUnderflow,
+    /// Where sums of squares may have lost something.
+    SafeSquare,
+    /// The length of what loses all its squares.
+    LengthUnderflow,
     /// One half.
     Half,
     /// Infinity.
@@ -40,6 +48,8 @@ pub enum Step {
     Difference(Traced, Traced),
     /// A rounded product.
     Product(Traced, Traced),
+    /// A rounded quotient.
+    Quotient(Traced, Traced),
     /// A rounded square root.
     Root(Traced),
     /// Exact.
@@ -50,6 +60,8 @@ pub enum Step {
     Larger(Traced, Traced),
     /// One of the two, exactly.
     Smaller(Traced, Traced),
+    /// One of the two, exactly, as a comparison has it.
+    Selected(Traced, Traced),
 }
 
 #[derive(Clone, Debug, Default)]
@@ -115,6 +127,13 @@ impl Mul for Traced {
     }
 }
 
+impl Div for Traced {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        Self::record(Step::Quotient(self, other))
+    }
+}
+
 impl Neg for Traced {
     type Output = Self;
     fn neg(self) -> Self {
@@ -127,6 +146,10 @@ impl Rounding for Traced {
     const UNDERFLOW: Self = Self::Underflow;
     const LARGEST_EDGE: Self = Self::LargestEdge;
     const SUM_GAP: Self = Self::SumGap;
+    const LARGEST_EXTENT: Self = Self::LargestExtent;
+    const EXTENT_UNDERFLOW: Self = Self::ExtentUnderflow;
+    const SAFE_SQUARE: Self = Self::SafeSquare;
+    const LENGTH_UNDERFLOW: Self = Self::LengthUnderflow;
     const ZERO: Self = Self::Small(0);
     const ONE: Self = Self::Small(1);
     const HALF: Self = Self::Half;
@@ -160,6 +183,9 @@ impl Lanes for Traced {
     fn greater(self, other: Self) -> bool {
         ARENA.with_borrow_mut(|arena| arena.comparisons.push([self, other]));
         false
+    }
+    fn select(_: bool, if_true: Self, if_false: Self) -> Self {
+        Self::record(Step::Selected(if_true, if_false))
     }
 }
 
@@ -234,11 +260,14 @@ impl Trace {
                 products
             }
             Step::Negative(a) | Step::Magnitude(a) => self.paths_with_last_step(*a, last),
-            Step::Larger(a, b) | Step::Smaller(a, b) => {
+            Step::Larger(a, b) | Step::Smaller(a, b) | Step::Selected(a, b) => {
                 let both = [a, b].map(|&x| self.paths_with_last_step(x, last));
                 union(both, 0)
             }
-            Step::Root(_) => panic!("a root is no polynomial"),
+            Step::Quotient(a, b) if [a, b].iter().all(|x| !matches!(x, Traced::Step(_))) => {
+                Paths::from([(vec![format!("{a:?}/{b:?}")], last)])
+            }
+            Step::Quotient(..) | Step::Root(_) => panic!("a quotient or a root is no polynomial"),
         }
     }
 }

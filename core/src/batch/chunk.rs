@@ -1,14 +1,14 @@
 //! As many of sixteen pairs as go side by side at once: what a vector register holds, or one.
 
-use super::simd::Quotients;
 use super::{LANES, Mask, Sixteen, VertexRow};
+use crate::lanes::Lanes;
 use crate::points::PairPoints;
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 use core::ops::Sub;
 
 /// Lanes that are loaded from rows and tiles, and stored. Chunks of sixteen pairs begin at `first`, a multiple of the width.
-pub(super) trait Chunk: Quotients<Scalar: Scalar> {
+pub(super) trait Chunk: Lanes<Scalar: Scalar> {
     /// Shows that the machine has the instructions.
     type Token: Copy;
     /// As much of a [`VertexRow`] as a register holds, at most all of it.

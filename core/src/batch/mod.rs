@@ -33,6 +33,7 @@ mod chunk;
 mod kernels;
 mod lane_test;
 mod rows;
+#[cfg(not(unoptimised))]
 mod simd;
 mod tile;
 

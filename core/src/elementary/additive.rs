@@ -12,8 +12,8 @@
 //!
 //! Written from the description. Positions are computed anew from the time in each round, not added up.
 
-use super::closest::closest;
-use super::corners::Corners;
+use super::advance::closest::closest;
+use super::advance::corners::Corners;
 use super::{Impact, Reason};
 use crate::PairKind;
 use crate::motion::PrimitivePair;

@@ -1,6 +1,6 @@
 //! The question and the answer of a time of impact.
 
-use super::corners::of_format;
+use crate::lanes::power_of_two_f64;
 use crate::scalar::Scalar;
 
 /// What distance counts as contact, and how tight the answer is to be.
@@ -20,7 +20,7 @@ impl<S: Scalar> Default for Limits<S> {
     #[inline]
     fn default() -> Self {
         Self {
-            tolerance: of_format(-20, -30),
+            tolerance: S::from_f64(power_of_two_f64(if S::FRACTION_BITS < 52 { -20 } else { -30 })),
             separation: S::ZERO,
         }
     }

@@ -10,9 +10,7 @@
 #[cfg(feature = "verification")]
 pub mod additive;
 pub mod advance;
-mod closest;
 pub mod contact;
-pub(crate) mod corners;
 mod impact;
 
 pub use contact::{Contact, Evidence, contact};

@@ -15,7 +15,7 @@
 //! difference from where the point is loses ε of itself. [`is_certain`] demands that 64u·B, and η for what is flushed, be no more
 //! than 1/128 of the room, of which the hundredth is more: 0.01/0.99.
 
-use crate::elementary::corners::more_roundoffs;
+use crate::lanes::more_roundoffs;
 use crate::scalar::{Position, Scalar};
 use crate::vector::Vector;
 
@@ -25,7 +25,11 @@ use crate::vector::Vector;
 #[must_use]
 pub fn room<S: Scalar>(stray: S, spare: S) -> S {
     // Less than nothing to spare must not become more by rounding: a difference may cancel.
-    let spare = if spare < S::ZERO { spare * more_roundoffs(16) } else { spare };
+    let spare = if spare < S::ZERO {
+        spare * more_roundoffs(spare, 16)
+    } else {
+        spare
+    };
     S::from_f64(0.99) * (S::HALF * (stray + spare / S::from_f64(3.0).sqrt()))
 }
 

@@ -1,7 +1,7 @@
 # Powers of two of f32, for the scripts. A test demands that they are core's.
 # u: unit roundoff. lambda: smallest normal number. eta: UNDERFLOW. edge: LARGEST_EDGE. gap: SUM_GAP. max: beyond all finite numbers.
-# In core/src/elementary, mu: of the corners' extent. extent: the largest. length: of a normal whose squares underflow.
-# squares: where a direction's squares may. gap16: gap/16u. middling: a size far from both ends.
+# Of the time of impact, mu: EXTENT_UNDERFLOW. extent: LARGEST_EXTENT. length: LENGTH_UNDERFLOW. squares: SAFE_SQUARE.
+# gap16: gap/16u. middling: a size far from both ends.
 s/@u@/-24/g
 s/@lambda@/-126/g
 s/@eta@/-117/g

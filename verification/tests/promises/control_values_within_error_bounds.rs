@@ -9,7 +9,7 @@ use selvedge_core::{Lanes, PrimitivePair, Rounding, Vector};
 use selvedge_laboratory::pipeline::CullingTest::PlainNonCoplanarity;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs_of_any_kind};
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Whole numbers, so that core's own source computes without rounding. Panics on overflow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +36,13 @@ impl Mul for Exact {
     }
 }
 
+impl Div for Exact {
+    type Output = Self;
+    fn div(self, _: Self) -> Self {
+        panic!("only times are quotients")
+    }
+}
+
 impl Neg for Exact {
     type Output = Self;
     fn neg(self) -> Self {
@@ -48,6 +55,10 @@ impl Rounding for Exact {
     const UNDERFLOW: Self = Self(0);
     const LARGEST_EDGE: Self = Self(i128::MAX);
     const SUM_GAP: Self = Self(0);
+    const LARGEST_EXTENT: Self = Self(i128::MAX);
+    const EXTENT_UNDERFLOW: Self = Self(0);
+    const SAFE_SQUARE: Self = Self(0);
+    const LENGTH_UNDERFLOW: Self = Self(0);
     const ZERO: Self = Self(0);
     const ONE: Self = Self(1);
     const HALF: Self = panic!("whole numbers have no half");
@@ -80,6 +91,9 @@ impl Lanes for Exact {
     }
     fn greater(self, other: Self) -> bool {
         self.0 > other.0
+    }
+    fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
+        if mask { if_true } else { if_false }
     }
 }
 

@@ -36,4 +36,5 @@ mod separations_are_never_overstated;
 mod simulation_is_free_of_intersections;
 mod tiers_keep_their_promises;
 mod time_of_impact_is_never_late;
+mod time_of_impact_on_tiny_numbers;
 mod verdicts_are_invariant;

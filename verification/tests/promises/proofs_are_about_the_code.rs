@@ -1,10 +1,15 @@
 //! The proofs in `gappa/` are about core as it is: scripts are what its code gives, constants and counts of roundings in them
 //! are its own. That the proofs hold is checked by `gappa/check.sh`.
 
-use selvedge_core::points::{EdgeAndEdge, PairShape, VertexAndFace};
+use selvedge_core::Vector;
+use selvedge_core::elementary::advance::confirm::{contains_origin, doubled_bounds};
+use selvedge_core::elementary::advance::corners::Corners;
+use selvedge_core::elementary::advance::directions::are_apart_turning;
+use selvedge_core::elementary::advance::volume::SignedVolume;
+use selvedge_core::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
 use selvedge_core::{Rounding, Scalar};
 use selvedge_verification::proofs::{inside, scripts, tetrahedron};
-use selvedge_verification::traced::{Paths, Traced, trace};
+use selvedge_verification::traced::{Paths, Trace, Traced, trace};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -69,7 +74,7 @@ fn constants_of_the_scripts_are_those_of_the_code() {
             if line[mark..].starts_with("#!") {
                 let (_, number) = line[..mark].split_once('=').expect("a definition");
                 let number = number.trim().trim_end_matches(';');
-                let called = ["small", "roundoffs", "constant"].map(|name| format!("{name}({number})"));
+                let called = ["small(", "constant(", ", "].map(|before| format!("{before}{number})"));
                 assert!(
                     called.iter().any(|call| code.contains(call)),
                     "{name}: {number} is not the constant of `{code}`"
@@ -100,6 +105,10 @@ fn constants_are_those_of<S: Scalar>(smallest_normal: f64, digits: i32, infinity
     assert_eq!(power("eta"), S::UNDERFLOW.to_f64());
     assert_eq!(power("edge"), S::LARGEST_EDGE.to_f64());
     assert_eq!(power("gap"), S::SUM_GAP.to_f64());
+    assert_eq!(power("extent"), S::LARGEST_EXTENT.to_f64());
+    assert_eq!(power("mu"), S::EXTENT_UNDERFLOW.to_f64());
+    assert_eq!(power("squares"), S::SAFE_SQUARE.to_f64());
+    assert_eq!(power("length"), S::LENGTH_UNDERFLOW.to_f64());
     assert_eq!(power("lambda"), smallest_normal);
     assert_eq!(power("max"), infinity);
     assert_eq!(exponents["u"], -digits);
@@ -110,21 +119,6 @@ fn constants_are_those_of<S: Scalar>(smallest_normal: f64, digits: i32, infinity
 fn constants_of_the_formats_are_those_of_core() {
     constants_are_those_of::<f32>(f32::MIN_POSITIVE.into(), 24, 2.0_f64.powi(128));
     constants_are_those_of::<f64>(f64::MIN_POSITIVE, 53, f64::INFINITY);
-    // Those of core/src/elementary, in the order in which they stand in its source.
-    for (name, code) in [
-        ("mu", "let vanishing = of_format::<S>(-100, -960);"),
-        ("extent", "of_format(29, 250)"),
-        ("length", "areas + of_format(-62, -510)"),
-        ("squares", "if squared > of_format(-100, -900) {"),
-    ] {
-        let [single, double] = ["f32", "f64"].map(|format| exponents(format)[name]);
-        let pair = format!("({single}, {double})");
-        assert!(code.contains(&pair), "{name}");
-        assert!(
-            by_hand().iter().any(|(_, text)| text.contains(code)),
-            "{name}: no script says where"
-        );
-    }
 }
 
 /// The differences of points are the traces' inputs, each rounded once: three to a monomial.
@@ -212,4 +206,126 @@ fn roundings_of_inside_functions_are_as_many_as_the_script_says() {
         let counted = most(faces[index], edges[index]);
         assert_eq!(counted, counts_in("inside.g", name), "{name}");
     }
+}
+
+/// `#= NAME COUNT OF_BOUND CONSTANT` in a script of the time of impact.
+fn advance_counts_in(script: &str, name: &str) -> [u32; 3] {
+    let script = read(&folder().join(script));
+    let prefix = format!("#= {name} ");
+    let line = script
+        .lines()
+        .find_map(|line| line.strip_prefix(&prefix))
+        .expect("a line of counts");
+    let counts: Vec<u32> = line.split(' ').map(|count| count.parse().expect("a count")).collect();
+    counts.try_into().expect("three counts")
+}
+
+/// The most roundings of a value's monomials and of its bound's, and the constant that u is multiplied by in all of these.
+/// `differences`: how many rounded differences of points, the traces' inputs, a monomial of the value has.
+fn counted(trace: &Trace, value: Traced, bound: Traced, differences: u32) -> [u32; 3] {
+    let of_error = |monomial: &[String]| monomial.iter().any(|factor| factor == "u");
+    let is_constant = |factor: &&String| factor.parse::<u32>().is_ok();
+    let of_value = trace.paths(value).into_iter();
+    let of_value =
+        of_value.filter(|(monomial, _)| !of_error(monomial) && !monomial.contains(&format!("{:?}", Traced::Underflow)));
+    let of_value = of_value.map(|(_, count)| count).max().expect("a monomial") + differences;
+    let bound = trace.paths(bound);
+    let of_bound = bound.iter().filter(|(monomial, _)| of_error(monomial));
+    let constants = of_bound.clone().map(|(monomial, _)| {
+        let constants: Vec<u32> = monomial
+            .iter()
+            .filter(is_constant)
+            .map(|factor| factor.parse().expect("a number"))
+            .collect();
+        assert_eq!(constants.len(), 1, "{monomial:?}");
+        constants[0]
+    });
+    let constants: Vec<u32> = constants.collect();
+    assert!(constants.iter().all(|&constant| constant == constants[0]), "{constants:?}");
+    [
+        of_value,
+        *of_bound.map(|(_, count)| count).max().expect("a bound"),
+        constants[0],
+    ]
+}
+
+fn vector(name: &str) -> Vector<Traced> {
+    Vector::from(["x", "y", "z"].map(|axis| Traced::input(format!("{name}{axis}"))))
+}
+
+fn edge_edge_corners() -> Corners<Traced, 4> {
+    let points = |end: u32| ["p", "a", "b", "c"].map(|name| vector(&format!("{name}{end}")));
+    let points = PairPoints {
+        start: points(0),
+        end: points(1),
+    };
+    Corners::of_edge_edge(&points)
+}
+
+#[test]
+fn roundings_of_a_direction_are_as_many_as_the_script_says() {
+    let (bar, mut constant) = trace(|| {
+        let corners = edge_edge_corners();
+        let direction = corners.direction(vector("w"), None);
+        let positions = corners.at(Traced::input("t"));
+        let _ = corners.apart_along(&direction, &positions, true);
+        direction.bar
+    });
+    constant.begin_with_differences();
+    // At the time, at the end, at the start and at the end; for each corner.
+    for corner in constant.comparisons.chunks(4) {
+        let &[[now, bar_now], [end, bar_end], [at_start, at_end], _] = corner else {
+            panic!("{corner:?}")
+        };
+        assert_eq!([bar_now, bar_end, end], [bar, bar, at_end]);
+        assert_eq!(counted(&constant, now, bar, 1), advance_counts_in("corners.g", "product"));
+        for value in [at_start, at_end] {
+            assert_eq!(counted(&constant, value, bar, 1), advance_counts_in("corners.g", "line"));
+        }
+    }
+
+    let (_, mut turning) = trace(|| {
+        let corners = edge_edge_corners();
+        let [before, after] = ["v", "w"].map(|name| corners.direction(vector(name), None));
+        let [from, to] = ["s", "t"].map(|name| corners.at(Traced::input(name)));
+        are_apart_turning(&before, &from, &after, &to)
+    });
+    turning.begin_with_differences();
+    // The first comparison is that of one with zero.
+    for corner in turning.comparisons[1..].chunks(3) {
+        let &[_, _, [value, bar]] = corner else { panic!("{corner:?}") };
+        assert_eq!(counted(&turning, value, bar, 1), advance_counts_in("corners.g", "turning"));
+    }
+}
+
+#[test]
+fn roundings_of_the_volume_are_as_many_as_the_script_says() {
+    let ((at, margins, error), mut steps) = trace(|| {
+        let volume = SignedVolume::new(&edge_edge_corners(), None);
+        let time = Traced::input("t");
+        (volume.at(time), volume.margins_from(time), volume.error)
+    });
+    steps.begin_with_differences();
+    let counts = margins.map(|margin| counted(&steps, margin, error, OF_DIFFERENCES));
+    let [most, of_bound, constant] = counts.into_iter().max().expect("four margins");
+    // Looking ahead, by the rule that leads to the margins and to the value at a time, rounds at most 9 times. A monomial of 3k1 has t
+    // itself once among its weights, which is one rounding less than 1 − t.
+    let [value, ..] = counted(&steps, at, error, OF_DIFFERENCES);
+    assert_eq!(value, 12 + 8);
+    assert_eq!([most + 9, of_bound, constant], advance_counts_in("volume.g", "volume"));
+}
+
+#[test]
+fn roundings_of_a_confirmed_contact_are_as_many_as_the_script_says() {
+    let (_, mut steps) = trace(|| {
+        let corners = edge_edge_corners();
+        let [start, end] = ["s", "t"].map(|name| corners.at(Traced::input(name)));
+        let [xy, ..] = doubled_bounds(corners.extent);
+        contains_origin(&start, &end, |v| [v.x, v.y], xy)
+    });
+    steps.begin_with_differences();
+    let of_a_difference_each = 2;
+    let counts = steps.comparisons[1..].iter();
+    let counts = counts.map(|&[value, bound]| counted(&steps, value, bound, of_a_difference_each));
+    assert_eq!(counts.max(), Some(advance_counts_in("confirm.g", "confirm")));
 }

@@ -19,9 +19,10 @@
 //!
 //! What can not be confirmed so: contact at the very ends of the step, touching without passing through, coplanar motion.
 
+use super::corners::Corners;
 use super::volume::SignedVolume;
 use crate::PairKind;
-use crate::elementary::corners::{Corners, of_format};
+use crate::lanes::{Lanes, Number, Rounding, roundoffs};
 use crate::motion::PrimitivePair;
 use crate::points::PairShape;
 use crate::scalar::Scalar;
@@ -58,28 +59,39 @@ pub fn certain_contact<S: Scalar, P: PrimitivePair<S>>(pair: &P, near: S) -> Opt
     }
 }
 
-fn prove<S: Scalar, const N: usize>(corners: &Corners<S, N>, near: S) -> Option<[S; 2]> {
+fn prove<S: Number, const N: usize>(corners: &Corners<S, N>, near: S) -> Option<[S; 2]> {
     if !corners.are_in_range() {
         return None;
     }
-    let volume = SignedVolume::new(corners, S::ZERO);
+    let volume = SignedVolume::new(corners, None);
     let [from, to] = where_it_changes_sign(&volume, near)?;
     let (start, end) = (corners.at(from), corners.at(to));
-    let m = corners.extent;
-    let size = S::ONE + m.largest();
-    let underflow = S::UNDERFLOW * (size * size);
-    // Twice the bound of a coefficient, which the doubled middle one must exceed.
-    let bound = |x: S, y: S| S::small(160) * S::UNIT_ROUNDOFF * (x * y) + S::small(2) * underflow;
-    let contains = contains_origin(&start, &end, |v| [v.x, v.y], bound(m.x, m.y))
-        || contains_origin(&start, &end, |v| [v.y, v.z], bound(m.y, m.z))
-        || contains_origin(&start, &end, |v| [v.z, v.x], bound(m.z, m.x));
+    let [xy, yz, zx] = doubled_bounds(corners.extent);
+    let contains = contains_origin(&start, &end, |v| [v.x, v.y], xy)
+        || contains_origin(&start, &end, |v| [v.y, v.z], yz)
+        || contains_origin(&start, &end, |v| [v.z, v.x], zx);
     contains.then_some([from, to])
 }
 
+/// Twice the bound of a coefficient, which the doubled middle one must exceed: of the projections to xy, yz and zx.
+#[inline(always)]
+#[must_use]
+pub fn doubled_bounds<L: Lanes>(extent: Vector<L>) -> [L; 3] {
+    let constant = |value| extent.x.splat(value);
+    let size = constant(L::Scalar::ONE) + extent.largest();
+    let underflow = constant(L::Scalar::UNDERFLOW) * (size * size);
+    let bound = |x: L, y: L| roundoffs(x, 160) * (x * y) + constant(L::Scalar::small(2)) * underflow;
+    [
+        bound(extent.x, extent.y),
+        bound(extent.y, extent.z),
+        bound(extent.z, extent.x),
+    ]
+}
+
 /// The shortest interval around `near`, of those tried, at whose ends the volume has certainly opposite signs.
-fn where_it_changes_sign<S: Scalar>(volume: &SignedVolume<S>, near: S) -> Option<[S; 2]> {
+fn where_it_changes_sign<S: Number>(volume: &SignedVolume<S>, near: S) -> Option<[S; 2]> {
     let (zero, one) = (S::ZERO, S::ONE);
-    let mut reach = of_format::<S>(-21, -50);
+    let mut reach = S::small(8) * S::UNIT_ROUNDOFF;
     for _ in 0..INTERVALS {
         let from = (near - reach).larger(zero);
         let to = (near + reach).smaller(one);
@@ -96,20 +108,22 @@ fn where_it_changes_sign<S: Scalar>(volume: &SignedVolume<S>, near: S) -> Option
 
 /// Whether the polygon of the corners, projected, certainly contains the origin while they move from `start` to `end`.
 #[inline(always)]
-fn contains_origin<S: Scalar, const N: usize>(
-    start: &[Vector<S>; N],
-    end: &[Vector<S>; N],
-    project: impl Fn(&Vector<S>) -> [S; 2],
-    doubled_bound: S,
-) -> bool {
-    let cross = |[a, b]: [S; 2], [c, d]: [S; 2]| a * d - b * c;
-    let two = S::small(2);
-    let (mut all_left, mut all_right) = (true, true);
-    let mut turn = |from: [&Vector<S>; 2], to: [&Vector<S>; 2]| {
+#[must_use]
+pub fn contains_origin<L: Lanes, const N: usize>(
+    start: &[Vector<L>; N],
+    end: &[Vector<L>; N],
+    project: impl Fn(&Vector<L>) -> [L; 2],
+    doubled_bound: L,
+) -> L::Mask {
+    let cross = |[a, b]: [L; 2], [c, d]: [L; 2]| a * d - b * c;
+    let (zero, two) = (doubled_bound.splat(L::Scalar::ZERO), doubled_bound.splat(L::Scalar::small(2)));
+    let nowhere = zero.greater(zero);
+    let (mut all_left, mut all_right) = (!nowhere, !nowhere);
+    let mut turn = |from: [&Vector<L>; 2], to: [&Vector<L>; 2]| {
         let ([c0, c1], [d0, d1]) = (from.map(&project), to.map(&project));
         for coefficient in [two * cross(c0, d0), cross(c0, d1) + cross(c1, d0), two * cross(c1, d1)] {
-            all_left &= coefficient > doubled_bound;
-            all_right &= -coefficient > doubled_bound;
+            all_left = all_left & coefficient.greater(doubled_bound);
+            all_right = all_right & (-coefficient).greater(doubled_bound);
         }
     };
     // Around the triangle, or around the parallelogram, in which the second and third corner are opposite to each other.
@@ -125,9 +139,9 @@ fn contains_origin<S: Scalar, const N: usize>(
             turn([d0, d1], [c0, c1]);
             turn([c0, c1], [a0, a1]);
         }
-        _ => return false,
+        _ => return nowhere,
     }
-    all_left || all_right
+    all_left | all_right
 }
 
 #[cfg(test)]

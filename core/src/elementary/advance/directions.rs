@@ -3,90 +3,111 @@
 //! If the products of a direction w with all corners are larger than s·|w| at some time, the hull of the corners is farther
 //! than s from the origin then. Each product with a *constant* w is linear in time; with a w that moves linearly itself it is
 //! quadratic. A direction's [`bar`](Direction::bar) is T + s·|w|, T being the
-//! [error of a product](crate::elementary::corners): what a computed product must exceed to prove all this.
+//! [error of a product](super::corners): what a computed product must exceed to prove all this.
 
-use crate::elementary::corners::{Corners, less_roundoffs, more_roundoffs, of_format};
-use crate::scalar::Scalar;
+use super::corners::Corners;
+use crate::lanes::{Lanes, Rounding, less_roundoffs, more_roundoffs};
 use crate::vector::Vector;
 
 /// A direction, and what a computed product with it must exceed.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Direction<S> {
-    pub(super) w: Vector<S>,
-    pub(super) bar: S,
+pub struct Direction<L> {
+    /// Of any length.
+    pub w: Vector<L>,
+    /// T + s·|w|.
+    pub bar: L,
 }
 
 /// Until when a direction certainly keeps the pair apart.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Apart<S> {
-    /// It proves nothing.
-    Unproven,
-    /// From the time it was asked about until this one, which may be the same.
-    Until(S),
-    /// Until the end of the step.
-    ToTheEnd,
+#[derive(Clone, Copy, Debug)]
+pub struct Proven<L: Lanes> {
+    /// Whether it does so at the time that was asked about, of the lanes that were.
+    pub is_apart: L::Mask,
+    /// Then it does so until this time, which may be the same, or earlier; [`beyond`] the step if to its end. Else it means nothing.
+    pub until: L,
 }
 
-impl<S: Scalar, const N: usize> Corners<S, N> {
+/// A time that no proof reaches: "to the end of the step".
+#[inline(always)]
+#[must_use]
+pub fn beyond<L: Lanes>(like: L) -> L {
+    like.splat(L::Scalar::small(2))
+}
+
+impl<L: Lanes, const N: usize> Corners<L, N> {
     /// Whether all corners are beyond `separation` along one coordinate axis, on the same side, at both ends of the step: the
     /// [relative boxes](crate::boxes::relative) with a separation. A difference as computed is off by 2u of itself and 3λ, less
     /// than the 8u of the separation and η by which it is to exceed it.
     #[inline(always)]
-    pub(super) fn are_beyond_along_an_axis(&self, separation: S) -> bool {
-        let bar = separation * more_roundoffs(8) + S::UNDERFLOW;
-        let along = |component: fn(&Vector<S>) -> S| {
-            let components = || self.ends.iter().flatten().map(component);
-            components().all(|x| x > bar) || components().all(|x| -x > bar)
+    #[must_use]
+    pub fn are_beyond_along_an_axis(&self, separation: L) -> L::Mask {
+        let bar = separation * more_roundoffs(separation, 8) + separation.splat(L::Scalar::UNDERFLOW);
+        let along = |component: fn(&Vector<L>) -> L| {
+            let (mut above, mut below) = (everywhere(separation), everywhere(separation));
+            for x in self.ends.iter().flatten().map(component) {
+                above = above & x.greater(bar);
+                below = below & (-x).greater(bar);
+                if L::may_leave(above | below) {
+                    break;
+                }
+            }
+            above | below
         };
-        along(|corner| corner.x) || along(|corner| corner.y) || along(|corner| corner.z)
+        along(|corner| corner.x) | along(|corner| corner.y) | along(|corner| corner.z)
     }
 
-    /// The direction `w`, of any length, for pairs that are to stay farther than `separation` apart.
+    /// The direction `w`, of any length, for pairs that are to stay farther than `separation` apart, if that is not zero.
     #[inline(always)]
-    pub(super) fn direction(&self, w: Vector<S>, separation: S) -> Direction<S> {
+    #[must_use]
+    pub fn direction(&self, w: Vector<L>, separation: Option<L>) -> Direction<L> {
         let mut bar = self.product_error(w);
-        if separation > S::ZERO {
-            bar = bar + separation * (length_above(w) * more_roundoffs(32));
+        if let Some(separation) = separation {
+            bar = bar + separation * (length_above(w) * more_roundoffs(separation, 32));
         }
         Direction { w, bar }
     }
 
-    /// Until when `direction`, held constant, keeps the pair apart that has its corners at `positions` at `time`.
+    /// Until when `direction`, held constant, keeps the pair apart that has its corners at `positions` at some time. Lanes that are not
+    /// `among` those asked about prove nothing.
     ///
     /// With f(τ) = w·e(τ), f₀ and f₁ its values at the ends as computed and T the bar, it is
     /// q = (f₀ − T)/(f₀ − f₁), where the line through f₀ and f₁ comes down to T, the least over the corners. At any time that
-    /// line is within 4εS of f, less than the errors in T allow for: so f(q) is positive (above s·|w|), and as f is at `time`
-    /// too, it is in between. The quotient passes through 4 roundings, its product with 1 − 32u through one more.
+    /// line is within 4εS of f, less than the errors in T allow for: so f(q) is positive (above s·|w|), and as f is at the
+    /// time of `positions` too, it is in between. The quotient passes through 4 roundings, its product with 1 − 32u through one more.
     ///
     /// f₀ > f₁ is demanded: otherwise, where rounding has f₁ ≤ T and f₀ ≤ f₁, the quotient means nothing. Where flushing makes it
-    /// 0/0, or rounding has f₀ < T, nothing is proven.
+    /// 0/0, or rounding has f₀ ≤ T, nothing is proven.
     #[inline(always)]
-    pub(super) fn apart_along(&self, direction: &Direction<S>, positions: &[Vector<S>; N]) -> Apart<S> {
+    #[must_use]
+    pub fn apart_along(&self, direction: &Direction<L>, positions: &[Vector<L>; N], among: L::Mask) -> Proven<L> {
         let Direction { w, bar } = *direction;
-        let beyond = S::small(2);
-        let mut until = beyond;
-        for ([start, end], position) in self.ends.iter().zip(positions) {
-            if !(w.dot(*position) > bar) {
-                return Apart::Unproven;
-            }
-            let at_end = w.dot(*end);
-            if !(at_end > bar) {
-                let at_start = w.dot(*start);
-                if !(at_start > at_end) {
-                    return Apart::Unproven;
+        let zero = bar.splat(L::Scalar::ZERO);
+        let mut is_apart = among;
+        let mut until = beyond(bar);
+        // No loop: of several lanes' worth it would not be unrolled.
+        macro_rules! corner {
+            ($index:literal) => {
+                if let (Some(&[start, end]), Some(&position)) = (self.ends.get($index), positions.get($index)) {
+                    is_apart = is_apart & w.dot(position).greater(bar);
+                    if L::may_leave(is_apart) {
+                        return Proven { is_apart, until };
+                    }
+                    let at_end = w.dot(end);
+                    let stays = at_end.greater(bar);
+                    if !L::may_leave(!stays) {
+                        let at_start = w.dot(start);
+                        let quotient = (at_start - bar) / (at_start - at_end) * less_roundoffs(bar, 32);
+                        is_apart = is_apart & (stays | at_start.greater(at_end) & quotient.greater(zero));
+                        until = L::select(stays, until, quotient.smaller(until));
+                    }
                 }
-                let quotient = (at_start - bar) / (at_start - at_end) * less_roundoffs(32);
-                if !(quotient >= S::ZERO) {
-                    return Apart::Unproven;
-                }
-                until = quotient.smaller(until);
-            }
+            };
         }
-        if until < beyond {
-            Apart::Until(until)
-        } else {
-            Apart::ToTheEnd
-        }
+        corner!(0);
+        corner!(1);
+        corner!(2);
+        corner!(3);
+        Proven { is_apart, until }
     }
 }
 
@@ -97,29 +118,40 @@ impl<S: Scalar, const N: usize> Corners<S, N> {
 /// lies below the line between its values at the ends, whose middle coefficient is the mean. All three above the bar proves
 /// it, where the bar of the middle one is the mean of the two: its error is at most 8ε times the mean of S₀ and S₁.
 #[inline(always)]
-pub(super) fn are_apart_turning<S: Scalar, const N: usize>(
-    before: &Direction<S>,
-    from: &[Vector<S>; N],
-    after: &Direction<S>,
-    to: &[Vector<S>; N],
-) -> bool {
+#[must_use]
+pub fn are_apart_turning<L: Lanes, const N: usize>(
+    before: &Direction<L>,
+    from: &[Vector<L>; N],
+    after: &Direction<L>,
+    to: &[Vector<L>; N],
+) -> L::Mask {
     let middle_bar = before.bar + after.bar;
-    from.iter().zip(to).all(|(from, to)| {
-        before.w.dot(*from) > before.bar && after.w.dot(*to) > after.bar && before.w.dot(*to) + after.w.dot(*from) > middle_bar
-    })
+    let mut are_apart = everywhere(middle_bar);
+    for (from, to) in from.iter().zip(to) {
+        are_apart = are_apart & before.w.dot(*from).greater(before.bar);
+        are_apart = are_apart & after.w.dot(*to).greater(after.bar);
+        are_apart = are_apart & (before.w.dot(*to) + after.w.dot(*from)).greater(middle_bar);
+        if L::may_leave(are_apart) {
+            break;
+        }
+    }
+    are_apart
 }
 
 /// The length of `w`, or more, but for 8 roundings: the sum of its components' magnitudes where their squares may underflow.
 #[inline(always)]
-fn length_above<S: Scalar>(w: Vector<S>) -> S {
+fn length_above<L: Lanes>(w: Vector<L>) -> L {
     let squared = w.dot(w);
+    let magnitudes = w.abs();
     // Flushed squares are less than a 2⁻²⁴th (2⁻⁵³th) of this.
-    if squared > of_format(-100, -900) {
-        squared.sqrt()
-    } else {
-        let magnitudes = w.abs();
-        (magnitudes.x + magnitudes.y) + magnitudes.z
-    }
+    let is_safe = squared.greater(squared.splat(L::Scalar::SAFE_SQUARE));
+    L::select(is_safe, squared.sqrt(), (magnitudes.x + magnitudes.y) + magnitudes.z)
+}
+
+/// True in each lane.
+#[inline(always)]
+fn everywhere<L: Lanes>(like: L) -> L::Mask {
+    like.splat(L::Scalar::ONE).greater(like.splat(L::Scalar::ZERO))
 }
 
 #[cfg(test)]

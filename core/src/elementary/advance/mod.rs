@@ -1,4 +1,4 @@
-//! The certified time of impact: advancing by separating directions.
+//! The certified time of impact: conservative advancement by separating directions.
 //!
 //! [`time_of_impact`] asks from when on two moving sets may be within a distance s of each other (s = 0: touch), up to a
 //! tolerance δ in length units. It never misses: [`Impact::Never`] is a proof, and the time of [`Impact::Possible`] is no later
@@ -35,6 +35,10 @@
 //! How far to go, and along which direction, is heuristic and in plain floating point. Only the proofs count, and each of them
 //! covers its rounding: see the modules of the three.
 //!
+//! The proofs are written once, for any number of [`Lanes`](crate::Lanes): here one pair alone, which leaves as soon as it is
+//! decided; in [`round`] many side by side, for [`batch`](crate::batch); and verification runs them on tiny numbers, on
+//! symbols, and with other constants.
+//!
 //! Before all this come the [relative boxes](crate::boxes::relative), exact, and the volume's proof for the whole step.
 //!
 //! # What is promised
@@ -57,27 +61,34 @@
     reason = "a comparison is false with NaN, which must then take the side that proves nothing"
 )]
 
+pub(super) mod closest;
 pub mod confirm;
-mod directions;
+pub mod corners;
+pub mod directions;
+pub mod round;
 #[cfg(test)]
 mod tests;
 pub mod uncertified;
-mod volume;
+pub mod volume;
 
-use super::closest::{Closest, Feature, closest};
-use super::corners::{Corners, largest_extent};
 use super::{Impact, Limits, Reason};
 use crate::PairKind;
 use crate::boxes::relative;
+use crate::lanes::Number;
 use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
-use directions::{Apart, are_apart_turning};
-use volume::SignedVolume;
+use closest::{Closest, Feature, closest};
+use corners::Corners;
+use directions::{Direction, are_apart_turning, beyond};
+use volume::{Clipped, SignedVolume};
 
 /// The largest number of rounds.
 pub const ROUNDS: u32 = 64;
+
+/// How often the volume is clipped in one round, at most.
+const CLIPS: u32 = 8;
 
 /// How much was done for one answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -106,53 +117,63 @@ pub fn time_of_impact_within<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &
     if !(from >= S::ZERO && from <= S::ONE && until >= from && until <= S::ONE) {
         return not_excluded(S::ZERO, Reason::NotFinite, Work::default()).0;
     }
-    advanced::<S, P, true>(pair, limits, [from, until]).0
+    advanced::<P::Shape, S, true>(&pair.points(), &raised(limits), [from, until]).0
 }
 
 /// [`time_of_impact`], and how much work it was.
 #[inline]
 pub fn time_of_impact_and_work<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<S>) -> (Impact<S>, Work) {
-    advanced::<S, P, true>(pair, limits, [S::ZERO, S::ONE])
+    advanced::<P::Shape, S, true>(&pair.points(), &raised(limits), [S::ZERO, S::ONE])
+}
+
+/// [`time_of_impact_and_work`] of four points in numbers of any format, those of verification too. A separation must not be subnormal.
+#[inline(always)]
+pub fn time_of_impact_of_points<P: PairShape, S: Number>(points: &PairPoints<S>, limits: &Limits<S>) -> (Impact<S>, Work) {
+    advanced::<P, S, true>(points, limits, [S::ZERO, S::ONE])
+}
+
+/// With a separation that every thread compares as what it is.
+#[inline(always)]
+fn raised<S: Scalar>(limits: &Limits<S>) -> Limits<S> {
+    Limits {
+        separation: limits.separation.raised_to_normal(),
+        ..*limits
+    }
 }
 
 /// From the first time of `span` to the second.
 #[inline(always)]
-fn advanced<S: Scalar, P: PrimitivePair<S>, const IS_CERTIFIED: bool>(
-    pair: &P,
+fn advanced<P: PairShape, S: Number, const IS_CERTIFIED: bool>(
+    points: &PairPoints<S>,
     limits: &Limits<S>,
     span: [S; 2],
 ) -> (Impact<S>, Work) {
-    let limits = &Limits {
-        separation: limits.separation.raised_to_normal(),
-        ..*limits
-    };
-    if limits.separation <= S::ZERO && relative::three_axes(pair).is_culled() {
+    if limits.separation <= S::ZERO && relative::are_apart_along_three_axes::<P, S>(points) {
         if limits.separation < S::ZERO {
             return not_excluded(S::ZERO, Reason::NotFinite, Work::default());
         }
         return (Impact::Never, Work::default());
     }
-    let points = pair.points();
-    match P::Shape::KIND {
+    match P::KIND {
         PairKind::VertexFace => {
-            let corners = Corners::of_vertex_face(&points);
-            decide::<S, 3, IS_CERTIFIED>(&points, corners, limits, span)
+            let corners = Corners::of_vertex_face(points);
+            decide::<S, 3, IS_CERTIFIED>(points, corners, limits, span)
         }
         PairKind::EdgeEdge => {
-            let corners = Corners::of_edge_edge(&points);
-            decide::<S, 4, IS_CERTIFIED>(&points, corners, limits, span)
+            let corners = Corners::of_edge_edge(points);
+            decide::<S, 4, IS_CERTIFIED>(points, corners, limits, span)
         }
     }
 }
 
 #[inline(always)]
-const fn not_excluded<S: Scalar>(time: S, reason: Reason, work: Work) -> (Impact<S>, Work) {
+const fn not_excluded<S: Copy>(time: S, reason: Reason, work: Work) -> (Impact<S>, Work) {
     (Impact::Possible { time, reason }, work)
 }
 
 /// Everything after the relative boxes.
 #[inline(always)]
-fn decide<S: Scalar, const N: usize, const IS_CERTIFIED: bool>(
+fn decide<S: Number, const N: usize, const IS_CERTIFIED: bool>(
     points: &PairPoints<S>,
     mut corners: Corners<S, N>,
     limits: &Limits<S>,
@@ -162,17 +183,18 @@ fn decide<S: Scalar, const N: usize, const IS_CERTIFIED: bool>(
     if !(points.is_finite() && limits.separation >= S::ZERO) {
         return not_excluded(S::ZERO, Reason::NotFinite, work);
     }
-    if !(corners.are_in_range() && limits.separation <= largest_extent()) {
+    if !(corners.are_in_range() && limits.separation <= S::LARGEST_EXTENT) {
         return not_excluded(S::ZERO, Reason::OutOfRange, work);
     }
     if !IS_CERTIFIED {
         corners.forget_errors();
     }
     let corners = &corners;
-    if limits.separation > S::ZERO && corners.are_beyond_along_an_axis(limits.separation) {
+    let separation = (limits.separation > S::ZERO).then_some(limits.separation);
+    if separation.is_some_and(|separation| corners.are_beyond_along_an_axis(separation)) {
         return (Impact::Never, work);
     }
-    let volume = SignedVolume::new(corners, limits.separation);
+    let volume = SignedVolume::new(corners, separation);
     work.volume_steps += 1;
     if volume.proves_apart_throughout() {
         return (Impact::Never, work);
@@ -181,6 +203,7 @@ fn decide<S: Scalar, const N: usize, const IS_CERTIFIED: bool>(
         corners,
         volume: &volume,
         limits,
+        separation,
         span,
         work: &mut work,
     }
@@ -193,6 +216,8 @@ struct Advance<'a, S, const N: usize> {
     corners: &'a Corners<S, N>,
     volume: &'a SignedVolume<S>,
     limits: &'a Limits<S>,
+    /// The separation, if it is not zero.
+    separation: Option<S>,
     /// Up to when it is known to be apart, and when the time ends that is asked about.
     span: [S; 2],
     work: &'a mut Work,
@@ -206,7 +231,7 @@ struct Snapshot<S, const N: usize> {
     closest: Closest<S>,
 }
 
-impl<S: Scalar, const N: usize> Snapshot<S, N> {
+impl<S: Number, const N: usize> Snapshot<S, N> {
     #[inline(always)]
     fn new(corners: &Corners<S, N>, time: S) -> Self {
         let positions = corners.at(time);
@@ -233,7 +258,7 @@ impl<S: Scalar, const N: usize> Snapshot<S, N> {
     }
 }
 
-impl<S: Scalar, const N: usize> Advance<'_, S, N> {
+impl<S: Number, const N: usize> Advance<'_, S, N> {
     #[inline(always)]
     fn run(&mut self) -> Impact<S> {
         let near = self.limits.tolerance + self.limits.separation;
@@ -246,18 +271,25 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
             if now.closest.squared_distance <= near_squared {
                 return possible(&now, Reason::WithinTolerance);
             }
-            let mut until = match self.apart_along(&now) {
-                Apart::ToTheEnd => return Impact::Never,
-                Apart::Until(until) if until > now.time => until,
-                _ => return possible(&now, Reason::WithinError),
-            };
+            let proven = self
+                .corners
+                .apart_along(&self.direction(now.direction(self.corners)), &now.positions, true);
+            if !(proven.is_apart && proven.until > now.time) {
+                return possible(&now, Reason::WithinError);
+            }
+            let mut until = proven.until;
+            if until >= beyond(until) {
+                return Impact::Never;
+            }
             if self.work.rounds > 1 && now.closest.feature == Feature::Interior {
-                let steps = &mut self.work.volume_steps;
-                match self.volume.apart_from(now.time, steps) {
-                    Apart::ToTheEnd => return Impact::Never,
-                    Apart::Until(later) => until = later.larger(until),
-                    Apart::Unproven => {}
+                let Clipped {
+                    to_the_end,
+                    until: later,
+                } = self.clipped_volume(now.time);
+                if to_the_end {
+                    return Impact::Never;
                 }
+                until = later.larger(until);
             }
             if until > end {
                 return Impact::Never;
@@ -275,11 +307,28 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
     }
 
     #[inline(always)]
-    fn apart_along(&self, now: &Snapshot<S, N>) -> Apart<S> {
-        let separation = self.limits.separation;
-        let direction = now.direction(self.corners);
-        let direction = self.corners.direction(direction, separation);
-        self.corners.apart_along(&direction, &now.positions)
+    fn direction(&self, w: Vector<S>) -> Direction<S> {
+        self.corners.direction(w, self.separation)
+    }
+
+    /// Until when the volume proves, from `time` on, that the pair is apart.
+    #[inline(always)]
+    fn clipped_volume(&mut self, time: S) -> Clipped<S> {
+        let mut until = time;
+        for _ in 0..CLIPS {
+            self.work.volume_steps += 1;
+            let next = self.volume.clipped::<false>(until);
+            let step = next.until - until;
+            until = next.until;
+            // Steps as short as rounding errors lead nowhere.
+            if next.to_the_end || !(step > S::small(16) * S::UNIT_ROUNDOFF) {
+                return Clipped { until, ..next };
+            }
+        }
+        Clipped {
+            to_the_end: false,
+            until,
+        }
     }
 
     /// Moves on from `next`, to which one round has led from `now`, as far as a turning direction proves: nine tenths of the
@@ -293,23 +342,21 @@ impl<S: Scalar, const N: usize> Advance<'_, S, N> {
         let mut goal = S::ONE;
         if gap_next < gap_now {
             let contact = step * gap_next / (gap_now - gap_next);
-            goal = (next.time + contact * S::from_f64(0.9)).smaller(S::ONE);
+            goal = (next.time + contact * (S::small(9) / S::small(10))).smaller(S::ONE);
         }
-        let before = next.unit(self.corners);
-        let before = self.corners.direction(before, separation);
+        let before = self.direction(next.unit(self.corners));
         for widest in [32, 4, 4] {
             if !(goal > next.time) {
                 return;
             }
             self.work.turns += 1;
             let later = Snapshot::new(self.corners, goal);
-            let after = later.unit(self.corners);
-            let after = self.corners.direction(after, separation);
+            let after = self.direction(later.unit(self.corners));
             if are_apart_turning(&before, &next.positions, &after, &later.positions) {
                 *next = later;
                 return;
             }
-            let quarter = next.time + (goal - next.time) * S::from_f64(0.25);
+            let quarter = next.time + (goal - next.time) * (S::HALF * S::HALF);
             goal = quarter.smaller(next.time + S::small(widest) * step);
         }
     }

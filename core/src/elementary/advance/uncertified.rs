@@ -4,7 +4,7 @@
 //! else differs: so the difference in time, in misses and in times that are too late is what certification costs, and what it is
 //! for. `selvedge accuracy` shows it.
 
-use super::advanced;
+use super::{advanced, raised};
 use crate::elementary::{Impact, Limits};
 use crate::motion::PrimitivePair;
 use crate::scalar::Scalar;
@@ -23,5 +23,5 @@ use crate::scalar::Scalar;
 /// ```
 #[inline]
 pub fn time_of_impact<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<S>) -> Impact<S> {
-    advanced::<S, P, false>(pair, limits, [S::ZERO, S::ONE]).0
+    advanced::<P::Shape, S, false>(&pair.points(), &raised(limits), [S::ZERO, S::ONE]).0
 }

@@ -73,7 +73,7 @@ fn search<S: Scalar, P: PairShape>(points: &PairPoints<S>, limits: &Limits<S>) -
     for point in points.start.iter().chain(&points.end) {
         largest = point.abs().larger(largest);
     }
-    if !(largest.largest() <= S::LARGEST_EDGE && limits.separation <= S::LARGEST_EDGE) {
+    if !(largest.largest() <= S::LARGEST_EXTENT && limits.separation <= S::LARGEST_EXTENT) {
         return possible(S::ZERO, Reason::OutOfRange);
     }
     let error = largest.scaled(S::small(80) * S::UNIT_ROUNDOFF);

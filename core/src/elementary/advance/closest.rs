@@ -3,13 +3,17 @@
 //! No certificate relies on how well this is done: they hold for any direction. What is promised is only that the vector is,
 //! but for a few roundings, a point of the hull, so that its length is no less than the distance: each weight lies in [0, 1]
 //! by the comparisons that precede it. The method is Ericson's (Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9).
+//!
+//! It is here twice: [`closest`] for one pair, which leaves with the first feature that is the one, and says which; and
+//! [`closest_by_selects`] for many side by side, where all features are looked at, one quotient serves them all, and nobody asks which
+//! it was.
 
-use crate::scalar::Scalar;
+use crate::lanes::{Lanes, Number, Rounding};
 use crate::vector::Vector;
 
 /// Where on the hull the closest point was found. The first three corners are a, b, c.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Feature {
+pub(in crate::elementary) enum Feature {
     Corner,
     /// On a side, which is parallel to the one between a and b, a and c, or b and c.
     SideAb,
@@ -20,13 +24,13 @@ pub(super) enum Feature {
 
 /// The closest point and where it was found.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Closest<S> {
-    pub(super) point: Vector<S>,
-    pub(super) squared_distance: S,
-    pub(super) feature: Feature,
+pub(in crate::elementary) struct Closest<S> {
+    pub(in crate::elementary) point: Vector<S>,
+    pub(in crate::elementary) squared_distance: S,
+    pub(in crate::elementary) feature: Feature,
 }
 
-impl<S: Scalar> Closest<S> {
+impl<S: Number> Closest<S> {
     /// A direction in which all of the hull, which has its corners at `positions`, is beyond the closest point. `extent` is
     /// their largest coordinate.
     ///
@@ -34,7 +38,7 @@ impl<S: Scalar> Closest<S> {
     /// the side or the face that it is on: by uh/d, where d/h is all that there is room for. So where d² is below
     /// 2⁶uh² it is made perpendicular to the side, or replaced by the face's normal.
     #[inline(always)]
-    pub(super) fn direction<const N: usize>(&self, positions: &[Vector<S>; N], extent: S) -> Vector<S> {
+    pub(in crate::elementary) fn direction<const N: usize>(&self, positions: &[Vector<S>; N], extent: S) -> Vector<S> {
         let tilted = S::small(64) * S::UNIT_ROUNDOFF * (extent * extent);
         match positions.as_slice() {
             &[a, b, c, ..] if self.squared_distance < tilted => self.upright(a, b, c),
@@ -70,7 +74,7 @@ impl<S: Scalar> Closest<S> {
 /// In the triangle of three corners, or the parallelogram whose first three of four corners are given, opposite to each
 /// other the last two.
 #[inline(always)]
-pub(super) fn closest<S: Scalar, const N: usize>(corners: &[Vector<S>; N]) -> Closest<S> {
+pub(in crate::elementary) fn closest<S: Number, const N: usize>(corners: &[Vector<S>; N]) -> Closest<S> {
     let &[a, b, c, ..] = corners.as_slice() else {
         // There are three at least.
         let nothing = Vector::new(S::ZERO, S::ZERO, S::ZERO);
@@ -84,7 +88,7 @@ pub(super) fn closest<S: Scalar, const N: usize>(corners: &[Vector<S>; N]) -> Cl
 }
 
 #[inline(always)]
-fn at<S: Scalar>(point: Vector<S>, feature: Feature) -> Closest<S> {
+fn at<S: Number>(point: Vector<S>, feature: Feature) -> Closest<S> {
     Closest {
         point,
         squared_distance: point.dot(point),
@@ -93,7 +97,7 @@ fn at<S: Scalar>(point: Vector<S>, feature: Feature) -> Closest<S> {
 }
 
 #[inline(always)]
-fn in_triangle<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S> {
+fn in_triangle<S: Number>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S> {
     let zero = S::ZERO;
     let (to_a_from_b, to_a_from_c) = (a - b, a - c);
     let (ab_a, ac_a) = (to_a_from_b.dot(a), to_a_from_c.dot(a));
@@ -131,7 +135,7 @@ fn in_triangle<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S
 
 /// Corners a, a + (b − a)·t + (c − a)·s for s and t of 0 and 1: the two edges' parameters.
 #[inline(always)]
-fn in_parallelogram<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S> {
+fn in_parallelogram<S: Number>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Closest<S> {
     let (zero, one) = (S::ZERO, S::ONE);
     let (first, second) = (c - a, a - b);
     let (first_squared, second_squared) = (first.dot(first), second.dot(second));
@@ -167,4 +171,86 @@ fn in_parallelogram<S: Scalar>(a: Vector<S>, b: Vector<S>, c: Vector<S>) -> Clos
     let s_numerator = if t > zero { across - along_first } else { -along_first };
     let (s, s_is_end) = clamped(s_numerator, first_squared);
     place(s, t, feature(s_is_end, true))
+}
+
+/// The closest point of a hull in each lane, without branches: any of them if there are not three or four corners. Not a number for
+/// some degenerate pairs.
+#[inline(always)]
+pub(super) fn closest_by_selects<L: Lanes, const N: usize>(corners: &[Vector<L>; N], otherwise: Vector<L>) -> Vector<L> {
+    match *corners.as_slice() {
+        [a, b, c] => in_triangle_by_selects(a, b, c),
+        [a, b, c, _] => in_parallelogram_by_selects(a, b, c),
+        _ => otherwise,
+    }
+}
+
+/// The weights of the interior, then those of each side and corner where it is closest.
+#[inline(always)]
+fn in_triangle_by_selects<L: Lanes>(a: Vector<L>, b: Vector<L>, c: Vector<L>) -> Vector<L> {
+    let zero = a.x.splat(L::Scalar::ZERO);
+    let one = a.x.splat(L::Scalar::ONE);
+    macro_rules! not_above {
+        ($x:expr, $y:expr) => {
+            !$x.greater($y)
+        };
+    }
+    let (ab, ac) = (a - b, a - c);
+    let (ab_a, ac_a) = (ab.dot(a), ac.dot(a));
+    let (ab_b, ac_b) = (ab.dot(b), ac.dot(b));
+    let (ab_c, ac_c) = (ab.dot(c), ac.dot(c));
+    let area_a = ab_b * ac_c - ab_c * ac_b;
+    let area_b = ab_c * ac_a - ab_a * ac_c;
+    let area_c = ab_a * ac_b - ab_b * ac_a;
+
+    // One quotient serves all: its terms are chosen first. The weight of b is `to_b` times it, that of c `to_c` times.
+    let (from_b, from_c) = (ac_b - ab_b, ab_c - ac_c);
+    let mut divisor = (area_a + area_b) + area_c;
+    let (mut to_b, mut to_c) = (area_b, area_c);
+    macro_rules! choose {
+        ($where:expr, $divisor:expr, $to_b:expr, $to_c:expr) => {
+            let here = $where;
+            divisor = L::select(here, $divisor, divisor);
+            to_b = L::select(here, $to_b, to_b);
+            to_c = L::select(here, $to_c, to_c);
+        };
+    }
+    let side = not_above!(area_a, zero) & not_above!(zero, from_b) & not_above!(zero, from_c);
+    choose!(side, from_b + from_c, from_c, from_b);
+    let side = not_above!(area_b, zero) & not_above!(zero, ac_a) & not_above!(ac_c, zero);
+    choose!(side, ac_a - ac_c, zero, ac_a);
+    let corner = not_above!(zero, ac_c) & not_above!(ab_c, ac_c);
+    choose!(corner, one, zero, one);
+    let side = not_above!(area_c, zero) & not_above!(zero, ab_a) & not_above!(ab_b, zero);
+    choose!(side, ab_a - ab_b, ab_a, zero);
+    let corner = not_above!(zero, ab_b) & not_above!(ac_b, ab_b);
+    choose!(corner, one, one, zero);
+    let corner = not_above!(ab_a, zero) & not_above!(ac_a, zero);
+    choose!(corner, one, zero, zero);
+    let scale = one / divisor;
+    a - (ab.scaled(to_b * scale) + ac.scaled(to_c * scale))
+}
+
+/// As in [`in_parallelogram`].
+#[inline(always)]
+fn in_parallelogram_by_selects<L: Lanes>(a: Vector<L>, b: Vector<L>, c: Vector<L>) -> Vector<L> {
+    let zero = a.x.splat(L::Scalar::ZERO);
+    let one = a.x.splat(L::Scalar::ONE);
+    // The quotient if it lies in [0, 1], else the nearer end; NaN becomes an end.
+    macro_rules! clamped {
+        ($numerator:expr, $denominator:expr) => {{
+            let (numerator, denominator) = ($numerator, $denominator);
+            let quotient = numerator / denominator;
+            let inside = L::select(denominator.greater(numerator), quotient, one);
+            L::select(numerator.greater(zero), inside, zero)
+        }};
+    }
+    let (first, second) = (c - a, a - b);
+    let (first_squared, second_squared) = (first.dot(first), second.dot(second));
+    let (along_first, along_second) = (first.dot(a), second.dot(a));
+    let across = first.dot(second);
+    let scale = first_squared * second_squared - across * across;
+    let s = clamped!(across * along_second - along_first * second_squared, scale);
+    let t = clamped!(across * s + along_second, second_squared);
+    let s = clamped!(across * t - along_first, first_squared);
+    (a + first.scaled(s)) - second.scaled(t)
 }

@@ -22,76 +22,82 @@
 //! **Underflow.** λ is the smallest normal number. Where a thread flushes results to zero an operation loses at most λ, and
 //! where it takes subnormal operands for zero each of them loses at most λ as well. A component of ê(t) then loses at most 6λ
 //! (3 in the difference, one each in two products and a sum), and adds 6λ|w_k| to the error of the product; the product and
-//! the additions lose 5λ more, T itself 8λ. The first is covered by a constant μ that is added to each M_k, 20u·μ ≥ 7λ; the
-//! others by η = [`Rounding::UNDERFLOW`](crate::Rounding::UNDERFLOW) ≥ 2⁷λ. So a direction may have any length.
+//! the additions lose 5λ more, T itself 8λ. The first is covered by μ = [`Rounding::EXTENT_UNDERFLOW`], which is added to each M_k,
+//! 20u·μ ≥ 7λ; the others by η = [`Rounding::UNDERFLOW`] ≥ 2⁷λ. So a direction may have any length.
 //!
-//! **Overflow.** M ≤ [`largest_extent`] is demanded, 2²⁹ (`f32`) or 2²⁵⁰ (`f64`), checked by an ordered comparison: then nothing
-//! that a certificate computes comes near the largest number, which directed rounding returns instead of infinity.
+//! **Overflow.** M ≤ [`LARGEST_EXTENT`](Rounding::LARGEST_EXTENT), 2²⁹ (`f32`) or 2²⁵⁰ (`f64`), is demanded: then nothing that a
+//! certificate computes comes near the largest number, which directed rounding returns instead of infinity.
 
-use crate::lanes::power_of_two_f64;
+use crate::lanes::{Lanes, Rounding, roundoffs};
 use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
-use crate::scalar::Scalar;
 use crate::vector::Vector;
 
-/// The moving corners of one pair: three or four.
+/// The moving corners of one pair, or of one in each lane: three or four.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Corners<S, const N: usize> {
+pub struct Corners<L, const N: usize> {
     /// Each corner at the start and at the end of the step.
-    pub(super) ends: [[Vector<S>; 2]; N],
+    pub ends: [[Vector<L>; 2]; N],
     /// M of the module's documentation, μ included.
-    pub(super) extent: Vector<S>,
+    pub extent: Vector<L>,
 }
 
-impl<S: Scalar> Corners<S, 3> {
+impl<L: Lanes> Corners<L, 3> {
     /// Of a vertex and a face: a triangle.
     #[inline(always)]
-    pub(super) fn of_vertex_face(points: &PairPoints<S>) -> Self {
+    #[must_use]
+    pub fn of_vertex_face(points: &PairPoints<L>) -> Self {
         let [_, a0, b0, c0] = VertexAndFace::corners(points.start);
         let [_, a1, b1, c1] = VertexAndFace::corners(points.end);
-        Self::new([[a0, a1], [b0, b1], [c0, c1]])
+        Self::new(a0.x, [[a0, a1], [b0, b1], [c0, c1]])
     }
 }
 
-impl<S: Scalar> Corners<S, 4> {
+impl<L: Lanes> Corners<L, 4> {
     /// Of two edges: a parallelogram, the second and third corner opposite to each other.
     #[inline(always)]
-    pub(super) fn of_edge_edge(points: &PairPoints<S>) -> Self {
+    #[must_use]
+    pub fn of_edge_edge(points: &PairPoints<L>) -> Self {
         let [a0, b0, c0, d0] = EdgeAndEdge::corners(points.start);
         let [a1, b1, c1, d1] = EdgeAndEdge::corners(points.end);
-        Self::new([[a0, a1], [b0, b1], [c0, c1], [d0, d1]])
+        Self::new(a0.x, [[a0, a1], [b0, b1], [c0, c1], [d0, d1]])
     }
 }
 
-impl<S: Scalar, const N: usize> Corners<S, N> {
+impl<L: Lanes, const N: usize> Corners<L, N> {
     #[inline(always)]
-    fn new(ends: [[Vector<S>; 2]; N]) -> Self {
-        let mut extent = Vector::new(S::ZERO, S::ZERO, S::ZERO);
-        for [start, end] in ends {
+    fn new(like: L, ends: [[Vector<L>; 2]; N]) -> Self {
+        let mut extent = match ends.first() {
+            Some([start, end]) => start.abs().larger(end.abs()),
+            None => all(like.splat(L::Scalar::ZERO)),
+        };
+        for [start, end] in ends.iter().skip(1) {
             extent = start.abs().larger(end.abs()).larger(extent);
         }
-        let vanishing = of_format::<S>(-100, -960);
-        let extent = extent + Vector::new(vanishing, vanishing, vanishing);
+        let extent = extent + all(like.splat(L::Scalar::EXTENT_UNDERFLOW));
         Self { ends, extent }
     }
 
     /// False for corners so large that products of three or four might overflow. NaN may go unnoticed.
     #[inline(always)]
-    pub(super) fn are_in_range(&self) -> bool {
-        self.extent.largest() <= largest_extent()
+    #[must_use]
+    pub fn are_in_range(&self) -> L::Mask {
+        let largest = self.extent.largest();
+        !largest.greater(largest.splat(L::Scalar::LARGEST_EXTENT))
     }
 
     /// Takes an extent of zero, in proportion to which all errors are bounded: **nothing is certified any more.**
     #[inline(always)]
     pub(super) fn forget_errors(&mut self) {
-        self.extent = Vector::new(S::ZERO, S::ZERO, S::ZERO);
+        self.extent = all(self.extent.x.splat(L::Scalar::ZERO));
     }
 
     /// Where the corners are at `time`, rounded.
     #[inline(always)]
-    pub(super) fn at(&self, time: S) -> [Vector<S>; N] {
-        let rest = S::ONE - time;
+    #[must_use]
+    pub fn at(&self, time: L) -> [Vector<L>; N] {
+        let rest = time.splat(L::Scalar::ONE) - time;
         // A loop, because `array::map` with a closure is not always inlined.
-        let mut positions = [Vector::new(S::ZERO, S::ZERO, S::ZERO); N];
+        let mut positions = [self.extent; N];
         for (position, [start, end]) in positions.iter_mut().zip(&self.ends) {
             *position = start.scaled(rest) + end.scaled(time);
         }
@@ -101,32 +107,17 @@ impl<S: Scalar, const N: usize> Corners<S, N> {
     /// 20u·Σ|w_k|M_k + η: a product of `w` with a corner at any time, as computed, that is larger than this proves that the
     /// exact product is positive.
     #[inline(always)]
-    pub(super) fn product_error(&self, w: Vector<S>) -> S {
-        S::small(20) * S::UNIT_ROUNDOFF * w.abs().dot(self.extent) + S::UNDERFLOW
+    #[must_use]
+    pub fn product_error(&self, w: Vector<L>) -> L {
+        roundoffs(w.x, 20) * w.abs().dot(self.extent) + w.x.splat(L::Scalar::UNDERFLOW)
     }
 }
 
-/// 2²⁹ or 2²⁵⁰: products of four numbers of eight times this size do not overflow.
 #[inline(always)]
-pub(crate) fn largest_extent<S: Scalar>() -> S {
-    of_format(29, 250)
-}
-
-/// Two to one power in `f32`, to another in `f64`.
-#[inline(always)]
-pub(crate) fn of_format<S: Scalar>(single: i64, double: i64) -> S {
-    let is_single = S::UNIT_ROUNDOFF > S::from_f64(f64::EPSILON);
-    S::from_f64(power_of_two_f64(if is_single { single } else { double }))
-}
-
-/// So many unit roundoffs below one: a factor that makes up for the rounding of a few operations.
-#[inline(always)]
-pub(crate) fn less_roundoffs<S: Scalar>(count: u8) -> S {
-    S::ONE - S::small(count) * S::UNIT_ROUNDOFF
-}
-
-/// So many unit roundoffs above one.
-#[inline(always)]
-pub(crate) fn more_roundoffs<S: Scalar>(count: u8) -> S {
-    S::ONE + S::small(count) * S::UNIT_ROUNDOFF
+fn all<L: Copy>(component: L) -> Vector<L> {
+    Vector {
+        x: component,
+        y: component,
+        z: component,
+    }
 }

@@ -1,0 +1,88 @@
+//! One round of conservative advancement for a pair in each lane, with what goes well in lanes.
+//!
+//! The proofs are those of one pair alone ([`directions`](super::directions), [`volume`](super::volume)): a constant separating
+//! direction, and, where asked for, two steps of clipping the signed volume. The direction is that of the closest point, found
+//! without branches. [`advance_from_rows`](crate::batch::advance_from_rows) is for callers.
+
+use super::closest::closest_by_selects;
+use super::corners::Corners;
+use super::directions::beyond;
+use super::volume::SignedVolume;
+use crate::PairKind;
+use crate::lanes::{Lanes, Rounding};
+use crate::points::{PairPoints, PairShape};
+
+/// What a round is asked, the same in each lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Question<L> {
+    /// The distance within which a pair is near: the tolerance and the separation.
+    pub near: L,
+    /// The separation, if it is not zero.
+    pub separation: Option<L>,
+    /// Up to when pairs are of interest, at most 1.
+    pub until: L,
+    /// Whether the signed volume is asked as well, where there is no separation.
+    pub with_volume: bool,
+}
+
+/// What a round found: in each lane one of the three, or none of them if the pair has advanced and is still open.
+#[derive(Clone, Copy, Debug)]
+pub struct Found<L: Lanes> {
+    /// The time up to which the pair is proven to be apart.
+    pub time: L,
+    /// Certainly farther apart than the separation up to the time of interest.
+    pub apart: L::Mask,
+    /// At its time, which did not change, within the tolerance of the separation.
+    pub near: L::Mask,
+    /// Nothing more could be proven; its time did not change.
+    pub stuck: L::Mask,
+}
+
+/// One round, from `time` on, up to which the pairs are proven to be apart.
+#[inline(always)]
+#[must_use]
+pub fn round<P: PairShape, L: Lanes>(points: &PairPoints<L>, time: L, question: &Question<L>) -> Found<L> {
+    match P::KIND {
+        PairKind::VertexFace => round_of(points, &Corners::of_vertex_face(points), time, question),
+        PairKind::EdgeEdge => round_of(points, &Corners::of_edge_edge(points), time, question),
+    }
+}
+
+#[inline(always)]
+fn round_of<L: Lanes, const N: usize>(
+    points: &PairPoints<L>,
+    corners: &Corners<L, N>,
+    time: L,
+    question: &Question<L>,
+) -> Found<L> {
+    let is_in_range = corners.are_in_range() & points.is_finite();
+    let now = corners.at(time);
+    let w = closest_by_selects(&now, corners.extent);
+    let squared_distance = w.dot(w);
+    let is_beyond = squared_distance.greater(question.near * question.near);
+
+    let direction = corners.direction(w, question.separation);
+    let proven = corners.apart_along(&direction, &now, is_in_range);
+    let mut until = proven.until;
+    let mut is_proven = proven.is_apart & until.greater(time);
+
+    if question.with_volume && question.separation.is_none() {
+        let volume = SignedVolume::new(corners, None);
+        let first = volume.clipped::<true>(time);
+        let second = volume.clipped::<true>(first.until);
+        let later = L::select(first.to_the_end | second.to_the_end, beyond(time), second.until);
+        let is_later = is_in_range & later.greater(time) & (later.greater(until) | !is_proven);
+        until = L::select(is_later, later, until);
+        is_proven = is_proven | is_later;
+    }
+
+    let is_number = time.splat(L::Scalar::INFINITY).greater(squared_distance);
+    let near = is_in_range & is_number & !is_beyond;
+    let open = is_proven & !near;
+    Found {
+        time: L::select(open, until, time),
+        apart: open & until.greater(question.until),
+        near,
+        stuck: !(open | near),
+    }
+}
