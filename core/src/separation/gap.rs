@@ -262,11 +262,11 @@ impl SeparatingDirection {
         error: GapError<P::Scalar>,
     ) -> Option<Self> {
         let threshold = threshold(separation, error);
-        if !(f64::from(self.gap) > threshold.to_f64()) {
-            return None;
+        if f64::from(self.gap) > threshold.to_f64() {
+            let gap = self.gap_at(kind, end) - error.0;
+            return (gap > threshold).then(|| self.with_gap(gap));
         }
-        let gap = self.gap_at(kind, end) - error.0;
-        (gap > threshold).then(|| self.with_gap(gap))
+        None
     }
 }
 

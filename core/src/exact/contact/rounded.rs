@@ -79,7 +79,7 @@ impl Number for Rounded {
 
     #[inline(always)]
     fn times(&self, other: &Self) -> Self {
-        Self((i128::from(self.0) * i128::from(other.0) >> FRACTION) as i64)
+        Self(((i128::from(self.0) * i128::from(other.0)) >> FRACTION) as i64)
     }
 }
 

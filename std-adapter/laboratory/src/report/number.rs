@@ -4,7 +4,7 @@
 pub(super) const ABSENT: &str = "–";
 
 /// A whole number with a comma between thousands: `1,345`.
-pub(super) fn grouped(number: impl ToString) -> String {
+pub(super) fn grouped(number: impl ToString + Copy) -> String {
     let digits = number.to_string();
     let mut grouped = String::with_capacity(digits.len() * 4 / 3);
     for (index, digit) in digits.chars().enumerate() {
@@ -17,7 +17,7 @@ pub(super) fn grouped(number: impl ToString) -> String {
 }
 
 /// `1 step`, `1,500 steps`.
-pub(super) fn counted(count: impl ToString, what: &str) -> String {
+pub(super) fn counted(count: impl ToString + Copy, what: &str) -> String {
     let count = grouped(count);
     let s = if count == "1" { "" } else { "s" };
     format!("{count} {what}{s}")

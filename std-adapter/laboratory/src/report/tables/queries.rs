@@ -47,7 +47,7 @@ pub fn queries(scalar: &str, results: &[QueryResult]) -> String {
 
 fn row(result: &QueryResult) -> [String; 8] {
     let mark = if result.method.is_certified() { "" } else { "!" };
-    let count = |count: Option<usize>| count.map_or_else(|| "?".to_owned(), |count| grouped(count));
+    let count = |count: Option<usize>| count.map_or_else(|| "?".to_owned(), grouped);
     let time = result.nanoseconds;
     [
         format!("{}{mark}", result.method),
