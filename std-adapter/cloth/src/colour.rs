@@ -4,7 +4,7 @@
 //! colouring is greedy, in the order of the constraints, once per mesh.
 
 use super::plan::{Constraint, StepInput, Touches};
-use selvedge::parallel;
+use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
 use std::ops::Range;

@@ -13,8 +13,8 @@ use super::checkpoint::{Checkpoint, CheckpointError, Shape};
 use super::contact::{Blocker, Contact, ContactCounts, ContactSeconds, LARGEST_TURN};
 use super::plan::{Constraint, Entry, FREE, Force, Frame, Plan, StepInput, Touches};
 use super::scene::{OnBlocked, Pose, RigidMotion, Scene, World};
-use selvedge::mesh::{Mesh, TopologyError};
-use selvedge::parallel::{ThreadError, Threads};
+use selvedge::{Mesh, TopologyError};
+use selvedge::{ThreadError, verification::parallel::Threads};
 use selvedge_core::glam::DVec3;
 use std::time::Instant;
 

@@ -10,7 +10,7 @@
 use super::colour::Local;
 use super::plan::{Constraint, StepInput, Touches};
 use rustc_hash::FxHashMap;
-use selvedge::parallel;
+use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
@@ -237,7 +237,7 @@ impl<C: Local<N>, const N: usize> Constraint for Sweeps<C, N> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use selvedge::parallel::Threads;
+    use selvedge::verification::parallel::Threads;
 
     /// Keeps two vertices no farther apart than one.
     #[derive(Clone, Debug)]

@@ -8,9 +8,9 @@
 //! Meshes are OBJ or PLY files of equal topology. The detector is made once; each step takes two slices of positions and fills
 //! the same list of contacts.
 
+use selvedge::CollisionDetector;
+use selvedge::Topology;
 use selvedge::glam::DVec3;
-use selvedge::mesh::Topology;
-use selvedge::step::CollisionDetector;
 use selvedge_files::mesh::read_step;
 use selvedge_laboratory::scene::ArmScene;
 use std::error::Error;

@@ -1,8 +1,8 @@
 //! After the first step, a step allocates nothing.
 
+use selvedge::Mesh;
 use selvedge::glam::DVec3;
-use selvedge::mesh::Mesh;
-use selvedge::step::{CandidateBoxes, CollisionDetector};
+use selvedge::{CandidateBoxes, CollisionDetector};
 use selvedge_cloth::sleeve::sleeve;
 use selvedge_laboratory::pipeline::{Pipeline, Preset};
 use selvedge_laboratory::scene::ArmScene;

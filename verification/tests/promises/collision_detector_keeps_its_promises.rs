@@ -2,10 +2,10 @@
 
 use proptest::prelude::*;
 use selvedge::PairKind::{self, EdgeEdge, VertexFace};
-use selvedge::dispatch::available_levels;
+use selvedge::Topology;
 use selvedge::glam::DVec3;
-use selvedge::mesh::Topology;
-use selvedge::step::{CandidateBoxes, CollisionDetector, Contact, StepError};
+use selvedge::verification::available_levels;
+use selvedge::{CandidateBoxes, CollisionDetector, Contact, StepError};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
 use selvedge_laboratory::scene::ArmScene;

@@ -34,7 +34,7 @@ use horizon::Horizon;
 use pair::Pair;
 use rows::Row;
 use selvedge::PairKind;
-use selvedge::mesh::{Topology, TopologyError};
+use selvedge::{Topology, TopologyError};
 use selvedge_core::glam::DVec3;
 use sieve::{Distances, Neighbours};
 use std::sync::Arc;

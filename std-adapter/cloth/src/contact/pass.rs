@@ -24,7 +24,7 @@ use super::zones::{Cut, Motions};
 use super::{Blocker, Contact, ContactSettings};
 use crate::plan::{FREE, Frame, StepInput};
 use selvedge::PairKind;
-use selvedge::parallel;
+use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 use std::time::Instant;
 

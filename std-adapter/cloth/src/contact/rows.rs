@@ -8,7 +8,7 @@
 use super::pair::Pair;
 use super::{ContactSettings, Thickness};
 use crate::plan::{StepInput, Touch, Touches};
-use selvedge::parallel;
+use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 
 /// Pairs that start this much farther apart than their thickness get a row too if they come near.

@@ -8,8 +8,8 @@ use super::closest::Closest;
 use super::pass::largest;
 use super::rows;
 use selvedge::PairKind;
-use selvedge::broad_phase::moving::MovingBroadPhase;
-use selvedge::mesh::Topology;
+use selvedge::Topology;
+use selvedge::verification::MovingBroadPhase;
 use selvedge_core::glam::{DVec3, Vec3A};
 use std::sync::Arc;
 

@@ -6,7 +6,7 @@ use super::{Effect, Registration};
 use crate::colour::{Coloured, Local};
 use crate::plan::Plan;
 use crate::scene::{BENDING_STIFFNESS, Cloth};
-use selvedge::mesh::Topology;
+use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {

@@ -7,7 +7,7 @@ use super::membrane::Incidence;
 use super::{Effect, Registration};
 use crate::plan::{Constraint, Plan, StepInput, Touches};
 use crate::scene::{PRESSURE, RATIO};
-use selvedge::parallel;
+use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {

@@ -12,7 +12,7 @@ use super::{Effect, Registration};
 use crate::plan::{Force, Plan, StepInput};
 use crate::scene::{AIR_DENSITY, FREQUENCY, RATIO, SPEED};
 use libm::sin;
-use selvedge::parallel;
+use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 use std::f64::consts::TAU;
 

@@ -5,7 +5,7 @@ use super::motion::RigidMotion;
 use super::quantity::LENGTH;
 use super::table::Table;
 use super::{WORLD, shapes};
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 
 /// A rigid body on a prescribed motion.

@@ -5,7 +5,7 @@ use super::quantity::{AREA_DENSITY, LENGTH, RATIO, SPEED};
 use super::table::Table;
 use super::{WORLD, shapes};
 use crate::sleeve::{RefinementError, ring_sizes, sleeve};
-use selvedge::mesh::{Mesh, Topology};
+use selvedge::{Mesh, Topology};
 use selvedge_core::glam::DVec3;
 
 /// The cloth at rest.

@@ -46,7 +46,7 @@ pub(crate) use quantity::{
 
 use super::effects::{self, Named};
 use quantity::TIME;
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use selvedge_files::excerpt::excerpt;
 use selvedge_files::mesh;

@@ -1,7 +1,7 @@
 //! Meshes of simple shapes. Positions are the same bits on every platform: sines come from the `libm` crate.
 
 use libm::{cos, sin};
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 

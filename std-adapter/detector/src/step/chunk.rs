@@ -21,7 +21,7 @@ use super::sweep::{Left, MOST, Open, Sweep, rounded_up};
 use super::{Bound, Contact, Question, Wanted};
 use crate::PairCounts;
 use crate::PairKind;
-use crate::broad_phase::moving::{CHUNK, Hierarchies, Rows, Sink};
+use crate::broad_phase::{CHUNK, Hierarchies, Rows, Sink};
 use crate::dispatch::Level;
 use crate::mesh::Topology;
 use selvedge_core::batch::{LANES, Mask, VertexRow, culled_from_rows};

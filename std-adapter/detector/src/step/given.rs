@@ -10,10 +10,10 @@
 //! ```
 //!
 //! In place of the rows of four vertices that any other test gathers, each pair takes two cache lines, and no branch. That it is
-//! certified to drop a pair is derived with the [boxes](selvedge_core::boxes::moving) and their [mapping](crate::broad_phase::moving).
+//! certified to drop a pair is derived with the [boxes](selvedge_core::boxes::moving) and their [mapping](crate::broad_phase).
 
 use crate::PairKind;
-use crate::broad_phase::moving::{Mapping, extent};
+use crate::broad_phase::{Mapping, extent};
 use crate::dispatch::Level;
 use crate::mesh::Topology;
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};

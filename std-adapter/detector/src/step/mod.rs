@@ -11,7 +11,7 @@
 //! ```
 //!
 //! ```
-//! use selvedge::{glam::DVec3, mesh::Topology, step::CollisionDetector};
+//! use selvedge::{CollisionDetector, Topology, glam::DVec3};
 //!
 //! // Once: a small triangle above a large one.
 //! let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?;
@@ -65,17 +65,16 @@
 mod chunk;
 mod engine;
 mod given;
+#[cfg(feature = "verification")]
+mod shown;
 mod sweep;
 
-pub use crate::frame::StepError;
-pub use crate::parallel::ThreadError;
 pub use engine::StepTally;
 
 use crate::PairKind;
-use crate::dispatch::Level;
-use crate::frame::check_length;
+use crate::frame::{StepError, check_length};
 use crate::mesh::Topology;
-use crate::parallel::Threads;
+use crate::parallel::{ThreadError, Threads};
 use engine::{Engine, PROBES, Probe};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
@@ -219,11 +218,6 @@ impl<S: Scalar> CollisionDetector<S> {
         self.is_exact = is_exact;
     }
 
-    /// Forces the instruction set; the best that the machine has is the default. Changes no result.
-    pub const fn set_level(&mut self, level: Level) {
-        self.engine.set_level(level);
-    }
-
     /// Names the vertices that move, true for each that does; `None`: all of them, as at first.
     ///
     /// From the next step on, pairs of which no vertex moves are not looked at. The positions of vertices that do
@@ -345,37 +339,6 @@ impl<S: Scalar> CollisionDetector<S> {
             .run(|| engine.run_on(start, end, &question, [vertex_face, edge_edge]))?;
         self.engine.collect_contacts(contacts);
         Ok(())
-    }
-
-    /// As [`contacts`](Self::contacts), and replaces `vertex_face` and `edge_edge` by the pairs that the filter leaves.
-    ///
-    /// # Errors
-    /// As [`contacts`](Self::contacts).
-    #[cfg(feature = "verification")]
-    #[doc(hidden)]
-    pub fn contacts_and_filtered(
-        &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
-        contacts: &mut Vec<Contact<S>>,
-        vertex_face: &mut Vec<[u32; 2]>,
-        edge_edge: &mut Vec<[u32; 2]>,
-    ) -> Result<(), StepError> {
-        let question = Question {
-            keeps_filtered: true,
-            ..self.question(Wanted::All)
-        };
-        let engine = &mut self.engine;
-        self.threads.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
-        self.engine.collect_contacts(contacts);
-        self.engine.collect_kept(vertex_face, edge_edge);
-        Ok(())
-    }
-
-    /// What the last step counted and how long its stages took.
-    #[must_use]
-    pub const fn tally(&self) -> &StepTally {
-        self.engine.tally()
     }
 
     /// The mesh's vertices, edges and triangles.

@@ -18,10 +18,10 @@
 //! A published method is a [`Preset`]: a choice of stages ([`Stages`]), never another loop. All of them run the
 //! same code, on the same broad phase, so their times compare; every test goes sixteen pairs at a time
 //! ([`selvedge_core::batch`]). The presets `selvedge` and `selvedge_exact` alone have no triangle pairs
-//! ([`Source::MovingBoxes`]): they are [`step`](selvedge::step), counted as the others are.
+//! ([`Source::MovingBoxes`]): they are [`CollisionDetector`], counted as the others are.
 //!
 //! ```
-//! use selvedge::{glam::DVec3, mesh::Topology};
+//! use selvedge::{glam::DVec3, Topology};
 //! use selvedge_laboratory::pipeline::{Pipeline, Preset};
 //!
 //! // A small triangle falls through a large one.
@@ -52,21 +52,21 @@ mod swept;
 pub use assignment::FeatureAssignment;
 pub use preset::{CullingTest, ElementaryTest, Preset, Redundancy, Source, Stage, Stages, UnknownPreset};
 pub use report::{StageReport, StepReport};
-pub use selvedge::frame::StepError;
-pub use selvedge::parallel::ThreadError;
-pub use selvedge::step::Contact;
+pub use selvedge::Contact;
+pub use selvedge::StepError;
+pub use selvedge::ThreadError;
 
+use crate::broad_phase::{BroadPhase, SweptBox};
 use batch::{Batch, StepInput};
 use pairs::MovingMesh;
 use rustc_hash::FxHashSet;
-use selvedge::PairCounts;
+use selvedge::CollisionDetector;
 use selvedge::PairKind;
-use selvedge::broad_phase::{BroadPhase, SweptBox};
-use selvedge::dispatch::{Level, best_level};
-use selvedge::frame::check_frames;
-use selvedge::mesh::Topology;
-use selvedge::parallel::{self, Threads};
-use selvedge::step::CollisionDetector;
+use selvedge::Topology;
+use selvedge::verification::PairCounts;
+use selvedge::verification::check_frames;
+use selvedge::verification::parallel::{self, Threads};
+use selvedge::verification::{Level, best_level};
 use selvedge_core::batch::VertexRow;
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::{Motion, Scalar};

@@ -1,7 +1,7 @@
 //! The clock and the counts, on one set of pairs in one format.
 
 use super::{AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, MeasuredFilter, PairSet};
-use selvedge::dispatch::{Level, available_levels};
+use selvedge::verification::{Level, available_levels};
 use selvedge_core::PairKind;
 use selvedge_core::batch::{LANES, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::filter::{Filter, Tier, plain};

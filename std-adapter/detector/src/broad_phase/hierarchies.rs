@@ -1,13 +1,14 @@
 //! The three hierarchies of a mesh, and their share of a step: refit, or build, and traversal.
 
 use super::MovingStatistics;
+use super::degradation::{Degradation, Prices};
 use super::mapping::Mapping;
 use super::pairs::Sink;
 use super::rows::{Rows, row};
 use super::traversal::{BlockPair, Scratch, Trees};
 use super::tree::Tree;
 use crate::PairKind;
-use crate::broad_phase::degradation::{Degradation, Prices};
+use crate::buffer::settle;
 use crate::dispatch::{Level, best_level};
 use crate::frame::{StepError, check_frames};
 use crate::mesh::Topology;
@@ -284,8 +285,8 @@ impl<S: Scalar> Hierarchies<S> {
         let (level, scratch) = (self.level, &mut self.scratch);
         self.task_tests = vertex_face_trees.tasks(level, TASK_LEVEL, scratch, vertex_face);
         self.task_tests += edge_edge_trees.tasks(level, TASK_LEVEL, scratch, edge_edge);
-        crate::broad_phase::buffer::settle(vertex_face);
-        crate::broad_phase::buffer::settle(edge_edge);
+        settle(vertex_face);
+        settle(edge_edge);
     }
 
     /// Into how many parts the traversal is split on the threads there are: those of VF first.
@@ -333,6 +334,23 @@ impl<S: Scalar> Hierarchies<S> {
             }
             .pairs(self.level, share.tasks, scratch, sink),
         }
+    }
+
+    /// Gives `sink` the edges and faces that are near each other and have no vertex in common, by their positions.
+    pub(crate) fn visit_edge_face(&mut self, sink: &mut dyn Sink) {
+        let trees = Trees {
+            first: &self.edges,
+            second: &self.faces,
+            are_same: false,
+        };
+        let mut tasks = Vec::new();
+        trees.tasks(self.level, TASK_LEVEL, &mut self.scratch, &mut tasks);
+        trees.pairs(self.level, &tasks, &mut self.scratch, sink);
+    }
+
+    /// An edge and a face as the topology numbers them.
+    pub(crate) fn edge_face_in_mesh(&self, [edge, face]: [u32; 2]) -> [u32; 2] {
+        [self.edges.primitives[edge as usize], self.faces.primitives[face as usize]]
     }
 
     /// The candidates were found in so many tests, besides those of [`update`](Self::update).
