@@ -72,6 +72,10 @@ macro_rules! values {
 mod aabb;
 pub mod direction;
 mod dop;
+#[cfg(not(feature = "batch"))]
+#[allow(dead_code, unreachable_pub)]
+mod moving;
+#[cfg(feature = "batch")]
 pub mod moving;
 pub mod relative;
 pub mod segment;

@@ -13,8 +13,9 @@ use super::checkpoint::{Checkpoint, CheckpointError, Shape};
 use super::contact::{Blocker, Contact, ContactCounts, ContactSeconds, LARGEST_TURN};
 use super::plan::{Constraint, Entry, FREE, Force, Frame, Plan, StepInput, Touches};
 use super::scene::{OnBlocked, Pose, RigidMotion, Scene, World};
+use selvedge::verification::parallel::Workers;
 use selvedge::{Mesh, TopologyError};
-use selvedge::{ThreadError, verification::parallel::Threads};
+use selvedge::{ThreadError, Threads};
 use selvedge_core::glam::DVec3;
 use std::time::Instant;
 
@@ -50,7 +51,7 @@ pub struct Simulation {
     effects: Vec<EffectTime>,
     on_blocked: OnBlocked,
     body_names: Vec<String>,
-    threads: Threads,
+    threads: Workers,
     state: State,
     work: Work,
 }
@@ -121,7 +122,7 @@ impl Simulation {
     /// # Errors
     /// If the operating system refuses the threads.
     pub fn new(scene: Scene, threads: usize) -> Result<Self, SetupError> {
-        let threads = Threads::new(threads)?;
+        let threads = Workers::new(Threads::from_count(threads))?;
         let Scene {
             name,
             cloth,

@@ -237,7 +237,8 @@ impl<C: Local<N>, const N: usize> Constraint for Sweeps<C, N> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use selvedge::verification::parallel::Threads;
+    use selvedge::Threads;
+    use selvedge::verification::parallel::Workers;
 
     /// Keeps two vertices no farther apart than one.
     #[derive(Clone, Debug)]
@@ -272,7 +273,7 @@ mod tests {
             inverse_masses: &vec![1.0; start.len()],
             poses: &[],
         };
-        let threads = Threads::new(threads).unwrap();
+        let threads = Workers::new(Threads::from_count(threads)).unwrap();
         threads.run(|| project.project(&step, &mut positions, &mut Touches::default()));
         positions
     }

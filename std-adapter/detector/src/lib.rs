@@ -7,14 +7,23 @@
 //! needs: topology, hierarchies and threads. Mesh files are in the crate `selvedge-files`, cloth simulation in `selvedge-cloth`, the
 //! published methods and what compares them in `selvedge-laboratory`.
 //!
-//! The feature `verification` adds the module of that name: parts of a step, for the project's own crates, which measure them, check
-//! them, or are built of them. Nothing is promised of it.
+//! # Features
+//! They only add.
+//!
+//! | feature | what it adds |
+//! |---|---|
+//! | `parallel` (on by default) | [`Threads`]: steps on several threads, by rayon. Without it the calling thread does all |
+//! | `timing` | a clock for the seconds of each stage, which `verification` shows. Without it no clock is read |
+//! | `verification` | the module of that name: parts of a step, for the project's own crates, which measure them, check them, or are built of them. Nothing is promised of it |
+//!
+//! Without any of them the crate needs neither threads nor a clock: it runs on `wasm32-unknown-unknown`.
 
 // Some of these are public in `verification` alone.
 #[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub))]
 mod broad_phase;
 #[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub))]
 mod buffer;
+mod clock;
 #[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub))]
 mod dispatch;
 #[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub))]
@@ -29,10 +38,11 @@ mod step;
 #[cfg(feature = "verification")]
 pub mod verification;
 
-pub use frame::StepError;
+pub use frame::{Frame, StepError};
 pub use mesh::{Mesh, Topology, TopologyError, TopologyStatistics};
-pub use parallel::ThreadError;
+#[cfg(feature = "parallel")]
+pub use parallel::{ThreadError, Threads};
 pub use selvedge_core as core;
 pub use selvedge_core::glam;
-pub use selvedge_core::{PairKind, Scalar};
-pub use step::{CandidateBoxes, CollisionDetector, Contact};
+pub use selvedge_core::{PairKind, Position, Scalar};
+pub use step::{CandidateBoxes, CollisionDetector, Contact, Criterion};

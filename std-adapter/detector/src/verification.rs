@@ -9,5 +9,9 @@ pub use crate::buffer::with_headroom;
 pub use crate::dispatch::{Level, available_levels, best_level};
 pub use crate::frame::{check_frames, check_length};
 pub use crate::pair_counts::PairCounts;
-pub use crate::parallel;
 pub use crate::step::StepTally;
+
+/// Loops that are split between threads.
+pub mod parallel {
+    pub use crate::parallel::*;
+}

@@ -58,7 +58,7 @@ use crate::dispatch::Level;
 use crate::frame::{StepError, check_length};
 use crate::mesh::Topology;
 use crate::parallel;
-use selvedge_core::Scalar;
+use selvedge_core::{Position, Scalar};
 use std::mem::swap;
 use std::sync::Arc;
 
@@ -151,7 +151,7 @@ impl<S: Scalar> MovingBroadPhase<S> {
     ///
     /// # Errors
     /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
-    pub fn update(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<(), StepError> {
+    pub fn update<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P]) -> Result<(), StepError> {
         self.hierarchies.update(start, end, &self.fit)
     }
 

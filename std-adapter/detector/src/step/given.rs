@@ -17,7 +17,7 @@ use crate::broad_phase::{Mapping, extent};
 use crate::dispatch::Level;
 use crate::mesh::Topology;
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
-use selvedge_core::Scalar;
+use selvedge_core::Position;
 use selvedge_core::boxes::moving::MovingBox;
 
 /// A moving box as one row of sixteen numbers: lower and negated upper corner at the start, and at the end.
@@ -58,12 +58,12 @@ pub(super) struct PrimitiveBoxes {
 
 impl PrimitiveBoxes {
     /// Makes the boxes of a step. Pairs that they show to be apart are so by more than `separation`.
-    pub(super) fn fit<S: Scalar>(&mut self, topology: &Topology, start: &[S::Vector], end: &[S::Vector], separation: S) {
-        let mapping = Mapping::new(&extent::<S>(start, end), separation, S::ONE, false);
+    pub(super) fn fit<P: Position>(&mut self, topology: &Topology, start: &[P], end: &[P], separation: P::Scalar) {
+        let mapping = Mapping::new(&extent(start, end), separation, P::Scalar::ONE, false);
         let moving = start.iter().zip(end);
         self.vertex_boxes.clear();
         self.vertex_boxes
-            .extend(moving.map(|(&start, &end)| mapping.vertex::<S>(start.into(), end.into())));
+            .extend(moving.map(|(&start, &end)| mapping.vertex::<P::Scalar>(start.into(), end.into())));
         let boxes = &self.vertex_boxes;
         let of = |vertex: u32| &boxes[vertex as usize];
         let [vertices, first_edges] = &mut self.firsts;
@@ -130,7 +130,7 @@ mod tests {
         let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]]).unwrap();
         let frame = |vertex: DVec3| [&corners[..], &[vertex], &far].concat();
         let mut boxes = PrimitiveBoxes::default();
-        boxes.fit::<f64>(&topology, &frame(start), &frame(end), separation);
+        boxes.fit(&topology, &frame(start), &frame(end), separation);
         let mut answers = available_levels().into_iter().map(|(_, level)| {
             let mut near = Vec::new();
             let known = boxes.keep_near(level, PairKind::VertexFace, &[[3, 0]], &mut near);
@@ -171,7 +171,7 @@ mod tests {
         let topology = Topology::new(4, vec![[0, 1, 2], [1, 3, 2]]).unwrap();
         let frame = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE];
         let mut boxes = PrimitiveBoxes::default();
-        boxes.fit::<f64>(&topology, &frame, &frame, 0.0);
+        boxes.fit(&topology, &frame, &frame, 0.0);
         let mut near = Vec::new();
         let pairs = [[3, 1], [0, 1], [3, 0], [1, 0], [2, 1]];
         let level = crate::dispatch::best_level();

@@ -4,7 +4,7 @@ use super::engine::{Probe, StepTally};
 use super::{CollisionDetector, Contact, Question, Wanted};
 use crate::dispatch::Level;
 use crate::frame::StepError;
-use selvedge_core::Scalar;
+use selvedge_core::{Position, Scalar};
 
 /// With the feature `verification`.
 impl<S: Scalar> CollisionDetector<S> {
@@ -17,10 +17,10 @@ impl<S: Scalar> CollisionDetector<S> {
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).
-    pub fn contacts_and_filtered(
+    pub fn contacts_and_filtered<P: Position<Scalar = S>>(
         &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
+        start: &[P],
+        end: &[P],
         contacts: &mut Vec<Contact<S>>,
         vertex_face: &mut Vec<[u32; 2]>,
         edge_edge: &mut Vec<[u32; 2]>,
@@ -30,7 +30,7 @@ impl<S: Scalar> CollisionDetector<S> {
             ..self.question(Wanted::All)
         };
         let engine = &mut self.engine;
-        self.threads.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        self.workers.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
         self.engine.collect_contacts(contacts);
         self.engine.collect_kept(vertex_face, edge_edge);
         Ok(())
