@@ -5,6 +5,7 @@
 uint32_t verdicts_f64(const double points[4][2][3]);
 uint32_t verdicts_f32(const float points[4][2][3]);
 uint32_t near(const float points[4][2][3]);
+uint32_t separations(const double points[4][2][3]);
 size_t distributed(const uint32_t corners[2][3], uint8_t vertices, uint8_t edges);
 
 #define FACE {{0, 0, 0}, {0, 0, 0}}, {{1, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 0}}
@@ -26,6 +27,9 @@ int main(void) {
     if (distributed(apart, 3, 3) != 15) return 5;
     if (near(through_f32) != 0x28) return 7;
     if (near(above_f32) != 0x08) return 8;
+    /* Through: above at the start, not at the end. Above: all but near the face. */
+    if (separations(through) != 0x22) return 9;
+    if (separations(above) != 0x3f) return 10;
     if (distributed(apart, 4, 3) != 0) return 6;
     return 0;
 }

@@ -35,6 +35,8 @@
 //! | [`filter`] | culls pairs that are never coplanar, or never within a separation: a [`Filter`](filter::Filter) of some [`Tier`](filter::Tier) | certified, exact, or plain as in the paper |
 //! | [`batch`] | the tests of `boxes` and `filter`, and rounds of advancing, on sixteen pairs side by side, alone or from a mesh | the same verdicts, bit for bit; certified |
 //! | [`boxes`] | swept boxes, segment against box, relative boxes, 18-DOPs | exact or certified |
+//! | [`separation`] | how far a pair keeps apart, and for how long: for callers that follow the same pairs step by step | certified |
+//! | [`narrowing`] | times and lengths in another format, rounded to the safe side | certified |
 //! | [`features`], [`distribution`] | representative features of a triangle; a candidate triangle pair to its primitive pairs | each pair once |
 //! | [`elementary`] | whether a pair touches; time of impact | exact; certified; published baselines beside them |
 //!
@@ -83,12 +85,22 @@ mod lanes;
 #[cfg(feature = "verification")]
 pub mod lanes;
 pub mod motion;
+#[cfg(not(feature = "batch"))]
+#[allow(dead_code, unreachable_pub)]
+mod narrowing;
+#[cfg(feature = "batch")]
+pub mod narrowing;
 #[cfg(not(feature = "verification"))]
 #[allow(dead_code, unreachable_pub)]
 mod points;
 #[cfg(feature = "verification")]
 pub mod points;
 pub mod scalar;
+#[cfg(not(feature = "batch"))]
+#[allow(dead_code, unreachable_pub)]
+mod separation;
+#[cfg(feature = "batch")]
+pub mod separation;
 #[cfg(not(feature = "verification"))]
 #[allow(dead_code, unreachable_pub)]
 mod vector;

@@ -1,4 +1,4 @@
-# Boxes of moving points, widened: std-adapter/detector/src/broad_phase/moving/mapping.rs. In f64, and f32 in the end: the same for both formats.
+# Boxes of moving points, widened: core/src/boxes/mapping.rs. In f64, and f32 in the end: the same for both formats.
 #
 # What is to be shown: the lower bound as computed is at most x - s/2, x the exact position (relative to the origin); for the upper one
 # signs change. Everything scales with v = |x0 - o| + |x1 - o| + s/2, so v = 1. A rounding is off by at most 2^-52, the last by 2^-23.
@@ -8,11 +8,11 @@
 # 4. Together: the lower bound is x - s/2 minus (2) plus (1) and (3).
 # 5. Flushed: 2^-126 in the end; 20 times 2^-1022 before.
 
-#~ std-adapter/detector/src/broad_phase/moving/mapping.rs: const WIDENING: f64 = 1.0 / 4_194_304.0;
-#~ std-adapter/detector/src/broad_phase/moving/mapping.rs: const FLUSHED: f64 = f64::from_bits((1023 - 100) << 52);
-#~ std-adapter/detector/src/broad_phase/moving/mapping.rs: let sizes = from.abs() + to.abs() + self.half;
-#~ std-adapter/detector/src/broad_phase/moving/mapping.rs: let widening = self.half + (WIDENING * sizes + FLUSHED);
-#~ std-adapter/detector/src/broad_phase/moving/mapping.rs: let until = (1.0 - self.until) * from + self.until * to;
+#~ core/src/boxes/mapping.rs: const WIDENING: f64 = 1.0 / 4_194_304.0;
+#~ core/src/boxes/mapping.rs: const FLUSHED: f64 = f64::from_bits((1023 - 100) << 52);
+#~ core/src/boxes/mapping.rs: let sizes = from.abs() + to.abs() + self.half;
+#~ core/src/boxes/mapping.rs: let widening = self.half + (WIDENING * sizes + FLUSHED);
+#~ core/src/boxes/mapping.rs: let until = (1.0 - self.until) * from + self.until * to;
 widening = 1b-22;
 flushed = 1b-100;
 

@@ -8,11 +8,16 @@ use core::cmp::Ordering;
 use core::panic::PanicInfo;
 use selvedge_core::PairKind;
 use selvedge_core::batch::{self, BatchTest, Level, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows};
+use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, Dop18, direction, relative, segment, swept_boxes};
 use selvedge_core::distribution::distribute;
 use selvedge_core::filter::{Filter, Tier};
+use selvedge_core::glam::DVec3;
 use selvedge_core::points::PairShape;
+use selvedge_core::separation::clearance::{Clearance, are_boxes_within, nearness};
+use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
+use selvedge_core::separation::{course, largest_coordinate};
 use selvedge_core::{EdgeEdge, FeatureTriangle, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary, exact, filter};
 
 #[panic_handler]
@@ -217,6 +222,35 @@ pub extern "C" fn near(points: &Points<f32>) -> u32 {
         return u32::MAX;
     }
     block.near(&a).into()
+}
+
+/// What shows a vertex and a face to keep half a unit: boxes with that separation, the distance at the start from below, a direction
+/// found for the step and kept for it, a clearance; and that the vertex's course has room, and its boxes are near the face's, at most one.
+#[unsafe(no_mangle)]
+pub extern "C" fn separations(points: &Points<f64>) -> u32 {
+    let ends = [0, 1].map(|end| points.map(|motion| DVec3::from(motion[end])));
+    let [start, end] = ends;
+    let largest = largest_coordinate(&start).max(largest_coordinate(&end));
+    let (kind, error) = (PairKind::VertexFace, GapError::of_coordinates(largest));
+    let mapping = Mapping::new(&Aabb::everything(), 0.5, 1.0, false);
+    let [a, b, c, d] = points.map(|[start, end]| mapping.vertex(start, end));
+    let bound = distance_from_below(kind, start, DVec3::Z, error);
+    let known = SeparatingDirection::NONE.or_better(kind, DVec3::Z, start, error);
+    let found = SeparatingDirection::found(kind, DVec3::Z, ends, 0.5, error);
+    let in_single = ends.map(|points| points.map(|point| point.as_vec3a()));
+    let clearance = Clearance::new(0.25, 0.125, largest, 0.0);
+    let near = nearness(1.0, largest);
+    let drift = end[0] - start[0];
+    let room = course::room(0.125, 0.0);
+    let time = course::time_after(0.5, 0.5, 1.0).unwrap_or(2.0);
+    let expected = course::expected(course::joined(start[0], drift, 0.0), drift, time);
+    u32::from(a.is_apart_from(&b.merged(&c).merged(&d)))
+        | u32::from(bound > 0.5) << 1
+        | u32::from(found.is_some_and(|found| found.gap() > 0.5)) << 2
+        | u32::from(known.lasts(kind, end, 0.5, error).is_some()) << 3
+        | u32::from(clearance.is_kept(kind, in_single[0], in_single[1])) << 4
+        | u32::from(course::is_certain(room, largest) && course::has_room(end[0], expected, room)) << 5
+        | u32::from(are_boxes_within(kind, in_single[0], near)) << 6
 }
 
 /// A triangle that represents as many of its vertices and edges as the two digits of `features` say; the number of primitive

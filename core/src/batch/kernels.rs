@@ -67,10 +67,10 @@ fn test_volume<P: PairShape, L: Chunk>(
     separation: Option<L::Scalar>,
     pairs: Sixteen<'_, L::Scalar>,
 ) -> Option<Decision<Mask>> {
-    let separation = match separation {
-        Some(separation) => Some(L::constant(token, separation)),
-        None => None,
-    };
+    let separation = separation.map(
+        #[inline(always)]
+        |separation| L::constant(token, separation),
+    );
     let (mut culled, mut settled, mut first) = (0, 0, 0);
     while first < LANES {
         let tetrahedron = match pairs {

@@ -7,6 +7,7 @@
 //! | [`Dop18`] | swept boxes along 9 directions (Hutter, Fuhrmann 2007) | exact: rounding is monotone |
 //! | [`relative`] | 3 or 9 directions, both ends of the step apart: the two sets in the same order | exact |
 //! | [`moving`] | the boxes of any two sets at both ends of the step: relative boxes for a hierarchy | exact |
+//! | [`mapping`] | how positions of any format become `f32` boxes, with a separation or without | monotone; a proven bound with one |
 //! | [`direction`] | the same along any direction, by default the pair's own normal | certified bound |
 //!
 //! # Why sums may round
@@ -72,6 +73,11 @@ macro_rules! values {
 mod aabb;
 pub mod direction;
 mod dop;
+#[cfg(not(feature = "batch"))]
+#[allow(dead_code, unreachable_pub)]
+mod mapping;
+#[cfg(feature = "batch")]
+pub mod mapping;
 #[cfg(not(feature = "batch"))]
 #[allow(dead_code, unreachable_pub)]
 mod moving;

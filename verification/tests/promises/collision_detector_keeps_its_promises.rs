@@ -159,6 +159,30 @@ fn no_pair_that_comes_within_the_separation_is_missed() {
     });
 }
 
+/// Positions that are `f32` numbers are looked at in `f32` first, which has no number for it: found by reading, two triangles that never
+/// are coplanar were taken to be free.
+#[test]
+fn a_separation_beyond_the_numbers_of_f32_excludes_nothing() {
+    let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    let frame = [
+        triangle,
+        triangle.map(|point| point + DVec3::new(0.25, 0.25, 1.0) + 0.125 * point.x * DVec3::Z),
+    ]
+    .concat();
+    let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]]).expect("two triangles");
+    let mut detector = CollisionDetector::<f64>::new(topology, 1).expect("one thread");
+    let mut found = Vec::new();
+    for separation in [10.0, 1e39] {
+        let limits = Limits {
+            separation,
+            ..Limits::default()
+        };
+        detector.set_limits(limits).expect("a length");
+        detector.contacts(&frame, &frame, &mut found).expect("finite positions");
+        assert_eq!(found.len(), 15, "{separation}");
+    }
+}
+
 /// Half of the vertices rest, in this step and the next; the pairs with another vertex are found as before, with the same times.
 fn what_rests_changes_nothing_for_what_moves<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();

@@ -32,6 +32,7 @@ mod oracle_hard_cases;
 mod oracle_mesh;
 mod pipeline_distributes_each_pair_once;
 mod proofs_are_about_the_code;
+mod separations_are_never_overstated;
 mod simulation_is_free_of_intersections;
 mod tiers_keep_their_promises;
 mod time_of_impact_is_never_late;

@@ -7,7 +7,10 @@
 //! Where few vertices leave that room, as in a crease, they alone get a [new way](Horizon::lead_back) for the rest of the time, and
 //! candidates are looked for with what they belong to.
 
+use selvedge_core::Lanes;
 use selvedge_core::glam::DVec3;
+use selvedge_core::separation::course::{expected, has_room, is_certain, joined, time_after};
+use selvedge_core::separation::largest_coordinate;
 
 /// Most steps to look ahead.
 const FARTHEST: u32 = 4;
@@ -23,6 +26,8 @@ pub(super) struct Horizon {
     drift: Vec<DVec3>,
     /// The end of the motion.
     far: Vec<DVec3>,
+    /// Of `origin` and `far`.
+    largest: f64,
     /// In seconds; zero if there is no motion.
     span: f64,
     /// Since it began, in seconds.
@@ -50,8 +55,9 @@ impl Horizon {
 
     /// Begins with the step from `start` to `end` in `h` seconds. Returns the motion to find candidates for.
     ///
-    /// Looks twice as far ahead as before if that lasted, half as far if it did not last half of its time.
-    pub(super) fn begin<'a>(&'a mut self, start: &'a [DVec3], end: &[DVec3], h: f64) -> [&'a [DVec3]; 2] {
+    /// Looks twice as far ahead as before if that lasted, half as far if it did not last half of its time. Vertices are to stay within
+    /// `room` of it.
+    pub(super) fn begin<'a>(&'a mut self, start: &'a [DVec3], end: &[DVec3], h: f64, room: f64) -> [&'a [DVec3]; 2] {
         if self.span > 0.0 {
             if self.elapsed > 0.9 * self.span {
                 let farthest = if self.is_fine { FARTHEST_OF_FINE } else { FARTHEST };
@@ -69,33 +75,40 @@ impl Horizon {
         self.far.clear();
         let span = self.span;
         let ways = start.iter().zip(&self.drift);
-        self.far.extend(ways.map(|(&from, &drift)| from + drift * span));
+        self.far.extend(ways.map(|(&from, &drift)| expected(from, drift, span)));
+        self.largest = largest_coordinate(start).larger(largest_coordinate(&self.far));
+        if !is_certain(room, self.largest) {
+            // Rounding is too coarse to tell who strays: for this step only, and exactly for it.
+            self.steps = 1;
+            self.span = h;
+            self.far.copy_from_slice(end);
+        }
         [start, &self.far]
     }
 
     /// Whether, `h` seconds on, all vertices are within `room` of the motion along each axis, and it has not ended.
     #[cfg(test)]
     pub(super) fn covers(&self, end: &[DVec3], h: f64, room: f64) -> bool {
-        self.lasts(h) && (0..end.len()).all(|vertex| self.has_room(vertex, end[vertex], h, room))
+        self.lasts(h) && self.find_strayed(end, h, room, &mut Vec::new()) == 0
     }
 
     /// Whether the motion lasts for another `h` seconds.
     pub(super) fn lasts(&self, h: f64) -> bool {
-        // Steps that add up to the span do so but for rounding.
-        self.elapsed + h <= self.span * (1.0 + 1e-9)
+        time_after(self.elapsed, h, self.span).is_some()
     }
 
-    /// Sets in `strayed` which vertices are not within `room` of the motion, `h` seconds on; returns how many.
+    /// Sets in `strayed` which vertices are not certainly within `room` of the motion, `h` seconds on; returns how many. All, if the
+    /// motion has ended.
     pub(super) fn find_strayed(&self, end: &[DVec3], h: f64, room: f64, strayed: &mut Vec<bool>) -> usize {
         strayed.clear();
-        strayed.extend((0..end.len()).map(|vertex| !self.has_room(vertex, end[vertex], h, room)));
+        match time_after(self.elapsed, h, self.span) {
+            Some(time) if is_certain(room, self.largest) => {
+                let courses = self.origin.iter().zip(&self.drift).zip(end);
+                strayed.extend(courses.map(|((&origin, &drift), &end)| !has_room(end, expected(origin, drift, time), room)));
+            }
+            _ => strayed.resize(end.len(), true),
+        }
         strayed.iter().filter(|&&strayed| strayed).count()
-    }
-
-    fn has_room(&self, vertex: usize, end: DVec3, h: f64, room: f64) -> bool {
-        let expected = self.origin[vertex] + self.drift[vertex] * (self.elapsed + h);
-        // Ordered comparisons: a largest component would drop NaN.
-        (end - expected).abs().cmple(DVec3::splat(room)).all()
     }
 
     /// Gives the vertices that have strayed the way from `start` to `end`, on which they are now, for the rest of the motion. Returns
@@ -104,9 +117,10 @@ impl Horizon {
         for vertex in (0..strayed.len()).filter(|&vertex| strayed[vertex]) {
             let drift = (end[vertex] - start[vertex]) / h;
             self.drift[vertex] = drift;
-            self.origin[vertex] = start[vertex] - drift * self.elapsed;
-            self.far[vertex] = start[vertex] + drift * (self.span - self.elapsed);
+            self.origin[vertex] = joined(start[vertex], drift, self.elapsed);
+            self.far[vertex] = expected(start[vertex], drift, self.span - self.elapsed);
         }
+        self.largest = largest_coordinate(&self.origin).larger(largest_coordinate(&self.far));
         [&self.origin, &self.far]
     }
 
@@ -128,7 +142,7 @@ mod tests {
         let mut found = 0;
         for step in 0..64 {
             if !horizon.covers(&at(step + 1), 1.0, 0.1) {
-                horizon.begin(&at(step), &at(step + 1), 1.0);
+                horizon.begin(&at(step), &at(step + 1), 1.0, 0.1);
                 found += 1;
             }
             horizon.advance(1.0);
@@ -143,7 +157,7 @@ mod tests {
             steps: 4,
             ..Horizon::default()
         };
-        horizon.begin(&[DVec3::ZERO; 2], &[DVec3::X; 2], 1.0);
+        horizon.begin(&[DVec3::ZERO; 2], &[DVec3::X; 2], 1.0, 0.1);
         horizon.advance(1.0);
         let (start, end) = ([DVec3::X; 2], [DVec3::new(2.0, 0.05, 0.0), DVec3::X]);
         let mut strayed = Vec::new();
@@ -158,12 +172,25 @@ mod tests {
     }
 
     #[test]
+    fn far_from_the_origin_for_its_room_a_motion_is_one_step_and_nobody_has_room() {
+        let mut horizon = Horizon {
+            steps: 4,
+            ..Horizon::default()
+        };
+        let (start, end) = ([DVec3::X * 1e12], [DVec3::X * 1e12 + DVec3::Y]);
+        assert_eq!(horizon.begin(&start, &end, 1.0, 0.1), [&start[..], &end[..]]);
+        assert!(horizon.lasts(1.0) && !horizon.covers(&end, 1.0, 0.1));
+        horizon.advance(1.0);
+        assert!(!horizon.lasts(1.0));
+    }
+
+    #[test]
     fn a_vertex_that_strays_ends_it() {
         let mut horizon = Horizon {
             steps: 4,
             ..Horizon::default()
         };
-        horizon.begin(&[DVec3::ZERO], &[DVec3::X], 1.0);
+        horizon.begin(&[DVec3::ZERO], &[DVec3::X], 1.0, 0.1);
         horizon.advance(1.0);
         assert!(horizon.covers(&[DVec3::new(2.0, 0.09, 0.0)], 1.0, 0.1));
         assert!(!horizon.covers(&[DVec3::new(2.0, 0.11, 0.0)], 1.0, 0.1));

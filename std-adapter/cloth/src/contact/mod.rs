@@ -36,6 +36,8 @@ use rows::Row;
 use selvedge::PairKind;
 use selvedge::{Topology, TopologyError};
 use selvedge_core::glam::DVec3;
+use selvedge_core::separation::course::room;
+use selvedge_core::separation::gap::GapError;
 use sieve::{Distances, Neighbours};
 use std::sync::Arc;
 use std::time::Instant;
@@ -182,8 +184,8 @@ pub(crate) struct Contact {
     /// The same for every pair that may come within the separation.
     room: f64,
     horizon: Horizon,
-    /// See [`rounding_error`](pair::rounding_error).
-    error: f64,
+    /// Of gaps between positions of this step.
+    error: GapError<f64>,
     /// Pairs near the state, each with what is known of it.
     pairs: Vec<Pair>,
     /// Where new ones are put.
@@ -238,20 +240,16 @@ impl Contact {
             beyond,
             neighbours,
         };
-        // From where vertices were expected, along an axis: until a pair that is no candidate comes within its separation. Along a
-        // direction they come √3 times as much nearer to each other.
         let least = settings.neighbours.unwrap_or(thickness);
-        let room = 0.5 * (beyond + (least - separation) / 3.0_f64.sqrt());
         Ok(Some(Self {
             detector: Detector::new(topology, rest, carriers, cloth_vertices, distances, wanted),
             settings,
-            // A hundredth less than what geometry allows: far above rounding.
-            slack: 0.99 * 0.5 * beyond,
-            room: 0.99 * room,
+            slack: room(beyond, 0.0),
+            room: room(beyond, least - separation),
             carriers: carriers.to_vec(),
             rest: rest.to_vec(),
             horizon: Horizon::new(neighbours.is_some()),
-            error: 0.0,
+            error: GapError::of_coordinates(0.0),
             pairs: Vec::new(),
             found: Vec::new(),
             rows: Vec::new(),

@@ -1,13 +1,6 @@
 //! A candidate pair, and the direction that last kept its two sets apart.
 //!
-//! # What a direction proves
-//! For a fixed direction d of length at most 1 + 2⁻²⁰ and any points p of the first set and q of the second, d·(p(t) − q(t)) is
-//! linear in t. If it exceeds m·(1 + 2⁻²⁰) at the start and at the end of a step, p and q are more than m apart throughout.
-//!
-//! **Rounding** (any direction: ε = 2u an operation). A dot product passes each product through at most 3 roundings: its error is
-//! at most 3ε·3B·D to first order, B the largest coordinate and D ≤ 1.01 the largest component of d. A gap is the difference of
-//! two of them, itself rounded: 18εBD + 6εBD ≤ 49uB. [`rounding_error`] allows 64u·B, and [`Rounding::UNDERFLOW`] for threads that
-//! flush subnormal numbers (16 operations lose at most one smallest normal number each).
+//! What a direction proves, and how far rounding can move it, is [core's](selvedge_core::separation::gap).
 
 use super::closest::Closest;
 use super::sieve::are_neighbours;
@@ -16,10 +9,8 @@ use selvedge::PairKind;
 use selvedge_core::elementary::Limits;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::glam::DVec3;
-use selvedge_core::{EdgeEdge, Motion, Rounding, VertexFace};
-
-/// What makes a direction's length and the rounding of stored gaps harmless.
-const SLACK: f64 = 1.0 + 1.0 / (1 << 20) as f64;
+use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
+use selvedge_core::{EdgeEdge, Motion, VertexFace};
 
 /// A vertex and a face, or two edges, that may come close in this step.
 #[derive(Clone, Copy, Debug)]
@@ -27,10 +18,8 @@ pub(super) struct Pair {
     /// Ascends along the list of candidates, and is the same in every step.
     pub(super) key: u64,
     pub(super) vertices: [u32; 4],
-    /// Keeps the sets apart at the end of the last step, by [`gap`](Self::gap). Of length one but for rounding, or zero.
-    direction: [f32; 3],
-    /// A lower bound of the distance at the end of the last step that was looked at; −∞ if there is none.
-    pub(super) gap: f32,
+    /// What kept the sets apart at the end of the last step that was looked at.
+    separating: SeparatingDirection,
     /// The thickness that the pair can have, from its distance at rest; zero if nobody has asked yet.
     pub(super) thickness: f32,
     pub(super) kind: PairKind,
@@ -38,18 +27,12 @@ pub(super) struct Pair {
     pub(super) body: Frame,
 }
 
-/// How far coordinates of at most `largest` make a gap wrong.
-pub(super) fn rounding_error(largest: f64) -> f64 {
-    64.0 * (0.5 * f64::EPSILON) * largest + f64::UNDERFLOW
-}
-
 impl Pair {
     pub(super) fn new(key: u64, kind: PairKind, vertices: [u32; 4], body: Frame) -> Self {
         Self {
             key,
             vertices,
-            direction: [0.0; 3],
-            gap: f32::NEG_INFINITY,
+            separating: SeparatingDirection::NONE,
             thickness: 0.0,
             kind,
             body,
@@ -58,8 +41,7 @@ impl Pair {
 
     /// Takes over what an earlier step found out about the same pair.
     pub(super) fn remember(&mut self, earlier: &Self) {
-        self.direction = earlier.direction;
-        self.gap = earlier.gap;
+        self.separating = earlier.separating;
         self.thickness = earlier.thickness;
     }
 
@@ -76,81 +58,59 @@ impl Pair {
         are_neighbours(self.kind, self.points(rest), distance)
     }
 
-    /// By how much the first set is ahead of the second along a direction.
+    /// A lower bound of the distance at the end of the last step that was looked at; −∞ if there is none.
     #[inline(always)]
-    fn gap_along(&self, direction: DVec3, positions: &[DVec3]) -> f64 {
-        let [a, b, c, d] = self.points(positions).map(|point| direction.dot(point));
-        match self.kind {
-            PairKind::VertexFace => a - b.max(c).max(d),
-            PairKind::EdgeEdge => a.min(b) - c.max(d),
-        }
+    pub(super) const fn gap(&self) -> f32 {
+        self.separating.gap()
+    }
+
+    /// The pair has moved in a way that was not looked at.
+    pub(super) const fn forget_gap(&mut self) {
+        self.separating = self.separating.without_gap();
     }
 
     /// A lower bound of the distance; zero where rounding hides it.
-    pub(super) fn distance_from_below(&self, positions: &[DVec3], error: f64) -> f64 {
+    pub(super) fn distance_from_below(&self, positions: &[DVec3], error: GapError<f64>) -> f64 {
         let direction = self.closest(positions).direction;
-        let bound = self.gap_along(direction, positions) / SLACK - error;
-        if bound > 0.0 { bound } else { 0.0 }
+        distance_from_below(self.kind, self.points(positions), direction, error)
     }
 
-    /// Remembers another direction, with its gap at the start of a step.
-    pub(super) fn refresh(&mut self, direction: DVec3, start: &[DVec3], error: f64) {
-        let direction = direction.as_vec3().as_dvec3();
-        let gap = self.gap_along(direction, start) - error;
-        if gap > f64::from(self.gap) {
-            self.set(direction, gap);
-        }
-    }
-
-    fn set(&mut self, direction: DVec3, gap: f64) {
-        self.direction = direction.to_array().map(|component| component as f32);
-        self.gap = (gap / SLACK) as f32;
+    /// Remembers another direction, with its gap at the start of a step, if it proves more there.
+    pub(super) fn refresh(&mut self, direction: DVec3, start: &[DVec3], error: GapError<f64>) {
+        self.separating = self.separating.or_better(self.kind, direction, self.points(start), error);
     }
 
     /// Whether the remembered direction keeps the pair at a distance there. Plain floating point.
     #[inline(always)]
     pub(super) fn is_kept_at(&self, distance: f64, positions: &[DVec3]) -> bool {
-        let direction = DVec3::from_array(self.direction.map(f64::from));
-        self.gap_along(direction, positions) > distance
+        self.separating.gap_at(self.kind, self.points(positions)) > distance
     }
 
-    /// Whether the direction that the pair remembers keeps it apart at the end of the step too, given that `gap` is right at
+    /// Whether the direction that the pair remembers keeps it apart at the end of the step too, given that its gap is right at
     /// the start.
     #[inline(always)]
-    pub(super) fn stays_apart(&mut self, end: &[DVec3], separation: f64, error: f64) -> bool {
-        let threshold = separation * (SLACK * SLACK) + error;
-        if !(f64::from(self.gap) > threshold) {
-            return false;
+    pub(super) fn stays_apart(&mut self, end: &[DVec3], separation: f64, error: GapError<f64>) -> bool {
+        let later = self.separating.lasts(self.kind, self.points(end), separation, error);
+        if let Some(later) = later {
+            self.separating = later;
         }
-        let direction = DVec3::from_array(self.direction.map(f64::from));
-        let gap = self.gap_along(direction, end) - error;
-        if gap > threshold {
-            self.gap = (gap / SLACK) as f32;
-            return true;
-        }
-        false
+        later.is_some()
     }
 
     /// When the pair comes within `separation` on the way from `start` to `end`; `None` if it certainly does not. Remembers the
     /// direction that proves it.
-    pub(super) fn impact(&mut self, [start, end]: [&[DVec3]; 2], separation: f64, error: f64) -> Option<f64> {
-        let threshold = separation * (SLACK * SLACK) + error;
-        let remembered = DVec3::from_array(self.direction.map(f64::from));
-        for attempt in 0..3 {
-            let direction = match attempt {
-                0 => remembered,
-                1 => self.closest(end).direction,
-                _ => self.closest(start).direction,
-            };
-            // What is remembered is rounded: prove with that.
-            let direction = direction.as_vec3().as_dvec3();
-            let gap = self.gap_along(direction, end);
-            if gap > threshold && self.gap_along(direction, start) > threshold {
-                self.set(direction, gap - error);
-                return None;
-            }
+    pub(super) fn impact(&mut self, [start, end]: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> Option<f64> {
+        let (kind, points) = (self.kind, [start, end].map(|positions| self.points(positions)));
+        let found = |positions: &[DVec3]| {
+            let direction = self.closest(positions).direction;
+            SeparatingDirection::found(kind, direction, points, separation, error)
+        };
+        let kept = self.separating.keeps(kind, points, separation, error);
+        if let Some(kept) = kept.or_else(|| found(end)).or_else(|| found(start)) {
+            self.separating = kept;
+            return None;
         }
-        self.gap = f32::NEG_INFINITY;
+        self.forget_gap();
         self.time_of_impact([start, end], separation)
     }
 
@@ -211,9 +171,9 @@ mod tests {
             let end = [0, 1, 2, 3].map(|k| start[k] + moves[k] * 0.3);
             let kind = if is_edge { PairKind::EdgeEdge } else { PairKind::VertexFace };
             let mut pair = Pair::new(0, kind, [0, 1, 2, 3], FREE);
-            let error = rounding_error(2.0);
+            let error = GapError::of_coordinates(2.0);
             let until = pair.impact([&start, &end], separation, error);
-            let gap = f64::from(pair.gap);
+            let gap = f64::from(pair.gap());
             for step in 0..=40 {
                 let t = f64::from(step) / 40.0;
                 let at = [0, 1, 2, 3].map(|k| start[k].lerp(end[k], t));

@@ -19,13 +19,16 @@
 //! b/2 + (h − m)/(2√3), which along d is at most half of b·(|d₁| + |d₂| + |d₃|) + h − m, every pair that may come within m. If few stray
 //! farther, the candidates of these are found again and added; else all are found anew.
 
-use super::pair::{Pair, rounding_error};
+use super::pair::Pair;
 use super::zones::{Cut, Motions};
 use super::{Blocker, Contact, ContactSettings};
 use crate::plan::{FREE, Frame, StepInput};
 use selvedge::PairKind;
 use selvedge::verification::parallel;
+use selvedge_core::Lanes;
 use selvedge_core::glam::DVec3;
+use selvedge_core::separation::gap::GapError;
+use selvedge_core::separation::largest_coordinate;
 use std::time::Instant;
 
 /// c of the module.
@@ -150,7 +153,7 @@ impl Contact {
 
     /// Candidates for a motion.
     pub(super) fn find_candidates(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
-        let motion = self.horizon.begin(start, end, h);
+        let motion = self.horizon.begin(start, end, h, self.slack);
         self.detector.candidates(motion, &mut self.found);
         self.take_found();
     }
@@ -169,7 +172,7 @@ impl Contact {
     }
 
     fn forget_gaps(&mut self) {
-        self.pairs.iter_mut().for_each(|pair| pair.gap = f32::NEG_INFINITY);
+        self.pairs.iter_mut().for_each(Pair::forget_gap);
     }
 
     /// The candidates that are not free, looked at for the first time in this step, in order.
@@ -187,7 +190,7 @@ impl Contact {
             |first, pairs, looked_at: &mut LookedAt| {
                 for (index, pair) in pairs.iter_mut().enumerate() {
                     let Some(separation) = settings.separation(pair, yielding) else {
-                        pair.gap = f32::NEG_INFINITY;
+                        pair.forget_gap();
                         continue;
                     };
                     if pair.stays_apart(end, separation, *error) {
@@ -213,6 +216,8 @@ impl Contact {
     /// vertices. Clears the marks.
     fn check_moved(&mut self, open: &[usize], step: &StepInput<'_>, end: &[DVec3]) -> Vec<usize> {
         let start = step.start;
+        // What was moved may be farther out than anything before.
+        self.error = self.error.larger(error(start, end));
         let strayed = self.horizon.find_strayed(end, step.h, self.room, &mut self.strayed);
         let mut open = open.to_vec();
         if strayed > 0 && !self.add_candidates_of_strayed(strayed, &mut open, [start, end], step.h) {
@@ -403,7 +408,7 @@ struct LookedAt {
 }
 
 /// Whether the pair keeps its separation, or what is left of it.
-fn is_free(pair: &mut Pair, path: [&[DVec3]; 2], separation: f64, error: f64) -> bool {
+fn is_free(pair: &mut Pair, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
     if pair.impact(path, separation, error).is_none() {
         return true;
     }
@@ -412,19 +417,13 @@ fn is_free(pair: &mut Pair, path: [&[DVec3]; 2], separation: f64, error: f64) ->
 }
 
 /// m_P of the module.
-fn kept(pair: &Pair, start: &[DVec3], separation: f64, error: f64) -> f64 {
+fn kept(pair: &Pair, start: &[DVec3], separation: f64, error: GapError<f64>) -> f64 {
     separation.min(KEPT * pair.distance_from_below(start, error))
 }
 
 /// Of gaps between these positions.
-pub(super) fn error(start: &[DVec3], end: &[DVec3]) -> f64 {
-    rounding_error(largest(start).max(largest(end)))
-}
-
-pub(super) fn largest(positions: &[DVec3]) -> f64 {
-    positions
-        .iter()
-        .fold(0.0, |largest: f64, p| largest.max(p.abs().max_element()))
+pub(super) fn error(start: &[DVec3], end: &[DVec3]) -> GapError<f64> {
+    GapError::of_coordinates(largest_coordinate(start).larger(largest_coordinate(end)))
 }
 
 /// `the vertex-face pair of vertices 1, 2, 3, 4`.

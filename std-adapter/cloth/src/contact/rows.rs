@@ -10,6 +10,7 @@ use super::{ContactSettings, Thickness};
 use crate::plan::{StepInput, Touch, Touches};
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
+use selvedge_core::separation::gap::GapError;
 
 /// Pairs that start this much farther apart than their thickness get a row too if they come near.
 pub(super) const MARGIN: f64 = 2.0 / 3.0;
@@ -34,7 +35,7 @@ pub(super) fn collect(
     rest: &[DVec3],
     [start, predicted]: [&[DVec3]; 2],
     h: f64,
-    error: f64,
+    error: GapError<f64>,
 ) {
     rows.clear();
     parallel::map_chunks(
@@ -56,7 +57,7 @@ fn row(
     rest: &[DVec3],
     [start, predicted]: [&[DVec3]; 2],
     h: f64,
-    error: f64,
+    error: GapError<f64>,
 ) -> Option<Row> {
     let Thickness { thickness, .. } = settings.of(pair)?;
     // The pair's own, once it is known.
@@ -65,7 +66,7 @@ fn row(
         own => own,
     };
     let reach = aim * (1.0 + MARGIN);
-    if f64::from(pair.gap) > reach || pair.is_kept_at(aim, predicted) {
+    if f64::from(pair.gap()) > reach || pair.is_kept_at(aim, predicted) {
         return None;
     }
     let closest = pair.closest(start);

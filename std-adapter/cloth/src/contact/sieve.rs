@@ -5,12 +5,14 @@
 //! candidates of theirs are looked for within less. Certificates hold them apart like any other pair.
 
 use super::closest::Closest;
-use super::pass::largest;
 use super::rows;
 use selvedge::PairKind;
 use selvedge::Topology;
 use selvedge::verification::MovingBroadPhase;
+use selvedge_core::Lanes;
 use selvedge_core::glam::{DVec3, Vec3A};
+use selvedge_core::separation::clearance::{Clearance, are_boxes_within, nearness};
+use selvedge_core::separation::largest_coordinate;
 use std::sync::Arc;
 
 /// Whether so many pairs of cloth, vertices below `cloth_vertices`, are nearer to each other than `distance` at rest that looking them
@@ -37,72 +39,36 @@ pub(super) fn are_many(topology: &Arc<Topology>, rest: &[DVec3], cloth_vertices:
     found.take(enough).count() == enough
 }
 
-/// By how much the first set of a pair is ahead of the second along each axis, and by how much it is behind.
-macro_rules! gaps {
-    ($kind:expr, $a:expr, $b:expr, $c:expr, $d:expr) => {{
-        let (low, high, other_low, other_high) = match $kind {
-            PairKind::VertexFace => ($a, $a, $b.min($c).min($d), $b.max($c).max($d)),
-            PairKind::EdgeEdge => ($a.min($b), $a.max($b), $c.min($d), $c.max($d)),
-        };
-        [low - other_high, other_low - high]
-    }};
-}
-
-/// The same along a direction, times its length: by how much one set is ahead of the other, whichever way the direction points.
-macro_rules! gap_along {
-    ($kind:expr, $direction:expr, $a:expr, $b:expr, $c:expr, $d:expr) => {{
-        let (a, b) = ($direction.dot($a), $direction.dot($b));
-        let (c, d) = ($direction.dot($c), $direction.dot($d));
-        match $kind {
-            PairKind::VertexFace => a - b.max(c).max(d),
-            PairKind::EdgeEdge => a.min(b) - c.max(d),
-        }
-    }};
-}
-
 /// Whether the boxes of a pair come within `distance` of each other at rest: then it is one of neighbours.
 pub(super) fn are_neighbours(kind: PairKind, rest: [DVec3; 4], distance: f64) -> bool {
     let [a, b, c, d] = rest;
-    let [ahead, behind] = gaps!(kind, a, b, c, d);
-    ahead.max(behind).cmple(DVec3::splat(distance)).all()
+    let (low, high, other_low, other_high) = match kind {
+        PairKind::VertexFace => (a, a, b.min(c).min(d), b.max(c).max(d)),
+        PairKind::EdgeEdge => (a.min(b), a.max(b), c.min(d), c.max(d)),
+    };
+    (low - other_high).max(other_low - high).cmple(DVec3::splat(distance)).all()
 }
 
 /// Which candidates are left out, because they keep apart on the whole motion: what is asked of every vertex, rounded to `f32`.
 ///
-/// Boxes along three axes leave many pairs that are farther apart than their reach: nearly all pairs of triangles side by side. The
-/// direction from the middle of one set to the middle of the other shows most of that at once. A direction d that keeps two sets apart by
-/// more than some distance, times its length, at the start and at the end, does so in between, whatever d is. Vertices may stray along each
-/// axis, by half of what is looked for beyond the thickness, and so two of them along d by that times |d₁| + |d₂| + |d₃|: thickness·|d| +
-/// beyond·(|d₁| + |d₂| + |d₃|) must be kept along d, and [more](MARGIN) is asked for.
-///
-/// **Rounding** (any direction: ε = 2u = 2⁻²³ of `f32` an operation). A coordinate of at most B is rounded by εB at most, and the
-/// difference of two, at most 2B, by 2εB more: together 4εB along an axis. A product with d errs by √3·εB·|d| from the coordinates and
-/// by 3ε·√3·B·|d| from its own operations, to first order; the difference of two of them by twice that and 2√3·εB·|d| more: together
-/// 18εB·|d|. |d|, the sum and what is asked for err by less than 8ε of themselves. [`ROUNDING`] is more than all of that, and each
-/// comparison errs to the side on which the pair stays a candidate. Underflow adds less than the smallest normal number, far below
-/// any distance that a scene may give; a direction as short as [`SHORTEST`] proves nothing.
+/// Boxes along three axes leave many pairs that are farther apart than their reach: nearly all pairs of triangles side by side. What
+/// they keep though their vertices stray, by half of what is looked for beyond the thickness, is their
+/// [clearance](selvedge_core::separation::clearance); [more](MARGIN) is asked for along a direction that is no axis.
 #[derive(Debug)]
 pub(super) struct Sieve {
     ways: Vec<Way>,
     /// Where vertices are at rest, NaN for bodies, which have no neighbours; empty if there are no neighbours at all.
     rest: Vec<Vec3A>,
     distances: Distances,
-    /// The thickness of neighbours and that of the other pairs, rounded up.
-    thickness: [f32; 2],
-    /// How far beyond that pairs are looked for, rounded up.
-    beyond: f32,
+    /// What neighbours are to keep, and what the other pairs.
+    clearances: [Clearance; 2],
     /// How near boxes of neighbours are at rest, rounded down; less than any if there are none.
     at_rest: f32,
 }
 
-/// See [`Sieve`].
-const ROUNDING: f64 = 32.0 * f32::EPSILON as f64;
 /// How much more is asked for along a direction that is no axis, in thicknesses: what comes that near is pushed apart before it is within
 /// the thickness. With less, cloth that is folded tightly was seen to slip more.
 const MARGIN: f32 = rows::MARGIN as f32;
-/// In metres, squared: far above what underflows.
-const SHORTEST: f32 = 1e-18;
-
 /// Which pairs are to be candidates: all in metres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Distances {
@@ -144,9 +110,7 @@ impl Sieve {
                 Vec3A::NAN
             }
         };
-        let near = distances.neighbours.map_or(f64::NEG_INFINITY, |near| {
-            near.at_rest * (1.0 - ROUNDING) - largest(rest) * ROUNDING
-        });
+        let near = |near: Neighbours| nearness(near.at_rest, largest_coordinate(rest));
         Self {
             ways: vec![unknown; rest.len()],
             rest: match distances.neighbours {
@@ -154,24 +118,21 @@ impl Sieve {
                 None => Vec::new(),
             },
             distances,
-            thickness: [f32::INFINITY; 2],
-            beyond: f32::INFINITY,
-            at_rest: near as f32,
+            clearances: [Clearance::UNKNOWN; 2],
+            at_rest: distances.neighbours.map_or(f32::NEG_INFINITY, near),
         }
     }
 
     /// From here on all is asked about this motion, which is the last one but for vertices that are in `only`, if there are any.
     pub(super) fn set_motion(&mut self, [start, end]: [&[DVec3]; 2], only: Option<&[bool]>) {
-        let largest = largest(start).max(largest(end));
-        let raised = |length: f64| length * (1.0 + ROUNDING);
+        let largest = largest_coordinate(start).larger(largest_coordinate(end));
         let Distances {
             thickness,
             beyond,
             neighbours,
         } = self.distances;
         let of_neighbours = neighbours.map_or(thickness, |near| near.thickness);
-        self.thickness = [of_neighbours, thickness].map(|own| (raised(own) + largest * ROUNDING) as f32);
-        self.beyond = raised(beyond) as f32;
+        self.clearances = [of_neighbours, thickness].map(|own| Clearance::new(own, beyond, largest, MARGIN));
         for (vertex, way) in self.ways.iter_mut().enumerate() {
             if only.is_none_or(|only| only[vertex]) {
                 (way.start, way.end) = (start[vertex].as_vec3a(), end[vertex].as_vec3a());
@@ -188,29 +149,10 @@ impl Sieve {
         let (a, b, c, d) = (way(0), way(1), way(2), way(3));
         let are_neighbours = !self.rest.is_empty() && {
             let rest = |corner: usize| self.rest[vertices[corner] as usize];
-            let [ahead, behind] = gaps!(kind, rest(0), rest(1), rest(2), rest(3));
-            ahead.max(behind).cmple(Vec3A::splat(self.at_rest)).all()
+            are_boxes_within(kind, [rest(0), rest(1), rest(2), rest(3)], self.at_rest)
         };
-        let thickness = self.thickness[usize::from(!are_neighbours)];
-
-        let [ahead, behind] = gaps!(kind, a.start, b.start, c.start, d.start);
-        let [ahead_later, behind_later] = gaps!(kind, a.end, b.end, c.end, d.end);
-        let kept = ahead.min(ahead_later).max(behind.min(behind_later));
-        if kept.cmpgt(Vec3A::splat(thickness + self.beyond)).any() {
-            return true;
-        }
-        let middle = match kind {
-            PairKind::VertexFace => {
-                let first = a.start + a.end;
-                first - (b.start + b.end + c.start + c.end + d.start + d.end) * (1.0 / 3.0)
-            }
-            PairKind::EdgeEdge => (a.start + a.end + b.start + b.end) - (c.start + c.end + d.start + d.end),
-        };
-        let squared = middle.dot(middle);
-        let at_start = gap_along!(kind, middle, a.start, b.start, c.start, d.start);
-        let at_end = gap_along!(kind, middle, a.end, b.end, c.end, d.end);
-        let asked = thickness * (1.0 + MARGIN) * squared.sqrt() + self.beyond * middle.abs().element_sum();
-        at_start.min(at_end) > asked && squared > SHORTEST
+        let clearance = &self.clearances[usize::from(!are_neighbours)];
+        clearance.is_kept(kind, [a.start, b.start, c.start, d.start], [a.end, b.end, c.end, d.end])
     }
 }
 

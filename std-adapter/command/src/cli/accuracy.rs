@@ -3,7 +3,6 @@
 use super::Failure;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
-use selvedge_files::mesh::read_step;
 use selvedge_laboratory::report::{accuracy_svg, elementary_svg, json, tables};
 use selvedge_laboratory::study::elementary::{ElementaryAccuracy, measure_elementary_accuracy};
 use selvedge_laboratory::study::{Accuracy as FilterAccuracy, AccuracyOptions, TwoFrames, measure_accuracy};
@@ -146,9 +145,7 @@ impl Accuracy {
         let (Some(start), Some(end)) = (&self.start, &self.end) else {
             return Ok(None);
         };
-        let _progress = Progress::spinner("reading");
-        let step = read_step(start, end)?;
-        output::say(format_args!("{}: {}", start.display(), step.notes));
+        let step = output::read_step(start, end)?;
         let stem = |path: &PathBuf| {
             let stem = path.file_stem().unwrap_or(path.as_os_str());
             stem.to_string_lossy().into_owned()

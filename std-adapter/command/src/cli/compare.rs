@@ -8,9 +8,8 @@ use super::simulate::run_steps;
 use clap::CommandFactory;
 use clap::error::ErrorKind;
 use selvedge_cloth::{Scene, Simulation};
-use selvedge_files::mesh::read_step;
 use selvedge_laboratory::pipeline::Preset;
-use selvedge_laboratory::report::{FigurePairs, comparison_csv, comparison_svg, figure_3, json, tables};
+use selvedge_laboratory::report::{FigurePairs, comparison_csv, comparison_html, comparison_markdown, figure_3, json, tables};
 use selvedge_laboratory::scene::ArmScene;
 use selvedge_laboratory::study::{
     self, ArmFrames, Comparison, Frames, SimulatedSteps, StepCandidates, TwoFrames, busiest_step, step_candidates,
@@ -75,7 +74,7 @@ pub(crate) struct Compare {
     /// Write the table to this file
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Write the comparison (CSV, SVG) and a picture of candidates (PNG) to this folder
+    /// Write the comparison (CSV, HTML, Markdown) and a picture of candidates (PNG) to this folder
     #[arg(long, value_name = "DIR")]
     output: Option<PathBuf>,
 }
@@ -157,20 +156,12 @@ impl Run {
     }
 
     fn print(&self, comparison: &Comparison) -> Result<(), Failure> {
-        if self.json {
-            output::print_json(&json::comparison(comparison))
-        } else {
-            output::print(&tables::comparison(comparison))
-        }
+        output::answer(self.json, || json::comparison(comparison), || tables::comparison(comparison))
     }
 }
 
 fn read_frames(start: &Path, end: &Path) -> Result<TwoFrames, Failure> {
-    let step = {
-        let _progress = Progress::spinner("reading");
-        read_step(start, end)?
-    };
-    output::say(format_args!("{}: {}", start.display(), step.notes));
+    let step = output::read_step(start, end)?;
     Ok(TwoFrames {
         name: format!("{} to {}", start.display(), end.display()),
         topology: step.topology,
@@ -179,7 +170,7 @@ fn read_frames(start: &Path, end: &Path) -> Result<TwoFrames, Failure> {
     })
 }
 
-/// Everything that a run leaves in its folder: the table as CSV and SVG, and the paper's Figure 3, on the step in which
+/// Everything that a run leaves in its folder: the table as CSV, page and Markdown, and the paper's Figure 3, on the step in which
 /// ours has the most candidates left.
 pub(super) fn add_report(
     files: &mut OutputFiles,
@@ -189,8 +180,8 @@ pub(super) fn add_report(
 ) -> Result<(), Failure> {
     let _progress = Progress::spinner("drawing");
     files.add(folder.join("comparison.csv"), |out| comparison_csv(comparison, out))?;
-    let table = comparison_svg(comparison);
-    files.add_bytes(folder.join("comparison.svg"), table.as_bytes())?;
+    files.add_bytes(folder.join("comparison.html"), comparison_html(comparison).as_bytes())?;
+    files.add_bytes(folder.join("comparison.md"), comparison_markdown(comparison).as_bytes())?;
 
     let threads = comparison.threads;
     let step = busiest_step(frames, Preset::Selvedge, threads)?;

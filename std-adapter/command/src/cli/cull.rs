@@ -10,8 +10,8 @@ use selvedge::core::Scalar;
 use selvedge::core::elementary::Limits;
 use selvedge::glam::DVec3;
 use selvedge::{CandidateBoxes, CollisionDetector, Criterion};
-use selvedge_files::mesh::{MeshStep, read_step};
-use selvedge_laboratory::pipeline::{Pipeline, Preset, StepReport};
+use selvedge_files::mesh::MeshStep;
+use selvedge_laboratory::pipeline::{Contact, Pipeline, Preset, StepReport};
 use selvedge_laboratory::report::{StepQuestion, StepSummary, contacts_csv, json, pairs_csv, tables};
 use std::path::{Path, PathBuf};
 
@@ -72,11 +72,7 @@ pub(crate) struct Cull {
 
 impl Cull {
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let step = {
-            let _progress = Progress::spinner("reading");
-            read_step(&self.start, &self.end)?
-        };
-        output::say(format_args!("{}: {}", self.start.display(), step.notes));
+        let step = output::read_step(&self.start, &self.end)?;
         match self.scalar {
             ScalarChoice::F32 => self.run_in::<f32>(step),
             ScalarChoice::F64 => self.run_in::<f64>(step),
@@ -109,39 +105,54 @@ impl Cull {
         let mut pipeline = Pipeline::<S>::new(step.topology, self.pipeline.stages(), self.threads.get())?;
         pipeline.set_level(self.simd.level());
         pipeline.keep_candidates(self.candidates.is_some());
-        let mut fastest = {
+        let mut fastest = Fastest::default();
+        {
             let _progress = Progress::spinner("culling");
-            pipeline.step(&start, &end)?.clone()
-        };
-        let first_run_seconds = fastest.seconds;
-        for _ in 1..self.repeat {
-            let report = pipeline.step(&start, &end)?;
-            if report.seconds < fastest.seconds {
-                fastest.clone_from(report);
+            for _ in 0..self.repeat {
+                fastest.meet(pipeline.step(&start, &end)?);
             }
         }
+        let summary = StepSummary::new(self.pipeline, &pipeline);
+        let candidates = [PairKind::VertexFace, PairKind::EdgeEdge].map(|kind| pipeline.candidates(kind));
+        self.tell(summary, &fastest, pipeline.topology(), pipeline.contacts(), candidates)
+    }
 
+    /// Writes the files that were asked for, and prints what the fastest run counted.
+    fn tell<S: Scalar>(
+        &self,
+        mut summary: StepSummary,
+        fastest: &Fastest,
+        topology: &Topology,
+        contacts: &[Contact<S>],
+        [vertex_face, edge_edge]: [&[[u32; 2]]; 2],
+    ) -> Result<(), Failure> {
         let mut files = OutputFiles::default();
-        let topology = pipeline.topology();
         if let Some(path) = &self.pairs {
-            files.add(path.clone(), |out| contacts_csv(topology, pipeline.contacts(), out))?;
+            files.add(path.clone(), |out| contacts_csv(topology, contacts, out))?;
         }
         if let Some(path) = &self.candidates {
-            let of = |kind| pipeline.candidates(kind);
-            files.add(path.clone(), |out| {
-                pairs_csv(topology, of(PairKind::VertexFace), of(PairKind::EdgeEdge), out)
-            })?;
+            files.add(path.clone(), |out| pairs_csv(topology, vertex_face, edge_edge, out))?;
         }
         files.publish()?;
+        summary.report.clone_from(&fastest.report);
+        summary.first_run_seconds = fastest.first_run_seconds.unwrap_or_default();
+        output::answer(self.json, || json::step(&summary), || tables::step(&summary))
+    }
+}
 
-        let mut summary = StepSummary::new(self.pipeline, &pipeline);
-        summary.report = fastest;
-        summary.first_run_seconds = first_run_seconds;
-        if self.json {
-            output::print_json(&json::step(&summary))
-        } else {
-            output::print(&tables::step(&summary))
+/// The fastest of several runs of a step, and how long the first one took.
+#[derive(Default)]
+struct Fastest {
+    report: StepReport,
+    first_run_seconds: Option<f64>,
+}
+
+impl Fastest {
+    fn meet(&mut self, report: &StepReport) {
+        if self.first_run_seconds.is_none() || report.seconds < self.report.seconds {
+            self.report.clone_from(report);
         }
+        self.first_run_seconds.get_or_insert(report.seconds);
     }
 }
 
@@ -196,8 +207,7 @@ impl Cull {
         } else {
             CandidateBoxes::Moving
         };
-        let mut fastest: Option<StepReport> = None;
-        let mut first_run_seconds = None;
+        let mut fastest = Fastest::default();
         {
             let _progress = Progress::spinner("culling");
             for _ in 0..self.repeat {
@@ -216,39 +226,20 @@ impl Cull {
                         report = StepReport::of_detector_after(detector.tally(), report.seconds);
                     }
                 }
-                first_run_seconds.get_or_insert(report.seconds);
-                let is_faster = |fastest: &StepReport| report.seconds < fastest.seconds;
-                if fastest.as_ref().is_none_or(is_faster) {
-                    fastest = Some(report);
-                }
+                fastest.meet(&report);
             }
         }
         let times = contacts.iter().map(|contact| contact.time.to_f64());
         let earliest = times.min_by(f64::total_cmp);
-        let mut files = OutputFiles::default();
-        if let Some(path) = &self.candidates {
-            files.add(path.clone(), |out| {
-                pairs_csv(detector.topology(), &vertex_face, &edge_edge, out)
-            })?;
-        }
-        if let Some(path) = &self.pairs {
-            files.add(path.clone(), |out| contacts_csv(detector.topology(), &contacts, out))?;
-        }
-        files.publish()?;
         let question = match question {
             Question::Candidates => StepQuestion::Candidates,
             Question::Earliest => StepQuestion::Earliest,
             Question::Swept => StepQuestion::Contacts,
         };
-        let report = fastest.unwrap_or_default();
-        let mut summary = StepSummary::of_detector(question, &detector, report, earliest);
+        let mut summary = StepSummary::of_detector(question, &detector, StepReport::default(), earliest);
         summary.preset = self.pipeline;
-        summary.first_run_seconds = first_run_seconds.unwrap_or_default();
-        if self.json {
-            output::print_json(&json::step(&summary))
-        } else {
-            output::print(&tables::step(&summary))
-        }
+        let candidates = [&*vertex_face, &*edge_edge];
+        self.tell(summary, &fastest, detector.topology(), &contacts, candidates)
     }
 }
 

@@ -45,10 +45,10 @@ impl HardCases {
         if results.is_empty() {
             return Err(format!("no hard case has `{}` in its name", self.name).into());
         }
-        if self.json {
-            output::print_json(&json::hard_cases(scalar, &results))
-        } else {
-            output::print(&tables::hard_cases(scalar, &results))
-        }
+        output::answer(
+            self.json,
+            || json::hard_cases(scalar, &results),
+            || tables::hard_cases(scalar, &results),
+        )
     }
 }

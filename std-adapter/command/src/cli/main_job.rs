@@ -22,7 +22,7 @@ pub(crate) struct MainJob {
     steps: u32,
     #[command(flatten)]
     run: Run,
-    /// Write the report (HTML), the comparison (CSV, SVG) and a picture of candidates (PNG) to this folder
+    /// Write the report (HTML), the comparison (CSV, HTML, Markdown) and a picture of candidates (PNG) to this folder
     #[arg(long, value_name = "DIR", default_value = "selvedge-out")]
     output: PathBuf,
 }
@@ -65,10 +65,14 @@ impl MainJob {
                 "comparison": json::comparison(&comparison),
             }));
         }
-        output::print(&tables::simulation(&simulation, seconds))?;
-        output::print("\n")?;
-        output::print(&tables::effects_one_by_one(&costs))?;
-        output::print("\n")?;
-        output::print(&tables::comparison(&comparison))
+        let effects = tables::effects_one_by_one(&costs);
+        output::print(
+            &[
+                tables::simulation(&simulation, seconds),
+                effects,
+                tables::comparison(&comparison),
+            ]
+            .join("\n"),
+        )
     }
 }

@@ -1,6 +1,8 @@
 //! Where the answer goes: standard output and files, in one piece or not at all.
 
 use super::Failure;
+use super::progress::Progress;
+use selvedge_files::mesh::{self, MeshStep};
 use selvedge_files::temporary_file;
 use std::fmt;
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -19,6 +21,25 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
 /// Prints a JSON document.
 pub(crate) fn print_json(value: &serde_json::Value) -> Result<(), Failure> {
     print(&format!("{value:#}\n"))
+}
+
+/// Prints the answer as the one or the other.
+pub(crate) fn answer(
+    as_json: bool,
+    json: impl FnOnce() -> serde_json::Value,
+    text: impl FnOnce() -> String,
+) -> Result<(), Failure> {
+    if as_json { print_json(&json()) } else { print(&text()) }
+}
+
+/// Reads the two meshes of a step, and says what had to be done to them.
+pub(crate) fn read_step(start: &Path, end: &Path) -> Result<MeshStep, Failure> {
+    let step = {
+        let _progress = Progress::spinner("reading");
+        mesh::read_step(start, end)?
+    };
+    say(format_args!("{}: {}", start.display(), step.notes));
+    Ok(step)
 }
 
 /// Says something on standard error; nobody there to hear it is no error.

@@ -103,11 +103,11 @@ impl Queries {
                 ("f32", results)
             }
         };
-        if self.json {
-            output::print_json(&json::queries(scalar, &results))
-        } else {
-            output::print(&tables::queries(scalar, &results))
-        }
+        output::answer(
+            self.json,
+            || json::queries(scalar, &results),
+            || tables::queries(scalar, &results),
+        )
     }
 
     fn measure<S: Scalar>(

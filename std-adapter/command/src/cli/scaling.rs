@@ -53,11 +53,11 @@ impl Scaling {
         }
         files.publish()?;
         let threads = self.threads.get();
-        if self.json {
-            output::print_json(&json::scaling(self.pipeline, threads, &points))
-        } else {
-            output::print(&tables::scaling(self.pipeline, threads, &points))
-        }
+        output::answer(
+            self.json,
+            || json::scaling(self.pipeline, threads, &points),
+            || tables::scaling(self.pipeline, threads, &points),
+        )
     }
 
     fn measure(&self) -> Result<Vec<ScalingPoint>, Failure> {

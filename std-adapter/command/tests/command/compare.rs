@@ -6,7 +6,7 @@ use selvedge_laboratory::pipeline::Preset;
 /// Small enough for a test.
 const SHORT: [&str; 4] = ["--steps", "2", "--rounds", "1"];
 
-const REPORT: [&str; 3] = ["comparison.csv", "comparison.svg", "figure-3.png"];
+const REPORT: [&str; 4] = ["comparison.csv", "comparison.html", "comparison.md", "figure-3.png"];
 
 #[test]
 fn the_main_job_simulates_the_sleeve_compares_every_method_and_writes_its_report() {
@@ -25,7 +25,12 @@ fn the_main_job_simulates_the_sleeve_compares_every_method_and_writes_its_report
     assert!(page.contains("<h1>arm sleeve</h1>"));
     let picture = std::fs::read(place.path("selvedge-out/figure-3.png")).unwrap();
     assert_eq!(&picture[..8], b"\x89PNG\r\n\x1a\n");
-    assert!(place.read("selvedge-out/comparison.svg").contains("</svg>"));
+    assert!(place.read("selvedge-out/comparison.html").contains("</table>"));
+    let rows = place.read("selvedge-out/comparison.md");
+    assert_eq!(
+        rows.lines().filter(|line| line.starts_with("| ")).count(),
+        1 + Preset::ALL.len()
+    );
 }
 
 #[test]

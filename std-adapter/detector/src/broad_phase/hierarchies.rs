@@ -2,7 +2,6 @@
 
 use super::MovingStatistics;
 use super::degradation::{Degradation, Prices};
-use super::mapping::Mapping;
 use super::pairs::Sink;
 use super::rows::{Rows, row};
 use super::traversal::{BlockPair, Scratch, Trees};
@@ -13,6 +12,7 @@ use crate::dispatch::{Level, best_level};
 use crate::frame::{StepError, check_frames};
 use crate::mesh::Topology;
 use crate::parallel;
+use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::{Aabb, moving::MovingBox};
 use selvedge_core::{Position, Scalar};
 use std::sync::Arc;

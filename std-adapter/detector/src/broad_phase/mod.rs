@@ -30,14 +30,13 @@
 //! # Which pairs
 //! Exactly those that [relative boxes along three axes](selvedge_core::boxes::relative::three_axes) leave, of `f32` positions
 //! and of `f64` positions that are `f32` numbers, unless the mesh is far from the origin for its size. Other `f64` positions are
-//! rounded to `f32` for the boxes (`mapping`): pairs that are apart by less than that are candidates too, none is lost.
+//! [rounded to `f32`](selvedge_core::boxes::mapping) for the boxes: pairs that are apart by less than that are candidates too, none is lost.
 //!
 //! The order of the candidates depends on the hierarchies, and so on the steps before: the same sequence of steps gives the
 //! same candidates in the same order, on any number of threads and every instruction set.
 
 mod degradation;
 mod hierarchies;
-mod mapping;
 mod order;
 mod pairs;
 mod rows;
@@ -46,7 +45,6 @@ mod tree;
 
 pub use degradation::{Degradation, Prices};
 pub(crate) use hierarchies::{Fit, Hierarchies, Share, extent};
-pub(crate) use mapping::Mapping;
 pub use order::{Centre, LEAF, order};
 pub(crate) use pairs::{CHUNK, Sink};
 pub(crate) use rows::Rows;

@@ -8,7 +8,7 @@ use std::fmt;
 /// triangles, and triangles that name a vertex twice. Nothing is dropped or renumbered.
 ///
 /// ```
-/// use selvedge::mesh::Topology;
+/// use selvedge::Topology;
 ///
 /// // Two triangles that share the edge 1-2, and vertex 4, which has no triangle.
 /// let topology = Topology::new(5, vec![[0, 1, 2], [2, 1, 3]])?;
@@ -16,7 +16,7 @@ use std::fmt;
 /// assert_eq!(topology.triangle_edges(), [[0, 2, 1], [2, 3, 4]]);
 /// assert_eq!(topology.statistics().interior_edges, 1);
 /// assert_eq!(topology.statistics().isolated_vertices, 1);
-/// # Ok::<(), selvedge::mesh::TopologyError>(())
+/// # Ok::<(), selvedge::TopologyError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Topology {
@@ -102,6 +102,7 @@ impl Topology {
     ///
     /// # Panics
     /// If the pair is not of this mesh.
+    #[inline]
     #[must_use]
     pub fn vertices_of(&self, kind: PairKind, pair: [u32; 2]) -> [u32; 4] {
         let [first, second] = pair.map(|feature| feature as usize);

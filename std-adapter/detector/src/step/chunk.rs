@@ -17,7 +17,7 @@
 //! go on in `f64`, from the times up to which they are proven to be apart, so contacts and times are as sharp as those of `f64`. The
 //! separation and the end of the time asked about are rounded up.
 
-use super::sweep::{Left, MOST, Open, Sweep, rounded_up};
+use super::sweep::{Left, MOST, Open, Sweep};
 use super::{Bound, Contact, Question, Wanted};
 use crate::PairCounts;
 use crate::PairKind;
@@ -30,6 +30,7 @@ use selvedge_core::elementary::advance::time_of_impact_within;
 use selvedge_core::elementary::contact::settled;
 use selvedge_core::elementary::{Contact as Verdict, Impact, Limits, Reason};
 use selvedge_core::filter::{Filter, Tier};
+use selvedge_core::narrowing::rounded_up;
 use selvedge_core::{EdgeEdge, Scalar, VertexFace};
 use std::time::Duration;
 
@@ -232,8 +233,10 @@ impl Chunk {
         tier: Tier,
         separation: F,
     ) {
-        let filter = Filter::new(tier);
-        let filter = filter.with_separation(separation).unwrap_or(filter);
+        // A separation that the format has no number for excludes nothing.
+        let Some(filter) = Filter::new(tier).with_separation(separation) else {
+            return;
+        };
         let indices = &mut self.indices[first..];
         let pairs = &mut self.pairs[first..];
         self.masks.clear();
@@ -299,7 +302,7 @@ impl Chunk {
                 tolerance: f32::from_f64(limits.tolerance),
                 separation: rounded_up(limits.separation),
             },
-            until: rounded_up(until).min(1.0),
+            until: rounded_up::<f32>(until).min(1.0),
         };
         for number in 0..SINGLE_SWEEPS {
             sweep.run(number, single, |place, indices, time, _| {

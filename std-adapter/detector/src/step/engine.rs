@@ -2,7 +2,7 @@
 
 use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
 use super::given::PrimitiveBoxes;
-use super::{Bound, CandidateBoxes, Contact, Question, Wanted, power_of_two};
+use super::{Bound, CandidateBoxes, Contact, Question, Wanted};
 use crate::PairCounts;
 use crate::PairKind;
 use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
@@ -13,6 +13,7 @@ use crate::frame::{StepError, check_frames};
 use crate::mesh::Topology;
 use crate::parallel;
 use selvedge_core::elementary::Limits;
+use selvedge_core::narrowing::rounded_down;
 use selvedge_core::{Position, Scalar};
 use std::cmp::Ordering;
 use std::sync::atomic::{self, AtomicBool};
@@ -373,20 +374,6 @@ fn in_format_of_positions<S: Scalar>(contact: &Contact<f64>) -> Contact<S> {
     }
 }
 
-/// A time in another format, not later, in any direction of rounding, and by no more than 2⁻²² of it, or 2⁻¹⁰⁰, earlier.
-///
-/// Where the nearest number is later, what is 2⁻²² of it earlier has one that is not: rounding adds at most 2⁻²³ of it.
-fn rounded_down<S: Scalar>(time: f64) -> S {
-    let nearest = S::from_f64(time);
-    if nearest.to_f64() <= time {
-        nearest
-    } else if time < power_of_two(-100) {
-        S::ZERO
-    } else {
-        S::from_f64(time * (1.0 - power_of_two(-22)))
-    }
-}
-
 /// Makes a space for each thread, if they are not there.
 fn spaces_for_threads(spaces: &mut Vec<Mutex<Space>>) -> &[Mutex<Space>] {
     let new = || {
@@ -421,20 +408,4 @@ fn check_pairs(topology: &Topology, [vertex_face, edge_edge]: [&[[u32; 2]]; 2]) 
     };
     bad(PairKind::VertexFace, vertex_face, [vertices, faces])?;
     bad(PairKind::EdgeEdge, edge_edge, [edges, edges])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::rounded_down;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn rounding_down_makes_no_time_later_and_hardly_earlier(time in prop_oneof![0.0..=1.0, 1e-60..1e-30, 0.0..1e-300]) {
-            let rounded = f64::from(rounded_down::<f32>(time));
-            prop_assert!(rounded <= time && rounded >= 0.0);
-            prop_assert!(rounded >= time * (1.0 - 0.5_f64.powi(21)) || time <= 0.5_f64.powi(100));
-            prop_assert_eq!(rounded_down::<f64>(time), time);
-        }
-    }
 }

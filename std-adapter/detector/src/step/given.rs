@@ -10,14 +10,15 @@
 //! ```
 //!
 //! In place of the rows of four vertices that any other test gathers, each pair takes two cache lines, and no branch. That it is
-//! certified to drop a pair is derived with the [boxes](selvedge_core::boxes::moving) and their [mapping](crate::broad_phase).
+//! certified to drop a pair is derived with the [boxes](selvedge_core::boxes::moving) and their [mapping](selvedge_core::boxes::mapping).
 
 use crate::PairKind;
-use crate::broad_phase::{Mapping, extent};
+use crate::broad_phase::extent;
 use crate::dispatch::Level;
 use crate::mesh::Topology;
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
 use selvedge_core::Position;
+use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::moving::MovingBox;
 
 /// A moving box as one row of sixteen numbers: lower and negated upper corner at the start, and at the end.

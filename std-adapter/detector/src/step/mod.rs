@@ -18,6 +18,7 @@ use crate::parallel::Workers;
 use crate::parallel::{ThreadError, Threads};
 use engine::{Engine, PROBES, Probe};
 use selvedge_core::elementary::Limits;
+use selvedge_core::narrowing::widened;
 use selvedge_core::{Position, Scalar};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -29,8 +30,7 @@ pub struct Contact<S> {
     pub kind: PairKind,
     /// The vertex and the face, or the two edges, as numbered by the [`Topology`].
     pub pair: [u32; 2],
-    /// When, in [0, 1] of the step. With the certified time of impact not after the exact time, and hardly before
-    /// it; with the plain cubic as computed.
+    /// When, in [0, 1] of the step: not after the exact time, and hardly before it ([how early](CollisionDetector::earliest)).
     pub time: S,
 }
 
@@ -111,20 +111,6 @@ pub(crate) struct Question {
     pub(crate) keeps_filtered: bool,
     /// Whether only pairs that truly touch are contacts, by the exact verdict.
     pub(crate) is_exact: bool,
-}
-
-/// Two to an exponent for which that is a normal number.
-const fn power_of_two(exponent: i64) -> f64 {
-    f64::from_bits(((1023 + exponent) as u64) << 52)
-}
-
-/// The same limits in `f64`, which decides in the end whatever the positions' format. A subnormal separation counts as the
-/// smallest normal number, as in all tests.
-fn widened<S: Scalar>(limits: &Limits<S>) -> Limits<f64> {
-    Limits {
-        tolerance: limits.tolerance.to_f64(),
-        separation: limits.separation.raised_to_normal().to_f64(),
-    }
 }
 
 /// How late a contact may be to be of interest: shared by all threads, lowered by each contact where only the earliest is wanted.

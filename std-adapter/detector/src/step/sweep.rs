@@ -1,6 +1,5 @@
 //! Sweeps: one round of advancing for all open pairs, after which those that it decides are dropped.
 
-use super::power_of_two;
 use crate::broad_phase::CHUNK;
 use crate::dispatch::Level;
 use selvedge_core::PairKind;
@@ -122,31 +121,5 @@ impl<F: Scalar> Sweep<'_, F> {
         places.truncate(kept);
         indices.truncate(kept);
         times.truncate(kept);
-    }
-}
-
-/// A length, or a time, in `f32`, not less, in any direction of rounding: what is 2⁻²² of it larger has a nearest number that is not
-/// less, if it is no subnormal one.
-pub(super) fn rounded_up(value: f64) -> f32 {
-    let nearest = f32::from_f64(value);
-    if nearest.to_f64() >= value {
-        nearest
-    } else {
-        f32::from_f64((value * (1.0 + power_of_two(-22))).max(power_of_two(-100)))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::rounded_up;
-    use proptest::prelude::*;
-
-    proptest! {
-        #[test]
-        fn rounding_up_makes_nothing_less_and_hardly_more(value in prop_oneof![0.0..=1.0, 1e-60..1e-30, 0.0..1e30, 0.0..1e-300]) {
-            let rounded = f64::from(rounded_up(value));
-            prop_assert!(rounded >= value);
-            prop_assert!(rounded <= value * (1.0 + 0.5_f64.powi(21)) || rounded <= 0.5_f64.powi(99));
-        }
     }
 }

@@ -141,9 +141,10 @@ fn a_kind_reads_back_as_it_is_written() {
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         assert_eq!(kind.to_string().parse(), Ok(kind));
     }
+    // Core, which has no strings to keep, leaves it to the caller to quote the text.
     assert_names(
         &"vf".parse::<PairKind>().unwrap_err().to_string(),
-        &["'vf'", "vertex-face", "edge-edge"],
+        &["vertex-face", "edge-edge"],
     );
 }
 

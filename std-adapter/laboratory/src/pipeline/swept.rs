@@ -10,25 +10,18 @@ use crate::broad_phase::SweptBox;
 use selvedge::verification::parallel;
 use selvedge_core::Scalar;
 use selvedge_core::boxes::Aabb;
+use selvedge_core::boxes::mapping::image;
 
 /// Replaces `mapped` by the mapped boxes.
 pub(super) fn map_boxes<S: Scalar>(mapped: &mut Vec<SweptBox>, boxes: &[Aabb<S>]) {
     let middle = middle(boxes);
     parallel::fill(mapped, boxes, |swept| {
-        let map = |bounds: [S; 3]| [0, 1, 2].map(|axis| nearest_f32(bounds[axis].to_f64() - middle[axis]));
+        let map = |bounds: [S; 3]| [0, 1, 2].map(|axis| image(bounds[axis].to_f64() - middle[axis]));
         SweptBox {
             lower: map(swept.lower),
             upper: map(swept.upper),
         }
     });
-}
-
-#[allow(
-    clippy::cast_possible_truncation,
-    reason = "rounding to nearest is monotone, which is all that is needed"
-)]
-fn nearest_f32(value: f64) -> f32 {
-    value as f32
 }
 
 /// The middle of all boxes; zero where that overflows.

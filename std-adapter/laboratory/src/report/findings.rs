@@ -1,6 +1,6 @@
 //! What a comparison says about the paper's claims and about ours, computed from its numbers.
 
-use super::number::{mean, rate};
+use super::number::{figures, mean};
 use super::paper::paper_row;
 use crate::pipeline::{Preset, Redundancy, Source, Stages};
 use crate::study::{Comparison, ComparisonRow};
@@ -58,13 +58,10 @@ fn candidates_beside_paper(a: &ComparisonRow, b: &ComparisonRow) -> Option<Findi
         [false, true] => "fewer EE candidates, but no fewer VF",
     };
     let text = format!(
-        "{} leaves {relation} than {} ({} against {} VF, {} against {} EE), {} ({} against {}, {} against {}).",
+        "{} leaves {relation} than {} ({}), {} ({} against {}, {} against {}).",
         a.preset,
         b.preset,
-        mean(a.candidates.vertex_face),
-        mean(b.candidates.vertex_face),
-        mean(a.candidates.edge_edge),
-        mean(b.candidates.edge_edge),
+        candidates_against(a, b),
         beside_paper(as_expected),
         paper_a.vertex_face,
         paper_b.vertex_face,
@@ -83,15 +80,20 @@ fn speed_beside_paper(a: &ComparisonRow, b: &ComparisonRow) -> Option<Finding> {
         a.preset,
         if faster { "faster" } else { "not faster" },
         b.preset,
-        rate(a.frames_per_second),
-        rate(b.frames_per_second),
-        rate(a.frames_per_second / b.frames_per_second),
+        figures(a.frames_per_second),
+        figures(b.frames_per_second),
+        figures(a.frames_per_second / b.frames_per_second),
         beside_paper(as_expected),
         paper_a.frames_per_second,
         paper_b.frames_per_second,
-        rate(paper_a.frames_per_second / paper_b.frames_per_second),
+        figures(paper_a.frames_per_second / paper_b.frames_per_second),
     );
     Some(Finding { text, as_expected })
+}
+
+fn candidates_against(a: &ComparisonRow, b: &ComparisonRow) -> String {
+    let [a, b] = [a, b].map(|row| [row.candidates.vertex_face, row.candidates.edge_edge].map(mean));
+    format!("{} against {} VF, {} against {} EE", a[0], b[0], a[1], b[1])
 }
 
 const fn beside_paper(as_expected: bool) -> &'static str {
@@ -102,14 +104,11 @@ fn no_more_candidates(ours: &ComparisonRow, paper: &ComparisonRow) -> Finding {
     let (a, b) = (ours.candidates, paper.candidates);
     let as_expected = a.vertex_face <= b.vertex_face && a.edge_edge <= b.edge_edge;
     let text = format!(
-        "{} leaves {} candidates than {} ({} against {} VF, {} against {} EE).",
+        "{} leaves {} candidates than {} ({}).",
         ours.preset,
         if as_expected { "no more" } else { "more" },
         paper.preset,
-        mean(a.vertex_face),
-        mean(b.vertex_face),
-        mean(a.edge_edge),
-        mean(b.edge_edge),
+        candidates_against(ours, paper),
     );
     Finding { text, as_expected }
 }
@@ -119,7 +118,7 @@ fn fastest(ours: &ComparisonRow, comparison: &Comparison) -> Option<Finding> {
     let others = comparison.rows.iter().filter(|row| !row.preset.is_ours());
     let best = others.max_by(|a, b| a.frames_per_second.total_cmp(&b.frames_per_second))?;
     let as_expected = ours.frames_per_second > best.frames_per_second;
-    let (ours_rate, best_rate) = (rate(ours.frames_per_second), rate(best.frames_per_second));
+    let (ours_rate, best_rate) = (figures(ours.frames_per_second), figures(best.frames_per_second));
     let text = if as_expected {
         format!(
             "{} is the fastest: {ours_rate} steps a second, before {} with {best_rate}.",

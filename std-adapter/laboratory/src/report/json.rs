@@ -20,19 +20,14 @@ use serde_json::{Value, json};
 pub fn step(summary: &StepSummary) -> Value {
     let contacts = summary.report.contacts();
     // Null is what was not asked.
-    let contacts = match summary.question {
-        StepQuestion::Contacts => json!({
-            "vertex_face": contacts.vertex_face,
-            "edge_edge": contacts.edge_edge,
+    let has_all = summary.question == StepQuestion::Contacts;
+    let contacts = (summary.question != StepQuestion::Candidates).then(|| {
+        json!({
+            "vertex_face": has_all.then_some(contacts.vertex_face),
+            "edge_edge": has_all.then_some(contacts.edge_edge),
             "earliest": summary.earliest,
-        }),
-        StepQuestion::Earliest => json!({
-            "vertex_face": Value::Null,
-            "edge_edge": Value::Null,
-            "earliest": summary.earliest,
-        }),
-        StepQuestion::Candidates => Value::Null,
-    };
+        })
+    });
     json!({
         "pipeline": summary.preset.name(),
         "scalar": summary.scalar,
@@ -48,25 +43,33 @@ pub fn step(summary: &StepSummary) -> Value {
 }
 
 fn step_stages(report: &StepReport) -> Vec<Value> {
-    let of_pairs = |stage: Stage, pairs: PairCounts, seconds: f64| {
-        json!({
-            "stage": stage.name(),
-            "vertex_face": pairs.vertex_face,
-            "edge_edge": pairs.edge_edge,
-            "seconds": seconds,
-        })
+    let counts = |pairs: PairCounts| [pairs.vertex_face, pairs.edge_edge];
+    let first = match report.broad_phase_pairs {
+        Some(pairs) => stage(Stage::BroadPhase, counts(pairs), report.broad_phase_seconds),
+        None => broad_phase(report.triangle_pairs, report.broad_phase_seconds),
     };
-    let mut stages = vec![match report.broad_phase_pairs {
-        Some(pairs) => of_pairs(Stage::BroadPhase, pairs, report.broad_phase_seconds),
-        None => json!({
-            "stage": Stage::BroadPhase.name(),
-            "triangle_pairs": report.triangle_pairs,
-            "seconds": report.broad_phase_seconds,
-        }),
-    }];
     let later = report.stages.iter();
-    stages.extend(later.map(|stage| of_pairs(stage.stage, stage.survivors, stage.seconds)));
-    stages
+    let later = later.map(|own| stage(own.stage, counts(own.survivors), own.seconds));
+    [first].into_iter().chain(later).collect()
+}
+
+/// A stage of a step, or the mean of several.
+fn stage(stage: Stage, [vertex_face, edge_edge]: [impl Into<Value>; 2], seconds: f64) -> Value {
+    json!({
+        "stage": stage.name(),
+        "vertex_face": vertex_face.into(),
+        "edge_edge": edge_edge.into(),
+        "seconds": seconds,
+    })
+}
+
+/// A broad phase that finds triangle pairs.
+fn broad_phase(triangle_pairs: impl Into<Value>, seconds: f64) -> Value {
+    json!({
+        "stage": Stage::BroadPhase.name(),
+        "triangle_pairs": triangle_pairs.into(),
+        "seconds": seconds,
+    })
 }
 
 /// Every method on the same steps: `selvedge compare`.
@@ -115,26 +118,15 @@ fn comparison_row(row: &ComparisonRow) -> Value {
 }
 
 fn comparison_stages(row: &ComparisonRow) -> Vec<Value> {
-    let of_pairs = |stage: Stage, pairs: MeanCounts, seconds: f64| {
-        json!({
-            "stage": stage.name(),
-            "vertex_face": pairs.vertex_face,
-            "edge_edge": pairs.edge_edge,
-            "seconds": seconds,
-        })
-    };
-    let mut stages = vec![if row.has_triangle_pairs {
-        json!({
-            "stage": Stage::BroadPhase.name(),
-            "triangle_pairs": row.triangle_pairs,
-            "seconds": row.broad_phase_seconds,
-        })
+    let counts = |pairs: MeanCounts| [pairs.vertex_face, pairs.edge_edge];
+    let first = if row.has_triangle_pairs {
+        broad_phase(row.triangle_pairs, row.broad_phase_seconds)
     } else {
-        of_pairs(Stage::BroadPhase, row.after_boxes, row.broad_phase_seconds)
-    }];
+        stage(Stage::BroadPhase, counts(row.after_boxes), row.broad_phase_seconds)
+    };
     let later = row.stages.iter();
-    stages.extend(later.map(|stage| of_pairs(stage.stage, stage.survivors, stage.seconds)));
-    stages
+    let later = later.map(|own| stage(own.stage, counts(own.survivors), own.seconds));
+    [first].into_iter().chain(later).collect()
 }
 
 /// What each method said of queries: `selvedge queries`.

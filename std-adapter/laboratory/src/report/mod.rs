@@ -4,7 +4,7 @@
 //!
 //! A simulation is handed over as a [`Recording`], which a [`Recorder`] makes.
 
-mod accuracy_svg;
+mod comparison;
 mod csv;
 mod figure;
 mod findings;
@@ -16,22 +16,17 @@ mod paper;
 mod plot;
 mod recording;
 mod step;
-#[cfg(test)]
-mod svg_texts;
-mod table_svg;
 pub mod tables;
 
 pub use self::csv::{comparison_csv, contacts_csv, pairs_csv};
-pub use accuracy_svg::accuracy_svg;
-pub use accuracy_svg::elementary_svg;
+pub use comparison::{comparison_html, comparison_markdown};
 pub use figure::{FIGURE_SIZE, FigureError, FigurePairs, figure_3};
 pub use findings::{Finding, findings};
 pub use paper::{PaperRow, paper_row};
-pub use plot::scaling_svg;
+pub use plot::{accuracy_svg, elementary_svg, scaling_svg};
 pub use recording::{About, Added, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind};
 pub use recording::{SimulationRecorder, Subject, costs_of_added_effects};
 pub use step::{StepQuestion, StepSummary};
-pub use table_svg::comparison_svg;
 
 use crate::pipeline::Stage;
 use crate::study::{ComparisonRow, MeanCounts, ScalingPoint};
@@ -40,6 +35,17 @@ use crate::study::{ComparisonRow, MeanCounts, ScalingPoint};
 fn distributed(row: &ComparisonRow) -> Option<MeanCounts> {
     let stage = row.stages.iter().find(|stage| stage.stage == Stage::Distribution);
     stage.map(|stage| stage.survivors)
+}
+
+/// `693 vertices, 2,038 edges, 1,345 triangles`.
+fn mesh_size(vertices: usize, edges: usize, triangles: usize) -> String {
+    let [vertices, edges, triangles] = [vertices, edges, triangles].map(number::grouped);
+    format!("{vertices} vertices, {edges} edges, {triangles} triangles")
+}
+
+/// Without control characters, which XML and HTML have no way to write and a file's name may hold.
+fn printable(text: &str) -> String {
+    text.replace(|c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'), "\u{fffd}")
 }
 
 /// Each size's time for a step over n log n, as a multiple of the first size's: 1 throughout for a cost of n log n.

@@ -1,7 +1,10 @@
-//! Numbers as people read them.
+//! Numbers, shares and times as people read them. What is not a number, or not there, is a [dash](ABSENT).
+
+/// What stands for nothing.
+pub(super) const ABSENT: &str = "–";
 
 /// A whole number with a comma between thousands: `1,345`.
-pub(super) fn grouped(number: u64) -> String {
+pub(super) fn grouped(number: impl ToString) -> String {
     let digits = number.to_string();
     let mut grouped = String::with_capacity(digits.len() * 4 / 3);
     for (index, digit) in digits.chars().enumerate() {
@@ -13,53 +16,124 @@ pub(super) fn grouped(number: u64) -> String {
     grouped
 }
 
-/// A mean count: whole from 100 up, with one decimal below unless it is whole anyway; a dash if it is not finite.
+/// `1 step`, `1,500 steps`.
+pub(super) fn counted(count: impl ToString, what: &str) -> String {
+    let count = grouped(count);
+    let s = if count == "1" { "" } else { "s" };
+    format!("{count} {what}{s}")
+}
+
+/// A mean count: whole from 100 up, with one decimal below unless it is whole anyway.
 pub(super) fn mean(number: f64) -> String {
-    if !number.is_finite() {
-        "–".to_owned()
-    } else if number >= 99.95 || number.fract() == 0.0 {
-        grouped(number.round() as u64)
-    } else {
-        format!("{number:.1}")
+    finite(number, |number| {
+        if number >= 99.95 || number.fract() == 0.0 {
+            whole(number)
+        } else {
+            format!("{number:.1}")
+        }
+    })
+}
+
+/// A number, zero or more, with three figures or so: `34.2`, `1,345`.
+pub(super) fn figures(number: f64) -> String {
+    finite(number, |number| match number {
+        n if n >= 99.95 => whole(n),
+        n if n >= 9.995 => format!("{n:.1}"),
+        n => format!("{n:.2}"),
+    })
+}
+
+/// Any number with three figures or so, however small, and no zeros at the end: `0.00123`.
+pub(super) fn few(number: f64) -> String {
+    finite(number, |number| match number.abs() {
+        0.0 => "0".to_owned(),
+        size if size >= 99.95 => format!("{}{}", if number < 0.0 { "−" } else { "" }, whole(size)),
+        size if size < 1e-4 => format!("{number:.2e}"),
+        size => {
+            let decimals = (2 - size.log10().floor() as i32).clamp(0, 6) as usize;
+            let text = format!("{number:.decimals$}");
+            match text.contains('.') {
+                true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+                false => text,
+            }
+        }
+    })
+}
+
+/// How large a number is, in one figure: `3e-9`.
+pub(super) fn magnitude(number: f64) -> String {
+    match number {
+        0.0 => "0".to_owned(),
+        number => format!("{number:.0e}"),
     }
 }
 
-/// A rate with three figures or so: `34.2`, `1,345`; a dash if it is not finite.
-pub(super) fn rate(number: f64) -> String {
-    if !number.is_finite() {
-        "–".to_owned()
-    } else if number >= 99.95 {
-        grouped(number.round() as u64)
-    } else if number >= 9.995 {
-        format!("{number:.1}")
-    } else {
-        format!("{number:.2}")
-    }
-}
-
-/// A share as a percentage: `85.2 %`; a dash if it is not a number.
+/// A part of a whole as a percentage: `85.2 %`.
 pub(super) fn percent(part: usize, whole: usize, decimals: usize) -> String {
-    if whole == 0 {
-        return "–".to_owned();
-    }
-    let share = 100.0 * part as f64 / whole as f64;
-    format!("{share:.decimals$}\u{a0}%")
+    finite(100.0 * part as f64 / whole as f64, |share| {
+        format!("{share:.decimals$}\u{a0}%")
+    })
+}
+
+/// A share as a percentage with three figures or so, however small.
+pub(super) fn share(share: f64) -> String {
+    finite(share, |share| format!("{}\u{a0}%", few(100.0 * share)))
 }
 
 /// A time in the unit that fits it, with three figures: `12.3 ms`.
 pub(super) fn time(seconds: f64) -> String {
-    let (number, unit) = match seconds {
+    finite(seconds, |seconds| {
+        let (number, unit) = in_unit(seconds);
+        let digits = match number {
+            n if n >= 99.95 => 0,
+            n if n >= 9.995 => 1,
+            _ => 2,
+        };
+        format!("{number:.digits$} {unit}")
+    })
+}
+
+/// A time with its sign: `+12.3 ms`.
+pub(super) fn signed_time(seconds: f64) -> String {
+    let sign = if seconds < 0.0 { "−" } else { "+" };
+    format!("{sign}{}", time(seconds.abs()))
+}
+
+/// A round time, on an axis: `1 µs`, `10 ms`.
+pub(super) fn round_time(seconds: f64) -> String {
+    match in_unit(seconds) {
+        (number, unit) if (1e-3..1e6).contains(&number) => format!("{} {unit}", few(number)),
+        _ => format!("{} s", magnitude(seconds)),
+    }
+}
+
+/// A time in milliseconds, without the unit, with three figures from a millisecond on.
+pub(super) fn milliseconds(seconds: f64) -> String {
+    let digits = match seconds {
+        s if s >= 0.1 => 0,
+        s if s >= 0.01 => 1,
+        s if s >= 0.001 => 2,
+        _ => 3,
+    };
+    format!("{:.digits$}", seconds * 1e3)
+}
+
+fn in_unit(seconds: f64) -> (f64, &'static str) {
+    match seconds {
         s if s >= 0.9995 => (s, "s"),
         s if s >= 0.000_999_5 => (s * 1e3, "ms"),
         s if s >= 0.000_000_999_5 => (s * 1e6, "µs"),
         s => (s * 1e9, "ns"),
-    };
-    let digits = match number {
-        n if n >= 99.95 => 0,
-        n if n >= 9.995 => 1,
-        _ => 2,
-    };
-    format!("{number:.digits$} {unit}")
+    }
+}
+
+fn whole(number: f64) -> String {
+    grouped(number.round() as u64)
+}
+
+/// A dash for what is not a finite number.
+pub(super) fn finite(number: f64, text: impl FnOnce(f64) -> String) -> String {
+    if number.is_finite() { text(number) } else { ABSENT.to_owned() }
 }
 
 #[cfg(test)]
@@ -72,6 +146,7 @@ mod tests {
             [0, 999, 1000, 12_345, 5_197_332].map(grouped),
             ["0", "999", "1,000", "12,345", "5,197,332"]
         );
+        assert_eq!([0, 1, 1500].map(|n| counted(n, "step")), ["0 steps", "1 step", "1,500 steps"]);
     }
 
     #[test]
@@ -86,17 +161,33 @@ mod tests {
     fn a_share_of_nothing_is_a_dash() {
         assert_eq!(percent(2, 3, 1), "66.7\u{a0}%");
         assert_eq!(percent(0, 0, 1), "–");
+        assert_eq!([0.0123, f64::NAN].map(share), ["1.23\u{a0}%", "–"]);
     }
 
     #[test]
-    fn rates_and_times_have_three_figures() {
+    fn numbers_and_times_have_three_figures() {
         assert_eq!(
-            [3.456, 34.22, 345.6, 12_345.0, f64::INFINITY].map(rate),
+            [3.456, 34.22, 345.6, 12_345.0, f64::INFINITY].map(figures),
             ["3.46", "34.2", "346", "12,345", "–"]
         );
         assert_eq!(
-            [2e-9, 4.56e-5, 0.0123, 0.9999, 120.0].map(time),
-            ["2.00 ns", "45.6 µs", "12.3 ms", "1.00 s", "120 s"]
+            [0.0, 1.5, -0.001_234, 1.2e-7, -1234.5].map(few),
+            ["0", "1.5", "-0.00123", "1.20e-7", "−1,235"]
+        );
+        assert_eq!(
+            [2e-9, 4.56e-5, 0.0123, 0.9999, 120.0, f64::NAN].map(time),
+            ["2.00 ns", "45.6 µs", "12.3 ms", "1.00 s", "120 s", "–"]
+        );
+        assert_eq!([-4.56e-5, 0.0].map(signed_time), ["−45.6 µs", "+0.00 ns"]);
+    }
+
+    #[test]
+    fn powers_of_ten_have_units() {
+        assert_eq!(
+            [-2, -1, 0, 2, 3, 5, 6, 9, 10, 300].map(|power| round_time(10.0_f64.powi(power) * 1e-9)),
+            [
+                "0.01 ns", "0.1 ns", "1 ns", "100 ns", "1 µs", "100 µs", "1 ms", "1 s", "10 s", "1e291 s"
+            ]
         );
     }
 }

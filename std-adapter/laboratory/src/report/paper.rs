@@ -1,5 +1,6 @@
 //! Table 1 of Lv, He, Mi, as printed.
 
+use super::number::grouped;
 use crate::pipeline::Preset;
 
 /// One row of the paper's Table 1, measured on its authors' mesh (693 vertices, 1,345 triangles) and machine.
@@ -33,5 +34,13 @@ pub const fn paper_row(preset: Preset) -> Option<PaperRow> {
         vertex_face,
         edge_edge,
         frames_per_second,
+    })
+}
+
+/// A method's pairs and frame rate as printed, or nothing for each.
+pub(super) fn printed(preset: Preset) -> [String; 3] {
+    paper_row(preset).map_or_else(Default::default, |paper| {
+        let frames_per_second = format!("{:.2}", paper.frames_per_second);
+        [grouped(paper.vertex_face), grouped(paper.edge_edge), frames_per_second]
     })
 }

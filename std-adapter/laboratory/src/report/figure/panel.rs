@@ -53,8 +53,8 @@ pub(super) fn draw_close_up(picture: &mut Pixmap, left: f32, mesh: &Drawing<'_>,
 pub(super) fn write_caption(picture: &mut Pixmap, left: f32, pairs: &FigurePairs<'_>) {
     let counts = format!(
         "{} VF, {} EE",
-        grouped(pairs.vertex_face.len() as u64),
-        grouped(pairs.edge_edge.len() as u64)
+        grouped(pairs.vertex_face.len()),
+        grouped(pairs.edge_edge.len())
     );
     for (top, text) in [(NAME_TOP, &*pairs.name), (COUNTS_TOP, &*counts)] {
         let text = shortened(text);

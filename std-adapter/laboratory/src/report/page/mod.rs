@@ -8,7 +8,8 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-use super::number::{grouped, rate, time};
+pub(super) use self::tables::bar;
+use super::number::{counted, figures, grouped, time};
 use super::recording::{PartKind, Recording, SeriesKind};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -28,6 +29,78 @@ const SCRIPTS: [(&str, &str); 4] = [
 pub fn html(recording: &Recording) -> String {
     let about = &recording.about;
     let has = |wanted: fn(SeriesKind) -> bool| recording.steps > 0 && recording.series_of(wanted).next().is_some();
+    let body = html! {
+        header {
+            p.kicker { "selvedge simulate" }
+            h1 { (about.name) }
+            p.lead { (summary(recording)) }
+        }
+        main {
+            @for remark in &recording.remarks { p.remark role="note" { (remark) } }
+            (animation(recording))
+            (tiles(recording))
+            @if has(|kind| kind == SeriesKind::Pairs) {
+                section {
+                    h2 { "Pairs after each stage" }
+                    div.chart data-kind="pairs" {}
+                    (tables::pairs(recording))
+                }
+            }
+            @if has(|kind| kind == SeriesKind::Events) {
+                section {
+                    h2 { "What happened" }
+                    div.chart data-kind="events" {}
+                    (tables::events(recording))
+                }
+            }
+            @if has(|kind| matches!(kind, SeriesKind::Effect | SeriesKind::Stage)) {
+                section {
+                    h2 { "Time of each effect and each stage" }
+                    @if has(|kind| kind == SeriesKind::Effect) { div.chart data-kind="effect" {} }
+                    @if has(|kind| kind == SeriesKind::Stage) { div.chart data-kind="stage" {} }
+                    (tables::times(recording))
+                }
+            }
+            @if !recording.added.is_empty() {
+                section {
+                    h2 { "Effects added one at a time" }
+                    (tables::added_effects(recording))
+                }
+            }
+            @if has(|kind| matches!(kind, SeriesKind::Gauge(_))) {
+                section {
+                    h2 { "State" }
+                    div.chart data-kind="gauge" {}
+                    (tables::gauges(recording))
+                }
+            }
+            @if !about.knobs.is_empty() {
+                section {
+                    h2 { "What trades time for accuracy" }
+                    (tables::knobs(recording))
+                }
+            }
+            @if !about.scene.is_empty() {
+                section {
+                    h2 { "Scene" }
+                    pre tabindex="0" aria-label="the scene file" { code { (about.scene) } }
+                }
+            }
+        }
+        footer {
+            p {
+                "Written by selvedge " (env!("CARGO_PKG_VERSION"))
+                ". This file is complete in itself: it loads nothing."
+            }
+        }
+        (data::blocks(recording))
+        @for (name, script) in SCRIPTS { script data-name=(name) { (PreEscaped(script)) } }
+    };
+    document(&about.name, &body)
+}
+
+/// A whole page of its own.
+pub(super) fn document(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
@@ -38,76 +111,10 @@ pub fn html(recording: &Recording) -> String {
                 meta name="generator" content=(concat!("selvedge ", env!("CARGO_PKG_VERSION")));
                 // No request may leave the page, not even for an icon.
                 link rel="icon" href="data:,";
-                title { (about.name) " – selvedge" }
+                title { (title) " – selvedge" }
                 style { (PreEscaped(STYLE)) }
             }
-            body {
-                header {
-                    p.kicker { "selvedge simulate" }
-                    h1 { (about.name) }
-                    p.lead { (summary(recording)) }
-                }
-                main {
-                    @for remark in &recording.remarks { p.remark role="note" { (remark) } }
-                    (animation(recording))
-                    (tiles(recording))
-                    @if has(|kind| kind == SeriesKind::Pairs) {
-                        section {
-                            h2 { "Pairs after each stage" }
-                            div.chart data-kind="pairs" {}
-                            (tables::pairs(recording))
-                        }
-                    }
-                    @if has(|kind| kind == SeriesKind::Events) {
-                        section {
-                            h2 { "What happened" }
-                            div.chart data-kind="events" {}
-                            (tables::events(recording))
-                        }
-                    }
-                    @if has(|kind| matches!(kind, SeriesKind::Effect | SeriesKind::Stage)) {
-                        section {
-                            h2 { "Time of each effect and each stage" }
-                            @if has(|kind| kind == SeriesKind::Effect) { div.chart data-kind="effect" {} }
-                            @if has(|kind| kind == SeriesKind::Stage) { div.chart data-kind="stage" {} }
-                            (tables::times(recording))
-                        }
-                    }
-                    @if !recording.added.is_empty() {
-                        section {
-                            h2 { "Effects added one at a time" }
-                            (tables::added_effects(recording))
-                        }
-                    }
-                    @if has(|kind| matches!(kind, SeriesKind::Gauge(_))) {
-                        section {
-                            h2 { "State" }
-                            div.chart data-kind="gauge" {}
-                            (tables::gauges(recording))
-                        }
-                    }
-                    @if !about.knobs.is_empty() {
-                        section {
-                            h2 { "What trades time for accuracy" }
-                            (tables::knobs(recording))
-                        }
-                    }
-                    @if !about.scene.is_empty() {
-                        section {
-                            h2 { "Scene" }
-                            pre tabindex="0" aria-label="the scene file" { code { (about.scene) } }
-                        }
-                    }
-                }
-                footer {
-                    p {
-                        "Written by selvedge " (env!("CARGO_PKG_VERSION"))
-                        ". This file is complete in itself: it loads nothing."
-                    }
-                }
-                (data::blocks(recording))
-                @for (name, script) in SCRIPTS { script data-name=(name) { (PreEscaped(script)) } }
-            }
+            body { (body) }
         }
     };
     page.into_string()
@@ -118,11 +125,7 @@ fn summary(recording: &Recording) -> String {
     let count = |kind: PartKind| {
         let parts = recording.parts.iter().filter(move |part| part.kind() == kind);
         parts.fold([0; 3], |[n, vertices, triangles], part| {
-            [
-                n + 1,
-                vertices + part.vertex_count() as u64,
-                triangles + part.triangles().len() as u64,
-            ]
+            [n + 1, vertices + part.vertex_count(), triangles + part.triangles().len()]
         })
     };
     let [_, vertices, triangles] = count(PartKind::Cloth);
@@ -142,12 +145,6 @@ fn summary(recording: &Recording) -> String {
     summary
 }
 
-/// `1 step`, `1,500 steps`.
-fn counted(count: u64, what: &str) -> String {
-    let s = if count == 1 { "" } else { "s" };
-    format!("{} {what}{s}", grouped(count))
-}
-
 /// The numbers that are asked for first.
 fn tiles(recording: &Recording) -> Markup {
     let effects = recording.series_of(|kind| kind == SeriesKind::Effect);
@@ -155,9 +152,9 @@ fn tiles(recording: &Recording) -> Markup {
     if let Some(seconds) = recording.wall_seconds {
         let steps = recording.steps as f64;
         tiles.push((time(seconds), "computed in"));
-        tiles.push((rate(steps / seconds), "steps a second"));
+        tiles.push((figures(steps / seconds), "steps a second"));
     }
-    tiles.push((grouped(effects.count() as u64), "effects ran"));
+    tiles.push((grouped(effects.count()), "effects ran"));
     html! {
         dl.tiles {
             @for (value, name) in &tiles { div { dt { (name) } dd { (value) } } }

@@ -127,7 +127,7 @@ fn names_and_the_scene_are_shown_as_they_are() {
     assert_eq!(text(&page, "h1"), recording.about.name);
     assert_eq!(text(&page, "pre"), recording.about.scene);
     assert_eq!(text(&page, ".remark"), "blocked <here>");
-    assert_eq!(text(&page, "table.knobs tbody"), "time step1 ms");
+    assert_eq!(text(&page, ".knobs tbody"), "time step1 ms");
     let names: Vec<String> = all(&page, "tbody th[scope=row]")
         .iter()
         .map(|cell| cell.text().collect())

@@ -1,5 +1,5 @@
 use super::table;
-use crate::report::number::{grouped, percent};
+use crate::report::number::{counted, figures, finite, grouped, mean, percent};
 use crate::study::{Accuracy, AccuracyRow, AccuracySet};
 
 /// What accuracy costs in time: a table for each set of pairs and format.
@@ -10,10 +10,10 @@ pub fn accuracy(accuracy: &Accuracy) -> String {
         0.0 => String::new(),
         separation => format!(", separation {separation}"),
     };
-    let s = if options.repeat == 1 { "" } else { "s" };
     let mut text = format!(
-        "What accuracy costs in time: one thread, the fastest of {} run{s}, seed {}{separation}\n\n",
-        options.repeat, options.seed,
+        "What accuracy costs in time: one thread, the fastest of {}, seed {}{separation}\n\n",
+        counted(options.repeat, "run"),
+        options.seed,
     );
     for set in &accuracy.sets {
         text += &heading(set);
@@ -36,12 +36,12 @@ cost: the time on the best one over that of `uncertified`.
 
 fn heading(set: &AccuracySet) -> String {
     let drawn = if set.pairs() < set.drawn_from {
-        format!(" of {}", grouped(set.drawn_from as u64))
+        format!(" of {}", grouped(set.drawn_from))
     } else {
         String::new()
     };
     let timed = if set.timed < set.pairs() {
-        format!(", {} of them timed", grouped(set.timed as u64))
+        format!(", {} of them timed", grouped(set.timed))
     } else {
         String::new()
     };
@@ -49,9 +49,9 @@ fn heading(set: &AccuracySet) -> String {
         "{}, {}\n{} pairs{drawn} ({} VF, {} EE){timed}\nexact arithmetic culls {}\n\n",
         set.name,
         set.scalar,
-        grouped(set.pairs() as u64),
-        grouped(set.vertex_face as u64),
-        grouped(set.edge_edge as u64),
+        grouped(set.pairs()),
+        grouped(set.vertex_face),
+        grouped(set.edge_edge),
         percent(set.cullable, set.pairs(), 2),
     )
 }
@@ -80,51 +80,36 @@ fn cells(set: &AccuracySet, row: &AccuracyRow, backends: &[&str]) -> Vec<String>
     let share = |count: usize| 100.0 * count as f64 / set.pairs() as f64;
     let mut cells = vec![
         format!("{}{mark}", row.filter),
-        dash_or(share(row.culled), |share| format!("{share:.2}")),
+        finite(share(row.culled), |share| format!("{share:.2}")),
         per_100_000(row.kept_cullable, set.cullable),
         match row.false_culls() {
-            Some(false_culls) => grouped(false_culls as u64),
-            None => dash_or(share(row.culled_beyond_exact), |share| format!("+{share:.2}")),
+            Some(false_culls) => grouped(false_culls),
+            None => finite(share(row.culled_beyond_exact), |share| format!("+{share:.2}")),
         },
     ];
     let time = |time: Option<f64>| time.map_or_else(String::new, nanoseconds);
     cells.extend(backends.iter().map(|backend| time(row.time(backend))));
     cells.push(time(row.in_first_cache));
     let cost = row.best_time().and_then(|time| set.over_uncertified(time));
-    cells.push(cost.map_or_else(String::new, three_figures));
+    cells.push(cost.map_or_else(String::new, figures));
     cells
 }
 
 /// Never 0 for a count above zero.
 fn per_100_000(part: usize, whole: usize) -> String {
-    let rate = 1e5 * part as f64 / whole as f64;
-    match rate {
-        _ if whole == 0 => "–".to_owned(),
-        _ if part == 0 => "0".to_owned(),
-        rate if rate < 0.1 => "< 0.1".to_owned(),
-        rate if rate < 9.95 => format!("{rate:.1}"),
-        rate => grouped(rate.round() as u64),
+    match 1e5 * part as f64 / whole as f64 {
+        rate if part > 0 && rate < 0.1 => "< 0.1".to_owned(),
+        rate => mean(rate),
     }
 }
 
 /// At most four letters.
 fn nanoseconds(time: f64) -> String {
-    dash_or(time, |time| match time {
-        time if time < 9999.5 => three_figures(time),
-        time => format!("{:.0}µs", time / 1e3),
-    })
-}
-
-fn three_figures(number: f64) -> String {
-    dash_or(number, |number| match number {
-        number if number < 9.995 => format!("{number:.2}"),
-        number if number < 99.95 => format!("{number:.1}"),
-        number => format!("{number:.0}"),
-    })
-}
-
-fn dash_or(number: f64, text: impl Fn(f64) -> String) -> String {
-    if number.is_finite() { text(number) } else { "–".to_owned() }
+    match time {
+        time if (999.5..9999.5).contains(&time) => format!("{time:.0}"),
+        time if time >= 9999.5 => format!("{:.0}µs", time / 1e3),
+        time => figures(time),
+    }
 }
 
 #[cfg(test)]

@@ -1,27 +1,21 @@
 use super::table;
 use crate::pipeline::Stage;
-use crate::report::number::{grouped, mean, rate};
-use crate::report::paper::paper_row;
-use crate::report::{distributed, findings};
+use crate::report::number::{counted, figures, mean, milliseconds};
+use crate::report::paper::printed;
+use crate::report::{distributed, findings, mesh_size};
 use crate::study::{Comparison, ComparisonRow, MeanCounts};
 
 /// Every method on the same steps: the paper's Table 1 with its own numbers beside ours, each stage's survivors, the
 /// time of each stage, and what the numbers say.
 #[must_use]
 pub fn comparison(comparison: &Comparison) -> String {
-    let s = |count: usize| if count == 1 { "" } else { "s" };
     let mut text = format!(
-        "{}\n{} vertices, {} edges, {} triangles\n{} step{}, {} thread{}, the fastest of {} round{}; f64\n",
+        "{}\n{}\n{}, {}, the fastest of {}; f64\n",
         comparison.name,
-        grouped(comparison.vertices as u64),
-        grouped(comparison.edges as u64),
-        grouped(comparison.triangles as u64),
-        comparison.steps,
-        s(comparison.steps),
-        comparison.threads,
-        s(comparison.threads),
-        comparison.rounds,
-        s(comparison.rounds),
+        mesh_size(comparison.vertices, comparison.edges, comparison.triangles),
+        counted(comparison.steps, "step"),
+        counted(comparison.threads, "thread"),
+        counted(comparison.rounds, "round"),
     );
     text += "\nTable 1. Candidate pairs a step and steps a second, beside the paper's\n\n";
     text += &table_1(comparison);
@@ -47,16 +41,15 @@ fn name(row: &ComparisonRow) -> String {
 
 fn table_1(comparison: &Comparison) -> String {
     let rows = comparison.rows.iter().map(|row| {
-        let paper = paper_row(row.preset);
-        let printed = |text: Option<String>| text.unwrap_or_default();
+        let [vertex_face, edge_edge, frames_per_second] = printed(row.preset);
         [
             name(row),
             mean(row.candidates.vertex_face),
             mean(row.candidates.edge_edge),
-            rate(row.frames_per_second),
-            printed(paper.map(|paper| grouped(paper.vertex_face.into()))),
-            printed(paper.map(|paper| grouped(paper.edge_edge.into()))),
-            printed(paper.map(|paper| format!("{:.2}", paper.frames_per_second))),
+            figures(row.frames_per_second),
+            vertex_face,
+            edge_edge,
+            frames_per_second,
         ]
     });
     let header = [
@@ -114,16 +107,6 @@ fn times(comparison: &Comparison) -> String {
         ]
     });
     table(header, rows)
-}
-
-fn milliseconds(seconds: f64) -> String {
-    let digits = match seconds {
-        s if s >= 0.1 => 0,
-        s if s >= 0.01 => 1,
-        s if s >= 0.001 => 2,
-        _ => 3,
-    };
-    format!("{:.digits$}", seconds * 1e3)
 }
 
 fn notes(comparison: &Comparison) -> String {

@@ -1,5 +1,5 @@
 use super::table;
-use crate::report::number::{grouped, time};
+use crate::report::number::{ABSENT, grouped, magnitude, time};
 use crate::study::elementary::{ElementaryAccuracy, ElementaryRow, ElementarySet};
 
 /// What an accurate elementary test costs in time: a table for each set of pairs and format.
@@ -14,10 +14,10 @@ pub fn elementary(accuracy: &ElementaryAccuracy) -> String {
             "{}, {}\n{} VF and {} EE pairs; {} touch, of {} of them it is known when\n\n",
             set.name,
             set.scalar,
-            grouped(set.vertex_face as u64),
-            grouped(set.edge_edge as u64),
-            grouped(set.touching as u64),
-            grouped(set.with_time as u64),
+            grouped(set.vertex_face),
+            grouped(set.edge_edge),
+            grouped(set.touching),
+            grouped(set.with_time),
         );
         text += &body(set);
         text += "\n";
@@ -41,26 +41,17 @@ fn body(set: &ElementarySet) -> String {
 
 fn cells(row: &ElementaryRow) -> [String; 9] {
     let mark = if row.method.is_certified() { "" } else { "!" };
-    let count = |count: usize| grouped(count as u64);
-    let length = |length: f64| match length {
-        0.0 => "0".to_owned(),
-        length => format!("{length:.0e}"),
-    };
+    let tolerance = row.method.tolerance();
+    let early = |length: Option<f64>| length.map_or_else(|| ABSENT.to_owned(), magnitude);
     [
         format!("{}{mark}", row.method.name()),
-        row.method
-            .tolerance()
-            .map_or_else(String::new, |tolerance| format!("{tolerance:e}")),
-        if row.asked > 0 {
-            time(row.nanoseconds * 1e-9)
-        } else {
-            "–".to_owned()
-        },
-        count(row.asked),
-        count(row.missed),
-        count(row.late),
-        count(row.false_alarms),
-        row.early.map_or_else(|| "–".to_owned(), length),
-        row.early.map_or_else(|| "–".to_owned(), |_| length(row.earliest)),
+        tolerance.map_or_else(String::new, |tolerance| format!("{tolerance:e}")),
+        time(row.nanoseconds * 1e-9),
+        grouped(row.asked),
+        grouped(row.missed),
+        grouped(row.late),
+        grouped(row.false_alarms),
+        early(row.early),
+        early(row.early.map(|_| row.earliest)),
     ]
 }

@@ -1,5 +1,5 @@
 use super::table;
-use crate::report::number::grouped;
+use crate::report::number::{figures, grouped};
 use crate::study::QueryResult;
 use selvedge::PairKind;
 
@@ -14,7 +14,7 @@ pub fn queries(scalar: &str, results: &[QueryResult]) -> String {
         };
         let truth = first.truth.map_or_else(
             || "truth unknown".to_owned(),
-            |truth| format!("{} collide", grouped(truth.positives as u64)),
+            |truth| format!("{} collide", grouped(truth.positives)),
         );
         text += &format!(
             "{}: {} queries, {truth}; {scalar}\n\n",
@@ -22,7 +22,7 @@ pub fn queries(scalar: &str, results: &[QueryResult]) -> String {
                 PairKind::VertexFace => "Vertex–face",
                 PairKind::EdgeEdge => "Edge–edge",
             },
-            grouped(first.queries as u64),
+            grouped(first.queries),
         );
         let header = [
             "method",
@@ -47,20 +47,16 @@ pub fn queries(scalar: &str, results: &[QueryResult]) -> String {
 
 fn row(result: &QueryResult) -> [String; 8] {
     let mark = if result.method.is_certified() { "" } else { "!" };
-    let count = |count: Option<usize>| count.map_or_else(|| "?".to_owned(), |count| grouped(count as u64));
-    let nanoseconds = |time: f64| match time {
-        time if time < 99.95 => format!("{time:.1}"),
-        time => grouped(time.round() as u64),
-    };
+    let count = |count: Option<usize>| count.map_or_else(|| "?".to_owned(), |count| grouped(count));
     let time = result.nanoseconds;
     [
         format!("{}{mark}", result.method),
-        grouped(result.positives as u64),
+        grouped(result.positives),
         count(result.truth.map(|truth| truth.false_positives)),
         count(result.truth.map(|truth| truth.false_negatives)),
-        nanoseconds(time.mean),
-        nanoseconds(time.median),
-        nanoseconds(time.p99),
-        nanoseconds(time.max),
+        figures(time.mean),
+        figures(time.median),
+        figures(time.p99),
+        figures(time.max),
     ]
 }

@@ -1,7 +1,7 @@
 use super::table;
 use crate::pipeline::Preset;
 use crate::report::n_log_n_ratios;
-use crate::report::number::{grouped, time};
+use crate::report::number::{counted, grouped, time};
 use crate::study::ScalingPoint;
 
 /// Cost against size.
@@ -19,7 +19,7 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Strin
     ];
     let rows = points.iter().zip(n_log_n_ratios(points)).map(|(point, ratio)| {
         [
-            grouped(point.triangles as u64),
+            grouped(point.triangles),
             match point.step.broad_phase_pairs {
                 None => grouped(point.step.triangle_pairs),
                 Some(_) => String::new(),
@@ -32,12 +32,12 @@ pub fn scaling(preset: Preset, threads: usize, points: &[ScalingPoint]) -> Strin
             format!("{ratio:.2}"),
         ]
     });
-    let s = if threads == 1 { "" } else { "s" };
     format!(
-        "{preset} on one late step of the arm scene, {threads} thread{s}\n\n{}\n\
+        "{preset} on one late step of the arm scene, {}\n\n{}\n\
          over n log n: the step's time over n log n, relative to the first size.\n\
          The finer the sleeve, the shorter the step, so that vertices move as many edge\n\
          lengths a step at every size.\n",
+        counted(threads, "thread"),
         table(header, rows)
     )
 }

@@ -1,5 +1,5 @@
 use super::table;
-use crate::report::number::{grouped, time};
+use crate::report::number::{counted, figures, signed_time, time};
 use crate::study::EffectCost;
 use selvedge_cloth::Simulation;
 
@@ -10,11 +10,10 @@ pub fn effects_one_by_one(costs: &[EffectCost]) -> String {
     let rows = costs.iter().map(|cost| {
         let more = before.map_or(0.0, |before| cost.seconds - before);
         before = Some(cost.seconds);
-        let sign = if more < 0.0 { "−" } else { "+" };
         [
             cost.added.unwrap_or("no effect").to_owned(),
             time(cost.seconds),
-            format!("{sign}{}", time(more.abs())),
+            signed_time(more),
         ]
     });
     table(["effect added", "a step", "more than before"], rows)
@@ -26,11 +25,11 @@ pub fn simulation(simulation: &Simulation, seconds: f64) -> String {
     let steps = simulation.steps_done();
     let per_step = |(name, seconds): (&str, f64)| [name.to_owned(), time(seconds / steps.max(1) as f64)];
     let mut text = format!(
-        "{}: {} steps in {}, {} a second\n\n",
+        "{}: {} in {}, {} a second\n\n",
         simulation.name(),
-        grouped(steps),
+        counted(steps, "step"),
         time(seconds),
-        grouped((steps as f64 / seconds) as u64),
+        figures(steps as f64 / seconds),
     );
     let effects = simulation.effects().iter();
     let mut rows: Vec<_> = effects.map(|effect| per_step((effect.name, effect.seconds))).collect();
@@ -48,9 +47,9 @@ pub fn simulation(simulation: &Simulation, seconds: f64) -> String {
         text += &table(["pairs and events", "a step"], rows.map(mean));
     }
     if simulation.blocked_steps() > 0 {
-        let blocked = grouped(simulation.blocked_steps());
+        let blocked = counted(simulation.blocked_steps(), "step");
         text += &format!(
-            "\nblocked in {blocked} steps; bodies and pins are {} behind\n",
+            "\nblocked in {blocked}; bodies and pins are {} behind\n",
             time(simulation.lag())
         );
     }

@@ -1,7 +1,7 @@
 use super::table;
 use crate::pipeline::{CullingTest, ElementaryTest, Stage};
-use crate::report::number::{grouped, time};
-use crate::report::{StepQuestion, StepSummary};
+use crate::report::number::{counted, grouped, time};
+use crate::report::{StepQuestion, StepSummary, mesh_size};
 
 /// One step: what each stage left over and how long it took.
 #[must_use]
@@ -36,21 +36,18 @@ pub fn step(summary: &StepSummary) -> String {
     ];
     let header = ["stage", "triangle pairs", "VF pairs", "EE pairs", "time"];
     let rows = [broad_phase].into_iter().chain(stages).chain([whole]);
-    let s = if summary.threads == 1 { "" } else { "s" };
     let sums = if summary.threads == 1 {
         ""
     } else {
         "Times of stages are summed over threads.\n"
     };
     format!(
-        "{} vertices, {} edges, {} triangles\n{} in {} on {} thread{s}\n\n{}\n{sums}\
+        "{}\n{} in {} on {}\n\n{}\n{sums}\
          {}",
-        grouped(summary.vertices as u64),
-        grouped(summary.edges as u64),
-        grouped(summary.triangles as u64),
+        mesh_size(summary.vertices, summary.edges, summary.triangles),
         summary.preset,
         summary.scalar,
-        summary.threads,
+        counted(summary.threads, "thread"),
         table(header, rows),
         answer(summary),
     )

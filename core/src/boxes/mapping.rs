@@ -3,7 +3,7 @@
 //! # Without a separation
 //! A coordinate x becomes fl₃₂(fl₆₄(x − o)), o the same for all of an axis. Both roundings are monotone, in any direction, so
 //! images that are in strict order belong to coordinates that are: [nothing has to be rounded
-//! outwards](selvedge_core::boxes::moving#boxes-in-fewer-digits). `f32` positions stay as they are, with o = 0; so do
+//! outwards](super::moving#boxes-in-fewer-digits). `f32` positions stay as they are, with o = 0; so do
 //! `f64` positions that are `f32` numbers, unless the mesh is far from the origin for its size. There o is its middle, so
 //! that `f32` does not waste its digits on where the mesh is.
 //!
@@ -21,13 +21,25 @@
 //! 2⁻²⁴v. Flushed numbers lose 2⁻¹²⁶ (`f32`) or 2⁻¹⁰²² each, less than 2⁻¹⁰⁰ altogether. So two images that are in strict
 //! order belong to coordinates more than s apart. Overflow makes a bound infinite, or in directed rounding the largest number;
 //! neither is beyond a bound that it should not be beyond, for both are at least as far out as any that is not widened.
+//! What is NaN or infinite, or so large that a vertex's coordinates add up to that, has no bounds.
 
-use selvedge_core::Scalar;
-use selvedge_core::boxes::{Aabb, moving::MovingBox};
+use super::Aabb;
+use super::moving::MovingBox;
+use crate::scalar::Scalar;
 
-/// How positions become boxes.
+/// How positions become boxes: the same for all vertices of a mesh, in one step.
+///
+/// ```
+/// use selvedge_core::boxes::{Aabb, mapping::Mapping};
+/// let extent = Aabb { lower: [0.0; 3], upper: [2.0; 3] };
+/// let is_apart = |separation: f64| {
+///     let mapping = Mapping::new(&extent, separation, 1.0, false);
+///     mapping.vertex([0.0; 3], [1.0; 3]).is_apart_from(&mapping.vertex([0.5; 3], [2.0; 3]))
+/// };
+/// assert!(is_apart(0.0) && is_apart(0.499) && !is_apart(0.5));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Mapping {
+pub struct Mapping {
     origin: [f64; 3],
     /// Half of the separation.
     half: f64,
@@ -38,8 +50,11 @@ pub(crate) struct Mapping {
 }
 
 impl Mapping {
-    /// For positions within the box. `until` is in (0, 1].
-    pub(crate) fn new<S: Scalar>(extent: &Aabb<f64>, separation: S, until: S, is_swept: bool) -> Self {
+    /// For positions within `extent`, which only decides where the images are: any will do. Boxes that are apart prove that their sets keep
+    /// more than `separation` apart until a time of the step, in (0, 1]: boxes of the end are taken there. `is_swept`: both boxes of
+    /// a vertex are the one that it sweeps.
+    #[must_use]
+    pub fn new<S: Scalar>(extent: &Aabb<f64>, separation: S, until: S, is_swept: bool) -> Self {
         Self {
             origin: origin::<S>(extent),
             half: 0.5 * separation.raised_to_normal().to_f64(),
@@ -48,13 +63,16 @@ impl Mapping {
         }
     }
 
-    /// The box of one vertex that moves from `start` to `end`.
+    /// The box of one vertex that moves from `start` to `end`. Merge those of a set's vertices.
     #[inline]
-    pub(crate) fn vertex<S: Scalar>(&self, start: [S; 3], end: [S; 3]) -> MovingBox<f32> {
+    #[must_use]
+    pub fn vertex<S: Scalar>(&self, start: [S; 3], end: [S; 3]) -> MovingBox<f32> {
         let mut moving = MovingBox::empty();
+        let mut sum = 0.0;
         for axis in 0..3 {
             let from = start[axis].to_f64() - self.origin[axis];
             let to = end[axis].to_f64() - self.origin[axis];
+            sum += from.abs() + to.abs();
             let ([a, b], [c, d]) = if self.half == 0.0 && self.until == 1.0 {
                 ([from; 2], [to; 2])
             } else {
@@ -63,10 +81,17 @@ impl Mapping {
                 let until = (1.0 - self.until) * from + self.until * to;
                 ([from - widening, from + widening], [until - widening, until + widening])
             };
-            moving.start.lower[axis] = nearest_f32(a);
-            moving.start.upper[axis] = nearest_f32(b);
-            moving.end.lower[axis] = nearest_f32(c);
-            moving.end.upper[axis] = nearest_f32(d);
+            moving.start.lower[axis] = image(a);
+            moving.start.upper[axis] = image(b);
+            moving.end.lower[axis] = image(c);
+            moving.end.upper[axis] = image(d);
+        }
+        // Of what is NaN or infinite so is the sum.
+        if !sum.is_finite() {
+            return MovingBox {
+                start: Aabb::everything(),
+                end: Aabb::everything(),
+            };
         }
         if self.is_swept {
             let swept = moving.swept();
@@ -84,12 +109,12 @@ const WIDENING: f64 = 1.0 / 4_194_304.0;
 /// 2⁻¹⁰⁰.
 const FLUSHED: f64 = f64::from_bits((1023 - 100) << 52);
 
-#[allow(
-    clippy::cast_possible_truncation,
-    reason = "rounding to nearest is monotone, which is all that is needed"
-)]
-fn nearest_f32(value: f64) -> f32 {
-    value as f32
+/// A coordinate in `f32`. It never exchanges two of them: images in strict order belong to coordinates that are, in every floating-point
+/// environment.
+#[inline]
+#[must_use]
+pub fn image(coordinate: f64) -> f32 {
+    f32::from_f64(coordinate)
 }
 
 /// The middle of an axis where it is more than four times the mesh's size away from zero; else zero.

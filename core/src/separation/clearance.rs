@@ -1,0 +1,152 @@
+//! Pairs that keep a distance though their points stray: which of them need no attention while no point strays too far.
+//!
+//! Points are looked for that come within a distance h of each other, though each may stray by b/2 along each axis from a motion on
+//! straight ways. A direction d that keeps two sets apart by more than some distance, times its length, at the start and at the end, does so
+//! in between, whatever d is. Two points stray along d by b·(|d₁| + |d₂| + |d₃|) towards each other, so h·|d| + b·(|d₁| + |d₂| + |d₃|) must be
+//! kept along d. The axes are tried, h + b; then the direction from the middle of one set to the middle of the other, which shows most
+//! of what is left at once: triangles side by side.
+//!
+//! # Rounding
+//! (`f32`; any direction: ε = 2u = 2⁻²³ an operation.) A coordinate of at most B is rounded by εB at most, and the difference of
+//! two, at most 2B, by 2εB more: together 4εB along an axis. A product with d errs by √3·εB·|d| from the coordinates and by 3ε·√3·B·|d|
+//! from its own operations, to first order; the difference of two of them by twice that and 2√3·εB·|d| more: together 18εB·|d|. |d|, the
+//! sum and what is asked for err by less than 8ε of themselves. 32ε of B and of each distance are added ([`Clearance::new`]).
+//!
+//! **Underflow.** Flushed operands and results, of λ each, make less than 40λ(1 + |d|) along d. 2⁻⁸⁰ is added to h, and a direction whose
+//! square is not above 10⁻¹⁸ proves nothing: |d| is then above 2⁻³⁰, and 2⁻⁸⁰|d| ≥ 40λ(1 + |d|).
+//! **Overflow.** B must not exceed 2³⁰, or nothing is proven, as if h were infinite; nor if a distance is NaN.
+
+use crate::kind::PairKind;
+use crate::lanes::Rounding;
+use glam::Vec3A;
+
+/// What a pair must keep to need no attention, of positions rounded to `f32`; in the unit of the positions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearance {
+    /// h with what rounding may take of it, rounded up; and the same along a direction that is no axis.
+    along_axis: f32,
+    along_direction: f32,
+    /// b, rounded up.
+    stray: f32,
+}
+
+/// How much of each distance, and of the largest coordinate, is added: 32ε.
+#[inline(always)]
+fn rounding() -> f64 {
+    f64::small(64) * f64::from(f32::UNIT_ROUNDOFF)
+}
+
+/// For what underflows.
+const FLUSHED: f64 = 1.0 / (1_u128 << 80) as f64;
+/// Squared length of a direction that is long enough.
+const SHORTEST: f32 = 1e-18;
+
+impl Clearance {
+    /// Nothing keeps it.
+    pub const UNKNOWN: Self = Self {
+        along_axis: f32::INFINITY,
+        along_direction: f32::INFINITY,
+        stray: f32::INFINITY,
+    };
+
+    /// Of points that are to keep `distance` though each strays by half of `stray` along each axis. No coordinate exceeds `largest` in
+    /// magnitude ([`largest_coordinate`](super::largest_coordinate)). Along a direction that is no axis `margin` times the distance is
+    /// asked for in addition, zero or more: it is no part of the proof.
+    #[inline]
+    #[must_use]
+    pub fn new(distance: f64, stray: f64, largest: f64, margin: f32) -> Self {
+        let is_in_range = largest <= f64::from(f32::LARGEST_EDGE) && distance >= 0.0 && stray >= 0.0 && margin >= 0.0;
+        if !is_in_range {
+            return Self::UNKNOWN;
+        }
+        let along_axis = narrowed(distance * (1.0 + rounding()) + largest * rounding() + FLUSHED);
+        Self {
+            along_axis,
+            along_direction: along_axis * (1.0 + margin),
+            stray: narrowed(stray * (1.0 + rounding())),
+        }
+    }
+
+    /// Whether a pair certainly keeps it on straight ways from `start` to `end`, along an axis or the direction between its middles: at
+    /// both ends, and with the same order.
+    ///
+    /// Certified, in every floating-point environment, for positions of which these are the nearest `f32` in any direction of rounding.
+    ///
+    /// ```
+    /// use selvedge_core::{PairKind, glam::Vec3A, separation::clearance::Clearance};
+    /// let at = |height| [Vec3A::new(0.2, 0.2, height), Vec3A::ZERO, Vec3A::X, Vec3A::Y];
+    /// let is_kept = |distance, stray| {
+    ///     Clearance::new(distance, stray, 1.0, 0.0).is_kept(PairKind::VertexFace, at(0.5), at(0.4))
+    /// };
+    /// assert!(is_kept(0.3, 0.05));
+    /// assert!(!is_kept(0.41, 0.0) && !is_kept(0.3, 0.2));
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn is_kept(&self, kind: PairKind, start: [Vec3A; 4], end: [Vec3A; 4]) -> bool {
+        let [ahead, behind] = gaps(kind, start);
+        let [ahead_later, behind_later] = gaps(kind, end);
+        let kept = ahead.min(ahead_later).max(behind.min(behind_later));
+        if kept.cmpgt(Vec3A::splat(self.along_axis + self.stray)).any() {
+            return true;
+        }
+        let ([a, b, c, d], [e, f, g, h]) = (start, end);
+        let middle = match kind {
+            PairKind::VertexFace => (a + e) - (b + f + c + g + d + h) * (1.0 / 3.0),
+            PairKind::EdgeEdge => (a + e + b + f) - (c + g + d + h),
+        };
+        let squared = middle.dot(middle);
+        let at_start = gap_along(kind, middle, start);
+        let at_end = gap_along(kind, middle, end);
+        let asked = self.along_direction * libm::sqrtf(squared) + self.stray * middle.abs().element_sum();
+        at_start.min(at_end) > asked && squared > SHORTEST
+    }
+}
+
+/// How near boxes of positions, rounded to `f32`, must be for those of the positions themselves to be within `distance`, rounded down; less
+/// than any if that cannot be told. No coordinate exceeds `largest` in magnitude.
+#[inline]
+#[must_use]
+pub fn nearness(distance: f64, largest: f64) -> f32 {
+    let is_in_range = largest <= f64::from(f32::LARGEST_EDGE);
+    let rounded = distance * (1.0 - rounding()) - largest * rounding();
+    if is_in_range && rounded > FLUSHED {
+        narrowed(rounded)
+    } else {
+        f32::NEG_INFINITY
+    }
+}
+
+/// Whether the boxes of a pair at rest come within `distance` of each other along each axis. False with NaN in all of a set.
+#[inline(always)]
+#[must_use]
+pub fn are_boxes_within(kind: PairKind, points: [Vec3A; 4], distance: f32) -> bool {
+    let [ahead, behind] = gaps(kind, points);
+    ahead.max(behind).cmple(Vec3A::splat(distance)).all()
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "what is rounded is covered by the bounds")]
+#[inline(always)]
+fn narrowed(length: f64) -> f32 {
+    length as f32
+}
+
+/// By how much the first set of a pair is ahead of the second along each axis, and by how much it is behind.
+#[inline(always)]
+fn gaps(kind: PairKind, [a, b, c, d]: [Vec3A; 4]) -> [Vec3A; 2] {
+    let (low, high, other_low, other_high) = match kind {
+        PairKind::VertexFace => (a, a, b.min(c).min(d), b.max(c).max(d)),
+        PairKind::EdgeEdge => (a.min(b), a.max(b), c.min(d), c.max(d)),
+    };
+    [low - other_high, other_low - high]
+}
+
+/// By how much the first set is ahead of the second along a direction, times its length.
+#[inline(always)]
+fn gap_along(kind: PairKind, direction: Vec3A, [a, b, c, d]: [Vec3A; 4]) -> f32 {
+    let (a, b, c, d) = (direction.dot(a), direction.dot(b), direction.dot(c), direction.dot(d));
+    match kind {
+        PairKind::VertexFace => a - b.max(c).max(d),
+        PairKind::EdgeEdge => a.min(b) - c.max(d),
+    }
+}

@@ -1,0 +1,39 @@
+//! How far two sets keep apart, and for how long that can be relied on: for a caller that follows the same pairs step by step.
+//!
+//! | module | what it bounds | rounding |
+//! |---|---|---|
+//! | [`gap`] | the distance along a direction, from below; the direction that a pair remembers | 64u of the largest coordinate, and 2⁻²⁰ for what is stored |
+//! | [`clearance`] | the distance that a pair keeps though its points stray from the motion that was looked at | 64u of the largest coordinate and of each distance, in `f32` |
+//! | [`course`] | how far points may stray from their course, and whether they have | 64u of the largest coordinate, no more than a hundredth of the room |
+//!
+//! All are functions of values: the caller keeps the pairs, and what was found out about them.
+
+pub mod clearance;
+pub mod course;
+pub mod gap;
+
+use crate::lanes::{Lanes, Rounding};
+use crate::scalar::{Position, Scalar};
+
+/// The largest magnitude of any coordinate; infinite if one of them is NaN or infinite, or their sum is, so that nothing that depends on it
+/// is proven. Zero of no positions.
+///
+/// ```
+/// use selvedge_core::{glam::DVec3, separation::largest_coordinate};
+/// assert_eq!(largest_coordinate(&[DVec3::X, DVec3::new(0.5, -2.0, 0.0)]), 2.0);
+/// assert_eq!(largest_coordinate(&[DVec3::X, DVec3::new(0.5, f64::NAN, 0.0)]), f64::INFINITY);
+/// ```
+#[inline]
+#[must_use]
+pub fn largest_coordinate<P: Position>(positions: &[P]) -> P::Scalar {
+    let mut largest = P::Scalar::ZERO;
+    let mut sum = P::Scalar::ZERO;
+    for &position in positions {
+        let [x, y, z]: [P::Scalar; 3] = position.into();
+        let (x, y, z) = (x.abs(), y.abs(), z.abs());
+        largest = x.larger(y).larger(z).larger(largest);
+        // A maximum may drop NaN.
+        sum = sum + ((x + y) + z);
+    }
+    if sum.is_finite() { largest } else { P::Scalar::INFINITY }
+}

@@ -1,0 +1,63 @@
+//! How points are marked: by colour and by shape.
+
+use super::picture::{PAPER_WHITE, line, px};
+use maud::{Markup, html};
+
+/// What a mark looks like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Look {
+    /// From Okabe and Ito's, which people who confuse colours tell apart, some darkened.
+    pub(super) colour: &'static str,
+    pub(super) shape: Shape,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shape {
+    Disc,
+    Ring,
+    Diamond,
+    Triangle,
+    Cross,
+    /// A line goes through, nothing more.
+    None,
+}
+
+impl Look {
+    /// By rounded arithmetic and a bound.
+    pub(super) const CERTIFIED: Self = Self::new("#0072b2", Shape::Disc);
+    /// The same, one pair at a time.
+    pub(super) const ONE_AT_A_TIME: Self = Self::new("#0072b2", Shape::Ring);
+    /// By exact arithmetic.
+    pub(super) const EXACT: Self = Self::new("#007a58", Shape::Diamond);
+    /// In parts of the step.
+    pub(super) const SUBDIVIDED: Self = Self::new("#a8508a", Shape::Triangle);
+    /// Without proof.
+    pub(super) const UNSAFE: Self = Self::new("#d55e00", Shape::Cross);
+
+    pub(super) const fn new(colour: &'static str, shape: Shape) -> Self {
+        Self { colour, shape }
+    }
+
+    /// The mark, with its middle at (`x`, `y`).
+    pub(super) fn mark(self, [x, y]: [f64; 2]) -> Markup {
+        const R: f64 = 5.0;
+        let Self { colour, shape } = self;
+        let polygon = |points: &[[f64; 2]]| {
+            let points = points.iter().map(|[dx, dy]| format!("{},{} ", px(x + dx), px(y + dy)));
+            html! { polygon points=(points.collect::<String>().trim_end()) fill=(colour) {} }
+        };
+        match shape {
+            Shape::Disc => html! { circle cx=(px(x)) cy=(px(y)) r=(R) fill=(colour) {} },
+            Shape::Ring => {
+                html! { circle cx=(px(x)) cy=(px(y)) r=(R) fill=(PAPER_WHITE) stroke=(colour) stroke-width="2" {} }
+            }
+            Shape::Diamond => polygon(&[[0.0, -1.35 * R], [1.35 * R, 0.0], [0.0, 1.35 * R], [-1.35 * R, 0.0]]),
+            Shape::Triangle => polygon(&[[0.0, -1.25 * R], [1.2 * R, 0.9 * R], [-1.2 * R, 0.9 * R]]),
+            Shape::Cross => html! { g stroke=(colour) stroke-width="3" {
+                (line("", [x - R, y - R], [x + R, y + R]))
+                (line("", [x - R, y + R], [x + R, y - R]))
+            } },
+            Shape::None => html! {},
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! Plots as SVG pictures with a light background of their own. `accuracy`, `elementary` and `scaling` say what is in them;
+//! `picture` draws it.
+
+mod accuracy;
+mod axis;
+mod elementary;
+mod look;
+mod picture;
+mod scaling;
+#[cfg(test)]
+mod texts;
+
+pub use accuracy::accuracy_svg;
+pub use elementary::elementary_svg;
+pub use scaling::scaling_svg;

@@ -1,0 +1,514 @@
+//! What a caller relies on for several steps is never overstated: the gap along a direction, what a pair keeps though its points stray,
+//! how far they have strayed, boxes with a separation, lengths and times in fewer digits. In every floating-point environment.
+
+use crate::support::environment::Environment;
+use crate::support::point;
+use proptest::prelude::*;
+use rug::Rational;
+use selvedge_core::boxes::Aabb;
+use selvedge_core::boxes::mapping::Mapping;
+use selvedge_core::glam::DVec3;
+use selvedge_core::narrowing::{rounded_down, rounded_up};
+use selvedge_core::separation::clearance::Clearance;
+use selvedge_core::separation::course;
+use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
+use selvedge_core::separation::largest_coordinate;
+use selvedge_core::{PairKind, Scalar};
+use selvedge_verification::generator::{
+    Choices, Format, Moment, PairCase, Simplify, check, extraordinary_pairs, from_choices, pairs_of_any_kind, touching_pairs,
+};
+use selvedge_verification::oracle::{Pair, within, within_at};
+
+/// A pair, and some decisions besides.
+#[derive(Clone, Debug)]
+struct Question<S: Format> {
+    pair: PairCase<S>,
+    choice: u32,
+}
+
+impl<S: Format> Simplify for Question<S> {
+    fn attempts(&self) -> usize {
+        self.pair.attempts()
+    }
+
+    fn simpler(&self, attempt: usize) -> Option<Self> {
+        let pair = self.pair.simpler(attempt)?;
+        Some(Self { pair, ..self.clone() })
+    }
+}
+
+fn questions<S: Format>() -> impl Strategy<Value = Question<S>> + Clone {
+    from_choices(|choices: &mut Choices<'_>| {
+        let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
+        Question {
+            choice: choices.word() as u32,
+            pair: PairCase::choose(kind, choices),
+        }
+    })
+}
+
+/// The four points at the start and at the end.
+fn ends<S: Format>(pair: &PairCase<S>) -> [[S::Vector; 4]; 2] {
+    let motions = pair.motions();
+    [motions.map(|motion| motion.start), motions.map(|motion| motion.end)]
+}
+
+fn error_of<S: Format>(pair: &PairCase<S>) -> GapError<S> {
+    GapError::of_coordinates(largest_coordinate(&ends(pair).concat()))
+}
+
+/// Directions between points of the two sets, their normals, and the axes: of length one, or a little more.
+fn directions<S: Format>(pair: &PairCase<S>) -> Vec<S::Vector> {
+    let question = pair.question();
+    let middle: [[f64; 3]; 4] =
+        [0, 1, 2, 3].map(|k| [0, 1, 2].map(|axis| 0.5 * question.start[k][axis] + 0.5 * question.end[k][axis]));
+    let mut directions = vec![DVec3::X, DVec3::Y, DVec3::Z];
+    let first = if pair.kind == PairKind::EdgeEdge { 2 } else { 1 };
+    for points in [question.start, middle, question.end] {
+        let points = points.map(DVec3::from);
+        let [a, b, c, d] = points;
+        directions.push(match pair.kind {
+            PairKind::VertexFace => (c - b).cross(d - b),
+            PairKind::EdgeEdge => (b - a).cross(d - c),
+        });
+        directions.extend((0..first).flat_map(|i| (first..4).map(move |j| points[i] - points[j])));
+        let mean = |points: &[DVec3]| points.iter().map(|&point| point / points.len() as f64).sum::<DVec3>();
+        directions.push(mean(&points[..first]) - mean(&points[first..]));
+    }
+    let units = directions.into_iter().map(DVec3::normalize_or_zero);
+    let lengths = [1.0, 1.0 + 0.5_f64.powi(21), 1.0 + 0.5_f64.powi(20)];
+    let scaled = |unit: DVec3| lengths.into_iter().flat_map(move |length| [unit * length, unit * -length]);
+    let in_format = |direction: DVec3| S::Vector::from(direction.to_array().map(S::from_f64));
+    units.flat_map(scaled).map(in_format).collect()
+}
+
+/// The largest number up to which all that are tried are accepted, if zero is.
+fn largest_accepted<S: Format>(accepts: impl Fn(S) -> bool) -> Option<S> {
+    if !accepts(S::ZERO) {
+        return None;
+    }
+    let (mut low, mut high) = (0, S::INFINITY.encoding());
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        if accepts(S::from_word(middle)) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(S::from_word(low))
+}
+
+/// Whether some direction is said to keep the pair apart, in any way of asking.
+fn is_kept_apart<S: Format>(pair: &PairCase<S>, directions: &[S::Vector], separation: S) -> bool {
+    let (kind, error, [start, end]) = (pair.kind, error_of(pair), ends(pair));
+    directions.iter().any(|&direction| {
+        let found = SeparatingDirection::found(kind, direction, [start, end], separation, error);
+        let at_start = SeparatingDirection::NONE.or_better(kind, direction, start, error);
+        let lasts = at_start.lasts(kind, end, separation, error);
+        found.is_some() || lasts.is_some()
+    })
+}
+
+property!(
+    /// Whatever the direction.
+    nothing_keeps_apart_what_touches,
+    2_000,
+    touching_pairs(),
+    |moment: Moment| {
+        let pair = &moment.pair();
+        let directions = directions(pair);
+        for environment in Environment::all() {
+            let is_kept = environment.run(pair, |pair| is_kept_apart(pair, &directions, S::ZERO));
+            prop_assert!(!is_kept, "{environment:?}");
+        }
+        Ok(())
+    }
+);
+
+/// The largest of what `f` finds in any environment.
+fn largest_of_all<S: Format, I>(input: &I, f: impl Fn(&I) -> Option<S>) -> Option<S> {
+    let found = Environment::all()
+        .into_iter()
+        .filter_map(|environment| environment.run(input, &f));
+    found.reduce(|a, b| if a < b { b } else { a })
+}
+
+property!(
+    a_pair_keeps_the_separation_that_a_direction_is_said_to_keep,
+    1_500,
+    pairs_of_any_kind(),
+    |pair| {
+        let directions = directions(pair);
+        let kept = largest_of_all(pair, |pair| {
+            largest_accepted(|separation| is_kept_apart(pair, &directions, separation))
+        });
+        if let Some(separation) = kept {
+            prop_assert!(!within(&pair.question(), separation.to_f64()), "{separation}");
+        }
+        Ok(())
+    }
+);
+
+/// Whether the distance at an end of the step is certainly `bound` or more.
+fn is_at_least(pair: &Pair, end: u32, bound: f64) -> bool {
+    bound <= 0.0 || !within_at(pair, &Rational::from(end), bound.next_down())
+}
+
+property!(a_bound_of_the_distance_is_not_above_it, 1_500, pairs_of_any_kind(), |pair| {
+    let directions = directions(pair);
+    let (question, kind) = (pair.question(), pair.kind);
+    let better = |a: S, b: S| if a < b { b } else { a };
+    let at_start = largest_of_all(pair, |pair| {
+        let (error, [start, _]) = (error_of(pair), ends(pair));
+        let bounds = directions
+            .iter()
+            .map(|&direction| distance_from_below(kind, start, direction, error));
+        bounds.reduce(better)
+    });
+    let bound = at_start.map_or(0.0, S::to_f64);
+    prop_assert!(is_at_least(&question, 0, bound), "{bound}");
+    // What is stored, in `f32`: from one end, from both, and from the one before.
+    let at_end = largest_of_all(pair, |pair| {
+        let (error, [start, end]) = (error_of(pair), ends(pair));
+        let stored = directions.iter().flat_map(|&direction| {
+            let none = SeparatingDirection::NONE;
+            let found = SeparatingDirection::found(kind, direction, [start, end], S::ZERO, error);
+            let lasting = none.or_better(kind, direction, start, error).lasts(kind, end, S::ZERO, error);
+            let at_end = none.or_better(kind, direction, end, error);
+            [found, lasting, Some(at_end)].into_iter().flatten()
+        });
+        stored.map(|stored| stored.gap()).reduce(f32::max).map(f64::from)
+    });
+    let bound = at_end.unwrap_or(0.0);
+    prop_assert!(is_at_least(&question, 1, bound), "stored: {bound}");
+    Ok(())
+});
+
+property!(what_is_not_finite_is_never_kept_apart, 2_000, extraordinary_pairs(), |pair| {
+    let finite = pair.map(S::made_finite);
+    let directions = directions(&finite);
+    if pair.is_finite() {
+        return Ok(());
+    }
+    for environment in Environment::all() {
+        let is_kept = environment.run(pair, |pair| is_kept_apart(pair, &directions, S::ZERO));
+        prop_assert!(!is_kept, "{environment:?}");
+        let is_clear = environment.run(pair, |pair| is_clear(&in_double(pair), 0.0, 0.0));
+        prop_assert!(!is_clear, "{environment:?}");
+    }
+    Ok(())
+});
+
+#[test]
+fn a_direction_that_is_longer_than_one_or_no_number_proves_nothing() {
+    let points = [DVec3::Z, DVec3::ZERO, DVec3::X, DVec3::Y];
+    let (kind, error) = (PairKind::VertexFace, GapError::of_coordinates(1.0));
+    for length in [1.000_01, 2.0, f64::INFINITY, f64::NAN] {
+        let direction = DVec3::new(0.0, 0.0, length);
+        assert_eq!(distance_from_below(kind, points, direction, error), 0.0);
+        assert_eq!(SeparatingDirection::found(kind, direction, [points; 2], 0.0, error), None);
+    }
+    for separation in [1.0, f64::INFINITY, f64::NAN] {
+        let found = SeparatingDirection::found(kind, DVec3::Z, [points; 2], separation, error);
+        assert_eq!(found, None);
+    }
+}
+
+fn in_double<S: Format>(pair: &PairCase<S>) -> PairCase<f64> {
+    let points = pair.points.map(|ends| ends.map(|position| position.map(S::to_f64)));
+    PairCase::new(pair.kind, points)
+}
+
+/// Whether the pair is said to keep `distance` though its points stray, with its positions rounded to `f32` here.
+fn is_clear(pair: &PairCase<f64>, distance: f64, stray: f64) -> bool {
+    let [start, end] = ends(pair);
+    let largest = largest_coordinate(&[start, end].concat());
+    let clearance = Clearance::new(distance, stray, largest, 0.0);
+    clearance.is_kept(
+        pair.kind,
+        start.map(|point| point.as_vec3a()),
+        end.map(|point| point.as_vec3a()),
+    )
+}
+
+/// x + `by`, or the next number nearer to x if that is farther from it.
+fn strayed(x: f64, by: f64) -> f64 {
+    let (from, to) = (x, x + by);
+    let way = Rational::from_f64(to).expect("finite") - Rational::from_f64(from).expect("finite");
+    if way.abs() <= Rational::from_f64(by).expect("finite").abs() {
+        to
+    } else if to > from {
+        to.next_down()
+    } else {
+        to.next_up()
+    }
+}
+
+property!(
+    /// Though its points stray towards each other, as far as they may.
+    a_clear_pair_keeps_its_distance,
+    800,
+    questions(),
+    |question: Question| {
+        let pair = in_double(&question.pair);
+        let largest = largest_coordinate(&ends(&pair).concat());
+        let share = [0.0, 1.0, 0.25, 0.5_f64.powi(10), 0.5_f64.powi(20)][question.choice as usize % 5];
+        let stray = largest.min(1e9) * share;
+        let kept = largest_of_all(&pair, |pair| largest_accepted(|distance| is_clear(pair, distance, stray)));
+        let Some(distance) = kept else { return Ok(()) };
+        let first = if pair.kind == PairKind::EdgeEdge { 2 } else { 1 };
+        for signs in 0..8_u32 {
+            let sign = |axis: usize| if signs >> axis & 1 == 0 { 1.0 } else { -1.0 };
+            let mut towards = pair;
+            for (k, ends) in towards.points.iter_mut().enumerate() {
+                let of_set = if k < first { 0.5 } else { -0.5 };
+                for position in ends {
+                    *position = [0, 1, 2].map(|axis| strayed(position[axis], sign(axis) * of_set * stray));
+                }
+            }
+            prop_assert!(!within(&towards.question(), distance), "{distance} with {stray}, {signs:b}");
+            if stray == 0.0 {
+                break;
+            }
+        }
+        Ok(())
+    }
+);
+
+/// A course, and a point that is said to be within its room of it.
+#[derive(Clone, Copy, Debug)]
+struct Course<S: Format> {
+    origin: S::Vector,
+    end: S::Vector,
+    span: S,
+    time: S,
+    stray: S,
+    spare: S,
+    position: S::Vector,
+}
+
+/// Of the first two points of a pair: on the first one's way for some steps, then perhaps on the second one's.
+fn course_of<S: Format>(question: &Question<S>) -> Option<Course<S>> {
+    let [first, second, ..] = question.pair.motions();
+    let choice = |bits: u32, count: u32| question.choice >> bits & (count - 1);
+    let h = S::from_f64([1.0, 0.1, 1.0 / 60.0, 0.001][choice(0, 4) as usize]);
+    let steps = choice(2, 8) + 1;
+    let span = h * S::from_f64(f64::from(steps));
+    let mut elapsed = S::ZERO;
+    for _ in 0..choice(5, 8) % steps {
+        elapsed = elapsed + h;
+    }
+    let drift = |from: S::Vector, to: S::Vector| {
+        let (from, to): ([S; 3], [S; 3]) = (from.into(), to.into());
+        S::Vector::from([0, 1, 2].map(|axis| (to[axis] - from[axis]) / h))
+    };
+    let (origin, end, drift) = if choice(8, 2) == 0 {
+        let drift = drift(first.start, first.end);
+        (first.start, course::expected(first.start, drift, span), drift)
+    } else {
+        let drift = drift(second.start, second.end);
+        let origin = course::joined(second.start, drift, elapsed);
+        (origin, course::expected(second.start, drift, span - elapsed), drift)
+    };
+    let largest = largest_coordinate(&[origin, end]);
+    let part = S::from_f64([0.0, 1.0, 100.0, -1.0, -1.7][choice(9, 8) as usize % 5]);
+    let is_certain = |stray: S| course::is_certain(course::room(stray, part * stray), largest);
+    // The least that is certain.
+    let powers = S::MIN_EXPONENT / 2..S::MAX_EXPONENT / 2;
+    let stray = powers.map(|power| S::exact(1, power)).find(|&stray| is_certain(stray))?;
+    let spare = part * stray;
+    let room = course::room(stray, spare);
+    let time = course::time_after(elapsed, h, span)?;
+    let expected = course::expected(origin, drift, time);
+    let middle: [S; 3] = expected.into();
+    let mut position = middle.map(|x| x + room);
+    for (axis, sign) in [choice(12, 2), choice(13, 2), choice(14, 2)].into_iter().enumerate() {
+        position[axis] = if sign == 0 { middle[axis] + room } else { middle[axis] - room };
+        // As far out as is still within.
+        let inwards = if sign == 0 { -1 } else { 1 };
+        position[axis] = position[axis].nudged(-3 * inwards);
+        for _ in 0..8 {
+            let mut alone = middle;
+            alone[axis] = position[axis];
+            if !course::has_room(S::Vector::from(alone), expected, room) {
+                position[axis] = position[axis].nudged(inwards);
+            }
+        }
+    }
+    let position = S::Vector::from(position);
+    course::has_room(position, expected, room).then_some(Course {
+        origin,
+        end,
+        span,
+        time,
+        stray,
+        spare,
+        position,
+    })
+}
+
+property!(
+    who_has_room_has_not_strayed_farther_from_the_course,
+    4_000,
+    questions(),
+    |question: Question| {
+        for environment in Environment::all() {
+            let Some(course) = environment.run(question, |question| course_of(question)) else {
+                continue;
+            };
+            let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
+            let position_of = |vector: S::Vector| {
+                let position: [S; 3] = vector.into();
+                point(position.map(S::to_f64))
+            };
+            let share = exact(course.time) / exact(course.span);
+            let [origin, end, position] = [course.origin, course.end, course.position].map(position_of);
+            for axis in 0..3 {
+                let on_course = Rational::from(&end[axis] - &origin[axis]) * &share + &origin[axis];
+                let strayed = Rational::from(&position[axis] - &on_course).abs();
+                // 2·strayed ≤ stray + spare/√3.
+                let more = strayed * 2_u32 - exact(course.stray);
+                let (spare, squared) = (exact(course.spare), Rational::from(more.square_ref()) * 3_u32);
+                let is_within = match (more > 0, spare > 0) {
+                    (true, true) => squared <= spare.square(),
+                    (true, false) => false,
+                    (false, true) => true,
+                    (false, false) => squared >= spare.square(),
+                };
+                prop_assert!(is_within, "{environment:?}: {course:?}");
+            }
+        }
+        Ok(())
+    }
+);
+
+#[test]
+fn nobody_has_room_without_numbers_or_after_the_course() {
+    let nowhere = DVec3::new(0.0, f64::NAN, 0.0);
+    assert!(!course::has_room(nowhere, DVec3::ZERO, 1.0) && !course::has_room(DVec3::ZERO, nowhere, 1.0));
+    assert!(!course::has_room(DVec3::ZERO, DVec3::ZERO, f64::NAN));
+    assert!(!course::is_certain(1.0, f64::NAN) && !course::is_certain(1.0, f64::INFINITY) && !course::is_certain(f64::NAN, 1.0));
+    assert!(!course::is_certain(0.0, 0.0) && !course::is_certain(-1.0, 0.0));
+    assert_eq!(course::time_after(0.5, 0.5, 1.0), Some(1.0));
+    assert_eq!(course::time_after(0.5, 0.6, 1.0), None);
+    assert_eq!(course::time_after(f64::NAN, 0.6, 1.0), None);
+}
+
+/// Whether boxes show the pair to be apart by more than `separation` until a time of the step.
+fn are_boxes_apart<S: Format>(pair: &PairCase<S>, separation: S, until: S) -> bool {
+    let mut extent = Aabb::<f64>::empty();
+    for position in pair.points.iter().flatten() {
+        for axis in 0..3 {
+            let x = position[axis].to_f64();
+            extent.lower[axis] = extent.lower[axis].min(x);
+            extent.upper[axis] = extent.upper[axis].max(x);
+        }
+    }
+    let mapping = Mapping::new(&extent, separation, until, false);
+    let [a, b, c, d] = pair.points.map(|[start, end]| mapping.vertex(start, end));
+    match pair.kind {
+        PairKind::VertexFace => a.is_apart_from(&b.merged(&c).merged(&d)),
+        PairKind::EdgeEdge => a.merged(&b).is_apart_from(&c.merged(&d)),
+    }
+}
+
+/// The pair until a time, if `f64` has the positions there.
+fn cut_short(pair: &Pair, until: f64) -> Option<Pair> {
+    let mut cut = *pair;
+    for k in 0..4 {
+        let end = crate::support::at(pair.start[k], pair.end[k], &Rational::from_f64(until)?);
+        for axis in 0..3 {
+            cut.end[k][axis] = end[axis].to_f64();
+            if end[axis] != cut.end[k][axis] {
+                return None;
+            }
+        }
+    }
+    Some(cut)
+}
+
+property!(
+    boxes_that_are_apart_keep_their_separation,
+    1_500,
+    pairs_of_any_kind(),
+    |pair| {
+        for until in [1.0, 0.0625] {
+            let Some(cut) = cut_short(&pair.question(), until) else {
+                continue;
+            };
+            let until = S::from_f64(until);
+            let kept = largest_of_all(pair, |pair| {
+                largest_accepted(|separation| are_boxes_apart(pair, separation, until))
+            });
+            if let Some(separation) = kept {
+                prop_assert!(!within(&cut, separation.to_f64()), "{separation} until {until}");
+            }
+        }
+        Ok(())
+    }
+);
+
+property!(
+    boxes_of_what_is_not_finite_are_not_apart,
+    2_000,
+    extraordinary_pairs(),
+    |pair| {
+        // One point alone is neither finite nor apart from anything.
+        for k in 0..4 {
+            let mut one = pair.map(S::made_finite);
+            one.points[k] = pair.points[k];
+            if one.is_finite() {
+                continue;
+            }
+            for separation in [S::ZERO, S::ONE] {
+                let mapping = Mapping::new(&Aabb::everything(), separation, S::ONE, false);
+                let [a, b] = [k, (k + 1) % 4].map(|k| mapping.vertex(one.points[k][0], one.points[k][1]));
+                prop_assert!(!a.is_apart_from(&b) && !a.merged(&b).is_apart_from(&b));
+            }
+        }
+        Ok(())
+    }
+);
+
+property!(
+    narrowing_makes_nothing_less_or_later_and_hardly_more_or_earlier,
+    1_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let exact = |x: f64| Rational::from_f64(x).expect("finite");
+        let near = Rational::from((1, 1 << 21));
+        for value in pair.coordinates().map(|x| x.to_f64().abs()) {
+            // As it is, and as a time of the step.
+            for value in [value, value / (1.0 + value), value * 1e-200] {
+                for environment in Environment::all() {
+                    let (up, down, same) = environment.run(&value, |&value| {
+                        (
+                            rounded_up::<f32>(value),
+                            rounded_down::<f32>(value),
+                            rounded_down::<f64>(value),
+                        )
+                    });
+                    prop_assert!(up >= 0.0 && down >= 0.0);
+                    let most = exact(value) * (Rational::from(1) + &near) + exact(0.5_f64.powi(100));
+                    if up.is_finite() {
+                        let up = exact(f64::from(up));
+                        prop_assert!(up >= exact(value) && up <= most, "{environment:?}: {value} up to {up}");
+                    } else {
+                        prop_assert!(most > exact(f64::from(f32::MAX)), "{environment:?}: {value}");
+                    }
+                    if value < 2.0_f64.powi(127) {
+                        let least = exact(value) * (Rational::from(1) - &near) - exact(0.5_f64.powi(100));
+                        let down = exact(f64::from(down));
+                        prop_assert!(
+                            down <= exact(value) && down >= least,
+                            "{environment:?}: {value} down to {down}"
+                        );
+                    }
+                    prop_assert_eq!(same.to_bits(), value.to_bits());
+                }
+            }
+        }
+        Ok(())
+    }
+);
