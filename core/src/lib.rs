@@ -59,20 +59,20 @@
 pub use glam;
 
 #[cfg(not(feature = "batch"))]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, unused_imports)]
 mod batch;
 #[cfg(feature = "batch")]
 pub mod batch;
 pub mod boxes;
 #[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, unused_imports)]
 mod coplanarity;
 #[cfg(feature = "verification")]
 pub mod coplanarity;
 pub mod distribution;
 pub mod elementary;
 #[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, unused_imports)]
 mod exact;
 #[cfg(feature = "verification")]
 pub mod exact;
@@ -80,29 +80,29 @@ pub mod features;
 pub mod filter;
 mod kind;
 #[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, unused_imports)]
 mod lanes;
 #[cfg(feature = "verification")]
 pub mod lanes;
 pub mod motion;
 #[cfg(not(feature = "batch"))]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, unused_imports)]
 mod narrowing;
 #[cfg(feature = "batch")]
 pub mod narrowing;
 #[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, unused_imports)]
 mod points;
 #[cfg(feature = "verification")]
 pub mod points;
 pub mod scalar;
 #[cfg(not(feature = "batch"))]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, unused_imports)]
 mod separation;
 #[cfg(feature = "batch")]
 pub mod separation;
 #[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, unused_imports)]
 mod vector;
 #[cfg(feature = "verification")]
 pub mod vector;

@@ -11,8 +11,7 @@ mod sealed {
     impl Sealed for f64 {}
     impl Sealed for glam::Vec3 {}
     impl Sealed for glam::DVec3 {}
-    impl Sealed for [f32; 3] {}
-    impl Sealed for [f64; 3] {}
+    impl<S: super::Scalar> Sealed for [S; 3] {}
 }
 
 /// `f32` or `f64`: the format of a caller's positions, with the [`glam`] vector type that goes with it.
@@ -66,13 +65,13 @@ pub trait Position:
     type Scalar: Scalar;
 }
 
+impl<S: Scalar> Position for [S; 3] {
+    type Scalar = S;
+}
+
 macro_rules! scalar {
     ($scalar:ident, $vector:ty, $exponent_bits:literal, $to_f64:path) => {
         impl Position for $vector {
-            type Scalar = $scalar;
-        }
-
-        impl Position for [$scalar; 3] {
             type Scalar = $scalar;
         }
 

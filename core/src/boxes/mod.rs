@@ -74,12 +74,12 @@ mod aabb;
 pub mod direction;
 mod dop;
 #[cfg(not(feature = "batch"))]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, unused_imports)]
 mod mapping;
 #[cfg(feature = "batch")]
 pub mod mapping;
 #[cfg(not(feature = "batch"))]
-#[allow(dead_code, unreachable_pub)]
+#[allow(dead_code, unreachable_pub, unused_imports)]
 mod moving;
 #[cfg(feature = "batch")]
 pub mod moving;

@@ -19,21 +19,21 @@
 //! Without any of them the crate needs neither threads nor a clock: it runs on `wasm32-unknown-unknown`.
 
 // Some of these are public in `verification` alone.
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub))]
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod broad_phase;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub))]
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod buffer;
 mod clock;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub))]
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod dispatch;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub))]
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod frame;
 mod mesh;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub))]
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod pair_counts;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub))]
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod parallel;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub))]
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod step;
 #[cfg(feature = "verification")]
 pub mod verification;

@@ -170,14 +170,14 @@ fn a_separation_beyond_the_numbers_of_f32_excludes_nothing() {
     ]
     .concat();
     let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]]).expect("two triangles");
-    let mut detector = CollisionDetector::<f64>::new(topology, 1).expect("one thread");
+    let mut detector = CollisionDetector::<f64>::new(topology);
     let mut found = Vec::new();
     for separation in [10.0, 1e39] {
         let limits = Limits {
             separation,
             ..Limits::default()
         };
-        detector.set_limits(limits).expect("a length");
+        detector.set_criterion(Criterion::Within(limits)).expect("a length");
         detector.contacts(&frame, &frame, &mut found).expect("finite positions");
         assert_eq!(found.len(), 15, "{separation}");
     }

@@ -19,12 +19,12 @@
 
 use super::sweep::{Left, MOST, Open, Sweep};
 use super::{Bound, Contact, Question, Wanted};
-use crate::PairCounts;
 use crate::PairKind;
 use crate::broad_phase::{CHUNK, Hierarchies, Rows, Sink};
 use crate::clock::Clock;
 use crate::dispatch::Level;
 use crate::mesh::Topology;
+use crate::pair_counts::PairCounts;
 use selvedge_core::batch::{LANES, Mask, VertexRow, culled_from_rows};
 use selvedge_core::elementary::advance::time_of_impact_within;
 use selvedge_core::elementary::contact::settled;

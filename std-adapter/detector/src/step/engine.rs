@@ -3,7 +3,6 @@
 use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
 use super::given::PrimitiveBoxes;
 use super::{Bound, CandidateBoxes, Contact, Question, Wanted};
-use crate::PairCounts;
 use crate::PairKind;
 use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
 use crate::buffer::settle;
@@ -11,6 +10,7 @@ use crate::clock::Clock;
 use crate::dispatch::Level;
 use crate::frame::{StepError, check_frames};
 use crate::mesh::Topology;
+use crate::pair_counts::PairCounts;
 use crate::parallel;
 use selvedge_core::elementary::Limits;
 use selvedge_core::narrowing::rounded_down;

@@ -17,9 +17,9 @@ use crate::broad_phase::extent;
 use crate::dispatch::Level;
 use crate::mesh::Topology;
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
-use selvedge_core::Position;
 use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::moving::MovingBox;
+use selvedge_core::{Position, Scalar};
 
 /// A moving box as one row of sixteen numbers: lower and negated upper corner at the start, and at the end.
 #[derive(Clone, Copy, Debug)]
@@ -59,12 +59,12 @@ pub(super) struct PrimitiveBoxes {
 
 impl PrimitiveBoxes {
     /// Makes the boxes of a step. Pairs that they show to be apart are so by more than `separation`.
-    pub(super) fn fit<P: Position>(&mut self, topology: &Topology, start: &[P], end: &[P], separation: P::Scalar) {
-        let mapping = Mapping::new(&extent(start, end), separation, P::Scalar::ONE, false);
+    pub(super) fn fit<S: Scalar, P: Position<Scalar = S>>(&mut self, topology: &Topology, start: &[P], end: &[P], separation: S) {
+        let mapping = Mapping::new(&extent(start, end), separation, S::ONE, false);
         let moving = start.iter().zip(end);
         self.vertex_boxes.clear();
         self.vertex_boxes
-            .extend(moving.map(|(&start, &end)| mapping.vertex::<P::Scalar>(start.into(), end.into())));
+            .extend(moving.map(|(&start, &end)| mapping.vertex::<S>(start.into(), end.into())));
         let boxes = &self.vertex_boxes;
         let of = |vertex: u32| &boxes[vertex as usize];
         let [vertices, first_edges] = &mut self.firsts;
