@@ -291,20 +291,26 @@ fn written([a, b]: [u64; 2]) -> String {
 
 #[test]
 fn kernels_need_little_stack_and_answer_as_ever_f32() {
-    assert_eq!(written(in_little_stack(kernels::<f32>)), "");
+    assert_eq!(written(in_little_stack(kernels::<f32>)), "c69d2534ade308ec e85c63e98a9ab7ef");
 }
 
 #[test]
 fn kernels_need_little_stack_and_answer_as_ever_f64() {
-    assert_eq!(written(in_little_stack(kernels::<f64>)), "");
+    assert_eq!(written(in_little_stack(kernels::<f64>)), "a410c6c4d94d5c62 f1c70b6e46c418cb");
 }
 
 #[test]
 fn a_detector_needs_little_stack_and_answers_as_ever_f32() {
-    assert_eq!(written(in_little_stack(detectors::<f32>)), "");
+    assert_eq!(
+        written(in_little_stack(detectors::<f32>)),
+        "b1862e74d63080cf 837b7d9b1165b030"
+    );
 }
 
 #[test]
 fn a_detector_needs_little_stack_and_answers_as_ever_f64() {
-    assert_eq!(written(in_little_stack(detectors::<f64>)), "");
+    assert_eq!(
+        written(in_little_stack(detectors::<f64>)),
+        "7e1e6ad80392807d 825c1d29d511ef95"
+    );
 }
