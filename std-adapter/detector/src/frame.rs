@@ -2,6 +2,7 @@
 
 use crate::PairKind;
 use selvedge_core::{Position, Scalar};
+use std::fmt;
 
 /// One of the two frames of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,8 +13,8 @@ pub enum Frame {
     End,
 }
 
-impl std::fmt::Display for Frame {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl fmt::Display for Frame {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Start => "start",
             Self::End => "end",
@@ -22,11 +23,10 @@ impl std::fmt::Display for Frame {
 }
 
 /// Why a step could not be run, or a setting not be taken. Nothing has changed; another one can be.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
     /// A frame has too few or too many positions.
-    #[error("the {frame} frame has {found} positions, but the mesh has {expected} vertices")]
     WrongLength {
         /// Which frame.
         frame: Frame,
@@ -36,7 +36,6 @@ pub enum StepError {
         expected: usize,
     },
     /// A list that has an entry for each vertex has too few or too many.
-    #[error("there are {found} entries, but the mesh has {expected} vertices")]
     WrongCount {
         /// How many entries there are.
         found: usize,
@@ -44,7 +43,6 @@ pub enum StepError {
         expected: usize,
     },
     /// A position is NaN or infinite. (Culling would keep every pair of that vertex; better to say so.)
-    #[error("the {frame} frame has a coordinate that is not a finite number: vertex {vertex} is at ({}, {}, {})", position[0], position[1], position[2])]
     NotFinite {
         /// Which frame.
         frame: Frame,
@@ -54,13 +52,11 @@ pub enum StepError {
         position: [f64; 3],
     },
     /// A separation or a tolerance is negative, infinite or NaN.
-    #[error("{length} is no separation, and no tolerance: it must be a finite length, not negative")]
     BadLimit {
         /// What was given.
         length: f64,
     },
     /// A pair names a vertex, a face or an edge that the mesh does not have.
-    #[error("there is no {kind} pair {}, {} in this mesh", pair[0], pair[1])]
     NoSuchPair {
         /// Vertex–face or edge–edge.
         kind: PairKind,
@@ -68,6 +64,40 @@ pub enum StepError {
         pair: [u32; 2],
     },
 }
+
+impl fmt::Display for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::WrongLength { frame, found, expected } => {
+                write!(
+                    f,
+                    "the {frame} frame has {found} positions, but the mesh has {expected} vertices"
+                )
+            }
+            Self::WrongCount { found, expected } => {
+                write!(f, "there are {found} entries, but the mesh has {expected} vertices")
+            }
+            Self::NotFinite {
+                frame,
+                vertex,
+                position: [x, y, z],
+            } => write!(
+                f,
+                "the {frame} frame has a coordinate that is not a finite number: vertex {vertex} is at ({x}, {y}, {z})"
+            ),
+            Self::BadLimit { length } => write!(
+                f,
+                "{length} is no separation, and no tolerance: it must be a finite length, not negative"
+            ),
+            Self::NoSuchPair {
+                kind,
+                pair: [first, second],
+            } => write!(f, "there is no {kind} pair {first}, {second} in this mesh"),
+        }
+    }
+}
+
+impl std::error::Error for StepError {}
 
 /// A separation or a tolerance must be a length: finite, not negative.
 pub fn check_length<S: Scalar>(length: S) -> Result<(), StepError> {

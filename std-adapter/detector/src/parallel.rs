@@ -15,7 +15,7 @@ use rayon::prelude::*;
 /// The calling thread.
 #[cfg(not(feature = "parallel"))]
 #[derive(Debug, Default)]
-pub struct Workers;
+pub struct Workers(());
 
 #[cfg(not(feature = "parallel"))]
 impl Workers {

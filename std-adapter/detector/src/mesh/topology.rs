@@ -27,10 +27,9 @@ pub struct Topology {
 }
 
 /// Why a list of triangles has no [`Topology`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TopologyError {
     /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} names vertex {vertex}, but there are {vertex_count} vertices, numbered from 0")]
     VertexOutOfRange {
         /// The first such triangle.
         triangle: usize,
@@ -40,14 +39,8 @@ pub enum TopologyError {
         vertex_count: usize,
     },
     /// The list of triangles is empty.
-    #[error("the mesh has no triangles")]
     NoTriangles,
     /// Vertices, or the corners of all triangles, are too many to be numbered by a `u32`.
-    #[error(
-        "the mesh has {vertex_count} vertices and {triangle_count} triangles: more than {} vertices or {} triangles cannot be numbered",
-        u32::MAX,
-        Topology::MAX_TRIANGLES
-    )]
     TooLarge {
         /// How many vertices there are.
         vertex_count: usize,
@@ -55,6 +48,33 @@ pub enum TopologyError {
         triangle_count: usize,
     },
 }
+
+impl fmt::Display for TopologyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::VertexOutOfRange {
+                triangle,
+                vertex,
+                vertex_count,
+            } => write!(
+                f,
+                "triangle {triangle} names vertex {vertex}, but there are {vertex_count} vertices, numbered from 0"
+            ),
+            Self::NoTriangles => f.write_str("the mesh has no triangles"),
+            Self::TooLarge {
+                vertex_count,
+                triangle_count,
+            } => write!(
+                f,
+                "the mesh has {vertex_count} vertices and {triangle_count} triangles: more than {} vertices or {} triangles cannot be numbered",
+                u32::MAX,
+                Topology::MAX_TRIANGLES
+            ),
+        }
+    }
+}
+
+impl std::error::Error for TopologyError {}
 
 impl Topology {
     /// Stands in [`triangle_edges`](Self::triangle_edges) where a triangle has no edge because

@@ -1,6 +1,7 @@
 //! The feature `parallel`: rayon's threads.
 
 use std::cell::Cell;
+use std::fmt;
 use std::num::NonZeroUsize;
 
 /// The threads that work is split between. Contacts are the same, bit for bit, for all of them.
@@ -41,13 +42,28 @@ impl Threads {
 }
 
 /// The operating system refuses threads.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot start threads ({threads:?})")]
+#[derive(Debug)]
 #[non_exhaustive]
 pub struct ThreadError {
     /// Those that were asked for.
     pub threads: Threads,
     source: rayon::ThreadPoolBuildError,
+}
+
+impl fmt::Display for ThreadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { threads, source } = self;
+        match threads {
+            Threads::Own(count) => write!(f, "cannot start {count} threads: {source}"),
+            _ => write!(f, "cannot start a thread for each core: {source}"),
+        }
+    }
+}
+
+impl std::error::Error for ThreadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.source)
+    }
 }
 
 /// Threads that have been started where they had to be.
