@@ -57,6 +57,8 @@ is_there m4 || install_m4
 say "every crate: its own tests, exact oracle and properties, kept inputs of the fuzz targets"
 # Examples and benchmarks are compiled by .ci/run's lints.
 cargo test --workspace --tests
+say "a program in development: every kernel and the whole detector without optimisation, in little stack"
+cargo test --profile dev --package selvedge --test builds_without_optimisation
 say "the documentation's examples"
 cargo test --workspace --doc
 

@@ -39,6 +39,14 @@
 //! | [`features`], [`distribution`] | representative features of a triangle; a candidate triangle pair to its primitive pairs | each pair once |
 //! | [`elementary`] | whether a pair touches; time of impact | exact; certified |
 //!
+//! # Features
+//! They only add; a user of single pairs needs none of them.
+//!
+//! | feature | what it adds |
+//! |---|---|
+//! | `batch` | [`batch`], and boxes of a hierarchy ([`boxes::moving`]): what `selvedge` is built of. Its types name instruction sets by `fearless_simd`'s |
+//! | `verification` | that, and the kernels themselves ([`coplanarity`], [`exact`], [`lanes`], [`points`], [`vector`]), for the project's laboratory and verification. Nothing is promised of them |
+//!
 //! # Words
 //! The paper that this work starts from (Lv, He, Mi: *Improved Method in Lower Tailoring of Self-collision
 //! Detection of Arm Cloth Simulation*) says *lower tailoring* for culling primitive pairs, *higher tailoring*
@@ -49,29 +57,63 @@
 
 pub use glam;
 
+#[cfg(not(feature = "batch"))]
+#[allow(dead_code, unreachable_pub, unused_imports)]
+mod batch;
+#[cfg(feature = "batch")]
 pub mod batch;
 pub mod boxes;
+#[cfg(not(feature = "verification"))]
+#[allow(dead_code, unreachable_pub, unused_imports)]
+mod coplanarity;
+#[cfg(feature = "verification")]
 pub mod coplanarity;
 pub mod distribution;
 pub mod elementary;
+#[cfg(not(feature = "verification"))]
+#[allow(dead_code, unreachable_pub, unused_imports)]
+mod exact;
+#[cfg(feature = "verification")]
 pub mod exact;
 pub mod features;
 pub mod filter;
 mod kind;
+#[cfg(not(feature = "verification"))]
+#[allow(dead_code, unreachable_pub, unused_imports)]
+mod lanes;
+#[cfg(feature = "verification")]
 pub mod lanes;
 pub mod motion;
+#[cfg(not(feature = "batch"))]
+#[allow(dead_code, unreachable_pub, unused_imports)]
+mod narrowing;
+#[cfg(feature = "batch")]
 pub mod narrowing;
+#[cfg(not(feature = "verification"))]
+#[allow(dead_code, unreachable_pub, unused_imports)]
+mod points;
+#[cfg(feature = "verification")]
 pub mod points;
 pub mod scalar;
+#[cfg(not(feature = "batch"))]
+#[allow(dead_code, unreachable_pub, unused_imports)]
+mod separation;
+#[cfg(feature = "batch")]
 pub mod separation;
+#[cfg(not(feature = "verification"))]
+#[allow(dead_code, unreachable_pub, unused_imports)]
+mod vector;
+#[cfg(feature = "verification")]
 pub mod vector;
 mod verdict;
 
 pub use features::{FeatureEdge, FeatureTriangle, Features};
 pub use kind::{PairKind, ParsePairKindError};
+#[cfg(feature = "verification")]
 pub use lanes::{Lanes, Rounding};
 pub use motion::{EdgeEdge, Motion, PrimitivePair, VertexFace};
 pub use scalar::{Position, Scalar};
+#[cfg(feature = "verification")]
 pub use vector::Vector;
 pub use verdict::Verdict;
 

@@ -8,6 +8,9 @@ mod sealed {
     pub trait Sealed {}
     impl Sealed for f32 {}
     impl Sealed for f64 {}
+    impl Sealed for glam::Vec3 {}
+    impl Sealed for glam::DVec3 {}
+    impl<S: super::Scalar> Sealed for [S; 3] {}
 }
 
 /// `f32` or `f64`: the format of a caller's positions, with the [`glam`] vector type that goes with it.
@@ -40,10 +43,16 @@ pub trait Scalar: Number + BatchScalar + Debug + Display + Default + Send + Sync
     fn raised_to_normal(self) -> Self;
 }
 
-/// [`glam::Vec3`] or [`glam::DVec3`]: a position, from which its [`Scalar`] can be inferred. Sealed with it.
-pub trait Position: Copy + Debug + Default + PartialEq + Send + Sync + From<[Self::Scalar; 3]> + Into<[Self::Scalar; 3]> {
+/// A position, from which its [`Scalar`] can be inferred: [`glam::Vec3`], [`glam::DVec3`], `[f32; 3]` or `[f64; 3]`. Sealed.
+pub trait Position:
+    Copy + Debug + Default + PartialEq + Send + Sync + From<[Self::Scalar; 3]> + Into<[Self::Scalar; 3]> + sealed::Sealed
+{
     /// The format of the three coordinates.
-    type Scalar: Scalar<Vector = Self>;
+    type Scalar: Scalar;
+}
+
+impl<S: Scalar> Position for [S; 3] {
+    type Scalar = S;
 }
 
 macro_rules! scalar {

@@ -11,8 +11,8 @@
 mod campaign;
 
 use campaign::{Failure, Options};
-use selvedge::dispatch::best_level;
 use selvedge::glam::DVec3;
+use selvedge::verification::best_level;
 use selvedge_files::mesh::read_step;
 use selvedge_laboratory::study::{ArmFrames, Frames, PairSet, TwoFrames};
 use selvedge_verification::campaign::exact::{Claim, Progress, Scenes, run};

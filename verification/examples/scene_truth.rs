@@ -9,7 +9,7 @@
 //! exit status 1 if there is one or the input is at fault.
 
 use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_core::PairKind;
 use selvedge_files::mesh::read;
 use selvedge_verification::oracle::{Pair, collides};

@@ -73,7 +73,15 @@ macro_rules! values {
 mod aabb;
 pub mod direction;
 mod dop;
+#[cfg(not(feature = "batch"))]
+#[allow(dead_code, unreachable_pub, unused_imports)]
+mod mapping;
+#[cfg(feature = "batch")]
 pub mod mapping;
+#[cfg(not(feature = "batch"))]
+#[allow(dead_code, unreachable_pub, unused_imports)]
+mod moving;
+#[cfg(feature = "batch")]
 pub mod moving;
 pub mod relative;
 pub mod segment;

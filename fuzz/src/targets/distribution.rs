@@ -1,7 +1,7 @@
 use selvedge::PairKind;
+use selvedge::Topology;
 use selvedge::core::boxes::Aabb;
 use selvedge::core::{Motion, Scalar};
-use selvedge::mesh::Topology;
 use selvedge_laboratory::pipeline::{Contact, Pipeline, Preset, Stages};
 use selvedge_verification::generator::{Format, MeshCase};
 use selvedge_verification::oracle::{Pair, collides};

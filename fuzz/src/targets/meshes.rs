@@ -1,5 +1,5 @@
 use super::message;
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_files::mesh::{FileFormat, PlyEncoding, read_bytes, write_bytes};
 
 const FORMATS: [FileFormat; 4] = [

@@ -11,7 +11,7 @@
 //! A block in which nothing moved sleeps until a block that shares a vertex with it moves something: what it would do is nothing.
 
 use super::step::{Constraint, TimeStep, Touches};
-use selvedge::parallel;
+use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
 use std::ops::Range;
@@ -304,7 +304,8 @@ fn sort_by_colour<T>(items: &mut Vec<T>, vertices: impl Fn(&T) -> &[u32], vertex
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use selvedge::parallel::Threads;
+    use selvedge::Threads;
+    use selvedge::verification::parallel::Workers;
 
     /// Keeps two vertices no farther apart than one.
     #[derive(Clone, Debug)]
@@ -335,7 +336,7 @@ mod tests {
             inverse_masses: &vec![1.0; start.len()],
             poses: &[],
         };
-        let threads = Threads::new(threads).unwrap();
+        let threads = Workers::new(Threads::from_count(threads)).unwrap();
         threads.run(|| project.project(&step, &mut positions, &mut Touches::default()));
         positions
     }

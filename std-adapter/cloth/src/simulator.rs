@@ -16,8 +16,9 @@ use super::scene::{OnBlocked, Scene};
 use super::state::State;
 use super::step::{Carrier, Constraint, FREE, Force, TimeStep, Touches};
 use super::world::{Pose, RigidMotion, World};
-use selvedge::mesh::{Mesh, TopologyError};
-use selvedge::parallel::{ThreadError, Threads};
+use selvedge::verification::parallel::Workers;
+use selvedge::{Mesh, TopologyError};
+use selvedge::{ThreadError, Threads};
 use selvedge_core::glam::DVec3;
 use std::time::Instant;
 
@@ -54,7 +55,7 @@ pub struct Simulation {
     effects: Vec<EffectTime>,
     on_blocked: OnBlocked,
     body_names: Vec<String>,
-    threads: Threads,
+    threads: Workers,
     state: State,
     work: Work,
 }
@@ -112,7 +113,7 @@ impl Simulation {
     /// # Errors
     /// If the operating system refuses the threads.
     pub fn new(scene: Scene, threads: usize) -> Result<Self, SetupError> {
-        let threads = Threads::new(threads)?;
+        let threads = Workers::new(Threads::from_count(threads))?;
         let Scene {
             name,
             cloth,

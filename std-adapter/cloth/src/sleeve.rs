@@ -5,7 +5,7 @@
 //! vertices and 1,345 triangles of the arm clothing in Lv et al., whose own mesh is not published.
 
 use libm::{cos, sin};
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use std::f64::consts::TAU;
 

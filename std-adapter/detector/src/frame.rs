@@ -1,40 +1,62 @@
 //! The two frames of a step, and what can be wrong with them.
 
 use crate::PairKind;
-use selvedge_core::Scalar;
+use selvedge_core::{Position, Scalar};
+use std::fmt;
 
-/// Why a step could not be run. Nothing has changed; another one can be.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+/// One of the two frames of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// The positions at time 0.
+    Start,
+    /// The positions at time 1.
+    End,
+}
+
+impl fmt::Display for Frame {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Start => "start",
+            Self::End => "end",
+        })
+    }
+}
+
+/// Why a step could not be run, or a setting not be taken. Nothing has changed; another one can be.
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
     /// A frame has too few or too many positions.
-    #[error("the {frame} frame has {found} positions, but the mesh has {expected} vertices")]
     WrongLength {
-        /// `"start"`, `"end"`, or `"moving"` for what is no frame but has one entry for each vertex as well.
-        frame: &'static str,
-        /// The length of the slice.
+        /// Which frame.
+        frame: Frame,
+        /// How many positions it has.
+        found: usize,
+        /// The mesh's vertices.
+        expected: usize,
+    },
+    /// A list that has an entry for each vertex has too few or too many.
+    WrongCount {
+        /// How many entries there are.
         found: usize,
         /// The mesh's vertices.
         expected: usize,
     },
     /// A position is NaN or infinite. (Culling would keep every pair of that vertex; better to say so.)
-    #[error("the {frame} frame has a coordinate that is not a finite number: vertex {vertex} is at {position}")]
     NotFinite {
-        /// `"start"` or `"end"`.
-        frame: &'static str,
+        /// Which frame.
+        frame: Frame,
         /// The first such vertex.
         vertex: usize,
         /// Its position.
-        position: String,
+        position: [f64; 3],
     },
     /// A separation or a tolerance is negative, infinite or NaN.
-    #[error("{length} is no separation, and no tolerance: it must be a finite length, not negative")]
     BadLimit {
         /// What was given.
-        length: String,
+        length: f64,
     },
     /// A pair names a vertex, a face or an edge that the mesh does not have.
-    #[error("there is no {kind} pair {}, {} in this mesh", pair[0], pair[1])]
     NoSuchPair {
         /// Vertex–face or edge–edge.
         kind: PairKind,
@@ -43,24 +65,56 @@ pub enum StepError {
     },
 }
 
+impl fmt::Display for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::WrongLength { frame, found, expected } => {
+                write!(
+                    f,
+                    "the {frame} frame has {found} positions, but the mesh has {expected} vertices"
+                )
+            }
+            Self::WrongCount { found, expected } => {
+                write!(f, "there are {found} entries, but the mesh has {expected} vertices")
+            }
+            Self::NotFinite {
+                frame,
+                vertex,
+                position: [x, y, z],
+            } => write!(
+                f,
+                "the {frame} frame has a coordinate that is not a finite number: vertex {vertex} is at ({x}, {y}, {z})"
+            ),
+            Self::BadLimit { length } => write!(
+                f,
+                "{length} is no separation, and no tolerance: it must be a finite length, not negative"
+            ),
+            Self::NoSuchPair {
+                kind,
+                pair: [first, second],
+            } => write!(f, "there is no {kind} pair {first}, {second} in this mesh"),
+        }
+    }
+}
+
+impl std::error::Error for StepError {}
+
 /// A separation or a tolerance must be a length: finite, not negative.
 pub fn check_length<S: Scalar>(length: S) -> Result<(), StepError> {
     if length >= S::ZERO && length.is_finite() {
         Ok(())
     } else {
-        Err(StepError::BadLimit {
-            length: format!("{length}"),
-        })
+        Err(StepError::BadLimit { length: length.to_f64() })
     }
 }
 
 /// Both frames must have a finite position for each vertex.
-pub fn check_frames<S: Scalar>(start: &[S::Vector], end: &[S::Vector], vertex_count: usize) -> Result<(), StepError> {
-    check_frame::<S>("start", start, vertex_count)?;
-    check_frame::<S>("end", end, vertex_count)
+pub fn check_frames<P: Position>(start: &[P], end: &[P], vertex_count: usize) -> Result<(), StepError> {
+    check_frame(Frame::Start, start, vertex_count)?;
+    check_frame(Frame::End, end, vertex_count)
 }
 
-fn check_frame<S: Scalar>(frame: &'static str, positions: &[S::Vector], expected: usize) -> Result<(), StepError> {
+fn check_frame<P: Position>(frame: Frame, positions: &[P], expected: usize) -> Result<(), StepError> {
     if positions.len() != expected {
         return Err(StepError::WrongLength {
             frame,
@@ -68,18 +122,18 @@ fn check_frame<S: Scalar>(frame: &'static str, positions: &[S::Vector], expected
             expected,
         });
     }
-    let is_finite = |&position: &S::Vector| {
-        let coordinates: [S; 3] = position.into();
+    let is_finite = |&position: &P| {
+        let coordinates: [P::Scalar; 3] = position.into();
         coordinates.into_iter().all(Scalar::is_finite)
     };
     match positions.iter().position(|position| !is_finite(position)) {
         None => Ok(()),
         Some(vertex) => {
-            let [x, y, z]: [S; 3] = positions[vertex].into();
+            let position: [P::Scalar; 3] = positions[vertex].into();
             Err(StepError::NotFinite {
                 frame,
                 vertex,
-                position: format!("({x}, {y}, {z})"),
+                position: position.map(Scalar::to_f64),
             })
         }
     }

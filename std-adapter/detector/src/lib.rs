@@ -1,37 +1,51 @@
 //! Finds which vertex–face and edge–edge pairs of a deforming triangle mesh can collide during a time step.
 //!
+//! **Start at [`CollisionDetector`]**: positions at the start and at the end of a step in, contacts with their times out.
+//! [`Topology`] is what it needs to know of the mesh, once.
+//!
 //! The tests themselves, one pair at a time and without `std`, are [`selvedge_core`](crate::core). This crate adds what a mesh
-//! needs: topology, hierarchies and threads.
+//! needs: topology, hierarchies and threads. Mesh files are in the crate `selvedge-files`, cloth simulation in `selvedge-cloth`, the
+//! published methods and what compares them in `selvedge-laboratory`.
 //!
-//! | module | what it is |
+//! # Features
+//! They only add.
+//!
+//! | feature | what it adds |
 //! |---|---|
-//! | [`mesh`] | triangle meshes in memory, and their topology |
-//! | [`step`] | **start here**: [`CollisionDetector`], positions at the start and at the end of a step in, contacts with their times out |
-//! | [`dispatch`] | the instruction set of the batched kernels |
+//! | `parallel` (on by default) | [`Threads`]: steps on several threads, by rayon. Without it the calling thread does all |
+//! | `timing` | a clock for the seconds of each stage, which `verification` shows. Without it no clock is read |
+//! | `verification` | the module of that name: parts of a step, for the project's own crates, which measure them, check them, or are built of them. Nothing is promised of it |
 //!
-//! Mesh files are in the crate `selvedge-files`, cloth simulation in `selvedge-cloth`, the published methods and what compares them in
-//! `selvedge-laboratory`.
-//!
-//! The feature `verification` shows parts of a step to those who measure and check it; users have no need of it.
+//! Without any of them the crate needs neither threads nor a clock: it runs on `wasm32-unknown-unknown`.
 
-// What the project's other crates use besides; nothing is promised of it.
-#[doc(hidden)]
-pub mod broad_phase;
-pub mod dispatch;
-#[doc(hidden)]
-pub mod frame;
-pub mod mesh;
+// Some of these are public in `verification` alone.
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
+mod broad_phase;
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
+mod buffer;
+mod clock;
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
+mod dispatch;
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
+mod frame;
+mod mesh;
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod pair_counts;
-#[doc(hidden)]
-pub mod parallel;
-pub mod step;
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
+mod parallel;
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
+mod step;
+#[cfg(feature = "verification")]
+pub mod verification;
 
-pub use mesh::{Mesh, Topology};
-pub use pair_counts::PairCounts;
+pub use frame::{Frame, StepError};
+pub use mesh::{Mesh, Topology, TopologyError, TopologyStatistics};
+#[cfg(feature = "parallel")]
+pub use parallel::{ThreadError, Threads};
 pub use selvedge_core as core;
 pub use selvedge_core::glam;
-pub use selvedge_core::{PairKind, ParsePairKindError};
-pub use step::{CollisionDetector, Contact};
+pub use selvedge_core::{PairKind, ParsePairKindError, Position, Scalar};
+pub use step::{CandidateBoxes, CollisionDetector, Contact, Criterion};
 
 /// The readme's examples are tests.
 #[cfg(doctest)]

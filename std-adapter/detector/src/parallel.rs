@@ -1,90 +1,98 @@
-//! Loops that run on the rayon pool they are called in when it has more than one thread, and touch no pool otherwise.
+//! Threads: which ones a detector runs on, and loops that are split between them.
 //!
-//! Outside a pool there is one thread: rayon's global pool is never started behind a caller's back, and code that is not
-//! run in a pool allocates nothing for it.
+//! A loop runs on the rayon pool that it is called in when that has more than one thread, and touches no pool otherwise: rayon's global
+//! pool is never started behind a caller's back, and code that is not run in a pool allocates nothing for it. Within
+//! [`Workers::run`] of [`Threads::Calling`] there is one thread, in a pool or not. Without the feature `parallel` there is one always.
 
+#[cfg(feature = "parallel")]
+mod pool;
+
+#[cfg(feature = "parallel")]
+pub use pool::{ThreadError, Threads, Workers, has_many_threads, own_index, threads};
+#[cfg(feature = "parallel")]
 use rayon::prelude::*;
 
-/// The threads could not be started.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot start {threads} threads: {source}")]
-pub struct ThreadError {
-    threads: usize,
-    source: rayon::ThreadPoolBuildError,
-}
-
-/// A pool of its own, or the calling thread.
+/// The calling thread.
+#[cfg(not(feature = "parallel"))]
 #[derive(Debug, Default)]
-pub struct Threads(Option<rayon::ThreadPool>);
+pub struct Workers(());
 
-impl Threads {
-    /// So many threads; 0: one for each core. With one thread no pool is made.
-    pub fn new(threads: usize) -> Result<Self, ThreadError> {
-        if threads == 1 {
-            return Ok(Self(None));
-        }
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let pool = pool.map_err(|source| ThreadError { threads, source })?;
-        Ok(Self(Some(pool)))
-    }
-
+#[cfg(not(feature = "parallel"))]
+impl Workers {
+    /// How many threads there are.
+    #[must_use]
     pub fn count(&self) -> usize {
-        self.0.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
+        1
     }
 
-    /// Runs `action`, whose loops are then split between the threads.
+    /// Runs `action`.
     pub fn run<T: Send>(&self, action: impl FnOnce() -> T + Send) -> T {
-        match &self.0 {
-            Some(pool) => pool.install(action),
-            None => action(),
-        }
+        action()
     }
 }
 
 /// Whether work should be split between threads.
+#[cfg(not(feature = "parallel"))]
 #[must_use]
-pub fn has_many_threads() -> bool {
-    rayon::current_thread_index().is_some() && rayon::current_num_threads() > 1
+pub const fn has_many_threads() -> bool {
+    false
+}
+
+/// The number of the thread that calls, below [`threads`].
+#[cfg(not(feature = "parallel"))]
+#[must_use]
+pub const fn own_index() -> usize {
+    0
+}
+
+/// How many threads work is split between.
+#[cfg(not(feature = "parallel"))]
+#[must_use]
+pub const fn threads() -> usize {
+    1
 }
 
 /// Calls `action` with each item and its index.
 pub fn for_each<T: Send>(items: &mut [T], action: impl Fn(usize, &mut T) + Sync) {
+    #[cfg(feature = "parallel")]
     if items.len() > 1 && has_many_threads() {
         items.par_iter_mut().enumerate().for_each(|(index, item)| action(index, item));
-    } else {
-        for (index, item) in items.iter_mut().enumerate() {
-            action(index, item);
-        }
+        return;
+    }
+    for (index, item) in items.iter_mut().enumerate() {
+        action(index, item);
     }
 }
 
 /// Replaces `output` by `make` of each input.
 pub fn fill<I: Sync, O: Send>(output: &mut Vec<O>, input: &[I], make: impl Fn(&I) -> O + Sync + Send) {
+    #[cfg(feature = "parallel")]
     if has_many_threads() {
         input.par_iter().map(make).collect_into_vec(output);
-    } else {
-        output.clear();
-        output.extend(input.iter().map(make));
+        return;
     }
+    output.clear();
+    output.extend(input.iter().map(make));
 }
 
 /// Keeps the items for which `keep` is true, in their order.
 pub fn retain<T: Copy + Send + Sync>(items: &mut Vec<T>, keep: impl Fn(&T) -> bool + Sync + Send) {
+    #[cfg(feature = "parallel")]
     if has_many_threads() {
         let kept = |chunk: &[T]| -> Vec<T> { chunk.iter().copied().filter(&keep).collect() };
         let chunks: Vec<_> = items.par_chunks(CHUNK).map(kept).collect();
         items.clear();
         chunks.iter().for_each(|chunk| items.extend_from_slice(chunk));
-    } else {
-        // Without a branch that nobody could foretell.
-        let mut kept = 0;
-        for index in 0..items.len() {
-            let item = items[index];
-            items[kept] = item;
-            kept += usize::from(keep(&item));
-        }
-        items.truncate(kept);
+        return;
     }
+    // Without a branch that nobody could foretell.
+    let mut kept = 0;
+    for index in 0..items.len() {
+        let item = items[index];
+        items[kept] = item;
+        kept += usize::from(keep(&item));
+    }
+    items.truncate(kept);
 }
 
 /// Calls `action` with chunks of the items and the index at which each begins; joins their results to `result` by `take`, in order.
@@ -96,6 +104,7 @@ pub fn map_chunks<T: Send, R>(
 ) where
     R: Default + Send,
 {
+    #[cfg(feature = "parallel")]
     if items.len() > CHUNK && has_many_threads() {
         let of_chunk = |(index, chunk): (usize, &mut [T])| {
             let mut own = R::default();
@@ -105,22 +114,26 @@ pub fn map_chunks<T: Send, R>(
         let chunks = items.par_chunks_mut(CHUNK).enumerate();
         let results: Vec<R> = chunks.map(of_chunk).collect();
         results.into_iter().for_each(|own| take(result, own));
-    } else {
-        action(0, items, result);
+        return;
     }
+    #[cfg(not(feature = "parallel"))]
+    drop(take);
+    action(0, items, result);
 }
 
 /// Items that one thread takes at once.
+#[cfg(feature = "parallel")]
 const CHUNK: usize = 4096;
 
 /// Calls both, in any order.
 pub fn both(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+    #[cfg(feature = "parallel")]
     if has_many_threads() {
         rayon::join(one, other);
-    } else {
-        one();
-        other();
+        return;
     }
+    one();
+    other();
 }
 
 /// Calls `action` with each item, its index, and its chunk of `others`, `size` long.
@@ -130,6 +143,7 @@ pub fn for_each_with_chunk<T: Send, U: Send>(
     size: usize,
     action: impl Fn(usize, &mut T, &mut [U]) + Sync,
 ) {
+    #[cfg(feature = "parallel")]
     if items.len() > 1 && has_many_threads() {
         let chunks = others.par_chunks_mut(size);
         items
@@ -137,10 +151,10 @@ pub fn for_each_with_chunk<T: Send, U: Send>(
             .zip(chunks)
             .enumerate()
             .for_each(|(index, (item, chunk))| action(index, item, chunk));
-    } else {
-        for (index, (item, chunk)) in items.iter_mut().zip(others.chunks_mut(size)).enumerate() {
-            action(index, item, chunk);
-        }
+        return;
+    }
+    for (index, (item, chunk)) in items.iter_mut().zip(others.chunks_mut(size)).enumerate() {
+        action(index, item, chunk);
     }
 }
 
@@ -151,6 +165,7 @@ pub fn for_each_chunk_with_chunk<T: Send, U: Send>(
     size: usize,
     action: impl Fn(usize, &mut [T], &mut [U]) + Sync,
 ) {
+    #[cfg(feature = "parallel")]
     if items.len() > size && has_many_threads() {
         let others = others.par_chunks_mut(size);
         items
@@ -158,19 +173,9 @@ pub fn for_each_chunk_with_chunk<T: Send, U: Send>(
             .zip(others)
             .enumerate()
             .for_each(|(index, (items, others))| action(index * size, items, others));
-    } else {
-        action(0, items, others);
+        return;
     }
-}
-
-/// The number of the thread that calls, below [`threads`].
-#[must_use]
-pub fn own_index() -> usize {
-    rayon::current_thread_index().unwrap_or(0)
-}
-
-/// How many threads work is split between.
-#[must_use]
-pub fn threads() -> usize {
-    if has_many_threads() { rayon::current_num_threads() } else { 1 }
+    #[cfg(not(feature = "parallel"))]
+    let _ = size;
+    action(0, items, others);
 }

@@ -8,9 +8,9 @@
 //! Meshes are OBJ or PLY files of equal topology. The detector is made once; each step takes two slices of positions and fills
 //! the same list of contacts.
 
+use selvedge::Topology;
 use selvedge::glam::DVec3;
-use selvedge::mesh::Topology;
-use selvedge::step::CollisionDetector;
+use selvedge::{CollisionDetector, Threads};
 use selvedge_files::mesh::read_step;
 use selvedge_laboratory::scene::ArmScene;
 use std::error::Error;
@@ -25,7 +25,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
 
     // 0: a thread for each core.
-    let mut detector = CollisionDetector::<f64>::new(topology, 0)?;
+    let mut detector = CollisionDetector::<f64>::new(topology);
+    detector.set_threads(Threads::EachCore)?;
     let mut contacts = Vec::new();
     println!(" step   candidates   contacts   earliest         ms");
     for (step, frames) in frames.windows(2).enumerate() {

@@ -1,8 +1,8 @@
 //! After the first step, a step allocates nothing.
 
+use selvedge::Mesh;
 use selvedge::glam::DVec3;
-use selvedge::mesh::Mesh;
-use selvedge::step::{CandidateBoxes, CollisionDetector};
+use selvedge::{CandidateBoxes, CollisionDetector};
 use selvedge_cloth::sleeve::sleeve;
 use selvedge_laboratory::pipeline::{Pipeline, Preset};
 use selvedge_laboratory::scene::ArmScene;
@@ -48,7 +48,7 @@ fn a_detector_allocates_in_its_first_step_only() {
     let mesh = sleeve(1).expect("a refinement in range");
     let frames = waves(&mesh, 50);
     let topology = mesh.topology().expect("a sleeve");
-    let mut detector = CollisionDetector::<f64>::new(topology, 1).expect("one thread");
+    let mut detector = CollisionDetector::<f64>::new(topology);
     let (mut contacts, mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new(), Vec::new());
     let counted: Vec<u64> = frames
         .windows(2)

@@ -3,7 +3,7 @@
 use super::numbers::{exponent, finite, fraction};
 use super::pairs::{complexity, simpler_number};
 use super::{Choices, Format, PairCase, Simplify};
-use selvedge::mesh::Topology;
+use selvedge::Topology;
 use selvedge_core::PairKind;
 use std::fmt;
 

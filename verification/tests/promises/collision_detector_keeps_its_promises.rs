@@ -2,10 +2,10 @@
 
 use proptest::prelude::*;
 use selvedge::PairKind::{self, EdgeEdge, VertexFace};
-use selvedge::dispatch::available_levels;
+use selvedge::Topology;
 use selvedge::glam::DVec3;
-use selvedge::mesh::Topology;
-use selvedge::step::{CandidateBoxes, CollisionDetector, Contact, StepError};
+use selvedge::verification::available_levels;
+use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, Frame, Position, StepError, Threads};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
 use selvedge_laboratory::scene::ArmScene;
@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 type MeshPair = (PairKind, [u32; 2]);
 
 fn detector<S: Format>(mesh: &MeshCase<S>) -> CollisionDetector<S> {
-    CollisionDetector::new(mesh.topology(), 1).expect("one thread")
+    CollisionDetector::new(mesh.topology())
 }
 
 fn contacts<S: Format>(detector: &mut CollisionDetector<S>, mesh: &MeshCase<S>) -> Vec<Contact<S>> {
@@ -106,7 +106,8 @@ fn exact_contacts_are_those_that_touch<S: Format>(mesh: &MeshCase<S>) -> Result<
     let topology = mesh.topology();
     let (start, end) = (mesh.frame(0), mesh.frame(1));
     let mut detector = detector(mesh);
-    detector.set_exact(true);
+    let tolerance = Limits::default().tolerance;
+    detector.set_criterion(Criterion::Touching { tolerance }).expect("a length");
     let all = by_pair(&contacts(&mut detector, mesh));
     let [vertex_face, edge_edge] = all_pairs(&topology);
     let mut own = Vec::new();
@@ -142,7 +143,7 @@ fn no_pair_that_comes_within_the_separation_is_missed() {
                 separation,
                 ..Limits::default()
             };
-            detector.set_limits(limits).expect("a length");
+            detector.set_criterion(Criterion::Within(limits)).expect("a length");
             let found = by_pair(&contacts(&mut detector, mesh));
             let [vertex_face, edge_edge] = all_pairs(&topology);
             let vertex_face = vertex_face.into_iter().map(|pair| (VertexFace, pair));
@@ -169,14 +170,14 @@ fn a_separation_beyond_the_numbers_of_f32_excludes_nothing() {
     ]
     .concat();
     let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]]).expect("two triangles");
-    let mut detector = CollisionDetector::<f64>::new(topology, 1).expect("one thread");
+    let mut detector = CollisionDetector::<f64>::new(topology);
     let mut found = Vec::new();
     for separation in [10.0, 1e39] {
         let limits = Limits {
             separation,
             ..Limits::default()
         };
-        detector.set_limits(limits).expect("a length");
+        detector.set_criterion(Criterion::Within(limits)).expect("a length");
         detector.contacts(&frame, &frame, &mut found).expect("finite positions");
         assert_eq!(found.len(), 15, "{separation}");
     }
@@ -241,7 +242,7 @@ fn the_format_of_the_positions_changes_no_contact() {
             tolerance: f64::from(limits.tolerance),
             separation: f64::from(limits.separation),
         };
-        wide_detector.set_limits(limits).expect("lengths");
+        wide_detector.set_criterion(Criterion::Within(limits)).expect("lengths");
         let found = by_pair(&contacts(&mut narrow_detector, mesh));
         let wide_found = by_pair(&contacts(&mut wide_detector, &wide));
         prop_assert!(found.keys().eq(wide_found.keys()));
@@ -262,9 +263,10 @@ fn instruction_sets_and_threads_change_nothing() {
     let [start, end] = [57, 58].map(|frame| scene.frame(frame));
     let mut expected: Option<(Vec<Contact<f64>>, Contact<f64>)> = None;
     for (name, level) in available_levels() {
-        for threads in [1, 2, 3] {
+        for threads in [1, 2, 3].map(Threads::from_count) {
             let topology = scene.topology().clone();
-            let mut detector = CollisionDetector::<f64>::new(topology, threads).expect("threads");
+            let mut detector = CollisionDetector::<f64>::new(topology);
+            detector.set_threads(threads).expect("threads");
             detector.set_level(level);
             let mut contacts = Vec::new();
             for _ in 0..2 {
@@ -281,11 +283,96 @@ fn instruction_sets_and_threads_change_nothing() {
             match &expected {
                 None => expected = Some((contacts, earliest)),
                 Some(expected) => {
-                    assert!(*expected == (contacts, earliest), "{name}, {threads} threads");
+                    assert!(*expected == (contacts, earliest), "{name}, {threads:?}");
                 }
             }
         }
     }
+}
+
+/// In a caller's pool and outside of one: the same contacts, bits and order, for every choice of threads.
+#[test]
+fn a_callers_pool_changes_nothing() {
+    let scene = ArmScene::new(10).expect("a refinement in range");
+    let [start, end] = [57, 58].map(|frame| scene.frame(frame));
+    let contacts = |threads: Threads| {
+        let mut detector = CollisionDetector::<f64>::new(scene.topology().clone());
+        detector.set_threads(threads).expect("threads");
+        let mut contacts = Vec::new();
+        let result = detector.contacts(&start, &end, &mut contacts);
+        result.expect("finite positions, one for each vertex");
+        (contacts, detector.threads())
+    };
+    let (expected, _) = contacts(Threads::Calling);
+    assert!(!expected.is_empty());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("threads");
+    let two = Threads::from_count(2);
+    for (threads, outside, inside) in [(Threads::Calling, 1, 1), (Threads::CallersPool, 1, 3), (two, 2, 2)] {
+        assert!(contacts(threads) == (expected.clone(), outside), "{threads:?}");
+        let in_pool = pool.install(|| contacts(threads));
+        assert!(in_pool == (expected.clone(), inside), "{threads:?} in a pool");
+    }
+    assert!(contacts(Threads::EachCore).0 == expected);
+}
+
+/// Vectors of glam's and arrays of three: the same answers, bit for bit.
+#[test]
+fn positions_are_vectors_or_arrays() {
+    fn answers<S: Scalar, P: Position<Scalar = S>>(topology: &Topology, [start, end]: [&[P]; 2]) -> String {
+        let mut detector = CollisionDetector::<S>::new(topology.clone());
+        let (mut contacts, mut own) = (Vec::new(), Vec::new());
+        let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+        let mut ask = || {
+            detector.contacts(start, end, &mut contacts)?;
+            let earliest = detector.earliest(start, end)?;
+            let is_free = detector.is_free(start, end)?;
+            detector.candidates(start, end, CandidateBoxes::Moving, &mut vertex_face, &mut edge_edge)?;
+            detector.contacts_of(start, end, &vertex_face, &edge_edge, &mut own)?;
+            Ok::<_, StepError>((earliest, is_free))
+        };
+        let (earliest, is_free) = ask().expect("finite positions, one for each vertex");
+        assert!(!contacts.is_empty() && !is_free);
+        format!("{contacts:?} {earliest:?} {vertex_face:?} {edge_edge:?} {own:?}")
+    }
+    let scene = ArmScene::new(1).expect("a refinement in range");
+    let frames = [57, 60].map(|frame| scene.frame(frame));
+    let topology = scene.topology();
+    let [start, end] = &frames;
+    let arrays = frames
+        .each_ref()
+        .map(|frame| frame.iter().map(|p| p.to_array()).collect::<Vec<_>>());
+    assert_eq!(answers(topology, [start, end]), answers(topology, [&arrays[0], &arrays[1]]));
+    let single = frames
+        .each_ref()
+        .map(|frame| frame.iter().map(|p| p.as_vec3()).collect::<Vec<_>>());
+    let arrays = single
+        .each_ref()
+        .map(|frame| frame.iter().map(|p| p.to_array()).collect::<Vec<_>>());
+    assert_eq!(
+        answers(topology, [&single[0], &single[1]]),
+        answers(topology, [&arrays[0], &arrays[1]])
+    );
+}
+
+#[test]
+fn errors_say_what_is_wrong_in_fields() {
+    let mut detector = CollisionDetector::<f32>::new(Topology::new(3, vec![[0, 1, 2]]).expect("a triangle"));
+    let (good, short) = ([[0.0; 3]; 3], [[0.0; 3]; 2]);
+    let wrong = StepError::WrongLength {
+        frame: Frame::End,
+        found: 2,
+        expected: 3,
+    };
+    assert_eq!(detector.is_free(&good[..], &short[..]), Err(wrong));
+    let bad = [[0.0; 3], [0.0, f32::INFINITY, 0.5], [0.0; 3]];
+    let wrong = StepError::NotFinite {
+        frame: Frame::Start,
+        vertex: 1,
+        position: [0.0, f64::INFINITY, 0.5],
+    };
+    assert_eq!(detector.is_free(&bad, &good), Err(wrong));
+    let wrong = StepError::WrongCount { found: 1, expected: 3 };
+    assert_eq!(detector.set_moving(Some(&[true])), Err(wrong));
 }
 
 #[test]
@@ -339,12 +426,14 @@ fn what_is_wrong_with_the_input_is_an_error() {
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         let (separation, tolerance) = (bad, 0.0);
         let limits = Limits { tolerance, separation };
-        assert!(detector.set_limits(limits).is_err());
+        assert!(detector.set_criterion(Criterion::Within(limits)).is_err());
         let limits = Limits {
             tolerance: bad,
             separation: 0.0,
         };
-        assert!(detector.set_limits(limits).is_err());
+        assert!(detector.set_criterion(Criterion::Within(limits)).is_err());
     }
+    let bad = Criterion::Touching { tolerance: f64::NAN };
+    assert!(matches!(detector.set_criterion(bad), Err(StepError::BadLimit { .. })));
     assert!(detector.contacts(&frame, &frame, &mut found).is_ok());
 }

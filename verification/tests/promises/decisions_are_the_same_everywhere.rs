@@ -6,7 +6,7 @@
 //! and say in the commit what became sharper, or blunter, and why.
 
 use fearless_simd::dispatch;
-use selvedge::dispatch::available_levels;
+use selvedge::verification::available_levels;
 use selvedge_core::PairKind;
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, direction, relative, segment, swept_boxes};

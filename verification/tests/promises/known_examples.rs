@@ -2,7 +2,7 @@
 
 use rug::Rational;
 use selvedge::PairKind::{EdgeEdge, VertexFace};
-use selvedge::mesh::Topology;
+use selvedge::Topology;
 use selvedge_core::PairKind;
 use selvedge_core::glam::DVec3;
 use selvedge_laboratory::pipeline::CullingTest::{self, CertifiedNonCoplanarity};

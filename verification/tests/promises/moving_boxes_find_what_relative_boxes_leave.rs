@@ -3,11 +3,11 @@
 
 use proptest::prelude::*;
 use selvedge::PairKind::{self, EdgeEdge, VertexFace};
-use selvedge::broad_phase::moving::MovingBroadPhase;
-use selvedge::dispatch::available_levels;
+use selvedge::StepError;
+use selvedge::Topology;
 use selvedge::glam::DVec3;
-use selvedge::mesh::Topology;
-use selvedge::step::StepError;
+use selvedge::verification::MovingBroadPhase;
+use selvedge::verification::available_levels;
 use selvedge_core::Scalar;
 use selvedge_laboratory::scene::ArmScene;
 use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};

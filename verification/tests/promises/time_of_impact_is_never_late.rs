@@ -4,7 +4,7 @@
 use crate::support::environment::Environment;
 use proptest::prelude::*;
 use rug::Rational;
-use selvedge::dispatch::{available_levels, best_level};
+use selvedge::verification::{available_levels, best_level};
 use selvedge_core::PairKind;
 use selvedge_core::batch::{Level, Round, RoundQuestion, VertexRow, advance_from_rows};
 use selvedge_core::elementary::advance::confirm::certain_contact;

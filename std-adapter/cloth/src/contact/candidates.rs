@@ -12,7 +12,7 @@ use super::search::{Search, Wanted};
 use super::settings::{ContactSettings, NEIGHBOURS_AT_REST, Thickness};
 use super::sieve::{self, Distances, Neighbours};
 use crate::step::Carrier;
-use selvedge::mesh::{Topology, TopologyError};
+use selvedge::{Topology, TopologyError};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::course::room;
 use std::sync::Arc;

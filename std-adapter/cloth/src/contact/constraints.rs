@@ -9,7 +9,7 @@ use super::candidate::Candidate;
 use super::settings::{ContactSettings, MARGIN, NEIGHBOURS_AT_REST, RECOVERY, Thickness};
 use super::sieve::are_neighbours;
 use crate::step::{TimeStep, Touch, Touches};
-use selvedge::parallel;
+use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
 

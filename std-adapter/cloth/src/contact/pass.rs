@@ -21,7 +21,7 @@ use super::report::Blocker;
 use super::settings::ContactSettings;
 use super::solver::{ContactSolver, gap_error};
 use crate::step::{Carrier, FREE, TimeStep};
-use selvedge::parallel;
+use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
 use std::time::Instant;

@@ -1,6 +1,6 @@
 //! Which primitive pairs may come close in a step: the only place that knows how candidates are found.
 //!
-//! They come from [hierarchies of moving boxes](selvedge::broad_phase::moving), through a [sieve](super::sieve): every pair that is no
+//! They come from [hierarchies of moving boxes](selvedge::verification::MovingBroadPhase), through a [sieve](super::sieve): every pair that is no
 //! candidate keeps its order, and more than a distance, along some direction between the start and the end of the motion.
 
 use super::candidate::Candidate;
@@ -8,9 +8,9 @@ use super::sieve::{Distances, Sieve};
 use super::start::first_crossing;
 use crate::step::{Carrier, FREE};
 use selvedge::PairKind;
-use selvedge::broad_phase::moving::MovingBroadPhase;
-use selvedge::mesh::Topology;
-use selvedge::parallel;
+use selvedge::Topology;
+use selvedge::verification::MovingBroadPhase;
+use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
@@ -165,8 +165,7 @@ impl Search {
 
     /// An edge that passes through a face, of those that are to be kept apart; in words.
     pub(super) fn first_crossing(&self, positions: &[DVec3]) -> Option<String> {
-        let are_asked = |a: &[u32; 3], b: &[u32; 3]| self.body_of_pair(a[0], b[0]).is_some();
-        first_crossing(self.topology.triangles(), positions, are_asked)
+        first_crossing(&self.topology, positions, |a, b| self.body_of_pair(a, b).is_some())
     }
 
     /// The body of two vertices that are to be kept apart, [`FREE`] for cloth and cloth; `None` if nobody asked for that.

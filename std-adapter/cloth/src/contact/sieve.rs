@@ -7,8 +7,8 @@
 use super::closest::Closest;
 use super::settings::MARGIN;
 use selvedge::PairKind;
-use selvedge::broad_phase::moving::MovingBroadPhase;
-use selvedge::mesh::Topology;
+use selvedge::Topology;
+use selvedge::verification::MovingBroadPhase;
 use selvedge_core::Lanes;
 use selvedge_core::glam::{DVec3, Vec3A};
 use selvedge_core::separation::clearance::{Clearance, are_boxes_within, nearness};

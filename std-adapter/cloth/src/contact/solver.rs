@@ -7,7 +7,7 @@ use super::impact_zones::ImpactZones;
 use super::report::{ContactCounts, ContactSeconds, described};
 use super::settings::ContactSettings;
 use crate::step::{Carrier, TimeStep, Touches};
-use selvedge::mesh::TopologyError;
+use selvedge::TopologyError;
 use selvedge_core::Lanes;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;

@@ -7,7 +7,7 @@ use crate::input::BENDING_STIFFNESS;
 use crate::plan::Plan;
 use crate::schedule::{Local, On, Schedule};
 use crate::world::Cloth;
-use selvedge::mesh::Topology;
+use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {

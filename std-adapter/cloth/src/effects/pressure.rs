@@ -8,7 +8,7 @@ use super::registration::{Effect, Registration};
 use crate::input::{PRESSURE, RATIO};
 use crate::plan::Plan;
 use crate::step::{Constraint, TimeStep, Touches};
-use selvedge::parallel;
+use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {

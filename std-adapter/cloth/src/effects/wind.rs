@@ -13,7 +13,7 @@ use crate::input::{AIR_DENSITY, FREQUENCY, RATIO, SPEED};
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
 use libm::sin;
-use selvedge::parallel;
+use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 use std::f64::consts::TAU;
 

@@ -3,7 +3,7 @@
 use super::motion::RigidMotion;
 use super::shapes;
 use crate::input::{LARGEST_COORDINATE, LENGTH, SceneError, Table};
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 
 /// A rigid, kinematic body: it follows a given motion.

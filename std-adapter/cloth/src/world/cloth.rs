@@ -3,7 +3,7 @@
 use super::shapes;
 use crate::input::{AREA_DENSITY, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, SceneError, Table, suggestion};
 use crate::sleeve::{RefinementError, ring_sizes, sleeve};
-use selvedge::mesh::{Mesh, Topology};
+use selvedge::{Mesh, Topology};
 use selvedge_core::glam::DVec3;
 
 /// The cloth at rest.

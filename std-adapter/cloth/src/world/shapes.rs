@@ -2,7 +2,7 @@
 
 use crate::input::{LARGEST_COORDINATE, SceneError, Table};
 use libm::{cos, sin};
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use selvedge_files::mesh;
 use std::f64::consts::{FRAC_PI_2, TAU};

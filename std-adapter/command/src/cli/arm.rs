@@ -3,7 +3,7 @@
 use super::Failure;
 use super::options::refinement_parser;
 use super::output::{self, OutputFiles};
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_files::mesh;
 use selvedge_laboratory::scene::ArmScene;
 use std::path::PathBuf;

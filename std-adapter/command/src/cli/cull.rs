@@ -5,10 +5,11 @@ use super::options::{ScalarChoice, Simd, Threads, preset_parser};
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge::PairKind;
+use selvedge::Topology;
 use selvedge::core::Scalar;
+use selvedge::core::elementary::Limits;
 use selvedge::glam::DVec3;
-use selvedge::mesh::Topology;
-use selvedge::step::{CandidateBoxes, CollisionDetector};
+use selvedge::{CandidateBoxes, CollisionDetector, Criterion};
 use selvedge_files::mesh::MeshStep;
 use selvedge_laboratory::pipeline::{Contact, Pipeline, Preset, StepReport};
 use selvedge_laboratory::report::{StepQuestion, StepSummary, contacts_csv, json, pairs_csv, tables};
@@ -192,8 +193,12 @@ impl Cull {
         start: &[S::Vector],
         end: &[S::Vector],
     ) -> Result<(), Failure> {
-        let mut detector = CollisionDetector::<S>::new(topology, self.threads.get())?;
-        detector.set_exact(self.pipeline == Preset::SelvedgeExact);
+        let mut detector = CollisionDetector::<S>::new(topology);
+        detector.set_threads(selvedge::Threads::from_count(self.threads.get()))?;
+        if self.pipeline == Preset::SelvedgeExact {
+            let tolerance = Limits::default().tolerance;
+            detector.set_criterion(Criterion::Touching { tolerance })?;
+        }
         detector.set_level(self.simd.level());
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
         let mut contacts = Vec::new();

@@ -4,7 +4,7 @@ use super::Failure;
 use super::options::Threads;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_cloth::{CheckpointError, Scene, SceneError, Simulation};
 use selvedge_files::mesh;
 use selvedge_laboratory::report::{SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, tables};

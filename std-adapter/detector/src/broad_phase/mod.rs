@@ -1,157 +1,285 @@
-//! Broad phase: which triangles' swept boxes overlap.
+//! Candidate vertex–face and edge–edge pairs, straight from hierarchies of moving boxes.
 //!
-//! [`BroadPhase`] takes one box per triangle and gives every pair of overlapping boxes, each pair once
-//! and in order. The overlap is closed: boxes that only touch overlap. Adjacent triangles are pairs like
-//! any other, since they can hold vertex-face and edge-edge pairs that no other triangle pair holds.
-//!
-//! # How it works
-//!
-//! Triangles are put into an order in which any 16 (128, 1024, …) consecutive ones from a multiple of
-//! that number lie close together (`hierarchy`). The boxes of these groups are refitted each step. The
-//! pairs are then found by handing lists of candidates down the groups: the whole mesh, in order of
-//! triangle, at the top; for each group inside, those on the list that overlap its box; and in the end
-//! for each triangle those that overlap the triangle (`traversal`). A filtered list keeps its order, so
-//! each triangle's partners come out sorted, and only the triangles' runs are left to be put in a row
-//! (`output`).
-//!
-//! # Why not a library's hierarchy
-//!
-//! Measured against parry3d 0.31 (`cargo bench -p selvedge --bench broad_phase`), one thread, refit and all pairs of a cloth of 92,230
-//! triangles with 4.5 million pairs: 41 to 46 ms here, in order; 62 to 66 ms there, in tree order, and 175 ms more to sort
-//! them. On tubes of 1.3 thousand to 1.3 million triangles both are level before sorting. parry3d's traversal also makes a new
-//! vector each time, where the pipeline keeps and reuses its own.
-//!
-//! Nothing depends on the number of threads but the time. After the first step nothing is allocated,
-//! unless some buffer needs half as much again as in any step before.
+//! Each vertex, edge and face has its box at the start and its box at the end of the step
+//! ([`selvedge_core::boxes::moving`]). Two of them whose boxes keep one order along an axis cannot meet; the others are
+//! candidates, unless they have a vertex in common. That holds for groups of them as well, so three hierarchies, over
+//! vertices, edges and faces, find the candidates without looking at every pair: no triangle pairs, no distribution, no
+//! pair twice.
 //!
 //! ```
-//! use selvedge::broad_phase::{BroadPhase, SweptBox};
+//! use selvedge::{Topology, glam::DVec3, verification::MovingBroadPhase};
 //!
-//! let boxes = [
-//!     SweptBox { lower: [0.0, 0.0, 0.0], upper: [1.0, 1.0, 1.0] },
-//!     SweptBox { lower: [5.0, 0.0, 0.0], upper: [6.0, 1.0, 1.0] },
-//!     SweptBox { lower: [1.0, 1.0, 1.0], upper: [2.0, 2.0, 2.0] },
-//! ];
-//! let mut broad_phase = BroadPhase::new();
-//! let mut pairs = Vec::new();
-//! broad_phase.update(&boxes);
-//! broad_phase.candidate_triangle_pairs(&mut pairs);
-//! assert_eq!(pairs, [[0, 2]]);
+//! // A small triangle falls through a large one.
+//! let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?;
+//! let mut start = vec![DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, -5.0, 0.0), DVec3::new(0.0, 5.0, 0.0)];
+//! start.extend([DVec3::new(0.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 1.1), DVec3::new(0.0, 1.0, 1.2)]);
+//! let mut end = start.clone();
+//! for vertex in &mut end[3..] {
+//!     vertex.z -= 4.0;
+//! }
+//!
+//! let mut broad_phase = MovingBroadPhase::<f64>::new(topology);
+//! let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+//! broad_phase.update(&start, &end)?;
+//! broad_phase.candidates(&mut vertex_face, &mut edge_edge);
+//! vertex_face.sort();
+//! assert_eq!(vertex_face, [[3, 0], [4, 0], [5, 0]]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Which pairs
+//! Exactly those that [relative boxes along three axes](selvedge_core::boxes::relative::three_axes) leave, of `f32` positions
+//! and of `f64` positions that are `f32` numbers, unless the mesh is far from the origin for its size. Other `f64` positions are
+//! [rounded to `f32`](selvedge_core::boxes::mapping) for the boxes: pairs that are apart by less than that are candidates too, none is lost.
+//!
+//! The order of the candidates depends on the hierarchies, and so on the steps before: the same sequence of steps gives the
+//! same candidates in the same order, on any number of threads and every instruction set.
 
-pub(crate) mod buffer;
-mod candidates;
 mod degradation;
-mod hierarchy;
-pub mod moving;
+mod hierarchies;
 mod order;
-mod output;
+mod pairs;
+mod rows;
 mod traversal;
+mod tree;
 
-use candidates::CandidateList;
-use degradation::{Degradation, Prices};
-use hierarchy::Hierarchy;
-use traversal::Traversal;
+pub use degradation::{Degradation, Prices};
+pub(crate) use hierarchies::{Fit, Hierarchies, Share, extent};
+pub use order::{Centre, LEAF, order};
+pub(crate) use pairs::{CHUNK, Sink};
+pub(crate) use rows::Rows;
+pub(crate) use traversal::Scratch;
 
-/// The box that a triangle sweeps during the step, in the caller's length unit.
-///
-/// Where positions have more digits than `f32` the caller rounds outwards, or maps all coordinates of an axis by one
-/// function that never exchanges two of them: boxes that overlap must still do so.
-///
-/// Two boxes overlap unless, along some axis, the lower bound of one is greater than the upper bound of
-/// the other. A bound that is not a number is greater than nothing, so it separates nothing; infinite
-/// bounds compare as numbers do.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SweptBox {
-    /// Least coordinate along each axis.
-    pub lower: [f32; 3],
-    /// Greatest coordinate along each axis.
-    pub upper: [f32; 3],
-}
+use crate::PairKind;
+use crate::buffer::settle;
+use crate::dispatch::Level;
+use crate::frame::{StepError, check_length};
+use crate::mesh::Topology;
+use crate::parallel;
+use selvedge_core::{Position, Scalar};
+use std::mem::swap;
+use std::sync::Arc;
 
-/// What a [`BroadPhase`] has done so far. Counts do not depend on the number of threads.
+/// What a [`MovingBroadPhase`] has done so far. Counts do not depend on the number of threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct BroadPhaseStatistics {
-    /// How often the hierarchy was built, the first time included.
+pub struct MovingStatistics {
+    /// How often the hierarchies were built, the first time included.
     pub builds: usize,
-    /// Box tests, in blocks of 16, of the last [`BroadPhase::candidate_triangle_pairs`].
-    pub block_tests: u64,
-    /// Pairs found by the last [`BroadPhase::candidate_triangle_pairs`].
-    pub pairs: usize,
+    /// Tests of the last traversal, each of one box against sixteen.
+    pub box_tests: u64,
+    /// Candidates of the last traversal.
+    pub candidates: usize,
 }
 
-/// Build: measured as the time of a build over the time of each further block test that exchanging triangles at random
-/// after the build causes: 0.15 to 0.3 from 1,352 to 134,162 triangles. On three motions of 92,450 triangles (a twisting
-/// tube, a crumpling and a rolled-up sheet) a quarter or four times of this makes block tests and builds together no more than
-/// 4 % dearer.
+/// Finds the vertex–face and edge–edge pairs that moving boxes leave; see the [module](self).
 ///
-/// Item: measured just after a build, 15.1 block tests a triangle with 49.2 pairs a triangle (crumpled cloth), 4.8 with 8.1
-/// (tube), hence 0.25 a pair and 2.7 a triangle besides.
-const PRICES: Prices = Prices { build: 0.25, item: 11.0 };
-
-/// Finds the pairs of triangles whose swept boxes overlap; see the [module](self).
-#[derive(Debug, Default)]
-pub struct BroadPhase {
-    hierarchy: Hierarchy,
-    /// All triangles, in order.
-    everything: CandidateList,
-    traversal: Traversal,
-    /// Where each triangle's pairs begin in the result.
-    offsets: Vec<usize>,
-    degradation: Degradation,
-    statistics: BroadPhaseStatistics,
+/// On the rayon pool in which it is called; outside of one on the calling thread.
+#[derive(Debug)]
+pub struct MovingBroadPhase<S: Scalar> {
+    pub(crate) hierarchies: Hierarchies<S>,
+    fit: Fit<S>,
+    collectors: Vec<Collector>,
 }
 
-impl BroadPhase {
-    /// A broad phase without triangles.
+/// One share of the work, and what it found.
+#[derive(Debug)]
+struct Collector {
+    scratch: Scratch,
+    pairs: Vec<[u32; 2]>,
+    tests: u64,
+}
+
+impl<S: Scalar> MovingBroadPhase<S> {
+    /// A broad phase for a mesh.
     #[must_use]
-    pub fn new() -> Self {
-        Self::default()
+    pub fn new(topology: impl Into<Arc<Topology>>) -> Self {
+        Self {
+            hierarchies: Hierarchies::new(topology.into()),
+            fit: Fit::default(),
+            collectors: Vec::new(),
+        }
     }
 
-    /// Takes the boxes of a step.
+    /// Forces the instruction set; the best that the machine has is the default. Changes no result.
+    pub const fn set_level(&mut self, level: Level) {
+        self.hierarchies.set_level(level);
+    }
+
+    /// From the next update on: pairs that come within `separation` of each other are candidates too. Zero at first.
     ///
-    /// Builds the hierarchy when the number of boxes differs from the last call's or when it has
-    /// degraded, refits it otherwise. It has degraded when the pairs found since it was built have cost
-    /// more, beyond what they cost just after, than building it anew.
+    /// # Errors
+    /// If it is negative, infinite or NaN. Then it stays as it was.
+    pub fn set_separation(&mut self, separation: S) -> Result<(), StepError> {
+        check_length(separation)?;
+        self.fit.separation = separation;
+        Ok(())
+    }
+
+    /// From the next update on: whether boxes that overlap at different times make a candidate, as swept boxes do, the common
+    /// choice elsewhere. Off at first.
+    pub const fn set_swept(&mut self, swept: bool) {
+        self.fit.is_swept = swept;
+    }
+
+    /// From the next update on only pairs with a vertex that is `wanted` are candidates, one entry for each vertex of the mesh:
+    /// pairs of cloth, say, and not those of bodies among themselves.
     ///
     /// # Panics
+    /// At the next update, if there are fewer entries than vertices.
+    pub fn set_wanted(&mut self, wanted: Vec<bool>) {
+        self.hierarchies.set_wanted(wanted);
+    }
+
+    /// From the next update on only pairs with a `wanted` vertex are candidates, and only such vertices have moved since the last
+    /// update.
+    pub fn narrow_to(&mut self, wanted: Vec<bool>) {
+        self.hierarchies.narrow_to(wanted);
+    }
+
+    /// The next update builds the hierarchies: from there on all is as in a broad phase that has seen no step yet.
+    pub fn forget(&mut self) {
+        self.hierarchies.forget();
+    }
+
+    /// Takes the positions of a step. Builds the hierarchies in the first step and when they have degraded, refits them
+    /// otherwise.
     ///
-    /// With more than `u32::MAX` boxes.
-    pub fn update(&mut self, boxes: &[SweptBox]) {
-        assert!(u32::try_from(boxes.len()).is_ok(), "more than u32::MAX boxes");
-        self.everything.assign(boxes);
-        if boxes.len() != self.hierarchy.len() || self.degradation.is_worth_a_build(PRICES, boxes.len()) {
-            self.hierarchy.build(boxes);
-            self.degradation = Degradation::default();
-            self.statistics.builds += 1;
+    /// They have degraded when the candidates found since they were built have cost more, beyond what they cost just after,
+    /// than building them anew.
+    ///
+    /// # Errors
+    /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
+    pub fn update<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P]) -> Result<(), StepError> {
+        self.hierarchies.update(start, end, &self.fit)
+    }
+
+    /// Replaces `vertex_face` and `edge_edge` by the candidates of the last update: vertex and face, or two edges, the smaller
+    /// number first, as the topology numbers them.
+    pub fn candidates(&mut self, vertex_face: &mut Vec<[u32; 2]>, edge_edge: &mut Vec<[u32; 2]>) {
+        let shares = self.hierarchies.shares();
+        self.collectors.resize_with(shares, Collector::new);
+        let hierarchies = &self.hierarchies;
+        // The first share of each kind goes straight into the caller's list; on one thread that is all.
+        let firsts = [0, shares / 2];
+        swap(&mut self.collectors[firsts[0]].pairs, vertex_face);
+        swap(&mut self.collectors[firsts[1]].pairs, edge_edge);
+        parallel::for_each(&mut self.collectors, |index, collector| {
+            collector.collect(hierarchies, hierarchies.share(index));
+        });
+        swap(&mut self.collectors[firsts[0]].pairs, vertex_face);
+        swap(&mut self.collectors[firsts[1]].pairs, edge_edge);
+        for (index, collector) in self.collectors.iter_mut().enumerate() {
+            if firsts.contains(&index) {
+                continue;
+            }
+            let found = match self.hierarchies.share(index).kind {
+                PairKind::VertexFace => &mut *vertex_face,
+                PairKind::EdgeEdge => &mut *edge_edge,
+            };
+            found.extend_from_slice(&collector.pairs);
+            settle(&mut collector.pairs);
         }
-        self.hierarchy.refit(boxes);
+        settle(vertex_face);
+        settle(edge_edge);
+        let tests = self.collectors.iter().map(|collector| collector.tests);
+        self.hierarchies.observe(tests.sum(), vertex_face.len() + edge_edge.len());
     }
 
-    /// Replaces `pairs` by all pairs `[a, b]`, `a < b`, of triangles whose boxes overlap, each once, in
-    /// lexicographic order.
-    pub fn candidate_triangle_pairs(&mut self, pairs: &mut Vec<[u32; 2]>) {
-        let block_tests = self.traversal.run(&self.hierarchy, &self.everything);
-        output::concatenate(&self.hierarchy, &self.traversal, &mut self.offsets, pairs);
-        self.degradation
-            .observe(PRICES, block_tests, self.hierarchy.len(), pairs.len());
-        self.statistics.block_tests = block_tests;
-        self.statistics.pairs = pairs.len();
-    }
-
-    /// How often the hierarchy was built again after the first time.
-    #[must_use]
-    pub fn rebuilds(&self) -> usize {
-        self.statistics.builds.saturating_sub(1)
+    /// Replaces `pairs` by the edges and faces that boxes leave and that have no vertex in common: edge and face, as the topology
+    /// numbers them, in order. On the calling thread.
+    ///
+    /// An edge that passes through a face of a mesh at rest is among them.
+    pub fn edge_face_candidates(&mut self, pairs: &mut Vec<[u32; 2]>) {
+        let mut positions = Positions(Vec::new());
+        self.hierarchies.visit_edge_face(&mut positions);
+        pairs.clear();
+        pairs.extend(positions.0.iter().map(|&pair| self.hierarchies.edge_face_in_mesh(pair)));
+        pairs.sort_unstable();
     }
 
     /// Counts of what was done.
     #[must_use]
-    pub fn statistics(&self) -> BroadPhaseStatistics {
-        self.statistics
+    pub const fn statistics(&self) -> MovingStatistics {
+        self.hierarchies.statistics()
+    }
+}
+
+impl Collector {
+    fn new() -> Self {
+        Self {
+            scratch: Scratch::new(),
+            pairs: Vec::new(),
+            tests: 0,
+        }
+    }
+
+    fn collect<S: Scalar>(&mut self, hierarchies: &Hierarchies<S>, share: Share<'_>) {
+        self.pairs.clear();
+        let mut collected = Collected {
+            hierarchies,
+            kind: share.kind,
+            pairs: &mut self.pairs,
+        };
+        let tests = hierarchies.visit(share, &mut self.scratch, &mut collected);
+        self.tests = tests.unwrap_or(0);
+    }
+}
+
+/// Pairs as the trees number them.
+struct Positions(Vec<[u32; 2]>);
+
+impl Sink for Positions {
+    fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
+        self.0.extend_from_slice(pairs);
+        true
+    }
+}
+
+struct Collected<'a, S: Scalar> {
+    hierarchies: &'a Hierarchies<S>,
+    kind: PairKind,
+    pairs: &'a mut Vec<[u32; 2]>,
+}
+
+impl<S: Scalar> Sink for Collected<'_, S> {
+    fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
+        let in_mesh = |&pair| self.hierarchies.in_mesh(self.kind, pair);
+        self.pairs.extend(pairs.iter().map(in_mesh));
+        true
     }
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+    use selvedge_core::glam::DVec3;
+
+    /// Two rows of points, as near each other as their curve is tight.
+    fn strip(radius: f64) -> Vec<DVec3> {
+        let at = |k: u32| {
+            let (angle, side) = (f64::from(k / 2) / radius, f64::from(k % 2));
+            DVec3::new(radius * angle.cos(), radius * angle.sin(), side)
+        };
+        (0..400).map(at).collect()
+    }
+
+    #[test]
+    fn what_is_found_after_forgetting_does_not_depend_on_the_steps_before() {
+        let triangles = (0..398).map(|k| [k, k + 1, k + 2]).collect();
+        let topology = Arc::new(Topology::new(400, triangles).unwrap());
+        let found = |broad_phase: &mut MovingBroadPhase<f64>, positions: &[DVec3]| {
+            let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+            broad_phase.update(positions, positions).unwrap();
+            broad_phase.candidates(&mut vertex_face, &mut edge_edge);
+            (vertex_face, edge_edge)
+        };
+        let (wide, tight) = (strip(100.0), strip(2.5));
+        let fresh = found(&mut MovingBroadPhase::new(Arc::clone(&topology)), &tight);
+        assert!(!fresh.0.is_empty() && !fresh.1.is_empty());
+        let mut old = MovingBroadPhase::new(topology);
+        found(&mut old, &wide);
+        assert!(found(&mut old, &tight) != fresh, "hierarchies of the wide one");
+        old.forget();
+        assert!(found(&mut old, &tight) == fresh);
+    }
+}

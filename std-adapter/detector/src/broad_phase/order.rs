@@ -1,21 +1,25 @@
 //! An order in which consecutive items lie close together.
 
-use super::hierarchy::LEAF;
 use crate::parallel;
+
+/// Items in a group of the lowest level.
+pub const LEAF: usize = 16;
 
 /// Slices shorter than this are not split between threads.
 const SEQUENTIAL: usize = 4096;
 
 /// An item and where it is.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Centre {
-    pub(super) position: [f32; 3],
-    pub(super) item: u32,
+pub struct Centre {
+    /// Where it is; finite.
+    pub position: [f32; 3],
+    /// Its number.
+    pub item: u32,
 }
 
 /// Splits at the median along the longest axis, again and again, but always between two groups of the
 /// largest size that fits in more than once. Sizes are LEAF · BRANCHESᵏ.
-pub(super) fn order<const BRANCHES: usize>(centres: &mut [Centre]) {
+pub fn order<const BRANCHES: usize>(centres: &mut [Centre]) {
     if centres.len() <= LEAF {
         return;
     }

@@ -8,7 +8,7 @@ use std::fmt;
 /// triangles, and triangles that name a vertex twice. Nothing is dropped or renumbered.
 ///
 /// ```
-/// use selvedge::mesh::Topology;
+/// use selvedge::Topology;
 ///
 /// // Two triangles that share the edge 1-2, and vertex 4, which has no triangle.
 /// let topology = Topology::new(5, vec![[0, 1, 2], [2, 1, 3]])?;
@@ -16,7 +16,7 @@ use std::fmt;
 /// assert_eq!(topology.triangle_edges(), [[0, 2, 1], [2, 3, 4]]);
 /// assert_eq!(topology.statistics().interior_edges, 1);
 /// assert_eq!(topology.statistics().isolated_vertices, 1);
-/// # Ok::<(), selvedge::mesh::TopologyError>(())
+/// # Ok::<(), selvedge::TopologyError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Topology {
@@ -27,10 +27,9 @@ pub struct Topology {
 }
 
 /// Why a list of triangles has no [`Topology`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TopologyError {
     /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} names vertex {vertex}, but there are {vertex_count} vertices, numbered from 0")]
     VertexOutOfRange {
         /// The first such triangle.
         triangle: usize,
@@ -40,14 +39,8 @@ pub enum TopologyError {
         vertex_count: usize,
     },
     /// The list of triangles is empty.
-    #[error("the mesh has no triangles")]
     NoTriangles,
     /// Vertices, or the corners of all triangles, are too many to be numbered by a `u32`.
-    #[error(
-        "the mesh has {vertex_count} vertices and {triangle_count} triangles: more than {} vertices or {} triangles cannot be numbered",
-        u32::MAX,
-        Topology::MAX_TRIANGLES
-    )]
     TooLarge {
         /// How many vertices there are.
         vertex_count: usize,
@@ -55,6 +48,33 @@ pub enum TopologyError {
         triangle_count: usize,
     },
 }
+
+impl fmt::Display for TopologyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::VertexOutOfRange {
+                triangle,
+                vertex,
+                vertex_count,
+            } => write!(
+                f,
+                "triangle {triangle} names vertex {vertex}, but there are {vertex_count} vertices, numbered from 0"
+            ),
+            Self::NoTriangles => f.write_str("the mesh has no triangles"),
+            Self::TooLarge {
+                vertex_count,
+                triangle_count,
+            } => write!(
+                f,
+                "the mesh has {vertex_count} vertices and {triangle_count} triangles: more than {} vertices or {} triangles cannot be numbered",
+                u32::MAX,
+                Topology::MAX_TRIANGLES
+            ),
+        }
+    }
+}
+
+impl std::error::Error for TopologyError {}
 
 impl Topology {
     /// Stands in [`triangle_edges`](Self::triangle_edges) where a triangle has no edge because

@@ -19,11 +19,12 @@
 
 use super::sweep::{Left, MOST, Open, Sweep};
 use super::{Bound, Contact, Question, Wanted};
-use crate::PairCounts;
 use crate::PairKind;
-use crate::broad_phase::moving::{CHUNK, Hierarchies, Rows, Sink};
+use crate::broad_phase::{CHUNK, Hierarchies, Rows, Sink};
+use crate::clock::Clock;
 use crate::dispatch::Level;
 use crate::mesh::Topology;
+use crate::pair_counts::PairCounts;
 use selvedge_core::batch::{LANES, Mask, VertexRow, culled_from_rows};
 use selvedge_core::elementary::advance::time_of_impact_within;
 use selvedge_core::elementary::contact::settled;
@@ -31,7 +32,7 @@ use selvedge_core::elementary::{Contact as Verdict, Impact, Limits, Reason};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::narrowing::rounded_up;
 use selvedge_core::{EdgeEdge, Scalar, VertexFace};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// So many sweeps in `f64`, then one by one. Measured on cloth-ball: 5 sweeps take 20 ms more than 16, of 60; 12 take 2 more.
 const SWEEPS: usize = 16;
@@ -195,7 +196,7 @@ impl Chunk {
         candidates: &[[u32; 2]],
         found: &mut Found,
     ) -> bool {
-        let begin = Instant::now();
+        let begin = Clock::now();
         let first = self.pairs.len();
         self.pairs.extend_from_slice(candidates);
         self.indices.resize(first + candidates.len(), [0; 4]);
@@ -253,7 +254,7 @@ impl Chunk {
 
     /// Decides all pairs that there are. Returns whether to go on.
     pub(super) fn finish<S: Scalar>(&mut self, step: &StepInput<'_, S>, kind: PairKind, found: &mut Found) -> bool {
-        let begin = Instant::now();
+        let begin = Clock::now();
         let until = step.bound.get();
         self.impacts.clear();
         self.impacts.resize(self.pairs.len(), NEVER);

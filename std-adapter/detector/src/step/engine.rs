@@ -3,21 +3,21 @@
 use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
 use super::given::PrimitiveBoxes;
 use super::{Bound, CandidateBoxes, Contact, Question, Wanted};
-use crate::PairCounts;
 use crate::PairKind;
-use crate::broad_phase::buffer::settle;
-use crate::broad_phase::moving::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
+use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
+use crate::buffer::settle;
+use crate::clock::Clock;
 use crate::dispatch::Level;
 use crate::frame::{StepError, check_frames};
 use crate::mesh::Topology;
+use crate::pair_counts::PairCounts;
 use crate::parallel;
-use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
 use selvedge_core::narrowing::rounded_down;
+use selvedge_core::{Position, Scalar};
 use std::cmp::Ordering;
 use std::sync::atomic::{self, AtomicBool};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
 
 /// A part of the step from its start, in which contacts are looked for.
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +49,7 @@ pub struct StepTally {
     pub filtered: PairCounts,
     /// Contacts.
     pub contacts: PairCounts,
-    /// Boxes, refit or build, traversal; for a caller's pairs, boxes and their comparison.
+    /// Seconds are counted with the feature `timing`; without it they are zero. Boxes, refit or build, traversal; for a caller's pairs, boxes and their comparison.
     pub broad_phase_seconds: f64,
     /// The certified non-coplanarity filter.
     pub filter_seconds: f64,
@@ -136,14 +136,14 @@ impl<S: Scalar> Engine<S> {
     }
 
     /// Finds the contacts of a step, or of a part of it.
-    pub(super) fn run(
+    pub(super) fn run<P: Position<Scalar = S>>(
         &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
+        start: &[P],
+        end: &[P],
         question: &Question,
         probe: Probe,
     ) -> Result<(), StepError> {
-        let begin = Instant::now();
+        let begin = Clock::now();
         let fit = Fit {
             separation: S::from_f64(question.limits.separation),
             until: S::from_f64(probe.until),
@@ -165,7 +165,7 @@ impl<S: Scalar> Engine<S> {
             bound: &bound,
         };
         parallel::for_each(&mut self.workers, |index, worker| {
-            let begin = Instant::now();
+            let begin = Clock::now();
             let share = hierarchies.share(index);
             worker.kind = share.kind;
             worker.found.clear();
@@ -199,21 +199,21 @@ impl<S: Scalar> Engine<S> {
     }
 
     /// Finds the contacts of pairs that the caller has: VF, EE.
-    pub(crate) fn run_on(
+    pub(crate) fn run_on<P: Position<Scalar = S>>(
         &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
+        start: &[P],
+        end: &[P],
         question: &Question,
         pairs: [&[[u32; 2]]; 2],
     ) -> Result<(), StepError> {
-        let begin = Instant::now();
+        let begin = Clock::now();
         let hierarchies = &self.broad_phase.hierarchies;
         let topology = hierarchies.topology();
-        check_frames::<S>(start, end, topology.vertex_count())?;
-        self.rows.set::<S>(start, end);
+        check_frames(start, end, topology.vertex_count())?;
+        self.rows.set(start, end);
         self.rows.narrow();
         let separation = S::from_f64(question.limits.separation);
-        self.boxes.fit::<S>(topology, start, end, separation);
+        self.boxes.fit(topology, start, end, separation);
         let update = begin.elapsed().as_secs_f64();
 
         let shares = match parallel::threads() {
@@ -233,7 +233,7 @@ impl<S: Scalar> Engine<S> {
         let boxes = &self.boxes;
         let is_strange = AtomicBool::new(false);
         parallel::for_each(&mut self.workers, |index, worker| {
-            let begin = Instant::now();
+            let begin = Clock::now();
             let (kind, index) = match index.checked_sub(shares) {
                 None => (PairKind::VertexFace, index),
                 Some(index) => (PairKind::EdgeEdge, index),
@@ -266,16 +266,16 @@ impl<S: Scalar> Engine<S> {
     }
 
     /// The pairs that moving boxes leave.
-    pub(crate) fn candidates(
+    pub(crate) fn candidates<P: Position<Scalar = S>>(
         &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
+        start: &[P],
+        end: &[P],
         limits: &Limits<S>,
         boxes: CandidateBoxes,
         vertex_face: &mut Vec<[u32; 2]>,
         edge_edge: &mut Vec<[u32; 2]>,
     ) -> Result<(), StepError> {
-        let begin = Instant::now();
+        let begin = Clock::now();
         let fit = Fit {
             separation: limits.separation,
             is_swept: boxes == CandidateBoxes::Swept,
@@ -314,7 +314,7 @@ impl<S: Scalar> Engine<S> {
 
     /// Replaces `contacts` by those of the last run.
     pub(crate) fn collect_contacts(&mut self, contacts: &mut Vec<Contact<S>>) {
-        let begin = Instant::now();
+        let begin = Clock::now();
         contacts.clear();
         for worker in &mut self.workers {
             let found = &worker.found.contacts;
@@ -335,7 +335,7 @@ impl<S: Scalar> Engine<S> {
         earliest.map(in_format_of_positions)
     }
 
-    fn count(&mut self, begin: Instant, update: f64) {
+    fn count(&mut self, begin: Clock, update: f64) {
         let mut tally = StepTally {
             broad_phase_seconds: update,
             ..StepTally::default()

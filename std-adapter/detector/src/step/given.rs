@@ -13,13 +13,13 @@
 //! certified to drop a pair is derived with the [boxes](selvedge_core::boxes::moving) and their [mapping](selvedge_core::boxes::mapping).
 
 use crate::PairKind;
-use crate::broad_phase::moving::extent;
+use crate::broad_phase::extent;
 use crate::dispatch::Level;
 use crate::mesh::Topology;
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
-use selvedge_core::Scalar;
 use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::moving::MovingBox;
+use selvedge_core::{Position, Scalar};
 
 /// A moving box as one row of sixteen numbers: lower and negated upper corner at the start, and at the end.
 #[derive(Clone, Copy, Debug)]
@@ -59,8 +59,8 @@ pub(super) struct PrimitiveBoxes {
 
 impl PrimitiveBoxes {
     /// Makes the boxes of a step. Pairs that they show to be apart are so by more than `separation`.
-    pub(super) fn fit<S: Scalar>(&mut self, topology: &Topology, start: &[S::Vector], end: &[S::Vector], separation: S) {
-        let mapping = Mapping::new(&extent::<S>(start, end), separation, S::ONE, false);
+    pub(super) fn fit<S: Scalar, P: Position<Scalar = S>>(&mut self, topology: &Topology, start: &[P], end: &[P], separation: S) {
+        let mapping = Mapping::new(&extent(start, end), separation, S::ONE, false);
         let moving = start.iter().zip(end);
         self.vertex_boxes.clear();
         self.vertex_boxes
@@ -131,7 +131,7 @@ mod tests {
         let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]]).unwrap();
         let frame = |vertex: DVec3| [&corners[..], &[vertex], &far].concat();
         let mut boxes = PrimitiveBoxes::default();
-        boxes.fit::<f64>(&topology, &frame(start), &frame(end), separation);
+        boxes.fit(&topology, &frame(start), &frame(end), separation);
         let mut answers = available_levels().into_iter().map(|(_, level)| {
             let mut near = Vec::new();
             let known = boxes.keep_near(level, PairKind::VertexFace, &[[3, 0]], &mut near);
@@ -172,7 +172,7 @@ mod tests {
         let topology = Topology::new(4, vec![[0, 1, 2], [1, 3, 2]]).unwrap();
         let frame = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE];
         let mut boxes = PrimitiveBoxes::default();
-        boxes.fit::<f64>(&topology, &frame, &frame, 0.0);
+        boxes.fit(&topology, &frame, &frame, 0.0);
         let mut near = Vec::new();
         let pairs = [[3, 1], [0, 1], [3, 0], [1, 0], [2, 1]];
         let level = crate::dispatch::best_level();

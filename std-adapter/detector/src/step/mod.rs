@@ -1,88 +1,27 @@
-//! **For an engine**: a mesh's contacts, step by step.
-//!
-//! ```text
-//! once per mesh   topology
-//! every step      positions at the start and at the end
-//!   │  broad phase   hierarchies of moving boxes, refitted: candidate VF and EE pairs
-//!   │  filter        certified non-coplanarity, sixteen pairs at a time
-//!   │  elementary    certified time of impact, in sweeps over all open pairs
-//!   ▼
-//! contacts with their times, in a buffer of the caller's
-//! ```
-//!
-//! ```
-//! use selvedge::{glam::DVec3, mesh::Topology, step::CollisionDetector};
-//!
-//! // Once: a small triangle above a large one.
-//! let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?;
-//! let mut detector = CollisionDetector::<f64>::new(topology, 1)?;
-//! let mut contacts = Vec::new();
-//!
-//! let mut start = vec![DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, -5.0, 0.0), DVec3::new(0.0, 5.0, 0.0)];
-//! start.extend([DVec3::new(0.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 1.1), DVec3::new(0.0, 1.0, 1.2)]);
-//! for _ in 0..3 {
-//!     // Each step: it falls by 0.4.
-//!     let mut end = start.clone();
-//!     for vertex in &mut end[3..] {
-//!         vertex.z -= 0.4;
-//!     }
-//!     detector.contacts(&start, &end, &mut contacts)?;
-//!     start = end;
-//! }
-//! // In the third step its three vertices go through the large face.
-//! assert_eq!(contacts.len(), 3);
-//! assert_eq!(contacts[0].pair[1], 0);
-//! let first = contacts.iter().map(|contact| contact.time).fold(1.0, f64::min);
-//! assert!(first <= 0.5 && first > 0.5 - 1e-8);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
-//!
-//! # What can be asked
-//! | question | method | what it saves |
-//! |---|---|---|
-//! | all contacts with their times | [`contacts`](CollisionDetector::contacts) | |
-//! | the earliest contact | [`earliest`](CollisionDetector::earliest) | looks at a short part of the step first, and never beyond the earliest contact so far |
-//! | is the step free of contact? | [`is_free`](CollisionDetector::is_free) | ends at the first contact |
-//! | which pairs come near each other? | [`candidates`](CollisionDetector::candidates) | ends after the broad phase |
-//! | contacts of pairs that the caller has | [`contacts_of`](CollisionDetector::contacts_of) | no broad phase |
-//!
-//! Vertices that rest, and meshes that never move, are named once
-//! ([`set_moving`](CollisionDetector::set_moving)): pairs in which nothing moves are not looked at, and boxes of what rests
-//! are fitted once. Several meshes are one topology, the triangles of each with their own vertices.
-//!
-//! # What is promised
-//! * **No contact is missed** and no time is later than the exact one, rounding included, in every floating-point environment
-//!   ([`selvedge_core`](crate::core)). Pairs that come within the tolerance of the separation, or too close for
-//!   rounding to tell, count as contacts.
-//! * Positions in `f32` are computed with in `f64` where `f32` leaves a pair open: contacts are as sharp, and times, rounded
-//!   down, as late as if they were given in `f64`. Positions in `f64` that are all `f32` numbers are as fast as those in `f32`.
-//! * The same contacts with the same times in the same order, on any number of threads and every instruction set. (The order is
-//!   that of the hierarchies, which depends on the steps before; the set and the times do not.)
-//! * After the first step nothing is allocated, unless there are more pairs than ever or hierarchies are built anew. (With
-//!   several threads rayon may still allocate for its queues.)
-//! * Frames of the wrong length, and positions that are not finite, are errors.
+//! A mesh's contacts, step by step: what an engine asks, put to the stages.
 
 mod chunk;
 mod engine;
 mod given;
+#[cfg(feature = "verification")]
+mod shown;
 mod sweep;
 
-pub use crate::frame::StepError;
-pub use crate::parallel::ThreadError;
 pub use engine::StepTally;
 
 use crate::PairKind;
-use crate::dispatch::Level;
-use crate::frame::check_length;
+use crate::clock::Clock;
+use crate::frame::{StepError, check_length};
 use crate::mesh::Topology;
-use crate::parallel::Threads;
+use crate::parallel::Workers;
+#[cfg(feature = "parallel")]
+use crate::parallel::{ThreadError, Threads};
 use engine::{Engine, PROBES, Probe};
-use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
 use selvedge_core::narrowing::widened;
+use selvedge_core::{Position, Scalar};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::Instant;
 
 /// A pair for which contact during the step is not excluded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,9 +30,54 @@ pub struct Contact<S> {
     pub kind: PairKind,
     /// The vertex and the face, or the two edges, as numbered by the [`Topology`].
     pub pair: [u32; 2],
-    /// When, in [0, 1] of the step. With the certified time of impact not after the exact time, and hardly before
-    /// it; with the plain cubic as computed.
+    /// When, in [0, 1] of the step: not after the exact time, and hardly before it ([how early](CollisionDetector::earliest)).
     pub time: S,
+}
+
+/// What counts as a contact. Lengths are in the unit of the positions.
+///
+/// ```
+/// use selvedge::core::elementary::Limits;
+/// use selvedge::{CollisionDetector, Criterion, Topology};
+///
+/// let mut detector = CollisionDetector::<f32>::new(Topology::new(3, vec![[0, 1, 2]])?);
+/// // Cloth that is to stay a millimetre away from all else, in metres.
+/// let limits = Limits { separation: 1e-3, ..Limits::default() };
+/// detector.set_criterion(Criterion::Within(limits))?;
+/// // A negative length is none.
+/// let refused = detector.set_criterion(Criterion::Touching { tolerance: -1.0 });
+/// assert!(refused.is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Criterion<S> {
+    /// Pairs that cannot be proven to stay farther apart than the separation, all that come within the tolerance of it among them.
+    Within(Limits<S>),
+    /// Only pairs that truly touch, by the [exact verdict](mod@selvedge_core::elementary::contact). Their times are those of
+    /// [`Within`](Self::Within) this tolerance of touching.
+    Touching {
+        /// How much earlier than the contact, as a distance between the two, a time may be.
+        tolerance: S,
+    },
+}
+
+impl<S: Scalar> Criterion<S> {
+    const fn limits(&self) -> Limits<S> {
+        match *self {
+            Self::Within(limits) => limits,
+            Self::Touching { tolerance } => Limits {
+                tolerance,
+                separation: S::ZERO,
+            },
+        }
+    }
+}
+
+impl<S: Scalar> Default for Criterion<S> {
+    /// Within [`Limits::default`]: no separation.
+    fn default() -> Self {
+        Self::Within(Limits::default())
+    }
 }
 
 /// Which boxes tell candidates.
@@ -125,7 +109,7 @@ pub(crate) struct Question {
     pub(crate) wanted: Wanted,
     /// Whether pairs that the filter keeps are wanted as well.
     pub(crate) keeps_filtered: bool,
-    /// Whether only pairs that truly touch are contacts, by the exact verdict. For separation zero.
+    /// Whether only pairs that truly touch are contacts, by the exact verdict.
     pub(crate) is_exact: bool,
 }
 
@@ -165,50 +149,108 @@ impl Bound {
     }
 }
 
-/// Finds the contacts of a mesh, one step after another; see the [module](self).
+/// Finds the contacts of a mesh, one step after another. `S` is the format of the positions, `f32` or `f64`; they come as glam's vectors or
+/// as arrays of three ([`Position`]).
+///
+/// ```text
+/// once per mesh   topology
+/// every step      positions at the start and at the end
+///   │  broad phase   hierarchies of moving boxes, refitted: candidate VF and EE pairs
+///   │  filter        certified non-coplanarity, sixteen pairs at a time
+///   │  elementary    certified time of impact, in sweeps over all open pairs
+///   ▼
+/// contacts with their times, in a buffer of the caller's
+/// ```
+///
+/// ```
+/// use selvedge::{CollisionDetector, Topology, glam::DVec3};
+///
+/// // Once: a small triangle above a large one.
+/// let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?;
+/// let mut detector = CollisionDetector::<f64>::new(topology);
+/// let mut contacts = Vec::new();
+///
+/// let mut start = vec![DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, -5.0, 0.0), DVec3::new(0.0, 5.0, 0.0)];
+/// start.extend([DVec3::new(0.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 1.1), DVec3::new(0.0, 1.0, 1.2)]);
+/// for _ in 0..3 {
+///     // Each step: it falls by 0.4.
+///     let mut end = start.clone();
+///     for vertex in &mut end[3..] {
+///         vertex.z -= 0.4;
+///     }
+///     detector.contacts(&start, &end, &mut contacts)?;
+///     start = end;
+/// }
+/// // In the third step its three vertices go through the large face.
+/// assert_eq!(contacts.len(), 3);
+/// assert_eq!(contacts[0].pair[1], 0);
+/// let first = contacts.iter().map(|contact| contact.time).fold(1.0, f64::min);
+/// assert!(first <= 0.5 && first > 0.5 - 1e-8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # What can be asked
+/// | question | method | what it saves |
+/// |---|---|---|
+/// | all contacts with their times | [`contacts`](Self::contacts) | |
+/// | the earliest contact | [`earliest`](Self::earliest) | looks at a short part of the step first, and never beyond the earliest contact so far |
+/// | is the step free of contact? | [`is_free`](Self::is_free) | ends at the first contact |
+/// | which pairs come near each other? | [`candidates`](Self::candidates) | ends after the broad phase |
+/// | contacts of pairs that the caller has | [`contacts_of`](Self::contacts_of) | no broad phase |
+///
+/// Vertices that rest, and meshes that never move, are named once
+/// ([`set_moving`](Self::set_moving)): pairs in which nothing moves are not looked at, and boxes of what rests
+/// are fitted once. Several meshes are one topology, the triangles of each with their own vertices.
+///
+/// # What is promised
+/// * **No contact is missed** and no time is later than the exact one, rounding included, in every floating-point environment
+///   ([`selvedge_core`](crate::core)). Pairs that come within the tolerance of the separation, or too close for
+///   rounding to tell, count as contacts.
+/// * Positions in `f32` are computed with in `f64` where `f32` leaves a pair open: contacts are as sharp, and times, rounded
+///   down, as late as if they were given in `f64`. Positions in `f64` that are all `f32` numbers are as fast as those in `f32`.
+/// * The same contacts with the same times in the same order, on any number of threads and every instruction set. (The order is
+///   that of the hierarchies, which depends on the steps before; the set and the times do not.)
+/// * After the first step nothing is allocated, unless there are more pairs than ever or hierarchies are built anew. (With
+///   several threads rayon may still allocate for its queues.)
+/// * Frames of the wrong length, and positions that are not finite, are errors.
 #[derive(Debug)]
 pub struct CollisionDetector<S: Scalar> {
     engine: Engine<S>,
-    threads: Threads,
-    limits: Limits<S>,
-    is_exact: bool,
+    workers: Workers,
+    criterion: Criterion<S>,
 }
 
 impl<S: Scalar> CollisionDetector<S> {
-    /// A detector for a mesh, on `threads` threads (0: one for each core; 1: the calling thread).
-    ///
-    /// # Errors
-    /// If the operating system refuses the threads.
-    pub fn new(topology: impl Into<Arc<Topology>>, threads: usize) -> Result<Self, ThreadError> {
-        Ok(Self {
+    /// A detector for a mesh, on the calling thread.
+    #[must_use]
+    pub fn new(topology: impl Into<Arc<Topology>>) -> Self {
+        Self {
             engine: Engine::new(topology.into()),
-            threads: Threads::new(threads)?,
-            limits: Limits::default(),
-            is_exact: false,
-        })
+            workers: Workers::default(),
+            criterion: Criterion::default(),
+        }
     }
 
-    /// The separation that pairs must keep and the tolerance of times, in the unit of the positions. At first
-    /// [`Limits::default`]: no separation.
+    /// The threads that steps are split between; at first [`Threads::Calling`].
     ///
     /// # Errors
-    /// If one of them is negative, infinite or NaN. Then both stay as they were.
-    pub fn set_limits(&mut self, limits: Limits<S>) -> Result<(), StepError> {
-        check_length(limits.separation)?;
-        check_length(limits.tolerance)?;
-        self.limits = limits;
+    /// If the operating system refuses the threads. Then they stay as they were.
+    #[cfg(feature = "parallel")]
+    pub fn set_threads(&mut self, threads: Threads) -> Result<(), ThreadError> {
+        self.workers = Workers::new(threads)?;
         Ok(())
     }
 
-    /// Whether only pairs that truly touch count as contacts, by the [exact verdict](mod@selvedge_core::elementary::contact); at
-    /// first not. With a separation it has no effect: touching is all that the verdict decides.
-    pub const fn set_exact(&mut self, is_exact: bool) {
-        self.is_exact = is_exact;
-    }
-
-    /// Forces the instruction set; the best that the machine has is the default. Changes no result.
-    pub const fn set_level(&mut self, level: Level) {
-        self.engine.set_level(level);
+    /// What counts as a contact; at first [`Criterion::default`].
+    ///
+    /// # Errors
+    /// If a length is negative, infinite or NaN. Then it stays as it was.
+    pub fn set_criterion(&mut self, criterion: Criterion<S>) -> Result<(), StepError> {
+        let limits = criterion.limits();
+        check_length(limits.separation)?;
+        check_length(limits.tolerance)?;
+        self.criterion = criterion;
+        Ok(())
     }
 
     /// Names the vertices that move, true for each that does; `None`: all of them, as at first.
@@ -221,8 +263,7 @@ impl<S: Scalar> CollisionDetector<S> {
     pub fn set_moving(&mut self, moving: Option<&[bool]>) -> Result<(), StepError> {
         let expected = self.topology().vertex_count();
         match moving {
-            Some(moving) if moving.len() != expected => Err(StepError::WrongLength {
-                frame: "moving",
+            Some(moving) if moving.len() != expected => Err(StepError::WrongCount {
                 found: moving.len(),
                 expected,
             }),
@@ -237,10 +278,15 @@ impl<S: Scalar> CollisionDetector<S> {
     ///
     /// # Errors
     /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
-    pub fn contacts(&mut self, start: &[S::Vector], end: &[S::Vector], contacts: &mut Vec<Contact<S>>) -> Result<(), StepError> {
+    pub fn contacts<P: Position<Scalar = S>>(
+        &mut self,
+        start: &[P],
+        end: &[P],
+        contacts: &mut Vec<Contact<S>>,
+    ) -> Result<(), StepError> {
         let question = self.question(Wanted::All);
         let engine = &mut self.engine;
-        self.threads.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        self.workers.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
         self.engine.collect_contacts(contacts);
         Ok(())
     }
@@ -248,7 +294,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// The earliest contact of the step; of several at the same time the one with the smallest numbers, vertex–face first.
     ///
     /// It is the first of all that [`contacts`](Self::contacts) finds, with the same time. Writing s for the separation and δ for the
-    /// tolerance of the [limits](Self::set_limits):
+    /// tolerance of the [criterion](Self::set_criterion):
     /// * **The time is a certified lower bound.** Before it no two primitives are within s of each other, rounding included. So the
     ///   step may be taken up to it (`start + (end − start)·time`, but for the rounding of these positions), and any step shorter
     ///   than it is free. `None` is a proof that the whole step is.
@@ -265,13 +311,13 @@ impl<S: Scalar> CollisionDetector<S> {
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).
-    pub fn earliest(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<Option<Contact<S>>, StepError> {
+    pub fn earliest<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P]) -> Result<Option<Contact<S>>, StepError> {
         let question = self.question(Wanted::Earliest);
-        let begin = Instant::now();
+        let begin = Clock::now();
         let mut earliest = None;
         for probe in PROBES {
             let engine = &mut self.engine;
-            self.threads.run(|| engine.run(start, end, &question, probe))?;
+            self.workers.run(|| engine.run(start, end, &question, probe))?;
             earliest = self.engine.earliest();
             if earliest.is_some() {
                 break;
@@ -285,10 +331,10 @@ impl<S: Scalar> CollisionDetector<S> {
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).
-    pub fn is_free(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<bool, StepError> {
+    pub fn is_free<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P]) -> Result<bool, StepError> {
         let question = self.question(Wanted::Any);
         let engine = &mut self.engine;
-        self.threads.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        self.workers.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
         Ok(self.engine.tally().contacts.total() == 0)
     }
 
@@ -297,17 +343,17 @@ impl<S: Scalar> CollisionDetector<S> {
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts).
-    pub fn candidates(
+    pub fn candidates<P: Position<Scalar = S>>(
         &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
+        start: &[P],
+        end: &[P],
         boxes: CandidateBoxes,
         vertex_face: &mut Vec<[u32; 2]>,
         edge_edge: &mut Vec<[u32; 2]>,
     ) -> Result<(), StepError> {
-        let limits = self.limits;
+        let limits = self.criterion.limits();
         let engine = &mut self.engine;
-        self.threads
+        self.workers
             .run(|| engine.candidates(start, end, &limits, boxes, vertex_face, edge_edge))
     }
 
@@ -318,51 +364,20 @@ impl<S: Scalar> CollisionDetector<S> {
     ///
     /// # Errors
     /// As [`contacts`](Self::contacts), and if a pair names what the mesh does not have.
-    pub fn contacts_of(
+    pub fn contacts_of<P: Position<Scalar = S>>(
         &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
+        start: &[P],
+        end: &[P],
         vertex_face: &[[u32; 2]],
         edge_edge: &[[u32; 2]],
         contacts: &mut Vec<Contact<S>>,
     ) -> Result<(), StepError> {
         let question = self.question(Wanted::All);
         let engine = &mut self.engine;
-        self.threads
+        self.workers
             .run(|| engine.run_on(start, end, &question, [vertex_face, edge_edge]))?;
         self.engine.collect_contacts(contacts);
         Ok(())
-    }
-
-    /// As [`contacts`](Self::contacts), and replaces `vertex_face` and `edge_edge` by the pairs that the filter leaves.
-    ///
-    /// # Errors
-    /// As [`contacts`](Self::contacts).
-    #[cfg(feature = "verification")]
-    #[doc(hidden)]
-    pub fn contacts_and_filtered(
-        &mut self,
-        start: &[S::Vector],
-        end: &[S::Vector],
-        contacts: &mut Vec<Contact<S>>,
-        vertex_face: &mut Vec<[u32; 2]>,
-        edge_edge: &mut Vec<[u32; 2]>,
-    ) -> Result<(), StepError> {
-        let question = Question {
-            keeps_filtered: true,
-            ..self.question(Wanted::All)
-        };
-        let engine = &mut self.engine;
-        self.threads.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
-        self.engine.collect_contacts(contacts);
-        self.engine.collect_kept(vertex_face, edge_edge);
-        Ok(())
-    }
-
-    /// What the last step counted and how long its stages took.
-    #[must_use]
-    pub const fn tally(&self) -> &StepTally {
-        self.engine.tally()
     }
 
     /// The mesh's vertices, edges and triangles.
@@ -374,16 +389,15 @@ impl<S: Scalar> CollisionDetector<S> {
     /// How many threads a step uses.
     #[must_use]
     pub fn threads(&self) -> usize {
-        self.threads.count()
+        self.workers.count()
     }
 
     fn question(&self, wanted: Wanted) -> Question {
-        let limits = widened(&self.limits);
         Question {
-            limits,
+            limits: widened(&self.criterion.limits()),
             wanted,
             keeps_filtered: false,
-            is_exact: self.is_exact && limits.separation <= 0.0,
+            is_exact: matches!(self.criterion, Criterion::Touching { .. }),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Sweeps: one round of advancing for all open pairs, after which those that it decides are dropped.
 
-use crate::broad_phase::moving::CHUNK;
+use crate::broad_phase::CHUNK;
 use crate::dispatch::Level;
 use selvedge_core::PairKind;
 use selvedge_core::Scalar;

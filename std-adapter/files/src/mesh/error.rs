@@ -1,6 +1,6 @@
 //! What can be wrong with a mesh file, each with a message that says where and what to do.
 
-use selvedge::mesh::{Topology, TopologyError};
+use selvedge::{Topology, TopologyError};
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};

@@ -17,7 +17,7 @@ pub use ply::PlyEncoding;
 pub use step::{MeshStep, read_step};
 
 use crate::temporary_file;
-use selvedge::mesh::{Mesh, Topology, TopologyError, TopologyStatistics};
+use selvedge::{Mesh, Topology, TopologyError, TopologyStatistics};
 use selvedge_core::glam::DVec3;
 use std::fmt;
 use std::io::{self, BufWriter, Write};
@@ -145,7 +145,7 @@ pub fn write_as(path: &Path, mesh: &Mesh, format: FileFormat) -> Result<(), Mesh
 /// If the mesh is one that [`read`] would refuse.
 ///
 /// ```
-/// use selvedge::{glam::DVec3, mesh::Mesh};
+/// use selvedge::{Mesh, glam::DVec3};
 /// use selvedge_files::mesh::{FileFormat, write_bytes};
 ///
 /// let mesh = Mesh {

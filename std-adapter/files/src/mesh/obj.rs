@@ -10,7 +10,7 @@
 use super::error::FileProblem;
 use super::{Parsed, check_finite};
 use crate::excerpt::excerpt;
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use std::borrow::Cow;
 use std::io::{self, Write};

@@ -12,7 +12,7 @@ use ply_rs_bw::ply::{
     Addable, ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyDef, PropertyType, ScalarType,
 };
 use ply_rs_bw::writer::Writer;
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use std::collections::HashSet;
 use std::io::{self, BufRead, Write};

@@ -2,7 +2,7 @@
 
 use super::error::{FrameDifference, MeshError};
 use super::{MeshNotes, load};
-use selvedge::mesh::Topology;
+use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 use std::path::Path;
 

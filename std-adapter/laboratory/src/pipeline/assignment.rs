@@ -1,6 +1,6 @@
 //! Which triangle represents which vertices and edges, decided once per mesh.
 
-use selvedge::mesh::Topology;
+use selvedge::Topology;
 use selvedge_core::{FeatureEdge, FeatureTriangle, Features};
 
 /// The triangles of a mesh as distribution sees them: vertices and edges in lists, those that the triangle represents
@@ -15,7 +15,7 @@ impl FeatureAssignment {
     /// Every vertex with a triangle, and every edge, ends up with exactly one representative.
     ///
     /// ```
-    /// use selvedge::mesh::Topology;
+    /// use selvedge::Topology;
     /// use selvedge_laboratory::pipeline::FeatureAssignment;
     /// let topology = Topology::new(4, vec![[0, 1, 2], [2, 1, 3]])?;
     /// let assignment = FeatureAssignment::representative(&topology);
@@ -25,7 +25,7 @@ impl FeatureAssignment {
     /// };
     /// assert_eq!((counts(0), counts(1)), ((3, 3), (1, 2)));
     /// assert_eq!(assignment.triangles()[1].vertices[0], 3);
-    /// # Ok::<(), selvedge::mesh::TopologyError>(())
+    /// # Ok::<(), selvedge::TopologyError>(())
     /// ```
     #[must_use]
     pub fn representative(topology: &Topology) -> Self {

@@ -18,10 +18,10 @@
 //! A published method is a [`Preset`]: a choice of stages ([`Stages`]), never another loop. All of them run the
 //! same code, on the same broad phase, so their times compare; every test goes sixteen pairs at a time
 //! ([`selvedge_core::batch`]). The presets `selvedge` and `selvedge_exact` alone have no triangle pairs
-//! ([`Source::MovingBoxes`]): they are [`step`](selvedge::step), counted as the others are.
+//! ([`Source::MovingBoxes`]): they are [`CollisionDetector`], counted as the others are.
 //!
 //! ```
-//! use selvedge::{glam::DVec3, mesh::Topology};
+//! use selvedge::{glam::DVec3, Topology};
 //! use selvedge_laboratory::pipeline::{Pipeline, Preset};
 //!
 //! // A small triangle falls through a large one.
@@ -52,23 +52,24 @@ mod swept;
 pub use assignment::FeatureAssignment;
 pub use preset::{CullingTest, ElementaryTest, Preset, Redundancy, Source, Stage, Stages, UnknownPreset};
 pub use report::{StageReport, StepReport};
-pub use selvedge::frame::StepError;
-pub use selvedge::parallel::ThreadError;
-pub use selvedge::step::Contact;
+pub use selvedge::Contact;
+pub use selvedge::StepError;
+pub use selvedge::ThreadError;
 
+use crate::broad_phase::{BroadPhase, SweptBox};
 use batch::{Batch, StepInput};
 use pairs::MovingMesh;
 use rustc_hash::FxHashSet;
-use selvedge::PairCounts;
 use selvedge::PairKind;
-use selvedge::broad_phase::{BroadPhase, SweptBox};
-use selvedge::dispatch::{Level, best_level};
-use selvedge::frame::check_frames;
-use selvedge::mesh::Topology;
-use selvedge::parallel::{self, Threads};
-use selvedge::step::CollisionDetector;
+use selvedge::Topology;
+use selvedge::verification::PairCounts;
+use selvedge::verification::check_frames;
+use selvedge::verification::parallel::{self, Workers};
+use selvedge::verification::{Level, best_level};
+use selvedge::{CollisionDetector, Criterion, Threads};
 use selvedge_core::batch::VertexRow;
 use selvedge_core::boxes::{Aabb, Dop18};
+use selvedge_core::elementary::Limits;
 use selvedge_core::{Motion, Scalar};
 use std::sync::Arc;
 use std::time::Instant;
@@ -89,7 +90,7 @@ pub struct Pipeline<S: Scalar> {
     stages: Stages,
     route: Route<S>,
     /// Those of the route with triangle pairs; a detector has its own.
-    threads: Threads,
+    threads: Workers,
     buffers: Buffers<S>,
     report: StepReport,
 }
@@ -134,15 +135,20 @@ impl<S: Scalar> Pipeline<S> {
     /// If the operating system refuses the threads.
     pub fn new(topology: impl Into<Arc<Topology>>, stages: Stages, threads: usize) -> Result<Self, ThreadError> {
         let topology = topology.into();
-        let mut own_threads = Threads::default();
+        let mut own_threads = Workers::default();
         let route = match stages.source {
             Source::MovingBoxes => {
-                let mut detector = CollisionDetector::new(topology.clone(), threads)?;
-                detector.set_exact(stages.elementary == ElementaryTest::Exact);
+                let mut detector = CollisionDetector::new(topology.clone());
+                detector.set_threads(Threads::from_count(threads))?;
+                if stages.elementary == ElementaryTest::Exact {
+                    let tolerance = Limits::default().tolerance;
+                    let touching = detector.set_criterion(Criterion::Touching { tolerance });
+                    debug_assert!(touching.is_ok(), "a length");
+                }
                 Route::MovingBoxes(Box::new(detector))
             }
             Source::TrianglePairs(redundancy) => {
-                own_threads = Threads::new(threads)?;
+                own_threads = Workers::new(Threads::from_count(threads))?;
                 let assignment = match redundancy {
                     Redundancy::RepresentativeTriangles => FeatureAssignment::representative(&topology),
                     Redundancy::Kept | Redundancy::HashSets => FeatureAssignment::every_feature(&topology),
@@ -197,7 +203,7 @@ impl<S: Scalar> Pipeline<S> {
     /// # Errors
     /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
     pub fn step(&mut self, start: &[S::Vector], end: &[S::Vector]) -> Result<&StepReport, StepError> {
-        check_frames::<S>(start, end, self.topology.vertex_count())?;
+        check_frames(start, end, self.topology.vertex_count())?;
         let Self {
             topology,
             stages,

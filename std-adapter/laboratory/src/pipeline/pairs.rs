@@ -1,6 +1,6 @@
 //! Primitive pairs by the numbers of their features, and the points that belong to them.
 
-use selvedge::mesh::Topology;
+use selvedge::Topology;
 use selvedge_core::batch::VertexRow;
 use selvedge_core::{EdgeEdge, Motion, Scalar, VertexFace};
 

@@ -9,7 +9,7 @@ pub enum Source {
     /// Candidate triangle pairs, distributed.
     TrianglePairs(Redundancy),
     /// Hierarchies of moving boxes over vertices, edges and faces, which find each primitive pair once
-    /// ([`broad_phase::moving`](selvedge::broad_phase::moving)); then the certified stages of [`step`](selvedge::step), whatever
+    /// ([`MovingBroadPhase`](selvedge::verification::MovingBroadPhase)); then the certified stages of [`CollisionDetector`], whatever
     /// the tests, and exact verdicts for [`ElementaryTest::Exact`].
     MovingBoxes,
 }

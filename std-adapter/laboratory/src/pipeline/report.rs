@@ -2,8 +2,8 @@
 
 use super::preset::Stage;
 use arrayvec::ArrayVec;
-use selvedge::PairCounts;
-use selvedge::step::StepTally;
+use selvedge::verification::PairCounts;
+use selvedge::verification::StepTally;
 
 /// One stage after the broad phase.
 #[derive(Clone, Copy, Debug, PartialEq)]

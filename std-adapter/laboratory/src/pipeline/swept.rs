@@ -6,8 +6,8 @@
 //! outwards**. Some pairs that were narrowly apart may be added; the primitive box tests see the exact positions. Taking m
 //! off first keeps `f32` precise for a mesh that is far from the origin.
 
-use selvedge::broad_phase::SweptBox;
-use selvedge::parallel;
+use crate::broad_phase::SweptBox;
+use selvedge::verification::parallel;
 use selvedge_core::Scalar;
 use selvedge_core::boxes::Aabb;
 use selvedge_core::boxes::mapping::image;

@@ -6,7 +6,7 @@ use crate::pipeline::{Contact, Stage};
 use crate::study::{Comparison, ComparisonRow, MeanCounts};
 use ::csv::Writer;
 use selvedge::PairKind;
-use selvedge::mesh::Topology;
+use selvedge::Topology;
 use selvedge_core::Scalar;
 use std::io::{self, Write};
 

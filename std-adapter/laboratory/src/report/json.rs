@@ -12,7 +12,7 @@ use crate::study::elementary::ElementaryAccuracy;
 use crate::study::{Accuracy, AccuracySet};
 use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
 use crate::study::{HardAnswer, HardResult, QueryMethod, QueryResult};
-use selvedge::PairCounts;
+use selvedge::verification::PairCounts;
 use serde_json::{Value, json};
 
 /// One step: `selvedge cull`.

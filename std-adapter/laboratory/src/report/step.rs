@@ -1,8 +1,8 @@
 //! One step of one method, with what a reader needs to know about it.
 
 use crate::pipeline::{Pipeline, Preset, StepReport};
-use selvedge::mesh::Topology;
-use selvedge::step::CollisionDetector;
+use selvedge::CollisionDetector;
+use selvedge::Topology;
 use selvedge_core::Scalar;
 
 /// What was asked of a step.

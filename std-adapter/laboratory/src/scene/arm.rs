@@ -9,7 +9,7 @@
 //! elbow faces y; the forearm turns in the x-y plane.
 
 use libm::{cos, sin};
-use selvedge::mesh::{Mesh, Topology};
+use selvedge::{Mesh, Topology};
 use selvedge_cloth::sleeve::{RefinementError, sleeve};
 use selvedge_core::glam::DVec3;
 use std::f64::consts::TAU;

@@ -2,8 +2,8 @@
 
 use super::Frames;
 use crate::scene::ArmScene;
+use selvedge::Topology;
 use selvedge::glam::DVec3;
-use selvedge::mesh::Topology;
 use selvedge_cloth::sleeve::RefinementError;
 
 /// The whole bend of an [`ArmScene`] in equal steps.

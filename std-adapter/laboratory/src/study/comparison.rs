@@ -2,8 +2,8 @@
 
 use super::Frames;
 use crate::pipeline::{Contact, Pipeline, Preset, Stage, StepReport};
-use selvedge::PairCounts;
 use selvedge::PairKind;
+use selvedge::verification::PairCounts;
 use std::error::Error;
 
 /// Means per step.

@@ -1,7 +1,7 @@
 //! A mesh in motion, step by step.
 
+use selvedge::Topology;
 use selvedge::glam::DVec3;
-use selvedge::mesh::Topology;
 
 /// Steps of one mesh, each from one frame to another. A step need not begin where the one before ends.
 pub trait Frames {

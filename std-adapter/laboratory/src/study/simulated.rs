@@ -1,8 +1,8 @@
 //! Steps of a simulation.
 
 use super::Frames;
+use selvedge::Topology;
 use selvedge::glam::DVec3;
-use selvedge::mesh::Topology;
 use selvedge_cloth::{Scene, Simulation};
 
 /// Some of a simulation's steps, evenly spread over it: the cloth alone, without bodies.

@@ -2,8 +2,8 @@
 
 use super::view::{Seen, View};
 use super::{FigureError, FigurePairs};
+use selvedge::Topology;
 use selvedge::glam::{DVec3, Vec3};
-use selvedge::mesh::Topology;
 use tiny_skia::{FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
 /// Red, green, blue.

@@ -6,8 +6,8 @@ mod panel;
 mod view;
 
 use drawing::{Drawing, Marks};
+use selvedge::Topology;
 use selvedge::glam::DVec3;
-use selvedge::mesh::Topology;
 use std::error::Error;
 use tiny_skia::{Color, Pixmap};
 use view::View;
@@ -70,7 +70,7 @@ pub enum FigureError {
 /// of the mesh, both panels show that part close up.
 ///
 /// ```
-/// use selvedge::{glam::DVec3, mesh::Topology};
+/// use selvedge::{glam::DVec3, Topology};
 /// use selvedge_laboratory::report::{FigurePairs, figure_3};
 ///
 /// let topology = Topology::new(4, vec![[0, 1, 2]])?;

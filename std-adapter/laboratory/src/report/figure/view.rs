@@ -1,7 +1,7 @@
 //! From where the mesh is seen.
 
+use selvedge::Topology;
 use selvedge::glam::{DVec2, DVec3};
-use selvedge::mesh::Topology;
 
 /// An orthographic view that fits the mesh into a rectangle.
 #[derive(Clone, Copy, Debug)]

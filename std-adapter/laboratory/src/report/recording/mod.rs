@@ -43,7 +43,7 @@ mod tests;
 pub use recorder::{FrameError, Recorder};
 pub use simulated::{SimulationRecorder, Subject, costs_of_added_effects};
 
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 
 /// A simulation, as it is remembered for reports.

@@ -2,7 +2,7 @@
 
 use super::{About, Added, FrameError, Knob, Part, PartKind, Recorder, Recording, SeriesKind};
 use crate::study::EffectCost;
-use selvedge::mesh::Mesh;
+use selvedge::Mesh;
 use selvedge_cloth::{Scene, Simulation};
 
 /// What a recording says of a scene, taken before a [`Simulation`] consumes it.

@@ -3,7 +3,7 @@
 use super::{AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, MeasuredFilter, PairSet};
 use crate::baselines::as_computed::AsComputed;
 use crate::baselines::plain::{self, Plain};
-use selvedge::dispatch::{Level, available_levels};
+use selvedge::verification::{Level, available_levels};
 use selvedge_core::PairKind;
 use selvedge_core::batch::{ByPoints, ByVolume, LANES, Mask, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::filter::{Filter, Tier};

@@ -1,6 +1,6 @@
 //! Broad phase against parry3d's `Bvh`: milliseconds to build, to refit, and to list all pairs in order.
 //!
-//! `cargo bench -p selvedge --bench broad_phase` runs on generated tubes. `SELVEDGE_BENCH_BOXES=FILE` runs on boxes
+//! `cargo bench -p selvedge-laboratory --bench broad_phase` runs on generated tubes. `SELVEDGE_BENCH_BOXES=FILE` runs on boxes
 //! from a file instead: six little-endian `f32` each, the lower corner, then the upper.
 
 use std::hint::black_box;
@@ -9,7 +9,7 @@ use std::time::Instant;
 use parry3d::bounding_volume::Aabb;
 use parry3d::math::Vector;
 use parry3d::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
-use selvedge::broad_phase::{BroadPhase, SweptBox};
+use selvedge_laboratory::broad_phase::{BroadPhase, SweptBox};
 
 fn main() {
     println!(

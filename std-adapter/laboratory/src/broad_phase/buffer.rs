@@ -1,5 +1,7 @@
 //! Memory that is kept from step to step.
 
+use selvedge::verification::with_headroom;
+
 /// A vector that grows and never shrinks.
 ///
 /// When it has had to grow it takes half as much again as it needed, so that the next steps, which need
@@ -44,18 +46,5 @@ impl<T> std::ops::Deref for Buffer<T> {
 impl<T> std::ops::DerefMut for Buffer<T> {
     fn deref_mut(&mut self) -> &mut [T] {
         &mut self.items
-    }
-}
-
-/// Half as much again.
-pub(super) fn with_headroom(len: usize) -> usize {
-    len + len / 2 + 1
-}
-
-/// To be called at the end of a step for a vector that is filled anew in each: makes room for half as much again as it holds, if
-/// there is hardly any room left.
-pub(crate) fn settle<T>(items: &mut Vec<T>) {
-    if items.capacity() < items.len() + items.len() / 8 + 1 {
-        items.reserve_exact(with_headroom(items.len()) - items.len());
     }
 }

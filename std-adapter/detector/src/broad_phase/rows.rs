@@ -6,7 +6,7 @@
 
 use crate::parallel;
 use selvedge_core::batch::VertexRow;
-use selvedge_core::{Motion, Scalar};
+use selvedge_core::{Motion, Position, Scalar};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Rows of all vertices.
@@ -43,10 +43,10 @@ impl Rows {
     }
 
     /// Replaces all by these.
-    pub(crate) fn set<S: Scalar>(&mut self, start: &[S::Vector], end: &[S::Vector]) {
+    pub(crate) fn set<P: Position>(&mut self, start: &[P], end: &[P]) {
         self.clear();
         let ends = start.iter().zip(end);
-        self.double.extend(ends.map(|(&start, &end)| row::<S>(start, end)));
+        self.double.extend(ends.map(|(&start, &end)| row(start, end)));
     }
 
     /// Looks whether all positions are `f32` numbers, and makes their rows if so.
@@ -68,9 +68,9 @@ const VERTICES: usize = 4096;
 
 /// The row of a vertex.
 #[inline(always)]
-pub(super) fn row<S: Scalar>(start: S::Vector, end: S::Vector) -> VertexRow<f64> {
-    let exact = |position: S::Vector| {
-        let [x, y, z]: [S; 3] = position.into();
+pub(super) fn row<P: Position>(start: P, end: P) -> VertexRow<f64> {
+    let exact = |position: P| {
+        let [x, y, z]: [P::Scalar; 3] = position.into();
         [x.to_f64(), y.to_f64(), z.to_f64()].into()
     };
     VertexRow::new(Motion::new(exact(start), exact(end)))

@@ -1,12 +1,11 @@
 //! A hierarchy of moving boxes over the vertices, the edges or the faces of a mesh.
 //!
-//! The primitives are put into an [order](super::super::order) in which any 16 (256, 4096, …) consecutive ones from a multiple
+//! The primitives are put into an [order](super::order) in which any 16 (256, 4096, …) consecutive ones from a multiple
 //! of that number lie close together. A *block* holds the moving boxes of sixteen of them side by side; a block of the next
 //! level holds the boxes of sixteen blocks, and so on up to the one block that holds all. So the tree is arrays alone: the
 //! children of block b are the blocks, or primitives, from 16b on, and no block but the last of a level has an empty lane.
 
-use super::super::hierarchy::LEAF;
-use super::super::order::{Centre, order};
+use super::order::{Centre, LEAF, order};
 use crate::parallel;
 use selvedge_core::batch::{LANES, Mask};
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};

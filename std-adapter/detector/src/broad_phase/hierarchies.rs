@@ -1,19 +1,20 @@
 //! The three hierarchies of a mesh, and their share of a step: refit, or build, and traversal.
 
 use super::MovingStatistics;
+use super::degradation::{Degradation, Prices};
 use super::pairs::Sink;
 use super::rows::{Rows, row};
 use super::traversal::{BlockPair, Scratch, Trees};
 use super::tree::Tree;
 use crate::PairKind;
-use crate::broad_phase::degradation::{Degradation, Prices};
+use crate::buffer::settle;
 use crate::dispatch::{Level, best_level};
 use crate::frame::{StepError, check_frames};
 use crate::mesh::Topology;
 use crate::parallel;
-use selvedge_core::Scalar;
 use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::{Aabb, moving::MovingBox};
+use selvedge_core::{Position, Scalar};
 use std::sync::Arc;
 
 /// An item is an edge; there are about as many vertices and faces together.
@@ -170,8 +171,8 @@ impl<S: Scalar> Hierarchies<S> {
     }
 
     /// Takes the positions of a step and finds where to look for pairs.
-    pub(crate) fn update(&mut self, start: &[S::Vector], end: &[S::Vector], fit: &Fit<S>) -> Result<(), StepError> {
-        check_frames::<S>(start, end, self.topology.vertex_count())?;
+    pub(crate) fn update<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P], fit: &Fit<S>) -> Result<(), StepError> {
+        check_frames(start, end, self.topology.vertex_count())?;
         let items = self.edges.len();
         if self.must_build || self.degradation.is_worth_a_build(PRICES, items) {
             self.build(start, end);
@@ -183,8 +184,8 @@ impl<S: Scalar> Hierarchies<S> {
         Ok(())
     }
 
-    fn build(&mut self, start: &[S::Vector], end: &[S::Vector]) {
-        self.extent = extent::<S>(start, end);
+    fn build<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P]) {
+        self.extent = extent(start, end);
         let middles = Mapping::new(&self.extent, S::ZERO, S::ONE, false);
         let middle = |vertex: u32| {
             let vertex = vertex as usize;
@@ -245,7 +246,7 @@ impl<S: Scalar> Hierarchies<S> {
         self.faces.mark(moves);
     }
 
-    fn refit(&mut self, start: &[S::Vector], end: &[S::Vector], mapping: Mapping) {
+    fn refit<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P], mapping: Mapping) {
         // What rests keeps the rows and boxes that it has.
         let only_moving = self.moving.is_some() && !self.refit_all && self.fitted == Some(mapping);
         let vertices = &self.vertices.primitives;
@@ -258,7 +259,7 @@ impl<S: Scalar> Hierarchies<S> {
                 let vertex = vertex as usize;
                 if moving.is_none_or(|moving| moving[vertex]) {
                     let (start, end) = (start[vertex], end[vertex]);
-                    *own_row = row::<S>(start, end);
+                    *own_row = row(start, end);
                     *moving_box = mapping.vertex::<S>(start.into(), end.into());
                 }
             }
@@ -284,8 +285,8 @@ impl<S: Scalar> Hierarchies<S> {
         let (level, scratch) = (self.level, &mut self.scratch);
         self.task_tests = vertex_face_trees.tasks(level, TASK_LEVEL, scratch, vertex_face);
         self.task_tests += edge_edge_trees.tasks(level, TASK_LEVEL, scratch, edge_edge);
-        crate::broad_phase::buffer::settle(vertex_face);
-        crate::broad_phase::buffer::settle(edge_edge);
+        settle(vertex_face);
+        settle(edge_edge);
     }
 
     /// Into how many parts the traversal is split on the threads there are: those of VF first.
@@ -333,6 +334,23 @@ impl<S: Scalar> Hierarchies<S> {
             }
             .pairs(self.level, share.tasks, scratch, sink),
         }
+    }
+
+    /// Gives `sink` the edges and faces that are near each other and have no vertex in common, by their positions.
+    pub(crate) fn visit_edge_face(&mut self, sink: &mut dyn Sink) {
+        let trees = Trees {
+            first: &self.edges,
+            second: &self.faces,
+            are_same: false,
+        };
+        let mut tasks = Vec::new();
+        trees.tasks(self.level, TASK_LEVEL, &mut self.scratch, &mut tasks);
+        trees.pairs(self.level, &tasks, &mut self.scratch, sink);
+    }
+
+    /// An edge and a face as the topology numbers them.
+    pub(crate) fn edge_face_in_mesh(&self, [edge, face]: [u32; 2]) -> [u32; 2] {
+        [self.edges.primitives[edge as usize], self.faces.primitives[face as usize]]
     }
 
     /// The candidates were found in so many tests, besides those of [`update`](Self::update).
@@ -420,10 +438,10 @@ const SHARES: usize = 16;
 const VERTICES: usize = 1024;
 
 /// The box of all positions of both frames.
-pub(crate) fn extent<S: Scalar>(start: &[S::Vector], end: &[S::Vector]) -> Aabb<f64> {
+pub(crate) fn extent<P: Position>(start: &[P], end: &[P]) -> Aabb<f64> {
     let mut extent = Aabb::<f64>::empty();
     for &position in start.iter().chain(end) {
-        let position: [S; 3] = position.into();
+        let position: [P::Scalar; 3] = position.into();
         for axis in 0..3 {
             let x = position[axis].to_f64();
             extent.lower[axis] = extent.lower[axis].min(x);

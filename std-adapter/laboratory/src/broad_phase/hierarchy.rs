@@ -2,11 +2,8 @@
 
 use super::SweptBox;
 use super::candidates::{Bounds, EMPTY, bounds, union};
-use super::order::{Centre, order};
-use crate::parallel;
+use selvedge::verification::{Centre, LEAF, order, parallel};
 
-/// Triangles in a group of the lowest level.
-pub(super) const LEAF: usize = 16;
 /// Groups in a group of the next level.
 pub(super) const BRANCHES: usize = 8;
 

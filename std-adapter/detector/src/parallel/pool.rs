@@ -1,0 +1,233 @@
+//! The feature `parallel`: rayon's threads.
+
+use std::cell::Cell;
+use std::fmt;
+use std::num::NonZeroUsize;
+
+/// The threads that work is split between. Contacts are the same, bit for bit, for all of them.
+///
+/// ```
+/// use selvedge::{CollisionDetector, Threads, Topology};
+///
+/// let topology = Topology::new(3, vec![[0, 1, 2]])?;
+/// let mut detector = CollisionDetector::<f64>::new(topology);
+/// detector.set_threads(Threads::EachCore)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Threads {
+    /// The thread that calls, and no other, even in a rayon pool.
+    #[default]
+    Calling,
+    /// Those of the rayon pool that a method is called in; outside of one, the thread that calls. (The global pool is one only for code
+    /// that runs on its threads.)
+    CallersPool,
+    /// So many of the detector's own. With one it is the thread that calls.
+    Own(NonZeroUsize),
+    /// Its own, one for each core.
+    EachCore,
+}
+
+impl Threads {
+    /// As command lines count them: 0 for one on each core, 1 for the thread that calls.
+    #[must_use]
+    pub const fn from_count(count: usize) -> Self {
+        match NonZeroUsize::new(count) {
+            None => Self::EachCore,
+            Some(NonZeroUsize::MIN) => Self::Calling,
+            Some(count) => Self::Own(count),
+        }
+    }
+}
+
+/// The operating system refuses threads.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct ThreadError {
+    /// Those that were asked for.
+    pub threads: Threads,
+    source: rayon::ThreadPoolBuildError,
+}
+
+impl fmt::Display for ThreadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { threads, source } = self;
+        match threads {
+            Threads::Own(count) => write!(f, "cannot start {count} threads: {source}"),
+            _ => write!(f, "cannot start a thread for each core: {source}"),
+        }
+    }
+}
+
+impl std::error::Error for ThreadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.source)
+    }
+}
+
+/// Threads that have been started where they had to be.
+#[derive(Debug, Default)]
+pub struct Workers(Kind);
+
+#[derive(Debug, Default)]
+enum Kind {
+    #[default]
+    Calling,
+    CallersPool,
+    Own(rayon::ThreadPool),
+}
+
+impl Workers {
+    /// Starts a pool, if `threads` are to be its own and more than one.
+    ///
+    /// # Errors
+    /// If the operating system refuses.
+    pub fn new(threads: Threads) -> Result<Self, ThreadError> {
+        let count = match threads {
+            Threads::Calling | Threads::Own(NonZeroUsize::MIN) => return Ok(Self(Kind::Calling)),
+            Threads::CallersPool => return Ok(Self(Kind::CallersPool)),
+            Threads::Own(count) => count.get(),
+            // For rayon that is one for each core.
+            Threads::EachCore => 0,
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+        let pool = pool.map_err(|source| ThreadError { threads, source })?;
+        Ok(Self(Kind::Own(pool)))
+    }
+
+    /// How many threads [`run`](Self::run) has, called from here.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        match &self.0 {
+            Kind::Calling => 1,
+            Kind::CallersPool => threads(),
+            Kind::Own(pool) => pool.current_num_threads(),
+        }
+    }
+
+    /// Runs `action`, whose loops are then split between the threads.
+    pub fn run<T: Send>(&self, action: impl FnOnce() -> T + Send) -> T {
+        match &self.0 {
+            Kind::Calling => {
+                let _alone = Alone::new();
+                action()
+            }
+            Kind::CallersPool => action(),
+            Kind::Own(pool) => pool.install(action),
+        }
+    }
+}
+
+thread_local! {
+    /// Whether this thread is not to share its work.
+    static IS_ALONE: Cell<bool> = const { Cell::new(false) };
+}
+
+/// As long as it lives, this thread does not share its work.
+struct Alone {
+    before: bool,
+}
+
+impl Alone {
+    fn new() -> Self {
+        Self {
+            before: IS_ALONE.replace(true),
+        }
+    }
+}
+
+impl Drop for Alone {
+    fn drop(&mut self) {
+        IS_ALONE.set(self.before);
+    }
+}
+
+/// Whether work should be split between threads.
+#[must_use]
+pub fn has_many_threads() -> bool {
+    rayon::current_thread_index().is_some() && rayon::current_num_threads() > 1 && !IS_ALONE.get()
+}
+
+/// The number of the thread that calls, below [`threads`].
+#[must_use]
+pub fn own_index() -> usize {
+    if has_many_threads() {
+        rayon::current_thread_index().unwrap_or(0)
+    } else {
+        0
+    }
+}
+
+/// How many threads work is split between.
+#[must_use]
+pub fn threads() -> usize {
+    if has_many_threads() { rayon::current_num_threads() } else { 1 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parallel::for_each;
+    use std::collections::BTreeSet;
+    use std::panic::AssertUnwindSafe;
+    use std::thread::{ThreadId, current};
+
+    fn pool(threads: usize) -> rayon::ThreadPool {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap()
+    }
+
+    /// The threads that a loop of these workers' runs on.
+    fn used(threads: Threads) -> BTreeSet<String> {
+        let workers = Workers::new(threads).unwrap();
+        let mut items = vec![None; 200];
+        workers.run(|| {
+            for_each(&mut items, |_, item: &mut Option<ThreadId>| {
+                std::thread::sleep(std::time::Duration::from_micros(200));
+                *item = Some(current().id());
+            });
+        });
+        items.into_iter().map(|id| format!("{id:?}")).collect()
+    }
+
+    fn own() -> BTreeSet<String> {
+        BTreeSet::from([format!("{:?}", Some(current().id()))])
+    }
+
+    #[test]
+    fn the_calling_thread_alone_works_even_in_a_pool() {
+        let one = NonZeroUsize::MIN;
+        for threads in [Threads::Calling, Threads::Own(one), Threads::from_count(1)] {
+            assert_eq!(used(threads), own());
+            pool(3).install(|| assert_eq!(used(threads), own()));
+        }
+    }
+
+    #[test]
+    fn the_callers_pool_is_used_where_there_is_one() {
+        assert_eq!(used(Threads::CallersPool), own());
+        let pool = pool(3);
+        let of_pool: BTreeSet<String> = pool
+            .broadcast(|_| format!("{:?}", Some(current().id())))
+            .into_iter()
+            .collect();
+        let used = pool.install(|| used(Threads::CallersPool));
+        assert!(used.is_subset(&of_pool) && used.len() > 1, "{used:?} of {of_pool:?}");
+    }
+
+    #[test]
+    fn own_threads_are_none_of_the_callers() {
+        let three = Threads::Own(NonZeroUsize::new(3).unwrap());
+        assert_eq!(Workers::new(three).unwrap().count(), 3);
+        assert!(used(three).is_disjoint(&own()));
+    }
+
+    #[test]
+    fn a_panic_does_not_leave_the_thread_alone() {
+        pool(2).install(|| {
+            let workers = Workers::default();
+            let panicked = std::panic::catch_unwind(AssertUnwindSafe(|| workers.run::<()>(|| panic!("on purpose"))));
+            assert!(panicked.is_err() && has_many_threads());
+        });
+    }
+}
