@@ -82,7 +82,7 @@ fn motions<S: Scalar>(random: &mut Random, case: usize) -> [Motion<S>; 4] {
         match case % 4 {
             0 => S::from_f64(number),
             1 | 2 => S::from_f64((3.0 * number).floor()),
-            _ => S::from_f64(number) * if random.next() % 2 == 0 { largest } else { smallest },
+            _ => S::from_f64(number) * if random.next().is_multiple_of(2) { largest } else { smallest },
         }
     };
     let mut position = || [coordinate(), coordinate(), coordinate()];
