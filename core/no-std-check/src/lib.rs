@@ -221,7 +221,10 @@ pub extern "C" fn near(points: &Points<f32>) -> u32 {
 /// found for the step and kept for it, a clearance; and that the vertex's course has room, and its boxes are near the face's, at most one.
 #[unsafe(no_mangle)]
 pub extern "C" fn separations(points: &Points<f64>) -> u32 {
-    let ends = [0, 1].map(|end| points.map(|motion| DVec3::from(motion[end])));
+    let ends = [
+        points.map(|[start, _]| DVec3::from(start)),
+        points.map(|[_, end]| DVec3::from(end)),
+    ];
     let [start, end] = ends;
     let largest = largest_coordinate(&start).max(largest_coordinate(&end));
     let (kind, error) = (PairKind::VertexFace, GapError::of_coordinates(largest));

@@ -120,8 +120,9 @@ pub fn image(coordinate: f64) -> f32 {
 /// The middle of an axis where it is more than four times the mesh's size away from zero; else zero.
 fn origin<S: Scalar>(extent: &Aabb<f64>) -> [f64; 3] {
     let is_single = S::UNIT_ROUNDOFF.to_f64() > f64::EPSILON;
-    [0, 1, 2].map(|axis| {
-        let (lower, upper) = (0.5 * extent.lower[axis], 0.5 * extent.upper[axis]);
+    let ([a, b, c], [d, e, f]) = (extent.lower, extent.upper);
+    [(a, d), (b, e), (c, f)].map(|(lower, upper)| {
+        let (lower, upper) = (0.5 * lower, 0.5 * upper);
         let middle = lower + upper;
         let is_far = middle.is_finite() && middle.abs() > 8.0 * (upper - lower);
         if is_far && !is_single { middle } else { 0.0 }

@@ -9,7 +9,7 @@ pub enum Source {
     /// Candidate triangle pairs, distributed.
     TrianglePairs(Redundancy),
     /// Hierarchies of moving boxes over vertices, edges and faces, which find each primitive pair once
-    /// ([`MovingBroadPhase`](selvedge::verification::MovingBroadPhase)); then the certified stages of [`CollisionDetector`], whatever
+    /// ([`MovingBroadPhase`](selvedge::verification::MovingBroadPhase)); then the certified stages of [`CollisionDetector`](selvedge::CollisionDetector), whatever
     /// the tests, and exact verdicts for [`ElementaryTest::Exact`].
     MovingBoxes,
 }
