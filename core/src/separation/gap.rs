@@ -18,7 +18,7 @@
 //!
 //! **Underflow.** Where subnormal numbers are flushed a dot product loses at most 3 operands times 1.01 and 5 results, 3 of B's and 3 of
 //! d's, each λ or λB: twice that and the difference is less than 20λ(1 + B), which 64uB and η ≥ 512λ cover for every B (λ ≤ u²).
-//! **Overflow.** B must not exceed [`Rounding::LARGEST_EDGE`](crate::Rounding::LARGEST_EDGE), or the error is infinite: then no gap exceeds
+//! **Overflow.** B must not exceed [`Rounding::LARGEST_EDGE`], or the error is infinite: then no gap exceeds
 //! it. [`largest_coordinate`](super::largest_coordinate) is infinite if a coordinate is NaN or infinite. NaN in a direction or a separation
 //! proves nothing either: comparisons are ordered.
 

@@ -127,7 +127,7 @@ impl<L: Lanes> SignedVolume<L> {
     /// addition for two. The hull of all that is left is coarse: where the part that is sixteen, or four, times as
     /// long has only positive control values, that is taken instead.
     ///
-    /// `DIVIDES_FIRST`: see [`first_zero_of_hull`].
+    /// `DIVIDES_FIRST`: see `first_zero_of_hull`.
     #[inline(always)]
     #[must_use]
     pub fn clipped<const DIVIDES_FIRST: bool>(&self, time: L) -> Clipped<L> {

@@ -71,7 +71,7 @@ pub struct MovingStatistics {
     pub candidates: usize,
 }
 
-/// Finds the vertex–face and edge–edge pairs that moving boxes leave; see the [module](self).
+/// Finds the vertex–face and edge–edge pairs that moving boxes leave; see the module.
 ///
 /// On the rayon pool in which it is called; outside of one on the calling thread.
 #[derive(Debug)]
