@@ -17,8 +17,8 @@
 //! ```
 //!
 //! # What is promised
-//! * **Nothing in this crate can miss a contact**, but for what [`elementary::advance::uncertified`] measures. What decides is certified or exact: it covers its own rounding, and never culls
-//!   a pair that touches at some time in [0, 1], whatever the input.
+//! * **Nothing in this crate can miss a contact.** What decides is certified or exact: it covers its own rounding, and never culls a
+//!   pair that touches at some time in [0, 1], whatever the input.
 //! * That holds in every floating-point environment of IEEE 754 arithmetic that a thread may have switched to: any
 //!   rounding direction, flush-to-zero, denormals-are-zero ([`Rounding`] says how). Verdicts may differ from one
 //!   environment to another; none of them is wrong.

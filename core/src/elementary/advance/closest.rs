@@ -5,7 +5,7 @@
 //! by the comparisons that precede it. The method is Ericson's (Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9).
 //!
 //! It is here twice: [`closest`] for one pair, which leaves with the first feature that is the one, and says which; and
-//! [`closest_by_selects`] for many side by side, where all features are looked at, one quotient serves them all, and nobody asks which
+//! `closest_by_selects` for many side by side, where all features are looked at, one quotient serves them all, and nobody asks which
 //! it was.
 
 use crate::lanes::{Lanes, Number, Rounding};
@@ -13,21 +13,28 @@ use crate::vector::Vector;
 
 /// Where on the hull the closest point was found. The first three corners are a, b, c.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::elementary) enum Feature {
+pub enum Feature {
+    /// At a corner.
     Corner,
-    /// On a side, which is parallel to the one between a and b, a and c, or b and c.
+    /// On a side that is parallel to the one between a and b.
     SideAb,
+    /// On a side that is parallel to the one between a and c.
     SideAc,
+    /// On the side between b and c.
     SideBc,
+    /// On none of these.
     Interior,
 }
 
 /// The closest point and where it was found.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::elementary) struct Closest<S> {
-    pub(in crate::elementary) point: Vector<S>,
-    pub(in crate::elementary) squared_distance: S,
-    pub(in crate::elementary) feature: Feature,
+pub struct Closest<S> {
+    /// Of the hull.
+    pub point: Vector<S>,
+    /// From the origin.
+    pub squared_distance: S,
+    /// Where it was found.
+    pub feature: Feature,
 }
 
 impl<S: Number> Closest<S> {
@@ -38,7 +45,7 @@ impl<S: Number> Closest<S> {
     /// the side or the face that it is on: by uh/d, where d/h is all that there is room for. So where d² is below
     /// 2⁶uh² it is made perpendicular to the side, or replaced by the face's normal.
     #[inline(always)]
-    pub(in crate::elementary) fn direction<const N: usize>(&self, positions: &[Vector<S>; N], extent: S) -> Vector<S> {
+    pub fn direction<const N: usize>(&self, positions: &[Vector<S>; N], extent: S) -> Vector<S> {
         let tilted = S::small(64) * S::UNIT_ROUNDOFF * (extent * extent);
         match positions.as_slice() {
             &[a, b, c, ..] if self.squared_distance < tilted => self.upright(a, b, c),
@@ -74,7 +81,7 @@ impl<S: Number> Closest<S> {
 /// In the triangle of three corners, or the parallelogram whose first three of four corners are given, opposite to each
 /// other the last two.
 #[inline(always)]
-pub(in crate::elementary) fn closest<S: Number, const N: usize>(corners: &[Vector<S>; N]) -> Closest<S> {
+pub fn closest<S: Number, const N: usize>(corners: &[Vector<S>; N]) -> Closest<S> {
     let &[a, b, c, ..] = corners.as_slice() else {
         // There are three at least.
         let nothing = Vector::new(S::ZERO, S::ZERO, S::ZERO);

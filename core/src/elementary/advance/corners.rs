@@ -85,12 +85,6 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
         !largest.greater(largest.splat(L::Scalar::LARGEST_EXTENT))
     }
 
-    /// Takes an extent of zero, in proportion to which all errors are bounded: **nothing is certified any more.**
-    #[inline(always)]
-    pub(super) fn forget_errors(&mut self) {
-        self.extent = all(self.extent.x.splat(L::Scalar::ZERO));
-    }
-
     /// Where the corners are at `time`, rounded.
     #[inline(always)]
     #[must_use]

@@ -61,15 +61,37 @@
     reason = "a comparison is false with NaN, which must then take the side that proves nothing"
 )]
 
-pub(super) mod closest;
 pub mod confirm;
-pub mod corners;
-pub mod directions;
-pub mod round;
 #[cfg(test)]
 mod tests;
-pub mod uncertified;
+
+// The pieces of a proof, for verification: they run on its numbers too.
+#[cfg(feature = "verification")]
+pub mod closest;
+#[cfg(feature = "verification")]
+pub mod corners;
+#[cfg(feature = "verification")]
+pub mod directions;
+#[cfg(feature = "verification")]
+pub mod round;
+#[cfg(feature = "verification")]
 pub mod volume;
+
+#[cfg(not(feature = "verification"))]
+#[allow(dead_code, unreachable_pub)]
+pub(crate) mod closest;
+#[cfg(not(feature = "verification"))]
+#[allow(dead_code, unreachable_pub)]
+pub(crate) mod corners;
+#[cfg(not(feature = "verification"))]
+#[allow(dead_code, unreachable_pub)]
+pub(crate) mod directions;
+#[cfg(not(feature = "verification"))]
+#[allow(dead_code, unreachable_pub)]
+pub(crate) mod round;
+#[cfg(not(feature = "verification"))]
+#[allow(dead_code, unreachable_pub)]
+pub(crate) mod volume;
 
 use super::{Impact, Limits, Reason};
 use crate::PairKind;
@@ -117,19 +139,19 @@ pub fn time_of_impact_within<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &
     if !(from >= S::ZERO && from <= S::ONE && until >= from && until <= S::ONE) {
         return not_excluded(S::ZERO, Reason::NotFinite, Work::default()).0;
     }
-    advanced::<P::Shape, S, true>(&pair.points(), &raised(limits), [from, until]).0
+    advanced::<P::Shape, S>(&pair.points(), &raised(limits), [from, until]).0
 }
 
 /// [`time_of_impact`], and how much work it was.
 #[inline]
 pub fn time_of_impact_and_work<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<S>) -> (Impact<S>, Work) {
-    advanced::<P::Shape, S, true>(&pair.points(), &raised(limits), [S::ZERO, S::ONE])
+    advanced::<P::Shape, S>(&pair.points(), &raised(limits), [S::ZERO, S::ONE])
 }
 
 /// [`time_of_impact_and_work`] of four points in numbers of any format, those of verification too. A separation must not be subnormal.
 #[inline(always)]
 pub fn time_of_impact_of_points<P: PairShape, S: Number>(points: &PairPoints<S>, limits: &Limits<S>) -> (Impact<S>, Work) {
-    advanced::<P, S, true>(points, limits, [S::ZERO, S::ONE])
+    advanced::<P, S>(points, limits, [S::ZERO, S::ONE])
 }
 
 /// With a separation that every thread compares as what it is.
@@ -143,11 +165,7 @@ fn raised<S: Scalar>(limits: &Limits<S>) -> Limits<S> {
 
 /// From the first time of `span` to the second.
 #[inline(always)]
-fn advanced<P: PairShape, S: Number, const IS_CERTIFIED: bool>(
-    points: &PairPoints<S>,
-    limits: &Limits<S>,
-    span: [S; 2],
-) -> (Impact<S>, Work) {
+fn advanced<P: PairShape, S: Number>(points: &PairPoints<S>, limits: &Limits<S>, span: [S; 2]) -> (Impact<S>, Work) {
     if limits.separation <= S::ZERO && relative::are_apart_along_three_axes::<P, S>(points) {
         if limits.separation < S::ZERO {
             return not_excluded(S::ZERO, Reason::NotFinite, Work::default());
@@ -157,11 +175,11 @@ fn advanced<P: PairShape, S: Number, const IS_CERTIFIED: bool>(
     match P::KIND {
         PairKind::VertexFace => {
             let corners = Corners::of_vertex_face(points);
-            decide::<S, 3, IS_CERTIFIED>(points, corners, limits, span)
+            decide(points, corners, limits, span)
         }
         PairKind::EdgeEdge => {
             let corners = Corners::of_edge_edge(points);
-            decide::<S, 4, IS_CERTIFIED>(points, corners, limits, span)
+            decide(points, corners, limits, span)
         }
     }
 }
@@ -173,9 +191,9 @@ const fn not_excluded<S: Copy>(time: S, reason: Reason, work: Work) -> (Impact<S
 
 /// Everything after the relative boxes.
 #[inline(always)]
-fn decide<S: Number, const N: usize, const IS_CERTIFIED: bool>(
+fn decide<S: Number, const N: usize>(
     points: &PairPoints<S>,
-    mut corners: Corners<S, N>,
+    corners: Corners<S, N>,
     limits: &Limits<S>,
     span: [S; 2],
 ) -> (Impact<S>, Work) {
@@ -185,9 +203,6 @@ fn decide<S: Number, const N: usize, const IS_CERTIFIED: bool>(
     }
     if !(corners.are_in_range() && limits.separation <= S::LARGEST_EXTENT) {
         return not_excluded(S::ZERO, Reason::OutOfRange, work);
-    }
-    if !IS_CERTIFIED {
-        corners.forget_errors();
     }
     let corners = &corners;
     let separation = (limits.separation > S::ZERO).then_some(limits.separation);

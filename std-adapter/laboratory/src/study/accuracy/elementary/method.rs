@@ -15,7 +15,7 @@ pub enum ElementaryMethod {
     Exact,
     /// [`tight_inclusion`]. It never misses.
     TightInclusion(f64),
-    /// [`selvedge_core::elementary::additive`]. **Not certified.**
+    /// [`additive`](crate::baselines::additive). **Not certified.**
     Additive,
     /// [`bernstein_sign`], which tells no times. **Not certified.**
     BernsteinSign,

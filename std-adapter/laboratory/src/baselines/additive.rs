@@ -12,14 +12,11 @@
 //!
 //! Written from the description. Positions are computed anew from the time in each round, not added up.
 
-use super::advance::closest::closest;
-use super::advance::corners::Corners;
-use super::{Impact, Reason};
-use crate::PairKind;
-use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape};
-use crate::scalar::Scalar;
-use crate::vector::Vector;
+use selvedge_core::elementary::advance::closest::closest;
+use selvedge_core::elementary::advance::corners::Corners;
+use selvedge_core::elementary::{Impact, Reason};
+use selvedge_core::points::{PairPoints, PairShape};
+use selvedge_core::{PairKind, PrimitivePair, Scalar, Vector};
 
 /// The largest number of rounds.
 pub const ROUNDS: u32 = 100_000;
@@ -30,7 +27,7 @@ pub const ROUNDS: u32 = 100_000;
 /// NaN and infinite coordinates exclude nothing.
 ///
 /// ```
-/// use selvedge_core::elementary::{Impact, additive::time_of_impact};
+/// use selvedge_laboratory::baselines::additive::time_of_impact;
 /// use selvedge_core::{glam::DVec3, Motion, VertexFace};
 /// let pair = VertexFace {
 ///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)),
