@@ -63,8 +63,9 @@ pub(super) fn points<L: Chunk>(token: L::Token, pairs: Sixteen<'_, L::Scalar>, f
     })
 }
 
-/// Differences of two points of each pair from `first` on, `volume_points` naming the points by a pair's four indices. Rows are
-/// subtracted before they are transposed: start and end in one subtraction, and three edges to transpose instead of four points.
+/// The second less the first of two points of each pair from `first` on, which `ends` names by the pair's four indices. `None` if an index
+/// is not in the rows. Rows are subtracted before they are transposed: start and end in one subtraction, and three edges to transpose
+/// instead of four points.
 #[inline(always)]
 pub(super) fn edge<L: Chunk>(
     token: L::Token,

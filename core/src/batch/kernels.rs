@@ -185,6 +185,7 @@ macro_rules! of_kind {
     };
 }
 
+/// A format, with the lanes of its tests and those of its rounds.
 macro_rules! batch_scalar {
     ($scalar:ident, $lanes:tt, rounds: $round_lanes:tt) => {
         impl BatchScalar for $scalar {

@@ -16,7 +16,7 @@
 //! | `timing` | a clock for the seconds of each stage, which `verification` shows. Without it no clock is read |
 //! | `verification` | the module of that name: parts of a step, for the project's own crates, which measure them, check them, or are built of them. Nothing is promised of it |
 //!
-//! Without any of them the crate needs neither threads nor a clock: it runs on `wasm32-unknown-unknown`.
+//! Without any of them the crate needs neither threads nor a clock, as on `wasm32-unknown-unknown` (where nobody has run it yet).
 
 // Some of these are public in `verification` alone.
 #[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
