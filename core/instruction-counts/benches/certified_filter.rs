@@ -4,8 +4,9 @@
 
 use gungraun::prelude::*;
 use selvedge_core::PairKind;
-use selvedge_core::batch::{LANES, Level, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles};
+use selvedge_core::batch::{LANES, Level, Mask, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::filter::certified::non_coplanarity;
+use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::{Motion, PrimitivePair, Scalar, VertexFace};
 use std::hint::black_box;
 
@@ -69,7 +70,7 @@ fn count_one_by_one<S: Scalar>(input: &Input<S>) -> usize {
 fn count_tiles<S: Scalar>(input: &Input<S>) -> [Mask; 2] {
     let mut masks = [0; 2];
     let tiles = black_box(&input.tiles);
-    let test = Test::CertifiedNonCoplanarity;
+    let test = Filter::new(Tier::Permanent);
     culled_from_tiles(input.level, PairKind::VertexFace, test, tiles, &mut masks);
     masks
 }
@@ -77,7 +78,7 @@ fn count_tiles<S: Scalar>(input: &Input<S>) -> [Mask; 2] {
 fn count_rows<S: Scalar>(input: &Input<S>) -> [Mask; 2] {
     let mut masks = [0; 2];
     let (rows, indices) = (black_box(&input.rows), black_box(&input.indices));
-    let test = Test::CertifiedNonCoplanarity;
+    let test = Filter::new(Tier::Permanent);
     culled_from_rows(input.level, PairKind::VertexFace, test, rows, indices, &mut masks);
     masks
 }

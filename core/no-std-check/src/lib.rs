@@ -85,15 +85,15 @@ fn bit(index: u32, verdict: Verdict) -> u32 {
 
 /// The batched tests, each at the bit of its one-pair twin, on the instruction set that every machine of this kind has.
 fn batched<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
-    let test = |index: u32, test: Test| {
+    fn at<S: Scalar>(index: u32, test: impl BatchTest<S>, pair: &impl PrimitivePair<S>) -> u32 {
         let mut mask = [0];
         batch::culled(Level::baseline(), test, core::slice::from_ref(pair), &mut mask);
         u32::from(mask[0]) << index
-    };
-    test(0, Test::SweptBoxes)
-        | test(1, Test::RelativeBoxes)
-        | test(2, Test::RelativeBoxesNine)
-        | test(4, Test::CertifiedNonCoplanarity)
+    }
+    at(0, Test::SweptBoxes, pair)
+        | at(1, Test::RelativeBoxes, pair)
+        | at(2, Test::RelativeBoxesNine, pair)
+        | at(4, Filter::new(Tier::Permanent), pair)
 }
 
 /// Exact signs: one for all, more than half a unit apart, all positive.

@@ -3,6 +3,7 @@
 //! [`advance_from_rows`] is one [round](crate::elementary::advance::round) of the certified
 //! [time of impact](crate::elementary::advance::time_of_impact) for pairs of a mesh.
 
+use super::rows::Padded;
 use super::{LANES, Level, Mask, VertexRow};
 use crate::PairKind;
 use crate::elementary::Limits;
@@ -97,13 +98,13 @@ pub fn advance_from_rows<S: Scalar>(
             (Some(indices), Some(times)) => S::round(level, kind, &question, rows, indices, times),
             _ => None,
         };
-        *round = whole.unwrap_or_else(|| one_by_one(level, kind, &question, rows, indices, times));
+        *round = whole.unwrap_or_else(|| padded(level, kind, &question, rows, indices, times));
     }
 }
 
-/// Fewer than sixteen pairs, or some whose indices are not in `rows`: each pair in all lanes.
+/// Fewer than sixteen pairs, or some whose indices are not in `rows`.
 #[cold]
-fn one_by_one<S: Scalar>(
+fn padded<S: Scalar>(
     level: Level,
     kind: PairKind,
     question: &RoundQuestion<S>,
@@ -111,45 +112,29 @@ fn one_by_one<S: Scalar>(
     indices: &[[u32; 4]],
     times: &mut [S],
 ) -> Round {
-    let mut all = Round::default();
-    // Those that are there, and again the first in lanes that are left.
-    let (Some(&first), Some(&first_time)) = (indices.first(), times.first()) else {
+    let unknown = Mask::MAX.checked_shr((LANES - LANES.min(times.len())) as u32).unwrap_or(0);
+    let mut all = Round {
+        stuck: unknown,
+        ..Round::default()
+    };
+    let Some(Padded { indices, known }) = Padded::new(indices, rows.len()) else {
         return all;
     };
-    let are_in_rows = |pair: &[u32; 4]| pair.iter().all(|&index| (index as usize) < rows.len());
-    let mut whole = [first; LANES];
-    let mut whole_times = [first_time; LANES];
-    let mut present: Mask = 0;
-    let given = indices.iter().zip(times.iter());
-    let lanes = whole.iter_mut().zip(&mut whole_times);
-    for (lane, ((pair, &time), (own, own_time))) in given.zip(lanes).enumerate() {
-        if are_in_rows(pair) {
-            present |= 1 << lane;
-            (*own, *own_time) = (*pair, time);
-        } else {
-            all.stuck |= 1 << lane;
-        }
+    let mut whole_times = [S::ZERO; LANES];
+    for (own, &time) in whole_times.iter_mut().zip(times.iter()) {
+        *own = time;
     }
-    // A pair that is in the rows, for the lanes of those that are not.
-    let Some(&known) = indices.iter().find(|pair| are_in_rows(pair)) else {
-        return all;
-    };
-    for own in &mut whole {
-        if !are_in_rows(own) {
-            *own = known;
-        }
-    }
-    let Some(round) = S::round(level, kind, question, rows, &whole, &mut whole_times) else {
+    let Some(round) = S::round(level, kind, question, rows, &indices, &mut whole_times) else {
         return all;
     };
     for (lane, (time, new)) in times.iter_mut().zip(whole_times).enumerate() {
-        if present >> lane & 1 != 0 {
+        if known >> lane & 1 != 0 {
             *time = new;
         }
     }
-    all.apart = round.apart & present;
-    all.near = round.near & present;
-    all.stuck |= round.stuck & present;
+    all.apart = round.apart & known;
+    all.near = round.near & known;
+    all.stuck = unknown & !known | round.stuck & known;
     all
 }
 

@@ -5,28 +5,45 @@
 
 use super::advance::{Round, RoundQuestion, round};
 use super::chunk::{Chunk, edge, points};
-use super::{Kernel, LANES, Level, Mask, PointsTest, Tile, VertexRow, VolumeTest};
+use super::lane_test::VolumeTest;
+use super::{Bounded, LANES, Level, Mask, VertexRow};
+#[cfg(feature = "verification")]
+use super::{PointsTest, Test, Tile};
 use crate::PairKind;
 use crate::coplanarity::MovingTetrahedron;
+use crate::filter::Filter;
 use crate::filter::certified::Decision;
-use crate::points::{EdgeAndEdge, PairShape, VertexAndFace};
+use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
+use crate::scalar::Scalar;
+use crate::vector::Vector;
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
 /// What [`Scalar`](crate::Scalar) needs to go sixteen at a time.
 ///
-/// [`sixteen`](Self::sixteen) is not generic, so that its many kernels (for each instruction set, test and kind) are compiled once,
-/// in this crate, and not in every crate that calls it.
+/// None of it is generic but what the feature `verification` adds, so that its many kernels (for each instruction set and kind) are
+/// compiled once, in this crate, and not in every crate that calls them.
 pub trait BatchScalar: Copy {
-    /// What `kernel` says of sixteen pairs. `None` if an index is not in the rows.
+    /// What the filter's bound says of sixteen pairs. `None` if an index is not in the rows.
     #[doc(hidden)]
-    fn sixteen(level: Level, kind: PairKind, kernel: Kernel<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
+    fn bounded(level: Level, kind: PairKind, bounded: Bounded<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
+
+    /// What the filter does with one pair that its bound leaves open.
+    #[doc(hidden)]
+    fn culls_open(kind: PairKind, filter: &Filter<Self>, points: &PairPoints<Self>) -> bool;
+
+    /// Which of sixteen pairs a test culls.
+    #[cfg(feature = "verification")]
+    #[doc(hidden)]
+    fn by_test(level: Level, kind: PairKind, test: Test, pairs: Sixteen<'_, Self>) -> Option<Mask>;
 
     /// The same of one test, compiled where it is called.
+    #[cfg(feature = "verification")]
     #[doc(hidden)]
-    fn by_points(level: Level, kind: PairKind, test: impl PointsTest, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
+    fn by_points(level: Level, kind: PairKind, test: impl PointsTest, pairs: Sixteen<'_, Self>) -> Option<Mask>;
 
     /// The same of one test, compiled where it is called.
+    #[cfg(feature = "verification")]
     #[doc(hidden)]
     fn by_volume(level: Level, kind: PairKind, test: impl VolumeTest<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
 
@@ -51,21 +68,39 @@ pub enum Sixteen<'a, S> {
         rows: &'a [VertexRow<S>],
         indices: &'a [[u32; 4]; LANES],
     },
+    #[cfg(feature = "verification")]
     Tile(&'a Tile<S>),
 }
 
+impl<S: Scalar> Sixteen<'_, S> {
+    /// The four points of one pair; not a number if there is no such pair.
+    #[inline(always)]
+    pub(super) fn points(self, lane: usize) -> PairPoints<S> {
+        let [[a, e], [b, f], [c, g], [d, h]] = match self {
+            #[cfg(feature = "verification")]
+            Self::Tile(tile) => tile.positions(lane),
+            Self::Mesh { rows, indices } => {
+                let nowhere = [Vector::from([S::INFINITY * S::ZERO; 3]); 2];
+                let indices = indices.get(lane).copied().unwrap_or([u32::MAX; 4]);
+                indices.map(|index| rows.get(index as usize).map_or(nowhere, VertexRow::positions))
+            }
+        };
+        PairPoints {
+            start: [a, b, c, d],
+            end: [e, f, g, h],
+        }
+    }
+}
+
+#[cfg(feature = "verification")]
 #[inline(always)]
-fn test_points<P: PairShape, L: Chunk>(
-    token: L::Token,
-    test: impl PointsTest,
-    pairs: Sixteen<'_, L::Scalar>,
-) -> Option<Decision<Mask>> {
+fn test_points<P: PairShape, L: Chunk>(token: L::Token, test: impl PointsTest, pairs: Sixteen<'_, L::Scalar>) -> Option<Mask> {
     let (mut culled, mut first) = (0, 0);
     while first < LANES {
         culled |= L::bits(test.on::<P, L>(&points(token, pairs, first)?)) << first;
         first += L::WIDTH;
     }
-    Some(Decision { culled, settled: 0 })
+    Some(culled)
 }
 
 #[inline(always)]
@@ -77,6 +112,7 @@ fn test_volume<P: PairShape, L: Chunk>(
     let (mut culled, mut settled, mut first) = (0, 0, 0);
     while first < LANES {
         let tetrahedron = match pairs {
+            #[cfg(feature = "verification")]
             Sixteen::Tile(_) => points::<L>(token, pairs, first)?.tetrahedron::<P>(),
             Sixteen::Mesh { rows, indices } => {
                 // The edge from the volume's first point to another.
@@ -189,23 +225,30 @@ macro_rules! of_kind {
 macro_rules! batch_scalar {
     ($scalar:ident, $lanes:tt, rounds: $round_lanes:tt) => {
         impl BatchScalar for $scalar {
-            fn sixteen(level: Level, kind: PairKind, kernel: Kernel<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>> {
-                match kernel {
-                    Kernel::Points(test) => Self::by_points(level, kind, test, pairs),
-                    Kernel::Bounded(test) => Self::by_volume(level, kind, test, pairs),
+            fn bounded(level: Level, kind: PairKind, bounded: Bounded<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>> {
+                of_kind!(kind, level, $lanes, test_volume(bounded, pairs))
+            }
+
+            #[cold]
+            fn culls_open(kind: PairKind, filter: &Filter<Self>, points: &PairPoints<Self>) -> bool {
+                match kind {
+                    PairKind::VertexFace => filter.culls_open::<VertexAndFace>(points),
+                    PairKind::EdgeEdge => filter.culls_open::<EdgeAndEdge>(points),
                 }
             }
 
+            #[cfg(feature = "verification")]
+            fn by_test(level: Level, kind: PairKind, test: Test, pairs: Sixteen<'_, Self>) -> Option<Mask> {
+                Self::by_points(level, kind, test, pairs)
+            }
+
+            #[cfg(feature = "verification")]
             #[inline]
-            fn by_points(
-                level: Level,
-                kind: PairKind,
-                test: impl PointsTest,
-                pairs: Sixteen<'_, Self>,
-            ) -> Option<Decision<Mask>> {
+            fn by_points(level: Level, kind: PairKind, test: impl PointsTest, pairs: Sixteen<'_, Self>) -> Option<Mask> {
                 of_kind!(kind, level, $lanes, test_points(test, pairs))
             }
 
+            #[cfg(feature = "verification")]
             #[inline]
             fn by_volume(
                 level: Level,

@@ -1,48 +1,98 @@
-//! Tests of lanes, on batches: the crate's own, and with the feature `verification` a caller's, which promise nothing.
+//! Tests of lanes, on batches: with the feature `verification` those of boxes, and a caller's, which promise nothing.
+//!
+//! Engines do not wait for them: what `selvedge` is built of is the filter and the rounds of advancing.
 
 #[cfg(feature = "verification")]
-use super::{BatchTest, Level, Mask, Sixteen};
+pub use shown::{ByPoints, ByVolume, Test};
+
 use crate::coplanarity::MovingTetrahedron;
 use crate::filter::certified::Decision;
 use crate::lanes::Lanes;
-use crate::points::{PairPoints, PairShape};
-#[cfg(feature = "verification")]
-use crate::scalar::Scalar;
+use crate::points::PairShape;
 
 /// A test of the pairs' points, on any number of lanes.
+#[cfg(feature = "verification")]
 pub trait PointsTest: Copy {
     /// The lanes whose pairs it culls.
-    fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask;
+    fn on<P: PairShape, L: Lanes>(self, points: &crate::points::PairPoints<L>) -> L::Mask;
 }
 
 /// A test of the pairs' signed volumes, on any number of lanes of the format `S`.
+#[cfg_attr(not(feature = "verification"), allow(unreachable_pub))]
 pub trait VolumeTest<S>: Copy {
     /// What it says of the lanes' pairs. Nothing is made of what it calls settled.
     fn on<P: PairShape, L: Lanes<Scalar = S>>(self, tetrahedron: &MovingTetrahedron<L>) -> Decision<L::Mask>;
 }
 
-/// A caller's test of points as a [`BatchTest`], by the code that runs [`Test`](super::Test): for a fair comparison of times.
 #[cfg(feature = "verification")]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct ByPoints<T>(pub T);
+mod shown {
+    use super::{PointsTest, VolumeTest};
+    use crate::PairKind;
+    use crate::batch::{BatchTest, Level, Mask, Sixteen};
+    use crate::boxes;
+    use crate::filter::inside;
+    use crate::lanes::Lanes;
+    use crate::points::{PairPoints, PairShape};
+    use crate::scalar::Scalar;
 
-/// A caller's test of volumes as a [`BatchTest`], by the code that runs [`Filter`](crate::filter::Filter).
-#[cfg(feature = "verification")]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct ByVolume<T>(pub T);
-
-#[cfg(feature = "verification")]
-impl<S: Scalar, T: PointsTest> BatchTest<S> for ByPoints<T> {
-    #[inline(always)]
-    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask> {
-        Some(S::by_points(level, P::KIND, self.0, pairs)?.culled)
+    /// A culling test of the pairs' points that runs on batches. See [`boxes`] and [`filter`](crate::filter).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[non_exhaustive]
+    pub enum Test {
+        /// [`boxes::swept_boxes`].
+        SweptBoxes,
+        /// [`boxes::segment::vertex_face`]; for EE, [`boxes::swept_boxes`].
+        SegmentBox,
+        /// [`boxes::relative::three_axes`].
+        RelativeBoxes,
+        /// [`boxes::relative::nine_directions`].
+        RelativeBoxesNine,
+        /// [`boxes::direction::normal`].
+        NormalDirection,
+        /// [`inside::never_inside`].
+        InsideFunctions,
     }
-}
 
-#[cfg(feature = "verification")]
-impl<S: Scalar, T: VolumeTest<S>> BatchTest<S> for ByVolume<T> {
-    #[inline(always)]
-    fn sixteen<P: PairShape>(self, level: Level, pairs: Sixteen<'_, S>) -> Option<Mask> {
-        Some(S::by_volume(level, P::KIND, self.0, pairs)?.culled)
+    impl PointsTest for Test {
+        #[inline(always)]
+        fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask {
+            match self {
+                Self::SegmentBox if matches!(P::KIND, PairKind::VertexFace) => boxes::segment::misses_face(points),
+                Self::SweptBoxes | Self::SegmentBox => boxes::have_disjoint_swept_boxes::<P, L>(points),
+                Self::RelativeBoxes => boxes::relative::are_apart_along_three_axes::<P, L>(points),
+                Self::RelativeBoxesNine => boxes::relative::are_apart_along_nine_directions::<P, L>(points),
+                Self::NormalDirection => boxes::direction::are_apart_along_normal::<P, L>(points),
+                Self::InsideFunctions => inside::is_outside_of_one_side::<P, L>(points),
+            }
+        }
+    }
+
+    impl<S: Scalar> BatchTest<S> for Test {
+        #[inline(always)]
+        fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, _: Mask) -> Option<Mask> {
+            S::by_test(level, kind, self, pairs)
+        }
+    }
+
+    /// A caller's test of points as a [`BatchTest`], by the code that runs [`Test`]: for a fair comparison of times.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub struct ByPoints<T>(pub T);
+
+    /// A caller's test of volumes as a [`BatchTest`], by the code that runs [`Filter`](crate::filter::Filter).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub struct ByVolume<T>(pub T);
+
+    impl<S: Scalar, T: PointsTest> BatchTest<S> for ByPoints<T> {
+        #[inline(always)]
+        fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, _: Mask) -> Option<Mask> {
+            S::by_points(level, kind, self.0, pairs)
+        }
+    }
+
+    impl<S: Scalar, T: VolumeTest<S>> BatchTest<S> for ByVolume<T> {
+        #[inline(always)]
+        fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, _: Mask) -> Option<Mask> {
+            Some(S::by_volume(level, kind, self.0, pairs)?.culled)
+        }
     }
 }

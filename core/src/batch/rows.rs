@@ -1,3 +1,4 @@
+use super::{LANES, Mask};
 use crate::motion::Motion;
 use crate::scalar::Scalar;
 use crate::vector::Vector;
@@ -31,10 +32,30 @@ impl<S: Scalar> VertexRow<S> {
         let [x, y, z, _, u, v, w, _] = self.0;
         [Vector::new(x, y, z), Vector::new(u, v, w)]
     }
+}
 
-    /// Stands in for a vertex that does not exist: not a number, so that every test keeps the pair.
-    #[inline(always)]
-    pub(super) fn unknown() -> Self {
-        Self([S::INFINITY * S::ZERO; 8])
+/// Fewer than sixteen pairs, or some that name rows that there are not: one that is known stands in for the others.
+pub(super) struct Padded {
+    pub(super) indices: [[u32; 4]; LANES],
+    /// The lanes of pairs that are known.
+    pub(super) known: Mask,
+}
+
+impl Padded {
+    /// Of so many rows. `None` if no pair is known.
+    #[cold]
+    pub(super) fn new(indices: &[[u32; 4]], rows: usize) -> Option<Self> {
+        let is_known = |pair: &&[u32; 4]| pair.iter().all(|&index| (index as usize) < rows);
+        let mut padded = Self {
+            indices: [*indices.iter().find(is_known)?; LANES],
+            known: 0,
+        };
+        for (lane, (own, pair)) in padded.indices.iter_mut().zip(indices).enumerate() {
+            if is_known(&pair) {
+                *own = *pair;
+                padded.known |= 1 << lane;
+            }
+        }
+        Some(padded)
     }
 }

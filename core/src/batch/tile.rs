@@ -1,5 +1,7 @@
-use super::LANES;
-use crate::motion::Motion;
+use super::{BatchTest, LANES, Level, Mask, Sixteen};
+use crate::PairKind;
+use crate::motion::{Motion, PrimitivePair};
+use crate::points::PairShape;
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
@@ -67,4 +69,31 @@ impl<S: Scalar> Tile<S> {
             .each_ref()
             .map(|ends| ends.each_ref().map(|position| position.each_ref().map(number).into()))
     }
+}
+
+/// Which of `pairs` `test` culls, sixteen to a mask. Masks past the last pair are not touched; pairs past the last mask
+/// are not looked at.
+pub fn culled<S: Scalar, P: PrimitivePair<S>>(level: Level, test: impl BatchTest<S>, pairs: &[P], masks: &mut [Mask]) {
+    for (pairs, mask) in pairs.chunks(LANES).zip(masks) {
+        let tile = Tile::new(pairs.iter().map(PrimitivePair::motions));
+        *mask = of_tile(level, P::Shape::KIND, test, &tile);
+    }
+}
+
+/// Which pairs of `tiles` `test` culls, a mask for each tile: the fastest form, for pairs that lie side by side already.
+pub fn culled_from_tiles<S: Scalar>(
+    level: Level,
+    kind: PairKind,
+    test: impl BatchTest<S>,
+    tiles: &[Tile<S>],
+    masks: &mut [Mask],
+) {
+    for (tile, mask) in tiles.iter().zip(masks) {
+        *mask = of_tile(level, kind, test, tile);
+    }
+}
+
+fn of_tile<S: Scalar>(level: Level, kind: PairKind, test: impl BatchTest<S>, tile: &Tile<S>) -> Mask {
+    // A tile has no indices that could be wrong.
+    test.sixteen(level, kind, Sixteen::Tile(tile), Mask::MAX).unwrap_or(0)
 }

@@ -1,7 +1,11 @@
 //! The two frames of a step, and what can be wrong with them.
 
 use crate::PairKind;
-use selvedge_core::{Position, Scalar};
+use crate::broad_phase::Fit;
+use selvedge_core::boxes::Aabb;
+use selvedge_core::boxes::mapping::Mapping;
+use selvedge_core::narrowing::rounded_up;
+use selvedge_core::{Motion, Position, Scalar};
 use std::fmt;
 
 /// One of the two frames of a step.
@@ -136,5 +140,49 @@ fn check_frame<P: Position>(frame: Frame, positions: &[P], expected: usize) -> R
                 position: position.map(Scalar::to_f64),
             })
         }
+    }
+}
+
+/// A step's positions, of either format. What reads them is compiled once, not for each type that positions have.
+pub(crate) trait Motions: Sync {
+    /// How many vertices there are.
+    fn len(&self) -> usize;
+    /// Where a vertex starts and ends, exactly.
+    fn of(&self, vertex: usize) -> Motion<f64>;
+    /// How boxes are made of them; `extent` is theirs.
+    fn mapping(&self, extent: &Aabb<f64>, fit: &Fit) -> Mapping;
+}
+
+/// Frames that are as long as they must be, and finite.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Step<'a, P> {
+    start: &'a [P],
+    end: &'a [P],
+}
+
+impl<'a, P: Position> Step<'a, P> {
+    /// Checks the frames of a mesh with so many vertices.
+    pub(crate) fn checked(start: &'a [P], end: &'a [P], vertex_count: usize) -> Result<Self, StepError> {
+        check_frames(start, end, vertex_count)?;
+        Ok(Self { start, end })
+    }
+}
+
+impl<P: Position> Motions for Step<'_, P> {
+    fn len(&self) -> usize {
+        self.start.len()
+    }
+
+    fn of(&self, vertex: usize) -> Motion<f64> {
+        let exactly = |position: P| {
+            let [x, y, z]: [P::Scalar; 3] = position.into();
+            [x.to_f64(), y.to_f64(), z.to_f64()].into()
+        };
+        Motion::new(exactly(self.start[vertex]), exactly(self.end[vertex]))
+    }
+
+    fn mapping(&self, extent: &Aabb<f64>, fit: &Fit) -> Mapping {
+        let (separation, until) = (rounded_up(fit.separation), P::Scalar::from_f64(fit.until));
+        Mapping::new(extent, separation, until, fit.is_swept)
     }
 }

@@ -153,13 +153,17 @@ fn ask_of_many<S: Scalar, P: PrimitivePair<S>>(kind: PairKind, pairs: &[P], dige
         Test::RelativeBoxesNine,
         Test::NormalDirection,
         Test::InsideFunctions,
-        Test::CertifiedNonCoplanarity,
     ] {
         culled(level, test, pairs, &mut masks);
         masks.iter().for_each(|&mask| digest.add(mask));
         culled_from_rows(level, kind, test, &rows, &indices, &mut masks);
         masks.iter().for_each(|&mask| digest.add(mask));
     }
+    let filter = Filter::<S>::new(Tier::Permanent);
+    culled(level, filter, pairs, &mut masks);
+    masks.iter().for_each(|&mask| digest.add(mask));
+    culled_from_rows(level, kind, filter, &rows, &indices, &mut masks);
+    masks.iter().for_each(|&mask| digest.add(mask));
     for tier in tiers() {
         let filter = Filter::<S>::new(tier);
         let separated = filter.with_separation(S::from_f64(0.125)).expect("a length");

@@ -17,20 +17,20 @@ use std::collections::BTreeSet;
 
 type MeshPair = (PairKind, [u32; 2]);
 
-fn candidates<S: Format>(broad_phase: &mut MovingBroadPhase<S>) -> Vec<MeshPair> {
+fn candidates(broad_phase: &mut MovingBroadPhase) -> Vec<MeshPair> {
     let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
     broad_phase.candidates(&mut vertex_face, &mut edge_edge);
     let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
     of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)).collect()
 }
 
-fn updated<S: Format>(mesh: &MeshCase<S>) -> MovingBroadPhase<S> {
+fn updated<S: Format>(mesh: &MeshCase<S>) -> MovingBroadPhase {
     let mut broad_phase = MovingBroadPhase::new(mesh.topology());
     update(&mut broad_phase, mesh);
     broad_phase
 }
 
-fn update<S: Format>(broad_phase: &mut MovingBroadPhase<S>, mesh: &MeshCase<S>) {
+fn update<S: Format>(broad_phase: &mut MovingBroadPhase, mesh: &MeshCase<S>) {
     let result = broad_phase.update(&mesh.frame(0), &mesh.frame(1));
     result.expect("finite positions, one for each vertex");
 }
@@ -172,11 +172,10 @@ fn no_pair_that_comes_within_the_separation_is_lost<S: Format>(mesh: &MeshCase<S
     let topology = mesh.topology();
     let mut broad_phase = MovingBroadPhase::new(topology.clone());
     for separation in [0.0, 1e-9, 0.25, 1.0] {
-        let accepted = broad_phase.set_separation(S::from_f64(separation));
+        let accepted = broad_phase.set_separation(separation);
         prop_assert!(accepted.is_ok());
         update(&mut broad_phase, mesh);
         let found: BTreeSet<MeshPair> = candidates(&mut broad_phase).into_iter().collect();
-        let separation = S::from_f64(separation).to_f64();
         for pair in all_pairs(&topology) {
             if !found.contains(&pair) {
                 let question = mesh.pair(&topology, pair).question();
@@ -226,7 +225,7 @@ fn frames_of_the_wrong_length_and_what_is_not_finite_are_errors() {
         triangles: vec![[0, 1, 2]],
         positions: vec![[[0.0; 3]; 2]; 3],
     };
-    let mut broad_phase = MovingBroadPhase::<f64>::new(mesh.topology());
+    let mut broad_phase = MovingBroadPhase::new(mesh.topology());
     let frame = mesh.frame(0);
     assert!(broad_phase.update(&frame[1..], &frame).is_err());
     assert!(broad_phase.update(&frame, &frame[1..]).is_err());
@@ -250,7 +249,7 @@ fn instruction_sets_and_threads_change_nothing() {
         for threads in [1, 2, 3] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             let found = pool.expect("threads").install(|| {
-                let mut broad_phase = MovingBroadPhase::<f64>::new(topology.clone());
+                let mut broad_phase = MovingBroadPhase::new(topology.clone());
                 broad_phase.set_level(level);
                 for _ in 0..2 {
                     let result = broad_phase.update(&start, &end);
@@ -283,15 +282,15 @@ fn degraded_hierarchies_are_built_anew() {
         };
         (0..SIDE * SIDE).flat_map(corners).collect()
     };
-    let set = |broad_phase: &mut MovingBroadPhase<f64>, frame: &[DVec3]| {
+    let set = |broad_phase: &mut MovingBroadPhase, frame: &[DVec3]| {
         broad_phase.update(frame, frame).expect("finite positions");
         let found = candidates(broad_phase);
         found.into_iter().collect::<BTreeSet<MeshPair>>()
     };
-    let mut fresh = MovingBroadPhase::<f64>::new(topology.clone());
+    let mut fresh = MovingBroadPhase::new(topology.clone());
     let expected = set(&mut fresh, &frame(1));
 
-    let mut broad_phase = MovingBroadPhase::<f64>::new(topology);
+    let mut broad_phase = MovingBroadPhase::new(topology);
     set(&mut broad_phase, &frame(1009));
     for _ in 0..30 {
         assert!(set(&mut broad_phase, &frame(1)) == expected);

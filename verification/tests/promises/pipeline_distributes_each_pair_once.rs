@@ -326,7 +326,7 @@ fn the_exact_preset_finds_the_pairs_that_collide_and_no_other_f32() {
 /// those of one pair alone, to the bit, because several pairs advance side by side first.
 fn moving_boxes_end_with_what_the_certified_tests_leave<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();
-    let mut broad_phase = MovingBroadPhase::<S>::new(topology.clone());
+    let mut broad_phase = MovingBroadPhase::new(topology.clone());
     let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
     let update = broad_phase.update(&mesh.frame(0), &mesh.frame(1));
     update.expect("finite positions, one for each vertex");

@@ -32,7 +32,7 @@ pub(super) struct Search {
     carriers: Vec<Carrier>,
     /// Vertices from here on are bodies'.
     cloth_vertices: usize,
-    broad_phase: MovingBroadPhase<f64>,
+    broad_phase: MovingBroadPhase,
     sieve: Sieve,
     vertex_face: Vec<[u32; 2]>,
     edge_edge: Vec<[u32; 2]>,

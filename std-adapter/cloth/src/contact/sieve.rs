@@ -18,7 +18,7 @@ use std::sync::Arc;
 /// Whether so many pairs of cloth, vertices below `cloth_vertices`, are nearer to each other than `distance` at rest that looking them
 /// up costs less than it saves: more than there are edges.
 pub(super) fn are_many(topology: &Arc<Topology>, rest: &[DVec3], cloth_vertices: usize, distance: f64) -> bool {
-    let mut broad_phase = MovingBroadPhase::<f64>::new(Arc::clone(topology));
+    let mut broad_phase = MovingBroadPhase::new(Arc::clone(topology));
     let is_cloth = |vertex: usize| vertex < cloth_vertices;
     let accepted = broad_phase.set_separation(distance);
     debug_assert!(accepted.is_ok(), "scenes give a positive thickness");

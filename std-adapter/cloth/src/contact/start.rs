@@ -18,7 +18,7 @@ pub(super) fn first_crossing(
     positions: &[DVec3],
     are_asked: impl Fn(u32, u32) -> bool,
 ) -> Option<String> {
-    let mut broad_phase = MovingBroadPhase::<f64>::new(Arc::clone(topology));
+    let mut broad_phase = MovingBroadPhase::new(Arc::clone(topology));
     let mut pairs = Vec::new();
     match broad_phase.update(positions, positions) {
         Ok(()) => broad_phase.edge_face_candidates(&mut pairs),

@@ -3,18 +3,18 @@
 use super::MovingStatistics;
 use super::degradation::{Degradation, Prices};
 use super::pairs::Sink;
-use super::rows::{Rows, row};
+use super::rows::Rows;
 use super::traversal::{BlockPair, Scratch, Trees};
 use super::tree::Tree;
 use crate::PairKind;
 use crate::buffer::settle;
 use crate::dispatch::{Level, best_level};
-use crate::frame::{StepError, check_frames};
+use crate::frame::Motions;
 use crate::mesh::Topology;
 use crate::parallel;
+use selvedge_core::batch::VertexRow;
 use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::{Aabb, moving::MovingBox};
-use selvedge_core::{Position, Scalar};
 use std::sync::Arc;
 
 /// An item is an edge; there are about as many vertices and faces together.
@@ -28,20 +28,20 @@ const PRICES: Prices = Prices { build: 0.65, item: 16.0 };
 
 /// What boxes are to hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Fit<S> {
+pub(crate) struct Fit {
     /// How far apart pairs must be not to be candidates; not negative, finite.
-    pub(crate) separation: S,
+    pub(crate) separation: f64,
     /// When in the step the boxes of the end are taken, in (0, 1].
-    pub(crate) until: S,
+    pub(crate) until: f64,
     /// Boxes for the whole step instead of two for its ends.
     pub(crate) is_swept: bool,
 }
 
-impl<S: Scalar> Default for Fit<S> {
+impl Default for Fit {
     fn default() -> Self {
         Self {
-            separation: S::ZERO,
-            until: S::ONE,
+            separation: 0.0,
+            until: 1.0,
             is_swept: false,
         }
     }
@@ -58,7 +58,7 @@ pub(crate) struct Share<'a> {
 /// Trees over vertices, edges and faces. Everything is numbered by its position in its tree: what lies close together is so
 /// in memory as well, whatever the mesh's own order.
 #[derive(Debug)]
-pub(crate) struct Hierarchies<S: Scalar> {
+pub(crate) struct Hierarchies {
     topology: Arc<Topology>,
     level: Level,
     vertices: Tree<1>,
@@ -78,7 +78,7 @@ pub(crate) struct Hierarchies<S: Scalar> {
     /// What the boxes of what rests were fitted with, if they are still good.
     fitted: Option<Mapping>,
     /// What the boxes hold.
-    fit: Fit<S>,
+    fit: Fit,
     extent: Aabb<f64>,
     tasks: [Vec<BlockPair>; 2],
     task_tests: u64,
@@ -89,7 +89,7 @@ pub(crate) struct Hierarchies<S: Scalar> {
     statistics: MovingStatistics,
 }
 
-impl<S: Scalar> Hierarchies<S> {
+impl Hierarchies {
     pub(crate) fn new(topology: Arc<Topology>) -> Self {
         Self {
             topology,
@@ -171,25 +171,23 @@ impl<S: Scalar> Hierarchies<S> {
     }
 
     /// Takes the positions of a step and finds where to look for pairs.
-    pub(crate) fn update<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P], fit: &Fit<S>) -> Result<(), StepError> {
-        check_frames(start, end, self.topology.vertex_count())?;
+    pub(crate) fn update(&mut self, motions: &dyn Motions, fit: &Fit) {
         let items = self.edges.len();
         if self.must_build || self.degradation.is_worth_a_build(PRICES, items) {
-            self.build(start, end);
+            self.build(motions);
         }
-        let mapping = Mapping::new(&self.extent, fit.separation, fit.until, fit.is_swept);
-        self.refit(start, end, mapping);
+        let mapping = motions.mapping(&self.extent, fit);
+        self.refit(motions, mapping);
         self.fit = *fit;
         self.find_tasks();
-        Ok(())
     }
 
-    fn build<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P]) {
-        self.extent = extent(start, end);
-        let middles = Mapping::new(&self.extent, S::ZERO, S::ONE, false);
+    fn build(&mut self, motions: &dyn Motions) {
+        self.extent = extent(motions);
+        let middles = motions.mapping(&self.extent, &Fit::default());
         let middle = |vertex: u32| {
-            let vertex = vertex as usize;
-            let moving = middles.vertex::<S>(start[vertex].into(), end[vertex].into());
+            let motion = motions.of(vertex as usize);
+            let moving = middles.vertex(motion.start.into(), motion.end.into());
             [0, 1, 2].map(|axis| {
                 let middle = 0.5 * moving.start.lower[axis] + 0.5 * moving.end.lower[axis];
                 if middle.is_finite() { middle } else { 0.0 }
@@ -246,7 +244,7 @@ impl<S: Scalar> Hierarchies<S> {
         self.faces.mark(moves);
     }
 
-    fn refit<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P], mapping: Mapping) {
+    fn refit(&mut self, motions: &dyn Motions, mapping: Mapping) {
         // What rests keeps the rows and boxes that it has.
         let only_moving = self.moving.is_some() && !self.refit_all && self.fitted == Some(mapping);
         let vertices = &self.vertices.primitives;
@@ -258,9 +256,9 @@ impl<S: Scalar> Hierarchies<S> {
             for ((own_row, moving_box), &vertex) in own {
                 let vertex = vertex as usize;
                 if moving.is_none_or(|moving| moving[vertex]) {
-                    let (start, end) = (start[vertex], end[vertex]);
-                    *own_row = row(start, end);
-                    *moving_box = mapping.vertex::<S>(start.into(), end.into());
+                    let motion = motions.of(vertex);
+                    *own_row = VertexRow::new(motion);
+                    *moving_box = mapping.vertex(motion.start.into(), motion.end.into());
                 }
             }
         });
@@ -357,7 +355,7 @@ impl<S: Scalar> Hierarchies<S> {
     pub(crate) fn observe(&mut self, tests: u64, candidates: usize) {
         let tests = tests + self.task_tests;
         // Boxes of another kind cost something else.
-        if self.fit.until == S::ONE && !self.fit.is_swept {
+        if self.fit.until == 1.0 && !self.fit.is_swept {
             self.degradation.observe(PRICES, tests, self.edges.len(), candidates);
         }
         self.statistics.box_tests = tests;
@@ -438,14 +436,15 @@ const SHARES: usize = 16;
 const VERTICES: usize = 1024;
 
 /// The box of all positions of both frames.
-pub(crate) fn extent<P: Position>(start: &[P], end: &[P]) -> Aabb<f64> {
+pub(crate) fn extent(motions: &dyn Motions) -> Aabb<f64> {
     let mut extent = Aabb::<f64>::empty();
-    for &position in start.iter().chain(end) {
-        let position: [P::Scalar; 3] = position.into();
-        for axis in 0..3 {
-            let x = position[axis].to_f64();
-            extent.lower[axis] = extent.lower[axis].min(x);
-            extent.upper[axis] = extent.upper[axis].max(x);
+    for vertex in 0..motions.len() {
+        let motion = motions.of(vertex);
+        for position in [motion.start, motion.end] {
+            for (axis, x) in position.to_array().into_iter().enumerate() {
+                extent.lower[axis] = extent.lower[axis].min(x);
+                extent.upper[axis] = extent.upper[axis].max(x);
+            }
         }
     }
     extent

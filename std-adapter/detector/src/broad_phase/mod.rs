@@ -18,7 +18,7 @@
 //!     vertex.z -= 4.0;
 //! }
 //!
-//! let mut broad_phase = MovingBroadPhase::<f64>::new(topology);
+//! let mut broad_phase = MovingBroadPhase::new(topology);
 //! let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
 //! broad_phase.update(&start, &end)?;
 //! broad_phase.candidates(&mut vertex_face, &mut edge_edge);
@@ -53,10 +53,10 @@ pub(crate) use traversal::Scratch;
 use crate::PairKind;
 use crate::buffer::settle;
 use crate::dispatch::Level;
-use crate::frame::{StepError, check_length};
+use crate::frame::{Step, StepError, check_length};
 use crate::mesh::Topology;
 use crate::parallel;
-use selvedge_core::{Position, Scalar};
+use selvedge_core::Position;
 use std::mem::swap;
 use std::sync::Arc;
 
@@ -75,9 +75,9 @@ pub struct MovingStatistics {
 ///
 /// On the rayon pool in which it is called; outside of one on the calling thread.
 #[derive(Debug)]
-pub struct MovingBroadPhase<S: Scalar> {
-    pub(crate) hierarchies: Hierarchies<S>,
-    fit: Fit<S>,
+pub struct MovingBroadPhase {
+    pub(crate) hierarchies: Hierarchies,
+    fit: Fit,
     collectors: Vec<Collector>,
 }
 
@@ -89,7 +89,7 @@ struct Collector {
     tests: u64,
 }
 
-impl<S: Scalar> MovingBroadPhase<S> {
+impl MovingBroadPhase {
     /// A broad phase for a mesh.
     #[must_use]
     pub fn new(topology: impl Into<Arc<Topology>>) -> Self {
@@ -109,7 +109,7 @@ impl<S: Scalar> MovingBroadPhase<S> {
     ///
     /// # Errors
     /// If it is negative, infinite or NaN. Then it stays as it was.
-    pub fn set_separation(&mut self, separation: S) -> Result<(), StepError> {
+    pub fn set_separation(&mut self, separation: f64) -> Result<(), StepError> {
         check_length(separation)?;
         self.fit.separation = separation;
         Ok(())
@@ -149,8 +149,10 @@ impl<S: Scalar> MovingBroadPhase<S> {
     ///
     /// # Errors
     /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
-    pub fn update<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P]) -> Result<(), StepError> {
-        self.hierarchies.update(start, end, &self.fit)
+    pub fn update<P: Position>(&mut self, start: &[P], end: &[P]) -> Result<(), StepError> {
+        let step = Step::checked(start, end, self.hierarchies.topology().vertex_count())?;
+        self.hierarchies.update(&step, &self.fit);
+        Ok(())
     }
 
     /// Replaces `vertex_face` and `edge_edge` by the candidates of the last update: vertex and face, or two edges, the smaller
@@ -213,7 +215,7 @@ impl Collector {
         }
     }
 
-    fn collect<S: Scalar>(&mut self, hierarchies: &Hierarchies<S>, share: Share<'_>) {
+    fn collect(&mut self, hierarchies: &Hierarchies, share: Share<'_>) {
         self.pairs.clear();
         let mut collected = Collected {
             hierarchies,
@@ -235,13 +237,13 @@ impl Sink for Positions {
     }
 }
 
-struct Collected<'a, S: Scalar> {
-    hierarchies: &'a Hierarchies<S>,
+struct Collected<'a> {
+    hierarchies: &'a Hierarchies,
     kind: PairKind,
     pairs: &'a mut Vec<[u32; 2]>,
 }
 
-impl<S: Scalar> Sink for Collected<'_, S> {
+impl Sink for Collected<'_> {
     fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
         let in_mesh = |&pair| self.hierarchies.in_mesh(self.kind, pair);
         self.pairs.extend(pairs.iter().map(in_mesh));
@@ -267,7 +269,7 @@ mod tests {
     fn what_is_found_after_forgetting_does_not_depend_on_the_steps_before() {
         let triangles = (0..398).map(|k| [k, k + 1, k + 2]).collect();
         let topology = Arc::new(Topology::new(400, triangles).unwrap());
-        let found = |broad_phase: &mut MovingBroadPhase<f64>, positions: &[DVec3]| {
+        let found = |broad_phase: &mut MovingBroadPhase, positions: &[DVec3]| {
             let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
             broad_phase.update(positions, positions).unwrap();
             broad_phase.candidates(&mut vertex_face, &mut edge_edge);

@@ -4,9 +4,10 @@
 //! lanes of `f32` prove, sixteen in a register, holds for the positions themselves, and `f64` is for the pairs that they leave
 //! open.
 
+use crate::frame::Motions;
 use crate::parallel;
 use selvedge_core::batch::VertexRow;
-use selvedge_core::{Motion, Position, Scalar};
+use selvedge_core::{Motion, Scalar};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Rows of all vertices.
@@ -43,10 +44,10 @@ impl Rows {
     }
 
     /// Replaces all by these.
-    pub(crate) fn set<P: Position>(&mut self, start: &[P], end: &[P]) {
+    pub(crate) fn set(&mut self, motions: &dyn Motions) {
         self.clear();
-        let ends = start.iter().zip(end);
-        self.double.extend(ends.map(|(&start, &end)| row(start, end)));
+        self.double
+            .extend((0..motions.len()).map(|vertex| VertexRow::new(motions.of(vertex))));
     }
 
     /// Looks whether all positions are `f32` numbers, and makes their rows if so.
@@ -65,16 +66,6 @@ impl Rows {
 
 /// Vertices that one thread narrows in one go.
 const VERTICES: usize = 4096;
-
-/// The row of a vertex.
-#[inline(always)]
-pub(super) fn row<P: Position>(start: P, end: P) -> VertexRow<f64> {
-    let exact = |position: P| {
-        let [x, y, z]: [P::Scalar; 3] = position.into();
-        [x.to_f64(), y.to_f64(), z.to_f64()].into()
-    };
-    VertexRow::new(Motion::new(exact(start), exact(end)))
-}
 
 /// Replaces `single` by `double`, as long as it is exact: returns whether it always was. (Where a thread flushes subnormal numbers, it
 /// is not exact for those.)

@@ -42,14 +42,14 @@ const SINGLE_SWEEPS: usize = 4;
 
 /// Whose numbers pairs have.
 #[derive(Clone, Copy)]
-pub(super) enum Numbers<'a, S: Scalar> {
+pub(super) enum Numbers<'a> {
     /// Positions in the hierarchies.
-    Positions(&'a Hierarchies<S>),
+    Positions(&'a Hierarchies),
     /// The mesh's own.
     Mesh(&'a Topology),
 }
 
-impl<S: Scalar> Numbers<'_, S> {
+impl Numbers<'_> {
     /// The rows of a pair's vertices.
     #[inline(always)]
     fn vertices(&self, kind: PairKind, pair: [u32; 2]) -> [u32; 4] {
@@ -81,9 +81,9 @@ impl<S: Scalar> Numbers<'_, S> {
 
 /// What all chunks of a step read.
 #[derive(Clone, Copy)]
-pub(super) struct StepInput<'a, S: Scalar> {
+pub(super) struct StepInput<'a> {
     pub(super) level: Level,
-    pub(super) numbers: Numbers<'a, S>,
+    pub(super) numbers: Numbers<'a>,
     pub(super) rows: &'a Rows,
     pub(super) question: Question,
     /// The earliest contact so far, of all threads.
@@ -96,7 +96,7 @@ enum Primitives {
     EdgeEdge(EdgeEdge<f64>),
 }
 
-impl<S: Scalar> StepInput<'_, S> {
+impl StepInput<'_> {
     #[inline(always)]
     fn primitives(&self, kind: PairKind, rows: [u32; 4]) -> Primitives {
         let [a, b, c, d] = rows.map(|row| self.rows.double()[row as usize].motion());
@@ -189,13 +189,7 @@ impl Chunk {
     }
 
     /// Takes candidates. Returns whether to go on.
-    pub(super) fn take<S: Scalar>(
-        &mut self,
-        step: &StepInput<'_, S>,
-        kind: PairKind,
-        candidates: &[[u32; 2]],
-        found: &mut Found,
-    ) -> bool {
+    pub(super) fn take(&mut self, step: &StepInput<'_>, kind: PairKind, candidates: &[[u32; 2]], found: &mut Found) -> bool {
         let begin = Clock::now();
         let first = self.pairs.len();
         self.pairs.extend_from_slice(candidates);
@@ -253,7 +247,7 @@ impl Chunk {
     }
 
     /// Decides all pairs that there are. Returns whether to go on.
-    pub(super) fn finish<S: Scalar>(&mut self, step: &StepInput<'_, S>, kind: PairKind, found: &mut Found) -> bool {
+    pub(super) fn finish(&mut self, step: &StepInput<'_>, kind: PairKind, found: &mut Found) -> bool {
         let begin = Clock::now();
         let until = step.bound.get();
         self.impacts.clear();
@@ -282,13 +276,7 @@ impl Chunk {
     }
 
     /// Leaves to `f64` what `f32` does not prove to be apart until the end, from when on it does not. Returns the number of sweeps.
-    fn sweep_in_single<S: Scalar>(
-        &mut self,
-        step: &StepInput<'_, S>,
-        kind: PairKind,
-        until: f64,
-        rows: &[VertexRow<f32>],
-    ) -> usize {
+    fn sweep_in_single(&mut self, step: &StepInput<'_>, kind: PairKind, until: f64, rows: &[VertexRow<f32>]) -> usize {
         let Self { single, double, .. } = self;
         single.fill(&self.indices);
         double.clear();
@@ -316,7 +304,7 @@ impl Chunk {
     }
 
     /// Decides what is open in `f64`, after so many sweeps.
-    fn sweep_in_double<S: Scalar>(&mut self, step: &StepInput<'_, S>, kind: PairKind, until: f64, sweeps: usize) {
+    fn sweep_in_double(&mut self, step: &StepInput<'_>, kind: PairKind, until: f64, sweeps: usize) {
         let Self { double, impacts, .. } = self;
         let sweep = Sweep {
             level: step.level,
@@ -340,7 +328,7 @@ impl Chunk {
 }
 
 /// One pair alone, from the time up to which it is proven to be apart. [`NEVER`] if it is so until the end.
-fn advanced<S: Scalar>(step: &StepInput<'_, S>, kind: PairKind, indices: [u32; 4], from: f64, until: f64) -> f64 {
+fn advanced(step: &StepInput<'_>, kind: PairKind, indices: [u32; 4], from: f64, until: f64) -> f64 {
     let limits = &step.question.limits;
     let impact = match step.primitives(kind, indices) {
         Primitives::VertexFace(pair) => time_of_impact_within(&pair, limits, from, until),
@@ -350,7 +338,7 @@ fn advanced<S: Scalar>(step: &StepInput<'_, S>, kind: PairKind, indices: [u32; 4
 }
 
 /// Whether a pair for which contact is not excluded from `time` on truly touches.
-fn touches<S: Scalar>(step: &StepInput<'_, S>, kind: PairKind, pair: [u32; 2], time: f64) -> bool {
+fn touches(step: &StepInput<'_>, kind: PairKind, pair: [u32; 2], time: f64) -> bool {
     let impact = Impact::Possible {
         time,
         reason: Reason::WithinTolerance,
@@ -370,14 +358,14 @@ fn count(counts: &mut PairCounts, kind: PairKind) -> &mut u64 {
 }
 
 /// A chunk that takes what a traversal finds.
-pub(super) struct ChunkSink<'a, S: Scalar> {
+pub(super) struct ChunkSink<'a> {
     pub(super) chunk: &'a mut Chunk,
     pub(super) found: &'a mut Found,
-    pub(super) step: &'a StepInput<'a, S>,
+    pub(super) step: &'a StepInput<'a>,
     pub(super) kind: PairKind,
 }
 
-impl<S: Scalar> Sink for ChunkSink<'_, S> {
+impl Sink for ChunkSink<'_> {
     fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
         self.chunk.take(self.step, self.kind, pairs, self.found)
     }

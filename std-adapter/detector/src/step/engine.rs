@@ -8,13 +8,12 @@ use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
 use crate::buffer::settle;
 use crate::clock::Clock;
 use crate::dispatch::Level;
-use crate::frame::{StepError, check_frames};
+use crate::frame::{Motions, StepError};
 use crate::mesh::Topology;
 use crate::pair_counts::PairCounts;
-use crate::parallel;
-use selvedge_core::elementary::Limits;
+use crate::parallel::{self, Workers};
+use selvedge_core::Scalar;
 use selvedge_core::narrowing::rounded_down;
-use selvedge_core::{Position, Scalar};
 use std::cmp::Ordering;
 use std::sync::atomic::{self, AtomicBool};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -36,7 +35,7 @@ impl Probe {
 /// Measured: on cloth-ball, with a contact at 7e-6 of the step, a probe of 1/128 to 1/16 takes 36 ms and one of 1/4 42, where
 /// the whole step takes three times as long; on cloth-funnel, with a contact at 0.045, the traversal is nearly all of the time and
 /// takes as long for any part, so that a second probe would double it.
-pub(super) const PROBES: [Probe; 2] = [Probe { until: 1.0 / 16.0 }, Probe::WHOLE];
+const PROBES: [Probe; 2] = [Probe { until: 1.0 / 16.0 }, Probe::WHOLE];
 
 /// What a step counted, and its seconds. With several threads the seconds of stages are sums over them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -61,8 +60,8 @@ pub struct StepTally {
 
 /// See the [module](super).
 #[derive(Debug)]
-pub(crate) struct Engine<S: Scalar> {
-    broad_phase: MovingBroadPhase<S>,
+pub(crate) struct Engine {
+    broad_phase: MovingBroadPhase,
     /// One for each share of the work.
     workers: Vec<Worker>,
     /// One for each thread.
@@ -102,7 +101,7 @@ impl Worker {
     }
 }
 
-impl<S: Scalar> Engine<S> {
+impl Engine {
     pub(crate) fn new(topology: Arc<Topology>) -> Self {
         Self {
             broad_phase: MovingBroadPhase::new(topology),
@@ -130,26 +129,19 @@ impl<S: Scalar> Engine<S> {
         &self.tally
     }
 
-    /// What several runs took together.
-    pub(super) const fn set_seconds(&mut self, seconds: f64) {
-        self.tally.seconds = seconds;
+    /// Finds the contacts of a step, or of a part of it.
+    pub(super) fn run(&mut self, threads: &Workers, motions: &dyn Motions, question: &Question, probe: Probe) {
+        threads.run(|| self.run_here(motions, question, probe));
     }
 
-    /// Finds the contacts of a step, or of a part of it.
-    pub(super) fn run<P: Position<Scalar = S>>(
-        &mut self,
-        start: &[P],
-        end: &[P],
-        question: &Question,
-        probe: Probe,
-    ) -> Result<(), StepError> {
+    fn run_here(&mut self, motions: &dyn Motions, question: &Question, probe: Probe) {
         let begin = Clock::now();
         let fit = Fit {
-            separation: S::from_f64(question.limits.separation),
-            until: S::from_f64(probe.until),
+            separation: question.limits.separation,
+            until: probe.until,
             is_swept: false,
         };
-        self.broad_phase.hierarchies.update(start, end, &fit)?;
+        self.broad_phase.hierarchies.update(motions, &fit);
         self.broad_phase.hierarchies.narrow();
         let update = begin.elapsed().as_secs_f64();
 
@@ -195,25 +187,26 @@ impl<S: Scalar> Engine<S> {
         if question.wanted == Wanted::All {
             self.broad_phase.hierarchies.observe(tests, candidates);
         }
-        Ok(())
     }
 
     /// Finds the contacts of pairs that the caller has: VF, EE.
-    pub(crate) fn run_on<P: Position<Scalar = S>>(
+    pub(super) fn run_on(
         &mut self,
-        start: &[P],
-        end: &[P],
+        threads: &Workers,
+        motions: &dyn Motions,
         question: &Question,
         pairs: [&[[u32; 2]]; 2],
     ) -> Result<(), StepError> {
+        threads.run(|| self.run_here_on(motions, question, pairs))
+    }
+
+    fn run_here_on(&mut self, motions: &dyn Motions, question: &Question, pairs: [&[[u32; 2]]; 2]) -> Result<(), StepError> {
         let begin = Clock::now();
         let hierarchies = &self.broad_phase.hierarchies;
         let topology = hierarchies.topology();
-        check_frames(start, end, topology.vertex_count())?;
-        self.rows.set(start, end);
+        self.rows.set(motions);
         self.rows.narrow();
-        let separation = S::from_f64(question.limits.separation);
-        self.boxes.fit(topology, start, end, separation);
+        self.boxes.fit(topology, motions, question.limits.separation);
         let update = begin.elapsed().as_secs_f64();
 
         let shares = match parallel::threads() {
@@ -225,7 +218,7 @@ impl<S: Scalar> Engine<S> {
         let bound = Bound::new(1.0);
         let step = StepInput {
             level: hierarchies.level(),
-            numbers: Numbers::<S>::Mesh(topology),
+            numbers: Numbers::Mesh(topology),
             rows: &self.rows,
             question: *question,
             bound: &bound,
@@ -266,23 +259,26 @@ impl<S: Scalar> Engine<S> {
     }
 
     /// The pairs that moving boxes leave.
-    pub(crate) fn candidates<P: Position<Scalar = S>>(
+    pub(super) fn candidates(
         &mut self,
-        start: &[P],
-        end: &[P],
-        limits: &Limits<S>,
+        threads: &Workers,
+        motions: &dyn Motions,
+        separation: f64,
         boxes: CandidateBoxes,
         vertex_face: &mut Vec<[u32; 2]>,
         edge_edge: &mut Vec<[u32; 2]>,
-    ) -> Result<(), StepError> {
+    ) {
         let begin = Clock::now();
         let fit = Fit {
-            separation: limits.separation,
+            separation,
             is_swept: boxes == CandidateBoxes::Swept,
             ..Fit::default()
         };
-        self.broad_phase.hierarchies.update(start, end, &fit)?;
-        self.broad_phase.candidates(vertex_face, edge_edge);
+        let broad_phase = &mut self.broad_phase;
+        threads.run(|| {
+            broad_phase.hierarchies.update(motions, &fit);
+            broad_phase.candidates(vertex_face, edge_edge);
+        });
         let seconds = begin.elapsed().as_secs_f64();
         self.tally = StepTally {
             candidates: PairCounts {
@@ -293,7 +289,6 @@ impl<S: Scalar> Engine<S> {
             seconds,
             ..StepTally::default()
         };
-        Ok(())
     }
 
     #[cfg(feature = "verification")]
@@ -313,7 +308,7 @@ impl<S: Scalar> Engine<S> {
     }
 
     /// Replaces `contacts` by those of the last run.
-    pub(crate) fn collect_contacts(&mut self, contacts: &mut Vec<Contact<S>>) {
+    pub(crate) fn collect_contacts<S: Scalar>(&mut self, contacts: &mut Vec<Contact<S>>) {
         let begin = Clock::now();
         contacts.clear();
         for worker in &mut self.workers {
@@ -325,14 +320,26 @@ impl<S: Scalar> Engine<S> {
         self.tally.seconds += begin.elapsed().as_secs_f64();
     }
 
+    /// The earliest contact of a step: of its beginning first, then of all of it.
+    pub(super) fn earliest(&mut self, threads: &Workers, motions: &dyn Motions, question: &Question) -> Option<Contact<f64>> {
+        let begin = Clock::now();
+        let mut probes = PROBES.into_iter();
+        let earliest = probes.find_map(|probe| {
+            self.run(threads, motions, question, probe);
+            self.earliest_found()
+        });
+        self.tally.seconds = begin.elapsed().as_secs_f64();
+        earliest
+    }
+
     /// The earliest contact of the last run.
-    pub(super) fn earliest(&self) -> Option<Contact<S>> {
+    fn earliest_found(&self) -> Option<Contact<f64>> {
         let contacts = self.workers.iter().flat_map(|worker| &worker.found.contacts);
         let earliest = contacts.min_by(|a, b| {
             let by_time = a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal);
             by_time.then((a.kind, a.pair).cmp(&(b.kind, b.pair)))
         });
-        earliest.map(in_format_of_positions)
+        earliest.copied()
     }
 
     fn count(&mut self, begin: Clock, update: f64) {
@@ -365,7 +372,7 @@ impl<S: Scalar> Engine<S> {
 }
 
 /// A contact with its time rounded down, so that it is no later.
-fn in_format_of_positions<S: Scalar>(contact: &Contact<f64>) -> Contact<S> {
+pub(super) fn in_format_of_positions<S: Scalar>(contact: &Contact<f64>) -> Contact<S> {
     let &Contact { kind, pair, time } = contact;
     Contact {
         kind,

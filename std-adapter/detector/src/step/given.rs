@@ -13,13 +13,12 @@
 //! certified to drop a pair is derived with the [boxes](selvedge_core::boxes::moving) and their [mapping](selvedge_core::boxes::mapping).
 
 use crate::PairKind;
-use crate::broad_phase::extent;
+use crate::broad_phase::{Fit, extent};
 use crate::dispatch::Level;
+use crate::frame::Motions;
 use crate::mesh::Topology;
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
-use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::moving::MovingBox;
-use selvedge_core::{Position, Scalar};
 
 /// A moving box as one row of sixteen numbers: lower and negated upper corner at the start, and at the end.
 #[derive(Clone, Copy, Debug)]
@@ -59,12 +58,16 @@ pub(super) struct PrimitiveBoxes {
 
 impl PrimitiveBoxes {
     /// Makes the boxes of a step. Pairs that they show to be apart are so by more than `separation`.
-    pub(super) fn fit<S: Scalar, P: Position<Scalar = S>>(&mut self, topology: &Topology, start: &[P], end: &[P], separation: S) {
-        let mapping = Mapping::new(&extent(start, end), separation, S::ONE, false);
-        let moving = start.iter().zip(end);
+    pub(super) fn fit(&mut self, topology: &Topology, motions: &dyn Motions, separation: f64) {
+        let fit = Fit {
+            separation,
+            ..Fit::default()
+        };
+        let mapping = motions.mapping(&extent(motions), &fit);
+        let moving = (0..motions.len()).map(|vertex| motions.of(vertex));
         self.vertex_boxes.clear();
         self.vertex_boxes
-            .extend(moving.map(|(&start, &end)| mapping.vertex::<S>(start.into(), end.into())));
+            .extend(moving.map(|motion| mapping.vertex(motion.start.into(), motion.end.into())));
         let boxes = &self.vertex_boxes;
         let of = |vertex: u32| &boxes[vertex as usize];
         let [vertices, first_edges] = &mut self.firsts;
@@ -122,6 +125,7 @@ fn keep_near_in_lanes<V: Simd>(
 mod tests {
     use super::*;
     use crate::dispatch::available_levels;
+    use crate::frame::Step;
     use crate::glam::DVec3;
 
     /// A triangle, and a vertex of a second one above it or beside it, at both ends of the step.
@@ -131,7 +135,8 @@ mod tests {
         let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]]).unwrap();
         let frame = |vertex: DVec3| [&corners[..], &[vertex], &far].concat();
         let mut boxes = PrimitiveBoxes::default();
-        boxes.fit(&topology, &frame(start), &frame(end), separation);
+        let (start, end) = (frame(start), frame(end));
+        boxes.fit(&topology, &Step::checked(&start, &end, 6).unwrap(), separation);
         let mut answers = available_levels().into_iter().map(|(_, level)| {
             let mut near = Vec::new();
             let known = boxes.keep_near(level, PairKind::VertexFace, &[[3, 0]], &mut near);
@@ -172,7 +177,7 @@ mod tests {
         let topology = Topology::new(4, vec![[0, 1, 2], [1, 3, 2]]).unwrap();
         let frame = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::ONE];
         let mut boxes = PrimitiveBoxes::default();
-        boxes.fit(&topology, &frame, &frame, 0.0);
+        boxes.fit(&topology, &Step::checked(&frame, &frame, 4).unwrap(), 0.0);
         let mut near = Vec::new();
         let pairs = [[3, 1], [0, 1], [3, 0], [1, 0], [2, 1]];
         let level = crate::dispatch::best_level();

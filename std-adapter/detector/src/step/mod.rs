@@ -10,13 +10,12 @@ mod sweep;
 pub use engine::StepTally;
 
 use crate::PairKind;
-use crate::clock::Clock;
-use crate::frame::{StepError, check_length};
+use crate::frame::{Step, StepError, check_length};
 use crate::mesh::Topology;
 use crate::parallel::Workers;
 #[cfg(feature = "parallel")]
 use crate::parallel::{ThreadError, Threads};
-use engine::{Engine, PROBES, Probe};
+use engine::{Engine, Probe, in_format_of_positions};
 use selvedge_core::elementary::Limits;
 use selvedge_core::narrowing::widened;
 use selvedge_core::{Position, Scalar};
@@ -215,7 +214,7 @@ impl Bound {
 /// * Frames of the wrong length, and positions that are not finite, are errors.
 #[derive(Debug)]
 pub struct CollisionDetector<S: Scalar> {
-    engine: Engine<S>,
+    engine: Engine,
     workers: Workers,
     criterion: Criterion<S>,
 }
@@ -284,9 +283,9 @@ impl<S: Scalar> CollisionDetector<S> {
         end: &[P],
         contacts: &mut Vec<Contact<S>>,
     ) -> Result<(), StepError> {
+        let step = self.step(start, end)?;
         let question = self.question(Wanted::All);
-        let engine = &mut self.engine;
-        self.workers.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        self.engine.run(&self.workers, &step, &question, Probe::WHOLE);
         self.engine.collect_contacts(contacts);
         Ok(())
     }
@@ -312,19 +311,10 @@ impl<S: Scalar> CollisionDetector<S> {
     /// # Errors
     /// As [`contacts`](Self::contacts).
     pub fn earliest<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P]) -> Result<Option<Contact<S>>, StepError> {
+        let step = self.step(start, end)?;
         let question = self.question(Wanted::Earliest);
-        let begin = Clock::now();
-        let mut earliest = None;
-        for probe in PROBES {
-            let engine = &mut self.engine;
-            self.workers.run(|| engine.run(start, end, &question, probe))?;
-            earliest = self.engine.earliest();
-            if earliest.is_some() {
-                break;
-            }
-        }
-        self.engine.set_seconds(begin.elapsed().as_secs_f64());
-        Ok(earliest)
+        let earliest = self.engine.earliest(&self.workers, &step, &question);
+        Ok(earliest.as_ref().map(in_format_of_positions))
     }
 
     /// Whether the step is certainly free of contact.
@@ -332,9 +322,9 @@ impl<S: Scalar> CollisionDetector<S> {
     /// # Errors
     /// As [`contacts`](Self::contacts).
     pub fn is_free<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P]) -> Result<bool, StepError> {
+        let step = self.step(start, end)?;
         let question = self.question(Wanted::Any);
-        let engine = &mut self.engine;
-        self.workers.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        self.engine.run(&self.workers, &step, &question, Probe::WHOLE);
         Ok(self.engine.tally().contacts.total() == 0)
     }
 
@@ -351,10 +341,11 @@ impl<S: Scalar> CollisionDetector<S> {
         vertex_face: &mut Vec<[u32; 2]>,
         edge_edge: &mut Vec<[u32; 2]>,
     ) -> Result<(), StepError> {
-        let limits = self.criterion.limits();
-        let engine = &mut self.engine;
-        self.workers
-            .run(|| engine.candidates(start, end, &limits, boxes, vertex_face, edge_edge))
+        let step = self.step(start, end)?;
+        let separation = self.question(Wanted::All).limits.separation;
+        self.engine
+            .candidates(&self.workers, &step, separation, boxes, vertex_face, edge_edge);
+        Ok(())
     }
 
     /// Replaces `contacts` by those of the pairs given, in their order, vertex–face first: a vertex and a face, or two edges.
@@ -372,10 +363,10 @@ impl<S: Scalar> CollisionDetector<S> {
         edge_edge: &[[u32; 2]],
         contacts: &mut Vec<Contact<S>>,
     ) -> Result<(), StepError> {
+        let step = self.step(start, end)?;
         let question = self.question(Wanted::All);
-        let engine = &mut self.engine;
-        self.workers
-            .run(|| engine.run_on(start, end, &question, [vertex_face, edge_edge]))?;
+        self.engine
+            .run_on(&self.workers, &step, &question, [vertex_face, edge_edge])?;
         self.engine.collect_contacts(contacts);
         Ok(())
     }
@@ -390,6 +381,10 @@ impl<S: Scalar> CollisionDetector<S> {
     #[must_use]
     pub fn threads(&self) -> usize {
         self.workers.count()
+    }
+
+    fn step<'a, P: Position>(&self, start: &'a [P], end: &'a [P]) -> Result<Step<'a, P>, StepError> {
+        Step::checked(start, end, self.topology().vertex_count())
     }
 
     fn question(&self, wanted: Wanted) -> Question {

@@ -25,12 +25,12 @@ impl<S: Scalar> CollisionDetector<S> {
         vertex_face: &mut Vec<[u32; 2]>,
         edge_edge: &mut Vec<[u32; 2]>,
     ) -> Result<(), StepError> {
+        let step = self.step(start, end)?;
         let question = Question {
             keeps_filtered: true,
             ..self.question(Wanted::All)
         };
-        let engine = &mut self.engine;
-        self.workers.run(|| engine.run(start, end, &question, Probe::WHOLE))?;
+        self.engine.run(&self.workers, &step, &question, Probe::WHOLE);
         self.engine.collect_contacts(contacts);
         self.engine.collect_kept(vertex_face, edge_edge);
         Ok(())

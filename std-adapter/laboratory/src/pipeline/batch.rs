@@ -15,6 +15,7 @@ use selvedge_core::batch::{BatchTest, ByPoints, LANES, Level, Mask, Test, culled
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
 use selvedge_core::elementary::{Contact as Verdict, Limits, advance::time_of_impact, contact::settled};
+use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::{EdgeEdge, PrimitivePair, Scalar, VertexFace};
 use std::time::Instant;
 
@@ -117,7 +118,7 @@ impl<S: Scalar> Batch<S> {
             }
             CullingTest::PlainNonCoplanarity => self.keep_by_lanes(step, ByPoints(Plain)),
             CullingTest::CertifiedNonCoplanarity => {
-                self.keep_by_lanes(step, Test::CertifiedNonCoplanarity);
+                self.keep_by_lanes(step, Filter::new(Tier::Permanent));
             }
         }
     }
