@@ -29,6 +29,8 @@
 
 mod advance;
 mod chunk;
+#[cfg(feature = "batch")]
+mod compared;
 mod kernels;
 mod lane_test;
 mod rows;
@@ -38,7 +40,9 @@ mod simd;
 mod tile;
 
 pub use advance::{Round, RoundQuestion, advance_from_rows};
-pub use fearless_simd::{Level, Simd};
+#[cfg(feature = "batch")]
+pub use compared::{Compares, Loop, in_lanes};
+pub use fearless_simd::Level;
 #[cfg(not(feature = "verification"))]
 use lane_test::VolumeTest;
 #[cfg(feature = "verification")]

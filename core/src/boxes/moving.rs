@@ -17,7 +17,6 @@ use super::Aabb;
 use crate::batch::{LANES, Mask};
 use crate::motion::Motion;
 use crate::scalar::Scalar;
-use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
 
 /// The box of a set at the start of the step, and at its end.
 ///
@@ -178,36 +177,30 @@ impl MovingBlock {
         }
     }
 
-    /// The lanes whose box is not [apart from](MovingBox::is_apart_from) `other`, as bits, one lane after the other.
+    /// The lanes whose box is not [apart from](MovingBox::is_apart_from) `other`, as bits, one lane after the other. Sixteen lanes at
+    /// once: [`Compares::near`](crate::batch::Compares::near).
     #[must_use]
     pub fn near(&self, other: &MovingBox<f32>) -> Mask {
-        (0..LANES).fold(0, |near, lane| {
-            let is_near = !self.get(lane).is_apart_from(other);
-            near | Mask::from(is_near) << lane
-        })
+        let [a, b, c, d, e, f, g, h, i, j, k, l] = &self.rows;
+        let (start, end) = (&other.start, &other.end);
+        let mut near = 0;
+        for lane in 0..LANES {
+            let is_apart = a[lane] > start.upper[0] && g[lane] > end.upper[0]
+                || d[lane] < start.lower[0] && j[lane] < end.lower[0]
+                || b[lane] > start.upper[1] && h[lane] > end.upper[1]
+                || e[lane] < start.lower[1] && k[lane] < end.lower[1]
+                || c[lane] > start.upper[2] && i[lane] > end.upper[2]
+                || f[lane] < start.lower[2] && l[lane] < end.lower[2];
+            near |= Mask::from(!is_apart) << lane;
+        }
+        near
     }
 
-    /// The same answer, sixteen lanes at once: for loops that run inside [`Simd::vectorize`], which name an instruction set
-    /// by its token.
+    /// The numbers of all lanes: lower and upper corners at the start, then at the end.
+    #[cfg(not(unoptimised))]
     #[inline(always)]
-    #[must_use]
-    pub fn near_in_lanes<V: Simd>(&self, simd: V, other: &MovingBox<f32>) -> Mask {
-        let [a, b, c, d, e, f, g, h, i, j, k, l] = &self.rows;
-        macro_rules! above {
-            ($row:expr, $limit:expr) => {
-                f32x16::load_array_ref(simd, $row).simd_gt(f32x16::splat(simd, $limit))
-            };
-        }
-        macro_rules! below {
-            ($row:expr, $limit:expr) => {
-                f32x16::load_array_ref(simd, $row).simd_lt(f32x16::splat(simd, $limit))
-            };
-        }
-        let (start, end) = (&other.start, &other.end);
-        let x = (above!(a, start.upper[0]) & above!(g, end.upper[0])) | (below!(d, start.lower[0]) & below!(j, end.lower[0]));
-        let y = (above!(b, start.upper[1]) & above!(h, end.upper[1])) | (below!(e, start.lower[1]) & below!(k, end.lower[1]));
-        let z = (above!(c, start.upper[2]) & above!(i, end.upper[2])) | (below!(f, start.lower[2]) & below!(l, end.lower[2]));
-        !((x | y | z).to_bitmask() as Mask)
+    pub(crate) const fn rows(&self) -> &[[f32; LANES]; 12] {
+        &self.rows
     }
 }
 

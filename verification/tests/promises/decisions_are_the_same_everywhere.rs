@@ -5,9 +5,9 @@
 //! notice; here one does. A change that is meant changes a digest: the failure prints the new ones; put them in place of the old ones,
 //! and say in the commit what became sharper, or blunter, and why.
 
-use fearless_simd::dispatch;
 use selvedge::verification::available_levels;
 use selvedge_core::PairKind;
+use selvedge_core::batch::{Compares, Loop, Mask, in_lanes};
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, direction, relative, segment, swept_boxes};
 use selvedge_core::coplanarity::{error_bound_by_magnitudes, is_in_range};
@@ -231,6 +231,17 @@ fn boxes() {
 /// The moving boxes of a pair's four points, in a block with empty lanes between, against each of them; on every instruction set.
 struct Blocks;
 
+struct Near<'a>(&'a MovingBlock, &'a MovingBox<f32>);
+
+impl Loop for Near<'_> {
+    type Output = Mask;
+
+    #[inline(always)]
+    fn run(self, lanes: impl Compares) -> Mask {
+        lanes.near(self.0, self.1)
+    }
+}
+
 impl Question for Blocks {
     fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, _: &P, digest: &mut Digest) {
         let mut block = MovingBlock::empty();
@@ -242,8 +253,7 @@ impl Question for Blocks {
         for moving in &boxes {
             let near = block.near(moving);
             for (name, level) in available_levels() {
-                let in_lanes = dispatch!(level, simd => block.near_in_lanes(simd, moving));
-                assert_eq!(in_lanes, near, "{name} {case:?}");
+                assert_eq!(in_lanes(level, Near(&block, moving)), near, "{name} {case:?}");
             }
             digest.add(near.into());
         }

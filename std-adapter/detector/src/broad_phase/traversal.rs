@@ -7,8 +7,7 @@
 
 use super::pairs::{PairBuffer, Sink};
 use super::tree::{Node, Tree};
-use fearless_simd::{Simd, SimdBase, SimdMask, u32x16};
-use selvedge_core::batch::{LANES, Level, Mask};
+use selvedge_core::batch::{Compares, LANES, Level, Loop, Mask, in_lanes};
 use selvedge_core::boxes::moving::MovingBlock;
 
 /// Two blocks that are near each other: the level and the number of each.
@@ -56,17 +55,13 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             blocks: [0, 0],
         });
         let stack = &mut scratch.stack;
-        fearless_simd::dispatch!(level, simd => {
-            let mut tests = 0;
-            while let Some(pair) = stack.pop() {
-                if pair.levels.iter().all(|&level| usize::from(level) <= floor) {
-                    tasks.push(pair);
-                } else {
-                    tests += self.take_apart(simd, pair, stack);
-                }
-            }
-            tests
-        })
+        let down_to = DownTo {
+            trees: self,
+            floor,
+            stack,
+            tasks,
+        };
+        in_lanes(level, down_to)
     }
 
     /// Gives `sink` the pairs of primitives of `tasks` that are near each other and have no vertex in common. Returns the
@@ -74,39 +69,26 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
     pub(super) fn pairs(&self, level: Level, tasks: &[BlockPair], scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
         let Scratch { stack, found } = scratch;
         found.clear();
-        fearless_simd::dispatch!(level, simd => {
-            let mut tests = 0;
-            for &task in tasks {
-                stack.clear();
-                stack.push(task);
-                while let Some(pair) = stack.pop() {
-                    if pair.levels == [0, 0] {
-                        tests += self.compare_primitives(simd, pair.blocks, found);
-                        if found.is_full() {
-                            if !sink.take(found.pairs()) {
-                                return None;
-                            }
-                            found.clear();
-                        }
-                    } else {
-                        tests += self.take_apart(simd, pair, stack);
-                    }
-                }
-            }
-            (found.pairs().is_empty() || sink.take(found.pairs())).then_some(tests)
-        })
+        let all_pairs = AllPairs {
+            trees: self,
+            tasks,
+            stack,
+            found,
+            sink,
+        };
+        in_lanes(level, all_pairs)
     }
 
     /// Puts the pairs of blocks that two blocks hold on the stack.
     #[inline(always)]
-    fn take_apart<V: Simd>(&self, simd: V, pair: BlockPair, stack: &mut Vec<BlockPair>) -> u64 {
+    fn take_apart(&self, lanes: impl Compares, pair: BlockPair, stack: &mut Vec<BlockPair>) -> u64 {
         let [a, b] = pair.blocks;
         let [level_a, level_b] = pair.levels;
         let (block_a, node_a) = part(self.first, level_a, a);
         let (block_b, node_b) = part(self.second, level_b, b);
         let is_same = self.are_same && level_a == level_b && a == b;
         if level_a > level_b {
-            let mut near = block_a.near_in_lanes(simd, &node_b.bounds) & node_a.present;
+            let mut near = lanes.near(block_a, &node_b.bounds) & node_a.present;
             near &= partners(node_b.moving != 0, node_a.moving);
             while near != 0 {
                 let child = next_lane(&mut near);
@@ -118,7 +100,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             return 1;
         }
         if level_b > level_a {
-            let mut near = block_b.near_in_lanes(simd, &node_a.bounds) & node_b.present;
+            let mut near = lanes.near(block_b, &node_a.bounds) & node_b.present;
             near &= partners(node_a.moving != 0, node_b.moving);
             while near != 0 {
                 let child = next_lane(&mut near);
@@ -130,19 +112,19 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             return 1;
         }
         let mut tests = 0;
-        let mut lanes = node_a.present;
+        let mut own = node_a.present;
         if !is_same {
-            lanes &= block_a.near_in_lanes(simd, &node_b.bounds);
+            own &= lanes.near(block_a, &node_b.bounds);
             tests += 1;
         }
-        while lanes != 0 {
-            let lane = next_lane(&mut lanes);
+        while own != 0 {
+            let lane = next_lane(&mut own);
             let mut near = node_b.present & partners(node_a.moving >> lane & 1 != 0, node_b.moving);
             if is_same {
                 // A block against itself: each lane with itself and those after it.
                 near &= Mask::MAX << lane;
             }
-            near &= block_b.near_in_lanes(simd, &block_a.get(lane as usize % LANES));
+            near &= lanes.near(block_b, &block_a.get(lane as usize % LANES));
             tests += 1;
             while near != 0 {
                 let other = next_lane(&mut near);
@@ -157,38 +139,106 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
 
     /// Puts the pairs of primitives that two blocks hold with those that are found.
     #[inline(always)]
-    fn compare_primitives<V: Simd>(&self, simd: V, [a, b]: [u32; 2], found: &mut PairBuffer) -> u64 {
+    fn compare_primitives(&self, lanes: impl Compares, [a, b]: [u32; 2], found: &mut PairBuffer) -> u64 {
         let (block_a, node_a) = part(self.first, 0, a);
         let (block_b, node_b) = part(self.second, 0, b);
         let is_same = self.are_same && a == b;
-        let (mut lanes, mut others) = (node_a.present, node_b.present);
+        let (mut own, mut others) = (node_a.present, node_b.present);
         let mut tests = 0;
         if !is_same {
-            others &= block_b.near_in_lanes(simd, &node_a.bounds);
+            others &= lanes.near(block_b, &node_a.bounds);
             tests += 1;
             if others == 0 {
                 return tests;
             }
-            lanes &= block_a.near_in_lanes(simd, &node_b.bounds);
+            own &= lanes.near(block_a, &node_b.bounds);
             tests += 1;
         }
         let corners = &self.second.corners[b as usize];
         let (first, second) = (a * LANES as u32, b * LANES as u32);
-        while lanes != 0 {
-            let lane = next_lane(&mut lanes);
+        while own != 0 {
+            let lane = next_lane(&mut own);
             let mut near = others & partners(node_a.moving >> lane & 1 != 0, node_b.moving);
             if is_same {
                 near &= (Mask::MAX << lane) << 1;
             }
-            near &= block_b.near_in_lanes(simd, &block_a.get(lane as usize % LANES));
+            near &= lanes.near(block_b, &block_a.get(lane as usize % LANES));
             tests += 1;
             if near != 0 {
                 let vertices = &self.first.vertices[(first + lane) as usize];
-                near &= !sharing(simd, corners, vertices);
+                near &= !sharing(lanes, corners, vertices);
                 found.push(first + lane, second, near);
             }
         }
         tests
+    }
+}
+
+/// The pairs of blocks of a level, or below.
+struct DownTo<'a, const N: usize, const M: usize> {
+    trees: &'a Trees<'a, N, M>,
+    floor: usize,
+    stack: &'a mut Vec<BlockPair>,
+    tasks: &'a mut Vec<BlockPair>,
+}
+
+impl<const N: usize, const M: usize> Loop for DownTo<'_, N, M> {
+    type Output = u64;
+
+    #[inline(always)]
+    fn run(self, lanes: impl Compares) -> u64 {
+        let mut tests = 0;
+        while let Some(pair) = self.stack.pop() {
+            if pair.levels.iter().all(|&level| usize::from(level) <= self.floor) {
+                self.tasks.push(pair);
+            } else {
+                tests += self.trees.take_apart(lanes, pair, self.stack);
+            }
+        }
+        tests
+    }
+}
+
+/// The pairs of primitives of some pairs of blocks.
+struct AllPairs<'a, const N: usize, const M: usize> {
+    trees: &'a Trees<'a, N, M>,
+    tasks: &'a [BlockPair],
+    stack: &'a mut Vec<BlockPair>,
+    found: &'a mut PairBuffer,
+    sink: &'a mut dyn Sink,
+}
+
+impl<const N: usize, const M: usize> Loop for AllPairs<'_, N, M> {
+    type Output = Option<u64>;
+
+    #[inline(always)]
+    fn run(self, lanes: impl Compares) -> Option<u64> {
+        let Self {
+            trees,
+            tasks,
+            stack,
+            found,
+            sink,
+        } = self;
+        let mut tests = 0;
+        for &task in tasks {
+            stack.clear();
+            stack.push(task);
+            while let Some(pair) = stack.pop() {
+                if pair.levels == [0, 0] {
+                    tests += trees.compare_primitives(lanes, pair.blocks, found);
+                    if found.is_full() {
+                        if !sink.take(found.pairs()) {
+                            return None;
+                        }
+                        found.clear();
+                    }
+                } else {
+                    tests += trees.take_apart(lanes, pair, stack);
+                }
+            }
+        }
+        (found.pairs().is_empty() || sink.take(found.pairs())).then_some(tests)
     }
 }
 
@@ -214,12 +264,11 @@ fn next_lane(lanes: &mut Mask) -> u32 {
 
 /// The lanes that have one of `vertices` for a corner.
 #[inline(always)]
-fn sharing<V: Simd, const N: usize, const M: usize>(simd: V, corners: &[[u32; LANES]; M], vertices: &[u32; N]) -> Mask {
+fn sharing<const N: usize, const M: usize>(lanes: impl Compares, corners: &[[u32; LANES]; M], vertices: &[u32; N]) -> Mask {
     let mut shared = 0;
     for row in corners {
-        let row = u32x16::load_array_ref(simd, row);
         for &vertex in vertices {
-            shared |= row.simd_eq(u32x16::splat(simd, vertex)).to_bitmask() as Mask;
+            shared |= lanes.equal(row, vertex);
         }
     }
     shared

@@ -17,7 +17,7 @@ use crate::broad_phase::{Fit, extent};
 use crate::dispatch::Level;
 use crate::frame::Motions;
 use crate::mesh::Topology;
-use fearless_simd::{Simd, SimdBase, SimdMask, f32x16};
+use selvedge_core::batch::{Compares, Loop, in_lanes};
 use selvedge_core::boxes::moving::MovingBox;
 
 /// A moving box as one row of sixteen numbers: lower and negated upper corner at the start, and at the end.
@@ -92,33 +92,41 @@ impl PrimitiveBoxes {
         let (firsts, seconds) = (&self.firsts[kind as usize], &self.seconds[kind as usize]);
         near.clear();
         near.resize(pairs.len(), [0; 2]);
-        let kept = fearless_simd::dispatch!(level, simd => {
-            keep_near_in_lanes(simd, firsts, seconds, pairs, near)
-        })?;
+        let keep = KeepNear {
+            firsts,
+            seconds,
+            pairs,
+            near,
+        };
+        let kept = in_lanes(level, keep)?;
         near.truncate(kept);
         Some(())
     }
 }
 
 /// `near` is as long as `pairs`. Returns how many are kept.
-#[inline(always)]
-fn keep_near_in_lanes<V: Simd>(
-    simd: V,
-    firsts: &[Row],
-    seconds: &[Row],
-    pairs: &[[u32; 2]],
-    near: &mut [[u32; 2]],
-) -> Option<usize> {
-    let mut kept = 0;
-    for &pair in pairs {
-        let [first, second] = pair;
-        let limit = f32x16::load_array_ref(simd, &firsts.get(first as usize)?.0);
-        let second = f32x16::load_array_ref(simd, &seconds.get(second as usize)?.0);
-        let above = second.simd_gt(limit).to_bitmask();
-        near[kept] = pair;
-        kept += usize::from(above & above >> 8 & 0x3F == 0);
+struct KeepNear<'a> {
+    firsts: &'a [Row],
+    seconds: &'a [Row],
+    pairs: &'a [[u32; 2]],
+    near: &'a mut [[u32; 2]],
+}
+
+impl Loop for KeepNear<'_> {
+    type Output = Option<usize>;
+
+    #[inline(always)]
+    fn run(self, lanes: impl Compares) -> Option<usize> {
+        let mut kept = 0;
+        for &pair in self.pairs {
+            let [first, second] = pair;
+            let (limit, second) = (self.firsts.get(first as usize)?, self.seconds.get(second as usize)?);
+            let above = lanes.above(&second.0, &limit.0);
+            self.near[kept] = pair;
+            kept += usize::from(above & above >> 8 & 0x3F == 0);
+        }
+        Some(kept)
     }
-    Some(kept)
 }
 
 #[cfg(test)]

@@ -1,0 +1,146 @@
+//! A caller's own loops over sixteen numbers, or boxes, at a time: what a traversal of hierarchies is made of.
+//!
+//! ```
+//! use selvedge_core::batch::{Compares, Level, Loop, Mask, in_lanes};
+//!
+//! /// How many numbers of all rows are above a limit.
+//! struct CountAbove<'a>(&'a [[f32; 16]], f32);
+//!
+//! impl Loop for CountAbove<'_> {
+//!     type Output = u32;
+//!
+//!     #[inline(always)]
+//!     fn run(self, lanes: impl Compares) -> u32 {
+//!         self.0.iter().map(|row| lanes.above(row, &[self.1; 16]).count_ones()).sum()
+//!     }
+//! }
+//!
+//! let rows = [[1.0; 16], std::array::from_fn(|k| k as f32)];
+//! assert_eq!(in_lanes(Level::baseline(), CountAbove(&rows, 12.0)), 3);
+//! ```
+
+use super::{LANES, Level, Mask};
+use crate::boxes::moving::{MovingBlock, MovingBox};
+#[cfg(not(unoptimised))]
+use fearless_simd::{Simd, SimdBase, SimdMask, f32x16, u32x16};
+
+/// Sixteen comparisons, by the instructions of a [`Level`]. The same answers for each.
+pub trait Compares: Copy {
+    /// The lanes whose box is not [apart from](MovingBox::is_apart_from) `other`.
+    fn near(self, block: &MovingBlock, other: &MovingBox<f32>) -> Mask;
+    /// The lanes whose number is above its limit; not where either is NaN.
+    fn above(self, numbers: &[f32; LANES], limits: &[f32; LANES]) -> Mask;
+    /// The lanes whose number this is.
+    fn equal(self, numbers: &[u32; LANES], number: u32) -> Mask;
+}
+
+/// A loop that is compiled for each instruction set. `run` must be `#[inline(always)]`, and so must what it calls: what is not inlined has
+/// none of the instructions.
+pub trait Loop {
+    /// What comes of it.
+    type Output;
+    /// Runs it.
+    fn run(self, lanes: impl Compares) -> Self::Output;
+}
+
+/// Runs a loop by the instructions of `level`.
+#[inline(always)]
+pub fn in_lanes<L: Loop>(level: Level, work: L) -> L::Output {
+    #[cfg(not(unoptimised))]
+    {
+        macro_rules! run {
+            ($token:expr) => {
+                if let Some(token) = $token {
+                    return token.vectorize(
+                        #[inline(always)]
+                        || work.run(Vectors(token)),
+                    );
+                }
+            };
+        }
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        {
+            run!(level.as_avx512());
+            run!(level.as_avx2());
+            run!(level.as_sse2());
+        }
+        #[cfg(target_arch = "aarch64")]
+        run!(level.as_neon());
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        run!(level.as_wasm_simd128());
+    }
+    let _ = level;
+    work.run(OneByOne)
+}
+
+/// Where there are no vectors, and in builds without optimisation.
+#[derive(Clone, Copy)]
+struct OneByOne;
+
+impl Compares for OneByOne {
+    #[inline(always)]
+    fn near(self, block: &MovingBlock, other: &MovingBox<f32>) -> Mask {
+        block.near(other)
+    }
+
+    #[inline(always)]
+    fn above(self, numbers: &[f32; LANES], limits: &[f32; LANES]) -> Mask {
+        let mut above = 0;
+        for lane in 0..LANES {
+            above |= Mask::from(numbers[lane] > limits[lane]) << lane;
+        }
+        above
+    }
+
+    #[inline(always)]
+    fn equal(self, numbers: &[u32; LANES], number: u32) -> Mask {
+        let mut equal = 0;
+        for lane in 0..LANES {
+            equal |= Mask::from(numbers[lane] == number) << lane;
+        }
+        equal
+    }
+}
+
+/// The vectors that a token names.
+#[cfg(not(unoptimised))]
+#[derive(Clone, Copy)]
+struct Vectors<V>(V);
+
+#[cfg(not(unoptimised))]
+impl<V: Simd> Compares for Vectors<V> {
+    #[inline(always)]
+    fn near(self, block: &MovingBlock, other: &MovingBox<f32>) -> Mask {
+        let [a, b, c, d, e, f, g, h, i, j, k, l] = block.rows();
+        macro_rules! above {
+            ($row:expr, $limit:expr) => {
+                f32x16::load_array_ref(self.0, $row).simd_gt(f32x16::splat(self.0, $limit))
+            };
+        }
+        macro_rules! below {
+            ($row:expr, $limit:expr) => {
+                f32x16::load_array_ref(self.0, $row).simd_lt(f32x16::splat(self.0, $limit))
+            };
+        }
+        let (start, end) = (&other.start, &other.end);
+        let x = (above!(a, start.upper[0]) & above!(g, end.upper[0])) | (below!(d, start.lower[0]) & below!(j, end.lower[0]));
+        let y = (above!(b, start.upper[1]) & above!(h, end.upper[1])) | (below!(e, start.lower[1]) & below!(k, end.lower[1]));
+        let z = (above!(c, start.upper[2]) & above!(i, end.upper[2])) | (below!(f, start.lower[2]) & below!(l, end.lower[2]));
+        !((x | y | z).to_bitmask() as Mask)
+    }
+
+    #[inline(always)]
+    fn above(self, numbers: &[f32; LANES], limits: &[f32; LANES]) -> Mask {
+        let (numbers, limits) = (
+            f32x16::load_array_ref(self.0, numbers),
+            f32x16::load_array_ref(self.0, limits),
+        );
+        numbers.simd_gt(limits).to_bitmask() as Mask
+    }
+
+    #[inline(always)]
+    fn equal(self, numbers: &[u32; LANES], number: u32) -> Mask {
+        let row = u32x16::load_array_ref(self.0, numbers);
+        row.simd_eq(u32x16::splat(self.0, number)).to_bitmask() as Mask
+    }
+}
