@@ -141,18 +141,24 @@ mod vectors {
     ///
     /// Of rows of 2N numbers each result holds two columns, 0 and 1 the first.
     #[inline(always)]
-    fn transposed<V: Simd, T: SimdBase<V>, const N: usize>(mut rows: [T; N]) -> [T; N] {
-        let mut columns = 1;
-        while columns < N {
-            let previous = rows;
-            let (low, high) = previous.split_at(N / 2);
-            for ((two, &low), &high) in rows.as_chunks_mut().0.iter_mut().zip(low).zip(high) {
-                let (first, second) = low.interleave(high);
-                *two = [first, second];
-            }
-            columns *= 2;
-        }
-        rows
+    fn two<V: Simd, T: SimdBase<V>>([a, b]: [T; 2]) -> [T; 2] {
+        let (first, second) = a.interleave(b);
+        [first, second]
+    }
+
+    #[inline(always)]
+    fn four<V: Simd, T: SimdBase<V>>([a, b, c, d]: [T; 4]) -> [T; 4] {
+        let ([ac, ac_2], [bd, bd_2]) = (two([a, c]), two([b, d]));
+        let ([x, y], [z, w]) = (two([ac, bd]), two([ac_2, bd_2]));
+        [x, y, z, w]
+    }
+
+    #[inline(always)]
+    fn eight<V: Simd, T: SimdBase<V>>([a, b, c, d, e, f, g, h]: [T; 8]) -> [T; 8] {
+        let ([ae, ae_2], [bf, bf_2]) = (two([a, e]), two([b, f]));
+        let ([cg, cg_2], [dh, dh_2]) = (two([c, g]), two([d, h]));
+        let ([p, q, r, s], [t, u, v, w]) = (four([ae, bf, cg, dh]), four([ae_2, bf_2, cg_2, dh_2]));
+        [p, q, r, s, t, u, v, w]
     }
 
     macro_rules! vector {
@@ -195,18 +201,18 @@ mod vectors {
 
     macro_rules! two_wide {
         ($row:ident) => {{
-            let [x, y] = transposed([$row(0, 0)?, $row(1, 0)?]);
-            let [z, _] = transposed([$row(0, 1)?, $row(1, 1)?]);
-            let [u, v] = transposed([$row(0, 2)?, $row(1, 2)?]);
-            let [w, _] = transposed([$row(0, 3)?, $row(1, 3)?]);
+            let [x, y] = two([$row(0, 0)?, $row(1, 0)?]);
+            let [z, _] = two([$row(0, 1)?, $row(1, 1)?]);
+            let [u, v] = two([$row(0, 2)?, $row(1, 2)?]);
+            let [w, _] = two([$row(0, 3)?, $row(1, 3)?]);
             Some([Vector::new(x, y, z), Vector::new(u, v, w)])
         }};
     }
 
     macro_rules! four_wide {
         ($row:ident) => {{
-            let [x, y, z, _] = transposed([$row(0, 0)?, $row(1, 0)?, $row(2, 0)?, $row(3, 0)?]);
-            let [u, v, w, _] = transposed([$row(0, 1)?, $row(1, 1)?, $row(2, 1)?, $row(3, 1)?]);
+            let [x, y, z, _] = four([$row(0, 0)?, $row(1, 0)?, $row(2, 0)?, $row(3, 0)?]);
+            let [u, v, w, _] = four([$row(0, 1)?, $row(1, 1)?, $row(2, 1)?, $row(3, 1)?]);
             Some([Vector::new(x, y, z), Vector::new(u, v, w)])
         }};
     }
@@ -215,7 +221,7 @@ mod vectors {
         ($row:ident) => {{
             let [a, b, c, d] = [$row(0, 0)?, $row(1, 0)?, $row(2, 0)?, $row(3, 0)?];
             let [e, f, g, h] = [$row(4, 0)?, $row(5, 0)?, $row(6, 0)?, $row(7, 0)?];
-            let [x, y, z, _, u, v, w, _] = transposed([a, b, c, d, e, f, g, h]);
+            let [x, y, z, _, u, v, w, _] = eight([a, b, c, d, e, f, g, h]);
             Some([Vector::new(x, y, z), Vector::new(u, v, w)])
         }};
     }
@@ -230,7 +236,7 @@ mod vectors {
             }
             let [a, b, c, d] = [two!(0), two!(1), two!(2), two!(3)];
             let [e, f, g, h] = [two!(4), two!(5), two!(6), two!(7)];
-            let [xy, z, uv, w, xy_8, z_8, uv_8, w_8] = transposed([a, b, c, d, e, f, g, h]);
+            let [xy, z, uv, w, xy_8, z_8, uv_8, w_8] = eight([a, b, c, d, e, f, g, h]);
             let ((x, y), (x_8, y_8)) = (xy.split(), xy_8.split());
             let ((u, v), (u_8, v_8)) = (uv.split(), uv_8.split());
             let ((z, _), (z_8, _)) = (z.split(), z_8.split());
