@@ -1,40 +1,37 @@
-//! Whole numbers of a fixed width.
+//! Whole numbers in two's complement, the lowest word first: arrays where the compiler knows the width, which for a few words is
+//! quickest; else slices of as many words as a number needs, out of one space.
 
 use core::cmp::Ordering;
+use core::mem;
 
-/// A whole number of `N` words in two's complement, the lowest word first.
+/// Whatever is written down in words.
+pub(super) trait Whole: Copy {
+    const ZERO: Self;
+
+    fn words(&self) -> Words<'_>;
+
+    #[inline(always)]
+    fn sign(&self) -> Ordering {
+        self.words().sign()
+    }
+}
+
+/// A whole number of `N` words.
 ///
-/// Every result is taken modulo 2^(64·words): it is the exact one where that fits, which is for [`kernel`](super::kernel) and
-/// `contact` to show.
+/// Every result is taken modulo 2^(64·words): it is the exact one where that fits, which is for [`kernel`](super::kernel) to show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Integer<const N: usize>([u64; N]);
 
 impl<const N: usize> Integer<N> {
-    pub(super) const ZERO: Self = Self([0; N]);
-
     /// `significand` · 2^`shift`.
     #[inline(always)]
     pub(super) fn shifted(significand: i64, shift: u32) -> Self {
-        let (first, within) = ((shift / 64) as usize, shift % 64);
         if N == 1 {
             // The same, with less to do.
-            return Self([(significand << within).cast_unsigned(); N]);
+            return Self([(significand << (shift % 64)).cast_unsigned(); N]);
         }
-        let wide = i128::from(significand) << within;
-        let (low, high) = (wide as u64, (wide >> 64) as u64);
-        let sign = (significand >> 63) as u64;
         let mut words = [0; N];
-        for (i, word) in words.iter_mut().enumerate() {
-            *word = if i < first {
-                0
-            } else if i == first {
-                low
-            } else if i == first + 1 {
-                high
-            } else {
-                sign
-            };
-        }
+        write_shifted(&mut words, significand, shift);
         Self(words)
     }
 
@@ -51,93 +48,242 @@ impl<const N: usize> Integer<N> {
     #[inline(always)]
     pub(super) fn minus(&self, other: &Self) -> Self {
         let mut difference = self.0;
-        subtract(difference.iter_mut(), &other.0, u64::MAX);
+        subtract(&mut difference, &other.0, u64::MAX);
         Self(difference)
     }
 
-    #[inline(always)]
-    pub(super) fn negated(&self) -> Self {
-        Self::ZERO.minus(self)
-    }
-
-    #[inline(always)]
-    pub(super) fn doubled(&self) -> Self {
-        self.plus(self)
-    }
-
-    /// The product, in any number of words.
+    /// The product, in as many words as both factors have.
     #[inline(always)]
     pub(super) fn times<const M: usize, const R: usize>(&self, other: &Integer<M>) -> Integer<R> {
+        const { assert!(R == N + M, "a product has the words of both factors") };
         let mut product = [0; R];
-        // In line is faster for a few words; for many it would only be more code.
-        if N <= 2 {
-            multiply(&self.0, &other.0, &mut product, R < N + M);
-        } else {
-            multiply_significant_words(&self.0, &other.0, &mut product);
+        match (self.0.as_slice(), other.0.as_slice(), product.as_mut_slice()) {
+            (&[a], &[b], [low, high]) => {
+                let product = i128::from(a.cast_signed()) * i128::from(b.cast_signed());
+                (*low, *high) = (product as u64, (product >> 64) as u64);
+            }
+            (&[a], &[b0, b1], [low, middle, high]) => {
+                let a = i128::from(a.cast_signed());
+                let below = a * i128::from(b0);
+                let above = a * i128::from(b1.cast_signed()) + (below >> 64);
+                (*low, *middle, *high) = (below as u64, above as u64, (above >> 64) as u64);
+            }
+            (a, b, product) => multiply(a, b, product),
         }
         Integer(product)
     }
+}
 
-    /// The same number in more words.
+impl<const N: usize> Whole for Integer<N> {
+    const ZERO: Self = Self([0; N]);
+
     #[inline(always)]
-    pub(super) fn widened<const R: usize>(&self) -> Integer<R> {
-        let mut words = [self.sign_word(); R];
-        for (word, &own) in words.iter_mut().zip(&self.0) {
-            *word = own;
-        }
-        Integer(words)
+    fn words(&self) -> Words<'_> {
+        Words::new(&self.0)
     }
 
-    /// All ones if negative, else zero.
     #[inline(always)]
-    fn sign_word(&self) -> u64 {
-        sign_word(&self.0)
-    }
-
-    /// How the number compares with zero.
-    #[inline(always)]
-    pub(super) fn sign(&self) -> Ordering {
-        if self.sign_word() != 0 {
+    fn sign(&self) -> Ordering {
+        if sign_word(&self.0) != 0 {
             return Ordering::Less;
         }
         let bits = self.0.iter().fold(0, |bits, word| bits | word);
         bits.cmp(&0)
     }
+}
+
+/// A whole number as its words without those above that only repeat the sign: zero has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Words<'a>(&'a [u64]);
+
+impl Whole for Words<'_> {
+    const ZERO: Self = Self(&[]);
 
     #[inline(always)]
-    pub(super) fn is_zero(&self) -> bool {
-        self.sign().is_eq()
+    fn words(&self) -> Words<'_> {
+        *self
+    }
+}
+
+impl<'a> Words<'a> {
+    /// The number of these words.
+    #[inline(always)]
+    fn new(words: &'a [u64]) -> Self {
+        Self(without_repeated_sign(words))
+    }
+
+    /// How the number compares with zero.
+    #[inline(always)]
+    pub(super) fn sign(self) -> Ordering {
+        match self.0.last() {
+            None => Ordering::Equal,
+            Some(&top) if top.cast_signed() < 0 => Ordering::Less,
+            Some(_) => Ordering::Greater,
+        }
     }
 
     #[inline(always)]
-    pub(super) fn magnitude(&self) -> Self {
-        if self.sign().is_lt() { self.negated() } else { *self }
+    pub(super) const fn is_zero(self) -> bool {
+        self.0.is_empty()
     }
 
     /// The least number of bits beside the sign: the number is in [−2ᵇ, 2ᵇ).
     #[inline(always)]
-    pub(super) fn bits(&self) -> u32 {
-        let words = without_repeated_sign(&self.0);
-        match words.last() {
-            Some(top) => 64 * words.len() as u32 - (top ^ self.sign_word()).leading_zeros(),
+    pub(super) fn bits(self) -> u32 {
+        match self.0.last() {
+            Some(top) => 64 * self.0.len() as u32 - (top ^ sign_word(self.0)).leading_zeros(),
             None => 0,
         }
     }
 
-    /// How many of the lowest bits are zero; all of them where the number is.
+    /// How many of the lowest bits are zero; none where the number is.
     #[inline(always)]
-    pub(super) fn trailing_zeros(&self) -> u32 {
-        let zeros = leading_zero_words(&self.0);
-        64 * zeros as u32 + self.0.get(zeros).map_or(0, |word| word.trailing_zeros())
+    pub(super) fn trailing_zeros(self) -> u32 {
+        let (zeros, above) = without_zeros_below(self.0);
+        64 * zeros as u32 + above.first().map_or(0, |word| word.trailing_zeros())
     }
 
     /// The lowest word of the number divided by 2^`dropped`, rounded down.
     #[inline(always)]
-    pub(super) fn word_above(&self, dropped: u32) -> u64 {
-        let words = self.0.get((dropped / 64) as usize..).unwrap_or_default();
-        let mut words = words.iter().copied().chain(core::iter::repeat(self.sign_word()));
-        let [low, high] = [(); 2].map(|()| words.next().unwrap_or_default());
-        ((u128::from(high) << 64 | u128::from(low)) >> (dropped % 64)) as u64
+    pub(super) fn word_above(self, dropped: u32) -> u64 {
+        let (sign, first) = (sign_word(self.0), (dropped / 64) as usize);
+        let word = |index| self.0.get(index).copied().unwrap_or(sign);
+        ((u128::from(word(first + 1)) << 64 | u128::from(word(first))) >> (dropped % 64)) as u64
+    }
+}
+
+/// Space for numbers, each of which has it as long as the space lives: nothing is given back but by [`scratch`](Self::scratch).
+///
+/// That there is enough is for `contact` to show.
+#[derive(Debug)]
+pub(super) struct Space<'a>(&'a mut [u64]);
+
+impl<'a> Space<'a> {
+    pub(super) const fn new(words: &'a mut [u64]) -> Self {
+        Self(words)
+    }
+
+    /// What is left, for as long as the borrow lasts.
+    #[inline(always)]
+    pub(super) const fn scratch(&mut self) -> Space<'_> {
+        Space(self.0)
+    }
+
+    #[inline(always)]
+    fn take(&mut self, length: usize) -> &'a mut [u64] {
+        debug_assert!(length <= self.0.len(), "there is enough space");
+        let (taken, rest) = mem::take(&mut self.0).split_at_mut_checked(length).unwrap_or_default();
+        self.0 = rest;
+        taken
+    }
+
+    /// `significand` · 2^`shift`.
+    #[inline(never)]
+    pub(super) fn shifted(&mut self, significand: i64, shift: u32) -> Words<'a> {
+        let words = self.take((shift / 64) as usize + 2);
+        write_shifted(words, significand, shift);
+        Words::new(words)
+    }
+
+    #[inline(never)]
+    pub(super) fn plus(&mut self, a: Words<'_>, b: Words<'_>) -> Words<'a> {
+        self.sum(a.0, b.0, 0)
+    }
+
+    #[inline(never)]
+    pub(super) fn minus(&mut self, a: Words<'_>, b: Words<'_>) -> Words<'a> {
+        self.sum(a.0, b.0, u64::MAX)
+    }
+
+    pub(super) fn negated(&mut self, a: Words<'_>) -> Words<'a> {
+        self.minus(Words::ZERO, a)
+    }
+
+    pub(super) fn doubled(&mut self, a: Words<'_>) -> Words<'a> {
+        self.plus(a, a)
+    }
+
+    pub(super) fn tripled(&mut self, a: Words<'_>) -> Words<'a> {
+        let doubled = self.doubled(a);
+        self.plus(doubled, a)
+    }
+
+    /// a + b, or with all ones for `mask` a − b, which is a plus the complement of b, plus one.
+    #[inline(always)]
+    fn sum(&mut self, a: &[u64], b: &[u64], mask: u64) -> Words<'a> {
+        let words = self.take(a.len().max(b.len()) + 1);
+        let (sign_of_a, sign_of_b) = (sign_word(a), sign_word(b) ^ mask);
+        let mut carry = mask != 0;
+        let mut sums = words.iter_mut();
+        let (mut a, mut b) = (a.iter(), b.iter());
+        // Not `zip`, which takes one word too many from the first.
+        while a.len() > 0 && b.len() > 0 {
+            if let (Some(sum), Some(x), Some(y)) = (sums.next(), a.next(), b.next()) {
+                (*sum, carry) = add_with_carry(*x, y ^ mask, carry);
+            }
+        }
+        for (x, sum) in a.zip(&mut sums) {
+            (*sum, carry) = add_with_carry(*x, sign_of_b, carry);
+        }
+        for (y, sum) in b.zip(&mut sums) {
+            (*sum, carry) = add_with_carry(sign_of_a, y ^ mask, carry);
+        }
+        for sum in sums {
+            *sum = add_with_carry(sign_of_a, sign_of_b, carry).0;
+        }
+        Words::new(words)
+    }
+
+    /// The product. Zeros below are passed over: numbers have many words when one pair's coordinates differ in size by hundreds of
+    /// powers of two, and then each of them has few words of its own.
+    #[inline(never)]
+    pub(super) fn times(&mut self, a: Words<'_>, b: Words<'_>) -> Words<'a> {
+        let (zeros_of_a, a) = without_zeros_below(a.0);
+        let (zeros_of_b, b) = without_zeros_below(b.0);
+        let words = self.take(zeros_of_a + zeros_of_b + a.len() + b.len());
+        words.fill(0);
+        multiply(a, b, words.get_mut(zeros_of_a + zeros_of_b..).unwrap_or_default());
+        Words::new(words)
+    }
+
+    /// The sum of three products.
+    #[inline(never)]
+    pub(super) fn sum_of_products(&mut self, products: [[Words<'_>; 2]; 3]) -> Words<'a> {
+        let length = products.iter().map(|[a, b]| a.0.len() + b.0.len()).max().unwrap_or(0);
+        let words = self.take(length + 2);
+        let mut scratch = self.scratch();
+        let [x, y, z] = products.map(|[a, b]| scratch.times(a, b));
+        let sum = scratch.plus(x, y);
+        Space(words).plus(sum, z)
+    }
+
+    /// a·d − b·c.
+    #[inline(never)]
+    pub(super) fn minor(&mut self, a: Words<'_>, b: Words<'_>, c: Words<'_>, d: Words<'_>) -> Words<'a> {
+        let words = self.take((a.0.len() + d.0.len()).max(b.0.len() + c.0.len()) + 1);
+        let mut scratch = self.scratch();
+        let (x, y) = (scratch.times(a, d), scratch.times(b, c));
+        Space(words).minus(x, y)
+    }
+}
+
+/// Writes `significand` · 2^`shift`.
+#[inline(always)]
+fn write_shifted(words: &mut [u64], significand: i64, shift: u32) {
+    let (first, within) = ((shift / 64) as usize, shift % 64);
+    let wide = i128::from(significand) << within;
+    let (low, high) = (wide as u64, (wide >> 64) as u64);
+    let sign = (significand >> 63) as u64;
+    for (i, word) in words.iter_mut().enumerate() {
+        *word = if i < first {
+            0
+        } else if i == first {
+            low
+        } else if i == first + 1 {
+            high
+        } else {
+            sign
+        };
     }
 }
 
@@ -190,32 +336,20 @@ fn without_repeated_sign(words: &[u64]) -> &[u64] {
     }
 }
 
-/// How many of the lowest words are zero.
+/// How many of the lowest words are zero, and the others.
 #[inline(always)]
-fn leading_zero_words(words: &[u64]) -> usize {
-    words.iter().position(|&word| word != 0).unwrap_or(words.len())
-}
-
-/// How many of the lowest words are zero, and the others without those above that only repeat the sign.
-#[inline(always)]
-fn significant_words(words: &[u64]) -> (usize, &[u64]) {
-    let words = without_repeated_sign(words);
-    let zeros = leading_zero_words(words);
+fn without_zeros_below(words: &[u64]) -> (usize, &[u64]) {
+    let zeros = words.iter().position(|&word| word != 0).unwrap_or(words.len());
     (zeros, words.get(zeros..).unwrap_or_default())
 }
 
-/// The product of two numbers by their words into `product`, which is zero, and may lack words only if `is_cut`.
+/// The product of two numbers by their words into `product`, which is zero and has the words of both.
 #[inline(always)]
-fn multiply(a: &[u64], b: &[u64], product: &mut [u64], is_cut: bool) {
+fn multiply(a: &[u64], b: &[u64], product: &mut [u64]) {
     for (i, &x) in a.iter().enumerate() {
-        let length = if is_cut {
-            b.len().min(product.len().saturating_sub(i))
-        } else {
-            b.len()
-        };
         let (row, above) = product
             .get_mut(i..)
-            .and_then(|words| words.split_at_mut_checked(length))
+            .and_then(|words| words.split_at_mut_checked(b.len()))
             .unwrap_or_default();
         let mut carry = 0;
         for (&y, word) in b.iter().zip(row) {
@@ -228,34 +362,13 @@ fn multiply(a: &[u64], b: &[u64], product: &mut [u64], is_cut: bool) {
         }
     }
     // That read a negative factor −x as 2^(64·words) − x, which is the other factor times 2^(64·words) too much.
-    subtract(product.iter_mut().skip(a.len()), b, sign_word(a));
-    subtract(product.iter_mut().skip(b.len()), a, sign_word(b));
-    if let Some((own, above)) = product.split_at_mut_checked(a.len() + b.len()) {
-        above.fill(sign_word(own));
-    }
-}
-
-/// The same with less to do where most words are zero or mere sign: numbers have many words when one pair's coordinates
-/// differ in size by hundreds of powers of two, and then each of them has few words of its own.
-#[inline(never)]
-fn multiply_significant_words<const N: usize, const M: usize, const R: usize>(
-    a: &[u64; N],
-    b: &[u64; M],
-    product: &mut [u64; R],
-) {
-    let (zeros_of_a, a) = significant_words(a);
-    let (zeros_of_b, b) = significant_words(b);
-    multiply(
-        a,
-        b,
-        product.get_mut(zeros_of_a + zeros_of_b..).unwrap_or_default(),
-        R < N + M,
-    );
+    subtract(product.get_mut(a.len()..).unwrap_or_default(), b, sign_word(a));
+    subtract(product.get_mut(b.len()..).unwrap_or_default(), a, sign_word(b));
 }
 
 /// Subtracts `other`, each word masked by `mask`, from the words `from`; a borrow beyond the last is dropped.
 #[inline(always)]
-fn subtract<'a>(from: impl Iterator<Item = &'a mut u64>, other: &[u64], mask: u64) {
+fn subtract(from: &mut [u64], other: &[u64], mask: u64) {
     let mut borrow = false;
     for (&subtracted, word) in other.iter().zip(from) {
         (*word, borrow) = subtract_with_borrow(*word, subtracted & mask, borrow);

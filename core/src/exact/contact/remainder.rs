@@ -1,81 +1,81 @@
 //! The numbers whose signs decide which sign a polynomial has at a root of another: the same formulas for whole numbers and for
 //! rounded ones.
 
-use crate::exact::integer::Integer;
+use crate::exact::integer::{Space, Whole, Words};
 
 /// What whole numbers and rounded ones have in common.
-pub(super) trait Number: Copy {
-    const ZERO: Self;
-    fn plus(&self, other: &Self) -> Self;
-    fn minus(&self, other: &Self) -> Self;
-    fn times(&self, other: &Self) -> Self;
+pub(super) trait Ring {
+    type Number: Copy;
+    const ZERO: Self::Number;
+    fn plus(&mut self, a: Self::Number, b: Self::Number) -> Self::Number;
+    fn minus(&mut self, a: Self::Number, b: Self::Number) -> Self::Number;
+    fn times(&mut self, a: Self::Number, b: Self::Number) -> Self::Number;
 }
 
-impl<const R: usize> Number for Integer<R> {
-    const ZERO: Self = Self::ZERO;
+impl<'a> Ring for Space<'a> {
+    type Number = Words<'a>;
+    const ZERO: Words<'a> = <Words<'a> as Whole>::ZERO;
 
-    #[inline(always)]
-    fn plus(&self, other: &Self) -> Self {
-        Integer::plus(self, other)
+    fn plus(&mut self, a: Words<'a>, b: Words<'a>) -> Words<'a> {
+        Space::plus(self, a, b)
     }
 
-    #[inline(always)]
-    fn minus(&self, other: &Self) -> Self {
-        Integer::minus(self, other)
+    fn minus(&mut self, a: Words<'a>, b: Words<'a>) -> Words<'a> {
+        Space::minus(self, a, b)
     }
 
-    #[inline(always)]
-    fn times(&self, other: &Self) -> Self {
-        Integer::times(self, other)
+    fn times(&mut self, a: Words<'a>, b: Words<'a>) -> Words<'a> {
+        Space::times(self, a, b)
     }
 }
 
-/// The value v₀·b⁻ⁿ, without the last factor, that a polynomial of degree n, given by its coefficients from the highest down, has at
-/// −a/b, where b > 0 (Horner's rule).
-#[inline(always)]
-pub(super) fn value_at_quotient<T: Number>([a, b]: [T; 2], polynomial: impl IntoIterator<Item = T>) -> T {
-    let mut coefficients = polynomial.into_iter();
-    let mut value = coefficients.next().unwrap_or(T::ZERO);
+/// The value v₀·b⁻ⁿ, without the last factor, that a polynomial of degree n has at −a/b, where b > 0 (Horner's rule).
+#[inline(never)]
+pub(super) fn value_at_quotient<R: Ring>(ring: &mut R, [a, b]: [R::Number; 2], polynomial: &[R::Number]) -> R::Number {
+    let mut coefficients = polynomial.iter().rev();
+    let mut value = coefficients.next().copied().unwrap_or(R::ZERO);
     let mut power = b;
-    for (step, coefficient) in coefficients.enumerate() {
+    for (step, &coefficient) in coefficients.enumerate() {
         if step > 0 {
-            power = power.times(&b);
+            power = ring.times(power, b);
         }
-        value = coefficient.times(&power).minus(&value.times(&a));
+        let (fresh, carried) = (ring.times(coefficient, power), ring.times(value, a));
+        value = ring.minus(fresh, carried);
     }
     value
 }
 
-/// The three numbers whose signs decide which sign a polynomial, given by its coefficients from the highest down, has at a root
-/// of q = a + b·s + c·s², c > 0.
+/// The three numbers whose signs decide which sign a polynomial has at a root of q = a + b·s + c·s², c > 0.
 ///
 /// First the remainder l₀ + l₁·s, a positive multiple of the polynomial at both roots of q, by Horner's rule: (l₀ + l₁·s)·s,
 /// times c and with c·s² = −a − b·s, is −a·l₁ + (c·l₀ − b·l₁)·s. Its value at σ = (−b ± √D)/2c, D = b² − 4ac, times 2c, is
 /// A ± l₁√D with A = 2c·l₀ − b·l₁. Where the two have opposite signs,
 /// A² − l₁²D = 4c·(c·l₀² − b·l₀l₁ + a·l₁²) says which is larger. (The number in brackets is the resultant of polynomial and q
 /// times a power of c.) Returned are l₁, A and the number in brackets.
-#[inline(always)]
-pub(super) fn terms<T: Number>([a, b, c]: [T; 3], polynomial: impl IntoIterator<Item = T>) -> [T; 3] {
-    let mut coefficients = polynomial.into_iter();
-    let mut l1 = coefficients.next().unwrap_or(T::ZERO);
-    let mut l0 = coefficients.next().unwrap_or(T::ZERO);
+#[inline(never)]
+pub(super) fn terms<R: Ring>(ring: &mut R, [a, b, c]: [R::Number; 3], polynomial: &[R::Number]) -> [R::Number; 3] {
+    let mut coefficients = polynomial.iter().rev();
+    let mut l1 = coefficients.next().copied().unwrap_or(R::ZERO);
+    let mut l0 = coefficients.next().copied().unwrap_or(R::ZERO);
     let mut power = c;
-    for (step, coefficient) in coefficients.enumerate() {
+    for (step, &coefficient) in coefficients.enumerate() {
         if step > 0 {
-            power = power.times(&c);
+            power = ring.times(power, c);
         }
-        let next = coefficient.times(&power).minus(&l1.times(&a));
-        (l0, l1) = (next, l0.times(&c).minus(&l1.times(&b)));
+        let (fresh, from_l1) = (ring.times(coefficient, power), ring.times(l1, a));
+        let (from_l0, of_b) = (ring.times(l0, c), ring.times(l1, b));
+        (l0, l1) = (ring.minus(fresh, from_l1), ring.minus(from_l0, of_b));
     }
-    let from_l0 = l0.times(&c);
-    let half = from_l0.minus(&l1.times(&b));
-    let last = l0.times(&half).plus(&l1.times(&l1).times(&a));
-    [l1, half.plus(&from_l0), last]
+    let (from_l0, of_b) = (ring.times(l0, c), ring.times(l1, b));
+    let half = ring.minus(from_l0, of_b);
+    let (of_half, squared) = (ring.times(l0, half), ring.times(l1, l1));
+    let of_a = ring.times(squared, a);
+    [l1, ring.plus(half, from_l0), ring.plus(of_half, of_a)]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Number, terms, value_at_quotient};
+    use super::{Ring, terms, value_at_quotient};
     use crate::exact::contact::rounded::Scale;
     use crate::exact::integer::Integer;
 
