@@ -264,11 +264,7 @@ impl<A: Arithmetic> Judge<A> for Noted<A::Three> {
 
 /// The control values k₀, 3k₁, 3k₂, k₃.
 #[inline(never)]
-pub(super) fn control_values<A: Arithmetic>(
-    kind: PairKind,
-    coordinates: &[[A::One; 8]; 3],
-    arithmetic: &mut A,
-) -> [A::Three; 4] {
+pub(super) fn control_values<A: Arithmetic>(kind: PairKind, coordinates: &[[A::One; 8]; 3], arithmetic: &mut A) -> [A::Three; 4] {
     let mut values = Noted([A::Three::ZERO; 4]);
     // It does not break off.
     let _ = judge(kind, coordinates, arithmetic, &mut values);

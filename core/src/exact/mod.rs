@@ -133,21 +133,21 @@ fn signs(pair: &AlignedPair) -> [Ordering; 4] {
     match Width::of(pair) {
         Width::Words1 => signs_by(pair, &mut Fixed::<1, 2, 3>),
         Width::Words2 => signs_by(pair, &mut Fixed::<2, 4, 6>),
-        Width::Words5 => signs_in_space::<{ kernel::space(5) }>(pair),
-        Width::Words33 => signs_in_space::<{ kernel::space(33) }>(pair),
+        Width::Words5 => signs_by(pair, &mut Fixed::<5, 10, 15>),
+        Width::Words33 => signs_in_space(pair),
     }
 }
 
-#[inline(always)]
+/// Out of line, so that a call pays for the stack of its own width only.
+#[inline(never)]
 fn signs_by<A: Arithmetic>(pair: &AlignedPair, arithmetic: &mut A) -> [Ordering; 4] {
     let coordinates = arithmetic.coordinates(pair);
     control_values(pair.kind, &coordinates, arithmetic).map(|value| value.sign())
 }
 
-/// Out of line, so that a call pays for the stack of its own width only.
 #[inline(never)]
-fn signs_in_space<const WORDS: usize>(pair: &AlignedPair) -> [Ordering; 4] {
-    signs_by(pair, &mut Space::new(&mut [0; WORDS]))
+fn signs_in_space(pair: &AlignedPair) -> [Ordering; 4] {
+    signs_by(pair, &mut Space::new(&mut [0; kernel::space(33)]))
 }
 
 /// True exactly if all four control values are positive, or all four negative. True proves that the four points are
@@ -230,21 +230,21 @@ impl OneSign {
         match Width::of(pair) {
             Width::Words1 => self.passes_by(pair, &mut Fixed::<1, 2, 3>),
             Width::Words2 => self.passes_by(pair, &mut Fixed::<2, 4, 6>),
-            Width::Words5 => self.passes_in_space::<{ kernel::space(5) }>(pair),
-            Width::Words33 => self.passes_in_space::<{ kernel::space(33) }>(pair),
+            Width::Words5 => self.passes_by(pair, &mut Fixed::<5, 10, 15>),
+            Width::Words33 => self.passes_in_space(pair),
         }
     }
 
+    /// Out of line, so that a call pays for the stack of its own width only.
     #[inline(never)]
     fn passes_by<A: Arithmetic>(&mut self, pair: &AlignedPair, arithmetic: &mut A) -> bool {
         let coordinates = arithmetic.coordinates(pair);
         kernel::judge(pair.kind, &coordinates, arithmetic, self).is_continue()
     }
 
-    /// Out of line, so that a call pays for the stack of its own width only.
     #[inline(never)]
-    fn passes_in_space<const WORDS: usize>(&mut self, pair: &AlignedPair) -> bool {
-        self.passes_by(pair, &mut Space::new(&mut [0; WORDS]))
+    fn passes_in_space(&mut self, pair: &AlignedPair) -> bool {
+        self.passes_by(pair, &mut Space::new(&mut [0; kernel::space(33)]))
     }
 }
 
@@ -267,7 +267,12 @@ impl<A: Arithmetic> Judge<A> for OneSign {
             return ControlFlow::Continue(());
         }
         let normal = normal(arithmetic);
-        if is_beyond(value.words(), normal.each_ref().map(Whole::words), self.units, self.squared_separation) {
+        if is_beyond(
+            value.words(),
+            normal.each_ref().map(Whole::words),
+            self.units,
+            self.squared_separation,
+        ) {
             return ControlFlow::Continue(());
         }
         ControlFlow::Break(())

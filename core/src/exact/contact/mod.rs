@@ -80,17 +80,17 @@ pub fn touches<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<bool> 
 
 /// How many words are enough for the search with coordinates of `N` words, corners and volume not counted: for the derivative, what stands
 /// for the volume and the roots, nine numbers of 3·N + 2; for a cross product 10·N + 6, its roots 6·N + 6, twice a coefficient 3·N + 3;
-/// and for the largest of `moment`'s numbers 174·N + 30.
+/// and for the largest of `moment`'s numbers 126·N + 30.
 const fn space(n: usize) -> usize {
-    9 * (3 * n + 2) + 10 * n + 6 + 6 * n + 6 + 3 * n + 3 + 174 * n + 30
+    9 * (3 * n + 2) + 10 * n + 6 + 6 * n + 6 + 3 * n + 3 + 126 * n + 30
 }
 
 fn touches_aligned(pair: &AlignedPair) -> bool {
     match Width::of(pair) {
         Width::Words1 => in_words::<1, 2, 3, { space(1) }>(pair),
         Width::Words2 => in_words::<2, 4, 6, { space(2) }>(pair),
-        Width::Words5 => in_space::<{ kernel::space(5) + 24 * 6 + space(5) }>(pair),
-        Width::Words33 => in_space::<{ kernel::space(33) + 24 * 34 + space(33) }>(pair),
+        Width::Words5 => in_words::<5, 10, 15, { space(5) }>(pair),
+        Width::Words33 => in_space(pair),
     }
 }
 
@@ -110,10 +110,10 @@ fn in_words<const N: usize, const N2: usize, const N3: usize, const WORDS: usize
     polygon.touches(volume.each_ref().map(Whole::words), &mut Space::new(&mut [0; WORDS]))
 }
 
-/// With `WORDS` for all numbers.
+/// With coordinates of 33 words, all numbers in a space: corners take 24 of 34 words.
 #[inline(never)]
-fn in_space<const WORDS: usize>(pair: &AlignedPair) -> bool {
-    let mut words = [0; WORDS];
+fn in_space(pair: &AlignedPair) -> bool {
+    let mut words = [0; kernel::space(33) + 24 * 34 + space(33)];
     let mut space = Space::new(&mut words);
     let coordinates = space.coordinates(pair);
     let volume = control_values(pair.kind, &coordinates, &mut space);
@@ -136,7 +136,8 @@ type Around<T> = [T; 5];
 #[inline(always)]
 fn corners<A: Arithmetic>(kind: PairKind, axes: &[[A::One; 8]; 3], arithmetic: &mut A) -> [Around<[A::One; 2]>; 3] {
     axes.each_ref().map(|[a0, b0, c0, d0, a1, b1, c1, d1]| {
-        let mut minus = |[p0, p1]: [&A::One; 2], [q0, q1]: [&A::One; 2]| [arithmetic.difference(p0, q0), arithmetic.difference(p1, q1)];
+        let mut minus =
+            |[p0, p1]: [&A::One; 2], [q0, q1]: [&A::One; 2]| [arithmetic.difference(p0, q0), arithmetic.difference(p1, q1)];
         let (a, b, c, d) = ([a0, a1], [b0, b1], [c0, c1], [d0, d1]);
         match kind {
             PairKind::VertexFace => {
@@ -164,7 +165,9 @@ struct Polygon<'a> {
 impl<'a> Polygon<'a> {
     fn new<T: Whole>(kind: PairKind, corners: &'a [Around<[T; 2]>; 3]) -> Self {
         Self {
-            corners: corners.each_ref().map(|axis| axis.each_ref().map(|ends| ends.each_ref().map(T::words))),
+            corners: corners
+                .each_ref()
+                .map(|axis| axis.each_ref().map(|ends| ends.each_ref().map(T::words))),
             count: match kind {
                 PairKind::VertexFace => 3,
                 PairKind::EdgeEdge => 4,
@@ -175,7 +178,9 @@ impl<'a> Polygon<'a> {
     fn touches(&self, volume: [Words<'_>; 4], space: &mut Space<'_>) -> bool {
         let signs = volume.map(Words::sign);
         let [at_start, .., at_end] = signs;
-        if at_start.is_eq() && self.contains_origin(&End::Start, space) || at_end.is_eq() && self.contains_origin(&End::End, space) {
+        if at_start.is_eq() && self.contains_origin(&End::Start, space)
+            || at_end.is_eq() && self.contains_origin(&End::End, space)
+        {
             return true;
         }
         match changes_of_sign(signs) {
@@ -197,7 +202,10 @@ impl<'a> Polygon<'a> {
         [[y, z], [z, x], [x, y]].map(|[y, z]| {
             let corners = y.iter().zip(z);
             let next = corners.clone().skip(1);
-            corners.zip(next).take(self.count).map(|((y0, z0), (y1, z1))| Neighbours([[*y0, *z0], [*y1, *z1]]))
+            corners
+                .zip(next)
+                .take(self.count)
+                .map(|((y0, z0), (y1, z1))| Neighbours([[*y0, *z0], [*y1, *z1]]))
         })
     }
 

@@ -300,7 +300,7 @@ impl Moment for Crossing<'_> {
 #[cfg(test)]
 mod tests {
     use super::Root;
-    use crate::exact::integer::Integer;
+    use crate::exact::integer::{Integer, Space, Whole};
     use core::cmp::Ordering;
 
     #[test]
@@ -314,26 +314,40 @@ mod tests {
             ([-2, 1, 0], [None, Some(2)]),
             ([-5, 1, 0], [None, Some(5)]),
         ];
-        let whole = |x: i64| Integer::<2>::shifted(x, 0);
-        let roots = polynomials.map(|(polynomial, values)| {
-            let roots = Root::<2, 16>::positive(&polynomial.map(whole));
+        let coefficients = polynomials.map(|(polynomial, _)| polynomial.map(|x| Integer::<1>::shifted(x, 0)));
+        let mut words = [0; 1000];
+        let mut space = Space::new(&mut words);
+        let mut polynomials = coefficients.iter().zip(polynomials.map(|(_, values)| values));
+        let roots = [(); 6].map(|()| {
+            let (polynomial, values) = polynomials.next().expect("six polynomials");
+            let roots = Root::positive(&polynomial.each_ref().map(Whole::words), &mut space);
             assert_eq!(roots.each_ref().map(Option::is_some), values.map(|value| value.is_some()));
             [0, 1].map(|k| roots[k].zip(values[k]))
         });
         for (root, value) in roots.iter().flatten().flatten() {
             for (other, other_value) in roots.iter().flatten().flatten() {
-                assert_eq!(root.compare(other), value.cmp(other_value), "{value}, {other_value}");
+                assert_eq!(
+                    root.compare(other, &mut space),
+                    value.cmp(other_value),
+                    "{value}, {other_value}"
+                );
             }
         }
     }
 
     #[test]
     fn rounded_numbers_tell_a_sign_that_is_clear() {
-        let whole = |x: i64| Integer::<2>::shifted(x, 0);
+        let whole = |x: i64| Integer::<1>::shifted(x, 0);
+        let quadratic = [2, -3, 1].map(whole);
+        let mut words = [0; 100];
         // 5 + s and −5 + s at s = 1 and 2.
-        for root in Root::<2, 16>::positive(&[2, -3, 1].map(whole)).iter().flatten() {
+        for root in Root::positive(&quadratic.each_ref().map(Whole::words), &mut Space::new(&mut words))
+            .iter()
+            .flatten()
+        {
             for (constant, sign) in [(5, Ordering::Greater), (-5, Ordering::Less)] {
-                assert_eq!(root.estimated_sign(&[constant, 1].map(whole)), Some(sign));
+                let linear = [constant, 1].map(whole);
+                assert_eq!(root.estimated_sign(&linear.each_ref().map(Whole::words)), Some(sign));
             }
         }
     }

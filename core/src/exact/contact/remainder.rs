@@ -10,6 +10,12 @@ pub(super) trait Ring {
     fn plus(&mut self, a: Self::Number, b: Self::Number) -> Self::Number;
     fn minus(&mut self, a: Self::Number, b: Self::Number) -> Self::Number;
     fn times(&mut self, a: Self::Number, b: Self::Number) -> Self::Number;
+    /// a·d − b·c.
+    #[inline(always)]
+    fn minor(&mut self, a: Self::Number, b: Self::Number, c: Self::Number, d: Self::Number) -> Self::Number {
+        let (x, y) = (self.times(a, d), self.times(b, c));
+        self.minus(x, y)
+    }
 }
 
 impl<'a> Ring for Space<'a> {
@@ -27,6 +33,10 @@ impl<'a> Ring for Space<'a> {
     fn times(&mut self, a: Words<'a>, b: Words<'a>) -> Words<'a> {
         Space::times(self, a, b)
     }
+
+    fn minor(&mut self, a: Words<'a>, b: Words<'a>, c: Words<'a>, d: Words<'a>) -> Words<'a> {
+        Space::minor(self, a, b, c, d)
+    }
 }
 
 /// The value v₀·b⁻ⁿ, without the last factor, that a polynomial of degree n has at −a/b, where b > 0 (Horner's rule).
@@ -39,8 +49,7 @@ pub(super) fn value_at_quotient<R: Ring>(ring: &mut R, [a, b]: [R::Number; 2], p
         if step > 0 {
             power = ring.times(power, b);
         }
-        let (fresh, carried) = (ring.times(coefficient, power), ring.times(value, a));
-        value = ring.minus(fresh, carried);
+        value = ring.minor(coefficient, value, a, power);
     }
     value
 }
@@ -62,9 +71,7 @@ pub(super) fn terms<R: Ring>(ring: &mut R, [a, b, c]: [R::Number; 3], polynomial
         if step > 0 {
             power = ring.times(power, c);
         }
-        let (fresh, from_l1) = (ring.times(coefficient, power), ring.times(l1, a));
-        let (from_l0, of_b) = (ring.times(l0, c), ring.times(l1, b));
-        (l0, l1) = (ring.minus(fresh, from_l1), ring.minus(from_l0, of_b));
+        (l0, l1) = (ring.minor(coefficient, l1, a, power), ring.minor(l0, l1, b, c));
     }
     let (from_l0, of_b) = (ring.times(l0, c), ring.times(l1, b));
     let half = ring.minus(from_l0, of_b);
@@ -76,22 +83,26 @@ pub(super) fn terms<R: Ring>(ring: &mut R, [a, b, c]: [R::Number; 3], polynomial
 #[cfg(test)]
 mod tests {
     use super::{Ring, terms, value_at_quotient};
-    use crate::exact::contact::rounded::Scale;
-    use crate::exact::integer::Integer;
+    use crate::exact::contact::rounded::{FixedPoint, Rounded, Scale};
+    use crate::exact::integer::{Integer, Whole};
 
-    impl Number for i128 {
-        const ZERO: Self = 0;
+    /// The arithmetic of `i128`.
+    struct BuiltIn;
 
-        fn plus(&self, other: &Self) -> Self {
-            self + other
+    impl Ring for BuiltIn {
+        type Number = i128;
+        const ZERO: i128 = 0;
+
+        fn plus(&mut self, a: i128, b: i128) -> i128 {
+            a + b
         }
 
-        fn minus(&self, other: &Self) -> Self {
-            self - other
+        fn minus(&mut self, a: i128, b: i128) -> i128 {
+            a - b
         }
 
-        fn times(&self, other: &Self) -> Self {
-            self * other
+        fn times(&mut self, a: i128, b: i128) -> i128 {
+            a * b
         }
     }
 
@@ -105,20 +116,20 @@ mod tests {
             state ^= state << 17;
             i64::from(state as i16) >> (state >> 60)
         };
-        let whole = |x: i64| Integer::<2>::shifted(x, 0);
+        let whole = |x: i64| Integer::<1>::shifted(x, 0);
         let mut largest = [0; 4];
         for degree in [1, 2, 3] {
             for _ in 0..100_000 {
                 let quadratic = [random(), random(), random()];
                 let cubic = [random(), random(), random(), random()];
-                let polynomial = cubic.iter().take(degree + 1);
-                let polynomial = polynomial.map(|&x| i128::from(x));
+                let polynomial = cubic.map(i128::from);
+                let polynomial = polynomial.get(..=degree).unwrap_or_default();
                 let [a, b, c] = quadratic.map(i128::from);
-                let [l1, first, last] = terms([a, b, c], polynomial.clone());
-                let exact = [l1, first, last, value_at_quotient([a, b], polynomial)];
+                let [l1, first, last] = terms(&mut BuiltIn, [a, b, c], polynomial);
+                let exact = [l1, first, last, value_at_quotient(&mut BuiltIn, [a, b], polynomial)];
                 // The scale's own power of two, by which the terms are too large.
                 let bits = |coefficients: &[i64]| {
-                    let bits = coefficients.iter().map(|&x| whole(x).bits());
+                    let bits = coefficients.iter().map(|&x| whole(x).words().bits());
                     bits.max().unwrap_or(0).cast_signed()
                 };
                 let [of_quadratic, of_polynomial] = [bits(&quadratic), bits(cubic.get(..=degree).unwrap_or(&[]))];
@@ -132,15 +143,17 @@ mod tests {
                 ];
 
                 let quadratic = quadratic.map(whole);
+                let quadratic = quadratic.each_ref().map(Whole::words);
                 let scale = Scale::of(&quadratic);
-                let rounded_quadratic = quadratic.each_ref().map(|x| scale.rounded(x));
-                let mut cubic = cubic.map(whole);
-                let polynomial = cubic.get_mut(..=degree).unwrap_or_default();
-                let scale = Scale::of(polynomial);
-                let rounded = polynomial.iter().map(|x| scale.rounded(x));
+                let rounded_quadratic = quadratic.map(|x| scale.rounded(x));
+                let cubic = cubic.map(whole);
+                let cubic = cubic.each_ref().map(Whole::words);
+                let scale = Scale::of(cubic.get(..=degree).unwrap_or_default());
+                let rounded: [Rounded; 4] = cubic.map(|x| scale.rounded(x));
+                let rounded = rounded.get(..=degree).unwrap_or_default();
                 let [a, b, _] = rounded_quadratic;
-                let [l1, first, last] = terms(rounded_quadratic, rounded.clone());
-                let rounded = [l1, first, last, value_at_quotient([a, b], rounded)];
+                let [l1, first, last] = terms(&mut FixedPoint, rounded_quadratic, rounded);
+                let rounded = [l1, first, last, value_at_quotient(&mut FixedPoint, [a, b], rounded)];
                 for (i, (exact, rounded)) in exact.into_iter().zip(rounded).enumerate() {
                     let unit = 56 - powers[i];
                     let exact = if unit >= 0 { exact << unit } else { exact >> -unit };
