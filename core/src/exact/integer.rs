@@ -202,9 +202,12 @@ impl<'a> Space<'a> {
         taken
     }
 
-    /// `significand` · 2^`shift`.
+    /// `significand` · 2^`shift`; zero whatever the shift.
     #[inline(never)]
     pub(super) fn shifted(&mut self, significand: i64, shift: u32) -> Words<'a> {
+        if significand == 0 {
+            return Words::ZERO;
+        }
         let words = self.take((shift / 64) as usize + 2);
         let wide = i128::from(significand) << (shift % 64);
         if let [zeros @ .., low, high] = words {
@@ -597,7 +600,7 @@ mod tests {
         let mut product = Integer::<12>::ZERO;
         for (i, x) in halves(magnitude(a)).enumerate() {
             for (j, y) in halves(magnitude(b)).enumerate() {
-                for (k, half) in [x * y & 0xffff_ffff, x * y >> 32].into_iter().enumerate() {
+                for (k, half) in [(x * y) & 0xffff_ffff, (x * y) >> 32].into_iter().enumerate() {
                     let place = 32 * (i + j + k) as u32;
                     // Nothing is above: a magnitude has a bit less than its words.
                     if half != 0 {
@@ -666,6 +669,14 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn zero_takes_no_space_however_far_it_is_shifted() {
+        let mut words = [0; 2];
+        let mut space = Space::new(&mut words);
+        assert!(space.shifted(0, u32::MAX).is_zero());
+        assert_eq!(resized::<1>(space.shifted(5, 0)), Integer([5]));
     }
 
     #[test]

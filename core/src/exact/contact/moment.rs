@@ -10,7 +10,7 @@
 //! N words. Then cross products are quadratics with coefficients below 2^(2m+2). A determinant of nine numbers of magnitude one at most
 //! is 4 at most: being linear in each, it is largest where all are ±1. So the volume is a cubic with k₀, k₃ ≤ 4·2³ᵐ and, as sums of
 //! three determinants, k₁, k₂ ≤ 12·2³ᵐ; its derivatives, and the quadratic that stands for it where the first is zero, stay below
-//! 24·2³ᵐ < 2^(3m+5): all of them, with a sign, in `C` = 3·N words.
+//! 24·2³ᵐ < 2^(3m+5): all of them, with a sign, in 3·N words.
 //!
 //! A root's sign is that of one of the last numbers of [`terms`], the remainder l of a polynomial divided by the quadratic q, and of q
 //! divided by l. What can come together:
@@ -25,7 +25,10 @@
 //!
 //! (In the first row l is a sum of three or four products of two coefficients of q and one of the cubic, in the others two of
 //! two; the last number a sum of three, l² times a coefficient of q.) The largest has 16·(64·N − 2) + 26 < 1024·N bits, which is
-//! `R` = 16·N words. Where q is linear less is needed.
+//! 16·N words. Where q is linear less is needed.
+//!
+//! The space that [`terms`] take is largest in the first row, too: two numbers of 5·N words and two of 7·N for the remainder, a power of
+//! 4·N, and in the end four of 9·N, A among them, one of 14·N and three of 16·N: 126·N, and a few words for carries.
 //!
 //! Before all these words are computed the same is tried with [`rounded`](super::rounded) numbers; most signs are certain from them.
 
