@@ -26,7 +26,7 @@
 //! * **A bounded amount of work**: that of the [time of impact](super::advance), at most 18 attempts at confirmation, and in
 //!   whole numbers what `exact::touches` states: nothing is refined until it is good enough. Time grows with the square of the
 //!   number of bits from a coordinate's highest to another's lowest along an axis: microseconds with everyday coordinates, some milliseconds
-//!   where `f64` coordinates of 1e300 and 1e-300 come together along one axis, which also take up to 300 kB of stack (x86-64, optimised).
+//!   where `f64` coordinates of 1e300 and 1e-300 come together along one axis, which also take up to 100 kB of stack (x86-64, optimised).
 
 use super::advance::confirm::certain_contact;
 use super::advance::{time_of_impact, time_of_impact_within};

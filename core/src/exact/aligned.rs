@@ -1,9 +1,8 @@
 //! The 24 coordinates of a pair as whole numbers, axis by axis.
 
-use super::integer::Integer;
 use super::magnitude::Magnitude;
 use crate::PairKind;
-use crate::points::{PairPoints, PairShape};
+use crate::points::PairPoints;
 use crate::scalar::Scalar;
 
 /// An odd number, or zero, times a power of two.
@@ -95,10 +94,11 @@ impl Axis {
         })
     }
 
+    /// As significands and powers of two.
     #[inline(always)]
-    fn integers<const N: usize>(&self) -> [Integer<N>; 8] {
+    fn integers<T>(&self, shifted: &mut impl FnMut(i64, u32) -> T) -> [T; 8] {
         self.terms
-            .map(|term| Integer::shifted(term.significand, term.exponent - self.unit))
+            .map(|term| shifted(term.significand, term.exponent.wrapping_sub(self.unit)))
     }
 }
 
@@ -109,23 +109,15 @@ pub(super) struct Units(pub(super) [i32; 3]);
 /// A pair's coordinates as whole numbers, each axis in its own unit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AlignedPair {
-    kind: PairKind,
+    pub(super) kind: PairKind,
     axes: [Axis; 3],
     pub(super) units: Units,
 }
 
-/// The vectors b, c, p of [`kernel`](super::kernel) at one end of the step.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Edges<const N: usize> {
-    pub(super) b: [Integer<N>; 3],
-    pub(super) c: [Integer<N>; 3],
-    pub(super) p: [Integer<N>; 3],
-}
-
 impl AlignedPair {
     /// `None` if a coordinate is not finite.
-    #[inline(always)]
-    pub(super) fn new<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<Self> {
+    #[inline(never)]
+    pub(super) fn new<S: Scalar>(kind: PairKind, points: &PairPoints<S>) -> Option<Self> {
         let [a, b, c, d] = points.start;
         let [e, f, g, h] = points.end;
         let axes = [
@@ -137,7 +129,7 @@ impl AlignedPair {
         let unit = |axis: &Axis| i32::try_from(axis.unit).unwrap_or(0);
         let [x, y, z] = &axes;
         Some(Self {
-            kind: P::KIND,
+            kind,
             units: Units([x, y, z].map(|axis| unit(axis) - bias::<S>())),
             axes,
         })
@@ -150,40 +142,11 @@ impl AlignedPair {
         x.bits.max(y.bits).max(z.bits)
     }
 
-    /// Along each axis the four points' coordinates at the start, then those at the end.
+    /// Along each axis the four points' coordinates at the start, then those at the end, given what makes significand · 2ⁿ.
     #[inline(always)]
-    pub(super) fn coordinates<const N: usize>(&self) -> [[Integer<N>; 8]; 3] {
+    pub(super) fn coordinates<T>(&self, mut shifted: impl FnMut(i64, u32) -> T) -> [[T; 8]; 3] {
         let [x, y, z] = &self.axes;
-        [x.integers(), y.integers(), z.integers()]
-    }
-
-    /// At the start and at the end.
-    #[inline(always)]
-    pub(super) fn edges<const N: usize>(&self) -> [Edges<N>; 2] {
-        let [x, y, z] = self.coordinates();
-        let edges = |[x, y, z]: [[Integer<N>; 3]; 3]| Edges {
-            b: [x[0], y[0], z[0]],
-            c: [x[1], y[1], z[1]],
-            p: [x[2], y[2], z[2]],
-        };
-        let ends = |[a, b, c, d, e, f, g, h]: [Integer<N>; 8]| [self.differences([a, b, c, d]), self.differences([e, f, g, h])];
-        let ([x0, x1], [y0, y1], [z0, z1]) = (ends(x), ends(y), ends(z));
-        [edges([x0, y0, z0]), edges([x1, y1, z1])]
-    }
-
-    /// b, c, p along one axis.
-    #[inline(always)]
-    fn differences<const N: usize>(&self, points: [Integer<N>; 4]) -> [Integer<N>; 3] {
-        match self.kind {
-            PairKind::VertexFace => {
-                let [vertex, a, b, c] = points;
-                [b.minus(&a), c.minus(&a), vertex.minus(&a)]
-            }
-            PairKind::EdgeEdge => {
-                let [u, v, k, l] = points;
-                [v.minus(&u), l.minus(&k), u.minus(&k)]
-            }
-        }
+        [x.integers(&mut shifted), y.integers(&mut shifted), z.integers(&mut shifted)]
     }
 }
 

@@ -1,6 +1,6 @@
 //! Magnitudes to 64 bits with an exponent that cannot overflow, rounded down or up, without floating point.
 
-use super::integer::Integer;
+use super::integer::Words;
 
 /// A bound of a non-negative number: `significand` · 2^`exponent`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,13 +33,18 @@ impl Magnitude {
     }
 
     /// Of a whole number's magnitude times 2^`exponent`.
-    #[inline]
-    pub(super) fn of<const N: usize>(number: &Integer<N>, exponent: i32, bound: Bound) -> Self {
-        let magnitude = number.magnitude();
-        let dropped = magnitude.bits().saturating_sub(64);
-        let is_cut = magnitude.trailing_zeros() < dropped;
-        let exponent = exponent + dropped.cast_signed();
-        Self::rounded(magnitude.word_above(dropped).into(), is_cut, exponent, bound)
+    #[inline(never)]
+    pub(super) fn of(number: Words<'_>, exponent: i32, bound: Bound) -> Self {
+        let dropped = number.bits().saturating_sub(64);
+        let is_cut = number.trailing_zeros() < dropped;
+        let above = number.word_above(dropped);
+        // −x is one more than the complement of x, whose lower bits are those cut off.
+        let value = if number.sign().is_lt() {
+            u128::from(!above) + u128::from(!is_cut)
+        } else {
+            above.into()
+        };
+        Self::rounded(value, is_cut, exponent + dropped.cast_signed(), bound)
     }
 
     /// `value` · 2^`exponent`, and a little more if `is_cut`, which needs a `value` of at least 2⁶³.
@@ -97,7 +102,8 @@ impl Magnitude {
 
 #[cfg(test)]
 mod tests {
-    use super::{Bound, Integer, Magnitude};
+    use super::{Bound, Magnitude};
+    use crate::exact::integer::{Integer, Whole};
 
     fn exact(significand: u64, exponent: i32) -> Magnitude {
         Magnitude::exact(significand, exponent)
@@ -111,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_whole_number_gives_the_bounds_of_its_magnitude() {
-        let bounds = |number: &Integer<4>| [Bound::Lower, Bound::Upper].map(|bound| Magnitude::of(number, 3, bound));
+        let bounds = |number: &Integer<4>| [Bound::Lower, Bound::Upper].map(|bound| Magnitude::of(number.words(), 3, bound));
         let one = Integer::shifted(1, 0);
         assert_eq!(bounds(&Integer::ZERO), [Magnitude::ZERO; 2]);
         for shift in [0_u32, 1, 63, 64, 127, 128, 192] {

@@ -20,7 +20,8 @@
 //! | 5 | 317 | all of `f32`, which has 277 |
 //! | 33 | 2,109 | all of `f64`, which has 2,098 |
 //!
-//! Only the width that a pair needs takes time and stack: on x86-64 about 0.4, 1.3, 3 and 20 kB.
+//! Only the width that a pair needs takes time and stack: on x86-64 at most 7 kB for the first three, and 35 kB for all of `f64`, whose
+//! numbers are slices of one space, each of as many words as it needs.
 //!
 //! Not a single operation is in floating point. The answers are therefore exact for every finite input, subnormal and
 //! largest numbers included, in every floating-point environment: any rounding direction, flush-to-zero,
@@ -67,8 +68,8 @@ use crate::scalar::Scalar;
 use aligned::{AlignedPair, Units};
 use core::cmp::Ordering;
 use core::ops::ControlFlow;
-use integer::Integer;
-use kernel::Judge;
+use integer::{Space, Whole, Words};
+use kernel::{Arithmetic, Fixed, Judge, Width, control_values};
 use magnitude::{Bound, Magnitude};
 
 /// What a caller knows of the control values k₀, 3k₁, 3k₂, k₃ already: how some of them compare with zero.
@@ -126,11 +127,28 @@ pub fn certain_signs<S: Scalar>(values: &ControlValues<S>, bounds: [S; 4]) -> Kn
 /// ```
 #[must_use]
 pub fn control_value_signs<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<[Ordering; 4]> {
-    let pair = AlignedPair::new::<P, S>(points)?;
-    let mut signs = AllSigns([Ordering::Equal; 4]);
-    // It does not break off.
-    let _ = kernel::judge(&pair, &mut signs);
-    Some(signs.0)
+    AlignedPair::new(P::KIND, points).map(|pair| signs(&pair))
+}
+
+fn signs(pair: &AlignedPair) -> [Ordering; 4] {
+    match Width::of(pair) {
+        Width::Words1 => signs_by(pair, &mut Fixed::<1, 2, 3>),
+        Width::Words2 => signs_by(pair, &mut Fixed::<2, 4, 6>),
+        Width::Words5 => signs_by(pair, &mut Fixed::<5, 10, 15>),
+        Width::Words33 => signs_in_space(pair),
+    }
+}
+
+/// Out of line, so that a call pays for the stack of its own width only.
+#[inline(never)]
+fn signs_by<A: Arithmetic>(pair: &AlignedPair, arithmetic: &mut A) -> [Ordering; 4] {
+    let coordinates = arithmetic.coordinates(pair);
+    control_values(pair.kind, &coordinates, arithmetic).map(|value| value.sign())
+}
+
+#[inline(never)]
+fn signs_in_space(pair: &AlignedPair) -> [Ordering; 4] {
+    signs_by(pair, &mut Space::new(&mut [0; kernel::space(33)]))
 }
 
 /// True exactly if all four control values are positive, or all four negative. True proves that the four points are
@@ -176,6 +194,7 @@ fn one_sign<P: PairShape, S: Scalar>(points: &PairPoints<S>, known: KnownSigns, 
     let mut one_sign = OneSign {
         known,
         common: None,
+        units: Units([0; 3]),
         squared_separation,
     };
     for sign in known.into_iter().flatten() {
@@ -183,37 +202,14 @@ fn one_sign<P: PairShape, S: Scalar>(points: &PairPoints<S>, known: KnownSigns, 
             return false;
         }
     }
-    AlignedPair::new::<P, S>(points).is_some_and(|pair| kernel::judge(&pair, &mut one_sign).is_continue())
-}
-
-/// Notes every sign.
-struct AllSigns([Ordering; 4]);
-
-impl Judge for AllSigns {
-    #[inline(always)]
-    fn wants(&self, _: usize) -> bool {
-        true
-    }
-
-    #[inline(always)]
-    fn judge<const N2: usize, const N3: usize>(
-        &mut self,
-        index: usize,
-        value: &Integer<N3>,
-        _: impl FnOnce() -> [Integer<N2>; 3],
-        _: Units,
-    ) -> ControlFlow<()> {
-        if let Some(sign) = self.0.get_mut(index) {
-            *sign = value.sign();
-        }
-        ControlFlow::Continue(())
-    }
+    AlignedPair::new(P::KIND, points).is_some_and(|pair| one_sign.passes(&pair))
 }
 
 /// Breaks off at the first control value that is not of the others' strict sign or not beyond the separation.
 struct OneSign {
     known: KnownSigns,
     common: Option<Ordering>,
+    units: Units,
     squared_separation: Magnitude,
 }
 
@@ -228,22 +224,56 @@ impl OneSign {
     }
 }
 
-impl Judge for OneSign {
+impl OneSign {
+    /// Whether it does not break off.
+    fn passes(&mut self, pair: &AlignedPair) -> bool {
+        self.units = pair.units;
+        match Width::of(pair) {
+            Width::Words1 => self.passes_by(pair, &mut Fixed::<1, 2, 3>),
+            Width::Words2 => self.passes_by(pair, &mut Fixed::<2, 4, 6>),
+            Width::Words5 => self.passes_by(pair, &mut Fixed::<5, 10, 15>),
+            Width::Words33 => self.passes_in_space(pair),
+        }
+    }
+
+    /// Out of line, so that a call pays for the stack of its own width only.
+    #[inline(never)]
+    fn passes_by<A: Arithmetic>(&mut self, pair: &AlignedPair, arithmetic: &mut A) -> bool {
+        let coordinates = arithmetic.coordinates(pair);
+        kernel::judge(pair.kind, &coordinates, arithmetic, self).is_continue()
+    }
+
+    #[inline(never)]
+    fn passes_in_space(&mut self, pair: &AlignedPair) -> bool {
+        self.passes_by(pair, &mut Space::new(&mut [0; kernel::space(33)]))
+    }
+}
+
+impl<A: Arithmetic> Judge<A> for OneSign {
     #[inline(always)]
     fn wants(&self, index: usize) -> bool {
         matches!(self.known.get(index), Some(None))
     }
 
     #[inline(always)]
-    fn judge<const N2: usize, const N3: usize>(
+    fn judge(
         &mut self,
+        arithmetic: &mut A,
         _: usize,
-        value: &Integer<N3>,
-        normal: impl FnOnce() -> [Integer<N2>; 3],
-        units: Units,
+        value: &A::Three,
+        normal: impl FnOnce(&mut A) -> [A::Two; 3],
     ) -> ControlFlow<()> {
         self.adopt(value.sign())?;
-        if self.squared_separation.is_zero() || is_beyond(value, &normal(), units, self.squared_separation) {
+        if self.squared_separation.is_zero() {
+            return ControlFlow::Continue(());
+        }
+        let normal = normal(arithmetic);
+        if is_beyond(
+            value.words(),
+            normal.each_ref().map(Whole::words),
+            self.units,
+            self.squared_separation,
+        ) {
             return ControlFlow::Continue(());
         }
         ControlFlow::Break(())
@@ -251,14 +281,9 @@ impl Judge for OneSign {
 }
 
 /// Whether k² > s²·|n|², `value` and `normal` being whole numbers in units that differ from axis to axis.
-fn is_beyond<const N2: usize, const N3: usize>(
-    value: &Integer<N3>,
-    normal: &[Integer<N2>; 3],
-    Units([ux, uy, uz]): Units,
-    squared_separation: Magnitude,
-) -> bool {
-    let [x, y, z] = normal;
-    let squared = |component: &Integer<N2>, unit| Magnitude::of(component, unit, Bound::Upper).squared(Bound::Upper);
+#[inline(never)]
+fn is_beyond(value: Words<'_>, [x, y, z]: [Words<'_>; 3], Units([ux, uy, uz]): Units, squared_separation: Magnitude) -> bool {
+    let squared = |component: Words<'_>, unit| Magnitude::of(component, unit, Bound::Upper).squared(Bound::Upper);
     let squared_normal = squared(x, uy + uz).plus(squared(y, uz + ux)).plus(squared(z, ux + uy));
     Magnitude::of(value, ux + uy + uz, Bound::Lower)
         .squared(Bound::Lower)

@@ -46,15 +46,14 @@ mod rounded;
 #[cfg(test)]
 mod tests;
 
-use super::aligned::{AlignedPair, Units};
-use super::integer::Integer;
-use super::kernel::{self, Judge, Width};
+use super::aligned::AlignedPair;
+use super::integer::{Space, Whole, Words};
+use super::kernel::{self, Arithmetic, Fixed, Width, control_values};
 use crate::PairKind;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use core::cmp::Ordering;
-use core::ops::ControlFlow;
-use moment::{Crossing, Moment, Root, sign_before_end};
+use moment::{Crossing, End, Moment, Root, sign_before_end};
 
 /// Whether the closed vertex and face, or the two closed edges, share a point at some time in [0, 1].
 ///
@@ -76,187 +75,180 @@ use moment::{Crossing, Moment, Root, sign_before_end};
 /// ```
 #[must_use]
 pub fn touches<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<bool> {
-    let pair = AlignedPair::new::<P, S>(points)?;
-    Some(match Width::of(&pair) {
-        Width::Words1 => in_words::<P, 1, 2, 3, 16>(&pair),
-        Width::Words2 => in_words::<P, 2, 4, 6, 32>(&pair),
-        Width::Words5 => in_words::<P, 5, 10, 15, 80>(&pair),
-        Width::Words33 => in_words::<P, 33, 66, 99, 528>(&pair),
-    })
+    AlignedPair::new(P::KIND, points).map(|pair| touches_aligned(&pair))
 }
 
-/// With coordinates of `N` words; `N2` = 2·`N`, `N3` = 3·`N`, `R` = 16·`N`.
+/// How many words are enough for the search with coordinates of `N` words, corners and volume not counted: for the derivative, what stands
+/// for the volume and the roots, nine numbers of 3·N + 2; for a cross product 10·N + 6, its roots 6·N + 6, twice a coefficient 3·N + 3;
+/// and for the largest of `moment`'s numbers 126·N + 30.
+const fn space(n: usize) -> usize {
+    9 * (3 * n + 2) + 10 * n + 6 + 6 * n + 6 + 3 * n + 3 + 126 * n + 30
+}
+
+fn touches_aligned(pair: &AlignedPair) -> bool {
+    match Width::of(pair) {
+        Width::Words1 => in_words::<1, 2, 3, { space(1) }>(pair),
+        Width::Words2 => in_words::<2, 4, 6, { space(2) }>(pair),
+        Width::Words5 => in_words::<5, 10, 15, { space(5) }>(pair),
+        Width::Words33 => in_space(pair),
+    }
+}
+
+/// With coordinates of `N` words; `N2` = 2·`N`, `N3` = 3·`N`, and `WORDS` to work with.
 ///
-/// Out of line, so that a call pays for the stack of its own width only.
+/// Out of line, as the next, so that a call pays for the stack of its own width only.
 #[inline(never)]
-fn in_words<P: PairShape, const N: usize, const N2: usize, const N3: usize, const R: usize>(pair: &AlignedPair) -> bool {
-    let mut volume = Volume([Integer::ZERO; 4]);
-    // It does not break off.
-    let _ = kernel::in_words::<N, N2, N3>(pair, &mut volume);
-    let axes = pair.coordinates::<N>();
-    match P::KIND {
-        PairKind::VertexFace => Polygon::<3, N>::of_vertex_face(&axes).touches::<N3, R>(&volume.0),
-        PairKind::EdgeEdge => Polygon::<4, N>::of_edge_edge(&axes).touches::<N3, R>(&volume.0),
+fn in_words<const N: usize, const N2: usize, const N3: usize, const WORDS: usize>(pair: &AlignedPair) -> bool {
+    let mut arithmetic = Fixed::<N, N2, N3>;
+    let coordinates = arithmetic.coordinates(pair);
+    let volume = control_values(pair.kind, &coordinates, &mut arithmetic);
+    if is_never_zero(volume.each_ref().map(Whole::sign)) {
+        return false;
     }
+    let corners = corners(pair.kind, &coordinates, &mut arithmetic);
+    let polygon = Polygon::new(pair.kind, &corners);
+    polygon.touches(volume.each_ref().map(Whole::words), &mut Space::new(&mut [0; WORDS]))
 }
 
-/// Notes the control values k₀, 3k₁, 3k₂, k₃: the volume's coefficients in s.
-struct Volume<const C: usize>([Integer<C>; 4]);
-
-impl<const C: usize> Judge for Volume<C> {
-    #[inline(always)]
-    fn wants(&self, _: usize) -> bool {
-        true
+/// With coordinates of 33 words, all numbers in a space: corners take 24 of 34 words.
+#[inline(never)]
+fn in_space(pair: &AlignedPair) -> bool {
+    let mut words = [0; kernel::space(33) + 24 * 34 + space(33)];
+    let mut space = Space::new(&mut words);
+    let coordinates = space.coordinates(pair);
+    let volume = control_values(pair.kind, &coordinates, &mut space);
+    if is_never_zero(volume.map(Words::sign)) {
+        return false;
     }
+    let corners = corners(pair.kind, &coordinates, &mut space);
+    Polygon::new(pair.kind, &corners).touches(volume, &mut space)
+}
 
-    #[inline(always)]
-    fn judge<const N2: usize, const N3: usize>(
-        &mut self,
-        index: usize,
-        value: &Integer<N3>,
-        _: impl FnOnce() -> [Integer<N2>; 3],
-        _: Units,
-    ) -> ControlFlow<()> {
-        if let Some(coefficient) = self.0.get_mut(index) {
-            *coefficient = value.widened();
+/// Whether a polynomial with coefficients of these signs is zero at no s in [0, ∞].
+fn is_never_zero(signs: [Ordering; 4]) -> bool {
+    signs == [Ordering::Less; 4] || signs == [Ordering::Greater; 4]
+}
+
+/// Corners around the polygon, the first once more after the last; a triangle has one entry less, and the last is nothing.
+type Around<T> = [T; 5];
+
+/// Each corner's coordinates at the start and at the end, along each axis.
+#[inline(always)]
+fn corners<A: Arithmetic>(kind: PairKind, axes: &[[A::One; 8]; 3], arithmetic: &mut A) -> [Around<[A::One; 2]>; 3] {
+    axes.each_ref().map(|[a0, b0, c0, d0, a1, b1, c1, d1]| {
+        let mut minus =
+            |[p0, p1]: [&A::One; 2], [q0, q1]: [&A::One; 2]| [arithmetic.difference(p0, q0), arithmetic.difference(p1, q1)];
+        let (a, b, c, d) = ([a0, a1], [b0, b1], [c0, c1], [d0, d1]);
+        match kind {
+            PairKind::VertexFace => {
+                let first = minus(a, b);
+                [first, minus(a, c), minus(a, d), first, first]
+            }
+            PairKind::EdgeEdge => {
+                let first = minus(a, c);
+                [first, minus(a, d), minus(b, d), minus(b, c), first]
+            }
         }
-        ControlFlow::Continue(())
-    }
+    })
 }
 
 /// One coordinate of a corner, at the start and at the end of the step: the coefficients of a linear polynomial in s.
-type Linear<const N: usize> = [Integer<N>; 2];
+type Linear<'a> = [Words<'a>; 2];
 
 /// The moving corners of a pair, around the triangle or parallelogram, along each axis.
-struct Polygon<const CORNERS: usize, const N: usize>([[Linear<N>; CORNERS]; 3]);
-
-impl<const N: usize> Polygon<3, N> {
-    fn of_vertex_face(axes: &[[Integer<N>; 8]; 3]) -> Self {
-        Self(axes.each_ref().map(|[p0, a0, b0, c0, p1, a1, b1, c1]| {
-            [
-                [p0.minus(a0), p1.minus(a1)],
-                [p0.minus(b0), p1.minus(b1)],
-                [p0.minus(c0), p1.minus(c1)],
-            ]
-        }))
-    }
+struct Polygon<'a> {
+    corners: [Around<Linear<'a>>; 3],
+    /// How many corners it has.
+    count: usize,
 }
 
-impl<const N: usize> Polygon<4, N> {
-    fn of_edge_edge(axes: &[[Integer<N>; 8]; 3]) -> Self {
-        Self(axes.each_ref().map(|[u0, v0, k0, l0, u1, v1, k1, l1]| {
-            [
-                [u0.minus(k0), u1.minus(k1)],
-                [u0.minus(l0), u1.minus(l1)],
-                [v0.minus(l0), v1.minus(l1)],
-                [v0.minus(k0), v1.minus(k1)],
-            ]
-        }))
+impl<'a> Polygon<'a> {
+    fn new<T: Whole>(kind: PairKind, corners: &'a [Around<[T; 2]>; 3]) -> Self {
+        Self {
+            corners: corners
+                .each_ref()
+                .map(|axis| axis.each_ref().map(|ends| ends.each_ref().map(T::words))),
+            count: match kind {
+                PairKind::VertexFace => 3,
+                PairKind::EdgeEdge => 4,
+            },
+        }
     }
-}
 
-impl<const CORNERS: usize, const N: usize> Polygon<CORNERS, N> {
-    fn touches<const C: usize, const R: usize>(&self, volume: &[Integer<C>; 4]) -> bool {
-        let signs = volume.each_ref().map(Integer::sign);
+    fn touches(&self, volume: [Words<'_>; 4], space: &mut Space<'_>) -> bool {
+        let signs = volume.map(Words::sign);
         let [at_start, .., at_end] = signs;
-        if at_start.is_eq() && self.touches_at_an_end::<0, C>() || at_end.is_eq() && self.touches_at_an_end::<1, C>() {
+        if at_start.is_eq() && self.contains_origin(&End::Start, space)
+            || at_end.is_eq() && self.contains_origin(&End::End, space)
+        {
             return true;
         }
-        let search = Search::<CORNERS, N, C, R>(self);
         match changes_of_sign(signs) {
-            _ if signs == [Ordering::Equal; 4] => search.touches_in_plane(),
+            _ if signs == [Ordering::Equal; 4] => self.touches_in_plane(space),
             0 => false,
-            1 => search.touches_when_coplanar(&Crossing::<C, R>::between_ends(volume)),
-            _ => search.touches_at_one_of_many(volume),
+            1 => self.contains_origin(&Crossing::between_ends(volume), space),
+            _ => self.touches_at_one_of_many(volume, space),
         }
     }
 
-    /// At the start (`END` = 0) or end (1) of the step, when the origin is in a plane with the corners.
-    fn touches_at_an_end<const END: usize, const C: usize>(&self) -> bool {
-        contains_origin(
-            self,
-            |[[a, b], [c, d]]| minor::<N, C>(&a[END], &b[END], &c[END], &d[END]).sign(),
-            |coordinate| coordinate[END].sign(),
-        )
+    /// All corners along each axis.
+    fn coordinates(&self) -> impl Iterator<Item = &[Linear<'a>]> {
+        self.corners.iter().map(|axis| axis.get(..self.count).unwrap_or_default())
     }
 
-    /// The corners along the two other axes, for each axis.
-    fn projections(&self) -> [[&[Linear<N>; CORNERS]; 2]; 3] {
-        let [x, y, z] = &self.0;
-        [[y, z], [z, x], [x, y]]
+    /// All neighbours, around the polygon, along the two other axes for each axis.
+    fn projections(&self) -> [impl Iterator<Item = Neighbours<'a>>; 3] {
+        let [x, y, z] = &self.corners;
+        [[y, z], [z, x], [x, y]].map(|[y, z]| {
+            let corners = y.iter().zip(z);
+            let next = corners.clone().skip(1);
+            corners
+                .zip(next)
+                .take(self.count)
+                .map(|((y0, z0), (y1, z1))| Neighbours([[*y0, *z0], [*y1, *z1]]))
+        })
     }
-}
 
-/// The coordinates along two axes of a corner and of the next.
-type Neighbours<'a, const N: usize> = [[&'a Linear<N>; 2]; 2];
-
-/// All neighbours, around the polygon.
-fn neighbours<'a, const CORNERS: usize, const N: usize>(
-    [y, z]: [&'a [Linear<N>; CORNERS]; 2],
-) -> impl Iterator<Item = Neighbours<'a, N>> {
-    let next = |coordinates: &'a [Linear<N>; CORNERS]| coordinates.iter().cycle().skip(1);
-    let corners = y.iter().zip(z).zip(next(y).zip(next(z)));
-    corners.map(|((y0, z0), (y1, z1))| [[y0, z0], [y1, z1]])
-}
-
-/// Conditions 2 and 3 of the module's documentation, at a time when the first is met: given the signs then of neighbours' cross
-/// product and of a coordinate.
-#[inline(always)]
-fn contains_origin<const CORNERS: usize, const N: usize>(
-    polygon: &Polygon<CORNERS, N>,
-    cross_sign: impl Fn(Neighbours<'_, N>) -> Ordering,
-    coordinate_sign: impl Fn(&Linear<N>) -> Ordering,
-) -> bool {
-    for projection in polygon.projections() {
-        let (mut turns_left, mut turns_right) = (false, false);
-        for pair in neighbours(projection) {
-            let turn = cross_sign(pair);
-            turns_left |= turn.is_gt();
-            turns_right |= turn.is_lt();
-            if turns_left && turns_right {
-                return false;
+    /// Conditions 2 and 3 of the module's documentation, at a time when the first is met.
+    fn contains_origin(&self, moment: &dyn Moment, space: &mut Space<'_>) -> bool {
+        for projection in self.projections() {
+            let (mut turns_left, mut turns_right) = (false, false);
+            for neighbours in projection {
+                let turn = moment.turn(&neighbours, space);
+                turns_left |= turn.is_gt();
+                turns_right |= turn.is_lt();
+                if turns_left && turns_right {
+                    return false;
+                }
+            }
+            if turns_left || turns_right {
+                return true;
             }
         }
-        if turns_left || turns_right {
-            return true;
-        }
-    }
-    polygon.0.iter().all(|corners| {
-        let mut signs = corners.iter().map(&coordinate_sign);
-        let first = signs.next().unwrap_or(Ordering::Equal);
-        first.is_eq() || signs.any(|sign| sign != first)
-    })
-}
-
-/// For contact within the step, at roots of polynomials.
-struct Search<'a, const CORNERS: usize, const N: usize, const C: usize, const R: usize>(&'a Polygon<CORNERS, N>);
-
-impl<const CORNERS: usize, const N: usize, const C: usize, const R: usize> Search<'_, CORNERS, N, C, R> {
-    /// At a time when the origin is in a plane with the corners.
-    fn touches_when_coplanar(&self, moment: &impl Moment<C>) -> bool {
-        contains_origin(
-            self.0,
-            |neighbours| moment.sign(&cross::<N, C>(neighbours)),
-            |coordinate| moment.sign(&coordinate.each_ref().map(Integer::widened)),
-        )
+        self.coordinates().all(|corners| {
+            let mut signs = corners.iter().map(|coordinate| moment.sign(coordinate, space));
+            let first = signs.next().unwrap_or(Ordering::Equal);
+            first.is_eq() || signs.any(|sign| sign != first)
+        })
     }
 
     /// In a step with several roots of the volume, or one more than once.
-    fn touches_at_one_of_many(&self, volume: &[Integer<C>; 4]) -> bool {
+    fn touches_at_one_of_many(&self, volume: [Words<'_>; 4], space: &mut Space<'_>) -> bool {
+        let mut space = space.scratch();
         let [k0, k1, k2, k3] = volume;
-        let derivative: [Integer<C>; 3] = [*k1, k2.doubled(), k3.doubled().plus(k3)];
+        let derivative = [k1, space.doubled(k2), space.tripled(k3)];
         // 3K = s·K′ + this: where the derivative is zero it has the volume's sign.
-        let rest: [Integer<C>; 3] = [k0.doubled().plus(k0), k1.doubled(), *k2];
-        let turning_points = Root::<C, R>::positive(&derivative);
+        let rest = [space.tripled(k0), space.doubled(k1), k2];
+        let turning_points = Root::positive(&derivative, &mut space);
         let mut crossing = Crossing::between_ends(volume);
-        for turning_point in turning_points.iter().flatten() {
-            let sign = turning_point.sign(&rest);
+        for turning_point in turning_points.into_iter().flatten() {
+            let sign = turning_point.sign(&rest, &mut space);
             let touches = if sign.is_eq() {
-                self.touches_when_coplanar(turning_point)
+                self.contains_origin(&turning_point, &mut space)
             } else {
                 sign == crossing.sign_before.reverse() && {
                     crossing.before = Some(turning_point);
-                    self.touches_when_coplanar(&crossing)
+                    self.contains_origin(&crossing, &mut space)
                 }
             };
             if touches {
@@ -269,35 +261,41 @@ impl<const CORNERS: usize, const N: usize, const C: usize, const R: usize> Searc
                 sign_before: sign,
             };
         }
-        sign_before_end(volume) == crossing.sign_before.reverse() && self.touches_when_coplanar(&crossing)
+        sign_before_end(&volume) == crossing.sign_before.reverse() && self.contains_origin(&crossing, &mut space)
     }
 
     /// In a step throughout which the origin is in a plane with the corners.
-    fn touches_in_plane(&self) -> bool {
-        let touches_at_a_root_of = |polynomial: &[Integer<C>]| {
-            let roots = Root::<C, R>::positive(polynomial);
-            roots.iter().flatten().any(|root| self.touches_when_coplanar(root))
-        };
-        let mut coordinates = self.0.0.iter().flatten();
-        let mut projections = self.0.projections().into_iter();
-        coordinates.any(|coordinate| touches_at_a_root_of(&coordinate.each_ref().map(Integer::widened)))
-            || projections
-                .any(|projection| neighbours(projection).any(|neighbours| touches_at_a_root_of(&cross::<N, C>(neighbours))))
+    fn touches_in_plane(&self, space: &mut Space<'_>) -> bool {
+        self.coordinates()
+            .flatten()
+            .any(|coordinate| self.touches_at_a_root_of(coordinate, &mut space.scratch()))
+            || self.projections().into_iter().flatten().any(|neighbours| {
+                let mut space = space.scratch();
+                let cross = neighbours.cross(&mut space);
+                self.touches_at_a_root_of(&cross, &mut space)
+            })
+    }
+
+    fn touches_at_a_root_of<'b>(&self, polynomial: &[Words<'b>], space: &mut Space<'b>) -> bool {
+        let roots = Root::positive(polynomial, space);
+        roots.iter().flatten().any(|root| self.contains_origin(root, space))
     }
 }
 
-/// a·d − b·c.
-fn minor<const N: usize, const C: usize>(a: &Integer<N>, b: &Integer<N>, c: &Integer<N>, d: &Integer<N>) -> Integer<C> {
-    a.times::<N, C>(d).minus(&b.times::<N, C>(c))
-}
+/// The coordinates along two axes of a corner and of the next.
+struct Neighbours<'a>([[Linear<'a>; 2]; 2]);
 
-/// One component of the cross product of neighbours, a quadratic in s.
-fn cross<const N: usize, const C: usize>([[[a0, a1], [b0, b1]], [[c0, c1], [d0, d1]]]: Neighbours<'_, N>) -> [Integer<C>; 3] {
-    [
-        minor(a0, b0, c0, d0),
-        minor(a0, b0, c1, d1).plus(&minor(a1, b1, c0, d0)),
-        minor(a1, b1, c1, d1),
-    ]
+impl Neighbours<'_> {
+    /// One component of their cross product, a quadratic in s.
+    fn cross<'b>(&self, space: &mut Space<'b>) -> [Words<'b>; 3] {
+        let Self([[[a0, a1], [b0, b1]], [[c0, c1], [d0, d1]]]) = *self;
+        let (one_part, other_part) = (space.minor(a0, b0, c1, d1), space.minor(a1, b1, c0, d0));
+        [
+            space.minor(a0, b0, c0, d0),
+            space.plus(one_part, other_part),
+            space.minor(a1, b1, c1, d1),
+        ]
+    }
 }
 
 /// How often the sign changes in a row of coefficients.

@@ -10,7 +10,7 @@
 //! N words. Then cross products are quadratics with coefficients below 2^(2m+2). A determinant of nine numbers of magnitude one at most
 //! is 4 at most: being linear in each, it is largest where all are ±1. So the volume is a cubic with k₀, k₃ ≤ 4·2³ᵐ and, as sums of
 //! three determinants, k₁, k₂ ≤ 12·2³ᵐ; its derivatives, and the quadratic that stands for it where the first is zero, stay below
-//! 24·2³ᵐ < 2^(3m+5): all of them, with a sign, in `C` = 3·N words.
+//! 24·2³ᵐ < 2^(3m+5): all of them, with a sign, in 3·N words.
 //!
 //! A root's sign is that of one of the last numbers of [`terms`], the remainder l of a polynomial divided by the quadratic q, and of q
 //! divided by l. What can come together:
@@ -25,37 +25,80 @@
 //!
 //! (In the first row l is a sum of three or four products of two coefficients of q and one of the cubic, in the others two of
 //! two; the last number a sum of three, l² times a coefficient of q.) The largest has 16·(64·N − 2) + 26 < 1024·N bits, which is
-//! `R` = 16·N words. Where q is linear less is needed.
+//! 16·N words. Where q is linear less is needed.
+//!
+//! The space that [`terms`] take is largest in the first row, too: two numbers of 5·N words and two of 7·N for the remainder, a power of
+//! 4·N, and in the end four of 9·N, A among them, one of 14·N and three of 16·N: 126·N, and a few words for carries.
 //!
 //! Before all these words are computed the same is tried with [`rounded`](super::rounded) numbers; most signs are certain from them.
 
+use super::Neighbours;
 use super::remainder::{terms, value_at_quotient};
-use super::rounded::Scale;
-use crate::exact::integer::Integer;
+use super::rounded::{FixedPoint, Rounded, Scale};
+use crate::exact::integer::{Space, Whole, Words};
 use core::cmp::Ordering;
 
 /// A time at which signs can be told.
-pub(super) trait Moment<const C: usize> {
+pub(super) trait Moment {
     /// How the polynomial compares with zero then.
-    fn sign(&self, polynomial: &[Integer<C>]) -> Ordering;
+    fn sign(&self, polynomial: &[Words<'_>], space: &mut Space<'_>) -> Ordering;
+
+    /// The sign of one component of the cross product of neighbours.
+    fn turn(&self, neighbours: &Neighbours<'_>, space: &mut Space<'_>) -> Ordering {
+        let mut space = space.scratch();
+        let cross = neighbours.cross(&mut space);
+        self.sign(&cross, &mut space)
+    }
 }
 
 /// A polynomial's sign just after the start.
-fn sign_after_start<const C: usize>(polynomial: &[Integer<C>]) -> Ordering {
+fn sign_after_start(polynomial: &[Words<'_>]) -> Ordering {
     first_of_signs(polynomial.iter())
 }
 
 /// A polynomial's sign just before the end.
-pub(super) fn sign_before_end<const C: usize>(polynomial: &[Integer<C>]) -> Ordering {
+pub(super) fn sign_before_end(polynomial: &[Words<'_>]) -> Ordering {
     first_of_signs(polynomial.iter().rev())
 }
 
 /// Of those that are not zero.
 #[inline(always)]
-fn first_of_signs<'a, const C: usize>(mut coefficients: impl Iterator<Item = &'a Integer<C>>) -> Ordering {
+fn first_of_signs<'a>(mut coefficients: impl Iterator<Item = &'a Words<'a>>) -> Ordering {
     coefficients
         .find(|coefficient| !coefficient.is_zero())
-        .map_or(Ordering::Equal, Integer::sign)
+        .map_or(Ordering::Equal, |coefficient| Words::sign(*coefficient))
+}
+
+/// The start or the end of the step.
+pub(super) enum End {
+    Start,
+    End,
+}
+
+impl End {
+    /// Which of a polynomial's coefficients is its value then.
+    const fn value<T: Copy>(&self, [at_start, at_end]: [T; 2]) -> T {
+        match self {
+            Self::Start => at_start,
+            Self::End => at_end,
+        }
+    }
+}
+
+impl Moment for End {
+    fn sign(&self, polynomial: &[Words<'_>], _: &mut Space<'_>) -> Ordering {
+        let value = match self {
+            Self::Start => polynomial.first(),
+            Self::End => polynomial.last(),
+        };
+        value.map_or(Ordering::Equal, |value| Words::sign(*value))
+    }
+
+    fn turn(&self, Neighbours([[a, b], [c, d]]): &Neighbours<'_>, space: &mut Space<'_>) -> Ordering {
+        let mut space = space.scratch();
+        let minor = space.minor(self.value(*a), self.value(*b), self.value(*c), self.value(*d));
+        Words::sign(minor)
+    }
 }
 
 /// Which of a quadratic's roots.
@@ -76,55 +119,50 @@ impl Side {
     }
 }
 
-/// A positive root of a quadratic, or of a linear polynomial, with `R` words to work with.
+/// A positive root of a quadratic, or of a linear polynomial.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Root<const C: usize, const R: usize> {
+pub(super) struct Root<'a> {
     /// The last coefficient that is not zero is positive.
-    quadratic: [Integer<C>; 3],
+    quadratic: [Words<'a>; 3],
     side: Side,
 }
 
-impl<const C: usize, const R: usize> Root<C, R> {
+impl<'a> Root<'a> {
     /// The positive roots of a polynomial of degree two at most, in ascending order, a double one twice. None for zero.
-    pub(super) fn positive(polynomial: &[Integer<C>]) -> [Option<Self>; 2] {
-        let mut quadratic = [Integer::ZERO; 3];
+    pub(super) fn positive(polynomial: &[Words<'a>], space: &mut Space<'a>) -> [Option<Self>; 2] {
+        let mut quadratic = [Words::ZERO; 3];
         for (to, from) in quadratic.iter_mut().zip(polynomial) {
             *to = *from;
         }
         if sign_before_end(&quadratic).is_lt() {
-            quadratic = quadratic.map(|coefficient| coefficient.negated());
+            quadratic = quadratic.map(|coefficient| space.negated(coefficient));
         }
-        let [a, b, c] = &quadratic;
-        let lower = Self {
-            quadratic,
-            side: Side::Lower,
-        };
-        let upper = Self {
-            quadratic,
-            side: Side::Upper,
-        };
+        let [a, b, c] = quadratic;
+        let root = |side| Some(Self { quadratic, side });
         match (a.sign(), b.sign(), c.sign()) {
             // One change of sign, after which it stays positive.
-            (Ordering::Less, ..) | (Ordering::Equal, Ordering::Less, _) => [None, Some(upper)],
-            (Ordering::Greater, Ordering::Less, Ordering::Greater) => {
-                let squared: Integer<R> = b.times(b);
-                let product: Integer<R> = a.times(c);
-                let discriminant: Integer<R> = squared.minus(&product.doubled().doubled());
-                if discriminant.sign().is_lt() {
-                    [None; 2]
-                } else {
-                    [Some(lower), Some(upper)]
-                }
+            (Ordering::Less, ..) | (Ordering::Equal, Ordering::Less, _) => [None, root(Side::Upper)],
+            (Ordering::Greater, Ordering::Less, Ordering::Greater) if !discriminant_sign(quadratic, space).is_lt() => {
+                [root(Side::Lower), root(Side::Upper)]
             }
             _ => [None; 2],
         }
     }
 }
 
-impl<const C: usize, const R: usize> Moment<C> for Root<C, R> {
-    fn sign(&self, polynomial: &[Integer<C>]) -> Ordering {
+/// The sign of b² − 4ac.
+fn discriminant_sign([a, b, c]: [Words<'_>; 3], space: &mut Space<'_>) -> Ordering {
+    let mut space = space.scratch();
+    let (squared, product) = (space.times(b, b), space.times(a, c));
+    let doubled = space.doubled(product);
+    let quadrupled = space.doubled(doubled);
+    Words::sign(space.minus(squared, quadrupled))
+}
+
+impl Moment for Root<'_> {
+    fn sign(&self, polynomial: &[Words<'_>], space: &mut Space<'_>) -> Ordering {
         // Common where corners move in a plane along an axis; and no rounded number tells that another is zero.
-        if polynomial.iter().all(Integer::is_zero) {
+        if polynomial.iter().all(|coefficient| coefficient.is_zero()) {
             return Ordering::Equal;
         }
         #[cfg(test)]
@@ -132,13 +170,12 @@ impl<const C: usize, const R: usize> Moment<C> for Root<C, R> {
         if let Some(sign) = self.estimated_sign(polynomial) {
             return sign;
         }
-        let quadratic = self.quadratic.each_ref().map(Integer::widened::<R>);
-        let polynomial = polynomial.iter().rev().map(Integer::widened::<R>);
+        let mut space = space.scratch();
         if self.is_of_linear() {
-            let [a, b, _] = quadratic;
-            return value_at_quotient([a, b], polynomial).sign();
+            let [a, b, _] = self.quadratic;
+            return Words::sign(value_at_quotient(&mut space, [a, b], polynomial));
         }
-        let [l1, first, last] = terms(quadratic, polynomial).map(|term| term.sign());
+        let [l1, first, last] = terms(&mut space, self.quadratic, polynomial).map(Words::sign);
         let of_root = self.side.of_root(l1);
         if of_root.is_eq() || of_root == first {
             return first;
@@ -151,24 +188,28 @@ impl<const C: usize, const R: usize> Moment<C> for Root<C, R> {
     }
 }
 
-impl<const C: usize, const R: usize> Root<C, R> {
+impl Root<'_> {
     /// Whether it is the root of a linear polynomial.
     fn is_of_linear(&self) -> bool {
-        let [_, _, c] = &self.quadratic;
+        let [_, _, c] = self.quadratic;
         c.is_zero()
     }
 
     /// The sign, if rounded numbers tell.
-    fn estimated_sign(&self, polynomial: &[Integer<C>]) -> Option<Ordering> {
+    fn estimated_sign(&self, polynomial: &[Words<'_>]) -> Option<Ordering> {
         let of_quadratic = Scale::of(&self.quadratic);
         let of_polynomial = Scale::of(polynomial);
-        let quadratic = self.quadratic.each_ref().map(|x| of_quadratic.rounded(x));
-        let polynomial = polynomial.iter().rev().map(|x| of_polynomial.rounded(x));
+        let quadratic = self.quadratic.map(|x| of_quadratic.rounded(x));
+        let mut rounded = [Rounded(0); 4];
+        for (to, from) in rounded.iter_mut().zip(polynomial) {
+            *to = of_polynomial.rounded(*from);
+        }
+        let polynomial = rounded.get(..polynomial.len()).unwrap_or_default();
         if self.is_of_linear() {
             let [a, b, _] = quadratic;
-            return value_at_quotient([a, b], polynomial).sign_if_beyond(32);
+            return value_at_quotient(&mut FixedPoint, [a, b], polynomial).sign_if_beyond(32);
         }
-        let [l1, first, last] = terms(quadratic, polynomial);
+        let [l1, first, last] = terms(&mut FixedPoint, quadratic, polynomial);
         let of_root = self.side.of_root(l1.sign_if_beyond(32)?);
         if first.sign_if_beyond(64) == Some(of_root) {
             return Some(of_root);
@@ -178,16 +219,14 @@ impl<const C: usize, const R: usize> Root<C, R> {
             _ => first.sign_if_beyond(64),
         }
     }
-}
 
-impl<const C: usize, const R: usize> Root<C, R> {
     /// Compares two roots.
     ///
     /// The sign of the other's quadratic here tells whether this one is between the other's two roots; if not, the sign of its
     /// derivative tells on which side of both.
-    pub(super) fn compare(&self, other: &Self) -> Ordering {
-        let [_, b, c] = &other.quadratic;
-        let place = self.sign(&other.quadratic);
+    pub(super) fn compare(&self, other: &Root<'_>, space: &mut Space<'_>) -> Ordering {
+        let [_, b, c] = other.quadratic;
+        let place = self.sign(&other.quadratic, space);
         if c.is_zero() {
             return place;
         }
@@ -197,7 +236,9 @@ impl<const C: usize, const R: usize> Root<C, R> {
                 Side::Upper => Ordering::Less,
             };
         }
-        let slope = self.sign(&[*b, c.doubled()]);
+        let mut space = space.scratch();
+        let doubled = space.doubled(c);
+        let slope = self.sign(&[b, doubled], &mut space);
         match (place, other.side, slope) {
             (Ordering::Equal, Side::Lower, Ordering::Less | Ordering::Equal)
             | (Ordering::Equal, Side::Upper, Ordering::Greater | Ordering::Equal) => Ordering::Equal,
@@ -207,35 +248,35 @@ impl<const C: usize, const R: usize> Root<C, R> {
 }
 
 /// Where a cubic changes sign: the only place in an interval.
-pub(super) struct Crossing<'a, const C: usize, const R: usize> {
-    pub(super) cubic: &'a [Integer<C>; 4],
+pub(super) struct Crossing<'a> {
+    pub(super) cubic: [Words<'a>; 4],
     /// The interval: open, from there, or from the start,
-    pub(super) after: Option<&'a Root<C, R>>,
+    pub(super) after: Option<Root<'a>>,
     /// to there, or to the end.
-    pub(super) before: Option<&'a Root<C, R>>,
+    pub(super) before: Option<Root<'a>>,
     /// The cubic's sign at its beginning.
     pub(super) sign_before: Ordering,
 }
 
-impl<'a, const C: usize, const R: usize> Crossing<'a, C, R> {
+impl<'a> Crossing<'a> {
     /// In all of the step.
-    pub(super) fn between_ends(cubic: &'a [Integer<C>; 4]) -> Self {
+    pub(super) fn between_ends(cubic: [Words<'a>; 4]) -> Self {
         Self {
             cubic,
             after: None,
             before: None,
-            sign_before: sign_after_start(cubic),
+            sign_before: sign_after_start(&cubic),
         }
     }
 
-    fn compare(&self, root: &Root<C, R>) -> Ordering {
-        if self.after.is_some_and(|after| root.compare(after).is_le()) {
+    fn compare(&self, root: &Root<'_>, space: &mut Space<'_>) -> Ordering {
+        if self.after.is_some_and(|after| root.compare(&after, space).is_le()) {
             return Ordering::Greater;
         }
-        if self.before.is_some_and(|before| root.compare(before).is_ge()) {
+        if self.before.is_some_and(|before| root.compare(&before, space).is_ge()) {
             return Ordering::Less;
         }
-        match root.sign(self.cubic) {
+        match root.sign(&self.cubic, space) {
             Ordering::Equal => Ordering::Equal,
             sign if sign == self.sign_before => Ordering::Greater,
             _ => Ordering::Less,
@@ -243,12 +284,13 @@ impl<'a, const C: usize, const R: usize> Crossing<'a, C, R> {
     }
 }
 
-impl<const C: usize, const R: usize> Moment<C> for Crossing<'_, C, R> {
+impl Moment for Crossing<'_> {
     /// Of a polynomial of degree two at most: that before the end, unless a root is in between.
-    fn sign(&self, polynomial: &[Integer<C>]) -> Ordering {
+    fn sign(&self, polynomial: &[Words<'_>], space: &mut Space<'_>) -> Ordering {
+        let mut space = space.scratch();
         let mut sign = sign_before_end(polynomial);
-        for root in Root::positive(polynomial).iter().flatten() {
-            match self.compare(root) {
+        for root in Root::positive(polynomial, &mut space).iter().flatten() {
+            match self.compare(root, &mut space) {
                 Ordering::Less => sign = sign.reverse(),
                 Ordering::Equal => return Ordering::Equal,
                 Ordering::Greater => {}
@@ -261,7 +303,7 @@ impl<const C: usize, const R: usize> Moment<C> for Crossing<'_, C, R> {
 #[cfg(test)]
 mod tests {
     use super::Root;
-    use crate::exact::integer::Integer;
+    use crate::exact::integer::{Integer, Space, Whole};
     use core::cmp::Ordering;
 
     #[test]
@@ -275,26 +317,40 @@ mod tests {
             ([-2, 1, 0], [None, Some(2)]),
             ([-5, 1, 0], [None, Some(5)]),
         ];
-        let whole = |x: i64| Integer::<2>::shifted(x, 0);
-        let roots = polynomials.map(|(polynomial, values)| {
-            let roots = Root::<2, 16>::positive(&polynomial.map(whole));
+        let coefficients = polynomials.map(|(polynomial, _)| polynomial.map(|x| Integer::<1>::shifted(x, 0)));
+        let mut words = [0; 1000];
+        let mut space = Space::new(&mut words);
+        let mut polynomials = coefficients.iter().zip(polynomials.map(|(_, values)| values));
+        let roots = [(); 6].map(|()| {
+            let (polynomial, values) = polynomials.next().expect("six polynomials");
+            let roots = Root::positive(&polynomial.each_ref().map(Whole::words), &mut space);
             assert_eq!(roots.each_ref().map(Option::is_some), values.map(|value| value.is_some()));
             [0, 1].map(|k| roots[k].zip(values[k]))
         });
         for (root, value) in roots.iter().flatten().flatten() {
             for (other, other_value) in roots.iter().flatten().flatten() {
-                assert_eq!(root.compare(other), value.cmp(other_value), "{value}, {other_value}");
+                assert_eq!(
+                    root.compare(other, &mut space),
+                    value.cmp(other_value),
+                    "{value}, {other_value}"
+                );
             }
         }
     }
 
     #[test]
     fn rounded_numbers_tell_a_sign_that_is_clear() {
-        let whole = |x: i64| Integer::<2>::shifted(x, 0);
+        let whole = |x: i64| Integer::<1>::shifted(x, 0);
+        let quadratic = [2, -3, 1].map(whole);
+        let mut words = [0; 100];
         // 5 + s and −5 + s at s = 1 and 2.
-        for root in Root::<2, 16>::positive(&[2, -3, 1].map(whole)).iter().flatten() {
+        for root in Root::positive(&quadratic.each_ref().map(Whole::words), &mut Space::new(&mut words))
+            .iter()
+            .flatten()
+        {
             for (constant, sign) in [(5, Ordering::Greater), (-5, Ordering::Less)] {
-                assert_eq!(root.estimated_sign(&[constant, 1].map(whole)), Some(sign));
+                let linear = [constant, 1].map(whole);
+                assert_eq!(root.estimated_sign(&linear.each_ref().map(Whole::words)), Some(sign));
             }
         }
     }

@@ -1,97 +1,108 @@
 //! The numbers whose signs decide which sign a polynomial has at a root of another: the same formulas for whole numbers and for
 //! rounded ones.
 
-use crate::exact::integer::Integer;
+use crate::exact::integer::{Space, Whole, Words};
 
 /// What whole numbers and rounded ones have in common.
-pub(super) trait Number: Copy {
-    const ZERO: Self;
-    fn plus(&self, other: &Self) -> Self;
-    fn minus(&self, other: &Self) -> Self;
-    fn times(&self, other: &Self) -> Self;
-}
-
-impl<const R: usize> Number for Integer<R> {
-    const ZERO: Self = Self::ZERO;
-
+pub(super) trait Ring {
+    type Number: Copy;
+    const ZERO: Self::Number;
+    fn plus(&mut self, a: Self::Number, b: Self::Number) -> Self::Number;
+    fn minus(&mut self, a: Self::Number, b: Self::Number) -> Self::Number;
+    fn times(&mut self, a: Self::Number, b: Self::Number) -> Self::Number;
+    /// a·d − b·c.
     #[inline(always)]
-    fn plus(&self, other: &Self) -> Self {
-        Integer::plus(self, other)
-    }
-
-    #[inline(always)]
-    fn minus(&self, other: &Self) -> Self {
-        Integer::minus(self, other)
-    }
-
-    #[inline(always)]
-    fn times(&self, other: &Self) -> Self {
-        Integer::times(self, other)
+    fn minor(&mut self, a: Self::Number, b: Self::Number, c: Self::Number, d: Self::Number) -> Self::Number {
+        let (x, y) = (self.times(a, d), self.times(b, c));
+        self.minus(x, y)
     }
 }
 
-/// The value v₀·b⁻ⁿ, without the last factor, that a polynomial of degree n, given by its coefficients from the highest down, has at
-/// −a/b, where b > 0 (Horner's rule).
-#[inline(always)]
-pub(super) fn value_at_quotient<T: Number>([a, b]: [T; 2], polynomial: impl IntoIterator<Item = T>) -> T {
-    let mut coefficients = polynomial.into_iter();
-    let mut value = coefficients.next().unwrap_or(T::ZERO);
+impl<'a> Ring for Space<'a> {
+    type Number = Words<'a>;
+    const ZERO: Words<'a> = <Words<'a> as Whole>::ZERO;
+
+    fn plus(&mut self, a: Words<'a>, b: Words<'a>) -> Words<'a> {
+        Space::plus(self, a, b)
+    }
+
+    fn minus(&mut self, a: Words<'a>, b: Words<'a>) -> Words<'a> {
+        Space::minus(self, a, b)
+    }
+
+    fn times(&mut self, a: Words<'a>, b: Words<'a>) -> Words<'a> {
+        Space::times(self, a, b)
+    }
+
+    fn minor(&mut self, a: Words<'a>, b: Words<'a>, c: Words<'a>, d: Words<'a>) -> Words<'a> {
+        Space::minor(self, a, b, c, d)
+    }
+}
+
+/// The value v₀·b⁻ⁿ, without the last factor, that a polynomial of degree n has at −a/b, where b > 0 (Horner's rule).
+#[inline(never)]
+pub(super) fn value_at_quotient<R: Ring>(ring: &mut R, [a, b]: [R::Number; 2], polynomial: &[R::Number]) -> R::Number {
+    let mut coefficients = polynomial.iter().rev();
+    let mut value = coefficients.next().copied().unwrap_or(R::ZERO);
     let mut power = b;
-    for (step, coefficient) in coefficients.enumerate() {
+    for (step, &coefficient) in coefficients.enumerate() {
         if step > 0 {
-            power = power.times(&b);
+            power = ring.times(power, b);
         }
-        value = coefficient.times(&power).minus(&value.times(&a));
+        value = ring.minor(coefficient, value, a, power);
     }
     value
 }
 
-/// The three numbers whose signs decide which sign a polynomial, given by its coefficients from the highest down, has at a root
-/// of q = a + b·s + c·s², c > 0.
+/// The three numbers whose signs decide which sign a polynomial has at a root of q = a + b·s + c·s², c > 0.
 ///
 /// First the remainder l₀ + l₁·s, a positive multiple of the polynomial at both roots of q, by Horner's rule: (l₀ + l₁·s)·s,
 /// times c and with c·s² = −a − b·s, is −a·l₁ + (c·l₀ − b·l₁)·s. Its value at σ = (−b ± √D)/2c, D = b² − 4ac, times 2c, is
 /// A ± l₁√D with A = 2c·l₀ − b·l₁. Where the two have opposite signs,
 /// A² − l₁²D = 4c·(c·l₀² − b·l₀l₁ + a·l₁²) says which is larger. (The number in brackets is the resultant of polynomial and q
 /// times a power of c.) Returned are l₁, A and the number in brackets.
-#[inline(always)]
-pub(super) fn terms<T: Number>([a, b, c]: [T; 3], polynomial: impl IntoIterator<Item = T>) -> [T; 3] {
-    let mut coefficients = polynomial.into_iter();
-    let mut l1 = coefficients.next().unwrap_or(T::ZERO);
-    let mut l0 = coefficients.next().unwrap_or(T::ZERO);
+#[inline(never)]
+pub(super) fn terms<R: Ring>(ring: &mut R, [a, b, c]: [R::Number; 3], polynomial: &[R::Number]) -> [R::Number; 3] {
+    let mut coefficients = polynomial.iter().rev();
+    let mut l1 = coefficients.next().copied().unwrap_or(R::ZERO);
+    let mut l0 = coefficients.next().copied().unwrap_or(R::ZERO);
     let mut power = c;
-    for (step, coefficient) in coefficients.enumerate() {
+    for (step, &coefficient) in coefficients.enumerate() {
         if step > 0 {
-            power = power.times(&c);
+            power = ring.times(power, c);
         }
-        let next = coefficient.times(&power).minus(&l1.times(&a));
-        (l0, l1) = (next, l0.times(&c).minus(&l1.times(&b)));
+        (l0, l1) = (ring.minor(coefficient, l1, a, power), ring.minor(l0, l1, b, c));
     }
-    let from_l0 = l0.times(&c);
-    let half = from_l0.minus(&l1.times(&b));
-    let last = l0.times(&half).plus(&l1.times(&l1).times(&a));
-    [l1, half.plus(&from_l0), last]
+    let (from_l0, of_b) = (ring.times(l0, c), ring.times(l1, b));
+    let half = ring.minus(from_l0, of_b);
+    let (of_half, squared) = (ring.times(l0, half), ring.times(l1, l1));
+    let of_a = ring.times(squared, a);
+    [l1, ring.plus(half, from_l0), ring.plus(of_half, of_a)]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Number, terms, value_at_quotient};
-    use crate::exact::contact::rounded::Scale;
-    use crate::exact::integer::Integer;
+    use super::{Ring, terms, value_at_quotient};
+    use crate::exact::contact::rounded::{FixedPoint, Rounded, Scale};
+    use crate::exact::integer::{Integer, Whole};
 
-    impl Number for i128 {
-        const ZERO: Self = 0;
+    /// The arithmetic of `i128`.
+    struct BuiltIn;
 
-        fn plus(&self, other: &Self) -> Self {
-            self + other
+    impl Ring for BuiltIn {
+        type Number = i128;
+        const ZERO: i128 = 0;
+
+        fn plus(&mut self, a: i128, b: i128) -> i128 {
+            a + b
         }
 
-        fn minus(&self, other: &Self) -> Self {
-            self - other
+        fn minus(&mut self, a: i128, b: i128) -> i128 {
+            a - b
         }
 
-        fn times(&self, other: &Self) -> Self {
-            self * other
+        fn times(&mut self, a: i128, b: i128) -> i128 {
+            a * b
         }
     }
 
@@ -105,20 +116,20 @@ mod tests {
             state ^= state << 17;
             i64::from(state as i16) >> (state >> 60)
         };
-        let whole = |x: i64| Integer::<2>::shifted(x, 0);
+        let whole = |x: i64| Integer::<1>::shifted(x, 0);
         let mut largest = [0; 4];
         for degree in [1, 2, 3] {
             for _ in 0..100_000 {
                 let quadratic = [random(), random(), random()];
                 let cubic = [random(), random(), random(), random()];
-                let polynomial = cubic.iter().take(degree + 1);
-                let polynomial = polynomial.map(|&x| i128::from(x));
+                let polynomial = cubic.map(i128::from);
+                let polynomial = polynomial.get(..=degree).unwrap_or_default();
                 let [a, b, c] = quadratic.map(i128::from);
-                let [l1, first, last] = terms([a, b, c], polynomial.clone());
-                let exact = [l1, first, last, value_at_quotient([a, b], polynomial)];
+                let [l1, first, last] = terms(&mut BuiltIn, [a, b, c], polynomial);
+                let exact = [l1, first, last, value_at_quotient(&mut BuiltIn, [a, b], polynomial)];
                 // The scale's own power of two, by which the terms are too large.
                 let bits = |coefficients: &[i64]| {
-                    let bits = coefficients.iter().map(|&x| whole(x).bits());
+                    let bits = coefficients.iter().map(|&x| whole(x).words().bits());
                     bits.max().unwrap_or(0).cast_signed()
                 };
                 let [of_quadratic, of_polynomial] = [bits(&quadratic), bits(cubic.get(..=degree).unwrap_or(&[]))];
@@ -132,15 +143,17 @@ mod tests {
                 ];
 
                 let quadratic = quadratic.map(whole);
+                let quadratic = quadratic.each_ref().map(Whole::words);
                 let scale = Scale::of(&quadratic);
-                let rounded_quadratic = quadratic.each_ref().map(|x| scale.rounded(x));
-                let mut cubic = cubic.map(whole);
-                let polynomial = cubic.get_mut(..=degree).unwrap_or_default();
-                let scale = Scale::of(polynomial);
-                let rounded = polynomial.iter().map(|x| scale.rounded(x));
+                let rounded_quadratic = quadratic.map(|x| scale.rounded(x));
+                let cubic = cubic.map(whole);
+                let cubic = cubic.each_ref().map(Whole::words);
+                let scale = Scale::of(cubic.get(..=degree).unwrap_or_default());
+                let rounded: [Rounded; 4] = cubic.map(|x| scale.rounded(x));
+                let rounded = rounded.get(..=degree).unwrap_or_default();
                 let [a, b, _] = rounded_quadratic;
-                let [l1, first, last] = terms(rounded_quadratic, rounded.clone());
-                let rounded = [l1, first, last, value_at_quotient([a, b], rounded)];
+                let [l1, first, last] = terms(&mut FixedPoint, rounded_quadratic, rounded);
+                let rounded = [l1, first, last, value_at_quotient(&mut FixedPoint, [a, b], rounded)];
                 for (i, (exact, rounded)) in exact.into_iter().zip(rounded).enumerate() {
                     let unit = 56 - powers[i];
                     let exact = if unit >= 0 { exact << unit } else { exact >> -unit };

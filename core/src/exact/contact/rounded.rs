@@ -32,8 +32,8 @@
 //!
 //! Here 32 in place of 25 will do.
 
-use super::remainder::Number;
-use crate::exact::integer::Integer;
+use super::remainder::Ring;
+use crate::exact::integer::Words;
 use core::cmp::Ordering;
 
 /// Bits after the point.
@@ -49,12 +49,12 @@ pub(super) struct Scale(u32);
 
 impl Scale {
     #[inline(always)]
-    pub(super) fn of<const C: usize>(polynomial: &[Integer<C>]) -> Self {
-        Self(polynomial.iter().map(Integer::bits).max().unwrap_or(0))
+    pub(super) fn of(polynomial: &[Words<'_>]) -> Self {
+        Self(polynomial.iter().map(|coefficient| coefficient.bits()).max().unwrap_or(0))
     }
 
     #[inline(always)]
-    pub(super) fn rounded<const C: usize>(self, coefficient: &Integer<C>) -> Rounded {
+    pub(super) fn rounded(self, coefficient: Words<'_>) -> Rounded {
         let word = match self.0.checked_sub(FRACTION) {
             Some(dropped) => coefficient.word_above(dropped),
             None => coefficient.word_above(0) << (FRACTION - self.0),
@@ -64,22 +64,27 @@ impl Scale {
     }
 }
 
-impl Number for Rounded {
-    const ZERO: Self = Self(0);
+/// The arithmetic of rounded numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FixedPoint;
+
+impl Ring for FixedPoint {
+    type Number = Rounded;
+    const ZERO: Rounded = Rounded(0);
 
     #[inline(always)]
-    fn plus(&self, other: &Self) -> Self {
-        Self(self.0.wrapping_add(other.0))
+    fn plus(&mut self, a: Rounded, b: Rounded) -> Rounded {
+        Rounded(a.0.wrapping_add(b.0))
     }
 
     #[inline(always)]
-    fn minus(&self, other: &Self) -> Self {
-        Self(self.0.wrapping_sub(other.0))
+    fn minus(&mut self, a: Rounded, b: Rounded) -> Rounded {
+        Rounded(a.0.wrapping_sub(b.0))
     }
 
     #[inline(always)]
-    fn times(&self, other: &Self) -> Self {
-        Self(((i128::from(self.0) * i128::from(other.0)) >> FRACTION) as i64)
+    fn times(&mut self, a: Rounded, b: Rounded) -> Rounded {
+        Rounded(((i128::from(a.0) * i128::from(b.0)) >> FRACTION) as i64)
     }
 }
 
