@@ -5,17 +5,16 @@ mod pairs;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use pairs::{COUNT, all_sizes, barely_above, cloth, nearly_coplanar};
-use selvedge_core::Scalar;
-use selvedge_core::exact::{UNKNOWN, control_value_signs, is_never_coplanar, is_never_within};
-use selvedge_core::filter::certified;
-use selvedge_core::points::{PairPoints, VertexAndFace};
+use selvedge_core::filter::certified::non_coplanarity;
+use selvedge_core::verification::exact::{UNKNOWN, control_value_signs, is_never_coplanar, is_never_within};
+use selvedge_core::{PrimitivePair, Scalar};
 use std::hint::black_box;
 
 /// How many pairs of `pairs` the tests cull, measured by the pair.
-fn measure<S: Scalar>(criterion: &mut Criterion, set: &str, pairs: &[PairPoints<S>]) {
+fn measure<S: Scalar>(criterion: &mut Criterion, set: &str, pairs: &[PrimitivePair<S>]) {
     let mut group = criterion.benchmark_group(format!("{set}/{}", S::NAME));
     group.throughput(Throughput::Elements(COUNT as u64));
-    let mut bench = |name: &str, culls: &dyn Fn(&[PairPoints<S>]) -> usize| {
+    let mut bench = |name: &str, culls: &dyn Fn(&[PrimitivePair<S>]) -> usize| {
         group.bench_function(name, |bencher| bencher.iter(|| culls(black_box(pairs))));
     };
     macro_rules! count {
@@ -23,23 +22,11 @@ fn measure<S: Scalar>(criterion: &mut Criterion, set: &str, pairs: &[PairPoints<
             &|pairs| pairs.iter().filter(|$pair| $culls).count()
         };
     }
-    bench(
-        "certified",
-        count!(|pair| certified::is_never_coplanar(certified::Bound::Permanent, &pair.tetrahedron::<VertexAndFace>())),
-    );
-    bench(
-        "one_sign",
-        count!(|pair| is_never_coplanar::<VertexAndFace, S>(pair, UNKNOWN)),
-    );
-    bench(
-        "all_signs",
-        count!(|pair| control_value_signs::<VertexAndFace, S>(pair).is_some()),
-    );
+    bench("certified", count!(|pair| non_coplanarity(pair).is_culled()));
+    bench("one_sign", count!(|pair| is_never_coplanar(pair, UNKNOWN)));
+    bench("all_signs", count!(|pair| control_value_signs(pair).is_some()));
     let separation = S::UNIT_ROUNDOFF;
-    bench(
-        "separation",
-        count!(|pair| is_never_within::<VertexAndFace, S>(pair, separation, UNKNOWN)),
-    );
+    bench("separation", count!(|pair| is_never_within(pair, separation, UNKNOWN)));
 }
 
 fn sets<S: Scalar>(criterion: &mut Criterion) {

@@ -8,7 +8,7 @@ use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterio
 use selvedge_core::PairKind;
 use selvedge_core::batch::{BatchTest, LANES, Level, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::filter::{Depth, Filter, Tier};
-use selvedge_core::{Motion, PrimitivePair, Scalar, VertexFace, filter};
+use selvedge_core::{Motion, PrimitivePair, Scalar, filter};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -41,9 +41,11 @@ impl<S: Scalar> Sheets<S> {
         Self { rows, indices }
     }
 
-    fn pair(&self, indices: [u32; 4]) -> VertexFace<S> {
-        let [vertex, a, b, c] = indices.map(|index| self.rows[index as usize].motion());
-        VertexFace { vertex, face: [a, b, c] }
+    fn pair(&self, indices: [u32; 4]) -> PrimitivePair<S> {
+        PrimitivePair {
+            kind: PairKind::VertexFace,
+            motions: indices.map(|index| self.rows[index as usize].motion()),
+        }
     }
 }
 
@@ -85,7 +87,7 @@ struct Bench<'a, S: Scalar> {
     group: BenchmarkGroup<'a, WallTime>,
     place: Place,
     sheets: Sheets<S>,
-    pairs: Vec<VertexFace<S>>,
+    pairs: Vec<PrimitivePair<S>>,
     tiles: Vec<Tile<S>>,
 }
 
@@ -111,7 +113,7 @@ impl<S: Scalar> Bench<'_, S> {
         println!("  culls {:.4} of the pairs", f64::from(culled) / indices.len() as f64);
     }
 
-    fn one_by_one(&mut self, name: &str, culls: impl Fn(&VertexFace<S>) -> bool) {
+    fn one_by_one(&mut self, name: &str, culls: impl Fn(&PrimitivePair<S>) -> bool) {
         self.group.bench_function(format!("{name}/one by one"), |bencher| {
             bencher.iter(|| {
                 if self.place == Place::Cache {
@@ -144,7 +146,7 @@ fn bench<S: Scalar>(criterion: &mut Criterion) {
         let pairs: Vec<_> = sheets.indices.iter().map(|&indices| sheets.pair(indices)).collect();
         let tiles = pairs
             .chunks(LANES)
-            .map(|pairs| Tile::new(pairs.iter().map(PrimitivePair::motions)))
+            .map(|pairs| Tile::new(pairs.iter().map(|pair| pair.motions)))
             .collect();
         let mut bench = Bench {
             group,

@@ -6,13 +6,13 @@
 //! [`Kept`](Verdict::Kept) says nothing. Positions are in any length unit of the caller's.
 //!
 //! ```
-//! use selvedge_core::{filter, glam::DVec3, Motion, Verdict, VertexFace};
+//! use selvedge_core::{filter, glam::DVec3, Motion, Verdict, PrimitivePair};
 //!
 //! // A vertex that falls from 2 to 1 above a resting triangle.
-//! let pair = VertexFace {
-//!     vertex: Motion::new(DVec3::new(0.2, 0.2, 2.0), DVec3::new(0.2, 0.2, 1.0)),
-//!     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-//! };
+//! let pair = PrimitivePair::vertex_face(
+//!     Motion::new(DVec3::new(0.2, 0.2, 2.0), DVec3::new(0.2, 0.2, 1.0)),
+//!     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+//! );
 //! assert_eq!(filter::certified::non_coplanarity(&pair), Verdict::Culled);
 //! ```
 //!
@@ -20,7 +20,7 @@
 //! * **Nothing in this crate can miss a contact.** What decides is certified or exact: it covers its own rounding, and never culls a
 //!   pair that touches at some time in [0, 1], whatever the input.
 //! * That holds in every floating-point environment of IEEE 754 arithmetic that a thread may have switched to: any
-//!   rounding direction, flush-to-zero, denormals-are-zero ([`Rounding`] says how). Verdicts may differ from one
+//!   rounding direction, flush-to-zero, denormals-are-zero ([`Rounding`](lanes::Rounding) says how). Verdicts may differ from one
 //!   environment to another; none of them is wrong.
 //! * NaN, infinite or overflowing input is always kept.
 //! * No allocation, no `unsafe`, no panic, no dependence on `std`.
@@ -28,9 +28,7 @@
 //! # The rooms
 //! | module | what it does | promise |
 //! |---|---|---|
-//! | [`motion`] | the two primitive pairs, in [`glam`] types | |
-//! | [`coplanarity`] | the signed volume of four moving points, as a cubic in Bernstein form, and its rounding error | proven bound |
-//! | [`exact`] | the signs of that cubic's control values, how they compare with a separation, and whether a pair touches, in whole numbers | exact |
+//! | [`motion`] | the primitive pair, of either kind, in [`glam`] types | |
 //! | [`filter`] | culls pairs that are never coplanar, or never within a separation: a [`Filter`](filter::Filter) of some [`Tier`](filter::Tier) | certified or exact |
 //! | [`batch`] | the tests of `boxes` and `filter`, and rounds of advancing, on sixteen pairs side by side, alone or from a mesh | the same verdicts, bit for bit; certified |
 //! | [`boxes`] | swept boxes, segment against box, relative boxes, 18-DOPs | exact or certified |
@@ -45,7 +43,7 @@
 //! | feature | what it adds |
 //! |---|---|
 //! | `batch` | [`batch`], and boxes of a hierarchy ([`boxes::moving`]): what `selvedge` is built of. Its types name instruction sets by `fearless_simd`'s |
-//! | `verification` | that, and the kernels themselves ([`coplanarity`], [`exact`], [`lanes`], [`points`], [`vector`]), for the project's laboratory and verification. Nothing is promised of them |
+//! | `verification` | that, and the kernels themselves ([`coplanarity`], [`exact`], [`lanes`] and others, in a module of that name), for the project's laboratory and verification. Nothing is promised of them |
 //!
 //! # Words
 //! The paper that this work starts from (Lv, He, Mi: *Improved Method in Lower Tailoring of Self-collision
@@ -54,68 +52,55 @@
 //! test. We use the field's words.
 #![no_std]
 #![forbid(unsafe_code)]
+// What only they show is not used without the features, and links to it lead nowhere.
+#![cfg_attr(
+    not(feature = "verification"),
+    allow(
+        dead_code,
+        unreachable_pub,
+        unused_imports,
+        rustdoc::broken_intra_doc_links,
+        rustdoc::private_intra_doc_links
+    )
+)]
 
 pub use glam;
 
-#[cfg(not(feature = "batch"))]
-#[allow(dead_code, unreachable_pub, unused_imports)]
-mod batch;
+#[macro_use]
+mod kernels;
+
 #[cfg(feature = "batch")]
 pub mod batch;
 pub mod boxes;
-#[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub, unused_imports)]
-mod coplanarity;
-#[cfg(feature = "verification")]
-pub mod coplanarity;
 pub mod distribution;
 pub mod elementary;
-#[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub, unused_imports)]
-mod exact;
-#[cfg(feature = "verification")]
-pub mod exact;
 pub mod features;
 pub mod filter;
 mod kind;
-#[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub, unused_imports)]
-mod lanes;
-#[cfg(feature = "verification")]
-pub mod lanes;
 pub mod motion;
-#[cfg(not(feature = "batch"))]
-#[allow(dead_code, unreachable_pub, unused_imports)]
-mod narrowing;
 #[cfg(feature = "batch")]
 pub mod narrowing;
-#[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub, unused_imports)]
-mod points;
-#[cfg(feature = "verification")]
-pub mod points;
 pub mod scalar;
-#[cfg(not(feature = "batch"))]
-#[allow(dead_code, unreachable_pub, unused_imports)]
-mod separation;
 #[cfg(feature = "batch")]
 pub mod separation;
-#[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub, unused_imports)]
-mod vector;
-#[cfg(feature = "verification")]
-pub mod vector;
 mod verdict;
 
 pub use features::{FeatureEdge, FeatureTriangle, Features};
 pub use kind::{PairKind, ParsePairKindError};
-#[cfg(feature = "verification")]
-pub use lanes::{Lanes, Rounding};
-pub use motion::{EdgeEdge, Motion, PrimitivePair, VertexFace};
+pub use motion::{Motion, PrimitivePair};
 pub use scalar::{Position, Scalar};
-#[cfg(feature = "verification")]
-pub use vector::Vector;
 pub use verdict::Verdict;
+
+use kernels::{coplanarity, exact, lanes, points, vector};
+
+/// The kernels themselves, for the project's laboratory and verification. Nothing is promised of them.
+#[cfg(feature = "verification")]
+pub mod verification {
+    pub use crate::kernels::{advance, coplanarity, exact, lanes, points, vector};
+    pub use crate::of_kind;
+}
+#[cfg(not(feature = "verification"))]
+use kernels as verification;
 
 /// The readme's examples are tests.
 #[cfg(doctest)]

@@ -1,9 +1,7 @@
-//! Points that move on a straight line during the step, and the two primitive pairs made of them.
+//! Points that move on a straight line during the step, and the primitive pairs made of them.
 
-use crate::coplanarity::MovingTetrahedron;
-use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
+use crate::kind::PairKind;
 use crate::scalar::{Position, Scalar};
-use crate::vector::Vector;
 
 /// A point that moves from `start` (time 0) to `end` (time 1) at constant velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,82 +57,73 @@ impl From<([f64; 3], [f64; 3])> for Motion<f64> {
     }
 }
 
-/// A moving vertex and a moving triangle.
+/// Four moving points and which of them belong together: a vertex and a triangle, or two edges.
+///
+/// Either way two closed convex sets, each the hull of its moving points; they touch when the sets share a point. (So a triangle's
+/// border belongs to it, and an edge's ends to it.)
 ///
 /// ```
-/// use selvedge_core::{glam::Vec3, Motion, VertexFace};
-/// let pair = VertexFace::<f32> {
-///     vertex: Motion::from(([0.2, 0.2, 1.0], [0.2, 0.2, -1.0])),
-///     face: [Vec3::ZERO, Vec3::X, Vec3::Y].map(Motion::resting),
-/// };
-/// assert_eq!(pair.vertex.start, Vec3::new(0.2, 0.2, 1.0));
+/// use selvedge_core::{glam::Vec3, Motion, PairKind, PrimitivePair};
+/// let pair = PrimitivePair::<f32>::vertex_face(
+///     Motion::from(([0.2, 0.2, 1.0], [0.2, 0.2, -1.0])),
+///     [Vec3::ZERO, Vec3::X, Vec3::Y].map(Motion::resting),
+/// );
+/// assert_eq!(pair.kind, PairKind::VertexFace);
+/// assert_eq!(pair.motions[0].start, Vec3::new(0.2, 0.2, 1.0));
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct VertexFace<S: Scalar> {
-    /// The vertex.
-    pub vertex: Motion<S>,
-    /// The triangle's three vertices. The triangle is closed: its border belongs to it.
-    pub face: [Motion<S>; 3],
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrimitivePair<S: Scalar> {
+    /// Which of the points belong together.
+    pub kind: PairKind,
+    /// The points of one set, then those of the other: vertex, face; or first edge, second edge.
+    pub motions: [Motion<S>; 4],
 }
 
-/// Two moving edges.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct EdgeEdge<S: Scalar> {
-    /// One edge's two ends. Edges are closed: their ends belong to them.
-    pub first: [Motion<S>; 2],
-    /// The other edge's two ends.
-    pub second: [Motion<S>; 2],
-}
-
-mod sealed {
-    pub trait Sealed {}
-    impl<S: crate::Scalar> Sealed for super::VertexFace<S> {}
-    impl<S: crate::Scalar> Sealed for super::EdgeEdge<S> {}
-}
-
-/// What [`VertexFace`] and [`EdgeEdge`] have in common. Sealed.
-///
-/// Both are two closed convex sets, each the hull of its moving points; they touch when the sets share a point.
-pub trait PrimitivePair<S: Scalar>: Copy + sealed::Sealed {
-    /// Which points belong together.
-    type Shape: PairShape;
-
-    /// The points of one set, then those of the other: vertex, face; or first, second edge.
-    fn motions(&self) -> [Motion<S>; 4];
-
-    /// The same points, as the kernels take them.
+impl<S: Scalar> PrimitivePair<S> {
+    /// A vertex, and a triangle by its three vertices.
     #[inline(always)]
-    fn points(&self) -> PairPoints<S> {
-        let motions = self.motions();
-        PairPoints {
-            start: motions.map(|motion| Vector::from(motion.start.into())),
-            end: motions.map(|motion| Vector::from(motion.end.into())),
+    #[must_use]
+    pub const fn vertex_face(vertex: Motion<S>, [a, b, c]: [Motion<S>; 3]) -> Self {
+        let motions = [vertex, a, b, c];
+        let kind = PairKind::VertexFace;
+        Self { kind, motions }
+    }
+
+    /// Two edges, each by its two ends.
+    #[inline(always)]
+    #[must_use]
+    pub const fn edge_edge([u, v]: [Motion<S>; 2], [k, l]: [Motion<S>; 2]) -> Self {
+        let motions = [u, v, k, l];
+        let kind = PairKind::EdgeEdge;
+        Self { kind, motions }
+    }
+
+    /// The points of the one set and those of the other.
+    #[inline(always)]
+    #[must_use]
+    pub const fn sets(&self) -> [&[Motion<S>]; 2] {
+        match (self.kind, &self.motions) {
+            (PairKind::VertexFace, [vertex, face @ ..]) => [core::slice::from_ref(vertex), face],
+            (PairKind::EdgeEdge, [first @ .., _, _]) => {
+                let [_, _, second @ ..] = &self.motions;
+                [first, second]
+            }
         }
     }
 
-    /// The four points as a tetrahedron that is flat whenever they are coplanar.
-    #[inline(always)]
-    fn tetrahedron(&self) -> MovingTetrahedron<S> {
-        self.points().tetrahedron::<Self::Shape>()
-    }
-}
-
-impl<S: Scalar> PrimitivePair<S> for VertexFace<S> {
-    type Shape = VertexAndFace;
-
-    #[inline(always)]
-    fn motions(&self) -> [Motion<S>; 4] {
-        let [a, b, c] = self.face;
-        [self.vertex, a, b, c]
-    }
-}
-
-impl<S: Scalar> PrimitivePair<S> for EdgeEdge<S> {
-    type Shape = EdgeAndEdge;
-
-    #[inline(always)]
-    fn motions(&self) -> [Motion<S>; 4] {
-        let ([u, v], [k, l]) = (self.first, self.second);
-        [u, v, k, l]
+    /// The same pair in `f64`, exactly.
+    #[inline]
+    #[must_use]
+    pub fn widened(&self) -> PrimitivePair<f64> {
+        let widened = |position: S::Vector| {
+            let coordinates: [S; 3] = position.into();
+            coordinates.map(S::to_f64).into()
+        };
+        PrimitivePair {
+            kind: self.kind,
+            motions: self
+                .motions
+                .map(|motion| Motion::new(widened(motion.start), widened(motion.end))),
+        }
     }
 }

@@ -1,8 +1,11 @@
 //! `f32` and `f64`, the two number formats that positions come in.
 
+#[cfg(feature = "batch")]
 use crate::batch::BatchScalar;
 use crate::lanes::{Number, power_of_two_f64};
 use core::fmt::{Debug, Display};
+#[cfg(not(feature = "batch"))]
+use core::marker::Copy as BatchScalar;
 
 mod sealed {
     pub trait Sealed {}

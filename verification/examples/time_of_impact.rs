@@ -12,11 +12,13 @@
 //! count as well.
 
 use selvedge::PairKind;
-use selvedge_core::elementary::advance::confirm::certain_contact;
-use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact, time_of_impact_and_work};
-use selvedge_core::elementary::contact::{Evidence, contact_and_evidence};
+use selvedge_core::PrimitivePair;
+use selvedge_core::elementary::advance::certain_contact;
+use selvedge_core::elementary::advance::{ROUNDS, time_of_impact, time_of_impact_and_work};
+use selvedge_core::elementary::contact::contact_and_evidence;
 use selvedge_core::elementary::{Contact, Impact, Limits, Reason, contact};
-use selvedge_core::{EdgeEdge, PrimitivePair, VertexFace};
+use selvedge_core::verification::advance::Work;
+use selvedge_core::verification::exact::Evidence;
 use selvedge_files::queries::read as read_queries;
 use selvedge_laboratory::pipeline::{CullingTest, ElementaryTest, Pipeline, Redundancy, Source, Stages};
 use selvedge_verification::generator::{Format, PairCase};
@@ -66,7 +68,7 @@ struct Set {
 
 impl Set {
     /// Whether a pair collides, in the format at hand.
-    fn touches<S: Format, P: PrimitivePair<S>>(&self, case: &PairCase<S>, pair: &P) -> bool {
+    fn touches<S: Format>(&self, case: &PairCase<S>, pair: &PrimitivePair<S>) -> bool {
         if self.name == "stress" && self.points.len() > ASKED {
             contact(pair) == Contact::Happens
         } else {
@@ -98,8 +100,9 @@ fn queries(files: &[&str]) -> Result<usize> {
             });
         let set = &mut sets[index];
         for query in &queries.queries {
-            let points = |k: usize| [query.start[k].to_array(), query.end[k].to_array()];
-            set.points.push([0, 1, 2, 3].map(points));
+            let points = query.pair.motions;
+            set.points
+                .push(points.map(|motion| [motion.start.to_array(), motion.end.to_array()]));
             set.truth
                 .push(query.collides.ok_or_else(|| format!("{file}: a query without truth"))?);
         }
@@ -200,11 +203,7 @@ fn stress(count: usize, seed: u64) -> usize {
             if count <= ASKED {
                 return collides(&pair.question()).is_some();
             }
-            let verdict = match kind {
-                PairKind::VertexFace => contact(&pair.vertex_face()),
-                PairKind::EdgeEdge => contact(&pair.edge_edge()),
-            };
-            verdict == Contact::Happens
+            contact(&pair.pair()) == Contact::Happens
         });
         let set = Set {
             name: "stress".into(),
@@ -295,14 +294,11 @@ fn measure_format<S: Format>(set: &Set) -> usize {
         .iter()
         .map(|points| PairCase::new(set.kind, points.map(|p| p.map(|x| x.map(S::from_f64)))))
         .collect();
-    match set.kind {
-        PairKind::VertexFace => measure::<S, VertexFace<S>>(set, &cases, PairCase::vertex_face),
-        PairKind::EdgeEdge => measure::<S, EdgeEdge<S>>(set, &cases, PairCase::edge_edge),
-    }
+    measure(set, &cases)
 }
 
-fn measure<S: Format, P: PrimitivePair<S>>(set: &Set, cases: &[PairCase<S>], to_pair: impl Fn(&PairCase<S>) -> P) -> usize {
-    let pairs: Vec<P> = cases.iter().map(to_pair).collect();
+fn measure<S: Format>(set: &Set, cases: &[PairCase<S>]) -> usize {
+    let pairs: Vec<_> = cases.iter().map(PairCase::pair).collect();
     let separation: f64 = std::env::var("SEPARATION").map_or(0.0, |s| s.parse().expect("a number"));
     let mut all_misses = 0;
     for tolerance in TOLERANCES {
@@ -398,7 +394,7 @@ fn measure<S: Format, P: PrimitivePair<S>>(set: &Set, cases: &[PairCase<S>], to_
 }
 
 /// The exact verdict: prints and counts what it says wrongly, either way.
-fn measure_verdict<S: Format, P: PrimitivePair<S>>(set: &Set, cases: &[PairCase<S>], pairs: &[P]) -> usize {
+fn measure_verdict<S: Format>(set: &Set, cases: &[PairCase<S>], pairs: &[PrimitivePair<S>]) -> usize {
     let nanoseconds = least_of_three(|| {
         for pair in pairs {
             let _ = black_box(contact(black_box(pair)));

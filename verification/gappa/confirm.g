@@ -1,4 +1,4 @@
-# Confirmed contacts: core/src/elementary/advance/confirm.rs.
+# Confirmed contacts: core/src/kernels/advance/confirm.rs.
 #
 # 1. A monomial of a doubled coefficient passes through 4 roundings in each of two corners, product, difference and sum: 11, and
 #    there are 4 of them, each at most MxMy (computed: 1/(1 - 2u)^2 more): 88u and second order.
@@ -7,8 +7,8 @@
 # 2. The bound: Mx * My, each with its sum with mu, its product with 160u, the sum.
 # 3. Underflow: 6 lambda in a corner's component, with a factor of M four times, products and sums 7: 24M + 7, of (1 + M)^2; twice.
 
-doubled = 160; #! core/src/elementary/advance/confirm.rs: let bound = |x: L, y: L| roundoffs(x, 160) * (x * y) + constant(L::Scalar::small(2)) * underflow;
-#~ core/src/elementary/advance/confirm.rs: let underflow = constant(L::Scalar::UNDERFLOW) * (size * size);
+doubled = 160; #! core/src/kernels/advance/confirm.rs: let bound = |x: L, y: L| roundoffs(x, 160) * (x * y) + constant(L::Scalar::small(2)) * underflow;
+#~ core/src/kernels/advance/confirm.rs: let underflow = constant(L::Scalar::UNDERFLOW) * (size * size);
 eta = 1b@eta@;
 lambda = 1b@lambda@;
 

@@ -1,4 +1,4 @@
-# The error bounds of the control values: core/src/coplanarity.rs.
+# The error bounds of the control values: core/src/kernels/coplanarity.rs.
 #
 # Lemma (not Gappa's, a line of algebra): a computed value is the sum of its monomials m, each times a product of as many
 # factors 1 + d, |d| <= 2u, as it passes through roundings; so it is off by at most the sum of |m| times the largest
@@ -12,11 +12,11 @@
 # Underflow: traced/k0.g and traced/3k1.g prove 41 + 163 times lambda (1 + M)^2 at most. The bound itself loses at most lambda in
 # its product with u, 41 * 20u lambda in the permanent, and 4 lambda in a separation's product and three times that.
 
-outer = 16;      #! core/src/coplanarity.rs: let outer = roundoff * p0.x.splat(L::Scalar::small(16));
-inner = 20;      #! core/src/coplanarity.rs: let inner = roundoff * p0.x.splat(L::Scalar::small(20));
-magnitudes = 96; #! core/src/coplanarity.rs: let constant = L::Scalar::small(96);
+outer = 16;      #! core/src/kernels/coplanarity.rs: let outer = roundoff * p0.x.splat(L::Scalar::small(16));
+inner = 20;      #! core/src/kernels/coplanarity.rs: let inner = roundoff * p0.x.splat(L::Scalar::small(20));
+magnitudes = 96; #! core/src/kernels/coplanarity.rs: let constant = L::Scalar::small(96);
 four = 4;        #! core/src/filter/certified.rs: let inner = outer * outer.splat(L::Scalar::small(4));
-eta = 1b@eta@;   #~ core/src/coplanarity.rs: more * more * more.splat(L::Scalar::UNDERFLOW)
+eta = 1b@eta@;   #~ core/src/kernels/coplanarity.rs: more * more * more.splat(L::Scalar::UNDERFLOW)
 lambda = 1b@lambda@;
 
 f = 1 + d;

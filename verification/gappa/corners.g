@@ -1,4 +1,4 @@
-# Products with corners, and what is proven by them: corners.rs and directions.rs in core/src/elementary/advance.
+# Products with corners, and what is proven by them: corners.rs and directions.rs in core/src/kernels/advance.
 #
 # M_k is the largest |e_k| as computed, at both ends; S the sum of |w_k| M_k. An exact e_k is at most M_k / (1 - 2u).
 # 1. w.e(t), e(t) = fl((1 - t) e(0) + t e(1)): the difference, 1 - t, a product, a sum, a product, two additions: 7 roundings. Two
@@ -16,11 +16,11 @@
 # 5. A separation: s |w| has its square's product and two sums (under the root: 2 of 4, with what 3 flushed squares lose),
 #    the root, its product with 1 + 32u, with s, and the sum with T: 7. Along an axis: the difference, 1 + 8u's product, the sum.
 
-threshold = 20; #! core/src/elementary/advance/corners.rs: roundoffs(w.x, 20) * w.abs().dot(self.extent) + w.x.splat(L::Scalar::UNDERFLOW)
-of_quotient = 32; #~ core/src/elementary/advance/directions.rs: let quotient = (at_start - bar) / (at_start - at_end) * less_roundoffs(bar, 32);
-of_length = 32; #! core/src/elementary/advance/directions.rs: bar = bar + separation * (length_above(w) * more_roundoffs(separation, 32));
-along_axis = 8; #! core/src/elementary/advance/directions.rs: let bar = separation * more_roundoffs(separation, 8) + separation.splat(L::Scalar::UNDERFLOW);
-#~ core/src/elementary/advance/directions.rs: let is_safe = squared.greater(squared.splat(L::Scalar::SAFE_SQUARE));
+threshold = 20; #! core/src/kernels/advance/corners.rs: roundoffs(w.x, 20) * w.abs().dot(self.extent) + w.x.splat(L::Scalar::UNDERFLOW)
+of_quotient = 32; #~ core/src/kernels/advance/directions.rs: let quotient = (at_start - bar) / (at_start - at_end) * less_roundoffs(bar, 32);
+of_length = 32; #! core/src/kernels/advance/directions.rs: bar = bar + separation * (length_above(w) * more_roundoffs(separation, 32));
+along_axis = 8; #! core/src/kernels/advance/directions.rs: let bar = separation * more_roundoffs(separation, 8) + separation.splat(L::Scalar::UNDERFLOW);
+#~ core/src/kernels/advance/directions.rs: let is_safe = squared.greater(squared.splat(L::Scalar::SAFE_SQUARE));
 eta = 1b@eta@;
 lambda = 1b@lambda@;
 

@@ -1,4 +1,4 @@
-# The largest length of the normal: core/src/coplanarity.rs, MovingTetrahedron::largest_normal.
+# The largest length of the normal: core/src/kernels/coplanarity.rs, MovingTetrahedron::largest_normal.
 #
 # traced/normal-*.g prove that a component of a control point, for M = 1, is off by at most 60u, its length by sqrt(3) * 60u < 104u;
 # in general that times M^2. So |n| <= |n as computed| + 104u M^2 + underflow.
@@ -10,10 +10,10 @@
 #    spare; where it is less, all lengths are at most 8 M^2, less than the root of eta. (For f64 the root of 2^-1000 is 2^-500.)
 # 4. Three squares and two halvings that underflow lose at most 7 lambda of the squared length, to which eta is added.
 
-slack = 32;  #! core/src/coplanarity.rs: let slack = constant(L::Scalar::ONE) + constant(L::Scalar::small(32)) * roundoff;
-added = 128; #! core/src/coplanarity.rs: let rounding = constant(L::Scalar::small(128)) * roundoff;
-#~ core/src/coplanarity.rs: let length = (squared + constant(L::Scalar::UNDERFLOW)).sqrt();
-#~ core/src/coplanarity.rs: (length + rounding * (largest * largest)) * slack
+slack = 32;  #! core/src/kernels/coplanarity.rs: let slack = constant(L::Scalar::ONE) + constant(L::Scalar::small(32)) * roundoff;
+added = 128; #! core/src/kernels/coplanarity.rs: let rounding = constant(L::Scalar::small(128)) * roundoff;
+#~ core/src/kernels/coplanarity.rs: let length = (squared + constant(L::Scalar::UNDERFLOW)).sqrt();
+#~ core/src/kernels/coplanarity.rs: (length + rounding * (largest * largest)) * slack
 lambda = 1b@lambda@;
 eta = 1b@eta@;
 

@@ -1,4 +1,4 @@
-# Nothing overflows where pairs are decided: core/src/lanes.rs, Rounding::LARGEST_EDGE; core/src/elementary/advance/corners.rs.
+# Nothing overflows where pairs are decided: core/src/kernels/lanes.rs, Rounding::LARGEST_EDGE; core/src/kernels/advance/corners.rs.
 #
 # Rounding towards zero returns the largest finite number for what overflows, which no comparison notices. Sizes, with 1.01 for all
 # roundings:
@@ -8,8 +8,8 @@
 # 4. Time of impact: edges of 2M, normals of 8M^2 and their squares; a separation up to the extent; products of four numbers.
 # 5. Inside functions, within half an edge: at most 24 A.A, with A of components 2M^2.
 
-#~ core/src/coplanarity.rs: largest.splat(L::Scalar::LARGEST_EDGE).greater(largest)
-#~ core/src/elementary/advance/corners.rs: !largest.greater(largest.splat(L::Scalar::LARGEST_EXTENT))
+#~ core/src/kernels/coplanarity.rs: largest.splat(L::Scalar::LARGEST_EDGE).greater(largest)
+#~ core/src/kernels/advance/corners.rs: !largest.greater(largest.splat(L::Scalar::LARGEST_EXTENT))
 #~ core/src/filter/inside.rs: let half = largest.splat(L::Scalar::HALF) * largest.splat(L::Scalar::LARGEST_EDGE);
 { m in [0, 1b@edge@] /\ x in [0, 1b@extent@] /\ r in [1, 1.01]
 ->  4 * 20 * m * m * m * r <= 1b@max@

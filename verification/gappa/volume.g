@@ -1,4 +1,4 @@
-# The signed volume of an advancing pair: core/src/elementary/advance/volume.rs.
+# The signed volume of an advancing pair: core/src/kernels/advance/volume.rs.
 #
 # The monomials of a control value sum up to at most S = 6 MxMyMz (3k1: a third of 18), which `permanent` is; exact differences are at
 # most 1/(1 - 2u) larger than computed ones.
@@ -18,12 +18,12 @@
 # 6. Lengths: under the root a square and two sums (2 of 4), the root, the sum of lengths, a third (2), the sum with the error, the
 #    products with s (2), the sum with the bound: 10 at most. Three squares that underflow.
 
-error = 64;  #! core/src/elementary/advance/volume.rs: let sixty_four = roundoffs(m.x, 64);
-of_normal = 512; #~ core/src/elementary/advance/volume.rs: length_error: eight * sixty_four * areas + vanishing,
-of_lengths = 64; #~ core/src/elementary/advance/volume.rs: separation: separation * more_roundoffs(separation, 64),
-of_part = 32; #~ core/src/elementary/advance/volume.rs: let next = (time + part * rest * less_roundoffs(time, 32)) * less_roundoffs(time, 8);
+error = 64;  #! core/src/kernels/advance/volume.rs: let sixty_four = roundoffs(m.x, 64);
+of_normal = 512; #~ core/src/kernels/advance/volume.rs: length_error: eight * sixty_four * areas + vanishing,
+of_lengths = 64; #~ core/src/kernels/advance/volume.rs: separation: separation * more_roundoffs(separation, 64),
+of_part = 32; #~ core/src/kernels/advance/volume.rs: let next = (time + part * rest * less_roundoffs(time, 32)) * less_roundoffs(time, 8);
 of_time = 8;
-#~ core/src/elementary/advance/volume.rs: let error = sixty_four * permanent + m.x.splat(L::Scalar::UNDERFLOW) * (size * size);
+#~ core/src/kernels/advance/volume.rs: let error = sixty_four * permanent + m.x.splat(L::Scalar::UNDERFLOW) * (size * size);
 eta = 1b@eta@;
 lambda = 1b@lambda@;
 

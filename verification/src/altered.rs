@@ -4,12 +4,15 @@
 
 use crate::generator::{Format, PairCase};
 use selvedge_core::PairKind;
-use selvedge_core::boxes::{direction, relative, segment};
 use selvedge_core::elementary::advance::time_of_impact_of_points;
 use selvedge_core::elementary::{Impact, Limits};
-use selvedge_core::filter::certified::{Bound, decide};
-use selvedge_core::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
-use selvedge_core::{Lanes, PrimitivePair, Rounding, Vector};
+use selvedge_core::verification::coplanarity::Bound;
+#[cfg(doc)]
+use selvedge_core::verification::coplanarity::MovingTetrahedron;
+use selvedge_core::verification::lanes::{Lanes, Rounding};
+use selvedge_core::verification::of_kind;
+use selvedge_core::verification::points::{PairPoints, PairShape};
+use selvedge_core::verification::vector::Vector;
 use std::cmp::Ordering;
 use std::marker::PhantomData;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -167,16 +170,8 @@ pub fn time_of_impact<F: Factors, S: Format>(pair: &PairCase<S>, limits: &Limits
         tolerance: Altered::new(limits.tolerance),
         separation: Altered::new(limits.separation),
     };
-    let impact = match pair.kind {
-        PairKind::VertexFace => {
-            let points = altered::<F, S>(&pair.vertex_face().points());
-            time_of_impact_of_points::<VertexAndFace, _>(&points, &limits).0
-        }
-        PairKind::EdgeEdge => {
-            let points = altered::<F, S>(&pair.edge_edge().points());
-            time_of_impact_of_points::<EdgeAndEdge, _>(&points, &limits).0
-        }
-    };
+    let points = altered::<F, S>(&(&pair.pair()).into());
+    let impact = of_kind!(pair.kind, P => time_of_impact_of_points::<P, _>(&points, &limits).0);
     match impact {
         Impact::Never => Impact::Never,
         Impact::Possible { time, reason } => Impact::Possible { time: time.0, reason },
@@ -186,13 +181,13 @@ pub fn time_of_impact<F: Factors, S: Format>(pair: &PairCase<S>, limits: &Limits
 /// A kernel whose bound has constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kernel {
-    /// [`decide`] without a separation.
+    /// [`is_never_coplanar`](MovingTetrahedron::is_never_coplanar).
     Bounded(Bound),
-    /// [`segment::misses_face`]; keeps EE.
+    /// [`have_disjoint_primitive_boxes`](PairPoints::have_disjoint_primitive_boxes); keeps EE.
     Segment,
-    /// [`relative::are_apart_along_nine_directions`].
+    /// [`are_apart_along_nine_directions`](PairPoints::are_apart_along_nine_directions).
     NineDirections,
-    /// [`direction::are_apart_along_normal`].
+    /// [`are_apart_along_normal`](PairPoints::are_apart_along_normal).
     Normal,
 }
 
@@ -209,19 +204,16 @@ impl Kernel {
 
     /// Whether the kernel culls the pair, with its constants times `F`.
     pub fn culls<F: Factors, S: Format>(self, pair: &PairCase<S>) -> bool {
-        match pair.kind {
-            PairKind::VertexFace => self.on::<VertexAndFace, F, S>(&pair.vertex_face().points()),
-            PairKind::EdgeEdge => self.on::<EdgeAndEdge, F, S>(&pair.edge_edge().points()),
-        }
+        of_kind!(pair.kind, P => self.on::<P, F, S>(&(&pair.pair()).into()))
     }
 
     fn on<P: PairShape, F: Factors, S: Format>(self, points: &PairPoints<S>) -> bool {
         let points = altered::<F, S>(points);
         match self {
-            Self::Bounded(bound) => decide::<P, _>(bound, &points.tetrahedron::<P>(), None).culled,
-            Self::Segment => P::KIND == PairKind::VertexFace && segment::misses_face(&points),
-            Self::NineDirections => relative::are_apart_along_nine_directions::<P, _>(&points),
-            Self::Normal => direction::are_apart_along_normal::<P, _>(&points),
+            Self::Bounded(bound) => points.tetrahedron::<P>().is_never_coplanar(bound),
+            Self::Segment => P::KIND == PairKind::VertexFace && points.have_disjoint_primitive_boxes::<P>(),
+            Self::NineDirections => points.are_apart_along_nine_directions::<P>(),
+            Self::Normal => points.are_apart_along_normal::<P>(),
         }
     }
 }

@@ -2,9 +2,8 @@
 //! what the pipeline does in batches can be done again by hand.
 
 use crate::generator::{Format, PairCase};
-use selvedge_core::PairKind;
 use selvedge_core::boxes::{Aabb, Dop18, relative, segment, swept_boxes};
-use selvedge_core::{PrimitivePair, Verdict, filter};
+use selvedge_core::{Verdict, filter};
 use selvedge_laboratory::baselines::plain;
 use selvedge_laboratory::pipeline::CullingTest;
 
@@ -29,28 +28,18 @@ pub fn certified() -> impl Iterator<Item = CullingTest> {
 
 /// What `test` says of `case`.
 pub fn verdict<S: Format>(test: CullingTest, case: &PairCase<S>) -> Verdict {
-    match case.kind {
-        PairKind::VertexFace if test == CullingTest::SegmentBox => segment::vertex_face(&case.vertex_face()),
-        PairKind::VertexFace => of_either_kind(test, &case.vertex_face(), 1),
-        PairKind::EdgeEdge => of_either_kind(test, &case.edge_edge(), 2),
-    }
-}
-
-/// `first` is how many of the four points are the first set's.
-fn of_either_kind<S: Format>(test: CullingTest, pair: &impl PrimitivePair<S>, first: usize) -> Verdict {
+    let pair = &case.pair();
     match test {
-        CullingTest::SweptBoxes | CullingTest::SegmentBox => swept_boxes(pair),
+        CullingTest::SweptBoxes => swept_boxes(pair),
+        CullingTest::SegmentBox => segment::primitive_boxes(pair),
         CullingTest::StoredSweptBoxes => {
-            let motions = pair.motions();
-            let (first, second) = motions.split_at(first);
-            Verdict::culled_if(!Aabb::swept(first).overlaps(&Aabb::swept(second)))
+            let [first, second] = pair.sets().map(Aabb::swept);
+            Verdict::culled_if(!first.overlaps(&second))
         }
         CullingTest::StoredDop18 => {
-            let dops = pair.motions().map(|motion| Dop18::swept(&motion));
-            let (first, second) = dops.split_at(first);
-            let [first, second] = [first, second].map(|dops| {
-                let merge = |all: Dop18<S>, dop: &Dop18<S>| all.merged(dop);
-                dops[1..].iter().fold(dops[0], merge)
+            let [first, second] = pair.sets().map(|set| {
+                let dops = set.iter().map(Dop18::swept);
+                dops.reduce(|all, dop| all.merged(&dop)).expect("a set has points")
             });
             Verdict::culled_if(!first.overlaps(&second))
         }

@@ -508,10 +508,7 @@ pub fn table() -> String {
 }
 
 fn row(text: &mut String, name: &str, placement: &str, pair: &PairCase<f64>, expected: Option<First>) {
-    let kind = match pair.kind {
-        PairKind::VertexFace => "vertex-face",
-        PairKind::EdgeEdge => "edge-edge",
-    };
+    let kind = pair.kind;
     let (first, from, to) = answer(pair, expected, name, placement);
     write!(text, "\"{name}\",\"{placement}\",{kind},{first},{from},{to}").expect("a string has room");
     for end in 0..2 {

@@ -5,10 +5,9 @@
 
 use crate::traced::{Step, Trace, Traced, trace};
 use selvedge_core::PairKind;
-use selvedge_core::Vector;
-use selvedge_core::coplanarity::MovingTetrahedron;
-use selvedge_core::filter::inside::is_outside_of_one_side;
-use selvedge_core::points::{PairPoints, PairShape};
+use selvedge_core::verification::coplanarity::MovingTetrahedron;
+use selvedge_core::verification::points::{PairPoints, PairShape};
+use selvedge_core::verification::vector::Vector;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -100,7 +99,7 @@ pub fn inside<P: PairShape>() -> ([[Traced; 2]; 5], Trace) {
             start: points(0),
             end: points(1),
         };
-        is_outside_of_one_side::<P, Traced>(&points)
+        points.are_outside_of_one_side::<P>()
     });
     steps.begin_with_differences();
     // The bound comes first in each comparison, and those of the first side before all others.
@@ -132,7 +131,7 @@ fn control_value(claim: &Claim, value: Traced, trace: &Trace) -> Script {
     } = claim;
     let text = format!(
         "\
-# The control value {name}: core/src/coplanarity.rs, MovingTetrahedron::control_values.
+# The control value {name}: core/src/kernels/coplanarity.rs, MovingTetrahedron::control_values.
 # Written from the code by verification/src/proofs.rs; a test demands that it is what the code gives.
 #
 # Each difference of points (b0x, …) is at most 1 as computed: errors scale with each of the three edges, or axes. Its relative
@@ -170,7 +169,7 @@ fn normal(name: &str, length: Traced, trace: &Trace) -> Script {
     }
     let text = format!(
         "\
-# The control points of the normal: core/src/coplanarity.rs, MovingTetrahedron::largest_normal.
+# The control points of the normal: core/src/kernels/coplanarity.rs, MovingTetrahedron::largest_normal.
 # Written from the code by verification/src/proofs.rs; a test demands that it is what the code gives.
 #
 # Names and scale as in k0.g. Three components each of n0, h (twice the middle one) and n1: a component is off by at most 60u,

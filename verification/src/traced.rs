@@ -3,7 +3,7 @@
 //! The kernels are generic over [`Lanes`], so their source runs on [`Traced`] unchanged. What is read off it are the facts that
 //! the proofs in `verification/gappa` start from: so the proofs are about the code and not about a copy of it.
 
-use selvedge_core::{Lanes, Rounding};
+use selvedge_core::verification::lanes::{Lanes, Rounding};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::{Add, Div, Mul, Neg, Sub};

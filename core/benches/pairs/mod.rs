@@ -2,10 +2,9 @@
 
 #![allow(dead_code, reason = "each bench uses a part")]
 
-use selvedge_core::coplanarity::MovingTetrahedron;
-use selvedge_core::filter::certified::{Bound, is_never_coplanar};
-use selvedge_core::points::{PairPoints, VertexAndFace};
-use selvedge_core::{Scalar, Vector};
+use selvedge_core::filter::certified::non_coplanarity;
+use selvedge_core::verification::exact::{UNKNOWN, is_never_coplanar};
+use selvedge_core::{Motion, PairKind, PrimitivePair, Scalar};
 
 /// How many pairs a set has: enough that branches are not learnt by heart, few enough to stay in cache.
 pub(crate) const COUNT: usize = 1024;
@@ -32,10 +31,16 @@ impl Random {
     }
 }
 
-/// Rounds.
-fn points<S: Scalar>(positions: [[[f64; 3]; 4]; 2]) -> PairPoints<S> {
-    let [start, end] = positions.map(|end| end.map(|x| Vector::from(x.map(S::from_f64))));
-    PairPoints { start, end }
+/// Of each point its position at the start and at the end, rounded.
+fn vertex_face<S: Scalar>(points: [[[f64; 3]; 2]; 4]) -> PrimitivePair<S> {
+    let rounded = |position: [f64; 3]| position.map(S::from_f64).into();
+    PrimitivePair {
+        kind: PairKind::VertexFace,
+        motions: points.map(|[start, end]| Motion {
+            start: rounded(start),
+            end: rounded(end),
+        }),
+    }
 }
 
 fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -43,19 +48,18 @@ fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 }
 
 /// Features of a centimetre, somewhere in a cube of two metres, that move by up to a centimetre.
-pub(crate) fn cloth<S: Scalar>() -> Vec<PairPoints<S>> {
+pub(crate) fn cloth<S: Scalar>() -> Vec<PrimitivePair<S>> {
     let mut random = Random(1);
     let mut pair = || {
         let place = random.position(1.0);
         let start = [(); 4].map(|()| plus(place, random.position(0.01)));
-        let end = start.map(|position| plus(position, random.position(0.01)));
-        points([start, end])
+        vertex_face(start.map(|position| [position, plus(position, random.position(0.01))]))
     };
     (0..COUNT).map(|_| pair()).collect()
 }
 
 /// All eight positions within rounding of one tilted plane.
-pub(crate) fn nearly_coplanar<S: Scalar>() -> Vec<PairPoints<S>> {
+pub(crate) fn nearly_coplanar<S: Scalar>() -> Vec<PrimitivePair<S>> {
     let mut random = Random(2);
     let pairs = std::iter::repeat_with(|| near_a_plane(&mut random, 0.0));
     pairs.filter(is_undecided).take(COUNT).collect()
@@ -63,47 +67,51 @@ pub(crate) fn nearly_coplanar<S: Scalar>() -> Vec<PairPoints<S>> {
 
 /// The vertex lies a few units in the last place above the plane of the face: too little for floating point, but all four
 /// control values have one sign, so that all four have to be computed.
-pub(crate) fn barely_above<S: Scalar>() -> Vec<PairPoints<S>> {
+pub(crate) fn barely_above<S: Scalar>() -> Vec<PrimitivePair<S>> {
     let mut random = Random(3);
     let height = 4.0 * S::UNIT_ROUNDOFF.to_f64();
     let pairs = std::iter::repeat_with(|| near_a_plane(&mut random, height));
-    let is_hard = |pair: &_| {
-        is_undecided(pair) && selvedge_core::exact::is_never_coplanar::<VertexAndFace, S>(pair, selvedge_core::exact::UNKNOWN)
-    };
+    let is_hard = |pair: &_| is_undecided(pair) && is_never_coplanar(pair, UNKNOWN);
     pairs.filter(is_hard).take(COUNT).collect()
 }
 
-fn near_a_plane<S: Scalar>(random: &mut Random, height: f64) -> PairPoints<S> {
+fn near_a_plane<S: Scalar>(random: &mut Random, height: f64) -> PrimitivePair<S> {
     let [x_slope, y_slope, base] = random.position(0.5);
-    let mut positions = [[[0.0; 3]; 4]; 2];
-    for end in &mut positions {
-        for (point, position) in end.iter_mut().enumerate() {
+    let mut positions = [[[0.0; 3]; 2]; 4];
+    for end in 0..2 {
+        for (point, position) in positions.iter_mut().enumerate() {
             // The grid of `S`, so that its rounding to `S` does not lift a point from the plane by a slope.
             let [x, y, _] = random.position(1.0).map(|x| S::from_f64(x).to_f64());
             let above = if point == 0 { height } else { 0.0 };
-            *position = [x, y, x_slope * x + y_slope * y + base + above];
+            position[end] = [x, y, x_slope * x + y_slope * y + base + above];
         }
     }
-    points(positions)
+    vertex_face(positions)
 }
 
-fn is_undecided<S: Scalar>(pair: &PairPoints<S>) -> bool {
-    let tetrahedron: MovingTetrahedron<S> = pair.tetrahedron::<VertexAndFace>();
-    !is_never_coplanar(Bound::Permanent, &tetrahedron)
+fn is_undecided<S: Scalar>(pair: &PrimitivePair<S>) -> bool {
+    !non_coplanarity(pair).is_culled()
 }
 
 /// Coordinates of every size there is: each exponent as likely as the others.
-pub(crate) fn all_sizes<S: Scalar>() -> Vec<PairPoints<S>> {
+pub(crate) fn all_sizes<S: Scalar>() -> Vec<PrimitivePair<S>> {
     let mut random = Random(4);
     let largest = (1 << (S::EXPONENT_BITS - 1)) - 1;
     let mut coordinate = || {
         let exponent = (random.word() % (2 * largest as u64)) as i32 - largest;
         S::from_f64(libm::ldexp(random.within(1.0), exponent))
     };
-    let mut four = || [(); 4].map(|()| Vector::from([(); 3].map(|()| coordinate())));
-    let mut pair = || PairPoints {
-        start: four(),
-        end: four(),
+    let mut position = || [(); 3].map(|()| coordinate()).into();
+    let mut four = || [(); 4].map(|()| position());
+    let mut pair = || {
+        let mut motions = four().map(|start| Motion { start, end: start });
+        for (motion, end) in motions.iter_mut().zip(four()) {
+            motion.end = end;
+        }
+        PrimitivePair {
+            kind: PairKind::VertexFace,
+            motions,
+        }
     };
     (0..COUNT).map(|_| pair()).collect()
 }

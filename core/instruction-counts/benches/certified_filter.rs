@@ -7,14 +7,14 @@ use selvedge_core::PairKind;
 use selvedge_core::batch::{LANES, Level, Mask, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::filter::certified::non_coplanarity;
 use selvedge_core::filter::{Filter, Tier};
-use selvedge_core::{Motion, PrimitivePair, Scalar, VertexFace};
+use selvedge_core::{Motion, PrimitivePair, Scalar};
 use std::hint::black_box;
 
 const PAIRS: usize = 2 * LANES;
 
 /// Vertices above, below and passing through a triangle each.
 struct Input<S: Scalar> {
-    pairs: Vec<VertexFace<S>>,
+    pairs: Vec<PrimitivePair<S>>,
     tiles: Vec<Tile<S>>,
     rows: Vec<VertexRow<S>>,
     indices: Vec<[u32; 4]>,
@@ -29,21 +29,21 @@ fn input<S: Scalar>(level: Level) -> Input<S> {
     let pairs: Vec<_> = (0..PAIRS)
         .map(|k| {
             let height = 0.07 * k as f64 - 1.0;
-            VertexFace {
-                vertex: motion([0.2, 0.3, height], [0.3, 0.2, 0.5 * height + 0.2]),
-                face: [
+            PrimitivePair::vertex_face(
+                motion([0.2, 0.3, height], [0.3, 0.2, 0.5 * height + 0.2]),
+                [
                     motion([0.0, 0.0, 0.01], [0.1, 0.0, 0.0]),
                     motion([1.0, 0.0, 0.0], [1.0, 0.1, 0.02]),
                     motion([0.0, 1.0, 0.0], [0.0, 1.1, 0.0]),
                 ],
-            }
+            )
         })
         .collect();
     let tiles = pairs
         .chunks(LANES)
-        .map(|pairs| Tile::new(pairs.iter().map(PrimitivePair::motions)))
+        .map(|pairs| Tile::new(pairs.iter().map(|pair| pair.motions)))
         .collect();
-    let rows = pairs.iter().flat_map(|pair| pair.motions().map(VertexRow::new)).collect();
+    let rows = pairs.iter().flat_map(|pair| pair.motions.map(VertexRow::new)).collect();
     let indices = (0..PAIRS as u32).map(|k| [4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3]).collect();
     Input {
         pairs,

@@ -14,11 +14,12 @@ use selvedge_core::boxes::{Aabb, Dop18, direction, relative, segment, swept_boxe
 use selvedge_core::distribution::distribute;
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::glam::DVec3;
-use selvedge_core::points::PairShape;
 use selvedge_core::separation::clearance::{Clearance, are_boxes_within, nearness};
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
 use selvedge_core::separation::{course, largest_coordinate};
-use selvedge_core::{EdgeEdge, FeatureTriangle, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary, exact, filter};
+use selvedge_core::verification::coplanarity::MovingTetrahedron;
+use selvedge_core::verification::exact;
+use selvedge_core::{FeatureTriangle, Motion, PrimitivePair, Scalar, Verdict, elementary, filter};
 
 #[panic_handler]
 fn panic(_: &PanicInfo<'_>) -> ! {
@@ -30,7 +31,7 @@ type Points<S> = [[[S; 3]; 2]; 4];
 
 /// Whether every tier, with a separation and without, on its own and batched in every form, keeps the pair: 0; culls it: 1; or
 /// they do not agree: 2.
-fn tiers<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> u32 {
+fn tiers<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     let mut masks = [0];
     let mut answers = 0;
     for tier in Tier::ALL {
@@ -64,11 +65,11 @@ fn tiers<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> u32 {
 }
 
 /// One pair's mask as a list, a tile and rows.
-fn in_every_form<S: Scalar, P: PrimitivePair<S>>(test: impl BatchTest<S>, pair: &P, masks: &mut [Mask; 1]) -> [Mask; 3] {
-    let (level, kind): (Level, PairKind) = (Level::baseline(), P::Shape::KIND);
+fn in_every_form<S: Scalar>(test: impl BatchTest<S>, pair: &PrimitivePair<S>, masks: &mut [Mask; 1]) -> [Mask; 3] {
+    let (level, kind): (Level, PairKind) = (Level::baseline(), pair.kind);
     let mut tile = Tile::unknown();
-    tile.set(0, pair.motions());
-    let rows = pair.motions().map(VertexRow::new);
+    tile.set(0, pair.motions);
+    let rows = pair.motions.map(VertexRow::new);
     let mut answers = [0; 3];
     batch::culled(level, test, core::slice::from_ref(pair), masks);
     answers[0] = masks[0];
@@ -84,8 +85,8 @@ fn bit(index: u32, verdict: Verdict) -> u32 {
 }
 
 /// The batched tests, each at the bit of its one-pair twin, on the instruction set that every machine of this kind has.
-fn batched<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
-    fn at<S: Scalar>(index: u32, test: impl BatchTest<S>, pair: &impl PrimitivePair<S>) -> u32 {
+fn batched<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
+    fn at<S: Scalar>(index: u32, test: impl BatchTest<S>, pair: &PrimitivePair<S>) -> u32 {
         let mut mask = [0];
         batch::culled(Level::baseline(), test, core::slice::from_ref(pair), &mut mask);
         u32::from(mask[0]) << index
@@ -97,18 +98,17 @@ fn batched<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
 }
 
 /// Exact signs: one for all, more than half a unit apart, all positive.
-fn exactly<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> u32 {
-    let points = pair.points();
-    let tetrahedron = pair.tetrahedron();
+fn exactly<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
+    let tetrahedron = MovingTetrahedron::from(pair);
     let known = exact::certain_signs(&tetrahedron.control_values(), tetrahedron.error_bounds());
     let half = S::from_f64(0.5);
-    let signs = exact::control_value_signs::<P::Shape, S>(&points);
-    u32::from(exact::is_never_coplanar::<P::Shape, S>(&points, known))
-        | u32::from(exact::is_never_within::<P::Shape, S>(&points, half, exact::UNKNOWN)) << 1
+    let signs = exact::control_value_signs(pair);
+    u32::from(exact::is_never_coplanar(pair, known))
+        | u32::from(exact::is_never_within(pair, half, exact::UNKNOWN)) << 1
         | u32::from(signs == Some([Ordering::Greater; 4])) << 2
 }
 
-fn verdicts<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
+fn verdicts<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     bit(0, swept_boxes(pair))
         | bit(1, relative::three_axes(pair))
         | bit(2, relative::nine_directions(pair))
@@ -116,22 +116,22 @@ fn verdicts<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
 }
 
 /// These answers, whether the batched ones differ, and the exact ones.
-fn with_batches<S: Scalar>(pair: &impl PrimitivePair<S>) -> u32 {
+fn with_batches<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     let verdicts = verdicts(pair);
     let differ = (verdicts & 0b1_0111) != batched(pair);
     verdicts | u32::from(differ) << 9 | exactly(pair) << 10 | tiers(pair) << 13
 }
 
 /// From when on contact is not excluded, by a round in lanes, then the pair alone.
-fn advanced<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Option<S> {
-    let rows = pair.motions().map(VertexRow::new);
+fn advanced<S: Scalar>(pair: &PrimitivePair<S>) -> Option<S> {
+    let rows = pair.motions.map(VertexRow::new);
     let question = RoundQuestion {
         limits: elementary::Limits::default(),
         until: S::ONE,
         with_volume: true,
     };
     let (mut times, mut rounds) = ([S::ZERO], [Round::default()]);
-    let (level, kind) = (Level::baseline(), P::Shape::KIND);
+    let (level, kind) = (Level::baseline(), pair.kind);
     let indices = [[0, 1, 2, 3]];
     advance_from_rows(level, kind, &question, &rows, &indices, &mut times, &mut rounds);
     let from = times[0];
@@ -143,15 +143,15 @@ fn advanced<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Option<S> {
 
 /// One bit where the exact verdict is that there is no contact, another where whole numbers alone, the certified time of impact, or its
 /// confirmation disagree with that.
-fn elementary_tests<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> u32 {
+fn elementary_tests<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     use elementary::{Contact, Limits, advance, contact};
     let touches = contact(pair) == Contact::Happens;
     let limits = Limits::default();
     let time = advance::time_of_impact(pair, &limits).time();
-    let confirmed = time.and_then(|time| advance::confirm::certain_contact(pair, time));
+    let confirmed = time.and_then(|time| advance::certain_contact(pair, time));
     let agree = time.is_some() == touches
         && advanced(pair).is_some() == touches
-        && exact::touches::<P::Shape, S>(&pair.points()) == Some(touches)
+        && exact::touches(pair) == Some(touches)
         && confirmed.is_some() == touches;
     u32::from(!touches) << 8 | u32::from(!agree) << 10
 }
@@ -163,14 +163,8 @@ fn all_tests<S: Scalar>(points: &Points<S>) -> [u32; 2] {
         end: end.into(),
     });
     let [a, b, c, d] = motions;
-    let vertex_face = VertexFace {
-        vertex: a,
-        face: [b, c, d],
-    };
-    let edge_edge = EdgeEdge {
-        first: [a, b],
-        second: [c, d],
-    };
+    let vertex_face = PrimitivePair::vertex_face(a, [b, c, d]);
+    let edge_edge = PrimitivePair::edge_edge([a, b], [c, d]);
     let dops = motions.map(|motion| Dop18::swept(&motion));
     let apart = |one: bool, other: bool| u32::from(!one) << 5 | u32::from(!other) << 6;
     [
@@ -179,7 +173,7 @@ fn all_tests<S: Scalar>(points: &Points<S>) -> [u32; 2] {
                 Aabb::swept(&[a]).overlaps(&Aabb::swept(&[b, c, d])),
                 dops[0].overlaps(&dops[1].merged(&dops[2]).merged(&dops[3])),
             )
-            | bit(7, segment::vertex_face(&vertex_face))
+            | bit(7, segment::primitive_boxes(&vertex_face))
             | elementary_tests(&vertex_face),
         with_batches(&edge_edge)
             | apart(

@@ -1,13 +1,13 @@
 //! Advancing many pairs by separating directions, one round for sixteen of them at a time.
 //!
-//! [`advance_from_rows`] is one [round](crate::elementary::advance::round) of the certified
+//! [`advance_from_rows`] is one [round](crate::kernels::advance::round) of the certified
 //! [time of impact](crate::elementary::advance::time_of_impact) for pairs of a mesh.
 
 use super::rows::Padded;
 use super::{LANES, Level, Mask, VertexRow};
 use crate::PairKind;
 use crate::elementary::Limits;
-use crate::elementary::advance::round;
+use crate::kernels::advance::round;
 use crate::lanes::{Lanes, Rounding};
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;

@@ -10,12 +10,11 @@ use super::{Bounded, LANES, Level, Mask, VertexRow};
 #[cfg(feature = "verification")]
 use super::{PointsTest, Test, Tile};
 use crate::PairKind;
-use crate::coplanarity::MovingTetrahedron;
+use crate::coplanarity::{Decision, MovingTetrahedron};
 use crate::filter::Filter;
-use crate::filter::certified::Decision;
-use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
+use crate::motion::PrimitivePair;
+use crate::points::PairShape;
 use crate::scalar::Scalar;
-use crate::vector::Vector;
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
@@ -30,7 +29,9 @@ pub trait BatchScalar: Copy {
 
     /// What the filter does with one pair that its bound leaves open.
     #[doc(hidden)]
-    fn culls_open(kind: PairKind, filter: &Filter<Self>, points: &PairPoints<Self>) -> bool;
+    fn culls_open(filter: &Filter<Self>, pair: &PrimitivePair<Self>) -> bool
+    where
+        Self: Scalar;
 
     /// Which of sixteen pairs a test culls.
     #[cfg(feature = "verification")]
@@ -73,22 +74,19 @@ pub enum Sixteen<'a, S> {
 }
 
 impl<S: Scalar> Sixteen<'_, S> {
-    /// The four points of one pair; not a number if there is no such pair.
+    /// One pair; not a number if there is no such pair.
     #[inline(always)]
-    pub(super) fn points(self, lane: usize) -> PairPoints<S> {
-        let [[a, e], [b, f], [c, g], [d, h]] = match self {
+    pub(super) fn pair(self, kind: PairKind, lane: usize) -> PrimitivePair<S> {
+        let motions = match self {
             #[cfg(feature = "verification")]
-            Self::Tile(tile) => tile.positions(lane),
+            Self::Tile(tile) => tile.motions(lane),
             Self::Mesh { rows, indices } => {
-                let nowhere = [Vector::from([S::INFINITY * S::ZERO; 3]); 2];
+                let unknown = VertexRow([S::INFINITY * S::ZERO; 8]);
                 let indices = indices.get(lane).copied().unwrap_or([u32::MAX; 4]);
-                indices.map(|index| rows.get(index as usize).map_or(nowhere, VertexRow::positions))
+                indices.map(|index| rows.get(index as usize).unwrap_or(&unknown).motion())
             }
         };
-        PairPoints {
-            start: [a, b, c, d],
-            end: [e, f, g, h],
-        }
+        PrimitivePair { kind, motions }
     }
 }
 
@@ -211,30 +209,17 @@ macro_rules! vectorized {
     }};
 }
 
-/// Calls a function of a pair's shape with that of a kind.
-macro_rules! of_kind {
-    ($kind:expr, $level:expr, $lanes:tt, $function:ident($($argument:expr),*)) => {
-        match $kind {
-            PairKind::VertexFace => vectorized!($level, $lanes, $function::<VertexAndFace>($($argument),*)),
-            PairKind::EdgeEdge => vectorized!($level, $lanes, $function::<EdgeAndEdge>($($argument),*)),
-        }
-    };
-}
-
 /// A format, with the lanes of its tests and those of its rounds.
 macro_rules! batch_scalar {
     ($scalar:ident, $lanes:tt, rounds: $round_lanes:tt) => {
         impl BatchScalar for $scalar {
             fn bounded(level: Level, kind: PairKind, bounded: Bounded<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>> {
-                of_kind!(kind, level, $lanes, test_volume(bounded, pairs))
+                of_kind!(kind, P => vectorized!(level, $lanes, test_volume::<P>(bounded, pairs)))
             }
 
             #[cold]
-            fn culls_open(kind: PairKind, filter: &Filter<Self>, points: &PairPoints<Self>) -> bool {
-                match kind {
-                    PairKind::VertexFace => filter.culls_open::<VertexAndFace>(points),
-                    PairKind::EdgeEdge => filter.culls_open::<EdgeAndEdge>(points),
-                }
+            fn culls_open(filter: &Filter<Self>, pair: &PrimitivePair<Self>) -> bool {
+                filter.culls_open(pair)
             }
 
             #[cfg(feature = "verification")]
@@ -245,7 +230,7 @@ macro_rules! batch_scalar {
             #[cfg(feature = "verification")]
             #[inline]
             fn by_points(level: Level, kind: PairKind, test: impl PointsTest, pairs: Sixteen<'_, Self>) -> Option<Mask> {
-                of_kind!(kind, level, $lanes, test_points(test, pairs))
+                of_kind!(kind, P => vectorized!(level, $lanes, test_points::<P>(test, pairs)))
             }
 
             #[cfg(feature = "verification")]
@@ -256,7 +241,7 @@ macro_rules! batch_scalar {
                 test: impl VolumeTest<Self>,
                 pairs: Sixteen<'_, Self>,
             ) -> Option<Decision<Mask>> {
-                of_kind!(kind, level, $lanes, test_volume(test, pairs))
+                of_kind!(kind, P => vectorized!(level, $lanes, test_volume::<P>(test, pairs)))
             }
 
             fn round(
@@ -267,7 +252,7 @@ macro_rules! batch_scalar {
                 indices: &[[u32; 4]; LANES],
                 times: &mut [Self; LANES],
             ) -> Option<Round> {
-                of_kind!(kind, level, $round_lanes, advance(question, rows, indices, times))
+                of_kind!(kind, P => vectorized!(level, $round_lanes, advance::<P>(question, rows, indices, times)))
             }
         }
     };

@@ -5,8 +5,7 @@
 #[cfg(feature = "verification")]
 pub use shown::{ByPoints, ByVolume, Test};
 
-use crate::coplanarity::MovingTetrahedron;
-use crate::filter::certified::Decision;
+use crate::coplanarity::{Decision, MovingTetrahedron};
 use crate::lanes::Lanes;
 use crate::points::PairShape;
 
@@ -29,27 +28,25 @@ mod shown {
     use super::{PointsTest, VolumeTest};
     use crate::PairKind;
     use crate::batch::{BatchTest, Level, Mask, Sixteen};
-    use crate::boxes;
-    use crate::filter::inside;
     use crate::lanes::Lanes;
     use crate::points::{PairPoints, PairShape};
     use crate::scalar::Scalar;
 
-    /// A culling test of the pairs' points that runs on batches. See [`boxes`] and [`filter`](crate::filter).
+    /// A culling test of the pairs' points that runs on batches. See [`boxes`](crate::boxes) and [`filter`](crate::filter).
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     #[non_exhaustive]
     pub enum Test {
-        /// [`boxes::swept_boxes`].
+        /// [`boxes::swept_boxes`](crate::boxes::swept_boxes).
         SweptBoxes,
-        /// [`boxes::segment::vertex_face`]; for EE, [`boxes::swept_boxes`].
+        /// [`boxes::segment::primitive_boxes`](crate::boxes::segment::primitive_boxes).
         SegmentBox,
-        /// [`boxes::relative::three_axes`].
+        /// [`boxes::relative::three_axes`](crate::boxes::relative::three_axes).
         RelativeBoxes,
-        /// [`boxes::relative::nine_directions`].
+        /// [`boxes::relative::nine_directions`](crate::boxes::relative::nine_directions).
         RelativeBoxesNine,
-        /// [`boxes::direction::normal`].
+        /// [`boxes::direction::normal`](crate::boxes::direction::normal).
         NormalDirection,
-        /// [`inside::never_inside`].
+        /// [`inside::never_inside`](crate::filter::inside::never_inside).
         InsideFunctions,
     }
 
@@ -57,12 +54,12 @@ mod shown {
         #[inline(always)]
         fn on<P: PairShape, L: Lanes>(self, points: &PairPoints<L>) -> L::Mask {
             match self {
-                Self::SegmentBox if matches!(P::KIND, PairKind::VertexFace) => boxes::segment::misses_face(points),
-                Self::SweptBoxes | Self::SegmentBox => boxes::have_disjoint_swept_boxes::<P, L>(points),
-                Self::RelativeBoxes => boxes::relative::are_apart_along_three_axes::<P, L>(points),
-                Self::RelativeBoxesNine => boxes::relative::are_apart_along_nine_directions::<P, L>(points),
-                Self::NormalDirection => boxes::direction::are_apart_along_normal::<P, L>(points),
-                Self::InsideFunctions => inside::is_outside_of_one_side::<P, L>(points),
+                Self::SweptBoxes => points.have_disjoint_swept_boxes::<P>(),
+                Self::SegmentBox => points.have_disjoint_primitive_boxes::<P>(),
+                Self::RelativeBoxes => points.are_apart_along_three_axes::<P>(),
+                Self::RelativeBoxesNine => points.are_apart_along_nine_directions::<P>(),
+                Self::NormalDirection => points.are_apart_along_normal::<P>(),
+                Self::InsideFunctions => points.are_outside_of_one_side::<P>(),
             }
         }
     }

@@ -29,7 +29,6 @@
 
 mod advance;
 mod chunk;
-#[cfg(feature = "batch")]
 mod compared;
 mod kernels;
 mod lane_test;
@@ -40,7 +39,6 @@ mod simd;
 mod tile;
 
 pub use advance::{Round, RoundQuestion, advance_from_rows};
-#[cfg(feature = "batch")]
 pub use compared::{Compares, Loop, in_lanes};
 pub use fearless_simd::Level;
 #[cfg(not(feature = "verification"))]
@@ -53,9 +51,8 @@ pub use rows::VertexRow;
 pub use tile::{Tile, culled, culled_from_tiles};
 
 use crate::PairKind;
-use crate::coplanarity::MovingTetrahedron;
+use crate::coplanarity::{Bound, Decision, MovingTetrahedron};
 use crate::filter::Filter;
-use crate::filter::certified::{Bound, Decision, decide};
 use crate::lanes::Lanes;
 use crate::points::PairShape;
 use crate::scalar::Scalar;
@@ -81,7 +78,7 @@ impl<S: Scalar> VolumeTest<S> for Bounded<S> {
             #[inline(always)]
             |separation| tetrahedron.p[0].x.splat(separation),
         );
-        decide::<P, L>(self.bound, tetrahedron, separation)
+        tetrahedron.decide::<P>(self.bound, separation)
     }
 }
 
@@ -119,7 +116,7 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
         while open != 0 {
             let lane = open.trailing_zeros();
             open &= open - 1;
-            if S::culls_open(kind, &self, &pairs.points(lane as usize)) {
+            if S::culls_open(&self, &pairs.pair(kind, lane as usize)) {
                 culled |= 1 << lane;
             }
         }

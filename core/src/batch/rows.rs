@@ -1,7 +1,6 @@
 use super::{LANES, Mask};
 use crate::motion::Motion;
 use crate::scalar::Scalar;
-use crate::vector::Vector;
 
 /// A vertex's start and end in one row, `x₀ y₀ z₀ 0 x₁ y₁ z₁ 0`: one load, or two, fetches all of it.
 ///
@@ -24,13 +23,6 @@ impl<S: Scalar> VertexRow<S> {
     pub fn motion(&self) -> Motion<S> {
         let [x, y, z, _, u, v, w, _] = self.0;
         Motion::new(S::Vector::from([x, y, z]), S::Vector::from([u, v, w]))
-    }
-
-    /// The positions at the start and at the end.
-    #[inline(always)]
-    pub(super) fn positions(&self) -> [Vector<S>; 2] {
-        let [x, y, z, _, u, v, w, _] = self.0;
-        [Vector::new(x, y, z), Vector::new(u, v, w)]
     }
 }
 

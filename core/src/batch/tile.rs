@@ -1,9 +1,7 @@
 use super::{BatchTest, LANES, Level, Mask, Sixteen};
 use crate::PairKind;
 use crate::motion::{Motion, PrimitivePair};
-use crate::points::PairShape;
 use crate::scalar::Scalar;
-use crate::vector::Vector;
 
 /// Sixteen pairs side by side: for each of the four points, at the start and at the end, three coordinates of sixteen pairs.
 ///
@@ -24,12 +22,12 @@ impl<S: Scalar> Tile<S> {
     ///
     /// ```
     /// use selvedge_core::batch::{culled_from_tiles, Level, Test, Tile};
-    /// use selvedge_core::{glam::Vec3, PairKind, Motion, PrimitivePair, VertexFace};
-    /// let pairs = [Vec3::ZERO, Vec3::Z].map(|vertex| VertexFace {
-    ///     vertex: Motion::resting(vertex),
-    ///     face: [Vec3::ZERO, Vec3::X, Vec3::Y].map(Motion::resting),
-    /// });
-    /// let tile = Tile::new(pairs.iter().map(PrimitivePair::motions));
+    /// use selvedge_core::{glam::Vec3, PairKind, Motion, PrimitivePair};
+    /// let pairs = [Vec3::ZERO, Vec3::Z].map(|vertex| PrimitivePair::vertex_face(
+    ///     Motion::resting(vertex),
+    ///     [Vec3::ZERO, Vec3::X, Vec3::Y].map(Motion::resting),
+    /// ));
+    /// let tile = Tile::new(pairs.map(|pair| pair.motions));
     /// let mut masks = [0];
     /// culled_from_tiles(Level::baseline(), PairKind::VertexFace, Test::SweptBoxes, &[tile], &mut masks);
     /// assert_eq!(masks, [0b10]);
@@ -58,25 +56,37 @@ impl<S: Scalar> Tile<S> {
         }
     }
 
-    /// The four points of a lane, at the start and at the end; not a number from lane [`LANES`] on.
+    /// The four points of a lane; not a number from lane [`LANES`] on.
     #[inline]
-    pub(super) fn positions(&self, lane: usize) -> [[Vector<S>; 2]; 4] {
+    pub(super) fn motions(&self, lane: usize) -> [Motion<S>; 4] {
         let number = |numbers: &[S; LANES]| match numbers.get(lane) {
             Some(&number) => number,
             None => S::INFINITY * S::ZERO,
         };
-        self.0
-            .each_ref()
-            .map(|ends| ends.each_ref().map(|position| position.each_ref().map(number).into()))
+        let position = |coordinates: &[[S; LANES]; 3]| coordinates.each_ref().map(number).into();
+        self.0.each_ref().map(|[start, end]| Motion {
+            start: position(start),
+            end: position(end),
+        })
     }
 }
 
-/// Which of `pairs` `test` culls, sixteen to a mask. Masks past the last pair are not touched; pairs past the last mask
-/// are not looked at.
-pub fn culled<S: Scalar, P: PrimitivePair<S>>(level: Level, test: impl BatchTest<S>, pairs: &[P], masks: &mut [Mask]) {
+/// Which of `pairs`, of either kind, `test` culls, sixteen to a mask. Masks past the last pair are not touched; pairs past the last
+/// mask are not looked at.
+pub fn culled<S: Scalar>(level: Level, test: impl BatchTest<S>, pairs: &[PrimitivePair<S>], masks: &mut [Mask]) {
     for (pairs, mask) in pairs.chunks(LANES).zip(masks) {
-        let tile = Tile::new(pairs.iter().map(PrimitivePair::motions));
-        *mask = of_tile(level, P::Shape::KIND, test, &tile);
+        *mask = 0;
+        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+            if !pairs.iter().any(|pair| pair.kind == kind) {
+                continue;
+            }
+            // Of the other kind nothing is known, so that it is kept.
+            let mut tile = Tile::unknown();
+            for (lane, pair) in pairs.iter().enumerate().filter(|(_, pair)| pair.kind == kind) {
+                tile.set(lane, pair.motions);
+            }
+            *mask |= of_tile(level, kind, test, &tile);
+        }
     }
 }
 

@@ -4,7 +4,7 @@
 //! every p and x, or negative for all, the sets are apart throughout. [Relative boxes](super::relative) are the case of w
 //! along a coordinate axis. w may come from anywhere, rounded as it likes: the proof is in the signs, computed from the points.
 //!
-//! [`are_apart_along_normal`] takes the pair's own normal in the middle of the step, n₀ + n₁ of
+//! [`normal`] takes the pair's own normal in the middle of the step, n₀ + n₁ of
 //! [`coplanarity`](crate::coplanarity): that of the face, or of the two edges. It culls what non-coplanarity culls while the
 //! normal hardly turns, also where the points do become coplanar outside of the face.
 //!
@@ -30,31 +30,33 @@ use crate::verdict::Verdict;
 /// Certified: never culls what touches. NaN, infinities and overflow keep the pair.
 ///
 /// ```
-/// use selvedge_core::{boxes::{direction, relative}, glam::DVec3, Motion, Verdict, VertexFace};
+/// use selvedge_core::{boxes::{direction, relative}, glam::DVec3, Motion, Verdict, PrimitivePair};
 /// // A vertex that slides past a slanted triangle: no axis separates them, the triangle's normal does.
-/// let pair = VertexFace {
-///     vertex: Motion::new(DVec3::new(0.4, 0.2, 0.5), DVec3::new(0.2, 0.4, 0.5)),
-///     face: [DVec3::X, DVec3::Y, DVec3::Z].map(Motion::resting),
-/// };
+/// let pair = PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(0.4, 0.2, 0.5), DVec3::new(0.2, 0.4, 0.5)),
+///     [DVec3::X, DVec3::Y, DVec3::Z].map(Motion::resting),
+/// );
 /// assert_eq!(relative::three_axes(&pair), Verdict::Kept);
 /// assert_eq!(direction::normal(&pair), Verdict::Culled);
 /// ```
 #[inline(always)]
-pub fn normal<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    Verdict::culled_if(are_apart_along_normal::<P::Shape, S>(&pair.points()))
+pub fn normal<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
+    Verdict::culled_if(of_kind!(pair.kind, P => PairPoints::from(pair).are_apart_along_normal::<P>()))
 }
 
-/// The decision of [`normal`] on any number of lanes.
-#[inline(always)]
-#[must_use]
-pub fn are_apart_along_normal<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
-    let MovingTetrahedron { b, c, p } = points.tetrahedron::<P>();
-    let ([b0, b1], [c0, c1], [p0, p1]) = (b, c, p);
-    let normal = match P::KIND {
-        PairKind::VertexFace => b0.cross(c0) + b1.cross(c1),
-        PairKind::EdgeEdge => (c0 - b0).cross(p0) + (c1 - b1).cross(p1),
-    };
-    are_apart_along(P::corners(points.start), P::corners(points.end), normal)
+impl<L: Lanes> PairPoints<L> {
+    /// The decision of [`normal`] on any number of lanes.
+    #[inline(always)]
+    #[must_use]
+    pub fn are_apart_along_normal<P: PairShape>(&self) -> L::Mask {
+        let MovingTetrahedron { b, c, p } = self.tetrahedron::<P>();
+        let ([b0, b1], [c0, c1], [p0, p1]) = (b, c, p);
+        let normal = match P::KIND {
+            PairKind::VertexFace => b0.cross(c0) + b1.cross(c1),
+            PairKind::EdgeEdge => (c0 - b0).cross(p0) + (c1 - b1).cross(p1),
+        };
+        are_apart_along(P::corners(self.start), P::corners(self.end), normal)
+    }
 }
 
 /// Whether all corners (differences of a point of one set and a point of the other), at both ends of the step, certainly
@@ -81,14 +83,16 @@ fn are_apart_along<L: Lanes>(start: [Vector<L>; 4], end: [Vector<L>; 4], along: 
 #[cfg(test)]
 mod tests {
     use super::normal;
-    use crate::{EdgeEdge, Motion, Verdict, VertexFace};
+    use crate::{Motion, PrimitivePair, Verdict};
     use glam::DVec3;
 
     #[test]
     fn edges_that_pass_at_a_distance_are_culled_and_touching_ones_kept() {
-        let pair = |height: f64| EdgeEdge {
-            first: [DVec3::NEG_X, DVec3::X].map(Motion::resting),
-            second: [DVec3::NEG_Y, DVec3::Y].map(|end| Motion::new(end + height * DVec3::Z, end + 2.0 * height * DVec3::Z)),
+        let pair = |height: f64| {
+            PrimitivePair::edge_edge(
+                [DVec3::NEG_X, DVec3::X].map(Motion::resting),
+                [DVec3::NEG_Y, DVec3::Y].map(|end| Motion::new(end + height * DVec3::Z, end + 2.0 * height * DVec3::Z)),
+            )
         };
         assert_eq!(normal(&pair(0.1)), Verdict::Culled);
         assert_eq!(normal(&pair(-0.1)), Verdict::Culled);
@@ -98,10 +102,10 @@ mod tests {
     #[test]
     fn what_is_not_finite_or_overflows_is_kept() {
         for value in [f64::NAN, f64::INFINITY, f64::MAX] {
-            let pair = VertexFace {
-                vertex: Motion::new(DVec3::Z, DVec3::new(value, 0.0, 1.0)),
-                face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-            };
+            let pair = PrimitivePair::vertex_face(
+                Motion::new(DVec3::Z, DVec3::new(value, 0.0, 1.0)),
+                [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+            );
             assert_eq!(normal(&pair), Verdict::Kept);
         }
     }

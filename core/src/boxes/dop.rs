@@ -7,7 +7,7 @@ use crate::scalar::Scalar;
 ///
 /// Bounds along the diagonals are rounded, and [`overlaps`](Self::overlaps) is exact all the same: see
 /// [why sums may round](super#why-sums-may-round). There, along the axes too, bounds must be a gap of
-/// [`Rounding::SUM_GAP`](crate::Rounding::SUM_GAP) apart, which anything but dust absorbs.
+/// [`Rounding::SUM_GAP`](crate::lanes::Rounding::SUM_GAP) apart, which anything but dust absorbs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dop18<S> {
     lower: [S; 9],

@@ -17,7 +17,7 @@
 //!
 //! Flushing *results* below λ, the smallest normal number, to zero is monotone as well; flushing *operands* is so for a
 //! comparison of coordinates, but not for a sum: λ/2 + λ/2 would become 0. Hence one sum must exceed the other plus
-//! g = [`Rounding::SUM_GAP`](crate::Rounding::SUM_GAP), far above λ and absorbed by whatever is above g/u, which is
+//! g = [`Rounding::SUM_GAP`](crate::lanes::Rounding::SUM_GAP), far above λ and absorbed by whatever is above g/u, which is
 //! anything but dust. Why that suffices, with A = fl(a + b) > fl(Z + g), Z = fl(c + d), when operands are flushed:
 //! * |Z| ≤ g/16u: then A ≥ Z + g/2, and roundings and flushed operands make up less than g/2.
 //! * |Z| > g/16u: A and Z are floating-point numbers, A > Z. At most one operand of a sum of that size is flushed, and the
@@ -73,14 +73,8 @@ macro_rules! values {
 mod aabb;
 pub mod direction;
 mod dop;
-#[cfg(not(feature = "batch"))]
-#[allow(dead_code, unreachable_pub, unused_imports)]
-mod mapping;
 #[cfg(feature = "batch")]
 pub mod mapping;
-#[cfg(not(feature = "batch"))]
-#[allow(dead_code, unreachable_pub, unused_imports)]
-mod moving;
 #[cfg(feature = "batch")]
 pub mod moving;
 pub mod relative;
@@ -99,16 +93,18 @@ use crate::verdict::Verdict;
 ///
 /// NaN and infinite coordinates keep the pair, and so do coordinates so large that their sum overflows.
 #[inline(always)]
-pub fn swept_boxes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    Verdict::culled_if(have_disjoint_swept_boxes::<P::Shape, S>(&pair.points()))
+pub fn swept_boxes<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
+    Verdict::culled_if(of_kind!(pair.kind, P => PairPoints::from(pair).have_disjoint_swept_boxes::<P>()))
 }
 
-/// The same decision on any number of lanes.
-#[inline(always)]
-#[must_use]
-pub fn have_disjoint_swept_boxes<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
-    // The ranges drop NaN, hence the last condition.
-    along_axes!(points, are_disjoint_intervals::<P, L>) & points.is_finite()
+impl<L: Lanes> PairPoints<L> {
+    /// The decision of [`swept_boxes`] on any number of lanes.
+    #[inline(always)]
+    #[must_use]
+    pub fn have_disjoint_swept_boxes<P: PairShape>(&self) -> L::Mask {
+        // The ranges drop NaN, hence the last condition.
+        along_axes!(self, are_disjoint_intervals::<P, L>) & self.is_finite()
+    }
 }
 
 /// Whether the intervals that the two sets' values sweep are disjoint.

@@ -18,19 +18,19 @@ use crate::verdict::Verdict;
 /// Exact. NaN and infinite coordinates keep the pair, and so do coordinates so large that their sum overflows.
 ///
 /// ```
-/// use selvedge_core::{boxes::{relative, swept_boxes}, glam::DVec3, Motion, Verdict, VertexFace};
+/// use selvedge_core::{boxes::{relative, swept_boxes}, glam::DVec3, Motion, Verdict, PrimitivePair};
 /// // A vertex that follows a moving triangle at a distance: their swept boxes overlap, they never meet.
 /// let travel = |point: DVec3| Motion::new(point, point + 10.0 * DVec3::Z);
-/// let pair = VertexFace {
-///     vertex: travel(DVec3::new(0.2, 0.2, 0.1)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(travel),
-/// };
+/// let pair = PrimitivePair::vertex_face(
+///     travel(DVec3::new(0.2, 0.2, 0.1)),
+///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(travel),
+/// );
 /// assert_eq!(swept_boxes(&pair), Verdict::Kept);
 /// assert_eq!(relative::three_axes(&pair), Verdict::Culled);
 /// ```
 #[inline(always)]
-pub fn three_axes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    Verdict::culled_if(are_apart_along_three_axes::<P::Shape, S>(&pair.points()))
+pub fn three_axes<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
+    Verdict::culled_if(of_kind!(pair.kind, P => PairPoints::from(pair).are_apart_along_three_axes::<P>()))
 }
 
 /// [`three_axes`], and the six diagonals x±y, x±z, y±z as well.
@@ -39,33 +39,35 @@ pub fn three_axes<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
 /// documentation of [`boxes`](super)); anything but dust absorbs it. So of pairs whose coordinates are as small as that it keeps
 /// some that [`three_axes`] culls.
 #[inline(always)]
-pub fn nine_directions<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    Verdict::culled_if(are_apart_along_nine_directions::<P::Shape, S>(&pair.points()))
+pub fn nine_directions<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
+    Verdict::culled_if(of_kind!(pair.kind, P => PairPoints::from(pair).are_apart_along_nine_directions::<P>()))
 }
 
-/// The decision of [`three_axes`] on any number of lanes.
-#[inline(always)]
-#[must_use]
-pub fn are_apart_along_three_axes<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
-    // The ranges drop NaN, hence the last condition.
-    along_axes!(points, keep_order::<P, L>) & points.is_finite()
-}
-
-/// The decision of [`nine_directions`] on any number of lanes.
-#[inline(always)]
-#[must_use]
-pub fn are_apart_along_nine_directions<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
-    macro_rules! along {
-        ($p:ident => $value:expr) => {
-            keep_order_of_sums::<P, L>(values!(points.start, |$p| $value), values!(points.end, |$p| $value))
-        };
+impl<L: Lanes> PairPoints<L> {
+    /// The decision of [`three_axes`] on any number of lanes.
+    #[inline(always)]
+    #[must_use]
+    pub fn are_apart_along_three_axes<P: PairShape>(&self) -> L::Mask {
+        // The ranges drop NaN, hence the last condition.
+        along_axes!(self, keep_order::<P, L>) & self.is_finite()
     }
-    // Coordinates with the gap, as if they were sums: see "compilers" in the documentation of `boxes`.
-    let axes = along!(p => p.x) | along!(p => p.y) | along!(p => p.z);
-    let diagonals = (along!(p => p.x + p.y) | along!(p => p.x - p.y))
-        | (along!(p => p.x + p.z) | along!(p => p.x - p.z))
-        | (along!(p => p.y + p.z) | along!(p => p.y - p.z));
-    (axes | diagonals) & points.is_finite()
+
+    /// The decision of [`nine_directions`] on any number of lanes.
+    #[inline(always)]
+    #[must_use]
+    pub fn are_apart_along_nine_directions<P: PairShape>(&self) -> L::Mask {
+        macro_rules! along {
+            ($p:ident => $value:expr) => {
+                keep_order_of_sums::<P, L>(values!(self.start, |$p| $value), values!(self.end, |$p| $value))
+            };
+        }
+        // Coordinates with the gap, as if they were sums: see "compilers" in the documentation of `boxes`.
+        let axes = along!(p => p.x) | along!(p => p.y) | along!(p => p.z);
+        let diagonals = (along!(p => p.x + p.y) | along!(p => p.x - p.y))
+            | (along!(p => p.x + p.z) | along!(p => p.x - p.z))
+            | (along!(p => p.y + p.z) | along!(p => p.y - p.z));
+        (axes | diagonals) & self.is_finite()
+    }
 }
 
 /// Whether one set's values are all above the other's at the start, and at the end too.

@@ -20,27 +20,38 @@
 //! Strict inequalities: what touches is kept, and d = 0 gives 0 > η, which is false.
 
 use super::{Aabb, are_beyond};
+use crate::PairKind;
 use crate::coplanarity::is_in_range;
 use crate::lanes::{Lanes, Rounding};
-use crate::motion::{Motion, PrimitivePair, VertexFace};
-use crate::points::PairPoints;
+use crate::motion::{Motion, PrimitivePair};
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 use crate::verdict::Verdict;
 
-/// Culls `pair` if the vertex's path misses the axis-aligned box that the face sweeps (the paper, stage 1; *disengaging
-/// shaft* there is the separating axis).
+/// Culls `pair` if the vertex's path misses the axis-aligned box that the face sweeps; of two edges if
+/// [their swept boxes](super::swept_boxes) do not overlap (the paper, stage 1; *disengaging shaft* there is the separating axis).
 ///
 /// Certified: never culls if the path and the box share a point. NaN, infinities and overflow keep the pair.
 #[inline]
-pub fn vertex_face<S: Scalar>(pair: &VertexFace<S>) -> Verdict {
-    Verdict::culled_if(misses_face(&pair.points()))
+pub fn primitive_boxes<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
+    Verdict::culled_if(of_kind!(pair.kind, P => PairPoints::from(pair).have_disjoint_primitive_boxes::<P>()))
 }
 
-/// The decision of [`vertex_face`] on any number of lanes.
+impl<L: Lanes> PairPoints<L> {
+    /// The decision of [`primitive_boxes`] on any number of lanes.
+    #[inline(always)]
+    #[must_use]
+    pub fn have_disjoint_primitive_boxes<P: PairShape>(&self) -> L::Mask {
+        match P::KIND {
+            PairKind::VertexFace => vertex_misses_face(self),
+            PairKind::EdgeEdge => self.have_disjoint_swept_boxes::<P>(),
+        }
+    }
+}
+
 #[inline(always)]
-#[must_use]
-pub fn misses_face<L: Lanes>(points: &PairPoints<L>) -> L::Mask {
+fn vertex_misses_face<L: Lanes>(points: &PairPoints<L>) -> L::Mask {
     let ([p, a0, b0, c0], [q, a1, b1, c1]) = (points.start, points.end);
     let lower = a0.smaller(b0).smaller(c0).smaller(a1.smaller(b1).smaller(c1));
     let upper = a0.larger(b0).larger(c0).larger(a1.larger(b1).larger(c1));

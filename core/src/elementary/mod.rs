@@ -9,5 +9,5 @@ pub mod advance;
 pub mod contact;
 mod impact;
 
-pub use contact::{Contact, Evidence, contact};
+pub use contact::{Contact, contact};
 pub use impact::{Impact, Limits, Reason};

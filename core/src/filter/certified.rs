@@ -8,25 +8,15 @@
 //! only for values that have one sign and do not clear the cheap bound by magnitudes, which is hardly ever: so the
 //! cheap bound is asked first.
 
-use crate::coplanarity::{ControlValues, MovingTetrahedron, error_bound_by_magnitudes, is_in_range, zero_if_finite};
+use crate::coplanarity::{
+    Bound, ControlValues, Decision, MovingTetrahedron, error_bound_by_magnitudes, is_in_range, zero_if_finite,
+};
 use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
-use crate::points::PairShape;
+use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 use crate::verdict::Verdict;
-
-/// How the rounding error of the control values is bounded, the cheapest and loosest first. See
-/// [`coplanarity`](crate::coplanarity#rounding).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Bound {
-    /// From the largest components of the tetrahedron's three edges.
-    MagnitudesByEdge,
-    /// From the largest components along each axis.
-    MagnitudesByAxis,
-    /// From the permanent of each control value, where [`MagnitudesByAxis`](Self::MagnitudesByAxis) does not decide.
-    Permanent,
-}
 
 /// Culls `pair` if its four points are certainly not coplanar at any time in [0, 1]. The bound is the
 /// [`Permanent`](Bound::Permanent).
@@ -35,55 +25,43 @@ pub enum Bound {
 /// zero-length edges and zero-area triangles, whose volume is zero.
 ///
 /// ```
-/// use selvedge_core::{filter::certified::non_coplanarity, glam::Vec3, EdgeEdge, Motion, Verdict};
-/// let crossing = EdgeEdge {
-///     first: [Vec3::NEG_X, Vec3::X].map(Motion::resting),
-///     second: [Vec3::NEG_Y, Vec3::Y].map(|end| Motion::new(end + Vec3::Z, end - Vec3::Z)),
-/// };
+/// use selvedge_core::{filter::certified::non_coplanarity, glam::Vec3, PrimitivePair, Motion, Verdict};
+/// let crossing = PrimitivePair::edge_edge(
+///     [Vec3::NEG_X, Vec3::X].map(Motion::resting),
+///     [Vec3::NEG_Y, Vec3::Y].map(|end| Motion::new(end + Vec3::Z, end - Vec3::Z)),
+/// );
 /// assert_eq!(non_coplanarity(&crossing), Verdict::Kept);
 /// ```
 #[inline(always)]
-pub fn non_coplanarity<S: Scalar>(pair: &impl PrimitivePair<S>) -> Verdict {
-    Verdict::culled_if(is_never_coplanar(Bound::Permanent, &pair.tetrahedron()))
+pub fn non_coplanarity<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
+    Verdict::culled_if(of_kind!(pair.kind, P => PairPoints::from(pair).tetrahedron::<P>().is_never_coplanar(Bound::Permanent)))
 }
 
-/// The decision on a tetrahedron of any number of lanes: true proves that the lane's points are never coplanar in [0, 1].
-#[inline(always)]
-#[must_use]
-pub fn is_never_coplanar<L: Lanes>(bound: Bound, tetrahedron: &MovingTetrahedron<L>) -> L::Mask {
-    decide_beyond(bound, tetrahedron, None).culled
-}
+impl<L: Lanes> MovingTetrahedron<L> {
+    /// The decision on any number of lanes: true proves that the lane's points are never coplanar in [0, 1].
+    #[inline(always)]
+    #[must_use]
+    pub fn is_never_coplanar(&self, bound: Bound) -> L::Mask {
+        decide_beyond(bound, self, None).culled
+    }
 
-/// What control values and their error bounds tell of a lane's pair. If neither, they leave it undecided.
-#[derive(Clone, Copy, Debug)]
-pub struct Decision<M> {
-    /// All beyond their bounds, with one sign.
-    pub culled: M,
-    /// No sharper bound can cull: two of them are beyond their bounds with opposite signs, or all are zero since the pair
-    /// has no extent along an axis. Only with [`Bound::Permanent`].
-    pub settled: M,
-}
-
-/// The decision with a separation s on any number of lanes: `culled` proves that at no time in [0, 1] the vertex is within s
-/// of the face's plane, or the line of one edge within s of the other's.
-///
-/// The separation must be positive and finite; `None` is zero, and then the shape of the pair does not matter.
-#[inline(always)]
-#[must_use]
-pub fn decide<P: PairShape, L: Lanes>(
-    bound: Bound,
-    tetrahedron: &MovingTetrahedron<L>,
-    separation: Option<L>,
-) -> Decision<L::Mask> {
-    #[allow(
-        clippy::manual_map,
-        reason = "a closure is not always inlined into code for a wider instruction set"
-    )]
-    let clearance = match separation {
-        Some(separation) => Some(separation * tetrahedron.largest_normal(P::KIND)),
-        None => None,
-    };
-    decide_beyond(bound, tetrahedron, clearance)
+    /// The decision with a separation s on any number of lanes: `culled` proves that at no time in [0, 1] the vertex is within s
+    /// of the face's plane, or the line of one edge within s of the other's.
+    ///
+    /// The separation must be positive and finite; `None` is zero, and then the kind of the pair does not matter.
+    #[inline(always)]
+    #[must_use]
+    pub fn decide<P: PairShape>(&self, bound: Bound, separation: Option<L>) -> Decision<L::Mask> {
+        #[allow(
+            clippy::manual_map,
+            reason = "a closure is not always inlined into code for a wider instruction set"
+        )]
+        let clearance = match separation {
+            Some(separation) => Some(separation * self.largest_normal(P::KIND)),
+            None => None,
+        };
+        decide_beyond(bound, self, clearance)
+    }
 }
 
 /// Whether the control values all exceed their error bounds and the clearance, with one sign.

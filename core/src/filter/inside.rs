@@ -46,49 +46,51 @@ use crate::verdict::Verdict;
 /// Certified: never culls what touches. NaN, infinite and very large coordinates keep the pair.
 ///
 /// ```
-/// use selvedge_core::{filter::{certified, inside}, glam::DVec3, Motion, Verdict, VertexFace};
+/// use selvedge_core::{filter::{certified, inside}, glam::DVec3, Motion, Verdict, PrimitivePair};
 /// // A vertex that falls through the plane of a resting triangle, beside it.
-/// let pair = VertexFace {
-///     vertex: Motion::new(DVec3::new(0.8, 0.8, 1.0), DVec3::new(0.8, 0.8, -1.0)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-/// };
+/// let pair = PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(0.8, 0.8, 1.0), DVec3::new(0.8, 0.8, -1.0)),
+///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// );
 /// assert_eq!(certified::non_coplanarity(&pair), Verdict::Kept);
 /// assert_eq!(inside::never_inside(&pair), Verdict::Culled);
 /// ```
 #[inline(always)]
-pub fn never_inside<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    Verdict::culled_if(is_outside_of_one_side::<P::Shape, S>(&pair.points()))
+pub fn never_inside<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
+    Verdict::culled_if(of_kind!(pair.kind, P => PairPoints::from(pair).are_outside_of_one_side::<P>()))
 }
 
-/// The decision of [`never_inside`] on any number of lanes.
-#[inline(always)]
-#[must_use]
-pub fn is_outside_of_one_side<P: PairShape, L: Lanes>(points: &PairPoints<L>) -> L::Mask {
-    let [a0, b0, c0, d0] = P::corners(points.start);
-    let [a1, b1, c1, d1] = P::corners(points.end);
-    let extent = a0.abs().larger(b0.abs()).larger(c0.abs().larger(d0.abs()));
-    let extent = extent.larger(a1.abs().larger(b1.abs()).larger(c1.abs().larger(d1.abs())));
-    let limit = Limit::of(extent);
-    let (a, b, c, d) = ([a0, a1], [b0, b1], [c0, c1], [d0, d1]);
-    let outside = match P::KIND {
-        // The first corner stands twice.
-        PairKind::VertexFace => {
-            let (first, second, third) = (Turn::of(b, c), Turn::of(c, d), Turn::of(d, b));
-            let all = first.plus(&second).plus(&third);
-            first.is_negative(&all, &limit) | second.is_negative(&all, &limit) | third.is_negative(&all, &limit)
-        }
-        // 00, 01, 11, 10: the last two stand in the other order.
-        PairKind::EdgeEdge => {
-            let (first, second) = (Turn::of(a, b), Turn::of(b, d));
-            let (third, fourth) = (Turn::of(d, c), Turn::of(c, a));
-            let all = first.plus(&second).plus(&third.plus(&fourth));
-            (first.is_negative(&all, &limit) | second.is_negative(&all, &limit))
-                | (third.is_negative(&all, &limit) | fourth.is_negative(&all, &limit))
-        }
-    };
-    let largest = extent.largest();
-    let half = largest.splat(L::Scalar::HALF) * largest.splat(L::Scalar::LARGEST_EDGE);
-    outside & half.greater(largest) & points.is_finite()
+impl<L: Lanes> PairPoints<L> {
+    /// The decision of [`never_inside`] on any number of lanes.
+    #[inline(always)]
+    #[must_use]
+    pub fn are_outside_of_one_side<P: PairShape>(&self) -> L::Mask {
+        let [a0, b0, c0, d0] = P::corners(self.start);
+        let [a1, b1, c1, d1] = P::corners(self.end);
+        let extent = a0.abs().larger(b0.abs()).larger(c0.abs().larger(d0.abs()));
+        let extent = extent.larger(a1.abs().larger(b1.abs()).larger(c1.abs().larger(d1.abs())));
+        let limit = Limit::of(extent);
+        let (a, b, c, d) = ([a0, a1], [b0, b1], [c0, c1], [d0, d1]);
+        let outside = match P::KIND {
+            // The first corner stands twice.
+            PairKind::VertexFace => {
+                let (first, second, third) = (Turn::of(b, c), Turn::of(c, d), Turn::of(d, b));
+                let all = first.plus(&second).plus(&third);
+                first.is_negative(&all, &limit) | second.is_negative(&all, &limit) | third.is_negative(&all, &limit)
+            }
+            // 00, 01, 11, 10: the last two stand in the other order.
+            PairKind::EdgeEdge => {
+                let (first, second) = (Turn::of(a, b), Turn::of(b, d));
+                let (third, fourth) = (Turn::of(d, c), Turn::of(c, a));
+                let all = first.plus(&second).plus(&third.plus(&fourth));
+                (first.is_negative(&all, &limit) | second.is_negative(&all, &limit))
+                    | (third.is_negative(&all, &limit) | fourth.is_negative(&all, &limit))
+            }
+        };
+        let largest = extent.largest();
+        let half = largest.splat(L::Scalar::HALF) * largest.splat(L::Scalar::LARGEST_EDGE);
+        outside & half.greater(largest) & self.is_finite()
+    }
 }
 
 /// −T, −4T and −6T of the module's documentation.
@@ -157,15 +159,15 @@ impl<L: Lanes> Turn<L> {
 #[cfg(test)]
 mod tests {
     use super::never_inside;
-    use crate::{EdgeEdge, Motion, Verdict, VertexFace};
+    use crate::{Motion, PrimitivePair, Verdict};
     use glam::DVec3;
 
     /// Through the plane z = 0 at (x, y), where the triangle is x, y ≥ 0, x + y ≤ 1.
-    fn fall(x: f64, y: f64) -> VertexFace<f64> {
-        VertexFace {
-            vertex: Motion::new(DVec3::new(x, y, 1.0), DVec3::new(x, y, -1.0)),
-            face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-        }
+    fn fall(x: f64, y: f64) -> PrimitivePair<f64> {
+        PrimitivePair::vertex_face(
+            Motion::new(DVec3::new(x, y, 1.0), DVec3::new(x, y, -1.0)),
+            [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+        )
     }
 
     #[test]
@@ -180,12 +182,14 @@ mod tests {
 
     #[test]
     fn edges_that_cross_beyond_their_ends_are_culled_and_touching_ones_kept() {
-        let pair = |x: f64| EdgeEdge {
-            first: [DVec3::NEG_X, DVec3::X].map(Motion::resting),
-            second: [DVec3::NEG_Y, DVec3::Y].map(|end| {
-                let end = end + x * DVec3::X;
-                Motion::new(end + DVec3::Z, end - DVec3::Z)
-            }),
+        let pair = |x: f64| {
+            PrimitivePair::edge_edge(
+                [DVec3::NEG_X, DVec3::X].map(Motion::resting),
+                [DVec3::NEG_Y, DVec3::Y].map(|end| {
+                    let end = end + x * DVec3::X;
+                    Motion::new(end + DVec3::Z, end - DVec3::Z)
+                }),
+            )
         };
         for x in [1.5, -1.5] {
             assert_eq!(never_inside(&pair(x)), Verdict::Culled);
@@ -201,7 +205,8 @@ mod tests {
             assert_eq!(never_inside(&fall(value, 0.1)), Verdict::Kept, "{value}");
         }
         let mut flat = fall(3.0, 3.0);
-        flat.face = [DVec3::ZERO, DVec3::X, 2.0 * DVec3::X].map(Motion::resting);
+        let [a, b, c] = [DVec3::ZERO, DVec3::X, 2.0 * DVec3::X].map(Motion::resting);
+        flat.motions = [flat.motions[0], a, b, c];
         assert_eq!(never_inside(&flat), Verdict::Kept);
     }
 
@@ -209,12 +214,11 @@ mod tests {
     fn beyond_half_of_the_largest_edge_everything_is_kept() {
         // The corners' largest coordinate is twice the size.
         let sized = |size: f64| {
-            let VertexFace { vertex, face } = fall(-1.0, -1.0);
-            let scaled = |motion: Motion<f64>| Motion::new(motion.start * size, motion.end * size);
-            VertexFace {
-                vertex: scaled(vertex),
-                face: face.map(scaled),
+            let mut pair = fall(-1.0, -1.0);
+            for motion in &mut pair.motions {
+                *motion = Motion::new(motion.start * size, motion.end * size);
             }
+            pair
         };
         let half = 2.0_f64.powi(249);
         assert_eq!(never_inside(&sized(0.49 * half)), Verdict::Culled);

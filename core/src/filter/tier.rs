@@ -1,14 +1,12 @@
 //! One choice for all non-coplanarity filters.
 
-use super::certified::{Bound, decide};
 use super::subdivided::{self, Depth};
 use super::widened;
-use crate::batch::Mask;
-use crate::coplanarity::is_in_range;
+use crate::coplanarity::{Bound, MovingTetrahedron, is_in_range};
 use crate::exact;
 use crate::lanes::Rounding;
 use crate::motion::PrimitivePair;
-use crate::points::{PairPoints, PairShape};
+use crate::points::PairPoints;
 use crate::scalar::Scalar;
 use crate::verdict::Verdict;
 
@@ -51,9 +49,9 @@ impl Tier {
     ];
 
     /// Which of the pairs that its bound has or has not culled it looks at again: none, those undecided, or all that are
-    /// kept.
+    /// kept. One bit for each pair.
     #[inline(always)]
-    pub(crate) fn open(self, culled: Mask, settled: Mask) -> Mask {
+    pub(crate) fn open(self, culled: u16, settled: u16) -> u16 {
         match self {
             Self::MagnitudesByEdge | Self::MagnitudesByAxis | Self::Permanent => 0,
             Self::Widened | Self::Exact => !(culled | settled),
@@ -74,20 +72,20 @@ impl Tier {
 /// A non-coplanarity filter: its [`Tier`], and the separation that pairs must keep.
 ///
 /// Certified in every floating-point environment
-/// ([`Rounding`](crate::Rounding)): a pair that it culls is, at no time in [0, 1], coplanar, or within the separation.
+/// ([`Rounding`](crate::lanes::Rounding)): a pair that it culls is, at no time in [0, 1], coplanar, or within the separation.
 /// ([`Tier::Subdivided`]: does not touch, or come within the separation.) NaN, infinities and coordinates whose
-/// differences exceed [`LARGEST_EDGE`](crate::Rounding::LARGEST_EDGE) keep the pair, except that [`Tier::Exact`] knows no
+/// differences exceed [`LARGEST_EDGE`](crate::lanes::Rounding::LARGEST_EDGE) keep the pair, except that [`Tier::Exact`] knows no
 /// such limit.
 ///
 /// ```
 /// use selvedge_core::filter::{Filter, Tier};
-/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+/// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
 ///
 /// // A vertex that sinks from 0.3 to 0.1 above a triangle.
-/// let pair = VertexFace {
-///     vertex: Motion::new(DVec3::new(0.2, 0.2, 0.3), DVec3::new(0.2, 0.2, 0.1)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-/// };
+/// let pair = PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(0.2, 0.2, 0.3), DVec3::new(0.2, 0.2, 0.1)),
+///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// );
 /// let filter = Filter::new(Tier::Permanent);
 /// assert!(filter.verdict(&pair).is_culled());
 /// assert!(filter.with_separation(0.09).unwrap().verdict(&pair).is_culled());
@@ -142,43 +140,41 @@ impl<S: Scalar> Filter<S> {
 
     /// Culls `pair`, or keeps it.
     #[inline]
-    pub fn verdict<P: PrimitivePair<S>>(&self, pair: &P) -> Verdict {
-        let points = pair.points();
-        let decision = decide::<P::Shape, S>(
-            self.tier.bound(),
-            &points.tetrahedron::<P::Shape>(),
-            self.positive_separation(),
-        );
-        let culled = Mask::from(decision.culled);
-        let is_open = self.tier.open(culled, Mask::from(decision.settled)) & 1 != 0;
-        Verdict::culled_if(decision.culled || is_open && self.culls_open::<P::Shape>(&points))
+    pub fn verdict(&self, pair: &PrimitivePair<S>) -> Verdict {
+        let (bound, separation) = (self.tier.bound(), self.positive_separation());
+        let points = PairPoints::from(pair);
+        let decision = of_kind!(pair.kind, P => points.tetrahedron::<P>().decide::<P>(bound, separation));
+        let culled = u16::from(decision.culled);
+        let is_open = self.tier.open(culled, u16::from(decision.settled)) & 1 != 0;
+        Verdict::culled_if(decision.culled || is_open && self.culls_open(pair))
     }
 
     /// What the tier does with one pair that is [open](Tier::open).
     #[cold]
-    pub(crate) fn culls_open<P: PairShape>(&self, points: &PairPoints<S>) -> bool {
+    pub(crate) fn culls_open(&self, pair: &PrimitivePair<S>) -> bool {
         match self.tier {
             Tier::MagnitudesByEdge | Tier::MagnitudesByAxis | Tier::Permanent => false,
-            Tier::Widened => {
-                S::UNIT_ROUNDOFF.to_f64() > f64::UNIT_ROUNDOFF && widened::culls::<P, S>(points, self.positive_separation())
+            Tier::Widened => S::UNIT_ROUNDOFF.to_f64() > f64::UNIT_ROUNDOFF && widened::culls(pair, self.positive_separation()),
+            Tier::Subdivided(depth) => {
+                let points = PairPoints::from(pair);
+                of_kind!(pair.kind, P => subdivided::never_touches::<P, S>(&points, self.separation, depth))
             }
-            Tier::Subdivided(depth) => subdivided::never_touches::<P, S>(points, self.separation, depth),
-            Tier::Exact => self.culls_exactly::<P>(points),
+            Tier::Exact => self.culls_exactly(pair),
         }
     }
 
     /// By the exact signs, of which those that rounding leaves certain are not computed again.
-    fn culls_exactly<P: PairShape>(&self, points: &PairPoints<S>) -> bool {
+    fn culls_exactly(&self, pair: &PrimitivePair<S>) -> bool {
         if let Some(separation) = self.positive_separation() {
-            return exact::is_never_within::<P, S>(points, separation, exact::UNKNOWN);
+            return exact::is_never_within(pair, separation, exact::UNKNOWN);
         }
-        let tetrahedron = points.tetrahedron::<P>();
+        let tetrahedron = MovingTetrahedron::from(pair);
         let known = if is_in_range(tetrahedron.largest_by_axis().largest()) {
             exact::certain_signs(&tetrahedron.control_values(), tetrahedron.error_bounds())
         } else {
             exact::UNKNOWN
         };
-        exact::is_never_coplanar::<P, S>(points, known)
+        exact::is_never_coplanar(pair, known)
     }
 }
 

@@ -24,7 +24,7 @@
 
 use crate::kind::PairKind;
 use crate::lanes::Rounding;
-use crate::points::{EdgeAndEdge, PairShape, VertexAndFace};
+use crate::points::PairShape;
 use crate::scalar::{Position, Scalar};
 use crate::vector::Vector;
 
@@ -78,10 +78,7 @@ pub fn gap<P: Position>(kind: PairKind, points: [P; 4], direction: [P::Scalar; 3
         direction.dot(Vector::from(c.into())),
         direction.dot(Vector::from(d.into())),
     ];
-    let [[low, _], [_, high]] = match kind {
-        PairKind::VertexFace => VertexAndFace::ranges(values),
-        PairKind::EdgeEdge => EdgeAndEdge::ranges(values),
-    };
+    let [[low, _], [_, high]] = of_kind!(kind, K => K::ranges(values));
     low - high
 }
 

@@ -1,8 +1,8 @@
 use super::pair::{self, Numbers};
 use selvedge::PairKind;
 use selvedge::core::Verdict;
-use selvedge::core::coplanarity::MovingTetrahedron;
-use selvedge::core::filter::certified::{Bound, is_never_coplanar, non_coplanarity};
+use selvedge::core::filter::certified::non_coplanarity;
+use selvedge::core::verification::coplanarity::Bound;
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::coplanar;
 
@@ -28,10 +28,7 @@ fn check<S: Format>(case: &PairCase<S>) {
 }
 
 fn verdict<S: Format>(case: &PairCase<S>) -> Verdict {
-    match case.kind {
-        PairKind::VertexFace => non_coplanarity(&case.vertex_face()),
-        PairKind::EdgeEdge => non_coplanarity(&case.edge_edge()),
-    }
+    non_coplanarity(&case.pair())
 }
 
 /// Coordinates below 2⁶: differences are below 2⁷ and all intermediate results below 2²⁷, exact in `f64`; and the error
@@ -41,8 +38,7 @@ fn whole_numbers(points: &[[[i8; 3]; 2]; 4]) {
     let case = PairCase::<f64>::new(PairKind::VertexFace, points.map(|ends| ends.map(double)));
     let expected = one_sign(tripled_control_values(points));
     assert_eq!(verdict(&case).is_culled(), expected, "{case:?}");
-    let tetrahedron: MovingTetrahedron<f64> = case.tetrahedron();
-    assert_eq!(is_never_coplanar(Bound::Permanent, &tetrahedron), expected);
+    assert_eq!(case.tetrahedron().is_never_coplanar(Bound::Permanent), expected);
 }
 
 fn one_sign(values: [i64; 4]) -> bool {

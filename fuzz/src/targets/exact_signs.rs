@@ -1,9 +1,8 @@
 use super::pair::{self, Numbers};
 use rug::{Integer, Rational};
-use selvedge::PairKind;
-use selvedge::core::PrimitivePair;
-use selvedge::core::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar};
-use selvedge::core::points::{EdgeAndEdge, PairShape, VertexAndFace};
+use selvedge::core::verification::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar};
+use selvedge::core::verification::of_kind;
+use selvedge::core::verification::points::PairShape;
 use selvedge_verification::generator::{Format, PairCase};
 use std::cmp::Ordering;
 
@@ -17,39 +16,33 @@ pub fn exact_signs(data: &[u8]) {
 }
 
 fn check<S: Format>(case: &PairCase<S>) {
-    match case.kind {
-        PairKind::VertexFace => check_pair::<VertexAndFace, S, _>(case, &case.vertex_face()),
-        PairKind::EdgeEdge => check_pair::<EdgeAndEdge, S, _>(case, &case.edge_edge()),
-    }
-}
-
-fn check_pair<Q: PairShape, S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, pair: &P) {
-    let points = pair.points();
-    let computed = control_value_signs::<Q, S>(&points);
+    let pair = &case.pair();
+    let computed = control_value_signs(pair);
     if !case.is_finite() {
         assert_eq!(computed, None, "{case:?}");
-        assert!(!is_never_coplanar::<Q, S>(&points, UNKNOWN), "{case:?}");
+        assert!(!is_never_coplanar(pair, UNKNOWN), "{case:?}");
         return;
     }
     // The volume of the four points in the order of `PairShape::volume_points`: a, b, c, p.
     let at = |end: usize| {
         let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
-        Q::volume_points(case.points.map(|point| point[end].map(exact)))
+        let points = case.points.map(|point| point[end].map(exact));
+        of_kind!(case.kind, P => P::volume_points(points))
     };
     let expected = signs([at(0), at(1)]);
     assert_eq!(computed, Some(expected), "{case:?}");
     let has_one_sign = expected[0].is_ne() && expected.iter().all(|&sign| sign == expected[0]);
-    assert_eq!(is_never_coplanar::<Q, S>(&points, UNKNOWN), has_one_sign, "{case:?}");
+    assert_eq!(is_never_coplanar(pair, UNKNOWN), has_one_sign, "{case:?}");
 
     // Within range, signs that clear their error bounds are right, and may be handed over.
-    let tetrahedron = pair.tetrahedron();
+    let tetrahedron = case.tetrahedron();
     let largest = tetrahedron.largest_by_axis().largest();
-    if selvedge::core::coplanarity::is_in_range(largest) {
+    if selvedge::core::verification::coplanarity::is_in_range(largest) {
         let known = certain_signs(&tetrahedron.control_values(), tetrahedron.error_bounds());
         for (known, expected) in known.iter().zip(expected) {
             assert!(known.is_none_or(|sign| sign == expected), "{case:?}");
         }
-        assert_eq!(is_never_coplanar::<Q, S>(&points, known), has_one_sign, "{case:?}");
+        assert_eq!(is_never_coplanar(pair, known), has_one_sign, "{case:?}");
     }
 }
 

@@ -1,9 +1,7 @@
 use super::pair::{self, Numbers};
 use selvedge::PairKind;
-use selvedge::core::PrimitivePair;
 use selvedge::core::elementary::{Contact, contact};
-use selvedge::core::exact::touches;
-use selvedge::core::points::{EdgeAndEdge, VertexAndFace};
+use selvedge::core::verification::exact::touches;
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::collides;
 
@@ -41,20 +39,11 @@ fn check<S: Format>(case: &PairCase<S>) {
 
 /// After floating point, and in whole numbers alone.
 fn verdicts<S: Format>(case: &PairCase<S>) -> [Contact; 2] {
-    let (verdict, touches) = match case.kind {
-        PairKind::VertexFace => {
-            let pair = case.vertex_face();
-            (contact(&pair), touches::<VertexAndFace, S>(&pair.points()))
-        }
-        PairKind::EdgeEdge => {
-            let pair = case.edge_edge();
-            (contact(&pair), touches::<EdgeAndEdge, S>(&pair.points()))
-        }
-    };
-    let in_whole_numbers = match touches {
+    let pair = case.pair();
+    let in_whole_numbers = match touches(&pair) {
         Some(true) => Contact::Happens,
         Some(false) => Contact::Never,
         None => Contact::Undefined,
     };
-    [verdict, in_whole_numbers]
+    [contact(&pair), in_whole_numbers]
 }

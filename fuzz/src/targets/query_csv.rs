@@ -1,6 +1,7 @@
 use super::message;
 use rug::{Integer, Rational};
 use selvedge::PairKind;
+use selvedge::glam::DVec3;
 use selvedge_files::queries::{Query, QueryFile, read_from};
 use std::fmt::Write;
 use std::path::Path;
@@ -38,9 +39,14 @@ fn read(data: &[u8]) -> Result<QueryFile, selvedge_files::queries::QueryError> {
 }
 
 /// In the order of the file.
+fn points(query: &Query) -> impl Iterator<Item = DVec3> {
+    let motions = query.pair.motions;
+    let start = motions.into_iter().map(|motion| motion.start);
+    start.chain(motions.into_iter().map(|motion| motion.end))
+}
+
 fn coordinates(query: &Query) -> impl Iterator<Item = f64> {
-    let points = query.start.into_iter().chain(query.end);
-    points.flat_map(|point| point.to_array())
+    points(query).flat_map(|point| point.to_array())
 }
 
 fn bits(query: &Query) -> impl Iterator<Item = u64> {
@@ -81,7 +87,7 @@ fn assert_nearest(value: f64, ratio: &Rational) {
 fn read_again(file: &QueryFile) -> QueryFile {
     let mut text = String::new();
     for query in &file.queries {
-        for point in query.start.iter().chain(&query.end) {
+        for point in points(query) {
             let fields = point.to_array().map(|x| {
                 let ratio = Rational::from_f64(x).expect("finite");
                 format!("{},{}", ratio.numer(), ratio.denom())

@@ -1,7 +1,6 @@
 use super::pair::{self, Numbers};
-use selvedge::PairKind;
 use selvedge::core::PrimitivePair;
-use selvedge::core::elementary::advance::confirm::certain_contact;
+use selvedge::core::elementary::advance::certain_contact;
 use selvedge::core::elementary::advance::{ROUNDS, time_of_impact_and_work};
 use selvedge::core::elementary::{Impact, Limits};
 use selvedge_verification::generator::{Format, PairCase};
@@ -29,19 +28,11 @@ fn check<S: Format>(case: &PairCase<S>, exponent: i32) {
     let size = if high > 0.0 { S::from_f64(high).made_finite() } else { S::ONE };
     let mut first = None;
     for tolerance in [S::ZERO, size * S::exact(1, -exponent)] {
-        match case.kind {
-            PairKind::VertexFace => check_pair(case, &case.vertex_face(), tolerance, &mut first),
-            PairKind::EdgeEdge => check_pair(case, &case.edge_edge(), tolerance, &mut first),
-        }
+        check_pair(case, &case.pair(), tolerance, &mut first);
     }
 }
 
-fn check_pair<S: Format, P: PrimitivePair<S>>(
-    case: &PairCase<S>,
-    pair: &P,
-    tolerance: S,
-    first: &mut Option<Option<AlgebraicTime>>,
-) {
+fn check_pair<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, tolerance: S, first: &mut Option<Option<AlgebraicTime>>) {
     let limits = Limits {
         tolerance,
         separation: S::ZERO,

@@ -8,11 +8,11 @@ use selvedge::core::batch::{
     LANES, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows, culled, culled_from_rows, culled_from_tiles,
 };
 use selvedge::core::boxes::{direction, relative, segment, swept_boxes};
-use selvedge::core::elementary::advance::confirm::certain_contact;
+use selvedge::core::elementary::advance::certain_contact;
 use selvedge::core::elementary::advance::{time_of_impact, time_of_impact_within};
 use selvedge::core::elementary::{Impact, Limits, contact};
 use selvedge::core::filter::{Depth, Filter, Tier, inside};
-use selvedge::core::{EdgeEdge, Motion, PrimitivePair, VertexFace};
+use selvedge::core::{Motion, PrimitivePair};
 use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, PairKind, Scalar, Topology};
 
 /// What a thread of a pool has at least, everywhere.
@@ -93,7 +93,7 @@ fn motions<S: Scalar>(random: &mut Random, case: usize) -> [Motion<S>; 4] {
 }
 
 /// Every test of one pair.
-fn ask_of_pair<S: Scalar, P: PrimitivePair<S>>(pair: &P, digest: &mut Digest) {
+fn ask_of_pair<S: Scalar>(pair: &PrimitivePair<S>, digest: &mut Digest) {
     let eighth = S::from_f64(0.125);
     for tier in tiers() {
         let filter = Filter::<S>::new(tier);
@@ -135,15 +135,15 @@ fn tiers() -> [Tier; 6] {
 }
 
 /// Every test and round of many pairs at once.
-fn ask_of_many<S: Scalar, P: PrimitivePair<S>>(kind: PairKind, pairs: &[P], digest: &mut Digest) {
+fn ask_of_many<S: Scalar>(kind: PairKind, pairs: &[PrimitivePair<S>], digest: &mut Digest) {
     let level = Level::new();
-    let rows: Vec<_> = pairs.iter().flat_map(|pair| pair.motions().map(VertexRow::new)).collect();
+    let rows: Vec<_> = pairs.iter().flat_map(|pair| pair.motions.map(VertexRow::new)).collect();
     let indices: Vec<_> = (0..pairs.len() as u32)
         .map(|k| [4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3])
         .collect();
     let tiles: Vec<_> = pairs
         .chunks(LANES)
-        .map(|pairs| Tile::new(pairs.iter().map(P::motions)))
+        .map(|pairs| Tile::new(pairs.iter().map(|pair| pair.motions)))
         .collect();
     let mut masks = vec![Mask::default(); pairs.len().div_ceil(LANES)];
     for test in [
@@ -198,18 +198,15 @@ fn kernels<S: Scalar>() -> [u64; 2] {
     let points: Vec<_> = (0..200).map(|case| motions::<S>(&mut random, case)).collect();
     let vertex_face: Vec<_> = points
         .iter()
-        .map(|&[vertex, a, b, c]| VertexFace { vertex, face: [a, b, c] })
+        .map(|&[vertex, a, b, c]| PrimitivePair::vertex_face(vertex, [a, b, c]))
         .collect();
     let edge_edge: Vec<_> = points
         .iter()
-        .map(|&[a, b, c, d]| EdgeEdge {
-            first: [a, b],
-            second: [c, d],
-        })
+        .map(|&[a, b, c, d]| PrimitivePair::edge_edge([a, b], [c, d]))
         .collect();
     let (mut digest, mut other) = (Digest::new(), Digest::new());
     for pair in &vertex_face {
-        digest.add(segment::vertex_face(pair).is_culled());
+        digest.add(segment::primitive_boxes(pair).is_culled());
         ask_of_pair(pair, &mut digest);
     }
     edge_edge.iter().for_each(|pair| ask_of_pair(pair, &mut other));

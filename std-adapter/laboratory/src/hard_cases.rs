@@ -4,9 +4,8 @@
 //! The file `data/hard-cases.csv` is part of the program. Its answers were found by exact rational arithmetic on the very
 //! numbers that it holds, which the project's tests repeat.
 
-use selvedge::PairKind;
-use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
+use selvedge_core::{Motion, PrimitivePair};
 use std::sync::OnceLock;
 
 /// A primitive pair with its exact answer.
@@ -16,12 +15,8 @@ pub struct HardCase {
     pub name: String,
     /// Its size, and where it is; units are metres. `far` is 1e7 from the origin along each axis.
     pub placement: String,
-    /// The kind of pair.
-    pub kind: PairKind,
-    /// The four points at time 0: vertex and face, or the ends of the first and of the second edge.
-    pub start: [DVec3; 4],
-    /// The four points at time 1.
-    pub end: [DVec3; 4],
+    /// The pair.
+    pub pair: PrimitivePair<f64>,
     /// Whether and when the pair first touches.
     pub contact: Contact,
 }
@@ -42,14 +37,6 @@ pub enum Contact {
     },
     /// A coordinate is NaN or infinite: nothing may be excluded.
     Undefined,
-}
-
-impl HardCase {
-    /// The four points' motions.
-    #[must_use]
-    pub fn motions(&self) -> [Motion<f64>; 4] {
-        [0, 1, 2, 3].map(|point| Motion::new(self.start[point], self.end[point]))
-    }
 }
 
 /// All cases, in the order of the file.
@@ -77,12 +64,14 @@ fn case(row: &csv::StringRecord) -> Option<HardCase> {
     let coordinates = coordinates.ok()?;
     let points: Vec<DVec3> = coordinates.chunks_exact(3).map(DVec3::from_slice).collect();
     let (start, end) = points.split_at_checked(4)?;
+    let [start, end]: [[DVec3; 4]; 2] = [start.try_into().ok()?, end.try_into().ok()?];
     Some(HardCase {
         name: (*name).to_owned(),
         placement: (*placement).to_owned(),
-        kind: kind.parse().ok()?,
-        start: start.try_into().ok()?,
-        end: end.try_into().ok()?,
+        pair: PrimitivePair {
+            kind: kind.parse().ok()?,
+            motions: [0, 1, 2, 3].map(|point| Motion::new(start[point], end[point])),
+        },
         contact: match *first {
             "never" => Contact::Never,
             "undefined" => Contact::Undefined,
@@ -104,7 +93,10 @@ mod tests {
     fn the_built_in_file_is_read_and_each_case_has_a_name_of_its_own() {
         let cases = hard_cases();
         assert!(cases.len() > 300, "only {}", cases.len());
-        let names: HashSet<_> = cases.iter().map(|case| (&case.name, &case.placement, case.kind)).collect();
+        let names: HashSet<_> = cases
+            .iter()
+            .map(|case| (&case.name, &case.placement, case.pair.kind))
+            .collect();
         assert_eq!(names.len(), cases.len());
         for contact in [Contact::Never, Contact::Undefined] {
             assert!(cases.iter().any(|case| case.contact == contact));

@@ -1,4 +1,4 @@
-# The control value 3k1: core/src/coplanarity.rs, MovingTetrahedron::control_values.
+# The control value 3k1: core/src/kernels/coplanarity.rs, MovingTetrahedron::control_values.
 # Written from the code by verification/src/proofs.rs; a test demands that it is what the code gives.
 #
 # Each difference of points (b0x, …) is at most 1 as computed: errors scale with each of the three edges, or axes. Its relative

@@ -1,4 +1,4 @@
-# The control points of the normal: core/src/coplanarity.rs, MovingTetrahedron::largest_normal.
+# The control points of the normal: core/src/kernels/coplanarity.rs, MovingTetrahedron::largest_normal.
 # Written from the code by verification/src/proofs.rs; a test demands that it is what the code gives.
 #
 # Names and scale as in k0.g. Three components each of n0, h (twice the middle one) and n1: a component is off by at most 60u,

@@ -14,8 +14,8 @@ use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use selvedge_core::PrimitivePair;
 use selvedge_core::boxes::relative;
-use selvedge_core::exact::{UNKNOWN, control_value_signs, is_never_within};
 use selvedge_core::filter::{Filter, Tier};
+use selvedge_core::verification::exact::{UNKNOWN, control_value_signs, is_never_within};
 use selvedge_laboratory::baselines::as_computed::AsComputed;
 use selvedge_laboratory::baselines::plain;
 use serde::{Deserialize, Serialize};
@@ -236,22 +236,15 @@ fn look_at_chunk<S: Format>(seed: u64, chunk: u64, pairs: u64) -> Vec<Tally> {
         // Of the pair's own size, or smaller.
         let [[x, ..], _] = pair.points[choices.below(4) as usize];
         let separation = (x.abs() * S::exact(1, -(choices.below(32) as i32))).made_finite();
-        match pair.kind {
-            PairKind::VertexFace => {
-                Judged::new(&pair, pair.vertex_face(), separation).by(&rules, &mut tallies, chunk);
-            }
-            PairKind::EdgeEdge => {
-                Judged::new(&pair, pair.edge_edge(), separation).by(&rules, &mut tallies, chunk);
-            }
-        }
+        Judged::new(&pair, separation).by(&rules, &mut tallies, chunk);
     }
     tallies
 }
 
 /// One pair, and what is known of it so far.
-struct Judged<'a, S: Format, P> {
+struct Judged<'a, S: Format> {
     case: &'a PairCase<S>,
-    pair: P,
+    pair: PrimitivePair<S>,
     separation: S,
     has_one_sign: OnceCell<bool>,
     is_beyond: OnceCell<bool>,
@@ -260,11 +253,11 @@ struct Judged<'a, S: Format, P> {
     within: OnceCell<bool>,
 }
 
-impl<'a, S: Format, P: PrimitivePair<S>> Judged<'a, S, P> {
-    const fn new(case: &'a PairCase<S>, pair: P, separation: S) -> Self {
+impl<'a, S: Format> Judged<'a, S> {
+    fn new(case: &'a PairCase<S>, separation: S) -> Self {
         Self {
             case,
-            pair,
+            pair: case.pair(),
             separation,
             has_one_sign: OnceCell::new(),
             is_beyond: OnceCell::new(),
@@ -317,7 +310,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judged<'a, S, P> {
         match rule {
             Rule::Tier(_, true) => *self
                 .is_beyond
-                .get_or_init(|| is_never_within::<P::Shape, S>(&self.pair.points(), self.separation, UNKNOWN)),
+                .get_or_init(|| is_never_within(&self.pair, self.separation, UNKNOWN)),
             Rule::Tier(Tier::Subdivided(_), false) => self.has_one_sign() || relative::nine_directions(&self.pair).is_culled(),
             Rule::Plain | Rule::Uncertified | Rule::Tier(_, false) => self.has_one_sign(),
         }
@@ -325,7 +318,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judged<'a, S, P> {
 
     fn has_one_sign(&self) -> bool {
         *self.has_one_sign.get_or_init(|| {
-            let signs = control_value_signs::<P::Shape, S>(&self.pair.points());
+            let signs = control_value_signs(&self.pair);
             matches!(signs, Some([Less, Less, Less, Less] | [Greater, Greater, Greater, Greater]))
         })
     }

@@ -2,13 +2,13 @@
 
 use super::Format;
 use crate::oracle::{Pair, PairKind};
-use selvedge_core::coplanarity::MovingTetrahedron;
-use selvedge_core::{EdgeEdge, Motion, PrimitivePair, VertexFace};
+use selvedge_core::verification::coplanarity::MovingTetrahedron;
+use selvedge_core::{Motion, PrimitivePair};
 use std::fmt;
 
 /// Four moving points: a vertex and a face's three, or the two ends of one edge and those of the other.
 ///
-/// `{:?}` prints the [`VertexFace`] or [`EdgeEdge`] as Rust to paste into a regression test; decimal numbers read back
+/// `{:?}` prints the [`PrimitivePair`] as Rust to paste into a regression test; decimal numbers read back
 /// as the same bits.
 #[derive(Clone, Copy, PartialEq)]
 pub struct PairCase<S> {
@@ -34,30 +34,29 @@ impl<S: Format> PairCase<S> {
         })
     }
 
-    /// As a vertex and a face, whatever the kind.
+    /// The pair as the tests take it.
     #[must_use]
-    pub fn vertex_face(&self) -> VertexFace<S> {
-        let [vertex, a, b, c] = self.motions();
-        VertexFace { vertex, face: [a, b, c] }
+    pub fn pair(&self) -> PrimitivePair<S> {
+        PrimitivePair {
+            kind: self.kind,
+            motions: self.motions(),
+        }
     }
 
-    /// As two edges, whatever the kind.
+    /// The points of the one set and those of the other.
     #[must_use]
-    pub fn edge_edge(&self) -> EdgeEdge<S> {
-        let [a, b, c, d] = self.motions();
-        EdgeEdge {
-            first: [a, b],
-            second: [c, d],
-        }
+    pub fn sets(&self) -> [&[[[S; 3]; 2]]; 2] {
+        let (first, second) = self.points.split_at(match self.kind {
+            PairKind::VertexFace => 1,
+            PairKind::EdgeEdge => 2,
+        });
+        [first, second]
     }
 
     /// The differences that the coplanarity kernels work on.
     #[must_use]
     pub fn tetrahedron(&self) -> MovingTetrahedron<S> {
-        match self.kind {
-            PairKind::VertexFace => self.vertex_face().tetrahedron(),
-            PairKind::EdgeEdge => self.edge_edge().tetrahedron(),
-        }
+        (&self.pair()).into()
     }
 
     /// The same question for the exact oracle.
@@ -147,26 +146,24 @@ impl<S: Format> fmt::Debug for PairCase<S> {
             });
             format!("Motion::from(({start}, {end})),")
         };
-        let name = S::NAME;
-        match self.kind {
-            PairKind::VertexFace => {
-                writeln!(f, "VertexFace::<{name}> {{")?;
-                writeln!(f, "    vertex: {}", motion(0))?;
-                writeln!(f, "    face: [")?;
-                (1..4).try_for_each(|k| writeln!(f, "        {}", motion(k)))?;
-                writeln!(f, "    ],")?;
-            }
-            PairKind::EdgeEdge => {
-                writeln!(f, "EdgeEdge::<{name}> {{")?;
-                for (edge, k) in [("first", 0), ("second", 2)] {
-                    writeln!(f, "    {edge}: [")?;
-                    writeln!(f, "        {}", motion(k))?;
-                    writeln!(f, "        {}", motion(k + 1))?;
+        let (name, sets): (_, [&[usize]; 2]) = match self.kind {
+            PairKind::VertexFace => ("vertex_face", [&[0], &[1, 2, 3]]),
+            PairKind::EdgeEdge => ("edge_edge", [&[0, 1], &[2, 3]]),
+        };
+        writeln!(f, "PrimitivePair::<{}>::{name}(", S::NAME)?;
+        for set in sets {
+            match set {
+                [point] => writeln!(f, "    {}", motion(*point))?,
+                points => {
+                    writeln!(f, "    [")?;
+                    points
+                        .iter()
+                        .try_for_each(|&point| writeln!(f, "        {}", motion(point)))?;
                     writeln!(f, "    ],")?;
                 }
             }
         }
-        write!(f, "}}")
+        write!(f, ")")
     }
 }
 

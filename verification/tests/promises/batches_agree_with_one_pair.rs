@@ -23,31 +23,19 @@ const TESTS: [(Test, CullingTest); 4] = [
 ];
 
 fn direction_verdict<S: Format>(case: &PairCase<S>) -> Verdict {
-    match case.kind {
-        PairKind::VertexFace => direction::normal(&case.vertex_face()),
-        PairKind::EdgeEdge => direction::normal(&case.edge_edge()),
-    }
+    direction::normal(&case.pair())
 }
 
 fn inside_verdict<S: Format>(case: &PairCase<S>) -> Verdict {
-    match case.kind {
-        PairKind::VertexFace => inside::never_inside(&case.vertex_face()),
-        PairKind::EdgeEdge => inside::never_inside(&case.edge_edge()),
-    }
+    inside::never_inside(&case.pair())
 }
 
 fn filter_verdict<S: Format>(filter: Filter<S>, case: &PairCase<S>) -> Verdict {
-    match case.kind {
-        PairKind::VertexFace => filter.verdict(&case.vertex_face()),
-        PairKind::EdgeEdge => filter.verdict(&case.edge_edge()),
-    }
+    filter.verdict(&case.pair())
 }
 
 fn as_computed_verdict<S: Format>(filter: AsComputed<S>, case: &PairCase<S>) -> Verdict {
-    match case.kind {
-        PairKind::VertexFace => filter.verdict(&case.vertex_face()),
-        PairKind::EdgeEdge => filter.verdict(&case.edge_edge()),
-    }
+    filter.verdict(&case.pair())
 }
 
 /// Pairs of one kind, now and then with coordinates that are NaN, infinite or huge.
@@ -104,16 +92,8 @@ impl<S: Format> Batch<S> {
             // One mask more than needed: it must be left alone.
             let untouched = vec![0xABCD; count.div_ceil(LANES) + 1];
             let [mut one_by_one, mut rows, mut tiles] = [(); 3].map(|()| untouched.clone());
-            match self.kind {
-                PairKind::VertexFace => {
-                    let pairs: Vec<_> = self.pairs.iter().map(PairCase::vertex_face).collect();
-                    culled(level, test, &pairs, &mut one_by_one);
-                }
-                PairKind::EdgeEdge => {
-                    let pairs: Vec<_> = self.pairs.iter().map(PairCase::edge_edge).collect();
-                    culled(level, test, &pairs, &mut one_by_one);
-                }
-            }
+            let pairs: Vec<_> = self.pairs.iter().map(PairCase::pair).collect();
+            culled(level, test, &pairs, &mut one_by_one);
             culled_from_rows(level, self.kind, test, &self.rows, &self.indices, &mut rows);
             culled_from_tiles(level, self.kind, test, &self.tiles, &mut tiles);
             for (form, masks) in [("list", one_by_one), ("rows", rows), ("tiles", tiles)] {

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use selvedge_core::PairKind;
-use selvedge_core::filter::certified::Bound;
+use selvedge_core::verification::coplanarity::Bound;
 use selvedge_laboratory::pipeline::CullingTest::{CertifiedNonCoplanarity, PlainNonCoplanarity};
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling::verdict;

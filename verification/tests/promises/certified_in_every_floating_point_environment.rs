@@ -9,8 +9,8 @@ use selvedge::verification::available_levels;
 use selvedge_core::PairKind;
 use selvedge_core::batch::{BatchTest, Level, Test, Tile, culled_from_tiles};
 use selvedge_core::boxes::direction;
-use selvedge_core::filter::certified::Bound;
 use selvedge_core::filter::{Filter, Tier, inside};
+use selvedge_core::verification::coplanarity::Bound;
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling;
 use selvedge_verification::generator::{
@@ -44,19 +44,12 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
             culling.push(name());
         }
     };
-    let (vertex_face, edge_edge) = (pair.vertex_face(), pair.edge_edge());
-    let is_face = pair.kind == PairKind::VertexFace;
-    let kind = if is_face { PairKind::VertexFace } else { PairKind::EdgeEdge };
+    let (kind, primitives) = (pair.kind, pair.pair());
     let mut tile = Tile::unknown();
     tile.set(5, pair.motions());
     for tier in tiers(touches) {
         let filter = Filter::<S>::new(tier);
-        let verdict = if is_face {
-            filter.verdict(&vertex_face)
-        } else {
-            filter.verdict(&edge_edge)
-        };
-        note(verdict.is_culled(), &|| format!("{tier:?}"));
+        note(filter.verdict(&primitives).is_culled(), &|| format!("{tier:?}"));
         for (name, level) in available_levels() {
             let culled = batch_culls(level, kind, filter, &tile);
             note(culled, &|| format!("{tier:?} on {name}"));
@@ -66,18 +59,8 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
         for test in culling::certified() {
             note(culling::verdict(test, pair).is_culled(), &|| format!("{test:?}"));
         }
-        let normal = if is_face {
-            direction::normal(&vertex_face)
-        } else {
-            direction::normal(&edge_edge)
-        };
-        note(normal.is_culled(), &|| "normal".into());
-        let outside = if is_face {
-            inside::never_inside(&vertex_face)
-        } else {
-            inside::never_inside(&edge_edge)
-        };
-        note(outside.is_culled(), &|| "inside functions".into());
+        note(direction::normal(&primitives).is_culled(), &|| "normal".into());
+        note(inside::never_inside(&primitives).is_culled(), &|| "inside functions".into());
         for test in BOX_TESTS {
             for (name, level) in available_levels() {
                 let culled = batch_culls(level, kind, test, &tile);
@@ -374,7 +357,7 @@ fn keeps_within_a_subnormal_separation<S: Format>(height: S, separation: S) {
     for tier in tiers(true) {
         let filter = Filter::new(tier).with_separation(separation);
         let filter = filter.expect("finite and not negative");
-        let verdict = Environment::FLUSHING.run(&pair, |pair| filter.verdict(&pair.vertex_face()));
+        let verdict = Environment::FLUSHING.run(&pair, |pair| filter.verdict(&pair.pair()));
         assert!(!verdict.is_culled(), "{tier:?}");
     }
 }

@@ -1,14 +1,12 @@
-//! `selvedge_core::elementary::contact` and `selvedge_core::exact::touches` say what the oracle says, for every finite pair.
+//! `selvedge_core::elementary::contact` and `selvedge_core::verification::exact::touches` say what the oracle says, for every finite pair.
 
 use crate::support::environment::Environment;
 use crate::support::widths::at_the_limit_of_a_width;
 use proptest::prelude::*;
 use selvedge_core::PairKind;
-use selvedge_core::PrimitivePair;
 use selvedge_core::elementary::Contact;
-use selvedge_core::elementary::contact::{Evidence, contact_and_evidence};
-use selvedge_core::exact;
-use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
+use selvedge_core::elementary::contact::contact_and_evidence;
+use selvedge_core::verification::exact::{self, Evidence};
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs, pairs_of_any_kind,
     touching_pairs,
@@ -20,18 +18,12 @@ const KINDS: [PairKind; 2] = [PairKind::VertexFace, PairKind::EdgeEdge];
 
 /// In whole numbers alone; `None` if a coordinate is not finite.
 fn touches<S: Format>(pair: &PairCase<S>) -> Option<bool> {
-    match pair.kind {
-        PairKind::VertexFace => exact::touches::<VertexAndFace, S>(&pair.vertex_face().points()),
-        PairKind::EdgeEdge => exact::touches::<EdgeAndEdge, S>(&pair.edge_edge().points()),
-    }
+    exact::touches(&pair.pair())
 }
 
 /// The same, after floating point has had its try.
 fn verdict<S: Format>(pair: &PairCase<S>) -> (Contact, Evidence) {
-    match pair.kind {
-        PairKind::VertexFace => contact_and_evidence(&pair.vertex_face()),
-        PairKind::EdgeEdge => contact_and_evidence(&pair.edge_edge()),
-    }
+    contact_and_evidence(&pair.pair())
 }
 
 /// What the verdict should be where whole numbers say this.

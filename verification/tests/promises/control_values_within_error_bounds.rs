@@ -3,9 +3,9 @@
 use proptest::prelude::*;
 use rug::{Float, Rational, ops::Pow};
 use selvedge_core::PairKind;
-use selvedge_core::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
-use selvedge_core::filter::certified::{Bound, is_never_coplanar};
-use selvedge_core::{Lanes, PrimitivePair, Rounding, Vector};
+use selvedge_core::verification::coplanarity::{Bound, MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
+use selvedge_core::verification::lanes::{Lanes, Rounding};
+use selvedge_core::verification::vector::Vector;
 use selvedge_laboratory::pipeline::CullingTest::PlainNonCoplanarity;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs_of_any_kind};
@@ -156,7 +156,7 @@ proptest! {
     fn without_rounding_the_filter_culls_exactly_when_all_control_values_have_one_sign(points in whole_points(3)) {
         let tetrahedron = tetrahedron(&points);
         let signs = tetrahedron.control_values().0.map(|k| k.0.signum());
-        prop_assert_eq!(is_never_coplanar(Bound::Permanent, &tetrahedron), signs == [1; 4] || signs == [-1; 4]);
+        prop_assert_eq!(tetrahedron.is_never_coplanar(Bound::Permanent), signs == [1; 4] || signs == [-1; 4]);
     }
 
     #[test]
@@ -164,7 +164,7 @@ proptest! {
         let [a, b, c, p] = points.map(|ends| ends.map(|position| position.map(|x| x as f64)));
         let pair = PairCase::new(PairKind::VertexFace, [p, a, b, c]);
         let culled = verdict(PlainNonCoplanarity, &pair).is_culled();
-        prop_assert_eq!(culled, is_never_coplanar(Bound::Permanent, &tetrahedron(&points)));
+        prop_assert_eq!(culled, tetrahedron(&points).is_never_coplanar(Bound::Permanent));
     }
 
     /// The same four points, in the slots that the paper gives them (equations 5 to 11).
@@ -172,8 +172,8 @@ proptest! {
     fn an_edge_pair_is_the_tetrahedron_k_u_v_l(points in whole_points(1 << 20)) {
         let points = points.map(|ends| ends.map(|position| position.map(|x| x as f64)));
         let [u, v, k, l] = points;
-        let edges = PairCase::new(PairKind::EdgeEdge, [u, v, k, l]).edge_edge().tetrahedron();
-        let face = PairCase::new(PairKind::VertexFace, [l, k, u, v]).vertex_face().tetrahedron();
+        let edges = PairCase::new(PairKind::EdgeEdge, [u, v, k, l]).tetrahedron();
+        let face = PairCase::new(PairKind::VertexFace, [l, k, u, v]).tetrahedron();
         prop_assert_eq!((edges.b, edges.c, edges.p), (face.b, face.c, face.p));
     }
 }

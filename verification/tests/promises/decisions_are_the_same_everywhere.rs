@@ -10,14 +10,15 @@ use selvedge_core::PairKind;
 use selvedge_core::batch::{Compares, Loop, Mask, in_lanes};
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, direction, relative, segment, swept_boxes};
-use selvedge_core::coplanarity::{error_bound_by_magnitudes, is_in_range};
-use selvedge_core::elementary::advance::confirm::certain_contact;
+use selvedge_core::elementary::advance::certain_contact;
 use selvedge_core::elementary::advance::{time_of_impact_and_work, time_of_impact_within};
 use selvedge_core::elementary::contact::contact_and_evidence;
 use selvedge_core::elementary::{Impact, Limits};
-use selvedge_core::exact::{UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within, touches};
 use selvedge_core::filter::{Filter, Tier, inside};
-use selvedge_core::points::PairShape;
+use selvedge_core::verification::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
+use selvedge_core::verification::exact::{
+    UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within, touches,
+};
 use selvedge_core::{PrimitivePair, Verdict};
 use selvedge_laboratory::baselines::as_computed::AsComputed;
 use selvedge_laboratory::baselines::{plain, uncertified};
@@ -106,16 +107,13 @@ fn cases<S: Format>(kind: PairKind, count: usize) -> Vec<PairCase<S>> {
 
 /// A question about one pair, of either kind.
 trait Question {
-    fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, pair: &P, digest: &mut Digest);
+    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest);
 }
 
 fn digest<S: Format, Q: Question>(kind: PairKind, count: usize) -> u64 {
     let mut digest = Digest::new();
     for case in cases::<S>(kind, count) {
-        match kind {
-            PairKind::VertexFace => Q::ask(&case, &case.vertex_face(), &mut digest),
-            PairKind::EdgeEdge => Q::ask(&case, &case.edge_edge(), &mut digest),
-        }
+        Q::ask(&case, &case.pair(), &mut digest);
     }
     digest.0
 }
@@ -141,7 +139,7 @@ fn separation_of<S: Format>(case: &PairCase<S>) -> S {
 struct Filters;
 
 impl Question for Filters {
-    fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, pair: &P, digest: &mut Digest) {
+    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
         for odd in [S::NAN, S::INFINITY, -S::ONE] {
             let separated = Filter::new(Tier::Permanent).with_separation(odd);
             digest.add(u64::from(separated.is_some()));
@@ -174,8 +172,8 @@ fn filters() {
 struct Volume;
 
 impl Question for Volume {
-    fn ask<S: Format, P: PrimitivePair<S>>(_: &PairCase<S>, pair: &P, digest: &mut Digest) {
-        let volume = pair.tetrahedron();
+    fn ask<S: Format>(_: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
+        let volume = MovingTetrahedron::from(pair);
         let (values, bounds) = (volume.control_values(), volume.error_bounds());
         digest.add_numbers(values.0);
         digest.add_numbers(bounds);
@@ -201,7 +199,7 @@ fn control_values_and_their_bounds() {
 struct Boxes;
 
 impl Question for Boxes {
-    fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, pair: &P, digest: &mut Digest) {
+    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
         let mut bits = u64::from(direction::normal(pair).is_culled());
         bits |= u64::from(swept_boxes(pair).is_culled()) << 1;
         for test in culling::ALL {
@@ -243,7 +241,7 @@ impl Loop for Near<'_> {
 }
 
 impl Question for Blocks {
-    fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, _: &P, digest: &mut Digest) {
+    fn ask<S: Format>(case: &PairCase<S>, _: &PrimitivePair<S>, digest: &mut Digest) {
         let mut block = MovingBlock::empty();
         let narrow = case.points.map(|ends| ends.map(|x| x.map(|x| x.to_f64() as f32)));
         let boxes = narrow.map(|[start, end]| MovingBox::of(&(start, end).into()));
@@ -276,27 +274,24 @@ fn blocks_of_moving_boxes() {
 struct Signs;
 
 impl Question for Signs {
-    fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, pair: &P, digest: &mut Digest) {
-        fn of<Q: PairShape, S: Format>(case: &PairCase<S>, pair: &impl PrimitivePair<S>) -> u64 {
-            let (points, volume) = (pair.points(), pair.tetrahedron());
-            let signs = control_value_signs::<Q, S>(&points);
-            let mut bits = signs.map_or(0, |signs| {
-                signs
-                    .iter()
-                    .fold(0, |bits, &sign| bits * 4 + u64::from((sign as i8 + 2).unsigned_abs()))
-            });
-            let known = certain_signs(&volume.control_values(), volume.error_bounds());
-            for sign in known {
-                let sign = sign.map_or(0, |sign| (sign as i8 + 2).unsigned_abs());
-                bits = bits << 2 | u64::from(sign);
-            }
-            for known in [UNKNOWN, known] {
-                bits = bits << 1 | u64::from(is_never_coplanar::<Q, S>(&points, known));
-            }
-            let within = is_never_within::<Q, S>(&points, separation_of(case), UNKNOWN);
-            bits << 1 | u64::from(within)
+    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
+        let volume = MovingTetrahedron::from(pair);
+        let signs = control_value_signs(pair);
+        let mut bits = signs.map_or(0, |signs| {
+            signs
+                .iter()
+                .fold(0, |bits, &sign| bits * 4 + u64::from((sign as i8 + 2).unsigned_abs()))
+        });
+        let known = certain_signs(&volume.control_values(), volume.error_bounds());
+        for sign in known {
+            let sign = sign.map_or(0, |sign| (sign as i8 + 2).unsigned_abs());
+            bits = bits << 2 | u64::from(sign);
         }
-        digest.add(of::<P::Shape, S>(case, pair));
+        for known in [UNKNOWN, known] {
+            bits = bits << 1 | u64::from(is_never_coplanar(pair, known));
+        }
+        let within = is_never_within(pair, separation_of(case), UNKNOWN);
+        digest.add(bits << 1 | u64::from(within));
     }
 }
 
@@ -311,7 +306,7 @@ fn exact_signs() {
 struct Times;
 
 impl Question for Times {
-    fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, pair: &P, digest: &mut Digest) {
+    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
         let separated = Limits {
             separation: separation_of(case),
             ..Limits::default()
@@ -358,7 +353,7 @@ fn times_of_impact() {
 struct TimesWithoutBounds;
 
 impl Question for TimesWithoutBounds {
-    fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, pair: &P, digest: &mut Digest) {
+    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
         let separated = Limits {
             separation: separation_of(case),
             ..Limits::default()
@@ -379,11 +374,11 @@ fn times_of_impact_without_bounds() {
 struct Contacts;
 
 impl Question for Contacts {
-    fn ask<S: Format, P: PrimitivePair<S>>(_: &PairCase<S>, pair: &P, digest: &mut Digest) {
+    fn ask<S: Format>(_: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
         let (contact, evidence) = contact_and_evidence(pair);
         digest.add(contact as u64);
         digest.add(evidence as u64);
-        let exact = touches::<P::Shape, S>(&pair.points());
+        let exact = touches(pair);
         digest.add(exact.map_or(2, u64::from));
     }
 }
@@ -417,7 +412,7 @@ fn threshold<S: Format>(mut low: S, mut high: S, holds: impl Fn(S) -> bool) -> O
     Some(high)
 }
 
-fn answers_yes<S: Format>(test: usize, pair: &impl PrimitivePair<S>, separation: S) -> bool {
+fn answers_yes<S: Format>(test: usize, pair: &PrimitivePair<S>, separation: S) -> bool {
     let limits = Limits {
         tolerance: S::ZERO,
         separation,
@@ -441,7 +436,7 @@ fn answers_yes<S: Format>(test: usize, pair: &impl PrimitivePair<S>, separation:
 }
 
 impl Question for Thresholds {
-    fn ask<S: Format, P: PrimitivePair<S>>(case: &PairCase<S>, pair: &P, digest: &mut Digest) {
+    fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
         for test in 0..Tier::ALL.len() + 7 {
             let (zero, far) = (S::ZERO, S::from_f64(8.0));
             let separation = threshold(zero, far, |separation| answers_yes(test, pair, separation));
@@ -450,10 +445,7 @@ impl Question for Thresholds {
                 for end in &mut case.points[0] {
                     end[0] = end[0] + by;
                 }
-                match case.kind {
-                    PairKind::VertexFace => answers_yes(test, &case.vertex_face(), zero),
-                    PairKind::EdgeEdge => answers_yes(test, &case.edge_edge(), zero),
-                }
+                answers_yes(test, &case.pair(), zero)
             });
             for found in [separation, moved] {
                 digest.add_number(found.unwrap_or(-far));

@@ -1,7 +1,6 @@
 //! What `selvedge accuracy` takes for the truth of a pair is the truth: whether it touches, and between which times it does first.
 
 use proptest::prelude::*;
-use selvedge_core::PairKind;
 use selvedge_laboratory::study::elementary::{ExactAnswer, WIDEST, exact_answer};
 use selvedge_verification::generator::{Format, PairCase, check, coplanar_pairs, pairs_of_any_kind, touching_pairs};
 use selvedge_verification::oracle::collides;
@@ -19,10 +18,7 @@ fn add(count: &Cell<u32>) {
 }
 
 fn is_true<S: Format>(pair: &PairCase<S>, counts: &Counts) -> Result<(), TestCaseError> {
-    let answer = match pair.kind {
-        PairKind::VertexFace => exact_answer(&pair.vertex_face()),
-        PairKind::EdgeEdge => exact_answer(&pair.edge_edge()),
-    };
+    let answer = exact_answer(&pair.pair());
     let exact = collides(&pair.question());
     match (answer, exact) {
         (ExactAnswer::Never, None) => {}

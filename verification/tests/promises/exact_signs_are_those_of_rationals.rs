@@ -1,4 +1,4 @@
-//! `selvedge_core::exact` says what rational arithmetic says, for every finite pair.
+//! `selvedge_core::verification::exact` says what rational arithmetic says, for every finite pair.
 
 use crate::support::environment::Environment;
 use crate::support::rationals::{InRationals, rational, separations};
@@ -6,10 +6,10 @@ use crate::support::widths::at_the_limit_of_a_width;
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge_core::PairKind;
-use selvedge_core::PrimitivePair;
-use selvedge_core::coplanarity::is_in_range;
-use selvedge_core::exact::{KnownSigns, UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within};
-use selvedge_core::points::{EdgeAndEdge, VertexAndFace};
+use selvedge_core::verification::coplanarity::is_in_range;
+use selvedge_core::verification::exact::{
+    KnownSigns, UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within,
+};
 use selvedge_laboratory::pipeline::CullingTest;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
@@ -19,24 +19,15 @@ use selvedge_verification::oracle::{coplanar, within};
 use std::cmp::Ordering::{self, Equal, Greater, Less};
 
 fn signs<S: Format>(pair: &PairCase<S>) -> Option<[Ordering; 4]> {
-    match pair.kind {
-        PairKind::VertexFace => control_value_signs::<VertexAndFace, S>(&pair.vertex_face().points()),
-        PairKind::EdgeEdge => control_value_signs::<EdgeAndEdge, S>(&pair.edge_edge().points()),
-    }
+    control_value_signs(&pair.pair())
 }
 
 fn never_coplanar<S: Format>(pair: &PairCase<S>, known: KnownSigns) -> bool {
-    match pair.kind {
-        PairKind::VertexFace => is_never_coplanar::<VertexAndFace, S>(&pair.vertex_face().points(), known),
-        PairKind::EdgeEdge => is_never_coplanar::<EdgeAndEdge, S>(&pair.edge_edge().points(), known),
-    }
+    is_never_coplanar(&pair.pair(), known)
 }
 
 fn never_within<S: Format>(pair: &PairCase<S>, separation: S, known: KnownSigns) -> bool {
-    match pair.kind {
-        PairKind::VertexFace => is_never_within::<VertexAndFace, S>(&pair.vertex_face().points(), separation, known),
-        PairKind::EdgeEdge => is_never_within::<EdgeAndEdge, S>(&pair.edge_edge().points(), separation, known),
-    }
+    is_never_within(&pair.pair(), separation, known)
 }
 
 property!(signs_are_those_of_rationals, 20_000, pairs_of_any_kind(), |pair| {

@@ -161,13 +161,13 @@ fn a_case_prints_as_the_rust_that_makes_it() {
     let text = format!("{:?}", PairCase::new(PairKind::VertexFace, points));
     assert_eq!(
         text,
-        "VertexFace::<f64> {
-    vertex: Motion::from(([0.1, 0.0, -0.0], [5e-324, 1.0, f64::INFINITY])),
-    face: [
+        "PrimitivePair::<f64>::vertex_face(
+    Motion::from(([0.1, 0.0, -0.0], [5e-324, 1.0, f64::INFINITY])),
+    [
         Motion::from(([0.0, 0.0, 0.0], [0.0, 0.0, 0.0])),
         Motion::from(([1.0, 0.0, 0.0], [1.0, 0.0, 0.0])),
         Motion::from(([0.0, 1.0, 0.0], [0.0, 1e300, f64::NAN])),
     ],
-}"
+)"
     );
 }

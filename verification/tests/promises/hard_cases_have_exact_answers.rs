@@ -1,7 +1,6 @@
 //! The hard cases of `selvedge hard-cases`: their answers are exact, ours are right on all of them, and on each case's
 //! neighbours in the last place.
 
-use selvedge::PairKind;
 use selvedge_core::Scalar;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Contact as Verdict, Impact, Limits, contact};
@@ -29,9 +28,11 @@ fn the_file_is_what_the_oracle_says() {
 }
 
 fn pair(case: &HardCase) -> PairCase<f64> {
-    let kind = case.kind;
-    let points = [0, 1, 2, 3].map(|point| [case.start[point].to_array(), case.end[point].to_array()]);
-    PairCase::new(kind, points)
+    let points = case
+        .pair
+        .motions
+        .map(|motion| [motion.start.to_array(), motion.end.to_array()]);
+    PairCase::new(case.pair.kind, points)
 }
 
 fn to_f32(pair: &PairCase<f64>) -> PairCase<f32> {
@@ -63,27 +64,13 @@ fn ours() -> impl Iterator<Item = QueryMethod> {
 }
 
 fn culling<S: Format>(pair: &PairCase<S>) -> Vec<QueryMethod> {
-    let culls = |method: &QueryMethod| !method.keeps::<S>(kind(pair), pair.motions());
-    ours().filter(culls).collect()
-}
-
-fn kind<S>(pair: &PairCase<S>) -> PairKind {
-    pair.kind
+    ours().filter(|method| !method.keeps(pair.pair())).collect()
 }
 
 /// Ours keep what touches, are not late, exclude nothing of what is not finite, and the exact verdict is exact.
 fn is_right<S: Format>(name: &str, pair: &PairCase<S>) {
-    let limits = Limits::default();
-    let (impact, contact) = match pair.kind {
-        PairKind::VertexFace => {
-            let pair = pair.vertex_face();
-            (time_of_impact(&pair, &limits), contact(&pair))
-        }
-        PairKind::EdgeEdge => {
-            let pair = pair.edge_edge();
-            (time_of_impact(&pair, &limits), contact(&pair))
-        }
-    };
+    let impact = time_of_impact(&pair.pair(), &Limits::default());
+    let contact = contact(&pair.pair());
     if !pair.is_finite() {
         assert_eq!(culling(pair), [], "{name}: {pair:?}");
         assert_eq!(contact, Verdict::Undefined, "{name}: {pair:?}");
@@ -157,8 +144,7 @@ fn cases_that_are_clearly_apart_are_excluded() {
     for case in hard_cases() {
         let is_clear = matches!(case.contact, Contact::Never) && ["1 m", "10 km"].contains(&case.placement.as_str());
         if is_clear && !case.name.contains("2^-1074") {
-            let pair = pair(case);
-            let kept = QueryMethod::Selvedge.keeps::<f64>(case.kind, pair.motions());
+            let kept = QueryMethod::Selvedge.keeps(case.pair);
             assert!(!kept, "{} ({}) is kept", case.name, case.placement);
             excluded += 1;
         }

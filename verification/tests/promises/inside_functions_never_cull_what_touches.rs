@@ -5,7 +5,6 @@
 //! (`certified_in_every_floating_point_environment.rs`), its lanes in `batches_agree_with_one_pair.rs`.
 
 use proptest::prelude::*;
-use selvedge_core::PairKind;
 use selvedge_core::Verdict;
 use selvedge_core::filter::inside;
 use selvedge_verification::generator::{
@@ -15,10 +14,7 @@ use selvedge_verification::oracle::collides;
 use std::cell::Cell;
 
 fn verdict<S: Format>(pair: &PairCase<S>) -> Verdict {
-    match pair.kind {
-        PairKind::VertexFace => inside::never_inside(&pair.vertex_face()),
-        PairKind::EdgeEdge => inside::never_inside(&pair.edge_edge()),
-    }
+    inside::never_inside(&pair.pair())
 }
 
 /// Needs no oracle: the pair touches by construction.

@@ -10,9 +10,8 @@
 //! No input here has a wrong sign. The tests assert how close the grids come, so that constants cut to a fraction would be seen.
 
 use rug::{Rational, ops::Pow};
-use selvedge_core::Vector;
-use selvedge_core::coplanarity::MovingTetrahedron;
-use selvedge_core::filter::certified::{Bound, is_never_coplanar};
+use selvedge_core::verification::coplanarity::{Bound, MovingTetrahedron};
+use selvedge_core::verification::vector::Vector;
 use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD};
 
 /// A moving tetrahedron by the points a, b, c, p at times 0 and 1.
@@ -81,7 +80,7 @@ impl Seen {
             }
         }
         let bounds = [Bound::Permanent, Bound::MagnitudesByAxis, Bound::MagnitudesByEdge];
-        if bounds.map(|bound| is_never_coplanar(bound, &tetrahedron)).contains(&true) {
+        if bounds.map(|bound| tetrahedron.is_never_coplanar(bound)).contains(&true) {
             self.culled += 1;
             let signs = [0, 1, 2, 3].map(|k| exact_control_value(points, k).signum());
             assert!(signs == [1; 4] || signs == [-1; 4], "{points:?} is culled");

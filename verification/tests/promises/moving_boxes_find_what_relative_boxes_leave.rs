@@ -58,10 +58,7 @@ fn all_pairs(topology: &Topology) -> BTreeSet<MeshPair> {
 
 /// Whether, along one axis, all of one primitive is above all of the other at the ends given, in one order.
 fn keeps_order<S: Format>(pair: &PairCase<S>, above: impl Fn([S; 2], [S; 2]) -> bool) -> bool {
-    let (one, other) = pair.points.split_at(match pair.kind {
-        PairKind::VertexFace => 1,
-        PairKind::EdgeEdge => 2,
-    });
+    let [one, other] = pair.sets();
     (0..3).any(|axis| {
         let along = |points: &[[[S; 3]; 2]]| -> Vec<[S; 2]> { points.iter().map(|ends| ends.map(|x| x[axis])).collect() };
         let all_above = |high: &[[S; 2]], low: &[[S; 2]]| high.iter().all(|&high| low.iter().all(|&low| above(high, low)));

@@ -33,10 +33,6 @@ fn in_order(kind: PairKind, [a, b]: [u32; 2]) -> MeshPair {
 /// The four points of a pair.
 fn points<S: Format>(mesh: &MeshCase<S>, topology: &Topology, (kind, pair): MeshPair) -> PairCase<S> {
     let of_pair = topology.vertices_of(kind, pair);
-    let kind = match kind {
-        VertexFace => PairKind::VertexFace,
-        EdgeEdge => PairKind::EdgeEdge,
-    };
     PairCase::new(kind, of_pair.map(|vertex| mesh.positions[vertex as usize]))
 }
 
@@ -64,10 +60,7 @@ fn all_pairs(topology: &Topology) -> Vec<MeshPair> {
 
 /// Whether the closed boxes that the two primitives sweep have a point in common, by definition.
 fn swept_boxes_overlap<S: Format>(pair: &PairCase<S>) -> bool {
-    let (one, other) = pair.points.split_at(match pair.kind {
-        PairKind::VertexFace => 1,
-        PairKind::EdgeEdge => 2,
-    });
+    let [one, other] = pair.sets();
     (0..3).all(|axis| {
         let apart = |low: &[[[S; 3]; 2]], high: &[[[S; 3]; 2]]| {
             let all = |points: &[[[S; 3]; 2]]| -> Vec<S> { points.iter().flatten().map(|x| x[axis]).collect() };
@@ -250,23 +243,12 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>
         prop_assert_eq!(&candidates, &left, "{}", preset);
 
         let time = |&pair: &MeshPair| {
-            let pair = points(mesh, &topology, pair);
-            let limits = Limits::default();
-            match (stages.elementary, pair.kind) {
-                (ElementaryTest::Cubic, PairKind::VertexFace) => cubic::vertex_face(&pair.vertex_face()),
-                (ElementaryTest::Cubic, PairKind::EdgeEdge) => cubic::edge_edge(&pair.edge_edge()),
-                (ElementaryTest::TimeOfImpact, PairKind::VertexFace) => time_of_impact(&pair.vertex_face(), &limits).time(),
-                (ElementaryTest::Exact, PairKind::VertexFace) => {
-                    let exact = pair.vertex_face();
-                    let time = time_of_impact(&exact, &limits).time();
-                    time.filter(|_| contact(&exact) == Contact::Happens)
-                }
-                (ElementaryTest::Exact, PairKind::EdgeEdge) => {
-                    let exact = pair.edge_edge();
-                    let time = time_of_impact(&exact, &limits).time();
-                    time.filter(|_| contact(&exact) == Contact::Happens)
-                }
-                (ElementaryTest::TimeOfImpact, PairKind::EdgeEdge) => time_of_impact(&pair.edge_edge(), &limits).time(),
+            let pair = points(mesh, &topology, pair).pair();
+            let certified = time_of_impact(&pair, &Limits::default()).time();
+            match stages.elementary {
+                ElementaryTest::Cubic => cubic::time_of_impact(&pair),
+                ElementaryTest::TimeOfImpact => certified,
+                ElementaryTest::Exact => certified.filter(|_| contact(&pair) == Contact::Happens),
             }
         };
         candidates.retain(|pair| time(pair).is_some());
@@ -339,14 +321,7 @@ fn moving_boxes_end_with_what_the_certified_tests_leave<S: Format>(mesh: &MeshCa
     prop_assert_eq!(report.broad_phase_pairs.map(PairCounts::total), Some(left.len() as u64));
     // In f64 what f32 leaves open.
     let filter = Filter::<S>::new(Tier::Widened);
-    left.retain(|&pair| {
-        let case = points(mesh, &topology, pair);
-        let verdict = match pair.0 {
-            VertexFace => filter.verdict(&case.vertex_face()),
-            EdgeEdge => filter.verdict(&case.edge_edge()),
-        };
-        !verdict.is_culled()
-    });
+    left.retain(|&pair| !filter.verdict(&points(mesh, &topology, pair).pair()).is_culled());
     prop_assert_eq!(&run.candidates(), &left);
 
     let mut contacts = BTreeMap::new();

@@ -1,13 +1,14 @@
 //! The proofs in `gappa/` are about core as it is: scripts are what its code gives, constants and counts of roundings in them
 //! are its own. That the proofs hold is checked by `gappa/check.sh`.
 
-use selvedge_core::Vector;
-use selvedge_core::elementary::advance::confirm::{contains_origin, doubled_bounds};
-use selvedge_core::elementary::advance::corners::Corners;
-use selvedge_core::elementary::advance::directions::are_apart_turning;
-use selvedge_core::elementary::advance::volume::SignedVolume;
-use selvedge_core::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
-use selvedge_core::{Rounding, Scalar};
+use selvedge_core::Scalar;
+use selvedge_core::verification::advance::confirm::{contains_origin, doubled_bounds};
+use selvedge_core::verification::advance::corners::Corners;
+use selvedge_core::verification::advance::directions::are_apart_turning;
+use selvedge_core::verification::advance::volume::SignedVolume;
+use selvedge_core::verification::lanes::Rounding;
+use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
+use selvedge_core::verification::vector::Vector;
 use selvedge_verification::proofs::{inside, scripts, tetrahedron};
 use selvedge_verification::traced::{Paths, Trace, Traced, trace};
 use std::collections::BTreeMap;
@@ -197,8 +198,8 @@ fn roundings_of_inside_functions<P: PairShape>() -> [[u32; 2]; 5] {
 #[test]
 fn roundings_of_inside_functions_are_as_many_as_the_script_says() {
     let (faces, edges) = (
-        roundings_of_inside_functions::<VertexAndFace>(),
-        roundings_of_inside_functions::<EdgeAndEdge>(),
+        roundings_of_inside_functions::<VertexFace>(),
+        roundings_of_inside_functions::<EdgeEdge>(),
     );
     // No more than that: a script that said too many would prove less than it could.
     let most = |[a, b]: [u32; 2], [c, d]: [u32; 2]| [a.max(c), b.max(d)];

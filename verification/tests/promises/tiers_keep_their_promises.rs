@@ -20,19 +20,11 @@ fn certified() -> impl Iterator<Item = Tier> {
 
 fn culls_as_computed<S: Format>(pair: &PairCase<S>, separation: S) -> bool {
     let filter = AsComputed::new().with_separation(separation).expect("a length");
-    match pair.kind {
-        PairKind::VertexFace => filter.verdict(&pair.vertex_face()),
-        PairKind::EdgeEdge => filter.verdict(&pair.edge_edge()),
-    }
-    .is_culled()
+    filter.verdict(&pair.pair()).is_culled()
 }
 
 fn filter_culls<S: Format>(filter: Filter<S>, pair: &PairCase<S>) -> bool {
-    match pair.kind {
-        PairKind::VertexFace => filter.verdict(&pair.vertex_face()),
-        PairKind::EdgeEdge => filter.verdict(&pair.edge_edge()),
-    }
-    .is_culled()
+    filter.verdict(&pair.pair()).is_culled()
 }
 
 fn culls<S: Format>(tier: Tier, pair: &PairCase<S>) -> bool {
@@ -45,11 +37,7 @@ fn culls_beyond<S: Format>(tier: Tier, separation: S, pair: &PairCase<S>) -> boo
 }
 
 fn normal_culls<S: Format>(pair: &PairCase<S>) -> bool {
-    match pair.kind {
-        PairKind::VertexFace => direction::normal(&pair.vertex_face()),
-        PairKind::EdgeEdge => direction::normal(&pair.edge_edge()),
-    }
-    .is_culled()
+    direction::normal(&pair.pair()).is_culled()
 }
 
 const fn is_subdivided(tier: Tier) -> bool {

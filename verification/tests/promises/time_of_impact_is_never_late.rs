@@ -7,11 +7,12 @@ use rug::Rational;
 use selvedge::verification::{available_levels, best_level};
 use selvedge_core::PairKind;
 use selvedge_core::batch::{Level, Round, RoundQuestion, VertexRow, advance_from_rows};
-use selvedge_core::elementary::advance::confirm::certain_contact;
-use selvedge_core::elementary::advance::{ROUNDS, Work, time_of_impact, time_of_impact_and_work, time_of_impact_within};
+use selvedge_core::elementary::advance::certain_contact;
+use selvedge_core::elementary::advance::{ROUNDS, time_of_impact, time_of_impact_and_work, time_of_impact_within};
 use selvedge_core::elementary::{Impact, Limits, Reason};
 use selvedge_core::glam::DVec3;
-use selvedge_core::{Motion, PrimitivePair, Scalar, VertexFace};
+use selvedge_core::verification::advance::Work;
+use selvedge_core::{Motion, PrimitivePair, Scalar};
 use selvedge_laboratory::baselines::tight_inclusion;
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,
@@ -76,21 +77,14 @@ fn questions<S: Format>() -> impl Strategy<Value = Question<S>> + Clone {
 
 fn answer<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S) -> (Impact<S>, Work) {
     let limits = Limits { tolerance, separation };
-    match pair.kind {
-        PairKind::VertexFace => time_of_impact_and_work(&pair.vertex_face(), &limits),
-        PairKind::EdgeEdge => time_of_impact_and_work(&pair.edge_edge(), &limits),
-    }
+    time_of_impact_and_work(&pair.pair(), &limits)
 }
 
 /// The same question as a caller with many pairs asks it: sweeps of rounds in lanes, then the pair alone from where it is. Three
 /// times the same pair, so that lanes that are not used are there too.
 fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, level: Level) -> Impact<S> {
     let limits = Limits { tolerance, separation };
-    let (kind, motions) = match pair.kind {
-        PairKind::VertexFace => (PairKind::VertexFace, pair.vertex_face().motions()),
-        PairKind::EdgeEdge => (PairKind::EdgeEdge, pair.edge_edge().motions()),
-    };
-    let rows = motions.map(VertexRow::new);
+    let (kind, rows) = (pair.kind, pair.motions().map(VertexRow::new));
     let mut times = [S::ZERO; 3];
     for sweep in 0..6 {
         let question = RoundQuestion {
@@ -118,24 +112,18 @@ fn answer_in_sweeps<S: Format>(pair: &PairCase<S>, tolerance: S, separation: S, 
             break;
         }
     }
-    match pair.kind {
-        PairKind::VertexFace => time_of_impact_within(&pair.vertex_face(), &limits, times[0], S::ONE),
-        PairKind::EdgeEdge => time_of_impact_within(&pair.edge_edge(), &limits, times[0], S::ONE),
-    }
+    time_of_impact_within(&pair.pair(), &limits, times[0], S::ONE)
 }
 
 /// The largest difference along an axis between points of the two sets, exactly.
 fn extents<S: Format>(pair: &PairCase<S>) -> [Rational; 3] {
-    let first = match pair.kind {
-        PairKind::VertexFace => 1,
-        PairKind::EdgeEdge => 2,
-    };
+    let [first, second] = pair.sets();
     std::array::from_fn(|axis| {
         let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
         let mut largest = Rational::new();
         for end in 0..2 {
-            for one in &pair.points[..first] {
-                for other in &pair.points[first..] {
+            for one in first {
+                for other in second {
                     let difference = exact(one[end][axis]) - exact(other[end][axis]);
                     largest = largest.max(difference.abs());
                 }
@@ -321,10 +309,10 @@ property!(
 fn a_subnormal_separation_counts_where_subnormal_numbers_are_taken_for_zero() {
     let y = |y: f64| DVec3::new(0.0, y, 0.0);
     let low = Motion::resting(y(-1.0));
-    let pair = VertexFace {
-        vertex: Motion::new(DVec3::ZERO, y(-4.389e-308)),
-        face: [low, low, Motion::new(y(-1.0), y(-4.4154e-308))],
-    };
+    let pair = PrimitivePair::vertex_face(
+        Motion::new(DVec3::ZERO, y(-4.389e-308)),
+        [low, low, Motion::new(y(-1.0), y(-4.4154e-308))],
+    );
     let limits = Limits {
         tolerance: 0.0,
         separation: 4.13e-310,
@@ -426,10 +414,7 @@ fn confirms_only_contacts<S: Format>(
     let (impact, _) = answer(pair, size(pair) * S::exact(1, -20), S::ZERO);
     let times = [impact.time(), Some(S::exact(1, -1)), Some(S::ZERO)];
     for near in times.into_iter().flatten() {
-        let interval = environment.run(pair, |pair| match pair.kind {
-            PairKind::VertexFace => certain_contact(&pair.vertex_face(), near),
-            PairKind::EdgeEdge => certain_contact(&pair.edge_edge(), near),
-        });
+        let interval = environment.run(pair, |pair| certain_contact(&pair.pair(), near));
         let Some([from, to]) = interval else { continue };
         confirmed.set(confirmed.get() + 1);
         let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
@@ -490,10 +475,7 @@ fn bisection_is_not_late<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseEr
         tolerance: size(&pair) * S::exact(1, -3),
         separation: S::ZERO,
     };
-    let impact = match pair.kind {
-        PairKind::VertexFace => tight_inclusion::time_of_impact(&pair.vertex_face(), &limits),
-        PairKind::EdgeEdge => tight_inclusion::time_of_impact(&pair.edge_edge(), &limits),
-    };
+    let impact = tight_inclusion::time_of_impact(&pair.pair(), &limits);
     let found = impact.time().map(|time| time.to_f64());
     prop_assert!(found.is_some_and(|found| found <= moment.time()), "{impact:?}");
     Ok(())

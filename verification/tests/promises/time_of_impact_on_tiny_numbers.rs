@@ -5,14 +5,16 @@
 //! close, and that something is proven at all.
 
 use rug::Integer;
-use selvedge_core::elementary::advance::corners::Corners;
-use selvedge_core::elementary::advance::directions::are_apart_turning;
-use selvedge_core::elementary::advance::round::{Question, round};
+use selvedge_core::PairKind;
 use selvedge_core::elementary::advance::time_of_impact_of_points;
-use selvedge_core::elementary::advance::volume::SignedVolume;
 use selvedge_core::elementary::{Impact, Limits};
-use selvedge_core::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
-use selvedge_core::{PairKind, Rounding, Vector};
+use selvedge_core::verification::advance::corners::Corners;
+use selvedge_core::verification::advance::directions::are_apart_turning;
+use selvedge_core::verification::advance::round::{Question, round};
+use selvedge_core::verification::advance::volume::SignedVolume;
+use selvedge_core::verification::lanes::Rounding;
+use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
+use selvedge_core::verification::vector::Vector;
 use selvedge_verification::altered::{self, Factors};
 use selvedge_verification::generator::{Choices, Format, Meeting, Moment, PairCase};
 use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD};
@@ -363,12 +365,12 @@ fn random_times<P: PairShape, const ENVIRONMENT: u32>() -> [u64; 2] {
 #[test]
 fn random_times_of_impact_with_9_bits_are_never_late() {
     for [apart, touching] in [
-        random_times::<VertexAndFace, TO_NEAREST>(),
-        random_times::<VertexAndFace, UPWARD>(),
-        random_times::<VertexAndFace, { DOWNWARD | FLUSHING }>(),
-        random_times::<EdgeAndEdge, DOWNWARD>(),
-        random_times::<EdgeAndEdge, TOWARDS_ZERO>(),
-        random_times::<EdgeAndEdge, { TO_NEAREST | FLUSHING }>(),
+        random_times::<VertexFace, TO_NEAREST>(),
+        random_times::<VertexFace, UPWARD>(),
+        random_times::<VertexFace, { DOWNWARD | FLUSHING }>(),
+        random_times::<EdgeEdge, DOWNWARD>(),
+        random_times::<EdgeEdge, TOWARDS_ZERO>(),
+        random_times::<EdgeEdge, { TO_NEAREST | FLUSHING }>(),
     ] {
         assert!(apart > 300 && touching > 50, "{apart} apart, {touching} touching");
     }

@@ -1,5 +1,5 @@
 use super::{Impact, Limits, ROUNDS, Reason, time_of_impact, time_of_impact_and_work};
-use crate::{EdgeEdge, Motion, VertexFace};
+use crate::{Motion, PrimitivePair};
 use glam::{DVec3, Vec3};
 
 const FACE: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
@@ -12,12 +12,9 @@ fn limits(separation: f64) -> Limits<f64> {
 }
 
 /// A vertex over the middle of a resting face.
-fn fall(from: f64, to: f64) -> VertexFace<f64> {
+fn fall(from: f64, to: f64) -> PrimitivePair<f64> {
     let at = |z| DVec3::new(0.25, 0.25, z);
-    VertexFace {
-        vertex: Motion::new(at(from), at(to)),
-        face: FACE.map(Motion::resting),
-    }
+    PrimitivePair::vertex_face(Motion::new(at(from), at(to)), FACE.map(Motion::resting))
 }
 
 #[track_caller]
@@ -56,10 +53,10 @@ fn contact_at_either_end_is_contact() {
 #[test]
 fn parallel_edges_meet_though_they_are_always_coplanar() {
     let edge = [DVec3::ZERO, DVec3::X];
-    let pair = EdgeEdge {
-        first: edge.map(Motion::resting),
-        second: edge.map(|end| Motion::new(end + DVec3::Z, end - DVec3::Z)),
-    };
+    let pair = PrimitivePair::edge_edge(
+        edge.map(Motion::resting),
+        edge.map(|end| Motion::new(end + DVec3::Z, end - DVec3::Z)),
+    );
     assert_contact(time_of_impact(&pair, &limits(0.0)), 0.5, 1e-9);
 }
 
@@ -68,10 +65,7 @@ fn a_face_without_area_is_a_segment() {
     let line = [DVec3::ZERO, DVec3::X, 2.0 * DVec3::X];
     let at = |x: f64, z| DVec3::new(x, 0.0, z);
     for (x, hits) in [(1.5, true), (2.5, false)] {
-        let pair = VertexFace {
-            vertex: Motion::new(at(x, 1.0), at(x, -1.0)),
-            face: line.map(Motion::resting),
-        };
+        let pair = PrimitivePair::vertex_face(Motion::new(at(x, 1.0), at(x, -1.0)), line.map(Motion::resting));
         let impact = time_of_impact(&pair, &limits(0.0));
         if hits {
             assert_contact(impact, 0.5, 1e-9);
@@ -85,10 +79,7 @@ fn a_face_without_area_is_a_segment() {
 fn points_that_slide_past_each_other_need_few_rounds() {
     // 1e-6 above the plane of the face and across it, which spins under it by half a turn (linearly: through its middle).
     let turned = FACE.map(|corner| Motion::new(corner, DVec3::new(0.6, 0.6, 0.0) - corner));
-    let pair = VertexFace {
-        vertex: Motion::new(DVec3::new(-1.0, 0.3, 1e-6), DVec3::new(2.0, 0.2, 2e-6)),
-        face: turned,
-    };
+    let pair = PrimitivePair::vertex_face(Motion::new(DVec3::new(-1.0, 0.3, 1e-6), DVec3::new(2.0, 0.2, 2e-6)), turned);
     let (impact, work) = time_of_impact_and_work(&pair, &limits(0.0));
     assert_eq!(impact, Impact::Never);
     assert!(work.rounds < ROUNDS / 2, "{work:?}");
@@ -123,10 +114,10 @@ fn rest_in_contact_up_to_rounding_says_so() {
         },
     );
     assert_contact(impact, 0.0, 0.0);
-    let tilted = VertexFace {
-        vertex: Motion::resting(DVec3::new(0.25, 0.25, 0.5 + height)),
-        face: [DVec3::Z, DVec3::X, DVec3::Y].map(Motion::resting),
-    };
+    let tilted = PrimitivePair::vertex_face(
+        Motion::resting(DVec3::new(0.25, 0.25, 0.5 + height)),
+        [DVec3::Z, DVec3::X, DVec3::Y].map(Motion::resting),
+    );
     let impact = time_of_impact(
         &tilted,
         &Limits {
@@ -143,10 +134,10 @@ fn rest_in_contact_up_to_rounding_says_so() {
 #[test]
 fn single_precision_has_a_tolerance_of_its_own() {
     let at = |z| Vec3::new(0.25, 0.25, z);
-    let pair = VertexFace {
-        vertex: Motion::new(at(1.0), at(-1.0)),
-        face: [Vec3::ZERO, Vec3::X, Vec3::Y].map(Motion::resting),
-    };
+    let pair = PrimitivePair::vertex_face(
+        Motion::new(at(1.0), at(-1.0)),
+        [Vec3::ZERO, Vec3::X, Vec3::Y].map(Motion::resting),
+    );
     let time = time_of_impact(&pair, &Limits::default()).time();
     assert!(time.is_some_and(|time| (0.499_998..=0.5).contains(&time)));
 }

@@ -9,7 +9,7 @@ use selvedge_core::elementary::Limits;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
-use selvedge_core::{EdgeEdge, Motion, VertexFace};
+use selvedge_core::{Motion, PrimitivePair};
 
 /// A vertex and a face, or two edges, that may come close in this step.
 #[derive(Clone, Copy, Debug)]
@@ -118,17 +118,11 @@ impl Candidate {
         let [a, b, c, d] = self.vertices.map(|v| Motion::new(start[v as usize], end[v as usize]));
         let impact = match self.kind {
             PairKind::VertexFace => {
-                let pair = VertexFace {
-                    vertex: a,
-                    face: [b, c, d],
-                };
+                let pair = PrimitivePair::vertex_face(a, [b, c, d]);
                 time_of_impact(&pair, &limits)
             }
             PairKind::EdgeEdge => {
-                let pair = EdgeEdge {
-                    first: [a, b],
-                    second: [c, d],
-                };
+                let pair = PrimitivePair::edge_edge([a, b], [c, d]);
                 time_of_impact(&pair, &limits)
             }
         };

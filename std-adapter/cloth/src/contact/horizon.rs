@@ -7,10 +7,10 @@
 //! Where few vertices leave that room, as in a crease, they alone get a [new way](Horizon::lead_back) for the rest of the time, and
 //! candidates are looked for with what they belong to.
 
-use selvedge_core::Lanes;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::course::{expected, has_room, is_certain, joined, time_after};
 use selvedge_core::separation::largest_coordinate;
+use selvedge_core::verification::lanes::Lanes;
 
 /// Most steps to look ahead.
 const FARTHEST: u32 = 4;

@@ -9,10 +9,10 @@ use super::settings::MARGIN;
 use selvedge::PairKind;
 use selvedge::Topology;
 use selvedge::verification::MovingBroadPhase;
-use selvedge_core::Lanes;
 use selvedge_core::glam::{DVec3, Vec3A};
 use selvedge_core::separation::clearance::{Clearance, are_boxes_within, nearness};
 use selvedge_core::separation::largest_coordinate;
+use selvedge_core::verification::lanes::Lanes;
 use std::sync::Arc;
 
 /// Whether so many pairs of cloth, vertices below `cloth_vertices`, are nearer to each other than `distance` at rest that looking them

@@ -8,10 +8,10 @@ use super::report::{ContactCounts, ContactSeconds, described};
 use super::settings::ContactSettings;
 use crate::step::{Carrier, TimeStep, Touches};
 use selvedge::TopologyError;
-use selvedge_core::Lanes;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
+use selvedge_core::verification::lanes::Lanes;
 use std::time::Instant;
 
 /// Everything that contact needs, made only if an effect asks for it.

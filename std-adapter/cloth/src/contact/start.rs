@@ -9,7 +9,7 @@ use selvedge::Topology;
 use selvedge::verification::MovingBroadPhase;
 use selvedge_core::elementary::contact::{Contact, contact};
 use selvedge_core::glam::DVec3;
-use selvedge_core::{Motion, VertexFace};
+use selvedge_core::{Motion, PrimitivePair};
 use std::sync::Arc;
 
 /// An edge and a face that it meets, if a vertex of the one and a vertex of the other `are_asked` about; in words.
@@ -30,10 +30,10 @@ pub(super) fn first_crossing(
         if !are_asked(from, a) {
             return None;
         }
-        let pair = VertexFace {
-            vertex: Motion::new(positions[from as usize], positions[to as usize]),
-            face: [a, b, c].map(|vertex| Motion::resting(positions[vertex as usize])),
-        };
+        let pair = PrimitivePair::vertex_face(
+            Motion::new(positions[from as usize], positions[to as usize]),
+            [a, b, c].map(|vertex| Motion::resting(positions[vertex as usize])),
+        );
         let meets = contact(&pair) != Contact::Never;
         meets.then(|| format!("the pair of the edge {from}, {to} and the face {a}, {b}, {c}"))
     })

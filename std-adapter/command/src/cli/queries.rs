@@ -113,7 +113,7 @@ impl Queries {
     fn measure<S: Scalar>(
         &self,
         files: &[QueryFile],
-        mut queries: impl FnMut(&QueryFile) -> Result<Vec<Query<S::Vector>>, Failure>,
+        mut queries: impl FnMut(&QueryFile) -> Result<Vec<Query<S>>, Failure>,
     ) -> Result<Vec<QueryResult>, Failure> {
         let mut by_kind = Vec::new();
         for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {

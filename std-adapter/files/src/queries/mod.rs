@@ -21,7 +21,8 @@
 //! assert_eq!(file.kind, selvedge::PairKind::VertexFace);
 //! assert_eq!(file.inexact, 0);
 //! let query = &file.queries[0];
-//! assert_eq!((query.start[0].z, query.end[0].z), (0.5, -0.5));
+//! let vertex = query.pair.motions[0];
+//! assert_eq!((vertex.start.z, vertex.end.z), (0.5, -0.5));
 //! assert_eq!(query.collides, Some(true));
 //! # Ok(())
 //! # }

@@ -2,22 +2,18 @@
 
 use std::path::PathBuf;
 
-use selvedge_core::glam::{DVec3, Vec3};
+use selvedge_core::glam::Vec3;
+use selvedge_core::{Motion, PrimitivePair, Scalar};
 
 use super::QueryError;
 use super::kind::point_names;
 use selvedge::PairKind;
 
-/// Four points that move linearly from `start` to `end` over the step, and whether they collide.
-///
-/// The points of a vertex-face query are `v, f0, f1, f2`, those of an edge-edge query
-/// `a0, a1, b0, b1`. Positions are in the file's length unit and always finite.
+/// A primitive pair that moves linearly over the step, and whether it collides. Positions are in the file's length unit and always finite.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Query<V = DVec3> {
-    /// The four points at time 0.
-    pub start: [V; 4],
-    /// The four points at time 1.
-    pub end: [V; 4],
+pub struct Query<S: Scalar = f64> {
+    /// The pair: `v, f0, f1, f2` or `a0, a1, b0, b1`.
+    pub pair: PrimitivePair<S>,
     /// Whether the primitives touch at some time in [0, 1]; `None` if the file does not say.
     pub collides: Option<bool>,
     /// The line of the file on which the query starts, counted from 1.
@@ -42,7 +38,7 @@ pub struct QueryFile {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SinglePrecision {
     /// The queries, in the order of the file.
-    pub queries: Vec<Query<Vec3>>,
+    pub queries: Vec<Query<f32>>,
     /// How many coordinates changed in the conversion from `f64`. If this is not 0, the truth
     /// column may not hold for the rounded coordinates. [`QueryFile::inexact`] counts the
     /// roundings before that.
@@ -62,9 +58,13 @@ impl QueryFile {
             .queries
             .iter()
             .map(|query| {
+                let start = self.points_to_f32(query, 0, &mut rounded)?;
+                let end = self.points_to_f32(query, 1, &mut rounded)?;
                 Ok(Query {
-                    start: self.points_to_f32(query, 0, &mut rounded)?,
-                    end: self.points_to_f32(query, 1, &mut rounded)?,
+                    pair: PrimitivePair {
+                        kind: query.pair.kind,
+                        motions: [0, 1, 2, 3].map(|k| Motion::new(start[k], end[k])),
+                    },
                     collides: query.collides,
                     line: query.line,
                 })
@@ -74,9 +74,12 @@ impl QueryFile {
     }
 
     fn points_to_f32(&self, query: &Query, time: u8, rounded: &mut usize) -> Result<[Vec3; 4], QueryError> {
-        let points = if time == 0 { &query.start } else { &query.end };
+        let points = query
+            .pair
+            .motions
+            .map(|motion| if time == 0 { motion.start } else { motion.end });
         let mut result = [Vec3::ZERO; 4];
-        for (index, (wide, narrow)) in points.iter().zip(&mut result).enumerate() {
+        for (index, (wide, narrow)) in points.into_iter().zip(&mut result).enumerate() {
             *narrow = wide.as_vec3();
             for axis in 0..3 {
                 if !narrow[axis].is_finite() {
@@ -90,7 +93,7 @@ impl QueryFile {
                     });
                 }
             }
-            *rounded += narrow.as_dvec3().cmpne(*wide).bitmask().count_ones() as usize;
+            *rounded += narrow.as_dvec3().cmpne(wide).bitmask().count_ones() as usize;
         }
         Ok(result)
     }

@@ -4,6 +4,7 @@ use std::{fs::File, io::Read, path::Path};
 
 use csv::{ByteRecord, ReaderBuilder, Terminator, Trim};
 use selvedge_core::glam::DVec3;
+use selvedge_core::{Motion, PrimitivePair};
 
 use super::kind::kind_of_path;
 use super::{
@@ -56,7 +57,7 @@ pub fn read(path: &Path, kind: Option<PairKind>) -> Result<QueryFile, QueryError
 /// use selvedge_files::queries::read_from;
 /// let rows = "1,2,0,1,-3,4\n".repeat(8);
 /// let file = read_from(rows.as_bytes(), "generated".as_ref(), PairKind::EdgeEdge)?;
-/// assert_eq!(file.queries[0].start[0].to_array(), [0.5, 0.0, -0.75]);
+/// assert_eq!(file.queries[0].pair.motions[0].start.to_array(), [0.5, 0.0, -0.75]);
 /// # Ok::<(), selvedge_files::queries::QueryError>(())
 /// ```
 pub fn read_from(source: impl Read, path: &Path, kind: PairKind) -> Result<QueryFile, QueryError> {
@@ -75,7 +76,7 @@ pub fn read_from(source: impl Read, path: &Path, kind: PairKind) -> Result<Query
         .terminator(Terminator::Any(b'\n'))
         .from_reader(source.chain(&b"\n"[..]));
     let mut record = ByteRecord::new();
-    let mut builder = Builder::new(path);
+    let mut builder = Builder::new(path, kind);
     while reader
         .read_byte_record(&mut record)
         .map_err(|error| unreadable(error.into()))?
@@ -108,15 +109,16 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(path: &'a Path) -> Self {
-        let nothing = [DVec3::ZERO; 4];
+    fn new(path: &'a Path, kind: PairKind) -> Self {
         Self {
             path,
             queries: Vec::new(),
             inexact: 0,
             current: Query {
-                start: nothing,
-                end: nothing,
+                pair: PrimitivePair {
+                    kind,
+                    motions: [Motion::default(); 4],
+                },
                 collides: None,
                 line: 0,
             },
@@ -140,11 +142,11 @@ impl<'a> Builder<'a> {
             });
         }
         let point = self.point(record, line)?;
-        let (row, index) = (self.filled, self.filled % 4);
-        if row < 4 {
-            self.current.start[index] = point;
+        let motion = &mut self.current.pair.motions[self.filled % 4];
+        if self.filled < 4 {
+            motion.start = point;
         } else {
-            self.current.end[index] = point;
+            motion.end = point;
         }
         self.filled += 1;
         if self.filled == ROWS {

@@ -61,8 +61,14 @@ fn points_keep_the_order_of_their_rows() {
     let face = [DVec3::ZERO, DVec3::X, DVec3::Y];
     let with_face = |v| [v, face[0], face[1], face[2]];
     assert_eq!(file.queries.len(), 1);
-    assert_eq!(file.queries[0].start, with_face(DVec3::new(0.25, 0.25, 0.5)));
-    assert_eq!(file.queries[0].end, with_face(DVec3::new(0.25, 0.25, -0.5)));
+    assert_eq!(
+        file.queries[0].pair.motions.map(|motion| motion.start),
+        with_face(DVec3::new(0.25, 0.25, 0.5))
+    );
+    assert_eq!(
+        file.queries[0].pair.motions.map(|motion| motion.end),
+        with_face(DVec3::new(0.25, 0.25, -0.5))
+    );
 }
 
 #[test]
@@ -105,7 +111,7 @@ fn rounded_coordinates_are_counted() {
     let text = fall().replacen("1,4,1,4,1,2", "1,3,1,10,1,2", 1);
     let file = read_text(text).unwrap();
     assert_eq!(file.inexact, 2);
-    assert_eq!(file.queries[0].start[0], DVec3::new(1.0 / 3.0, 0.1, 0.5));
+    assert_eq!(file.queries[0].pair.motions[0].start, DVec3::new(1.0 / 3.0, 0.1, 0.5));
 }
 
 #[test]
@@ -229,10 +235,10 @@ fn single_precision_counts_what_it_rounds() {
     let third = 1.0_f64 / 3.0;
     let mut file = read_text(fall()).unwrap();
     assert_eq!(file.to_f32().unwrap().rounded, 0);
-    file.queries[0].end[3] = DVec3::new(third, 1e-300, 0.5);
+    file.queries[0].pair.motions[3].end = DVec3::new(third, 1e-300, 0.5);
     let single = file.to_f32().unwrap();
     assert_eq!(single.rounded, 2);
-    assert_eq!(single.queries[0].end[3].to_array(), [third as f32, 0.0, 0.5]);
+    assert_eq!(single.queries[0].pair.motions[3].end.to_array(), [third as f32, 0.0, 0.5]);
 }
 
 #[test]
@@ -242,9 +248,9 @@ fn a_coordinate_beyond_single_precision_is_named() {
     let largest = f64::from(f32::MAX);
     let tie = largest + 2_f64.powi(127 - 24);
     let mut file = read_text(fall() + &fall()).unwrap();
-    file.queries[1].end[2].y = -tie.next_down();
-    assert_eq!(file.to_f32().unwrap().queries[1].end[2].y, f32::MIN);
-    file.queries[1].end[2].y = -tie;
+    file.queries[1].pair.motions[2].end.y = -tie.next_down();
+    assert_eq!(file.to_f32().unwrap().queries[1].pair.motions[2].end.y, f32::MIN);
+    file.queries[1].pair.motions[2].end.y = -tie;
     let error = file.to_f32().unwrap_err().to_string();
     assert_names(
         &error,

@@ -12,11 +12,12 @@
 //!
 //! Written from the description. Positions are computed anew from the time in each round, not added up.
 
-use selvedge_core::elementary::advance::closest::closest;
-use selvedge_core::elementary::advance::corners::Corners;
 use selvedge_core::elementary::{Impact, Reason};
-use selvedge_core::points::{PairPoints, PairShape};
-use selvedge_core::{PairKind, PrimitivePair, Scalar, Vector};
+use selvedge_core::verification::advance::closest::closest;
+use selvedge_core::verification::advance::corners::Corners;
+use selvedge_core::verification::points::PairPoints;
+use selvedge_core::verification::vector::Vector;
+use selvedge_core::{PairKind, PrimitivePair, Scalar};
 
 /// The largest number of rounds.
 pub const ROUNDS: u32 = 100_000;
@@ -28,18 +29,18 @@ pub const ROUNDS: u32 = 100_000;
 ///
 /// ```
 /// use selvedge_laboratory::baselines::additive::time_of_impact;
-/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
-/// let pair = VertexFace {
-///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-/// };
+/// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
+/// let pair = PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)),
+///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// );
 /// let time = time_of_impact(&pair, 0.0).time().unwrap();
 /// assert!(0.45 < time && time < 0.5);
 /// ```
 #[inline]
-pub fn time_of_impact<S: Scalar, P: PrimitivePair<S>>(pair: &P, separation: S) -> Impact<S> {
-    let points = pair.points();
-    match P::Shape::KIND {
+pub fn time_of_impact<S: Scalar>(pair: &PrimitivePair<S>, separation: S) -> Impact<S> {
+    let points = PairPoints::from(pair);
+    match pair.kind {
         PairKind::VertexFace => advance(&points, &Corners::of_vertex_face(&points), 1, separation),
         PairKind::EdgeEdge => advance(&points, &Corners::of_edge_edge(&points), 2, separation),
     }

@@ -4,22 +4,23 @@
 //! error. What that costs, and what it is there for, is seen by comparison with this.
 
 use selvedge_core::batch::VolumeTest;
-use selvedge_core::coplanarity::MovingTetrahedron;
-use selvedge_core::filter::certified::Decision;
 use selvedge_core::filter::{Filter, Tier};
-use selvedge_core::points::PairShape;
-use selvedge_core::{Lanes, PrimitivePair, Scalar, Verdict};
+use selvedge_core::verification::coplanarity::{Decision, MovingTetrahedron};
+use selvedge_core::verification::lanes::Lanes;
+use selvedge_core::verification::of_kind;
+use selvedge_core::verification::points::PairShape;
+use selvedge_core::{PrimitivePair, Scalar, Verdict};
 
 /// Culls pairs whose control values have one strict sign as computed, and exceed a separation if there is one. For batches:
 /// [`ByVolume`](selvedge_core::batch::ByVolume).
 ///
 /// ```
-/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+/// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
 /// use selvedge_laboratory::baselines::as_computed::AsComputed;
-/// let pair = VertexFace {
-///     vertex: Motion::new(DVec3::new(0.2, 0.2, 2.0), DVec3::new(0.2, 0.2, 1.0)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-/// };
+/// let pair = PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(0.2, 0.2, 2.0), DVec3::new(0.2, 0.2, 1.0)),
+///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// );
 /// assert!(AsComputed::new().verdict(&pair).is_culled());
 /// assert!(!AsComputed::new().with_separation(1.5).unwrap().verdict(&pair).is_culled());
 /// ```
@@ -44,8 +45,8 @@ impl<S: Scalar> AsComputed<S> {
 
     /// Culls `pair`, or keeps it. May be wrong either way.
     #[inline]
-    pub fn verdict<P: PrimitivePair<S>>(&self, pair: &P) -> Verdict {
-        Verdict::culled_if(self.on::<P::Shape, S>(&pair.tetrahedron()).culled)
+    pub fn verdict(&self, pair: &PrimitivePair<S>) -> Verdict {
+        Verdict::culled_if(of_kind!(pair.kind, P => self.on::<P, S>(&pair.into()).culled))
     }
 }
 

@@ -14,7 +14,7 @@
 //!
 //! In exact arithmetic that is a decision. The paper reaches it by expansions where floating point is in doubt; here rounding is
 //! ignored, to show what the classification costs alone and how often it then errs. The reduction is what suffers: where K is nearly
-//! of lower degree, c²·g and q·K nearly cancel. [`exact::touches`](selvedge_core::exact::touches) decides exactly, by the same idea with
+//! of lower degree, c²·g and q·K nearly cancel. [`exact::touches`](selvedge_core::verification::exact::touches) decides exactly, by the same idea with
 //! quadratics in place of quartics.
 //!
 //! Where K is zero throughout there is no root to speak of, and the pair is said to touch unless an inside function is
@@ -24,41 +24,45 @@
 use super::cubic::Cubic;
 use selvedge_core::PairKind;
 use selvedge_core::motion::PrimitivePair;
-use selvedge_core::points::{PairPoints, PairShape};
 use selvedge_core::scalar::Scalar;
-use selvedge_core::vector::Vector;
+use selvedge_core::verification::of_kind;
+use selvedge_core::verification::points::{PairPoints, PairShape};
+use selvedge_core::verification::vector::Vector;
 
 /// Whether the pair touches at some time in [0, 1]. May be wrong by rounding, either way: see the module.
 ///
 /// NaN and infinite coordinates exclude nothing.
 ///
 /// ```
-/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+/// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
 /// use selvedge_laboratory::baselines::bernstein_sign;
-/// let falls_at = |x| VertexFace {
-///     vertex: Motion::new(DVec3::new(x, 0.2, 1.0), DVec3::new(x, 0.2, -3.0)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-/// };
+/// let falls_at = |x| PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(x, 0.2, 1.0), DVec3::new(x, 0.2, -3.0)),
+///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// );
 /// assert!(bernstein_sign::touches(&falls_at(0.2)));
 /// assert!(!bernstein_sign::touches(&falls_at(0.9)));
 /// ```
 #[must_use]
-pub fn touches<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> bool {
-    let points = pair.points();
+pub fn touches<S: Scalar>(pair: &PrimitivePair<S>) -> bool {
+    of_kind!(pair.kind, P => touches_of::<S, P>(&pair.into()))
+}
+
+fn touches_of<S: Scalar, P: PairShape>(points: &PairPoints<S>) -> bool {
     if !points.is_finite() {
         return true;
     }
     let mut touches = false;
-    Cubic::new(pair.tetrahedron()).for_each_monotone_piece(|from, to| {
+    Cubic::new(points.tetrahedron::<P>()).for_each_monotone_piece(|from, to| {
         // Motion between two times is linear as well.
         let piece = PairPoints {
-            start: at(&points, from),
-            end: at(&points, to),
+            start: at(points, from),
+            end: at(points, to),
         };
-        let [a, b, c, d] = corners::<S, P::Shape>(&piece);
-        let cubic = Cubic::new(piece.tetrahedron::<P::Shape>());
+        let [a, b, c, d] = corners::<S, P>(&piece);
+        let cubic = Cubic::new(piece.tetrahedron::<P>());
         touches = cubic.may_have_a_root()
-            && match P::Shape::KIND {
+            && match P::KIND {
                 PairKind::VertexFace => contains_origin_at_root([b, c, d], &cubic),
                 PairKind::EdgeEdge => contains_origin_at_root([a, b, d, c], &cubic),
             };

@@ -9,49 +9,49 @@
 //!
 //! `selvedge queries --method cubic` shows how often.
 
-use selvedge_core::coplanarity::MovingTetrahedron;
-use selvedge_core::motion::{EdgeEdge, Motion, PrimitivePair, VertexFace};
-use selvedge_core::{Scalar, Vector};
+use selvedge_core::verification::coplanarity::MovingTetrahedron;
+use selvedge_core::verification::vector::Vector;
+use selvedge_core::{Motion, PairKind, PrimitivePair, Scalar};
 
-/// The earliest time in [0, 1] at which the vertex is found in the triangle, or `None`. May be wrong: see the module.
+/// The earliest time in [0, 1] at which the vertex is found in the triangle, or the edges are found to cross. May be wrong: see the module.
 ///
 /// ```
-/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+/// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
 /// use selvedge_laboratory::baselines::cubic;
-/// let pair = VertexFace {
-///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -3.0)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-/// };
-/// assert_eq!(cubic::vertex_face(&pair), Some(0.25));
+/// let pair = PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -3.0)),
+///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// );
+/// assert_eq!(cubic::time_of_impact(&pair), Some(0.25));
 /// ```
 #[inline]
 #[must_use]
-pub fn vertex_face<S: Scalar>(pair: &VertexFace<S>) -> Option<S> {
-    first_root(pair, |time| {
-        let [a, b, c] = pair.face.map(|vertex| at(vertex, time));
-        let (b, c, p) = (b - a, c - a, at(pair.vertex, time) - a);
-        let normal = b.cross(c);
-        let area = normal.dot(normal);
-        let along_b = p.cross(c).dot(normal);
-        let along_c = b.cross(p).dot(normal);
-        area > S::ZERO && along_b >= S::ZERO && along_c >= S::ZERO && along_b + along_c <= area
-    })
+pub fn time_of_impact<S: Scalar>(pair: &PrimitivePair<S>) -> Option<S> {
+    match pair.kind {
+        PairKind::VertexFace => first_root(pair, is_in_triangle),
+        PairKind::EdgeEdge => first_root(pair, do_cross),
+    }
 }
 
-/// The earliest time in [0, 1] at which the edges are found to cross, or `None`. May be wrong: see the module.
-#[inline]
-#[must_use]
-pub fn edge_edge<S: Scalar>(pair: &EdgeEdge<S>) -> Option<S> {
-    first_root(pair, |time| {
-        let [[u, v], [k, l]] = [pair.first, pair.second].map(|edge| edge.map(|end| at(end, time)));
-        let (first, second, between) = (v - u, l - k, k - u);
-        let normal = first.cross(second);
-        let scale = normal.dot(normal);
-        let along_first = between.cross(second).dot(normal);
-        let along_second = between.cross(first).dot(normal);
-        let on_edge = |along: S| along >= S::ZERO && along <= scale;
-        scale > S::ZERO && on_edge(along_first) && on_edge(along_second)
-    })
+#[inline(always)]
+fn is_in_triangle<S: Scalar>([vertex, a, b, c]: [Vector<S>; 4]) -> bool {
+    let (b, c, p) = (b - a, c - a, vertex - a);
+    let normal = b.cross(c);
+    let area = normal.dot(normal);
+    let along_b = p.cross(c).dot(normal);
+    let along_c = b.cross(p).dot(normal);
+    area > S::ZERO && along_b >= S::ZERO && along_c >= S::ZERO && along_b + along_c <= area
+}
+
+#[inline(always)]
+fn do_cross<S: Scalar>([u, v, k, l]: [Vector<S>; 4]) -> bool {
+    let (first, second, between) = (v - u, l - k, k - u);
+    let normal = first.cross(second);
+    let scale = normal.dot(normal);
+    let along_first = between.cross(second).dot(normal);
+    let along_second = between.cross(first).dot(normal);
+    let on_edge = |along: S| along >= S::ZERO && along <= scale;
+    scale > S::ZERO && on_edge(along_first) && on_edge(along_second)
 }
 
 /// The position at `time`, rounded.
@@ -61,10 +61,11 @@ fn at<S: Scalar>(motion: Motion<S>, time: S) -> Vector<S> {
     start.scaled(S::ONE - time) + end.scaled(time)
 }
 
-/// The earliest root of the pair's cubic in [0, 1] that `accept` agrees with.
+/// The earliest root of the pair's cubic in [0, 1] at which `accept` agrees with where the four points are.
 #[inline(always)]
-fn first_root<S: Scalar>(pair: &impl PrimitivePair<S>, accept: impl Fn(S) -> bool) -> Option<S> {
-    let cubic = Cubic::new(pair.tetrahedron());
+fn first_root<S: Scalar>(pair: &PrimitivePair<S>, accept: impl Fn([Vector<S>; 4]) -> bool) -> Option<S> {
+    let cubic = Cubic::new(pair.into());
+    let accept = |time| accept(pair.motions.map(|motion| at(motion, time)));
     let mut found = None;
     cubic.for_each_monotone_piece(|from, to| {
         if let Some(root) = cubic.root_between(from, to).filter(|&root| accept(root)) {

@@ -6,16 +6,18 @@
 //! Prefer [`certified`](selvedge_core::filter::certified).
 
 use selvedge_core::batch::PointsTest;
-use selvedge_core::coplanarity::ControlValues;
-use selvedge_core::points::{PairPoints, PairShape};
-use selvedge_core::{Lanes, PrimitivePair, Rounding, Scalar, Verdict};
+use selvedge_core::verification::coplanarity::ControlValues;
+use selvedge_core::verification::lanes::{Lanes, Rounding};
+use selvedge_core::verification::of_kind;
+use selvedge_core::verification::points::{PairPoints, PairShape};
+use selvedge_core::{PrimitivePair, Scalar, Verdict};
 
 /// Culls `pair` if A, B, 2C + F and 2D + E, as computed, all have the same strict sign.
 ///
 /// One deviation from the paper: where a value, or the sum of their magnitudes, overflows, the pair is kept.
 #[inline(always)]
-pub fn non_coplanarity<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> Verdict {
-    Verdict::culled_if(has_one_sign::<P::Shape, S>(&pair.points()))
+pub fn non_coplanarity<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
+    Verdict::culled_if(of_kind!(pair.kind, P => has_one_sign::<P, S>(&pair.into())))
 }
 
 /// The same decision for batches: [`ByPoints`](selvedge_core::batch::ByPoints).

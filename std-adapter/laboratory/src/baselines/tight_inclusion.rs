@@ -26,9 +26,10 @@ use arrayvec::ArrayVec;
 use selvedge_core::PairKind;
 use selvedge_core::elementary::{Impact, Limits, Reason};
 use selvedge_core::motion::PrimitivePair;
-use selvedge_core::points::{PairPoints, PairShape};
 use selvedge_core::scalar::Scalar;
-use selvedge_core::vector::Vector;
+use selvedge_core::verification::of_kind;
+use selvedge_core::verification::points::{PairPoints, PairShape};
+use selvedge_core::verification::vector::Vector;
 
 /// After so many boxes the search ends.
 pub const CHECKS: u32 = 1_000_000;
@@ -42,19 +43,19 @@ const OPEN: usize = 160;
 ///
 /// ```
 /// use selvedge_core::elementary::Limits;
-/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+/// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
 /// use selvedge_laboratory::baselines::tight_inclusion::time_of_impact;
-/// let pair = VertexFace {
-///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-/// };
+/// let pair = PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)),
+///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// );
 /// let limits = Limits { tolerance: 1e-6, separation: 0.0 };
 /// let time = time_of_impact(&pair, &limits).time().unwrap();
 /// assert!(0.499999 < time && time <= 0.5);
 /// ```
 #[inline]
-pub fn time_of_impact<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<S>) -> Impact<S> {
-    search::<S, P::Shape>(&pair.points(), limits)
+pub fn time_of_impact<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) -> Impact<S> {
+    of_kind!(pair.kind, P => search::<S, P>(&pair.into(), limits))
 }
 
 /// A box of times and parameters.

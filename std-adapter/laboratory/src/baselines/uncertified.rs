@@ -7,26 +7,29 @@
 
 use selvedge_core::elementary::advance::time_of_impact_of_points;
 use selvedge_core::elementary::{Impact, Limits};
-use selvedge_core::points::PairPoints;
-use selvedge_core::{Lanes, PrimitivePair, Rounding, Scalar, Vector};
+use selvedge_core::verification::lanes::{Lanes, Rounding};
+use selvedge_core::verification::of_kind;
+use selvedge_core::verification::points::PairPoints;
+use selvedge_core::verification::vector::Vector;
+use selvedge_core::{PrimitivePair, Scalar};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// From when on the pair is found within the separation, as computed. **May be too late, or miss a contact.**
 ///
 /// ```
 /// use selvedge_core::elementary::Limits;
-/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
+/// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
 /// use selvedge_laboratory::baselines::uncertified;
-/// let pair = VertexFace {
-///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-/// };
+/// let pair = PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)),
+///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// );
 /// let time = uncertified::time_of_impact(&pair, &Limits::default()).time().unwrap();
 /// assert!((time - 0.5).abs() < 1e-9);
 /// ```
 #[inline]
-pub fn time_of_impact<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<S>) -> Impact<S> {
-    let points = pair.points();
+pub fn time_of_impact<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) -> Impact<S> {
+    let points = PairPoints::from(pair);
     let unbounded = |v: Vector<S>| Vector::new(Unbounded(v.x), Unbounded(v.y), Unbounded(v.z));
     let points = PairPoints {
         start: points.start.map(unbounded),
@@ -36,7 +39,7 @@ pub fn time_of_impact<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<
         tolerance: Unbounded(limits.tolerance),
         separation: Unbounded(limits.separation),
     };
-    match time_of_impact_of_points::<P::Shape, _>(&points, &limits).0 {
+    match of_kind!(pair.kind, P => time_of_impact_of_points::<P, _>(&points, &limits).0) {
         Impact::Never => Impact::Never,
         Impact::Possible { time, reason } => Impact::Possible { time: time.0, reason },
     }

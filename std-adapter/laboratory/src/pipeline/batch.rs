@@ -16,7 +16,7 @@ use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
 use selvedge_core::elementary::{Contact as Verdict, Limits, advance::time_of_impact, contact::settled};
 use selvedge_core::filter::{Filter, Tier};
-use selvedge_core::{EdgeEdge, PrimitivePair, Scalar, VertexFace};
+use selvedge_core::{PrimitivePair, Scalar};
 use std::time::Instant;
 
 /// What every batch of a step reads.
@@ -159,55 +159,39 @@ impl<S: Scalar> Batch<S> {
     pub(super) fn find_contacts(&mut self, step: &StepInput<'_, S>) {
         let limits = Limits::default();
         match step.stages.elementary {
-            ElementaryTest::Cubic => self.find_contacts_by(step, cubic::vertex_face, cubic::edge_edge),
-            ElementaryTest::TimeOfImpact => self.find_contacts_by(
-                step,
-                |pair| time_of_impact(pair, &limits).time(),
-                |pair| time_of_impact(pair, &limits).time(),
-            ),
-            ElementaryTest::Exact => self.find_contacts_by(
-                step,
-                |pair| time_of_exact_contact(pair, &limits),
-                |pair| time_of_exact_contact(pair, &limits),
-            ),
+            ElementaryTest::Cubic => self.find_contacts_by(step, cubic::time_of_impact),
+            ElementaryTest::TimeOfImpact => self.find_contacts_by(step, |pair| time_of_impact(pair, &limits).time()),
+            ElementaryTest::Exact => self.find_contacts_by(step, |pair| time_of_exact_contact(pair, &limits)),
         }
     }
 
-    /// The same with the elementary test given, for each kind: the time, if there is contact.
-    fn find_contacts_by(
-        &mut self,
-        step: &StepInput<'_, S>,
-        vertex_face: impl Fn(&VertexFace<S>) -> Option<S>,
-        edge_edge: impl Fn(&EdgeEdge<S>) -> Option<S>,
-    ) {
+    /// The same with the elementary test given: the time, if there is contact.
+    fn find_contacts_by(&mut self, step: &StepInput<'_, S>, test: impl Fn(&PrimitivePair<S>) -> Option<S>) {
         let begin = Instant::now();
-        let mesh = step.mesh;
-        let contact = |kind, pair| move |time| Contact { kind, pair, time };
-        let found = self.vertex_face.iter().filter_map(|&pair| {
-            let time = vertex_face(&mesh.vertex_face(pair));
-            time.map(contact(PairKind::VertexFace, pair))
-        });
-        self.contacts.extend(found);
-        let found_vertex_face = self.contacts.len() as u64;
-        let found = self.edge_edge.iter().filter_map(|&pair| {
-            let time = edge_edge(&mesh.edge_edge(pair));
-            time.map(contact(PairKind::EdgeEdge, pair))
-        });
-        self.contacts.extend(found);
-        let found = PairCounts {
-            vertex_face: found_vertex_face,
-            edge_edge: self.contacts.len() as u64 - found_vertex_face,
-        };
+        let mut found = [0; 2];
+        let lists = [
+            (PairKind::VertexFace, &self.vertex_face),
+            (PairKind::EdgeEdge, &self.edge_edge),
+        ];
+        for ((kind, pairs), found) in lists.into_iter().zip(&mut found) {
+            let before = self.contacts.len();
+            self.contacts.extend(pairs.iter().filter_map(|&pair| {
+                let time = test(&step.mesh.pair(kind, pair))?;
+                Some(Contact { kind, pair, time })
+            }));
+            *found = (self.contacts.len() - before) as u64;
+        }
+        let [vertex_face, edge_edge] = found;
+        let found = PairCounts { vertex_face, edge_edge };
         self.tallies.push((found, begin.elapsed().as_secs_f64()));
     }
 }
 
 /// The certified time of impact of a pair that truly touches.
-fn time_of_exact_contact<S: Scalar>(pair: &impl PrimitivePair<S>, limits: &Limits<S>) -> Option<S> {
+fn time_of_exact_contact<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) -> Option<S> {
     let impact = time_of_impact(pair, limits);
     let time = impact.time()?;
-    let (verdict, _) = settled(pair, &impact);
-    (verdict != Verdict::Never).then_some(time)
+    (settled(pair, &impact) != Verdict::Never).then_some(time)
 }
 
 /// Like `Vec::retain`, without a branch on the outcome: what survives is hard to predict.

@@ -2,7 +2,7 @@
 
 use selvedge::Topology;
 use selvedge_core::batch::VertexRow;
-use selvedge_core::{EdgeEdge, Motion, Scalar, VertexFace};
+use selvedge_core::{PairKind, PrimitivePair, Scalar};
 
 /// The mesh with the motion of each vertex in one row: where the stages gather a pair's points from.
 #[derive(Clone, Copy)]
@@ -13,24 +13,13 @@ pub(super) struct MovingMesh<'a, S: Scalar> {
 
 impl<S: Scalar> MovingMesh<'_, S> {
     #[inline(always)]
-    fn motion(&self, vertex: u32) -> Motion<S> {
-        self.rows[vertex as usize].motion()
-    }
-
-    #[inline(always)]
-    pub(super) fn vertex_face(&self, [vertex, face]: [u32; 2]) -> VertexFace<S> {
-        VertexFace {
-            vertex: self.motion(vertex),
-            face: self.topology.triangles()[face as usize].map(|vertex| self.motion(vertex)),
-        }
-    }
-
-    #[inline(always)]
-    pub(super) fn edge_edge(&self, [first, second]: [u32; 2]) -> EdgeEdge<S> {
-        let edge = |edge: u32| self.topology.edges()[edge as usize].map(|vertex| self.motion(vertex));
-        EdgeEdge {
-            first: edge(first),
-            second: edge(second),
+    pub(super) fn pair(&self, kind: PairKind, pair: [u32; 2]) -> PrimitivePair<S> {
+        PrimitivePair {
+            kind,
+            motions: self
+                .topology
+                .vertices_of(kind, pair)
+                .map(|vertex| self.rows[vertex as usize].motion()),
         }
     }
 }

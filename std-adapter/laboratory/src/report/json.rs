@@ -343,7 +343,7 @@ pub fn hard_cases(scalar: &str, results: &[HardResult]) -> Value {
         json!({
             "case": case.name,
             "placement": case.placement,
-            "kind": case.kind.name(),
+            "kind": case.pair.kind.name(),
             "first_contact": first,
             "between": enclosure,
             "answers": answers.collect::<serde_json::Map<_, _>>(),

@@ -3,7 +3,7 @@
 use super::QueryMethod;
 use crate::hard_cases::{Contact, HardCase, hard_cases};
 use selvedge_core::glam::DVec3;
-use selvedge_core::{Motion, Scalar};
+use selvedge_core::{Motion, PrimitivePair, Scalar};
 
 /// One method's answer beside the exact one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,9 +35,9 @@ pub fn ask_hard_cases<S: Scalar>(name: &str, progress: &mut dyn FnMut(f64)) -> V
     let cases: Vec<_> = cases.collect();
     let mut results = Vec::new();
     for (index, &case) in cases.iter().enumerate() {
-        if let Some(points) = exactly::<S>(case) {
+        if let Some(pair) = exactly::<S>(case) {
             let must_be_kept = case.contact != Contact::Never;
-            let answers = QueryMethod::ALL.map(|method| match (method.keeps::<S>(case.kind, points), must_be_kept) {
+            let answers = QueryMethod::ALL.map(|method| match (method.keeps(pair), must_be_kept) {
                 (true, true) | (false, false) => HardAnswer::Right,
                 (true, false) => HardAnswer::FalseAlarm,
                 (false, true) => HardAnswer::Missed,
@@ -49,22 +49,25 @@ pub fn ask_hard_cases<S: Scalar>(name: &str, progress: &mut dyn FnMut(f64)) -> V
     results
 }
 
-/// The case's points as `S`, if that changes none of them.
-pub(super) fn exactly<S: Scalar>(case: &HardCase) -> Option<[Motion<S>; 4]> {
+/// The case's pair as `S`, if that changes none of its coordinates.
+pub(super) fn exactly<S: Scalar>(case: &HardCase) -> Option<PrimitivePair<S>> {
     let convert = |position: DVec3| {
         let converted = position.to_array().map(S::from_f64);
         let is_same = |(old, new): (f64, S)| old == new.to_f64() || old.is_nan();
         let mut all = position.to_array().into_iter().zip(converted);
         all.all(is_same).then(|| converted.into())
     };
-    let mut points = case.motions().map(|motion| {
+    let mut points = case.pair.motions.map(|motion| {
         Some(Motion {
             start: convert(motion.start)?,
             end: convert(motion.end)?,
         })
     });
     let [a, b, c, d] = &mut points;
-    Some([a.take()?, b.take()?, c.take()?, d.take()?])
+    Some(PrimitivePair {
+        kind: case.pair.kind,
+        motions: [a.take()?, b.take()?, c.take()?, d.take()?],
+    })
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use crate::pipeline::{CullingTest, Preset, Stages};
 use selvedge::PairKind;
 use selvedge_core::boxes::{self, Dop18};
 use selvedge_core::elementary::{Contact, Impact, Limits, advance::time_of_impact};
-use selvedge_core::{EdgeEdge, Motion, PrimitivePair, Scalar, Verdict, VertexFace, elementary, filter};
+use selvedge_core::{PrimitivePair, Scalar, Verdict, elementary, filter};
 use selvedge_files::queries::Query;
 use std::fmt;
 use std::hint::black_box;
@@ -91,28 +91,22 @@ impl QueryMethod {
         }
     }
 
-    /// Asks it about one pair of four points: false if it culls the pair, or finds that it does not touch.
+    /// Asks it about one pair: false if it culls the pair, or finds that it does not touch.
     #[must_use]
-    pub fn keeps<S: Scalar>(self, kind: PairKind, points: [Motion<S>; 4]) -> bool {
+    pub fn keeps<S: Scalar>(self, pair: PrimitivePair<S>) -> bool {
         let query = Query {
-            start: points.map(|point| point.start),
-            end: points.map(|point| point.end),
+            pair,
             collides: None,
             line: 0,
         };
-        let queries = [query];
         let run = Run {
             method: self,
-            kind,
-            queries: &queries,
+            kind: pair.kind,
+            queries: &[query],
             progress: &mut |_| {},
             is_timed: false,
         };
-        let result = match kind {
-            PairKind::VertexFace => measure::<S, VertexFace<S>>(run),
-            PairKind::EdgeEdge => measure::<S, EdgeEdge<S>>(run),
-        };
-        result.positives > 0
+        measure(run).positives > 0
     }
 
     /// Whether it never denies a contact, rounding included.
@@ -192,7 +186,7 @@ pub struct Nanoseconds {
 pub fn measure_queries<S: Scalar>(
     method: QueryMethod,
     kind: PairKind,
-    queries: &[Query<S::Vector>],
+    queries: &[Query<S>],
     progress: &mut dyn FnMut(usize),
 ) -> QueryResult {
     let run = Run {
@@ -202,44 +196,41 @@ pub fn measure_queries<S: Scalar>(
         progress,
         is_timed: true,
     };
-    match kind {
-        PairKind::VertexFace => measure::<S, VertexFace<S>>(run),
-        PairKind::EdgeEdge => measure::<S, EdgeEdge<S>>(run),
-    }
+    measure(run)
 }
 
-fn measure<S: Scalar, P: QueryPair<S>>(mut run: Run<'_, S::Vector>) -> QueryResult {
+fn measure<S: Scalar>(mut run: Run<'_, S>) -> QueryResult {
     use CullingTest as Test;
     // One loop for each method, compiled for it alone.
     match run.method {
         QueryMethod::Selvedge => {
             let limits = Limits::default();
-            run.with(|pair: &P| {
+            run.with(|pair| {
                 SELVEDGE.tests.iter().all(|&test| keeps(test, pair)) && time_of_impact(pair, &limits) != Impact::Never
             })
         }
-        QueryMethod::Exact => run.with(|pair: &P| elementary::contact(pair) != Contact::Never),
+        QueryMethod::Exact => run.with(|pair| elementary::contact(pair) != Contact::Never),
         QueryMethod::TimeOfImpact => {
             let limits = Limits::default();
-            run.with(|pair: &P| time_of_impact(pair, &limits) != Impact::Never)
+            run.with(|pair| time_of_impact(pair, &limits) != Impact::Never)
         }
-        QueryMethod::NonCoplanarity => run.with(|pair: &P| keeps(Test::CertifiedNonCoplanarity, pair)),
-        QueryMethod::NonCoplanarityPlain => run.with(|pair: &P| keeps(Test::PlainNonCoplanarity, pair)),
-        QueryMethod::RelativeBoxes => run.with(|pair: &P| keeps(Test::RelativeBoxes, pair)),
-        QueryMethod::RelativeBoxesNine => run.with(|pair: &P| keeps(Test::RelativeBoxesNine, pair)),
-        QueryMethod::SweptBoxes => run.with(|pair: &P| keeps(Test::SweptBoxes, pair)),
-        QueryMethod::SegmentBox => run.with(|pair: &P| keeps(Test::SegmentBox, pair)),
-        QueryMethod::Dop18 => run.with(|pair: &P| keeps(Test::StoredDop18, pair)),
-        QueryMethod::Cubic => run.with(|pair: &P| pair.cubic().is_some()),
-        QueryMethod::BernsteinSign => run.with(|pair: &P| bernstein_sign::touches(pair)),
+        QueryMethod::NonCoplanarity => run.with(|pair| keeps(Test::CertifiedNonCoplanarity, pair)),
+        QueryMethod::NonCoplanarityPlain => run.with(|pair| keeps(Test::PlainNonCoplanarity, pair)),
+        QueryMethod::RelativeBoxes => run.with(|pair| keeps(Test::RelativeBoxes, pair)),
+        QueryMethod::RelativeBoxesNine => run.with(|pair| keeps(Test::RelativeBoxesNine, pair)),
+        QueryMethod::SweptBoxes => run.with(|pair| keeps(Test::SweptBoxes, pair)),
+        QueryMethod::SegmentBox => run.with(|pair| keeps(Test::SegmentBox, pair)),
+        QueryMethod::Dop18 => run.with(|pair| keeps(Test::StoredDop18, pair)),
+        QueryMethod::Cubic => run.with(|pair| cubic::time_of_impact(pair).is_some()),
+        QueryMethod::BernsteinSign => run.with(|pair| bernstein_sign::touches(pair)),
         QueryMethod::TightInclusion => {
             let limits = Limits {
                 tolerance: S::from_f64(1e-6),
                 separation: S::ZERO,
             };
-            run.with(|pair: &P| tight_inclusion::time_of_impact(pair, &limits) != Impact::Never)
+            run.with(|pair| tight_inclusion::time_of_impact(pair, &limits) != Impact::Never)
         }
-        QueryMethod::Additive => run.with(|pair: &P| additive::time_of_impact(pair, S::ZERO) != Impact::Never),
+        QueryMethod::Additive => run.with(|pair| additive::time_of_impact(pair, S::ZERO) != Impact::Never),
     }
 }
 
@@ -247,11 +238,11 @@ const SELVEDGE: Stages = Preset::Selvedge.stages();
 
 /// Whether the pair survives a culling test.
 #[inline(always)]
-fn keeps<S: Scalar>(test: CullingTest, pair: &impl QueryPair<S>) -> bool {
+fn keeps<S: Scalar>(test: CullingTest, pair: &PrimitivePair<S>) -> bool {
     let verdict = match test {
         CullingTest::SweptBoxes | CullingTest::StoredSweptBoxes => boxes::swept_boxes(pair),
-        CullingTest::StoredDop18 => pair.dop_18(),
-        CullingTest::SegmentBox => pair.segment_box(),
+        CullingTest::StoredDop18 => dop_18(pair),
+        CullingTest::SegmentBox => boxes::segment::primitive_boxes(pair),
         CullingTest::RelativeBoxes | CullingTest::SubspaceThree => boxes::relative::three_axes(pair),
         CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => boxes::relative::nine_directions(pair),
         CullingTest::PlainNonCoplanarity => plain::non_coplanarity(pair),
@@ -260,86 +251,31 @@ fn keeps<S: Scalar>(test: CullingTest, pair: &impl QueryPair<S>) -> bool {
     !verdict.is_culled()
 }
 
-/// What the two kinds of pair do differently.
-trait QueryPair<S: Scalar>: PrimitivePair<S> {
-    /// The pair of a query's four points, in the order of its rows.
-    fn from_points(points: [Motion<S>; 4]) -> Self;
-    fn segment_box(&self) -> Verdict;
-    fn dop_18(&self) -> Verdict;
-    fn cubic(&self) -> Option<S>;
+fn dop_18<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
+    let [first, second] = pair.sets().map(|set| {
+        let dops = set.iter().map(Dop18::swept);
+        dops.reduce(|all, dop| all.merged(&dop)).expect("a set has points")
+    });
+    Verdict::culled_if(!first.overlaps(&second))
 }
 
-impl<S: Scalar> QueryPair<S> for VertexFace<S> {
-    fn from_points([vertex, a, b, c]: [Motion<S>; 4]) -> Self {
-        let face = [a, b, c];
-        Self { vertex, face }
-    }
-
-    #[inline(always)]
-    fn segment_box(&self) -> Verdict {
-        boxes::segment::vertex_face(self)
-    }
-
-    #[inline(always)]
-    fn dop_18(&self) -> Verdict {
-        let [a, b, c] = self.face.map(|vertex| Dop18::swept(&vertex));
-        let face = a.merged(&b).merged(&c);
-        Verdict::culled_if(!Dop18::swept(&self.vertex).overlaps(&face))
-    }
-
-    #[inline(always)]
-    fn cubic(&self) -> Option<S> {
-        cubic::vertex_face(self)
-    }
-}
-
-impl<S: Scalar> QueryPair<S> for EdgeEdge<S> {
-    fn from_points([a, b, c, d]: [Motion<S>; 4]) -> Self {
-        let (first, second) = ([a, b], [c, d]);
-        Self { first, second }
-    }
-
-    #[inline(always)]
-    fn segment_box(&self) -> Verdict {
-        boxes::swept_boxes(self)
-    }
-
-    #[inline(always)]
-    fn dop_18(&self) -> Verdict {
-        let [first, second] = [self.first, self.second].map(|edge| {
-            let [a, b] = edge.map(|end| Dop18::swept(&end));
-            a.merged(&b)
-        });
-        Verdict::culled_if(!first.overlaps(&second))
-    }
-
-    #[inline(always)]
-    fn cubic(&self) -> Option<S> {
-        cubic::edge_edge(self)
-    }
-}
-
-struct Run<'a, V> {
+struct Run<'a, S: Scalar> {
     method: QueryMethod,
     kind: PairKind,
-    queries: &'a [Query<V>],
+    queries: &'a [Query<S>],
     progress: &'a mut dyn FnMut(usize),
     /// Otherwise each query is asked once, and no clock is read.
     is_timed: bool,
 }
 
-impl<V: Copy> Run<'_, V> {
-    fn with<S: Scalar<Vector = V>, P: QueryPair<S>>(&mut self, test: impl Fn(&P) -> bool) -> QueryResult {
+impl<S: Scalar> Run<'_, S> {
+    fn with(&mut self, test: impl Fn(&PrimitivePair<S>) -> bool) -> QueryResult {
         let mut watch = StopWatch { repeats: 1 };
         let mut times = Vec::with_capacity(self.queries.len());
         let mut positives = 0;
         let mut truth = Some(TruthCounts::default());
         for (index, query) in self.queries.iter().enumerate() {
-            let points = [0, 1, 2, 3].map(|k| Motion {
-                start: query.start[k],
-                end: query.end[k],
-            });
-            let pair = P::from_points(points);
+            let pair = query.pair;
             let positive = if self.is_timed {
                 let (positive, nanoseconds) = watch.time(|| test(black_box(&pair)));
                 times.push(nanoseconds);
@@ -425,14 +361,14 @@ impl StopWatch {
 mod tests {
     use super::*;
     use selvedge::glam::DVec3;
+    use selvedge_core::Motion;
 
     /// A vertex that falls from z = 1 to z = `end` above the middle of a resting triangle.
     fn fall(end: f64, collides: Option<bool>) -> Query {
-        let face = [DVec3::ZERO, DVec3::X, DVec3::Y];
-        let points = |z| [DVec3::new(0.25, 0.25, z), face[0], face[1], face[2]];
+        let at = |z| DVec3::new(0.25, 0.25, z);
+        let face = [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting);
         Query {
-            start: points(1.0),
-            end: points(end),
+            pair: PrimitivePair::vertex_face(Motion::new(at(1.0), at(end)), face),
             collides,
             line: 1,
         }

@@ -9,7 +9,6 @@ use selvedge_core::batch::{ByPoints, LANES, Level, Test, culled};
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::filter::{Filter, Tier};
-use selvedge_core::{EdgeEdge, PrimitivePair, VertexFace};
 use selvedge_laboratory::baselines::plain::Plain;
 
 /// The number format of a chunk: 0 is `f32`, 1 is `f64`.
@@ -42,15 +41,13 @@ pub(super) struct Chunk<'a> {
 impl Chunk<'_> {
     /// Makes its pairs, tests them, and judges every claim: a tally for each.
     pub(super) fn look_at(&self) -> Vec<Tally> {
-        match (format(self.index), kind(self.index)) {
-            (0, PairKind::VertexFace) => self.tallies::<f32, VertexFace<f32>>(PairCase::vertex_face),
-            (0, PairKind::EdgeEdge) => self.tallies::<f32, EdgeEdge<f32>>(PairCase::edge_edge),
-            (_, PairKind::VertexFace) => self.tallies::<f64, VertexFace<f64>>(PairCase::vertex_face),
-            (_, PairKind::EdgeEdge) => self.tallies::<f64, EdgeEdge<f64>>(PairCase::edge_edge),
+        match format(self.index) {
+            0 => self.tallies::<f32>(),
+            _ => self.tallies::<f64>(),
         }
     }
 
-    fn tallies<S: Format, P: PrimitivePair<S>>(&self, pair: fn(&PairCase<S>) -> P) -> Vec<Tally> {
+    fn tallies<S: Format>(&self) -> Vec<Tally> {
         const BLOCK: u64 = 1024;
         let mut maker = Maker::new(
             source(self.index),
@@ -67,26 +64,26 @@ impl Chunk<'_> {
             left -= count;
             cases.clear();
             maker.make(count as usize, &mut cases);
-            let pairs: Vec<P> = cases.iter().map(pair).collect();
+            let pairs: Vec<_> = cases.iter().map(PairCase::<S>::pair).collect();
             for (claim, masks) in self.claims.iter().zip(&mut masks) {
                 let test = match claim {
                     Claim::Filter => {
-                        culled::<S, P>(self.level, Filter::new(Tier::Permanent), &pairs, masks);
+                        culled(self.level, Filter::new(Tier::Permanent), &pairs, masks);
                         continue;
                     }
                     Claim::RelativeBoxes => Test::RelativeBoxesNine,
                     Claim::NormalDirection => Test::NormalDirection,
                     Claim::SegmentBox => Test::SegmentBox,
                     Claim::Plain => {
-                        culled::<S, P>(self.level, ByPoints(Plain), &pairs, masks);
+                        culled(self.level, ByPoints(Plain), &pairs, masks);
                         continue;
                     }
                     Claim::TimeOfImpact => continue,
                 };
-                culled::<S, P>(self.level, test, &pairs, masks);
+                culled(self.level, test, &pairs, masks);
             }
             for (index, (case, pair)) in cases.iter().zip(&pairs).enumerate() {
-                let mut judge = Judge::<S, P>::new(case, pair);
+                let mut judge = Judge::new(case, pair);
                 for ((claim, masks), tally) in self.claims.iter().zip(&masks).zip(&mut tallies) {
                     let is_claimed = match claim {
                         Claim::TimeOfImpact => {

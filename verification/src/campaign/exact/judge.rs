@@ -2,15 +2,15 @@
 
 use super::{Claim, SAMPLE, Tally};
 use crate::generator::{Format, PairCase};
-use crate::oracle::{self, PairKind};
+use crate::oracle;
 use selvedge_core::PrimitivePair;
-use selvedge_core::exact::{control_value_signs, touches};
+use selvedge_core::verification::exact::{control_value_signs, touches};
 use std::cmp::Ordering::{Greater, Less};
 
 /// One pair, and what is proven of it so far.
-pub(super) struct Judge<'a, S: Format, P> {
+pub(super) struct Judge<'a, S: Format> {
     case: &'a PairCase<S>,
-    pair: &'a P,
+    pair: &'a PrimitivePair<S>,
     has_one_sign: Option<bool>,
     is_apart: Option<By>,
 }
@@ -24,8 +24,8 @@ enum By {
     Nothing,
 }
 
-impl<'a, S: Format, P: PrimitivePair<S>> Judge<'a, S, P> {
-    pub(super) const fn new(case: &'a PairCase<S>, pair: &'a P) -> Self {
+impl<'a, S: Format> Judge<'a, S> {
+    pub(super) const fn new(case: &'a PairCase<S>, pair: &'a PrimitivePair<S>) -> Self {
         Self {
             case,
             pair,
@@ -67,7 +67,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judge<'a, S, P> {
 
     fn has_one_sign(&mut self) -> bool {
         *self.has_one_sign.get_or_insert_with(|| {
-            let signs = control_value_signs::<P::Shape, S>(&self.pair.points());
+            let signs = control_value_signs(self.pair);
             matches!(signs, Some([Less, Less, Less, Less] | [Greater, Greater, Greater, Greater]))
         })
     }
@@ -80,7 +80,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judge<'a, S, P> {
             By::Axis
         } else if self.has_one_sign() {
             By::Signs
-        } else if touches::<P::Shape, S>(&self.pair.points()) == Some(false) {
+        } else if touches(self.pair) == Some(false) {
             By::WholeNumbers
         } else {
             By::Nothing
@@ -91,11 +91,7 @@ impl<'a, S: Format, P: PrimitivePair<S>> Judge<'a, S, P> {
 
     /// One set ahead of the other along an axis, at both ends of the step.
     fn is_apart_along_an_axis(&self) -> bool {
-        let of_first = match self.case.kind {
-            PairKind::VertexFace => 1,
-            PairKind::EdgeEdge => 2,
-        };
-        let (first, second) = self.case.points.split_at(of_first);
+        let [first, second] = self.case.sets();
         let ahead = |one: &[[[S; 3]; 2]], other: &[[[S; 3]; 2]], axis: usize| {
             let all_ahead = |end: usize| one.iter().all(|p| other.iter().all(|q| p[end][axis] > q[end][axis]));
             all_ahead(0) && all_ahead(1)

@@ -5,9 +5,9 @@
 //! three [`Source`]s that cost little.
 //!
 //! # Who judges
-//! A cull by the volume's signs is right if the exact control values ([`control_value_signs`](selvedge_core::exact::control_value_signs)) have one strict sign. A claim that the
+//! A cull by the volume's signs is right if the exact control values ([`control_value_signs`](selvedge_core::verification::exact::control_value_signs)) have one strict sign. A claim that the
 //! sets stay apart is right if so; or if one axis keeps them in the same order at both ends, which comparisons of coordinates tell;
-//! or if [`touches`](selvedge_core::exact::touches) says so, in whole numbers. Nothing else counts: what none of these proves is decided by the [`oracle`](crate::oracle), and
+//! or if [`touches`](selvedge_core::verification::exact::touches) says so, in whole numbers. Nothing else counts: what none of these proves is decided by the [`oracle`](crate::oracle), and
 //! every [`SAMPLE`]th claim that they do prove is put before the oracle as well.
 
 mod chunk;

@@ -14,7 +14,7 @@ pub fn hard_cases(scalar: &str, results: &[HardResult]) -> String {
     for result in results {
         let case = result.case;
         if case.name != before {
-            text += &format!("{} ({})\n", case.name, case.kind.name());
+            text += &format!("{} ({})\n", case.name, case.pair.kind.name());
             before = &case.name;
         }
         let first = match &case.contact {

@@ -7,8 +7,8 @@ use selvedge::verification::{Level, available_levels};
 use selvedge_core::PairKind;
 use selvedge_core::batch::{ByPoints, ByVolume, LANES, Mask, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::filter::{Filter, Tier};
-use selvedge_core::points::{EdgeAndEdge, PairShape, VertexAndFace};
-use selvedge_core::{EdgeEdge, Motion, PrimitivePair, Scalar, Verdict, VertexFace, exact};
+use selvedge_core::verification::exact;
+use selvedge_core::{PrimitivePair, Scalar};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -89,48 +89,28 @@ impl<S: Scalar> Pairs<'_, S> {
     }
 
     #[inline(always)]
-    fn motions(&self, indices: [u32; 4]) -> [Motion<S>; 4] {
-        indices.map(|index| self.rows[index as usize].motion())
+    fn pair(&self, indices: [u32; 4]) -> PrimitivePair<S> {
+        PrimitivePair {
+            kind: self.kind,
+            motions: indices.map(|index| self.rows[index as usize].motion()),
+        }
     }
 
     /// A mask bit for each pair for which `culls` is true, the pairs made from their rows one by one.
     #[inline(always)]
-    fn one_by_one(
-        &self,
-        vertex_face: impl Fn(&VertexFace<S>) -> bool,
-        edge_edge: impl Fn(&EdgeEdge<S>) -> bool,
-        masks: &mut [Mask],
-    ) {
+    fn one_by_one(&self, culls: impl Fn(&PrimitivePair<S>) -> bool, masks: &mut [Mask]) {
         for (indices, mask) in self.indices.chunks(LANES).zip(masks) {
             *mask = 0;
             for (lane, &indices) in indices.iter().enumerate() {
-                let [a, b, c, d] = self.motions(indices);
-                let culled = match self.kind {
-                    PairKind::VertexFace => vertex_face(&VertexFace {
-                        vertex: a,
-                        face: [b, c, d],
-                    }),
-                    PairKind::EdgeEdge => edge_edge(&EdgeEdge {
-                        first: [a, b],
-                        second: [c, d],
-                    }),
-                };
-                *mask |= Mask::from(culled) << lane;
+                *mask |= Mask::from(culls(&self.pair(indices))) << lane;
             }
         }
     }
 
     /// What exact arithmetic culls.
     fn exact_masks(&self, separation: S) -> Vec<Mask> {
-        fn culls<S: Scalar, P: PairShape>(pair: &impl PrimitivePair<S, Shape = P>, separation: S) -> bool {
-            exact::is_never_within::<P, S>(&pair.points(), separation, exact::UNKNOWN)
-        }
         let mut masks = vec![0; self.mask_count()];
-        self.one_by_one(
-            |pair| culls::<S, VertexAndFace>(pair, separation),
-            |pair| culls::<S, EdgeAndEdge>(pair, separation),
-            &mut masks,
-        );
+        self.one_by_one(|pair| exact::is_never_within(pair, separation, exact::UNKNOWN), &mut masks);
         masks
     }
 
@@ -139,7 +119,7 @@ impl<S: Scalar> Pairs<'_, S> {
         let tiled = &self.indices[..self.indices.len().min(TILED)];
         let tiles = tiled
             .chunks(LANES)
-            .map(|indices| Tile::new(indices.iter().map(|&indices| self.motions(indices))));
+            .map(|indices| Tile::new(indices.iter().map(|&indices| self.pair(indices).motions)));
         tiles.collect()
     }
 }
@@ -263,26 +243,15 @@ impl Backend {
 
 /// Verdicts as the core's functions for one pair give them.
 fn one_at_a_time<S: Scalar>(filter: MeasuredFilter, separation: S, pairs: &Pairs<'_, S>, masks: &mut [Mask]) {
-    fn paper<S: Scalar>(pair: &impl PrimitivePair<S>) -> bool {
-        plain::non_coplanarity(pair).is_culled()
-    }
     match filter {
-        MeasuredFilter::Paper => pairs.one_by_one(paper, paper, masks),
+        MeasuredFilter::Paper => pairs.one_by_one(|pair| plain::non_coplanarity(pair).is_culled(), masks),
         MeasuredFilter::Uncertified => {
             let filter = as_computed(separation);
-            pairs.one_by_one(
-                |pair| filter.verdict(pair) == Verdict::Culled,
-                |pair| filter.verdict(pair) == Verdict::Culled,
-                masks,
-            );
+            pairs.one_by_one(|pair| filter.verdict(pair).is_culled(), masks);
         }
         MeasuredFilter::Tier(tier) => {
             let filter = with_separation(tier, separation);
-            pairs.one_by_one(
-                |pair| filter.verdict(pair) == Verdict::Culled,
-                |pair| filter.verdict(pair) == Verdict::Culled,
-                masks,
-            );
+            pairs.one_by_one(|pair| filter.verdict(pair).is_culled(), masks);
         }
     }
 }

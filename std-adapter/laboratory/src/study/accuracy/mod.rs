@@ -7,7 +7,7 @@
 //! that a program with positions in that format would have.
 //!
 //! # Truth
-//! Exact arithmetic ([`selvedge_core::exact`]) culls a pair if the four control values have one strict sign (with a
+//! Exact arithmetic ([`selvedge_core::verification::exact`]) culls a pair if the four control values have one strict sign (with a
 //! separation: and exceed it). That is what every filter here computes with some rounding, so a filter that culls another
 //! pair has no proof of it: a *false cull*. Only [`Tier::Subdivided`](selvedge_core::filter::Tier::Subdivided) may cull
 //! more, namely coplanar pairs that do not touch; there is no exact collision test here to check that with (the

@@ -1,9 +1,9 @@
 //! The clock and the counts, on one set of pairs in one format.
 
-use super::{BUDGET, ElementaryMethod, ElementaryRow, ElementarySet, ExactAnswer, Pair, Questions};
+use super::{BUDGET, ElementaryMethod, ElementaryRow, ElementarySet, ExactAnswer, Questions};
 use crate::study::AccuracyOptions;
 use fastrand::Rng;
-use selvedge_core::Scalar;
+use selvedge_core::{PairKind, Scalar};
 use std::hint::black_box;
 use std::ops::Range;
 use std::time::Instant;
@@ -24,8 +24,7 @@ pub(super) fn measure<S: Scalar>(
         rows.push(ask(method, questions, &order, options.repeat));
         progress(rows.len() as f64 / ElementaryMethod::ALL.len() as f64);
     }
-    let vertex_face = |pair: &&Pair<S>| matches!(pair, Pair::VertexFace(_));
-    let vertex_face = pairs.iter().filter(vertex_face).count();
+    let vertex_face = pairs.iter().filter(|pair| pair.kind == PairKind::VertexFace).count();
     let touches = |answer: &&ExactAnswer| matches!(answer, ExactAnswer::Touches { .. });
     let is_known = |answer: &&ExactAnswer| matches!(answer, ExactAnswer::Touches { first: Some(_) });
     ElementarySet {

@@ -1,4 +1,3 @@
-use super::Pair;
 use crate::baselines::{additive, bernstein_sign, cubic, tight_inclusion, uncertified};
 use selvedge_core::elementary::{Contact, Limits, advance, contact::settled};
 use selvedge_core::{PrimitivePair, Scalar};
@@ -75,16 +74,7 @@ impl ElementaryMethod {
     }
 
     /// From when on contact is not excluded, NaN if the test does not say; `None` if it is.
-    pub(super) fn time<S: Scalar>(self, pair: &Pair<S>) -> Option<S> {
-        match (self, pair) {
-            (Self::Cubic, Pair::VertexFace(pair)) => cubic::vertex_face(pair),
-            (Self::Cubic, Pair::EdgeEdge(pair)) => cubic::edge_edge(pair),
-            (_, Pair::VertexFace(pair)) => self.of_any_kind(pair),
-            (_, Pair::EdgeEdge(pair)) => self.of_any_kind(pair),
-        }
-    }
-
-    fn of_any_kind<S: Scalar, P: PrimitivePair<S>>(self, pair: &P) -> Option<S> {
+    pub(super) fn time<S: Scalar>(self, pair: &PrimitivePair<S>) -> Option<S> {
         let limits = |tolerance| Limits {
             tolerance: S::from_f64(tolerance),
             separation: S::ZERO,
@@ -96,14 +86,13 @@ impl ElementaryMethod {
             Self::Additive => additive::time_of_impact(pair, S::ZERO).time(),
             Self::Exact => {
                 let impact = advance::time_of_impact(pair, &Limits::default());
-                match settled(pair, &impact).0 {
+                match settled(pair, &impact) {
                     Contact::Never => None,
                     Contact::Happens | Contact::Undefined => impact.time(),
                 }
             }
             Self::BernsteinSign => bernstein_sign::touches(pair).then(|| S::from_f64(f64::NAN)),
-            // Its kinds have functions of their own.
-            Self::Cubic => None,
+            Self::Cubic => cubic::time_of_impact(pair),
         }
     }
 }

@@ -33,11 +33,11 @@ use crate::hard_cases::{Contact, hard_cases};
 use crate::study::Frames;
 use crate::study::hard_cases::exactly;
 use selvedge::PairKind;
-use selvedge_core::{EdgeEdge, Motion, Scalar, VertexFace, boxes};
+use selvedge_core::{PrimitivePair, Scalar, boxes};
 use std::error::Error;
 
 #[cfg(doc)]
-use selvedge_core::elementary::{advance::confirm::certain_contact, contact};
+use selvedge_core::elementary::{advance::certain_contact, contact};
 
 /// Seconds that one test may take on one set in one format, or a little more.
 pub const BUDGET: f64 = 0.4;
@@ -106,30 +106,8 @@ impl ElementaryRow {
 /// Pairs in one format, with what is true of them.
 struct Questions<S: Scalar> {
     name: String,
-    pairs: Vec<Pair<S>>,
+    pairs: Vec<PrimitivePair<S>>,
     truth: Vec<ExactAnswer>,
-}
-
-/// A pair of either kind.
-#[derive(Clone, Copy, Debug)]
-enum Pair<S: Scalar> {
-    VertexFace(VertexFace<S>),
-    EdgeEdge(EdgeEdge<S>),
-}
-
-impl<S: Scalar> Pair<S> {
-    fn new(kind: PairKind, [a, b, c, d]: [Motion<S>; 4]) -> Self {
-        match kind {
-            PairKind::VertexFace => Self::VertexFace(VertexFace {
-                vertex: a,
-                face: [b, c, d],
-            }),
-            PairKind::EdgeEdge => Self::EdgeEdge(EdgeEdge {
-                first: [a, b],
-                second: [c, d],
-            }),
-        }
-    }
 }
 
 /// Measures every elementary test on hard cases, on candidates of the arm scene and of `mesh` (all its steps) if there is one, and on
@@ -189,8 +167,8 @@ fn of_hard_cases<S: Scalar>() -> Questions<S> {
             // What is not finite has no exact answer.
             Contact::Undefined => continue,
         };
-        if let Some(points) = exactly::<S>(case) {
-            questions.pairs.push(Pair::new(case.kind, points));
+        if let Some(pair) = exactly::<S>(case) {
+            questions.pairs.push(pair);
             questions.truth.push(truth);
         }
     }
@@ -202,20 +180,13 @@ fn of_pairs<S: Scalar>(set: &PairSet) -> Questions<S> {
     let rows = set.rows::<S>();
     let mut pairs = Vec::new();
     for (kind, indices) in [(PairKind::VertexFace, &set.vertex_face), (PairKind::EdgeEdge, &set.edge_edge)] {
-        let points = |&indices: &[u32; 4]| indices.map(|index| rows[index as usize].motion());
-        let all = indices.iter().map(|indices| Pair::new(kind, points(indices)));
-        pairs.extend(all.filter(|pair| {
-            let verdict = match pair {
-                Pair::VertexFace(pair) => boxes::swept_boxes(pair),
-                Pair::EdgeEdge(pair) => boxes::swept_boxes(pair),
-            };
-            !verdict.is_culled()
-        }));
+        let all = indices.iter().map(|indices| PrimitivePair {
+            kind,
+            motions: indices.map(|index| rows[index as usize].motion()),
+        });
+        pairs.extend(all.filter(|pair| !boxes::swept_boxes(pair).is_culled()));
     }
-    let truth = pairs.iter().map(|pair| match pair {
-        Pair::VertexFace(pair) => exact_answer(pair),
-        Pair::EdgeEdge(pair) => exact_answer(pair),
-    });
+    let truth = pairs.iter().map(exact_answer);
     Questions {
         name: set.name.clone(),
         truth: truth.collect(),

@@ -1,5 +1,6 @@
 use super::*;
 use crate::study::TwoFrames;
+use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
 
 fn measured() -> ElementaryAccuracy {
@@ -54,9 +55,11 @@ fn a_finer_tolerance_gives_no_earlier_times() {
 /// A vertex that falls from 1 to −3 reaches the plane at ¼; above 0.2, 0.2 there is a triangle, above 3, 3 none.
 #[test]
 fn exact_answers_are_right_and_enclose_the_time() {
-    let fall = |x: f64, height: f64| VertexFace {
-        vertex: Motion::new(DVec3::new(x, x, 1.0), DVec3::new(x, x, height)),
-        face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+    let fall = |x: f64, height: f64| {
+        PrimitivePair::vertex_face(
+            Motion::new(DVec3::new(x, x, 1.0), DVec3::new(x, x, height)),
+            [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+        )
     };
     assert_eq!(exact_answer(&fall(3.0, -3.0)), ExactAnswer::Never);
     assert_eq!(exact_answer(&fall(0.2, 1e-300)), ExactAnswer::Never);

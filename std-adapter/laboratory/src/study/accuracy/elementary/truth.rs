@@ -1,10 +1,7 @@
-use selvedge_core::PairKind;
-use selvedge_core::elementary::advance::confirm::certain_contact;
+use selvedge_core::elementary::advance::certain_contact;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Contact, Limits, contact};
-use selvedge_core::glam::DVec3;
-use selvedge_core::points::PairShape;
-use selvedge_core::{EdgeEdge, Motion, PrimitivePair, Scalar, VertexFace};
+use selvedge_core::{PrimitivePair, Scalar};
 
 /// A first contact that is enclosed less closely than this, in steps, counts as one of unknown time.
 pub const WIDEST: f64 = 1e-10;
@@ -25,39 +22,19 @@ pub enum ExactAnswer {
 ///
 /// A pair that is not finite is said to touch, at an unknown time.
 #[must_use]
-pub fn exact_answer<S: Scalar, P: PrimitivePair<S>>(pair: &P) -> ExactAnswer {
-    let [a, b, c, d] = pair.motions().map(|point| Motion {
-        start: in_f64::<S>(point.start),
-        end: in_f64::<S>(point.end),
-    });
-    match <P::Shape as PairShape>::KIND {
-        PairKind::VertexFace => answer(&VertexFace {
-            vertex: a,
-            face: [b, c, d],
-        }),
-        PairKind::EdgeEdge => answer(&EdgeEdge {
-            first: [a, b],
-            second: [c, d],
-        }),
-    }
-}
-
-/// Exactly.
-fn in_f64<S: Scalar>(position: S::Vector) -> DVec3 {
-    let numbers: [S; 3] = position.into();
-    DVec3::from_array(numbers.map(S::to_f64))
-}
-
-fn answer<P: PrimitivePair<f64>>(pair: &P) -> ExactAnswer {
-    match contact(pair) {
+pub fn exact_answer<S: Scalar>(pair: &PrimitivePair<S>) -> ExactAnswer {
+    let pair = pair.widened();
+    match contact(&pair) {
         Contact::Never => ExactAnswer::Never,
-        Contact::Happens => ExactAnswer::Touches { first: first_time(pair) },
+        Contact::Happens => ExactAnswer::Touches {
+            first: first_time(&pair),
+        },
         Contact::Undefined => ExactAnswer::Touches { first: None },
     }
 }
 
 /// An enclosure of the first time of a pair that touches.
-fn first_time<P: PrimitivePair<f64>>(pair: &P) -> Option<[f64; 2]> {
+fn first_time(pair: &PrimitivePair<f64>) -> Option<[f64; 2]> {
     let as_tight_as_can_be = Limits {
         tolerance: 0.0,
         separation: 0.0,

@@ -2,6 +2,7 @@
 
 use super::magnitude::Magnitude;
 use crate::PairKind;
+use crate::motion::PrimitivePair;
 use crate::points::PairPoints;
 use crate::scalar::Scalar;
 
@@ -117,7 +118,8 @@ pub(super) struct AlignedPair {
 impl AlignedPair {
     /// `None` if a coordinate is not finite.
     #[inline(never)]
-    pub(super) fn new<S: Scalar>(kind: PairKind, points: &PairPoints<S>) -> Option<Self> {
+    pub(super) fn new<S: Scalar>(pair: &PrimitivePair<S>) -> Option<Self> {
+        let points = PairPoints::from(pair);
         let [a, b, c, d] = points.start;
         let [e, f, g, h] = points.end;
         let axes = [
@@ -129,7 +131,7 @@ impl AlignedPair {
         let unit = |axis: &Axis| i32::try_from(axis.unit).unwrap_or(0);
         let [x, y, z] = &axes;
         Some(Self {
-            kind,
+            kind: pair.kind,
             units: Units([x, y, z].map(|axis| unit(axis) - bias::<S>())),
             axes,
         })

@@ -3,8 +3,8 @@
 extern crate std;
 
 use super::touches;
-use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
-use crate::vector::Vector;
+use crate::{Motion, PairKind, PrimitivePair};
+use glam::DVec3;
 use std::cell::Cell;
 
 std::thread_local! {
@@ -17,7 +17,7 @@ pub(super) fn count_a_sign() {
 
 /// The most signs at roots that a pair took, out of many whose coordinates are whole numbers up to `limit`, of which those along
 /// some axes are all zero, or the same at the start and at the end.
-fn most_signs<P: PairShape>(limit: u64) -> u32 {
+fn most_signs(kind: PairKind, limit: u64) -> u32 {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut random = || {
         state ^= state << 13;
@@ -30,7 +30,7 @@ fn most_signs<P: PairShape>(limit: u64) -> u32 {
         let mut points = || {
             [(); 4].map(|()| {
                 let [x, y, z] = [(); 3].map(|()| (random() % (limit + 1)) as f64);
-                Vector::new(x, y, z)
+                DVec3::new(x, y, z)
             })
         };
         let (start, mut end) = (points(), points());
@@ -47,8 +47,12 @@ fn most_signs<P: PairShape>(limit: u64) -> u32 {
                 b.x = a.x;
             }
         }
+        let mut motions = start.map(Motion::resting);
+        for (motion, end) in motions.iter_mut().zip(end) {
+            motion.end = end;
+        }
         SIGNS.set(0);
-        assert!(touches::<P, f64>(&PairPoints { start, end }).is_some());
+        assert!(touches(&PrimitivePair { kind, motions }).is_some());
         most = most.max(SIGNS.get());
     }
     most
@@ -57,7 +61,7 @@ fn most_signs<P: PairShape>(limit: u64) -> u32 {
 #[test]
 fn no_more_signs_are_taken_than_stated() {
     for limit in [1, 2, 5, 1000] {
-        let most = [most_signs::<VertexAndFace>(limit), most_signs::<EdgeAndEdge>(limit)];
+        let most = [PairKind::VertexFace, PairKind::EdgeEdge].map(|kind| most_signs(kind, limit));
         // Some, so that they are counted at all.
         assert!(most.iter().all(|most| (10..=864).contains(most)), "{most:?}");
     }

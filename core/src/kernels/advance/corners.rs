@@ -29,7 +29,7 @@
 //! certificate computes comes near the largest number, which directed rounding returns instead of infinity.
 
 use crate::lanes::{Lanes, Rounding, roundoffs};
-use crate::points::{EdgeAndEdge, PairPoints, PairShape, VertexAndFace};
+use crate::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
 use crate::vector::Vector;
 
 /// The moving corners of one pair, or of one in each lane: three or four.
@@ -46,8 +46,8 @@ impl<L: Lanes> Corners<L, 3> {
     #[inline(always)]
     #[must_use]
     pub fn of_vertex_face(points: &PairPoints<L>) -> Self {
-        let [_, a0, b0, c0] = VertexAndFace::corners(points.start);
-        let [_, a1, b1, c1] = VertexAndFace::corners(points.end);
+        let [_, a0, b0, c0] = VertexFace::corners(points.start);
+        let [_, a1, b1, c1] = VertexFace::corners(points.end);
         Self::new(a0.x, [[a0, a1], [b0, b1], [c0, c1]])
     }
 }
@@ -57,8 +57,8 @@ impl<L: Lanes> Corners<L, 4> {
     #[inline(always)]
     #[must_use]
     pub fn of_edge_edge(points: &PairPoints<L>) -> Self {
-        let [a0, b0, c0, d0] = EdgeAndEdge::corners(points.start);
-        let [a1, b1, c1, d1] = EdgeAndEdge::corners(points.end);
+        let [a0, b0, c0, d0] = EdgeEdge::corners(points.start);
+        let [a1, b1, c1, d1] = EdgeEdge::corners(points.end);
         Self::new(a0.x, [[a0, a1], [b0, b1], [c0, c1], [d0, d1]])
     }
 }

@@ -63,7 +63,7 @@ mod magnitude;
 pub use contact::touches;
 
 use crate::coplanarity::ControlValues;
-use crate::points::{PairPoints, PairShape};
+use crate::motion::PrimitivePair;
 use crate::scalar::Scalar;
 use aligned::{AlignedPair, Units};
 use core::cmp::Ordering;
@@ -71,6 +71,19 @@ use core::ops::ControlFlow;
 use integer::{Space, Whole, Words};
 use kernel::{Arithmetic, Fixed, Judge, Width, control_values};
 use magnitude::{Bound, Magnitude};
+
+/// What an exact verdict rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Evidence {
+    /// The time of impact's proof that the sets stay apart, in floating point.
+    Separation,
+    /// The proof that one set passes through the other, in floating point.
+    Crossing,
+    /// Arithmetic in whole numbers.
+    WholeNumbers,
+    /// Nothing: the input is not finite.
+    Nothing,
+}
 
 /// What a caller knows of the control values k₀, 3k₁, 3k₂, k₃ already: how some of them compare with zero.
 pub type KnownSigns = [Option<Ordering>; 4];
@@ -82,17 +95,18 @@ pub const UNKNOWN: KnownSigns = [None; 4];
 /// [`error_bounds`](crate::coplanarity::MovingTetrahedron::error_bounds).
 ///
 /// ```
-/// use selvedge_core::{exact, glam::DVec3, points::VertexAndFace, Motion, PrimitivePair, VertexFace};
+/// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
+/// use selvedge_core::verification::{coplanarity::MovingTetrahedron, exact};
 /// // A vertex that rests 2⁻⁶⁰ above the face at first: floating point sees only where it goes.
 /// let height = DVec3::new(0.0, 0.0, 1.0 / (1_u64 << 60) as f64);
-/// let pair = VertexFace {
-///     vertex: Motion::new(height, height + DVec3::Z),
-///     face: [DVec3::new(-1.0, -1.0, -0.1), DVec3::new(1.0, 0.0, 0.1), DVec3::new(0.0, 1.0, 0.0)].map(Motion::resting),
-/// };
-/// let tetrahedron = pair.tetrahedron();
+/// let pair = PrimitivePair::vertex_face(
+///     Motion::new(height, height + DVec3::Z),
+///     [DVec3::new(-1.0, -1.0, -0.1), DVec3::new(1.0, 0.0, 0.1), DVec3::new(0.0, 1.0, 0.0)].map(Motion::resting),
+/// );
+/// let tetrahedron = MovingTetrahedron::from(&pair);
 /// let known = exact::certain_signs(&tetrahedron.control_values(), tetrahedron.error_bounds());
 /// assert_eq!(known.map(|sign| sign.is_some()), [false, true, true, true]);
-/// assert!(exact::is_never_coplanar::<VertexAndFace, _>(&pair.points(), known));
+/// assert!(exact::is_never_coplanar(&pair, known));
 /// ```
 #[inline(always)]
 #[must_use]
@@ -116,18 +130,19 @@ pub fn certain_signs<S: Scalar>(values: &ControlValues<S>, bounds: [S; 4]) -> Kn
 ///
 /// ```
 /// use core::cmp::Ordering::{Equal, Greater, Less};
-/// use selvedge_core::{exact, glam::DVec3, Motion, PrimitivePair, VertexFace};
+/// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
+/// use selvedge_core::verification::exact;
 /// // A vertex that starts 1e-300 above a triangle and falls by 1e300.
-/// let pair = VertexFace {
-///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1e-300), DVec3::new(0.2, 0.2, -1e300)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-/// };
-/// let signs = exact::control_value_signs::<selvedge_core::points::VertexAndFace, _>(&pair.points());
+/// let pair = PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(0.2, 0.2, 1e-300), DVec3::new(0.2, 0.2, -1e300)),
+///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// );
+/// let signs = exact::control_value_signs(&pair);
 /// assert_eq!(signs, Some([Greater, Less, Less, Less]));
 /// ```
 #[must_use]
-pub fn control_value_signs<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<[Ordering; 4]> {
-    AlignedPair::new(P::KIND, points).map(|pair| signs(&pair))
+pub fn control_value_signs<S: Scalar>(pair: &PrimitivePair<S>) -> Option<[Ordering; 4]> {
+    AlignedPair::new(pair).map(|pair| signs(&pair))
 }
 
 fn signs(pair: &AlignedPair) -> [Ordering; 4] {
@@ -157,8 +172,8 @@ fn signs_in_space(pair: &AlignedPair) -> [Ordering; 4] {
 /// Exact, in every floating-point environment; false if a coordinate is NaN or infinite. Of the signs in `known` ([`UNKNOWN`]
 /// if there are none) none is computed again: they must be right. Stops as soon as two signs differ.
 #[must_use]
-pub fn is_never_coplanar<P: PairShape, S: Scalar>(points: &PairPoints<S>, known: KnownSigns) -> bool {
-    one_sign::<P, S>(points, known, Magnitude::ZERO)
+pub fn is_never_coplanar<S: Scalar>(pair: &PrimitivePair<S>, known: KnownSigns) -> bool {
+    one_sign(pair, known, Magnitude::ZERO)
 }
 
 /// True if all four control values are positive, or all four negative, and far enough from zero to prove that the
@@ -172,25 +187,26 @@ pub fn is_never_coplanar<P: PairShape, S: Scalar>(points: &PairPoints<S>, known:
 /// not computed again.
 ///
 /// ```
-/// use selvedge_core::{exact, glam::DVec3, points::VertexAndFace, Motion, PrimitivePair, VertexFace};
-/// let pair = VertexFace {
-///     vertex: Motion::new(DVec3::new(0.2, 0.2, 2.0), DVec3::new(0.2, 0.2, 1.0)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-/// };
-/// let apart = |separation| exact::is_never_within::<VertexAndFace, _>(&pair.points(), separation, exact::UNKNOWN);
+/// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
+/// use selvedge_core::verification::exact;
+/// let pair = PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(0.2, 0.2, 2.0), DVec3::new(0.2, 0.2, 1.0)),
+///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// );
+/// let apart = |separation| exact::is_never_within(&pair, separation, exact::UNKNOWN);
 /// assert!(apart(1.0_f64.next_down()));
 /// assert!(!apart(1.0));
 /// ```
 #[must_use]
-pub fn is_never_within<P: PairShape, S: Scalar>(points: &PairPoints<S>, separation: S, known: KnownSigns) -> bool {
+pub fn is_never_within<S: Scalar>(pair: &PrimitivePair<S>, separation: S, known: KnownSigns) -> bool {
     let Some(separation) = aligned::length(separation) else {
         return false;
     };
-    one_sign::<P, S>(points, known, separation.squared(Bound::Upper))
+    one_sign(pair, known, separation.squared(Bound::Upper))
 }
 
 #[inline(always)]
-fn one_sign<P: PairShape, S: Scalar>(points: &PairPoints<S>, known: KnownSigns, squared_separation: Magnitude) -> bool {
+fn one_sign<S: Scalar>(pair: &PrimitivePair<S>, known: KnownSigns, squared_separation: Magnitude) -> bool {
     let mut one_sign = OneSign {
         known,
         common: None,
@@ -202,7 +218,7 @@ fn one_sign<P: PairShape, S: Scalar>(points: &PairPoints<S>, known: KnownSigns, 
             return false;
         }
     }
-    AlignedPair::new(P::KIND, points).is_some_and(|pair| one_sign.passes(&pair))
+    AlignedPair::new(pair).is_some_and(|pair| one_sign.passes(&pair))
 }
 
 /// Breaks off at the first control value that is not of the others' strict sign or not beyond the separation.

@@ -50,7 +50,7 @@ use super::aligned::AlignedPair;
 use super::integer::{Space, Whole, Words};
 use super::kernel::{self, Arithmetic, Fixed, Width, control_values};
 use crate::PairKind;
-use crate::points::{PairPoints, PairShape};
+use crate::motion::PrimitivePair;
 use crate::scalar::Scalar;
 use core::cmp::Ordering;
 use moment::{Crossing, End, Moment, Root, sign_before_end};
@@ -62,20 +62,21 @@ use moment::{Crossing, End, Moment, Root, sign_before_end};
 /// With most pairs [`contact`](crate::elementary::contact()) has the same answer sooner.
 ///
 /// ```
-/// use selvedge_core::{exact, glam::DVec3, points::VertexAndFace, Motion, PrimitivePair, VertexFace};
-/// let falls_past = |x| VertexFace {
-///     vertex: Motion::new(DVec3::new(x, 0.5, 1.0), DVec3::new(x, 0.5, -1.0)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::ONE].map(Motion::resting),
-/// };
-/// let touches = |x| exact::touches::<VertexAndFace, _>(&falls_past(x).points());
+/// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
+/// use selvedge_core::verification::exact;
+/// let falls_past = |x| PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(x, 0.5, 1.0), DVec3::new(x, 0.5, -1.0)),
+///     [DVec3::ZERO, DVec3::X, DVec3::ONE].map(Motion::resting),
+/// );
+/// let touches = |x| exact::touches(&falls_past(x));
 /// // The face's border belongs to it.
 /// assert_eq!(touches(0.5_f64.next_down()), Some(false));
 /// assert_eq!(touches(0.5), Some(true));
 /// assert_eq!(touches(f64::NAN), None);
 /// ```
 #[must_use]
-pub fn touches<P: PairShape, S: Scalar>(points: &PairPoints<S>) -> Option<bool> {
-    AlignedPair::new(P::KIND, points).map(|pair| touches_aligned(&pair))
+pub fn touches<S: Scalar>(pair: &PrimitivePair<S>) -> Option<bool> {
+    AlignedPair::new(pair).map(|pair| touches_aligned(&pair))
 }
 
 /// How many words are enough for the search with coordinates of `N` words, corners and volume not counted: for the derivative, what stands

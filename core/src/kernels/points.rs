@@ -3,6 +3,8 @@
 use crate::coplanarity::MovingTetrahedron;
 use crate::kind::PairKind;
 use crate::lanes::{Lanes, Rounding};
+use crate::motion::PrimitivePair;
+use crate::scalar::Scalar;
 use crate::vector::Vector;
 
 /// Four points at the start and at the end of the step: those of one set, then those of the other.
@@ -16,7 +18,7 @@ pub struct PairPoints<L> {
     pub end: [Vector<L>; 4],
 }
 
-/// Which of four points belong together, as a type: [`VertexAndFace`] or [`EdgeAndEdge`].
+/// A [`PairKind`] that the compiler knows: [`VertexFace`] or [`EdgeEdge`].
 pub trait PairShape {
     /// The same as a value.
     const KIND: PairKind;
@@ -34,13 +36,13 @@ pub trait PairShape {
 
 /// One point against three.
 #[derive(Clone, Copy, Debug)]
-pub enum VertexAndFace {}
+pub enum VertexFace {}
 
 /// Two points against two.
 #[derive(Clone, Copy, Debug)]
-pub enum EdgeAndEdge {}
+pub enum EdgeEdge {}
 
-impl PairShape for VertexAndFace {
+impl PairShape for VertexFace {
     const KIND: PairKind = PairKind::VertexFace;
 
     #[inline(always)]
@@ -60,7 +62,7 @@ impl PairShape for VertexAndFace {
     }
 }
 
-impl PairShape for EdgeAndEdge {
+impl PairShape for EdgeEdge {
     const KIND: PairKind = PairKind::EdgeEdge;
 
     #[inline(always)]
@@ -77,6 +79,47 @@ impl PairShape for EdgeAndEdge {
     #[inline(always)]
     fn corners<L: Lanes>([u, v, k, l]: [Vector<L>; 4]) -> [Vector<L>; 4] {
         [u - k, u - l, v - k, v - l]
+    }
+}
+
+/// Code for a kind that is known when it runs: `of_kind!(kind, P => code)`, where `P` is the [`PairShape`] of the kind.
+///
+/// The one way from a [`PairKind`] to what is compiled for each.
+#[cfg_attr(feature = "verification", macro_export)]
+macro_rules! of_kind {
+    ($kind:expr, $pair:ident => $code:expr) => {
+        match $kind {
+            $crate::PairKind::VertexFace => {
+                type $pair = $crate::verification::points::VertexFace;
+                $code
+            }
+            $crate::PairKind::EdgeEdge => {
+                type $pair = $crate::verification::points::EdgeEdge;
+                // Both begin with the same loads: without this, LLVM moves those ahead of the branch, where registers do not suffice.
+                ::core::hint::black_box(());
+                $code
+            }
+        }
+    };
+}
+
+impl<S: Scalar> From<&PrimitivePair<S>> for PairPoints<S> {
+    #[inline(always)]
+    fn from(pair: &PrimitivePair<S>) -> Self {
+        // Written out: `map` with a closure is not always inlined.
+        let [a, b, c, d] = &pair.motions;
+        let vector = |position: S::Vector| Vector::from(position.into());
+        Self {
+            start: [vector(a.start), vector(b.start), vector(c.start), vector(d.start)],
+            end: [vector(a.end), vector(b.end), vector(c.end), vector(d.end)],
+        }
+    }
+}
+
+impl<S: Scalar> From<&PrimitivePair<S>> for MovingTetrahedron<S> {
+    #[inline(always)]
+    fn from(pair: &PrimitivePair<S>) -> Self {
+        of_kind!(pair.kind, P => PairPoints::from(pair).tetrahedron::<P>())
     }
 }
 

@@ -24,7 +24,7 @@ use super::volume::SignedVolume;
 use crate::PairKind;
 use crate::lanes::{Lanes, Number, Rounding, roundoffs};
 use crate::motion::PrimitivePair;
-use crate::points::PairShape;
+use crate::points::PairPoints;
 use crate::scalar::Scalar;
 use crate::vector::Vector;
 
@@ -34,26 +34,26 @@ const INTERVALS: u32 = 18;
 /// An interval of time in [0, 1] in which the two sets certainly touch, if one around `near` can be proven. Certified, in
 /// every floating-point environment.
 ///
-/// `near` is best the time that [`time_of_impact`](super::time_of_impact) returns. `None` says nothing.
+/// `near` is best the time that [`time_of_impact`](crate::elementary::advance::time_of_impact) returns. `None` says nothing.
 ///
 /// ```
-/// use selvedge_core::elementary::{Limits, advance::{confirm::certain_contact, time_of_impact}};
-/// use selvedge_core::{glam::DVec3, Motion, VertexFace};
-/// let pair = VertexFace {
-///     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -2.0)),
-///     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-/// };
+/// use selvedge_core::elementary::{Limits, advance::{certain_contact, time_of_impact}};
+/// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
+/// let pair = PrimitivePair::vertex_face(
+///     Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -2.0)),
+///     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+/// );
 /// let time = time_of_impact(&pair, &Limits::default()).time().unwrap();
 /// let [from, to] = certain_contact(&pair, time).unwrap();
 /// assert!(from < 1.0 / 3.0 && 1.0 / 3.0 < to && to - from < 1e-8);
 /// ```
 #[must_use]
-pub fn certain_contact<S: Scalar, P: PrimitivePair<S>>(pair: &P, near: S) -> Option<[S; 2]> {
-    let points = pair.points();
+pub fn certain_contact<S: Scalar>(pair: &PrimitivePair<S>, near: S) -> Option<[S; 2]> {
+    let points = PairPoints::from(pair);
     if !(points.is_finite() && near >= S::ZERO && near <= S::ONE) {
         return None;
     }
-    match P::Shape::KIND {
+    match pair.kind {
         PairKind::VertexFace => prove(&Corners::of_vertex_face(&points), near),
         PairKind::EdgeEdge => prove(&Corners::of_edge_edge(&points), near),
     }
@@ -148,30 +148,28 @@ pub fn contains_origin<L: Lanes, const N: usize>(
 mod tests {
     use super::certain_contact;
     use crate::lanes::Rounding;
-    use crate::{Motion, VertexFace};
+    use crate::{Motion, PrimitivePair};
     use glam::DVec3;
 
     /// Through the middle of a face with sides `a` and `b` in the plane z = 0, which it crosses at half of the step.
-    fn fall(a: f64, b: f64, height: f64) -> VertexFace<f64> {
+    fn fall(a: f64, b: f64, height: f64) -> PrimitivePair<f64> {
         let at = |z| DVec3::new(a / 4.0, b / 4.0, z);
-        VertexFace {
-            vertex: Motion::new(at(height), at(-height)),
-            face: [DVec3::ZERO, a * DVec3::X, b * DVec3::Y].map(Motion::resting),
-        }
+        PrimitivePair::vertex_face(
+            Motion::new(at(height), at(-height)),
+            [DVec3::ZERO, a * DVec3::X, b * DVec3::Y].map(Motion::resting),
+        )
     }
 
     #[test]
     fn nothing_is_proven_of_times_outside_of_the_step_or_without_numbers() {
-        let early = VertexFace {
-            vertex: Motion::new(DVec3::new(0.25, 0.25, 1e-9), DVec3::new(0.25, 0.25, -1.0)),
-            ..fall(1.0, 1.0, 1.0)
-        };
+        let mut early = fall(1.0, 1.0, 1.0);
+        early.motions[0] = Motion::new(DVec3::new(0.25, 0.25, 1e-9), DVec3::new(0.25, 0.25, -1.0));
         assert!(certain_contact(&early, 1e-9).is_some());
         for wrong in [-1e-9, 1.0 + 1e-9, f64::NAN] {
             assert_eq!(certain_contact(&early, wrong), None, "{wrong}");
         }
         let mut broken = early;
-        broken.face[0].end.x = f64::NAN;
+        broken.motions[1].end.x = f64::NAN;
         assert_eq!(certain_contact(&broken, 1e-9), None);
     }
 

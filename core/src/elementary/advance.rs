@@ -6,13 +6,13 @@
 //!
 //! ```
 //! use selvedge_core::elementary::{Impact, Limits, Reason, advance::time_of_impact};
-//! use selvedge_core::{glam::DVec3, Motion, VertexFace};
+//! use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
 //!
 //! // A vertex that falls from 1 to −1 onto a resting triangle, held 0.25 apart.
-//! let pair = VertexFace {
-//!     vertex: Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)),
-//!     face: [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
-//! };
+//! let pair = PrimitivePair::vertex_face(
+//!     Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, -1.0)),
+//!     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
+//! );
 //! let limits = Limits { tolerance: 1e-9, separation: 0.25 };
 //! match time_of_impact(&pair, &limits) {
 //!     Impact::Possible { time, reason: Reason::WithinTolerance } => {
@@ -35,8 +35,8 @@
 //! How far to go, and along which direction, is heuristic and in plain floating point. Only the proofs count, and each of them
 //! covers its rounding: see the modules of the three.
 //!
-//! The proofs are written once, for any number of [`Lanes`](crate::Lanes): here one pair alone, which leaves as soon as it is
-//! decided; in [`round`] many side by side, for [`batch`](crate::batch); and verification runs them on tiny numbers, on
+//! The proofs are written once, for any number of [`Lanes`](crate::lanes::Lanes): here one pair alone, which leaves as soon as it is
+//! decided; in [`round`](crate::kernels::advance::round) many side by side, for [`batch`](crate::batch); and verification runs them on tiny numbers, on
 //! symbols, and with other constants.
 //!
 //! Before all this come the [relative boxes](crate::boxes::relative), exact, and the volume's proof for the whole step.
@@ -61,50 +61,22 @@
     reason = "a comparison is false with NaN, which must then take the side that proves nothing"
 )]
 
-pub mod confirm;
 #[cfg(test)]
 mod tests;
 
-// The pieces of a proof, for verification: they run on its numbers too.
-#[cfg(feature = "verification")]
-pub mod closest;
-#[cfg(feature = "verification")]
-pub mod corners;
-#[cfg(feature = "verification")]
-pub mod directions;
-#[cfg(feature = "verification")]
-pub mod round;
-#[cfg(feature = "verification")]
-pub mod volume;
-
-#[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub)]
-pub(crate) mod closest;
-#[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub)]
-pub(crate) mod corners;
-#[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub)]
-pub(crate) mod directions;
-#[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub)]
-pub(crate) mod round;
-#[cfg(not(feature = "verification"))]
-#[allow(dead_code, unreachable_pub)]
-pub(crate) mod volume;
-
 use super::{Impact, Limits, Reason};
 use crate::PairKind;
-use crate::boxes::relative;
+use crate::kernels::advance::Work;
+use crate::kernels::advance::closest::{Closest, Feature, closest};
+pub use crate::kernels::advance::confirm::certain_contact;
+use crate::kernels::advance::corners::Corners;
+use crate::kernels::advance::directions::{Direction, are_apart_turning, beyond};
+use crate::kernels::advance::volume::{Clipped, SignedVolume};
 use crate::lanes::Number;
 use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
 use crate::vector::Vector;
-use closest::{Closest, Feature, closest};
-use corners::Corners;
-use directions::{Direction, are_apart_turning, beyond};
-use volume::{Clipped, SignedVolume};
 
 /// The largest number of rounds.
 pub const ROUNDS: u32 = 64;
@@ -112,21 +84,10 @@ pub const ROUNDS: u32 = 64;
 /// How often the volume is clipped in one round, at most.
 const CLIPS: u32 = 8;
 
-/// How much was done for one answer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Work {
-    /// Rounds of advancing: at most [`ROUNDS`]. Zero where relative boxes or the volume decide.
-    pub rounds: u32,
-    /// Steps of clipping the signed volume: at most 1 before the first round, and 8 in each.
-    pub volume_steps: u32,
-    /// Attempts with a turning direction: at most 3 in each round.
-    pub turns: u32,
-}
-
 /// From when on the pair may be within the separation. Certified: see the [module](self).
 #[inline]
-pub fn time_of_impact<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<S>) -> Impact<S> {
-    time_of_impact_and_work(pair, limits).0
+pub fn time_of_impact<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) -> Impact<S> {
+    within(pair, limits, [S::ZERO, S::ONE]).0
 }
 
 /// [`time_of_impact`] of a pair that is proven to be apart up to `from`, asked no further than `until`: [`Impact::Never`] says
@@ -135,38 +96,41 @@ pub fn time_of_impact<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<
 /// Both in [0, 1]; else, or if they are NaN, nothing is excluded. So a caller who has advanced pairs side by side
 /// ([`batch`](crate::batch)), or who looks for the earliest contact, goes on from what is known.
 #[inline]
-pub fn time_of_impact_within<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<S>, from: S, until: S) -> Impact<S> {
+pub fn time_of_impact_within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, from: S, until: S) -> Impact<S> {
     if !(from >= S::ZERO && from <= S::ONE && until >= from && until <= S::ONE) {
         return not_excluded(S::ZERO, Reason::NotFinite, Work::default()).0;
     }
-    advanced::<P::Shape, S>(&pair.points(), &raised(limits), [from, until]).0
+    within(pair, limits, [from, until]).0
 }
 
 /// [`time_of_impact`], and how much work it was.
+#[cfg(feature = "verification")]
 #[inline]
-pub fn time_of_impact_and_work<S: Scalar, P: PrimitivePair<S>>(pair: &P, limits: &Limits<S>) -> (Impact<S>, Work) {
-    advanced::<P::Shape, S>(&pair.points(), &raised(limits), [S::ZERO, S::ONE])
+pub fn time_of_impact_and_work<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) -> (Impact<S>, Work) {
+    within(pair, limits, [S::ZERO, S::ONE])
 }
 
 /// [`time_of_impact_and_work`] of four points in numbers of any format, those of verification too. A separation must not be subnormal.
+#[cfg(feature = "verification")]
 #[inline(always)]
 pub fn time_of_impact_of_points<P: PairShape, S: Number>(points: &PairPoints<S>, limits: &Limits<S>) -> (Impact<S>, Work) {
     advanced::<P, S>(points, limits, [S::ZERO, S::ONE])
 }
 
-/// With a separation that every thread compares as what it is.
+/// Within a span of time, with a separation that every thread compares as what it is.
 #[inline(always)]
-fn raised<S: Scalar>(limits: &Limits<S>) -> Limits<S> {
-    Limits {
+fn within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2]) -> (Impact<S>, Work) {
+    let limits = Limits {
         separation: limits.separation.raised_to_normal(),
         ..*limits
-    }
+    };
+    of_kind!(pair.kind, P => advanced::<P, S>(&pair.into(), &limits, span))
 }
 
 /// From the first time of `span` to the second.
 #[inline(always)]
 fn advanced<P: PairShape, S: Number>(points: &PairPoints<S>, limits: &Limits<S>, span: [S; 2]) -> (Impact<S>, Work) {
-    if limits.separation <= S::ZERO && relative::are_apart_along_three_axes::<P, S>(points) {
+    if limits.separation <= S::ZERO && points.are_apart_along_three_axes::<P>() {
         if limits.separation < S::ZERO {
             return not_excluded(S::ZERO, Reason::NotFinite, Work::default());
         }

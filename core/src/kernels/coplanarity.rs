@@ -82,6 +82,28 @@ pub struct MovingTetrahedron<L> {
 #[derive(Clone, Copy, Debug)]
 pub struct ControlValues<L>(pub [L; 4]);
 
+/// How the rounding error of the control values is bounded, the cheapest and loosest first. See
+/// [Rounding](self#rounding).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Bound {
+    /// From the largest components of the tetrahedron's three edges.
+    MagnitudesByEdge,
+    /// From the largest components along each axis.
+    MagnitudesByAxis,
+    /// From the permanent of each control value, where [`MagnitudesByAxis`](Self::MagnitudesByAxis) does not decide.
+    Permanent,
+}
+
+/// What control values and their error bounds tell of a lane's pair. If neither, they leave it undecided.
+#[derive(Clone, Copy, Debug)]
+pub struct Decision<M> {
+    /// All beyond their bounds, with one sign.
+    pub culled: M,
+    /// No sharper bound can cull: two of them are beyond their bounds with opposite signs, or all are zero since the pair
+    /// has no extent along an axis. Only with [`Bound::Permanent`].
+    pub settled: M,
+}
+
 impl<L: Lanes> MovingTetrahedron<L> {
     /// Differences of the four points a, b, c, p at the start and at the end; each is rounded once.
     #[inline(always)]

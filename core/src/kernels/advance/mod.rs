@@ -1,0 +1,20 @@
+//! The proofs of the certified [time of impact](crate::elementary::advance), and what goes with them, on the corners of a pair alone.
+
+pub mod closest;
+pub mod confirm;
+pub mod corners;
+pub mod directions;
+#[cfg(feature = "batch")]
+pub mod round;
+pub mod volume;
+
+/// How much was done for one answer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Rounds of advancing: at most [`ROUNDS`](crate::elementary::advance::ROUNDS). Zero where relative boxes or the volume decide.
+    pub rounds: u32,
+    /// Steps of clipping the signed volume: at most 1 before the first round, and 8 in each.
+    pub volume_steps: u32,
+    /// Attempts with a turning direction: at most 3 in each round.
+    pub turns: u32,
+}
