@@ -2,20 +2,14 @@
 //!
 //! Candidates are found for a motion straight on from the present one, several steps ahead: whatever is no candidate keeps more
 //! than a distance along some direction, on all of that way. As long as every vertex stays within some room of it along each axis, a
-//! pair that is no candidate keeps the rest of that distance ([`pass`](super::pass)).
+//! pair that is no candidate keeps the rest of that distance ([`near`](super::near)).
 //!
 //! Where few vertices leave that room, as in a crease, they alone get a [new way](Horizon::lead_back) for the rest of the time, and
 //! candidates are looked for with what they belong to.
 
-use selvedge_core::Lanes;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::course::{expected, has_room, is_certain, joined, time_after};
 use selvedge_core::separation::largest_coordinate;
-
-/// Most steps to look ahead.
-const FARTHEST: u32 = 4;
-/// The same on a fine mesh, of whose candidates a sieve leaves few.
-const FARTHEST_OF_FINE: u32 = 8;
 
 /// The motion that candidates were found for.
 #[derive(Debug, Default)]
@@ -34,15 +28,15 @@ pub(super) struct Horizon {
     elapsed: f64,
     /// How many steps the span was meant to last.
     steps: u32,
-    /// Whether the mesh is a fine one.
-    is_fine: bool,
+    /// How many it may be at most.
+    farthest: u32,
 }
 
 impl Horizon {
-    /// On a fine mesh or another.
-    pub(super) fn new(is_fine: bool) -> Self {
+    /// Looks no more than so many steps ahead.
+    pub(super) fn new(farthest: u32) -> Self {
         Self {
-            is_fine,
+            farthest,
             ..Self::default()
         }
     }
@@ -60,8 +54,7 @@ impl Horizon {
     pub(super) fn begin<'a>(&'a mut self, start: &'a [DVec3], end: &[DVec3], h: f64, room: f64) -> [&'a [DVec3]; 2] {
         if self.span > 0.0 {
             if self.elapsed > 0.9 * self.span {
-                let farthest = if self.is_fine { FARTHEST_OF_FINE } else { FARTHEST };
-                self.steps = (2 * self.steps).min(farthest);
+                self.steps = (2 * self.steps).min(self.farthest);
             } else if self.elapsed < 0.5 * self.span {
                 self.steps = (self.steps / 2).max(1);
             }
@@ -76,7 +69,7 @@ impl Horizon {
         let span = self.span;
         let ways = start.iter().zip(&self.drift);
         self.far.extend(ways.map(|(&from, &drift)| expected(from, drift, span)));
-        self.largest = largest_coordinate(start).larger(largest_coordinate(&self.far));
+        self.largest = largest_coordinate(start).max(largest_coordinate(&self.far));
         if !is_certain(room, self.largest) {
             // Rounding is too coarse to tell who strays: for this step only, and exactly for it.
             self.steps = 1;
@@ -120,7 +113,7 @@ impl Horizon {
             self.origin[vertex] = joined(start[vertex], drift, self.elapsed);
             self.far[vertex] = expected(start[vertex], drift, self.span - self.elapsed);
         }
-        self.largest = largest_coordinate(&self.origin).larger(largest_coordinate(&self.far));
+        self.largest = largest_coordinate(&self.origin).max(largest_coordinate(&self.far));
         [&self.origin, &self.far]
     }
 
@@ -136,7 +129,7 @@ mod tests {
 
     #[test]
     fn a_straight_motion_is_covered_to_its_end_and_farther_each_time() {
-        let mut horizon = Horizon::default();
+        let mut horizon = Horizon::new(4);
         horizon.forget();
         let at = |step: u32| [DVec3::X * f64::from(step)];
         let mut found = 0;
