@@ -37,6 +37,7 @@ impl Horizon {
     pub(super) fn new(farthest: u32) -> Self {
         Self {
             farthest,
+            steps: 1,
             ..Self::default()
         }
     }

@@ -8,6 +8,7 @@
 //! | `pair`, `closest` | one pair, and the direction that keeps it apart |
 
 mod closest;
+mod follow;
 mod horizon;
 mod near;
 mod pair;
@@ -15,7 +16,8 @@ mod search;
 mod sieve;
 
 pub use closest::Closest;
-pub use near::NearPairs;
+pub(crate) use follow::Followed;
+pub use near::{NearPairs, NearStatistics};
 pub use pair::NearPair;
 
 use crate::PairKind;

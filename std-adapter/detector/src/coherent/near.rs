@@ -37,6 +37,16 @@ pub struct NearPairs<I: Interest> {
     room: f64,
     /// Where new ones are put.
     found: Vec<NearPair<I::Data>>,
+    statistics: NearStatistics,
+}
+
+/// What [`NearPairs`] have done so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NearStatistics {
+    /// How often all pairs were found anew.
+    pub searches: u64,
+    /// How often only those of vertices that had strayed.
+    pub joined: u64,
 }
 
 impl<I: Interest> NearPairs<I> {
@@ -59,12 +69,18 @@ impl<I: Interest> NearPairs<I> {
             room: room(reach.beyond, reach.spare),
             reach,
             found: Vec::new(),
+            statistics: Default::default(),
         })
     }
 
     /// What it was made with.
     pub const fn interest(&self) -> &I {
         self.search.interest()
+    }
+
+    /// What was done so far.
+    pub const fn statistics(&self) -> NearStatistics {
+        self.statistics
     }
 
     /// Vertices that were found to have strayed.
@@ -112,6 +128,26 @@ impl<I: Interest> NearPairs<I> {
             return self.find(start, end, h);
         }
         let strayed = self.horizon.find_strayed(end, h, self.slack, &mut self.strayed);
+        self.cover_strayed(strayed, start, end, h);
+    }
+
+    /// The same where the step before has ended elsewhere, or there is no saying how the mesh came to be at `start`.
+    ///
+    /// # Panics
+    /// If a position is not finite.
+    pub fn cover_from(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
+        if !self.horizon.lasts(h) {
+            return self.find(start, end, h);
+        }
+        let mut at_start = Vec::new();
+        self.horizon.find_strayed(start, 0.0, self.slack, &mut at_start);
+        self.horizon.find_strayed(end, h, self.slack, &mut self.strayed);
+        self.strayed.iter_mut().zip(at_start).for_each(|(strayed, at_start)| *strayed |= at_start);
+        let strayed = self.strayed.iter().filter(|&&strayed| strayed).count();
+        self.cover_strayed(strayed, start, end, h);
+    }
+
+    fn cover_strayed(&mut self, strayed: usize, start: &[DVec3], end: &[DVec3], h: f64) {
         match strayed {
             0 => {}
             few if few < end.len() / MANY => {
@@ -123,6 +159,7 @@ impl<I: Interest> NearPairs<I> {
 
     /// Adds the pairs that vertices have which have strayed. Returns whether it is so; else all were found anew.
     fn find_of_strayed(&mut self, start: &[DVec3], end: &[DVec3], h: f64) -> bool {
+        self.statistics.joined += 1;
         let motion = self.horizon.lead_back(&self.strayed, start, end, h);
         let is_narrow = self.search.pairs_of(&self.strayed, &self.reach, motion, &mut self.found);
         if is_narrow {
@@ -138,6 +175,7 @@ impl<I: Interest> NearPairs<I> {
     /// # Panics
     /// As [`cover`](Self::cover).
     pub fn find(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
+        self.statistics.searches += 1;
         let motion = self.horizon.begin(start, end, h, self.slack);
         self.search.pairs(&self.reach, motion, &mut self.found);
         self.take_found();

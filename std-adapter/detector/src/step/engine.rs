@@ -7,6 +7,7 @@ use crate::PairKind;
 use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
 use crate::buffer::settle;
 use crate::clock::Clock;
+use crate::coherent::Followed;
 use crate::dispatch::Level;
 use crate::frame::{StepError, check_frames};
 use crate::mesh::Topology;
@@ -49,6 +50,8 @@ pub struct StepTally {
     pub filtered: PairCounts,
     /// Contacts.
     pub contacts: PairCounts,
+    /// Pairs that are followed, in the mode for coherent motion.
+    pub followed: u64,
     /// Seconds are counted with the feature `timing`; without it they are zero. Boxes, refit or build, traversal; for a caller's pairs, boxes and their comparison.
     pub broad_phase_seconds: f64,
     /// The certified non-coplanarity filter.
@@ -63,6 +66,10 @@ pub struct StepTally {
 #[derive(Debug)]
 pub(crate) struct Engine<S: Scalar> {
     broad_phase: MovingBroadPhase<S>,
+    /// In the mode for coherent motion.
+    followed: Option<Box<Followed>>,
+    /// Which vertices move, if not all.
+    moving: Option<Vec<bool>>,
     /// One for each share of the work.
     workers: Vec<Worker>,
     /// One for each thread.
@@ -106,6 +113,8 @@ impl<S: Scalar> Engine<S> {
     pub(crate) fn new(topology: Arc<Topology>) -> Self {
         Self {
             broad_phase: MovingBroadPhase::new(topology),
+            followed: None,
+            moving: None,
             workers: Vec::new(),
             spaces: Vec::new(),
             rows: Rows::default(),
@@ -119,7 +128,24 @@ impl<S: Scalar> Engine<S> {
     }
 
     pub(crate) fn set_moving(&mut self, moving: Option<Vec<bool>>) {
+        self.moving.clone_from(&moving);
         self.broad_phase.hierarchies.set_moving(moving);
+        if self.is_coherent() {
+            self.set_coherent(true);
+        }
+    }
+
+    /// Whether steps go on from one another. Forgets those before.
+    pub(crate) fn set_coherent(&mut self, coherent: bool) {
+        self.followed = coherent.then(|| Box::new(Followed::new(self.moving.clone())));
+    }
+
+    pub(crate) fn near_statistics(&self) -> crate::coherent::NearStatistics {
+        self.followed.as_ref().map_or_else(Default::default, |f| f.statistics())
+    }
+
+    pub(crate) const fn is_coherent(&self) -> bool {
+        self.followed.is_some()
     }
 
     pub(crate) fn topology(&self) -> &Topology {
@@ -143,6 +169,9 @@ impl<S: Scalar> Engine<S> {
         question: &Question,
         probe: Probe,
     ) -> Result<(), StepError> {
+        if self.is_coherent() {
+            return self.run_followed(start, end, question);
+        }
         let begin = Clock::now();
         let fit = Fit {
             separation: S::from_f64(question.limits.separation),
@@ -198,6 +227,40 @@ impl<S: Scalar> Engine<S> {
         Ok(())
     }
 
+    /// Finds the contacts of a step that goes on from the one before.
+    fn run_followed<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P], question: &Question) -> Result<(), StepError> {
+        let Some(followed) = &mut self.followed else {
+            return Ok(());
+        };
+        let begin = Clock::now();
+        let hierarchies = &self.broad_phase.hierarchies;
+        let topology = hierarchies.topology();
+        check_frames(start, end, topology.vertex_count())?;
+        let Limits { separation, tolerance } = question.limits;
+        // Pairs within the tolerance are contacts too; twice of it are so with all rounding.
+        followed.find(topology, [start, end], separation + 2.0 * tolerance, S::from_f64(separation));
+        let vertices = [PairKind::VertexFace, PairKind::EdgeEdge].into_iter().flat_map(|kind| {
+            let pairs = followed.open[kind as usize].iter();
+            pairs.flat_map(move |&pair| topology.vertices_of(kind, pair))
+        });
+        self.rows.set_some([start, end], vertices, followed.is_single);
+        let update = begin.elapsed().as_secs_f64();
+        let bound = Bound::new(1.0);
+        let step = StepInput {
+            level: hierarchies.level(),
+            numbers: Numbers::<S>::Mesh(topology),
+            rows: &self.rows,
+            question: *question,
+            bound: &bound,
+        };
+        let pairs = followed.open.each_ref().map(Vec::as_slice);
+        decide(&mut self.workers, &mut self.spaces, &step, pairs, |_, pairs, _| Some(pairs));
+        let count = followed.count() as u64;
+        self.count(begin, update);
+        self.tally.followed = count;
+        Ok(())
+    }
+
     /// Finds the contacts of pairs that the caller has: VF, EE.
     pub(crate) fn run_on<P: Position<Scalar = S>>(
         &mut self,
@@ -216,12 +279,6 @@ impl<S: Scalar> Engine<S> {
         self.boxes.fit(topology, start, end, separation);
         let update = begin.elapsed().as_secs_f64();
 
-        let shares = match parallel::threads() {
-            1 => 1,
-            threads => 8 * threads,
-        };
-        self.workers.resize_with(2 * shares, Worker::new);
-        let spaces = spaces_for_threads(&mut self.spaces);
         let bound = Bound::new(1.0);
         let step = StepInput {
             level: hierarchies.level(),
@@ -231,30 +288,11 @@ impl<S: Scalar> Engine<S> {
             bound: &bound,
         };
         let boxes = &self.boxes;
-        let is_strange = AtomicBool::new(false);
-        parallel::for_each(&mut self.workers, |index, worker| {
-            let begin = Clock::now();
-            let (kind, index) = match index.checked_sub(shares) {
-                None => (PairKind::VertexFace, index),
-                Some(index) => (PairKind::EdgeEdge, index),
-            };
-            let pairs = pairs[kind as usize];
-            let place = |index: usize| pairs.len() * index / shares;
-            worker.kind = kind;
-            worker.found.clear();
-            let Space { chunk, near, .. } = &mut *own_space(spaces);
-            chunk.clear();
-            for pairs in pairs[place(index)..place(index + 1)].chunks(CHUNK) {
-                if boxes.keep_near(step.level, kind, pairs, near).is_none() {
-                    is_strange.store(true, atomic::Ordering::Relaxed);
-                    return;
-                }
-                chunk.take(&step, kind, near, &mut worker.found);
-            }
-            chunk.finish(&step, kind, &mut worker.found);
-            worker.seconds = begin.elapsed().as_secs_f64();
+        let are_of_mesh = decide(&mut self.workers, &mut self.spaces, &step, pairs, |kind, pairs, near| {
+            boxes.keep_near(step.level, kind, pairs, near)?;
+            Some(near)
         });
-        if is_strange.into_inner() {
+        if are_of_mesh.is_none() {
             check_pairs(topology, pairs)?;
         }
         self.count(begin, update);
@@ -362,6 +400,47 @@ impl<S: Scalar> Engine<S> {
         tally.seconds = begin.elapsed().as_secs_f64();
         self.tally = tally;
     }
+}
+
+/// Decides pairs as the mesh numbers them, VF and EE, chunk by chunk: those of each that `pick` leaves, for which it has some room; `None`
+/// if it has no answer for some.
+fn decide<S: Scalar>(
+    workers: &mut Vec<Worker>,
+    spaces: &mut Vec<Mutex<Space>>,
+    step: &StepInput<'_, S>,
+    pairs: [&[[u32; 2]]; 2],
+    pick: impl for<'a> Fn(PairKind, &'a [[u32; 2]], &'a mut Vec<[u32; 2]>) -> Option<&'a [[u32; 2]]> + Sync,
+) -> Option<()> {
+    let shares = match parallel::threads() {
+        1 => 1,
+        threads => 8 * threads,
+    };
+    workers.resize_with(2 * shares, Worker::new);
+    let spaces = spaces_for_threads(spaces);
+    let is_strange = AtomicBool::new(false);
+    parallel::for_each(workers, |index, worker| {
+        let begin = Clock::now();
+        let (kind, index) = match index.checked_sub(shares) {
+            None => (PairKind::VertexFace, index),
+            Some(index) => (PairKind::EdgeEdge, index),
+        };
+        let pairs = pairs[kind as usize];
+        let place = |index: usize| pairs.len() * index / shares;
+        worker.kind = kind;
+        worker.found.clear();
+        let Space { chunk, near, .. } = &mut *own_space(spaces);
+        chunk.clear();
+        for pairs in pairs[place(index)..place(index + 1)].chunks(CHUNK) {
+            let Some(picked) = pick(kind, pairs, near) else {
+                is_strange.store(true, atomic::Ordering::Relaxed);
+                return;
+            };
+            chunk.take(step, kind, picked, &mut worker.found);
+        }
+        chunk.finish(step, kind, &mut worker.found);
+        worker.seconds = begin.elapsed().as_secs_f64();
+    });
+    (!is_strange.into_inner()).then_some(())
 }
 
 /// A contact with its time rounded down, so that it is no later.

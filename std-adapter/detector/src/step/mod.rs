@@ -274,6 +274,11 @@ impl<S: Scalar> CollisionDetector<S> {
         }
     }
 
+    /// Whether steps go on from one another.
+    pub fn set_coherent(&mut self, coherent: bool) {
+        self.engine.set_coherent(coherent);
+    }
+
     /// Replaces `contacts` by all contacts of the step from `start` to `end`, one position for each vertex: vertex–face first.
     ///
     /// # Errors
@@ -315,7 +320,9 @@ impl<S: Scalar> CollisionDetector<S> {
         let question = self.question(Wanted::Earliest);
         let begin = Clock::now();
         let mut earliest = None;
-        for probe in PROBES {
+        // Of pairs that are followed few are left to look at, in any part of the step.
+        let probes = if self.engine.is_coherent() { &PROBES[1..] } else { &PROBES };
+        for &probe in probes {
             let engine = &mut self.engine;
             self.workers.run(|| engine.run(start, end, &question, probe))?;
             earliest = self.engine.earliest();
