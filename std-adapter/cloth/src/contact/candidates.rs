@@ -63,6 +63,7 @@ pub(super) fn candidates(
         spare: thickness - separation,
         margin: MARGIN as f32,
         farthest: FARTHEST,
+        is_graded: false,
     };
     if let Some((_, own)) = settings.cloth {
         let at_rest = NEIGHBOURS_AT_REST * own.thickness;

@@ -96,6 +96,9 @@ impl Followed {
         let continues = start == self.before[1];
         match &mut self.near {
             Some(near) if self.distance == distance => {
+                let ways = self.before[0].iter().zip(&self.before[1]);
+                let bends = start.iter().zip(end).zip(ways).map(|((&start, &end), (&from, &to))| (end - start) - (to - from));
+                near.set_bends(bends);
                 if continues {
                     near.advance(1.0);
                     near.cover(start, end, 1.0);
@@ -113,6 +116,7 @@ impl Followed {
                     beyond: env("BEYOND", BEYOND) * mean_edge(topology, start),
                     spare: 0.0,
                     margin: 0.0,
+                    is_graded: true,
                     farthest: env("FARTHEST", f64::from(FARTHEST)) as u32,
                 };
                 let wanted = self.moving.clone().unwrap_or_else(|| vec![true; start.len()]);
@@ -123,6 +127,8 @@ impl Followed {
             }
         }
         let Some(near) = &mut self.near else { return };
+        near.find_strays(start, end, 1.0);
+        let strays = std::mem::take(&mut near.strays);
 
         // Four times what is needed: the elementary test gives up on what is nearer than 20u of its size, and calls it a contact.
         let largest = largest_coordinate(start).max(largest_coordinate(end));
@@ -136,6 +142,12 @@ impl Followed {
             &mut near.list,
             |_, pairs, open: &mut Open| {
                 for pair in pairs {
+                    if !pair.needs_attention(&strays) {
+                        if pair.gap() > f32::NEG_INFINITY {
+                            pair.forget_gap();
+                        }
+                        continue;
+                    }
                     if continues && pair.stays_apart(end, distance, error) || pair.keeps_apart([start, end], distance, error) {
                         continue;
                     }
@@ -159,6 +171,7 @@ impl Followed {
                 }
             },
         );
+        near.strays = strays;
         self.open = open.pairs;
     }
 }

@@ -47,4 +47,6 @@ pub struct Reach {
     pub margin: f32,
     /// Steps to look ahead, at most.
     pub farthest: u32,
+    /// Whether to find out of each pair how far its vertices may stray before it needs attention.
+    pub is_graded: bool,
 }

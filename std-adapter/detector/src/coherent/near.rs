@@ -35,6 +35,8 @@ pub struct NearPairs<I: Interest> {
     slack: f64,
     /// The same for every pair that may come within what is to be kept of it.
     room: f64,
+    /// How far each vertex has strayed, as the reach has it.
+    pub(super) strays: Vec<f32>,
     /// Where new ones are put.
     found: Vec<NearPair<I::Data>>,
     statistics: NearStatistics,
@@ -68,6 +70,7 @@ impl<I: Interest> NearPairs<I> {
             slack: room(reach.beyond, 0.0),
             room: room(reach.beyond, reach.spare),
             reach,
+            strays: Vec::new(),
             found: Vec::new(),
             statistics: Default::default(),
         })
@@ -131,6 +134,12 @@ impl<I: Interest> NearPairs<I> {
         self.cover_strayed(strayed, start, end, h);
     }
 
+    /// Tells by how much the way of each vertex in the step to come differs from that in the step before.
+    pub fn set_bends(&mut self, bends: impl Iterator<Item = DVec3>) {
+        self.horizon.bends.clear();
+        self.horizon.bends.extend(bends);
+    }
+
     /// The same where the step before has ended elsewhere, or there is no saying how the mesh came to be at `start`.
     ///
     /// # Panics
@@ -160,14 +169,42 @@ impl<I: Interest> NearPairs<I> {
     /// Adds the pairs that vertices have which have strayed. Returns whether it is so; else all were found anew.
     fn find_of_strayed(&mut self, start: &[DVec3], end: &[DVec3], h: f64) -> bool {
         self.statistics.joined += 1;
-        let motion = self.horizon.lead_back(&self.strayed, start, end, h);
+        let Some(motion) = self.horizon.lead_back(&self.strayed, [start, end], h, self.slack) else {
+            self.find(start, end, h);
+            return false;
+        };
         let is_narrow = self.search.pairs_of(&self.strayed, &self.reach, motion, &mut self.found);
         if is_narrow {
+            if self.reach.is_graded {
+                self.replace_strayed();
+            }
             add(&mut self.list, &mut self.found);
         } else {
             self.take_found();
         }
         is_narrow
+    }
+
+    /// Takes the pairs with a vertex that has strayed out of the list, with all that is known of them into those that were found.
+    fn replace_strayed(&mut self) {
+        let Self {
+            list, found, strayed, ..
+        } = self;
+        for pair in found {
+            if let Ok(index) = list.binary_search_by_key(&pair.key(), NearPair::key) {
+                pair.remember(&list[index]);
+            }
+        }
+        list.retain(|pair| !pair.vertices.iter().any(|&vertex| strayed[vertex as usize]));
+    }
+
+    /// Finds how far each vertex strays in the step from `start` to `end`, which the list [covers](Self::cover): a pair needs no attention
+    /// if its [largest](NearPair::needs_attention) do not.
+    pub fn find_strays(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
+        self.strays.clear();
+        self.strays.resize(end.len(), 0.0);
+        self.horizon.find_strays(start, 0.0, self.reach.beyond, &mut self.strays);
+        self.horizon.find_strays(end, h, self.reach.beyond, &mut self.strays);
     }
 
     /// Finds all pairs anew, for a motion that begins with the step from `start` to `end`.

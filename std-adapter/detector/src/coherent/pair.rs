@@ -16,6 +16,9 @@ pub struct NearPair<D> {
     pub vertices: [u32; 4],
     /// What kept the sets apart at the end of the last step that was looked at.
     separating: SeparatingDirection,
+    /// How far vertices of both sets may stray together, twice along each axis, before the pair needs attention; less than zero if it does
+    /// at once.
+    pub(super) stray: f32,
     /// What the caller keeps with it.
     pub data: D,
     /// Vertex–face or edge–edge.
@@ -29,6 +32,7 @@ impl<D: Copy> NearPair<D> {
             pair,
             vertices,
             separating: SeparatingDirection::NONE,
+            stray: f32::NEG_INFINITY,
             data,
             kind,
         }
@@ -38,6 +42,17 @@ impl<D: Copy> NearPair<D> {
     #[inline(always)]
     pub fn key(&self) -> (PairKind, [u32; 2]) {
         (self.kind, self.pair)
+    }
+
+    /// Whether its vertices, which stray so far, may have come within its distance: false proves that they have not.
+    #[inline(always)]
+    pub(super) fn needs_attention(&self, strays: &[f32]) -> bool {
+        let [a, b, c, d] = self.vertices.map(|vertex| strays[vertex as usize]);
+        let (first, second) = match self.kind {
+            PairKind::VertexFace => (a, b.max(c).max(d)),
+            PairKind::EdgeEdge => (a.max(b), c.max(d)),
+        };
+        !(0.5 * (first + second) <= self.stray)
     }
 
     /// Takes over what an earlier search found out about the same pair.

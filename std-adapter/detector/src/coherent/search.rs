@@ -131,15 +131,27 @@ impl<I: Interest> Search<I> {
             (PairKind::VertexFace, &mut *vertex_face, counts[0]),
             (PairKind::EdgeEdge, &mut *edge_edge, counts[1]),
         ] {
-            parallel::retain(found, |&pair| {
-                let vertices = topology.vertices_of(kind, pair);
-                !sieve.keep_apart(kind, vertices, interest.class(kind, vertices))
-            });
+            if reach.is_graded {
+                let enough = reach.beyond as f32;
+                parallel::retain(found, |&pair| {
+                    let vertices = topology.vertices_of(kind, pair);
+                    !(sieve.largest_stray(kind, vertices, interest.class(kind, vertices)) >= enough)
+                });
+            } else {
+                parallel::retain(found, |&pair| {
+                    let vertices = topology.vertices_of(kind, pair);
+                    !sieve.keep_apart(kind, vertices, interest.class(kind, vertices))
+                });
+            }
             sort(found, count, sorted, places);
             pairs.extend(found.iter().filter_map(|&pair| {
                 let vertices = topology.vertices_of(kind, pair);
                 let data = interest.about(kind, vertices)?;
-                Some(NearPair::new(kind, pair, vertices, data))
+                let mut pair = NearPair::new(kind, pair, vertices, data);
+                if reach.is_graded {
+                    pair.stray = sieve.largest_stray(kind, vertices, interest.class(kind, vertices));
+                }
+                Some(pair)
             }));
         }
     }

@@ -61,6 +61,15 @@ impl Sieve {
         let clearance = &self.clearances[class];
         clearance.is_kept(kind, [a.start, b.start, c.start, d.start], [a.end, b.end, c.end, d.end])
     }
+
+    /// How far vertices may stray for the pair to do so, as [`Reach::beyond`]; less than zero if it does not.
+    #[inline(always)]
+    pub(super) fn largest_stray(&self, kind: PairKind, vertices: [u32; 4], class: usize) -> f32 {
+        let way = |corner: usize| &self.ways[vertices[corner] as usize];
+        let (a, b, c, d) = (way(0), way(1), way(2), way(3));
+        let clearance = &self.clearances[class];
+        clearance.largest_stray(kind, [a.start, b.start, c.start, d.start], [a.end, b.end, c.end, d.end])
+    }
 }
 
 #[cfg(test)]
@@ -88,6 +97,7 @@ mod tests {
             spare: 0.0,
             margin: 0.5,
             farthest: 1,
+            is_graded: false,
         }
     }
 
