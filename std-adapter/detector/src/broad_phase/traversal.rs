@@ -135,6 +135,8 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             lanes &= block_a.near_in_lanes(simd, &node_b.bounds);
             tests += 1;
         }
+        tests += u64::from((lanes & !with_partners(node_a, node_b.moving)).count_ones());
+        lanes &= with_partners(node_a, node_b.moving);
         while lanes != 0 {
             let lane = next_lane(&mut lanes);
             let mut near = node_b.present & partners(node_a.moving >> lane & 1 != 0, node_b.moving);
@@ -172,6 +174,9 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             lanes &= block_a.near_in_lanes(simd, &node_b.bounds);
             tests += 1;
         }
+        // Counted all the same: how good the hierarchies are does not depend on who takes part.
+        tests += u64::from((lanes & !with_partners(node_a, others & node_b.moving)).count_ones());
+        lanes &= with_partners(node_a, others & node_b.moving);
         let corners = &self.second.corners[b as usize];
         let (first, second) = (a * LANES as u32, b * LANES as u32);
         while lanes != 0 {
@@ -202,6 +207,12 @@ fn part<const N: usize>(tree: &Tree<N>, level: u8, block: u32) -> (&MovingBlock,
 #[inline(always)]
 fn partners(is_moving: bool, moving: Mask) -> Mask {
     if is_moving { Mask::MAX } else { moving }
+}
+
+/// The lanes of a block that have any partner there, of which these move.
+#[inline(always)]
+fn with_partners(node: &Node, moving: Mask) -> Mask {
+    if moving == 0 { node.moving } else { Mask::MAX }
 }
 
 /// The lowest set lane, which is then cleared.

@@ -127,7 +127,10 @@ impl Followed {
             }
         }
         let Some(near) = &mut self.near else { return };
-        near.find_strays(start, end, 1.0);
+        if !continues {
+            near.find_strays(start, 0.0);
+        }
+        near.find_strays(end, 1.0);
         let strays = std::mem::take(&mut near.strays);
 
         // Four times what is needed: the elementary test gives up on what is nearer than 20u of its size, and calls it a contact.

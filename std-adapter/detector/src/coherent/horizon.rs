@@ -144,13 +144,8 @@ impl Horizon {
         let courses = self.origin.iter().zip(&self.drift).zip(end);
         for ((( &origin, &drift), &end), stray) in courses.zip(strays) {
             let expected = expected(origin, drift, time);
-            let mut least = f32::INFINITY;
-            for &(room, of_grade) in &grades {
-                if has_room(end, expected, room) {
-                    least = of_grade;
-                }
-            }
-            *stray = stray.max(least);
+            let within = grades.iter().take_while(|(room, _)| has_room(end, expected, *room)).last();
+            *stray = stray.max(within.map_or(f32::INFINITY, |&(_, stray)| stray));
         }
     }
 

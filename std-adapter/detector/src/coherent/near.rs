@@ -195,16 +195,15 @@ impl<I: Interest> NearPairs<I> {
                 pair.remember(&list[index]);
             }
         }
+        let led_back = self.strays.iter_mut().zip(&*strayed).filter(|(_, strayed)| **strayed);
+        led_back.for_each(|(stray, _)| *stray = 0.0);
         list.retain(|pair| !pair.vertices.iter().any(|&vertex| strayed[vertex as usize]));
     }
 
-    /// Finds how far each vertex strays in the step from `start` to `end`, which the list [covers](Self::cover): a pair needs no attention
-    /// if its [largest](NearPair::needs_attention) do not.
-    pub fn find_strays(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
-        self.strays.clear();
-        self.strays.resize(end.len(), 0.0);
-        self.horizon.find_strays(start, 0.0, self.reach.beyond, &mut self.strays);
-        self.horizon.find_strays(end, h, self.reach.beyond, &mut self.strays);
+    /// Finds how far each vertex strays up to `positions`, `h` later, if the list [covers](Self::cover) them: that decides which pairs
+    /// [need attention](NearPair::needs_attention).
+    pub(super) fn find_strays(&mut self, positions: &[DVec3], h: f64) {
+        self.horizon.find_strays(positions, h, self.reach.beyond, &mut self.strays);
     }
 
     /// Finds all pairs anew, for a motion that begins with the step from `start` to `end`.
@@ -213,6 +212,8 @@ impl<I: Interest> NearPairs<I> {
     /// As [`cover`](Self::cover).
     pub fn find(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
         self.statistics.searches += 1;
+        self.strays.clear();
+        self.strays.resize(end.len(), 0.0);
         let motion = self.horizon.begin(start, end, h, self.slack);
         self.search.pairs(&self.reach, motion, &mut self.found);
         self.take_found();
