@@ -13,9 +13,9 @@ use selvedge_core::{Position, Scalar};
 use std::sync::Arc;
 
 /// How far beyond their distance pairs are looked for, in mean edges.
-const BEYOND: f64 = 0.25;
+const BEYOND: f64 = 0.1;
 /// Most steps to look ahead.
-const FARTHEST: u32 = 16;
+const FARTHEST: u32 = 8;
 
 /// Pairs of vertices of which one moves.
 #[derive(Debug)]
@@ -39,6 +39,8 @@ impl Interest for OfMoving {
 #[derive(Debug)]
 pub(crate) struct Followed {
     moving: Option<Vec<bool>>,
+    /// Which vertices have a triangle.
+    used: Vec<bool>,
     /// Once there has been a step.
     near: Option<NearPairs<OfMoving>>,
     /// What pairs in the list are looked for within.
@@ -49,7 +51,7 @@ pub(crate) struct Followed {
     step: [Vec<DVec3>; 2],
     /// Pairs that may come within the distance, VF and EE.
     pub(crate) open: [Vec<[u32; 2]>; 2],
-    /// Whether all positions are `f32` numbers.
+    /// Whether all positions of vertices that have a triangle are `f32` numbers.
     pub(crate) is_single: bool,
 }
 
@@ -63,6 +65,7 @@ impl Followed {
     pub(crate) fn new(moving: Option<Vec<bool>>) -> Self {
         Self {
             moving,
+            used: Vec::new(),
             near: None,
             distance: 0.0,
             before: Default::default(),
@@ -91,7 +94,12 @@ impl Followed {
     ) {
         std::mem::swap(&mut self.before, &mut self.step);
         let is_exact = P::Scalar::FRACTION_BITS < 52;
-        self.is_single = take(start, &mut self.step[0]) & take(end, &mut self.step[1]) | is_exact;
+        if self.used.is_empty() {
+            self.used.resize(start.len(), false);
+            topology.triangles().iter().flatten().for_each(|&vertex| self.used[vertex as usize] = true);
+        }
+        let [own_start, own_end] = &mut self.step;
+        self.is_single = take(start, &self.used, own_start) & take(end, &self.used, own_end) | is_exact;
         let [start, end] = [&self.step[0][..], &self.step[1][..]];
         let continues = start == self.before[1];
         match &mut self.near {
@@ -113,11 +121,11 @@ impl Followed {
                 self.distance = distance;
                 let reach = Reach {
                     distances: [distance; 2],
-                    beyond: env("BEYOND", BEYOND) * mean_edge(topology, start),
+                    beyond: BEYOND * mean_edge(topology, start),
                     spare: 0.0,
                     margin: 0.0,
                     is_graded: true,
-                    farthest: env("FARTHEST", f64::from(FARTHEST)) as u32,
+                    farthest: FARTHEST,
                 };
                 let wanted = self.moving.clone().unwrap_or_else(|| vec![true; start.len()]);
                 let interest = OfMoving(self.moving.clone());
@@ -179,18 +187,14 @@ impl Followed {
     }
 }
 
-fn env(name: &str, default: f64) -> f64 {
-    std::env::var(name).ok().and_then(|x| x.parse().ok()).unwrap_or(default)
-}
-
-/// Replaces `own` by the positions. Returns whether all are `f32` numbers.
-fn take<P: Position>(positions: &[P], own: &mut Vec<DVec3>) -> bool {
+/// Replaces `own` by the positions. Returns whether all that are used are `f32` numbers.
+fn take<P: Position>(positions: &[P], used: &[bool], own: &mut Vec<DVec3>) -> bool {
     let mut are_single = true;
     own.clear();
-    own.extend(positions.iter().map(|&position| {
+    own.extend(positions.iter().zip(used).map(|(&position, &is_used)| {
         let position: [P::Scalar; 3] = position.into();
         let position = position.map(Scalar::to_f64);
-        are_single &= position.iter().all(|&x| f32::from_f64(x).to_f64() == x);
+        are_single &= !is_used | position.iter().all(|&x| f32::from_f64(x).to_f64() == x);
         DVec3::from(position)
     }));
     are_single
