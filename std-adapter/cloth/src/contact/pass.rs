@@ -210,7 +210,9 @@ impl ContactSolver {
             let (error, start) = (self.error, step.start);
             let settings = &self.settings;
             let separation = |pair: &Candidate| {
-                let asked = settings.of(pair.data.is_with_body()).map_or(0.0, |thickness| thickness.separation);
+                let asked = settings
+                    .of(pair.data.is_with_body())
+                    .map_or(0.0, |thickness| thickness.separation);
                 kept(pair, start, asked, error)
             };
             let motions = Motions {

@@ -50,9 +50,15 @@ impl Rows {
     }
 
     /// Room for so many vertices, and these of them; what the others are does not matter. In `f32` too, if all are such numbers.
-    pub(crate) fn set_some<P: Position>(&mut self, [start, end]: [&[P]; 2], vertices: impl Iterator<Item = u32>, are_single: bool) {
+    pub(crate) fn set_some<P: Position>(
+        &mut self,
+        [start, end]: [&[P]; 2],
+        vertices: impl Iterator<Item = u32>,
+        are_single: bool,
+    ) {
         self.resize(start.len());
-        self.single.resize(start.len(), VertexRow::new(Motion::resting(Default::default())));
+        self.single
+            .resize(start.len(), VertexRow::new(Motion::resting(Default::default())));
         self.has_single = are_single;
         for vertex in vertices {
             let vertex = vertex as usize;

@@ -1,4 +1,9 @@
-//! The near pairs of a detector's steps, and those of them that a step cannot settle by what is remembered.
+//! The near pairs of a detector's steps, and those of them that a step cannot settle by what is remembered: all that are left for the
+//! elementary test.
+//!
+//! **No step is missed.** Whatever is no near pair keeps its distance while no vertex strays too far ([`near`](super::near)), and how far each
+//! has strayed is looked at in every step, at its end; at its start as well, unless it begins where the step before has ended, bit by bit.
+//! The distance is the separation and twice the tolerance, so that what is settled here is no contact of the elementary test's either.
 
 use super::{Interest, NearPairs, Reach};
 use crate::PairKind;
@@ -12,10 +17,10 @@ use selvedge_core::separation::largest_coordinate;
 use selvedge_core::{Position, Scalar};
 use std::sync::Arc;
 
-/// How far beyond their distance pairs are looked for, in mean edges.
+/// How far beyond their distance pairs are looked for, in mean edges: more makes longer lists that last longer.
 const BEYOND: f64 = 0.1;
 /// Most steps to look ahead.
-const FARTHEST: u32 = 8;
+const FARTHEST: u32 = 6;
 
 /// Pairs of vertices of which one moves.
 #[derive(Debug)]
@@ -96,7 +101,11 @@ impl Followed {
         let is_exact = P::Scalar::FRACTION_BITS < 52;
         if self.used.is_empty() {
             self.used.resize(start.len(), false);
-            topology.triangles().iter().flatten().for_each(|&vertex| self.used[vertex as usize] = true);
+            topology
+                .triangles()
+                .iter()
+                .flatten()
+                .for_each(|&vertex| self.used[vertex as usize] = true);
         }
         let [own_start, own_end] = &mut self.step;
         self.is_single = take(start, &self.used, own_start) & take(end, &self.used, own_end) | is_exact;
@@ -105,7 +114,11 @@ impl Followed {
         match &mut self.near {
             Some(near) if self.distance == distance => {
                 let ways = self.before[0].iter().zip(&self.before[1]);
-                let bends = start.iter().zip(end).zip(ways).map(|((&start, &end), (&from, &to))| (end - start) - (to - from));
+                let bends = start
+                    .iter()
+                    .zip(end)
+                    .zip(ways)
+                    .map(|((&start, &end), (&from, &to))| (end - start) - (to - from));
                 near.set_bends(bends);
                 if continues {
                     near.advance(1.0);

@@ -113,7 +113,13 @@ impl Horizon {
     /// Gives the vertices that have strayed the way from `start` to `end`, on which they are now, for the rest of the motion. Returns
     /// the motion that all vertices have now, as if the new ways had been theirs from its beginning: that of the others stays. `None` if
     /// rounding is too coarse for that; then the motion is over.
-    pub(super) fn lead_back(&mut self, strayed: &[bool], [start, end]: [&[DVec3]; 2], h: f64, room: f64) -> Option<[&[DVec3]; 2]> {
+    pub(super) fn lead_back(
+        &mut self,
+        strayed: &[bool],
+        [start, end]: [&[DVec3]; 2],
+        h: f64,
+        room: f64,
+    ) -> Option<[&[DVec3]; 2]> {
         for vertex in (0..strayed.len()).filter(|&vertex| strayed[vertex]) {
             let mut drift = (end[vertex] - start[vertex]) / h;
             if let Some(&own) = self.bends.get(vertex) {
@@ -142,7 +148,7 @@ impl Horizon {
             stray *= 0.5;
         }
         let courses = self.origin.iter().zip(&self.drift).zip(end);
-        for ((( &origin, &drift), &end), stray) in courses.zip(strays) {
+        for (((&origin, &drift), &end), stray) in courses.zip(strays) {
             let expected = expected(origin, drift, time);
             let within = grades.iter().take_while(|(room, _)| has_room(end, expected, *room)).last();
             *stray = stray.max(within.map_or(f32::INFINITY, |&(_, stray)| stray));

@@ -1,11 +1,22 @@
 //! Motion that goes on from step to step: pairs that are near each other are found for several steps at once, and followed.
 //!
+//! ```text
+//! now and then   hierarchies of moving boxes ─▶ sieve ─▶ the list of near pairs, good for some steps of the motion expected
+//! every step     which vertices have strayed from it? those of few: their pairs found again; of many: all anew
+//!                each pair: have its vertices strayed far enough? does the remembered direction last? another one?
+//! what is left   open pairs
+//! ```
+//!
 //! | module | what it does |
 //! |---|---|
 //! | `search` | near pairs: hierarchies of moving boxes, then the sieve |
 //! | `sieve` | pairs that keep apart until the next search |
 //! | `horizon`, `near` | for how many steps the pairs are good, and the list of them |
 //! | `pair`, `closest` | one pair, and the direction that keeps it apart |
+//! | `follow` | all of it for the steps of a [`CollisionDetector`](crate::CollisionDetector) |
+//!
+//! Nothing here decides by a bound of its own: directions, clearances and courses, with their derivations, are
+//! [core's](selvedge_core::separation).
 
 mod closest;
 mod follow;

@@ -151,7 +151,10 @@ impl<I: Interest> NearPairs<I> {
         let mut at_start = Vec::new();
         self.horizon.find_strayed(start, 0.0, self.slack, &mut at_start);
         self.horizon.find_strayed(end, h, self.slack, &mut self.strayed);
-        self.strayed.iter_mut().zip(at_start).for_each(|(strayed, at_start)| *strayed |= at_start);
+        self.strayed
+            .iter_mut()
+            .zip(at_start)
+            .for_each(|(strayed, at_start)| *strayed |= at_start);
         let strayed = self.strayed.iter().filter(|&&strayed| strayed).count();
         self.cover_strayed(strayed, start, end, h);
     }
