@@ -90,16 +90,54 @@ impl Clearance {
         if kept.cmpgt(Vec3A::splat(self.along_axis + self.stray)).any() {
             return true;
         }
-        let ([a, b, c, d], [e, f, g, h]) = (start, end);
-        let middle = match kind {
-            PairKind::VertexFace => (a + e) - (b + f + c + g + d + h) * (1.0 / 3.0),
-            PairKind::EdgeEdge => (a + e + b + f) - (c + g + d + h),
-        };
+        let middle = between_middles(kind, start, end);
         let squared = middle.dot(middle);
         let at_start = gap_along(kind, middle, start);
         let at_end = gap_along(kind, middle, end);
         let asked = self.along_direction * libm::sqrtf(squared) + self.stray * middle.abs().element_sum();
         at_start.min(at_end) > asked && squared > SHORTEST
+    }
+}
+
+impl Clearance {
+    /// How far points may stray, in place of what [`new`](Self::new) was told, for the pair to keep its distance certainly in the same way;
+    /// less than zero if they may not.
+    ///
+    /// The division, and what led to it, err by less than 8ε of the result: 2⁻¹⁷ is taken off, of which `new` adds half to what it is told.
+    ///
+    /// ```
+    /// use selvedge_core::{PairKind, glam::Vec3A, separation::clearance::Clearance};
+    /// let at = |height| [Vec3A::new(0.2, 0.2, height), Vec3A::ZERO, Vec3A::X, Vec3A::Y];
+    /// let stray = Clearance::new(0.3, 0.0, 1.0, 0.0).largest_stray(PairKind::VertexFace, at(0.5), at(0.4));
+    /// assert!(stray < 0.1 && stray > 0.0999);
+    /// assert!(Clearance::new(0.3, stray.into(), 1.0, 0.0).is_kept(PairKind::VertexFace, at(0.5), at(0.4)));
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn largest_stray(&self, kind: PairKind, start: [Vec3A; 4], end: [Vec3A; 4]) -> f32 {
+        let [ahead, behind] = gaps(kind, start);
+        let [ahead_later, behind_later] = gaps(kind, end);
+        let kept = ahead.min(ahead_later).max(behind.min(behind_later));
+        let along_axis = kept.max_element() - self.along_axis;
+        let middle = between_middles(kind, start, end);
+        let squared = middle.dot(middle);
+        let gap = gap_along(kind, middle, start).min(gap_along(kind, middle, end));
+        let left = gap - self.along_direction * libm::sqrtf(squared);
+        let along_direction = if squared > SHORTEST {
+            left / middle.abs().element_sum()
+        } else {
+            f32::NEG_INFINITY
+        };
+        along_axis.max(along_direction) * (1.0 - 1.0 / 131_072.0)
+    }
+}
+
+/// Twice the way from the middle of the second set to that of the first, or four times, all at both ends together.
+#[inline(always)]
+fn between_middles(kind: PairKind, [a, b, c, d]: [Vec3A; 4], [e, f, g, h]: [Vec3A; 4]) -> Vec3A {
+    match kind {
+        PairKind::VertexFace => (a + e) - (b + f + c + g + d + h) * (1.0 / 3.0),
+        PairKind::EdgeEdge => (a + e + b + f) - (c + g + d + h),
     }
 }
 

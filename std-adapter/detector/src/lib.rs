@@ -25,6 +25,8 @@ mod broad_phase;
 mod buffer;
 mod clock;
 #[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
+mod coherent;
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod dispatch;
 #[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod frame;

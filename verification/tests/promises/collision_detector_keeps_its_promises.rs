@@ -55,6 +55,13 @@ fn all_pairs(topology: &Topology) -> [Vec<[u32; 2]>; 2] {
     [vertex_face, edge_edge]
 }
 
+/// The same, VF first.
+pub(crate) fn pairs_of(topology: &Topology) -> Vec<MeshPair> {
+    let [vertex_face, edge_edge] = all_pairs(topology);
+    let of_kind = |kind, pairs: Vec<[u32; 2]>| pairs.into_iter().map(move |pair| (kind, pair));
+    of_kind(VertexFace, vertex_face).chain(of_kind(EdgeEdge, edge_edge)).collect()
+}
+
 /// Every question, where the oracle knows the answer.
 fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
     let topology = mesh.topology();

@@ -12,6 +12,7 @@ mod batches_agree_with_one_pair;
 mod box_tests_never_cull_what_touches;
 mod certified_filter_never_culls_coplanar;
 mod certified_in_every_floating_point_environment;
+mod coherent_motion_misses_nothing;
 mod collision_detector_keeps_its_promises;
 mod contact_is_decided_exactly;
 mod control_values_within_error_bounds;

@@ -8,7 +8,7 @@ use rug::Rational;
 use selvedge_core::PairKind;
 use selvedge_core::boxes::Aabb;
 use selvedge_core::boxes::mapping::Mapping;
-use selvedge_core::glam::DVec3;
+use selvedge_core::glam::{DVec3, Vec3A};
 use selvedge_core::narrowing::{rounded_down, rounded_up};
 use selvedge_core::separation::clearance::Clearance;
 use selvedge_core::separation::course;
@@ -220,16 +220,23 @@ fn in_double<S: Format>(pair: &PairCase<S>) -> PairCase<f64> {
     PairCase::new(pair.kind, points)
 }
 
-/// Whether the pair is said to keep `distance` though its points stray, with its positions rounded to `f32` here.
+/// Whether the pair is said to keep `distance` though its points stray.
 fn is_clear(pair: &PairCase<f64>, distance: f64, stray: f64) -> bool {
+    clearance(pair, distance, stray, Clearance::is_kept)
+}
+
+/// What a clearance says of a pair, with its positions rounded to `f32` here.
+fn clearance<T>(
+    pair: &PairCase<f64>,
+    distance: f64,
+    stray: f64,
+    ask: impl Fn(&Clearance, PairKind, [Vec3A; 4], [Vec3A; 4]) -> T,
+) -> T {
     let [start, end] = ends(pair);
     let largest = largest_coordinate(&[start, end].concat());
     let clearance = Clearance::new(distance, stray, largest, 0.0);
-    clearance.is_kept(
-        pair.kind,
-        start.map(|point| point.as_vec3a()),
-        end.map(|point| point.as_vec3a()),
-    )
+    let [start, end] = [start, end].map(|points| points.map(|point| point.as_vec3a()));
+    ask(&clearance, pair.kind, start, end)
 }
 
 /// x + `by`, or the next number nearer to x if that is farther from it.
@@ -257,24 +264,47 @@ property!(
         let stray = largest.min(1e9) * share;
         let kept = largest_of_all(&pair, |pair| largest_accepted(|distance| is_clear(pair, distance, stray)));
         let Some(distance) = kept else { return Ok(()) };
-        let first = if pair.kind == PairKind::EdgeEdge { 2 } else { 1 };
-        for signs in 0..8_u32 {
-            let sign = |axis: usize| if signs >> axis & 1 == 0 { 1.0 } else { -1.0 };
-            let mut towards = pair;
-            for (k, ends) in towards.points.iter_mut().enumerate() {
-                let of_set = if k < first { 0.5 } else { -0.5 };
-                for position in ends {
-                    *position = [0, 1, 2].map(|axis| strayed(position[axis], sign(axis) * of_set * stray));
-                }
-            }
-            prop_assert!(!within(&towards.question(), distance), "{distance} with {stray}, {signs:b}");
-            if stray == 0.0 {
-                break;
-            }
-        }
-        Ok(())
+        keeps_it_though_strayed(&pair, distance, stray)
     }
 );
+
+property!(
+    /// As far as the clearance says.
+    a_pair_keeps_its_distance_though_its_points_stray_as_far_as_they_may,
+    800,
+    questions(),
+    |question: Question| {
+        let pair = in_double(&question.pair);
+        let Some(kept) = largest_of_all(&pair, |pair| largest_accepted(|distance| is_clear(pair, distance, 0.0))) else {
+            return Ok(());
+        };
+        let distance = kept * [0.0, 1.0, 0.5, 0.999, 0.5_f64.powi(10)][question.choice as usize % 5];
+        let stray = f64::from(clearance(&pair, distance, 0.0, Clearance::largest_stray));
+        if stray < 0.0 {
+            return Ok(());
+        }
+        keeps_it_though_strayed(&pair, distance, stray)
+    }
+);
+
+fn keeps_it_though_strayed(pair: &PairCase<f64>, distance: f64, stray: f64) -> Result<(), TestCaseError> {
+    let first = if pair.kind == PairKind::EdgeEdge { 2 } else { 1 };
+    for signs in 0..8_u32 {
+        let sign = |axis: usize| if signs >> axis & 1 == 0 { 1.0 } else { -1.0 };
+        let mut towards = *pair;
+        for (k, ends) in towards.points.iter_mut().enumerate() {
+            let of_set = if k < first { 0.5 } else { -0.5 };
+            for position in ends {
+                *position = [0, 1, 2].map(|axis| strayed(position[axis], sign(axis) * of_set * stray));
+            }
+        }
+        prop_assert!(!within(&towards.question(), distance), "{distance} with {stray}, {signs:b}");
+        if stray == 0.0 {
+            break;
+        }
+    }
+    Ok(())
+}
 
 /// A course, and a point that is said to be within its room of it.
 #[derive(Clone, Copy, Debug)]

@@ -3,11 +3,11 @@
 //! A constraint is C = n·Σwᵢxᵢ − h ≥ 0 with the direction n and the weights w of the closest points at the start of the step. A pair that
 //! starts nearer than that comes apart at [`RECOVERY`] at most, whatever the length of the step: a push must not become a
 //! velocity. On a fine mesh neighbours at rest may be nearer than the thickness; such a pair's is at most half its distance at rest,
-//! or the mesh would lock, and [less](super::sieve).
+//! or the mesh would lock, and [less](super::neighbours).
 
 use super::candidate::Candidate;
+use super::neighbours::are_neighbours;
 use super::settings::{ContactSettings, MARGIN, NEIGHBOURS_AT_REST, RECOVERY, Thickness};
-use super::sieve::are_neighbours;
 use crate::step::{TimeStep, Touch, Touches};
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
@@ -55,9 +55,9 @@ fn constraint(
     h: f64,
     error: GapError<f64>,
 ) -> Option<ContactConstraint> {
-    let Thickness { thickness, .. } = settings.of(pair.is_with_body())?;
+    let Thickness { thickness, .. } = settings.of(pair.data.is_with_body())?;
     // The pair's own, once it is known.
-    let aim = match f64::from(pair.thickness) {
+    let aim = match f64::from(pair.data.thickness) {
         0.0 => thickness,
         own => own,
     };
@@ -71,21 +71,21 @@ fn constraint(
     if distance > reach || closest.direction == DVec3::ZERO {
         return None;
     }
-    if pair.thickness == 0.0 {
-        pair.thickness = thickness_of(pair, settings.neighbours, thickness, rest) as f32;
+    if pair.data.thickness == 0.0 {
+        pair.data.thickness = thickness_of(pair, settings.neighbours, thickness, rest) as f32;
     }
     Some(ContactConstraint {
         vertices: pair.vertices,
         weights: closest.weights,
         normal: closest.direction,
-        thickness: f64::from(pair.thickness).min(distance + RECOVERY * h),
-        with_body: pair.is_with_body(),
+        thickness: f64::from(pair.data.thickness).min(distance + RECOVERY * h),
+        with_body: pair.data.is_with_body(),
     })
 }
 
 /// The thickness that a pair can have: `thickness`, but for neighbours.
 fn thickness_of(pair: &Candidate, neighbours: Option<f64>, thickness: f64, rest: &[DVec3]) -> f64 {
-    if pair.is_with_body() {
+    if pair.data.is_with_body() {
         return thickness;
     }
     let are_near = |distance| are_neighbours(pair.kind, pair.points(rest), distance);

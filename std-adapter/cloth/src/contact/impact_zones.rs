@@ -7,7 +7,7 @@
 //! momentum, or that of the body or pin (its carrier) that it touches, which keeps it on the body. With s = 0 a zone is carried
 //! rigidly.
 
-use super::candidate::Candidate;
+use super::candidate::{Candidate, time_of_impact_of};
 use crate::step::{Carrier, FREE};
 use selvedge_core::glam::DVec3;
 
@@ -122,7 +122,7 @@ impl ImpactZones {
                 let common = self.common(vertex, index, motions);
                 scratch[vertex] = motions.wanted[vertex] - common;
             }
-            if let Some(time) = pair.time_of_impact([motions.start, scratch], separation(pair)) {
+            if let Some(time) = time_of_impact_of(pair, [motions.start, scratch], separation(pair)) {
                 let zone = &mut self.zones[index];
                 zone.scale = zone.scale.min(SHARES[zone.level] * time);
             }

@@ -3,10 +3,8 @@
 //! | module | what it does |
 //! |---|---|
 //! | `settings` | what effects ask for |
-//! | `search` | candidate pairs: the one place that knows the broad phase |
-//! | `sieve` | candidates that keep apart until the next search, neighbours on the mesh among them |
-//! | `horizon`, `candidates` | for how many steps they are good, and the list of them |
-//! | `candidate`, `closest` | one pair: the direction that keeps it apart, the certified time of impact |
+//! | `candidates` | which pairs are looked at, followed from step to step by the detector; `neighbours`: those near each other at rest |
+//! | `candidate` | one pair: what contact keeps of it, its certified time of impact |
 //! | `constraints` | contacts as constraints of the solver |
 //! | `pass`, `impact_zones` | no step is accepted that is not certified |
 //! | `solver` | all of it, as the simulation calls it |
@@ -17,15 +15,12 @@
 
 mod candidate;
 mod candidates;
-mod closest;
 mod constraints;
-mod horizon;
 mod impact_zones;
+mod neighbours;
 mod pass;
 mod report;
-mod search;
 mod settings;
-mod sieve;
 mod solver;
 mod start;
 

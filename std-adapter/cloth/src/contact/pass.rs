@@ -13,9 +13,9 @@
 //! **It ends.** Each pair that is not free merges zones, gives a zone a carrier, raises a zone's level, or cuts the step; there are
 //! finitely many of each. [`ROUNDS`] is for certainty.
 //!
-//! **Candidates** are good for several steps: [what they hold](super::candidates).
+//! **Candidates** are good for several steps; what they hold is the [detector's](selvedge::verification::NearPairs).
 
-use super::candidate::Candidate;
+use super::candidate::{Candidate, impact};
 use super::impact_zones::{Cut, Motions};
 use super::report::Blocker;
 use super::settings::ContactSettings;
@@ -148,16 +148,16 @@ impl ContactSolver {
     /// Adds the candidates of vertices that have strayed in the course of repairs, and lets `open` name the same pairs as before.
     /// Returns whether that was possible: not if many have strayed, or the motion has ended.
     fn add_candidates_of_strayed(&mut self, strayed: usize, open: &mut [usize], motion: [&[DVec3]; 2], h: f64) -> bool {
-        let keys: Vec<u64> = open.iter().map(|&index| self.candidates.list[index].key).collect();
+        let keys: Vec<_> = open.iter().map(|&index| self.candidates.list[index].key()).collect();
         if !self.candidates.add_of_strayed(strayed, motion, h) {
             return false;
         }
         // What is new has a vertex that has strayed.
-        let all = self.moved.iter_mut().zip(&self.candidates.strayed);
+        let all = self.moved.iter_mut().zip(self.candidates.strayed());
         all.for_each(|(moved, &strayed)| *moved |= strayed);
         for (index, key) in open.iter_mut().zip(keys) {
             // Those that were there still are.
-            *index = self.candidates.list.partition_point(|pair| pair.key < key);
+            *index = self.candidates.list.partition_point(|pair| pair.key() < key);
         }
         true
     }
@@ -210,7 +210,9 @@ impl ContactSolver {
             let (error, start) = (self.error, step.start);
             let settings = &self.settings;
             let separation = |pair: &Candidate| {
-                let asked = settings.of(pair.is_with_body()).map_or(0.0, |thickness| thickness.separation);
+                let asked = settings
+                    .of(pair.data.is_with_body())
+                    .map_or(0.0, |thickness| thickness.separation);
                 kept(pair, start, asked, error)
             };
             let motions = Motions {
@@ -259,7 +261,7 @@ impl ContactSolver {
             time: step.time,
             kind: pair.kind,
             vertices: pair.vertices,
-            body: (pair.body != FREE).then_some(pair.body as usize),
+            body: pair.data.is_with_body().then_some(pair.data.body as usize),
         }
     }
 
@@ -271,10 +273,10 @@ impl ContactSolver {
 impl ContactSettings {
     /// The separation that a pair is asked to keep; `None` if none is promised.
     fn separation(&self, pair: &Candidate, yielding: &[bool]) -> Option<f64> {
-        if pair.is_with_body() && yielding[pair.body as usize] {
+        if pair.data.is_with_body() && yielding[pair.data.body as usize] {
             return None;
         }
-        self.of(pair.is_with_body()).map(|thickness| thickness.separation)
+        self.of(pair.data.is_with_body()).map(|thickness| thickness.separation)
     }
 }
 
@@ -288,11 +290,11 @@ struct LookedAt {
 
 /// Whether the pair keeps its separation, or what is left of it.
 fn is_free(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
-    if pair.impact(path, separation, error).is_none() {
+    if impact(pair, path, separation, error).is_none() {
         return true;
     }
     let kept = kept(pair, path[0], separation, error);
-    kept < separation && pair.impact(path, kept, error).is_none()
+    kept < separation && impact(pair, path, kept, error).is_none()
 }
 
 /// m_P of the module.

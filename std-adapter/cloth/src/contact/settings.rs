@@ -7,7 +7,7 @@ pub(crate) struct ContactSettings {
     pub(crate) cloth: Option<(usize, Thickness)>,
     /// Cloth with bodies.
     pub(crate) bodies: Option<(usize, Thickness)>,
-    /// The largest thickness of [neighbours](super::sieve), in metres, if they have one of their own.
+    /// The largest thickness of [neighbours](super::neighbours), in metres, if they have one of their own.
     pub(crate) neighbours: Option<f64>,
 }
 

@@ -1,7 +1,7 @@
 //! Contact as the simulation calls it: constraints in the solver, then the [certified pass](super::pass).
 
-use super::candidate::Candidate;
-use super::candidates::Candidates;
+use super::candidate::{Candidate, time_of_impact_of};
+use super::candidates::{Candidates, candidates};
 use super::constraints::{self, ContactConstraint};
 use super::impact_zones::ImpactZones;
 use super::report::{ContactCounts, ContactSeconds, described};
@@ -48,7 +48,7 @@ impl ContactSolver {
             return Ok(None);
         }
         Ok(Some(Self {
-            candidates: Candidates::new(&mut settings, triangles, rest, carriers, cloth_vertices)?,
+            candidates: candidates(&mut settings, triangles, rest, carriers, cloth_vertices)?,
             settings,
             carriers: carriers.to_vec(),
             rest: rest.to_vec(),
@@ -71,11 +71,11 @@ impl ContactSolver {
     pub(crate) fn first_touching(&self, positions: &[DVec3]) -> Option<String> {
         let error = gap_error(positions, positions);
         let touching = self.candidates.list.iter().find(|pair| {
-            pair.distance_from_below(positions, error) == 0.0 && pair.time_of_impact([positions, positions], 0.0).is_some()
+            pair.distance_from_below(positions, error) == 0.0 && time_of_impact_of(pair, [positions, positions], 0.0).is_some()
         });
         touching
             .map(|pair| described(pair.kind, pair.vertices))
-            .or_else(|| self.candidates.first_crossing(positions))
+            .or_else(|| self.candidates.interest().first_crossing(positions))
     }
 
     /// Sets up the contacts of a step of `h` seconds that so far leads to `predicted`.
@@ -128,9 +128,9 @@ impl ContactSolver {
             if !self.yielding[body] {
                 continue;
             }
-            let pairs = self.candidates.list.iter().filter(|pair| pair.body == body as Carrier);
+            let pairs = self.candidates.list.iter().filter(|pair| pair.data.body == body as Carrier);
             let is_apart = |pair: &Candidate| {
-                let separation = self.settings.of(pair.is_with_body()).map_or(0.0, |t| t.separation);
+                let separation = self.settings.of(pair.data.is_with_body()).map_or(0.0, |t| t.separation);
                 pair.distance_from_below(positions, self.error) > separation
             };
             self.yielding[body] = !pairs.clone().all(is_apart);

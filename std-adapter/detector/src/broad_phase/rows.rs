@@ -50,6 +50,22 @@ impl Rows {
             .extend((0..motions.len()).map(|vertex| VertexRow::new(motions.of(vertex))));
     }
 
+    /// Room for so many vertices, and these of them; what the others are does not matter. In `f32` too, if all are such numbers.
+    pub(crate) fn set_some(&mut self, motions: &dyn Motions, vertices: impl Iterator<Item = u32>, are_single: bool) {
+        self.resize(motions.len());
+        self.single
+            .resize(motions.len(), VertexRow::new(Motion::resting(Default::default())));
+        self.has_single = are_single;
+        for vertex in vertices {
+            let vertex = vertex as usize;
+            let own = VertexRow::new(motions.of(vertex));
+            self.double[vertex] = own;
+            if are_single {
+                self.has_single &= narrowed(&[own], &mut self.single[vertex..=vertex]);
+            }
+        }
+    }
+
     /// Looks whether all positions are `f32` numbers, and makes their rows if so.
     pub(crate) fn narrow(&mut self) {
         let are_exact = AtomicBool::new(true);

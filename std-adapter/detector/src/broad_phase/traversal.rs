@@ -117,6 +117,8 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             own &= lanes.near(block_a, &node_b.bounds);
             tests += 1;
         }
+        tests += u64::from((own & !with_partners(node_a, node_b.moving)).count_ones());
+        own &= with_partners(node_a, node_b.moving);
         while own != 0 {
             let lane = next_lane(&mut own);
             let mut near = node_b.present & partners(node_a.moving >> lane & 1 != 0, node_b.moving);
@@ -154,6 +156,9 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             own &= lanes.near(block_a, &node_b.bounds);
             tests += 1;
         }
+        // Counted all the same: how good the hierarchies are does not depend on who takes part.
+        tests += u64::from((own & !with_partners(node_a, others & node_b.moving)).count_ones());
+        own &= with_partners(node_a, others & node_b.moving);
         let corners = &self.second.corners[b as usize];
         let (first, second) = (a * LANES as u32, b * LANES as u32);
         while own != 0 {
@@ -252,6 +257,12 @@ fn part<const N: usize>(tree: &Tree<N>, level: u8, block: u32) -> (&MovingBlock,
 #[inline(always)]
 fn partners(is_moving: bool, moving: Mask) -> Mask {
     if is_moving { Mask::MAX } else { moving }
+}
+
+/// The lanes of a block that have any partner there, of which these move.
+#[inline(always)]
+fn with_partners(node: &Node, moving: Mask) -> Mask {
+    if moving == 0 { node.moving } else { Mask::MAX }
 }
 
 /// The lowest set lane, which is then cleared.

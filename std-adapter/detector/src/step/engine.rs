@@ -7,12 +7,14 @@ use crate::PairKind;
 use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
 use crate::buffer::settle;
 use crate::clock::Clock;
+use crate::coherent::Followed;
 use crate::dispatch::Level;
 use crate::frame::{Motions, StepError};
 use crate::mesh::Topology;
 use crate::pair_counts::PairCounts;
 use crate::parallel::{self, Workers};
 use selvedge_core::Scalar;
+use selvedge_core::elementary::Limits;
 use selvedge_core::narrowing::rounded_down;
 use std::cmp::Ordering;
 use std::sync::atomic::{self, AtomicBool};
@@ -48,6 +50,8 @@ pub struct StepTally {
     pub filtered: PairCounts,
     /// Contacts.
     pub contacts: PairCounts,
+    /// Pairs that are followed, in the mode for coherent motion.
+    pub followed: u64,
     /// Seconds are counted with the feature `timing`; without it they are zero. Boxes, refit or build, traversal; for a caller's pairs, boxes and their comparison.
     pub broad_phase_seconds: f64,
     /// The certified non-coplanarity filter.
@@ -62,6 +66,10 @@ pub struct StepTally {
 #[derive(Debug)]
 pub(crate) struct Engine {
     broad_phase: MovingBroadPhase,
+    /// In the mode for coherent motion.
+    followed: Option<Box<Followed>>,
+    /// Which vertices move, if not all.
+    moving: Option<Vec<bool>>,
     /// One for each share of the work.
     workers: Vec<Worker>,
     /// One for each thread.
@@ -105,6 +113,8 @@ impl Engine {
     pub(crate) fn new(topology: Arc<Topology>) -> Self {
         Self {
             broad_phase: MovingBroadPhase::new(topology),
+            followed: None,
+            moving: None,
             workers: Vec::new(),
             spaces: Vec::new(),
             rows: Rows::default(),
@@ -118,7 +128,24 @@ impl Engine {
     }
 
     pub(crate) fn set_moving(&mut self, moving: Option<Vec<bool>>) {
+        self.moving.clone_from(&moving);
         self.broad_phase.hierarchies.set_moving(moving);
+        if self.is_coherent() {
+            self.set_coherent(true);
+        }
+    }
+
+    /// Whether steps go on from one another. Forgets those before.
+    pub(crate) fn set_coherent(&mut self, coherent: bool) {
+        self.followed = coherent.then(|| Box::new(Followed::new(self.moving.clone())));
+    }
+
+    pub(crate) fn near_statistics(&self) -> crate::coherent::NearStatistics {
+        self.followed.as_ref().map_or_else(Default::default, |f| f.statistics())
+    }
+
+    pub(crate) const fn is_coherent(&self) -> bool {
+        self.followed.is_some()
     }
 
     pub(crate) fn topology(&self) -> &Topology {
@@ -135,6 +162,10 @@ impl Engine {
     }
 
     fn run_here(&mut self, motions: &dyn Motions, question: &Question, probe: Probe) {
+        if self.is_coherent() {
+            self.run_followed(motions, question);
+            return;
+        }
         let begin = Clock::now();
         let fit = Fit {
             separation: question.limits.separation,
@@ -189,6 +220,38 @@ impl Engine {
         }
     }
 
+    /// Finds the contacts of a step that goes on from the one before.
+    fn run_followed(&mut self, motions: &dyn Motions, question: &Question) {
+        let Some(followed) = &mut self.followed else {
+            return;
+        };
+        let begin = Clock::now();
+        let hierarchies = &self.broad_phase.hierarchies;
+        let topology = hierarchies.topology();
+        let Limits { separation, tolerance } = question.limits;
+        // Pairs within the tolerance are contacts too; twice of it are so with all rounding.
+        followed.find(topology, motions, separation + 2.0 * tolerance, separation);
+        let vertices = [PairKind::VertexFace, PairKind::EdgeEdge].into_iter().flat_map(|kind| {
+            let pairs = followed.open[kind as usize].iter();
+            pairs.flat_map(move |&pair| topology.vertices_of(kind, pair))
+        });
+        self.rows.set_some(motions, vertices, followed.is_single);
+        let update = begin.elapsed().as_secs_f64();
+        let bound = Bound::new(1.0);
+        let step = StepInput {
+            level: hierarchies.level(),
+            numbers: Numbers::Mesh(topology),
+            rows: &self.rows,
+            question: *question,
+            bound: &bound,
+        };
+        let pairs = followed.open.each_ref().map(Vec::as_slice);
+        decide(&mut self.workers, &mut self.spaces, &step, pairs, |_, pairs, _| Some(pairs));
+        let count = followed.count() as u64;
+        self.count(begin, update);
+        self.tally.followed = count;
+    }
+
     /// Finds the contacts of pairs that the caller has: VF, EE.
     pub(super) fn run_on(
         &mut self,
@@ -209,12 +272,6 @@ impl Engine {
         self.boxes.fit(topology, motions, question.limits.separation);
         let update = begin.elapsed().as_secs_f64();
 
-        let shares = match parallel::threads() {
-            1 => 1,
-            threads => 8 * threads,
-        };
-        self.workers.resize_with(2 * shares, Worker::new);
-        let spaces = spaces_for_threads(&mut self.spaces);
         let bound = Bound::new(1.0);
         let step = StepInput {
             level: hierarchies.level(),
@@ -224,30 +281,11 @@ impl Engine {
             bound: &bound,
         };
         let boxes = &self.boxes;
-        let is_strange = AtomicBool::new(false);
-        parallel::for_each(&mut self.workers, |index, worker| {
-            let begin = Clock::now();
-            let (kind, index) = match index.checked_sub(shares) {
-                None => (PairKind::VertexFace, index),
-                Some(index) => (PairKind::EdgeEdge, index),
-            };
-            let pairs = pairs[kind as usize];
-            let place = |index: usize| pairs.len() * index / shares;
-            worker.kind = kind;
-            worker.found.clear();
-            let Space { chunk, near, .. } = &mut *own_space(spaces);
-            chunk.clear();
-            for pairs in pairs[place(index)..place(index + 1)].chunks(CHUNK) {
-                if boxes.keep_near(step.level, kind, pairs, near).is_none() {
-                    is_strange.store(true, atomic::Ordering::Relaxed);
-                    return;
-                }
-                chunk.take(&step, kind, near, &mut worker.found);
-            }
-            chunk.finish(&step, kind, &mut worker.found);
-            worker.seconds = begin.elapsed().as_secs_f64();
+        let are_of_mesh = decide(&mut self.workers, &mut self.spaces, &step, pairs, |kind, pairs, near| {
+            boxes.keep_near(step.level, kind, pairs, near)?;
+            Some(near)
         });
-        if is_strange.into_inner() {
+        if are_of_mesh.is_none() {
             check_pairs(topology, pairs)?;
         }
         self.count(begin, update);
@@ -323,8 +361,9 @@ impl Engine {
     /// The earliest contact of a step: of its beginning first, then of all of it.
     pub(super) fn earliest(&mut self, threads: &Workers, motions: &dyn Motions, question: &Question) -> Option<Contact<f64>> {
         let begin = Clock::now();
-        let mut probes = PROBES.into_iter();
-        let earliest = probes.find_map(|probe| {
+        // Of pairs that are followed few are left to look at, in any part of the step.
+        let probes = if self.is_coherent() { &PROBES[1..] } else { &PROBES };
+        let earliest = probes.iter().find_map(|&probe| {
             self.run(threads, motions, question, probe);
             self.earliest_found()
         });
@@ -369,6 +408,47 @@ impl Engine {
         tally.seconds = begin.elapsed().as_secs_f64();
         self.tally = tally;
     }
+}
+
+/// Decides pairs as the mesh numbers them, VF and EE, chunk by chunk: those of each that `pick` leaves, for which it has some room; `None`
+/// if it has no answer for some.
+fn decide(
+    workers: &mut Vec<Worker>,
+    spaces: &mut Vec<Mutex<Space>>,
+    step: &StepInput<'_>,
+    pairs: [&[[u32; 2]]; 2],
+    pick: impl for<'a> Fn(PairKind, &'a [[u32; 2]], &'a mut Vec<[u32; 2]>) -> Option<&'a [[u32; 2]]> + Sync,
+) -> Option<()> {
+    let shares = match parallel::threads() {
+        1 => 1,
+        threads => 8 * threads,
+    };
+    workers.resize_with(2 * shares, Worker::new);
+    let spaces = spaces_for_threads(spaces);
+    let is_strange = AtomicBool::new(false);
+    parallel::for_each(workers, |index, worker| {
+        let begin = Clock::now();
+        let (kind, index) = match index.checked_sub(shares) {
+            None => (PairKind::VertexFace, index),
+            Some(index) => (PairKind::EdgeEdge, index),
+        };
+        let pairs = pairs[kind as usize];
+        let place = |index: usize| pairs.len() * index / shares;
+        worker.kind = kind;
+        worker.found.clear();
+        let Space { chunk, near, .. } = &mut *own_space(spaces);
+        chunk.clear();
+        for pairs in pairs[place(index)..place(index + 1)].chunks(CHUNK) {
+            let Some(picked) = pick(kind, pairs, near) else {
+                is_strange.store(true, atomic::Ordering::Relaxed);
+                return;
+            };
+            chunk.take(step, kind, picked, &mut worker.found);
+        }
+        chunk.finish(step, kind, &mut worker.found);
+        worker.seconds = begin.elapsed().as_secs_f64();
+    });
+    (!is_strange.into_inner()).then_some(())
 }
 
 /// A contact with its time rounded down, so that it is no later.

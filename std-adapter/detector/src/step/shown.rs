@@ -36,6 +36,12 @@ impl<S: Scalar> CollisionDetector<S> {
         Ok(())
     }
 
+    /// How often near pairs were searched for.
+    #[must_use]
+    pub fn near_statistics(&self) -> crate::coherent::NearStatistics {
+        self.engine.near_statistics()
+    }
+
     /// What the last step counted and how long its stages took.
     #[must_use]
     pub const fn tally(&self) -> &StepTally {

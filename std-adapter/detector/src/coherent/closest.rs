@@ -2,24 +2,26 @@
 //!
 //! Nothing that is certified relies on how well this is done (Ericson, Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9).
 
-use selvedge::PairKind;
+use crate::PairKind;
 use selvedge_core::glam::DVec3;
 
 /// The shortest way from the second set of a pair to the first.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Closest {
+pub struct Closest {
     /// Of the four points in [`way`](Self::way): those of the first set add up to 1, those of the second to −1.
-    pub(super) weights: [f64; 4],
+    pub weights: [f64; 4],
     /// Σ weightᵢ·xᵢ.
-    pub(super) way: DVec3,
+    pub way: DVec3,
     /// Perpendicular to the features on which the closest points lie, as far as rounding allows: of length one, or zero where
     /// the sets touch.
-    pub(super) direction: DVec3,
+    pub direction: DVec3,
 }
 
 impl Closest {
+    /// Of the pair whose four vertices are these.
     #[inline]
-    pub(super) fn of(kind: PairKind, points: [DVec3; 4]) -> Self {
+    #[must_use]
+    pub fn of(kind: PairKind, points: [DVec3; 4]) -> Self {
         let weights = match kind {
             PairKind::VertexFace => of_vertex_face(points),
             PairKind::EdgeEdge => of_edge_edge(points),
@@ -39,7 +41,9 @@ impl Closest {
         closest
     }
 
-    pub(super) fn distance(&self) -> f64 {
+    /// The length of the shortest way.
+    #[must_use]
+    pub fn distance(&self) -> f64 {
         self.way.length()
     }
 

@@ -1,0 +1,219 @@
+//! The near pairs of a detector's steps, and those of them that a step cannot settle by what is remembered: all that are left for the
+//! elementary test.
+//!
+//! **No step is missed.** Whatever is no near pair keeps its distance while no vertex strays too far ([`near`](super::near)), and how far each
+//! has strayed is looked at in every step, at its end; at its start as well, unless it begins where the step before has ended, bit by bit.
+//! The distance is the separation and twice the tolerance, so that what is settled here is no contact of the elementary test's either.
+
+use super::{Interest, NearPairs, Reach};
+use crate::PairKind;
+use crate::broad_phase::{Fit, extent};
+use crate::frame::Motions;
+use crate::mesh::Topology;
+use crate::parallel;
+use selvedge_core::Scalar;
+use selvedge_core::glam::DVec3;
+use selvedge_core::separation::gap::GapError;
+use selvedge_core::separation::largest_coordinate;
+use std::sync::Arc;
+
+/// How far beyond their distance pairs are looked for, in mean edges: more makes longer lists that last longer.
+const BEYOND: f64 = 0.1;
+/// Most steps to look ahead.
+const FARTHEST: u32 = 6;
+
+/// Pairs of vertices of which one moves.
+#[derive(Debug)]
+struct OfMoving(Option<Vec<bool>>);
+
+impl Interest for OfMoving {
+    type Data = ();
+
+    #[inline(always)]
+    fn class(&self, _: PairKind, _: [u32; 4]) -> usize {
+        0
+    }
+
+    fn about(&self, _: PairKind, vertices: [u32; 4]) -> Option<()> {
+        let moves = |moving: &Vec<bool>| vertices.iter().any(|&vertex| moving[vertex as usize]);
+        self.0.as_ref().is_none_or(moves).then_some(())
+    }
+}
+
+/// See the [module](self). Step by step; what it answers for one does not depend on those before.
+#[derive(Debug)]
+pub(crate) struct Followed {
+    moving: Option<Vec<bool>>,
+    /// Which vertices have a triangle.
+    used: Vec<bool>,
+    /// Once there has been a step.
+    near: Option<NearPairs<OfMoving>>,
+    /// What pairs in the list are looked for within.
+    distance: f64,
+    /// The step before.
+    before: [Vec<DVec3>; 2],
+    /// This one.
+    step: [Vec<DVec3>; 2],
+    /// Pairs that may come within the distance, VF and EE.
+    pub(crate) open: [Vec<[u32; 2]>; 2],
+    /// Whether all positions of vertices that have a triangle are `f32` numbers.
+    pub(crate) is_single: bool,
+}
+
+/// What came of looking at pairs.
+#[derive(Default)]
+struct Open {
+    pairs: [Vec<[u32; 2]>; 2],
+}
+
+impl Followed {
+    pub(crate) fn new(moving: Option<Vec<bool>>) -> Self {
+        Self {
+            moving,
+            used: Vec::new(),
+            near: None,
+            distance: 0.0,
+            before: Default::default(),
+            step: Default::default(),
+            open: Default::default(),
+            is_single: false,
+        }
+    }
+
+    pub(crate) fn statistics(&self) -> super::NearStatistics {
+        self.near.as_ref().map_or_else(Default::default, |near| near.statistics())
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.near.as_ref().map_or(0, |near| near.list.len())
+    }
+
+    /// Finds the pairs of the step from `start` to `end`, finite positions, that may come within `distance`, as far as directions tell, and
+    /// within `separation`, no more than that, as far as the boxes tell which a detector has that has seen no step before.
+    pub(crate) fn find(&mut self, topology: &Arc<Topology>, motions: &dyn Motions, distance: f64, separation: f64) {
+        std::mem::swap(&mut self.before, &mut self.step);
+        if self.used.is_empty() {
+            self.used.resize(motions.len(), false);
+            topology
+                .triangles()
+                .iter()
+                .flatten()
+                .for_each(|&vertex| self.used[vertex as usize] = true);
+        }
+        self.is_single = take(motions, &self.used, &mut self.step);
+        let [start, end] = [&self.step[0][..], &self.step[1][..]];
+        let continues = start == self.before[1];
+        match &mut self.near {
+            Some(near) if self.distance == distance => {
+                let ways = self.before[0].iter().zip(&self.before[1]);
+                let bends = start
+                    .iter()
+                    .zip(end)
+                    .zip(ways)
+                    .map(|((&start, &end), (&from, &to))| (end - start) - (to - from));
+                near.set_bends(bends);
+                if continues {
+                    near.advance(1.0);
+                    near.cover(start, end, 1.0);
+                } else {
+                    if start != self.before[0] {
+                        near.advance(1.0);
+                    }
+                    near.cover_from(start, end, 1.0);
+                }
+            }
+            near => {
+                self.distance = distance;
+                let reach = Reach {
+                    distances: [distance; 2],
+                    beyond: BEYOND * mean_edge(topology, start),
+                    spare: 0.0,
+                    margin: 0.0,
+                    is_graded: true,
+                    farthest: FARTHEST,
+                };
+                let wanted = self.moving.clone().unwrap_or_else(|| vec![true; start.len()]);
+                let interest = OfMoving(self.moving.clone());
+                let new = NearPairs::new(Arc::clone(topology), interest, wanted, reach);
+                let near = near.insert(new.expect("edges are lengths"));
+                near.cover(start, end, 1.0);
+            }
+        }
+        let Some(near) = &mut self.near else { return };
+        if !continues {
+            near.find_strays(start, 0.0);
+        }
+        near.find_strays(end, 1.0);
+        let strays = std::mem::take(&mut near.strays);
+
+        // Four times what is needed: the elementary test gives up on what is nearer than 20u of its size, and calls it a contact.
+        let largest = largest_coordinate(start).max(largest_coordinate(end));
+        let error = GapError::of_coordinates(4.0 * largest);
+        let fit = Fit {
+            separation,
+            ..Fit::default()
+        };
+        let mapping = motions.mapping(&extent(motions), &fit);
+        let mut open = Open {
+            pairs: std::mem::take(&mut self.open),
+        };
+        open.pairs.iter_mut().for_each(Vec::clear);
+        parallel::map_chunks(
+            &mut near.list,
+            |_, pairs, open: &mut Open| {
+                for pair in pairs {
+                    if !pair.needs_attention(&strays) {
+                        if pair.gap() > f32::NEG_INFINITY {
+                            pair.forget_gap();
+                        }
+                        continue;
+                    }
+                    if continues && pair.stays_apart(end, distance, error) || pair.keeps_apart([start, end], distance, error) {
+                        continue;
+                    }
+                    let [a, b, c, d] = pair.vertices.map(|vertex| {
+                        let vertex = vertex as usize;
+                        mapping.vertex(start[vertex].into(), end[vertex].into())
+                    });
+                    let are_apart = match pair.kind {
+                        PairKind::VertexFace => a.is_apart_from(&b.merged(&c).merged(&d)),
+                        PairKind::EdgeEdge => a.merged(&b).is_apart_from(&c.merged(&d)),
+                    };
+                    if !are_apart {
+                        open.pairs[pair.kind as usize].push(pair.pair);
+                    }
+                }
+            },
+            &mut open,
+            |all, own| {
+                for (all, own) in all.pairs.iter_mut().zip(own.pairs) {
+                    all.extend(own);
+                }
+            },
+        );
+        near.strays = strays;
+        self.open = open.pairs;
+    }
+}
+
+/// Replaces `own` by the positions. Returns whether all that are used are `f32` numbers.
+fn take(motions: &dyn Motions, used: &[bool], [start, end]: &mut [Vec<DVec3>; 2]) -> bool {
+    let mut are_single = true;
+    start.clear();
+    end.clear();
+    for (vertex, &is_used) in used.iter().enumerate() {
+        let motion = motions.of(vertex);
+        let is_single = |position: DVec3| position.to_array().iter().all(|&x| f32::from_f64(x).to_f64() == x);
+        are_single &= !is_used || is_single(motion.start) && is_single(motion.end);
+        start.push(motion.start);
+        end.push(motion.end);
+    }
+    are_single
+}
+
+fn mean_edge(topology: &Topology, positions: &[DVec3]) -> f64 {
+    let edges = topology.edges();
+    let length = |&[a, b]: &[u32; 2]| positions[a as usize].distance(positions[b as usize]);
+    let mean = edges.iter().map(length).sum::<f64>() / edges.len().max(1) as f64;
+    if mean.is_finite() { mean } else { 0.0 }
+}

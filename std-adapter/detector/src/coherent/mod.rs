@@ -1,0 +1,63 @@
+//! Motion that goes on from step to step: pairs that are near each other are found for several steps at once, and followed.
+//!
+//! ```text
+//! now and then   hierarchies of moving boxes ─▶ sieve ─▶ the list of near pairs, good for some steps of the motion expected
+//! every step     which vertices have strayed from it? those of few: their pairs found again; of many: all anew
+//!                each pair: have its vertices strayed far enough? does the remembered direction last? another one?
+//! what is left   open pairs
+//! ```
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `search` | near pairs: hierarchies of moving boxes, then the sieve |
+//! | `sieve` | pairs that keep apart until the next search |
+//! | `horizon`, `near` | for how many steps the pairs are good, and the list of them |
+//! | `pair`, `closest` | one pair, and the direction that keeps it apart |
+//! | `follow` | all of it for the steps of a [`CollisionDetector`](crate::CollisionDetector) |
+//!
+//! Nothing here decides by a bound of its own: directions, clearances and courses, with their derivations, are
+//! [core's](selvedge_core::separation).
+
+mod closest;
+mod follow;
+mod horizon;
+mod near;
+mod pair;
+mod search;
+mod sieve;
+
+pub use closest::Closest;
+pub(crate) use follow::Followed;
+pub use near::{NearPairs, NearStatistics};
+pub use pair::NearPair;
+
+use crate::PairKind;
+
+/// Which pairs a caller has an interest in.
+pub trait Interest: Sync {
+    /// What it keeps with a pair while that is near.
+    type Data: Copy + Send + Sync;
+
+    /// Which of the two [distances](Reach::distances) is the pair's: 0 or 1. Asked of every pair that boxes leave.
+    fn class(&self, kind: PairKind, vertices: [u32; 4]) -> usize;
+
+    /// What is to be kept with the pair at first; `None` if it is of no interest. Always the same but for what the caller writes there.
+    fn about(&self, kind: PairKind, vertices: [u32; 4]) -> Option<Self::Data>;
+}
+
+/// Which pairs are near, and for how long: lengths in the unit of the positions.
+#[derive(Clone, Copy, Debug)]
+pub struct Reach {
+    /// Pairs of each class that come within this, and
+    pub distances: [f64; 2],
+    /// this beyond it: twice as far as each vertex may stray along an axis. More makes longer lists that last longer.
+    pub beyond: f64,
+    /// How much less than its distance has to be kept of any pair.
+    pub spare: f64,
+    /// So much of the distance more is asked for along directions that are no axes.
+    pub margin: f32,
+    /// Steps to look ahead, at most.
+    pub farthest: u32,
+    /// Whether to find out of each pair how far its vertices may stray before it needs attention.
+    pub is_graded: bool,
+}

@@ -1,0 +1,287 @@
+//! The near pairs of the steps to come, found for several at once, each with what is known of it.
+//!
+//! **What they hold.** Whatever is none keeps, along a direction d of length one, h + b·(|d₁| + |d₂| + |d₃|) on the motion that they were
+//! found for ([`horizon`](super::horizon)), h the distance of its class and b what is looked for [beyond](Reach::beyond) it
+//! ([`sieve`](super::sieve)). While no vertex strays from that motion by more than b/2 along any axis, they hold every pair within h; while
+//! none strays farther than b/2 + (h − m)/(2√3), which along d is at most half of b·(|d₁| + |d₂| + |d₃|) + h − m, every pair that may come
+//! within m. If few stray farther, the pairs of these are found again and added; else all are found anew.
+
+use super::horizon::Horizon;
+use super::pair::NearPair;
+use super::search::Search;
+use super::{Interest, Reach};
+use crate::frame::StepError;
+use crate::mesh::Topology;
+use selvedge_core::glam::DVec3;
+use selvedge_core::separation::course::room;
+use std::sync::Arc;
+
+/// If one vertex in so many or more has strayed, all pairs are found anew.
+const MANY: usize = 4;
+
+/// Pairs near each other, followed from step to step. Times are in any unit, positions finite.
+///
+/// On the rayon pool in which it is called; outside of one on the calling thread.
+#[derive(Debug)]
+pub struct NearPairs<I: Interest> {
+    /// In ascending order of their keys.
+    pub list: Vec<NearPair<I::Data>>,
+    /// Vertices that were [found](Self::find_strayed) to have strayed.
+    strayed: Vec<bool>,
+    search: Search<I>,
+    horizon: Horizon,
+    reach: Reach,
+    /// How far vertices may stray along each axis, for the list to hold every pair within its distance.
+    slack: f64,
+    /// The same for every pair that may come within what is to be kept of it.
+    room: f64,
+    /// How far each vertex has strayed, as the reach has it.
+    pub(super) strays: Vec<f32>,
+    /// Where new ones are put.
+    found: Vec<NearPair<I::Data>>,
+    statistics: NearStatistics,
+}
+
+/// What [`NearPairs`] have done so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NearStatistics {
+    /// How often all pairs were found anew.
+    pub searches: u64,
+    /// How often only those of vertices that had strayed.
+    pub joined: u64,
+}
+
+impl<I: Interest> NearPairs<I> {
+    /// Of a mesh: pairs with a vertex that is `wanted`, one entry for each, that are of `interest`.
+    ///
+    /// # Errors
+    /// If `reach` is no length.
+    ///
+    /// # Panics
+    /// If there are fewer entries than vertices.
+    pub fn new(topology: Arc<Topology>, interest: I, wanted: Vec<bool>, reach: Reach) -> Result<Self, StepError> {
+        let mut search = Search::new(topology, interest, wanted);
+        search.set_reach(&reach)?;
+        Ok(Self {
+            list: Vec::new(),
+            strayed: Vec::new(),
+            search,
+            horizon: Horizon::new(reach.farthest),
+            slack: room(reach.beyond, 0.0),
+            room: room(reach.beyond, reach.spare),
+            reach,
+            strays: Vec::new(),
+            found: Vec::new(),
+            statistics: Default::default(),
+        })
+    }
+
+    /// What it was made with.
+    pub const fn interest(&self) -> &I {
+        self.search.interest()
+    }
+
+    /// What was done so far.
+    pub const fn statistics(&self) -> NearStatistics {
+        self.statistics
+    }
+
+    /// Vertices that were found to have strayed.
+    pub fn strayed(&self) -> &[bool] {
+        &self.strayed
+    }
+
+    /// Forgets everything but the positions: from here on all is as it would be if nothing had been before.
+    ///
+    /// # Panics
+    /// As [`cover`](Self::cover).
+    pub fn refresh(&mut self, positions: &[DVec3]) {
+        self.list.clear();
+        self.search.forget();
+        self.horizon.forget();
+        self.find(positions, positions, 1.0);
+        self.horizon.forget();
+    }
+
+    /// A step that took a time of `h` was made.
+    pub fn advance(&mut self, h: f64) {
+        self.horizon.advance(h);
+    }
+
+    /// Finds which vertices have strayed so far that pairs which are not in the list may come within what is to be kept; how many.
+    pub fn find_strayed(&mut self, end: &[DVec3], h: f64) -> usize {
+        self.horizon.find_strayed(end, h, self.room, &mut self.strayed)
+    }
+
+    /// Adds the pairs of vertices that have strayed. Returns whether that was possible: not if many have, or the motion has ended;
+    /// or if all were found anew.
+    ///
+    /// # Panics
+    /// As [`cover`](Self::cover).
+    pub fn add_of_strayed(&mut self, strayed: usize, [start, end]: [&[DVec3]; 2], h: f64) -> bool {
+        strayed < end.len() / MANY && self.horizon.lasts(h) && self.find_of_strayed(start, end, h)
+    }
+
+    /// Sees to it that the list is good for the step from `start`, where the one before has ended, to `end`.
+    ///
+    /// # Panics
+    /// If a position is not finite.
+    pub fn cover(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
+        if !self.horizon.lasts(h) {
+            return self.find(start, end, h);
+        }
+        let strayed = self.horizon.find_strayed(end, h, self.slack, &mut self.strayed);
+        self.cover_strayed(strayed, start, end, h);
+    }
+
+    /// Tells by how much the way of each vertex in the step to come differs from that in the step before.
+    pub fn set_bends(&mut self, bends: impl Iterator<Item = DVec3>) {
+        self.horizon.bends.clear();
+        self.horizon.bends.extend(bends);
+    }
+
+    /// The same where the step before has ended elsewhere, or there is no saying how the mesh came to be at `start`.
+    ///
+    /// # Panics
+    /// If a position is not finite.
+    pub fn cover_from(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
+        if !self.horizon.lasts(h) {
+            return self.find(start, end, h);
+        }
+        let mut at_start = Vec::new();
+        self.horizon.find_strayed(start, 0.0, self.slack, &mut at_start);
+        self.horizon.find_strayed(end, h, self.slack, &mut self.strayed);
+        self.strayed
+            .iter_mut()
+            .zip(at_start)
+            .for_each(|(strayed, at_start)| *strayed |= at_start);
+        let strayed = self.strayed.iter().filter(|&&strayed| strayed).count();
+        self.cover_strayed(strayed, start, end, h);
+    }
+
+    fn cover_strayed(&mut self, strayed: usize, start: &[DVec3], end: &[DVec3], h: f64) {
+        match strayed {
+            0 => {}
+            few if few < end.len() / MANY => {
+                self.find_of_strayed(start, end, h);
+            }
+            _ => self.find(start, end, h),
+        }
+    }
+
+    /// Adds the pairs that vertices have which have strayed. Returns whether it is so; else all were found anew.
+    fn find_of_strayed(&mut self, start: &[DVec3], end: &[DVec3], h: f64) -> bool {
+        self.statistics.joined += 1;
+        let Some(motion) = self.horizon.lead_back(&self.strayed, [start, end], h, self.slack) else {
+            self.find(start, end, h);
+            return false;
+        };
+        let is_narrow = self.search.pairs_of(&self.strayed, &self.reach, motion, &mut self.found);
+        if is_narrow {
+            if self.reach.is_graded {
+                self.replace_strayed();
+            }
+            add(&mut self.list, &mut self.found);
+        } else {
+            self.take_found();
+        }
+        is_narrow
+    }
+
+    /// Takes the pairs with a vertex that has strayed out of the list, with all that is known of them into those that were found.
+    fn replace_strayed(&mut self) {
+        let Self {
+            list, found, strayed, ..
+        } = self;
+        for pair in found {
+            if let Ok(index) = list.binary_search_by_key(&pair.key(), NearPair::key) {
+                pair.remember(&list[index]);
+            }
+        }
+        let led_back = self.strays.iter_mut().zip(&*strayed).filter(|(_, strayed)| **strayed);
+        led_back.for_each(|(stray, _)| *stray = 0.0);
+        list.retain(|pair| !pair.vertices.iter().any(|&vertex| strayed[vertex as usize]));
+    }
+
+    /// Finds how far each vertex strays up to `positions`, `h` later, if the list [covers](Self::cover) them: that decides which pairs
+    /// [need attention](NearPair::needs_attention).
+    pub(super) fn find_strays(&mut self, positions: &[DVec3], h: f64) {
+        self.horizon.find_strays(positions, h, self.reach.beyond, &mut self.strays);
+    }
+
+    /// Finds all pairs anew, for a motion that begins with the step from `start` to `end`.
+    ///
+    /// # Panics
+    /// As [`cover`](Self::cover).
+    pub fn find(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
+        self.statistics.searches += 1;
+        self.strays.clear();
+        self.strays.resize(end.len(), 0.0);
+        let motion = self.horizon.begin(start, end, h, self.slack);
+        self.search.pairs(&self.reach, motion, &mut self.found);
+        self.take_found();
+    }
+
+    /// Replaces the list by what was found, with what is known of each pair.
+    fn take_found(&mut self) {
+        // Both lists ascend by key.
+        let mut known = self.list.iter().peekable();
+        for pair in &mut self.found {
+            while known.next_if(|other| other.key() < pair.key()).is_some() {}
+            if let Some(same) = known.next_if(|other| other.key() == pair.key()) {
+                pair.remember(same);
+            }
+        }
+        std::mem::swap(&mut self.list, &mut self.found);
+    }
+
+    /// The pairs have moved in a way that was not looked at.
+    pub fn forget_gaps(&mut self) {
+        self.list.iter_mut().for_each(NearPair::forget_gap);
+    }
+}
+
+/// Adds to `pairs` those of `found` that are not there yet. Both ascend by key, and do so afterwards.
+fn add<D: Copy>(pairs: &mut Vec<NearPair<D>>, found: &mut Vec<NearPair<D>>) {
+    found.retain(|new| pairs.binary_search_by_key(&new.key(), NearPair::key).is_err());
+    // From the end, so that every pair is moved at most once, and those before the first new one not at all.
+    let mut known = pairs.len();
+    pairs.extend_from_slice(found);
+    while let Some(&new) = found.last() {
+        let place = known + found.len() - 1;
+        if known > 0 && pairs[known - 1].key() > new.key() {
+            known -= 1;
+            pairs[place] = pairs[known];
+        } else {
+            pairs[place] = new;
+            found.pop();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::PairKind;
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
+
+    fn pairs(keys: &BTreeSet<[u32; 2]>, data: u32) -> Vec<NearPair<u32>> {
+        let pair = |&pair: &[u32; 2]| NearPair::new(PairKind::EdgeEdge, pair, [0; 4], data);
+        keys.iter().map(pair).collect()
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_new_is_added_in_order_and_what_is_known_stays(
+            known in prop::collection::btree_set([0..8_u32, 0..8_u32], 0..30),
+            found in prop::collection::btree_set([0..8_u32, 0..8_u32], 0..30),
+        ) {
+            let mut all = pairs(&known, 1);
+            add(&mut all, &mut pairs(&found, 2));
+            let keys: Vec<_> = all.iter().map(|pair| pair.pair).collect();
+            prop_assert_eq!(keys, known.union(&found).copied().collect::<Vec<_>>());
+            prop_assert!(all.iter().all(|pair| (pair.data == 1) == known.contains(&pair.pair)));
+        }
+    }
+}

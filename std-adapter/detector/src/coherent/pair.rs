@@ -1,0 +1,133 @@
+//! A pair that is followed from step to step, and the direction that last kept its two sets apart.
+//!
+//! What a direction proves, and how far rounding can move it, is [core's](selvedge_core::separation::gap).
+
+use super::closest::Closest;
+use crate::PairKind;
+use selvedge_core::glam::DVec3;
+use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
+
+/// A vertex and a face, or two edges, that may come near each other.
+#[derive(Clone, Copy, Debug)]
+pub struct NearPair<D> {
+    /// The vertex and the face, or the two edges, the smaller number first.
+    pub pair: [u32; 2],
+    /// Its four vertices.
+    pub vertices: [u32; 4],
+    /// What kept the sets apart at the end of the last step that was looked at.
+    separating: SeparatingDirection,
+    /// How far vertices of both sets may stray together, twice along each axis, before the pair needs attention; less than zero if it does
+    /// at once.
+    pub(super) stray: f32,
+    /// What the caller keeps with it.
+    pub data: D,
+    /// Vertex–face or edge–edge.
+    pub kind: PairKind,
+}
+
+impl<D: Copy> NearPair<D> {
+    /// A pair of which nothing is known.
+    pub fn new(kind: PairKind, pair: [u32; 2], vertices: [u32; 4], data: D) -> Self {
+        Self {
+            pair,
+            vertices,
+            separating: SeparatingDirection::NONE,
+            stray: f32::NEG_INFINITY,
+            data,
+            kind,
+        }
+    }
+
+    /// Ascends along a list of pairs.
+    #[inline(always)]
+    pub fn key(&self) -> (PairKind, [u32; 2]) {
+        (self.kind, self.pair)
+    }
+
+    /// Whether its vertices, which stray so far, may have come within its distance: false proves that they have not.
+    #[inline(always)]
+    pub(super) fn needs_attention(&self, strays: &[f32]) -> bool {
+        let [a, b, c, d] = self.vertices.map(|vertex| strays[vertex as usize]);
+        let (first, second) = match self.kind {
+            PairKind::VertexFace => (a, b.max(c).max(d)),
+            PairKind::EdgeEdge => (a.max(b), c.max(d)),
+        };
+        // What is NaN proves nothing.
+        let is_settled = 0.5 * (first + second) <= self.stray;
+        !is_settled
+    }
+
+    /// Takes over what an earlier search found out about the same pair.
+    pub(super) fn remember(&mut self, earlier: &Self) {
+        self.separating = earlier.separating;
+        self.data = earlier.data;
+    }
+
+    /// Where its vertices are.
+    #[inline(always)]
+    pub fn points(&self, positions: &[DVec3]) -> [DVec3; 4] {
+        self.vertices.map(|v| positions[v as usize])
+    }
+
+    /// Its closest points at rest.
+    pub fn closest(&self, positions: &[DVec3]) -> Closest {
+        Closest::of(self.kind, self.points(positions))
+    }
+
+    /// A lower bound of the distance at the end of the last step that was looked at; −∞ if there is none.
+    #[inline(always)]
+    pub const fn gap(&self) -> f32 {
+        self.separating.gap()
+    }
+
+    /// The pair has moved in a way that was not looked at.
+    pub const fn forget_gap(&mut self) {
+        self.separating = self.separating.without_gap();
+    }
+
+    /// A lower bound of the distance; zero where rounding hides it.
+    pub fn distance_from_below(&self, positions: &[DVec3], error: GapError<f64>) -> f64 {
+        let direction = self.closest(positions).direction;
+        distance_from_below(self.kind, self.points(positions), direction, error)
+    }
+
+    /// Remembers another direction, with its gap at the start of a step, if it proves more there.
+    pub fn refresh(&mut self, direction: DVec3, start: &[DVec3], error: GapError<f64>) {
+        self.separating = self.separating.or_better(self.kind, direction, self.points(start), error);
+    }
+
+    /// Whether the remembered direction keeps the pair at a distance there. Plain floating point.
+    #[inline(always)]
+    pub fn is_kept_at(&self, distance: f64, positions: &[DVec3]) -> bool {
+        self.separating.gap_at(self.kind, self.points(positions)) > distance
+    }
+
+    /// Whether the direction that the pair remembers keeps it apart at the end of the step too, given that its gap is right at
+    /// the start.
+    #[inline(always)]
+    pub fn stays_apart(&mut self, end: &[DVec3], separation: f64, error: GapError<f64>) -> bool {
+        let later = self.separating.lasts(self.kind, self.points(end), separation, error);
+        if let Some(later) = later {
+            self.separating = later;
+        }
+        later.is_some()
+    }
+
+    /// Whether the direction that the pair remembers, or that of its closest points at the end or at the start, certainly keeps it more
+    /// than `separation` apart on the way from `start` to `end`. Remembers the one that does.
+    #[inline]
+    pub fn keeps_apart(&mut self, [start, end]: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
+        let (kind, points) = (self.kind, [start, end].map(|positions| self.points(positions)));
+        let found = |positions: &[DVec3]| {
+            let direction = self.closest(positions).direction;
+            SeparatingDirection::found(kind, direction, points, separation, error)
+        };
+        let kept = self.separating.keeps(kind, points, separation, error);
+        let kept = kept.or_else(|| found(end)).or_else(|| found(start));
+        match kept {
+            Some(kept) => self.separating = kept,
+            None => self.forget_gap(),
+        }
+        kept.is_some()
+    }
+}

@@ -1,0 +1,196 @@
+//! Which pairs may come near each other on a motion: from [hierarchies of moving boxes](crate::broad_phase), through a
+//! [sieve](super::sieve).
+
+use super::pair::NearPair;
+use super::sieve::Sieve;
+use super::{Interest, Reach};
+use crate::PairKind;
+use crate::broad_phase::MovingBroadPhase;
+use crate::frame::StepError;
+use crate::mesh::Topology;
+use crate::parallel;
+use selvedge_core::glam::DVec3;
+use std::sync::Arc;
+
+/// Finds near pairs, with buffers that it keeps.
+#[derive(Debug)]
+pub(super) struct Search<I> {
+    topology: Arc<Topology>,
+    interest: I,
+    /// Vertices without which a pair is of no interest.
+    wanted: Vec<bool>,
+    /// Whether the broad phase looks for pairs of a few vertices only.
+    is_narrowed: bool,
+    broad_phase: MovingBroadPhase,
+    sieve: Sieve,
+    vertex_face: Vec<[u32; 2]>,
+    edge_edge: Vec<[u32; 2]>,
+    sorted: Vec<[u32; 2]>,
+    places: Vec<u32>,
+}
+
+impl<I: Interest> Search<I> {
+    /// Only pairs with a vertex that is `wanted` are found, one entry for each vertex.
+    pub(super) fn new(topology: Arc<Topology>, interest: I, wanted: Vec<bool>) -> Self {
+        let mut broad_phase = MovingBroadPhase::new(Arc::clone(&topology));
+        broad_phase.set_wanted(wanted.clone());
+        Self {
+            sieve: Sieve::new(topology.vertex_count()),
+            topology,
+            interest,
+            wanted,
+            is_narrowed: false,
+            broad_phase,
+            vertex_face: Vec::new(),
+            edge_edge: Vec::new(),
+            sorted: Vec::new(),
+            places: Vec::new(),
+        }
+    }
+
+    pub(super) const fn interest(&self) -> &I {
+        &self.interest
+    }
+
+    /// Pairs that come within a distance of `reach` and what is looked for beyond it, along every direction, will be found.
+    ///
+    /// # Errors
+    /// If it is no length. Then it stays as it was.
+    pub(super) fn set_reach(&mut self, reach: &Reach) -> Result<(), StepError> {
+        let [one, other] = reach.distances;
+        self.broad_phase.set_separation(one.max(other) + reach.beyond)
+    }
+
+    /// Forgets the steps before. When the hierarchies are built depends on them, and so do the pairs: those of a
+    /// [few vertices](Self::pairs_of) are added to what is known, or replace it if there was a build.
+    pub(super) fn forget(&mut self) {
+        self.broad_phase.forget();
+    }
+
+    /// Replaces `pairs` by those of the motion from `start` to `end`, in ascending order of their keys: whatever order
+    /// the hierarchies find them in, which depends on the steps before.
+    ///
+    /// # Panics
+    /// If a position is not finite.
+    pub(super) fn pairs(&mut self, reach: &Reach, motion: [&[DVec3]; 2], pairs: &mut Vec<NearPair<I::Data>>) {
+        if std::mem::take(&mut self.is_narrowed) {
+            self.broad_phase.set_wanted(self.wanted.clone());
+        }
+        self.update(motion);
+        self.find(reach, motion, None, pairs);
+    }
+
+    /// Replaces `pairs` by those with a vertex that is in `only`, the only ones whose motion is not that of the last search. Returns
+    /// whether it is so; else all are there.
+    ///
+    /// # Panics
+    /// If a position is not finite.
+    pub(super) fn pairs_of(
+        &mut self,
+        only: &[bool],
+        reach: &Reach,
+        motion: [&[DVec3]; 2],
+        pairs: &mut Vec<NearPair<I::Data>>,
+    ) -> bool {
+        let builds = self.broad_phase.statistics().builds;
+        self.broad_phase.narrow_to(only.to_vec());
+        self.is_narrowed = true;
+        self.update(motion);
+        // After a build the broad phase takes what a traversal costs for the measure of later ones: so that must be a whole one.
+        let is_narrow = self.broad_phase.statistics().builds == builds;
+        if is_narrow {
+            self.find(reach, motion, Some(only), pairs);
+        } else {
+            self.pairs(reach, motion, pairs);
+        }
+        is_narrow
+    }
+
+    fn update(&mut self, [start, end]: [&[DVec3]; 2]) {
+        let updated = self.broad_phase.update(start, end);
+        updated.expect("the caller keeps every position finite");
+    }
+
+    fn find(&mut self, reach: &Reach, motion: [&[DVec3]; 2], only: Option<&[bool]>, pairs: &mut Vec<NearPair<I::Data>>) {
+        let Self {
+            topology,
+            interest,
+            broad_phase,
+            sieve,
+            vertex_face,
+            edge_edge,
+            sorted,
+            places,
+            ..
+        } = self;
+        broad_phase.candidates(vertex_face, edge_edge);
+        sieve.set_motion(reach, motion, only);
+        let counts = [topology.vertex_count(), topology.edges().len()];
+        pairs.clear();
+        for (kind, found, count) in [
+            (PairKind::VertexFace, &mut *vertex_face, counts[0]),
+            (PairKind::EdgeEdge, &mut *edge_edge, counts[1]),
+        ] {
+            if reach.is_graded {
+                let enough = reach.beyond as f32;
+                parallel::retain(found, |&pair| {
+                    let vertices = topology.vertices_of(kind, pair);
+                    let keeps_apart = sieve.largest_stray(kind, vertices, interest.class(kind, vertices)) >= enough;
+                    !keeps_apart
+                });
+            } else {
+                parallel::retain(found, |&pair| {
+                    let vertices = topology.vertices_of(kind, pair);
+                    !sieve.keep_apart(kind, vertices, interest.class(kind, vertices))
+                });
+            }
+            sort(found, count, sorted, places);
+            pairs.extend(found.iter().filter_map(|&pair| {
+                let vertices = topology.vertices_of(kind, pair);
+                let data = interest.about(kind, vertices)?;
+                let mut pair = NearPair::new(kind, pair, vertices, data);
+                if reach.is_graded {
+                    pair.stray = sieve.largest_stray(kind, vertices, interest.class(kind, vertices));
+                }
+                Some(pair)
+            }));
+        }
+    }
+}
+
+/// Sorts pairs whose first numbers are below `count`: by counting, then each few with the same first number.
+fn sort(pairs: &mut Vec<[u32; 2]>, count: usize, sorted: &mut Vec<[u32; 2]>, places: &mut Vec<u32>) {
+    places.clear();
+    places.resize(count + 1, 0);
+    for &[first, _] in &*pairs {
+        places[first as usize + 1] += 1;
+    }
+    for first in 0..count {
+        places[first + 1] += places[first];
+    }
+    sorted.clear();
+    sorted.resize(pairs.len(), [0; 2]);
+    for &pair in &*pairs {
+        let place = &mut places[pair[0] as usize];
+        sorted[*place as usize] = pair;
+        *place += 1;
+    }
+    sorted.chunk_by_mut(|a, b| a[0] == b[0]).for_each(|same| same.sort_unstable());
+    std::mem::swap(pairs, sorted);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sort;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn pairs_come_out_sorted(mut pairs in prop::collection::vec([0..9_u32, 0..99_u32], 0..60)) {
+            let mut expected = pairs.clone();
+            expected.sort_unstable();
+            sort(&mut pairs, 9, &mut Vec::new(), &mut Vec::new());
+            prop_assert_eq!(pairs, expected);
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! Candidates that keep apart until candidates are looked for again, and so need no attention until then.
+//!
+//! Boxes along three axes leave many pairs that are farther apart than their reach: nearly all pairs of triangles side by side. What
+//! they keep though their vertices stray, by half of what is looked for beyond their distance, is their
+//! [clearance](selvedge_core::separation::clearance).
+
+use super::Reach;
+use crate::PairKind;
+use selvedge_core::glam::{DVec3, Vec3A};
+use selvedge_core::separation::clearance::Clearance;
+use selvedge_core::separation::largest_coordinate;
+
+/// What is asked of every pair of vertices that boxes leave, rounded to `f32`.
+#[derive(Debug)]
+pub(super) struct Sieve {
+    ways: Vec<Way>,
+    /// What pairs of each class are to keep.
+    clearances: [Clearance; 2],
+}
+
+/// Never on two cache lines.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+struct Way {
+    start: Vec3A,
+    end: Vec3A,
+}
+
+impl Sieve {
+    /// For so many vertices.
+    pub(super) fn new(vertices: usize) -> Self {
+        let unknown = Way {
+            start: Vec3A::ZERO,
+            end: Vec3A::ZERO,
+        };
+        Self {
+            ways: vec![unknown; vertices],
+            clearances: [Clearance::UNKNOWN; 2],
+        }
+    }
+
+    /// From here on all is asked about this motion, which is the last one but for vertices that are in `only`, if there are any.
+    pub(super) fn set_motion(&mut self, reach: &Reach, [start, end]: [&[DVec3]; 2], only: Option<&[bool]>) {
+        let largest = largest_coordinate(start).max(largest_coordinate(end));
+        let clearance = |distance| Clearance::new(distance, reach.beyond, largest, reach.margin);
+        self.clearances = reach.distances.map(clearance);
+        for (vertex, way) in self.ways.iter_mut().enumerate() {
+            if only.is_none_or(|only| only[vertex]) {
+                (way.start, way.end) = (start[vertex].as_vec3a(), end[vertex].as_vec3a());
+            }
+        }
+    }
+
+    /// Whether a pair certainly keeps what is asked of its class along an axis or the direction between its middles, both at the start and
+    /// at the end and with the same order: then it does on straight ways in between as well.
+    #[inline(always)]
+    pub(super) fn keep_apart(&self, kind: PairKind, vertices: [u32; 4], class: usize) -> bool {
+        // Written out: `map` would not be inlined here.
+        let way = |corner: usize| &self.ways[vertices[corner] as usize];
+        let (a, b, c, d) = (way(0), way(1), way(2), way(3));
+        let clearance = &self.clearances[class];
+        clearance.is_kept(kind, [a.start, b.start, c.start, d.start], [a.end, b.end, c.end, d.end])
+    }
+
+    /// How far vertices may stray for the pair to do so, as [`Reach::beyond`]; less than zero if it does not.
+    #[inline(always)]
+    pub(super) fn largest_stray(&self, kind: PairKind, vertices: [u32; 4], class: usize) -> f32 {
+        let way = |corner: usize| &self.ways[vertices[corner] as usize];
+        let (a, b, c, d) = (way(0), way(1), way(2), way(3));
+        let clearance = &self.clearances[class];
+        clearance.largest_stray(kind, [a.start, b.start, c.start, d.start], [a.end, b.end, c.end, d.end])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::closest::Closest;
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point() -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from)
+    }
+
+    fn first(kind: PairKind, corner: usize) -> bool {
+        corner < if kind == PairKind::EdgeEdge { 2 } else { 1 }
+    }
+
+    fn kind(is_edge: bool) -> PairKind {
+        if is_edge { PairKind::EdgeEdge } else { PairKind::VertexFace }
+    }
+
+    fn reach(distances: [f64; 2], beyond: f64) -> Reach {
+        Reach {
+            distances,
+            beyond,
+            spare: 0.0,
+            margin: 0.5,
+            farthest: 1,
+            is_graded: false,
+        }
+    }
+
+    /// Of a pair of all four, in each class.
+    fn left_out(kind: PairKind, reach: &Reach, motion: [&[DVec3]; 2]) -> [bool; 2] {
+        let mut sieve = Sieve::new(4);
+        sieve.set_motion(reach, motion, None);
+        [0, 1].map(|class| sieve.keep_apart(kind, [0, 1, 2, 3], class))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+
+        /// Though its vertices stray towards each other, as far as they may.
+        #[test]
+        fn only_what_keeps_the_distance_of_its_class_is_left_out(
+            start in prop::array::uniform4(point()),
+            moves in prop::array::uniform4(point()),
+            distance in 0.0..0.3_f64,
+            beyond in 0.0..0.5_f64,
+            share in 0.0..1.0_f64,
+            is_edge in any::<bool>(),
+        ) {
+            let kind = kind(is_edge);
+            let end = [0, 1, 2, 3].map(|k| start[k] + moves[k] * 0.5);
+            let distances = [distance * share, distance];
+            let left_out = left_out(kind, &reach(distances, beyond), [&start, &end]);
+            let middle = |is_first| -> DVec3 {
+                let own = (0..4).filter(|&k| first(kind, k) == is_first);
+                let count = own.clone().count() as f64;
+                own.map(|k| (start[k] + end[k]) / count).sum()
+            };
+            let towards_first = (middle(true) - middle(false)).signum() * (0.5 * beyond);
+            let strayed = |k: usize| if first(kind, k) { -towards_first } else { towards_first };
+            let least = (0..=20).map(|step| {
+                let t = f64::from(step) / 20.0;
+                let at = [0, 1, 2, 3].map(|k| start[k].lerp(end[k], t) + strayed(k));
+                Closest::of(kind, at).distance()
+            });
+            let least = least.fold(f64::INFINITY, f64::min) * (1.0 + 1e-9);
+            for class in [0, 1] {
+                prop_assert!(!left_out[class] || least > distances[class]);
+            }
+        }
+
+        #[test]
+        fn what_keeps_more_than_is_asked_along_an_axis_is_left_out(
+            start in prop::array::uniform4(point()),
+            distance in 0.0..0.5_f64,
+            share in 0.0..1.0_f64,
+            is_edge in any::<bool>(),
+        ) {
+            let kind = kind(is_edge);
+            let far = |by: f64| [0, 1, 2, 3].map(|k| start[k] + DVec3::X * if first(kind, k) { by } else { 0.0 });
+            let smaller = distance * share;
+            let asked = 2.0 + smaller + 0.1;
+            let reach = reach([smaller, distance], 0.1);
+            prop_assert!(left_out(kind, &reach, [&far(asked + 1e-4), &far(asked + 1.0)])[0]);
+        }
+
+        /// Two triangles side by side, in any position: boxes along the axes may overlap, but the sets keep nearly a height apart.
+        #[test]
+        fn pairs_of_triangles_side_by_side_are_left_out(
+            turn in prop::array::uniform4(-1.0..1.0_f64),
+            bend in -0.5..0.5_f64,
+            is_edge in any::<bool>(),
+        ) {
+            let turn = selvedge_core::glam::DQuat::from_array(turn);
+            prop_assume!(turn.length() > 0.1);
+            let height = 0.75_f64.sqrt();
+            let [left, right] = [DVec3::new(-0.5, 0.0, 0.0), DVec3::new(0.5, 0.0, 0.0)];
+            let below = DVec3::new(0.0, -height, 0.0);
+            let above = DVec3::new(0.0, height * bend.cos(), height * bend.sin());
+            let points = if is_edge {
+                // Two sides of the strip's hexagon.
+                [above, above + DVec3::X, left, right]
+            } else {
+                [above, left, right, below]
+            };
+            let points = points.map(|point| turn.normalize() * point);
+            // The cloth's margin.
+            let reach = Reach { margin: 2.0 / 3.0, ..reach([0.16; 2], 0.05) };
+            prop_assert!(left_out(kind(is_edge), &reach, [&points, &points])[1]);
+        }
+    }
+}
