@@ -7,7 +7,7 @@ use crate::PairKind;
 use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
 use crate::buffer::settle;
 use crate::clock::Clock;
-use crate::coherent::Followed;
+use crate::coherent::{ENORMOUS, Followed};
 use crate::dispatch::Level;
 use crate::frame::{StepError, check_frames};
 use crate::mesh::Topology;
@@ -169,8 +169,11 @@ impl<S: Scalar> Engine<S> {
         question: &Question,
         probe: Probe,
     ) -> Result<(), StepError> {
-        if self.is_coherent() {
-            return self.run_followed(start, end, question);
+        let Limits { separation, tolerance } = question.limits;
+        // Pairs within the tolerance are contacts too; twice of it are so with all rounding.
+        let distance = separation + 2.0 * tolerance;
+        if distance < ENORMOUS && self.is_coherent() {
+            return self.run_followed(start, end, question, distance);
         }
         let begin = Clock::now();
         let fit = Fit {
@@ -228,7 +231,13 @@ impl<S: Scalar> Engine<S> {
     }
 
     /// Finds the contacts of a step that goes on from the one before.
-    fn run_followed<P: Position<Scalar = S>>(&mut self, start: &[P], end: &[P], question: &Question) -> Result<(), StepError> {
+    fn run_followed<P: Position<Scalar = S>>(
+        &mut self,
+        start: &[P],
+        end: &[P],
+        question: &Question,
+        distance: f64,
+    ) -> Result<(), StepError> {
         let Some(followed) = &mut self.followed else {
             return Ok(());
         };
@@ -236,9 +245,8 @@ impl<S: Scalar> Engine<S> {
         let hierarchies = &self.broad_phase.hierarchies;
         let topology = hierarchies.topology();
         check_frames(start, end, topology.vertex_count())?;
-        let Limits { separation, tolerance } = question.limits;
-        // Pairs within the tolerance are contacts too; twice of it are so with all rounding.
-        followed.find(topology, [start, end], separation + 2.0 * tolerance, S::from_f64(separation));
+        let separation = S::from_f64(question.limits.separation);
+        followed.find(topology, [start, end], distance, separation);
         let vertices = [PairKind::VertexFace, PairKind::EdgeEdge].into_iter().flat_map(|kind| {
             let pairs = followed.open[kind as usize].iter();
             pairs.flat_map(move |&pair| topology.vertices_of(kind, pair))
