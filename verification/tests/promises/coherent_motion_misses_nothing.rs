@@ -284,6 +284,39 @@ fn what_rests_changes_nothing_for_what_moves() {
     });
 }
 
+/// Lengths and positions at the ends of the format: nothing is excluded, and nothing overflows into a panic.
+#[test]
+fn enormous_lengths_exclude_nothing() {
+    let triangle = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    let frame = |size: f64, height: f64| -> Vec<DVec3> {
+        let above = triangle.map(|point| (point + DVec3::new(0.25, 0.25, height)) * size);
+        triangle.map(|point| point * size).into_iter().chain(above).collect()
+    };
+    let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]]).expect("two triangles");
+    let mut detector = CollisionDetector::<f64>::new(topology);
+    detector.set_coherent(true);
+    let mut found = Vec::new();
+    for (size, separation, tolerance) in [
+        (1.0, f64::MAX, 0.0),
+        (1.0, 1e99, f64::MAX),
+        (1e307, 0.0, 0.0),
+        (1e300, 1e99, 1e99),
+    ] {
+        let limits = Limits { tolerance, separation };
+        detector.set_criterion(Criterion::Within(limits)).expect("lengths");
+        for step in 0..4 {
+            let [start, end] = [0, 1].map(|k| frame(size, 1.0 - 0.5 * f64::from(step + k)));
+            detector.contacts(&start, &end, &mut found).expect("finite positions");
+            let must_be_all = separation > size;
+            assert!(
+                found.len() == 15 || !must_be_all,
+                "{size} {separation} {step}: {}",
+                found.len()
+            );
+        }
+    }
+}
+
 /// Another question than the step before: another distance, then all vertices, then no mode.
 #[test]
 fn what_is_asked_may_change_from_step_to_step() {

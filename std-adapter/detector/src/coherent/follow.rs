@@ -22,6 +22,9 @@ const BEYOND: f64 = 0.1;
 /// Most steps to look ahead.
 const FARTHEST: u32 = 6;
 
+/// No distance that pairs are followed within, and no edge: sums of such might overflow.
+pub(crate) const ENORMOUS: f64 = 1e100;
+
 /// Pairs of vertices of which one moves.
 #[derive(Debug)]
 struct OfMoving(Option<Vec<bool>>);
@@ -215,5 +218,5 @@ fn mean_edge(topology: &Topology, positions: &[DVec3]) -> f64 {
     let edges = topology.edges();
     let length = |&[a, b]: &[u32; 2]| positions[a as usize].distance(positions[b as usize]);
     let mean = edges.iter().map(length).sum::<f64>() / edges.len().max(1) as f64;
-    if mean.is_finite() { mean } else { 0.0 }
+    if mean < ENORMOUS { mean } else { 0.0 }
 }

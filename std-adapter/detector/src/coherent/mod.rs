@@ -27,7 +27,7 @@ mod search;
 mod sieve;
 
 pub use closest::Closest;
-pub(crate) use follow::Followed;
+pub(crate) use follow::{ENORMOUS, Followed};
 pub use near::{NearPairs, NearStatistics};
 pub use pair::NearPair;
 

@@ -7,7 +7,7 @@ use crate::PairKind;
 use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
 use crate::buffer::settle;
 use crate::clock::Clock;
-use crate::coherent::Followed;
+use crate::coherent::{ENORMOUS, Followed};
 use crate::dispatch::Level;
 use crate::frame::{Motions, StepError};
 use crate::mesh::Topology;
@@ -162,8 +162,11 @@ impl Engine {
     }
 
     fn run_here(&mut self, motions: &dyn Motions, question: &Question, probe: Probe) {
-        if self.is_coherent() {
-            self.run_followed(motions, question);
+        let Limits { separation, tolerance } = question.limits;
+        // Pairs within the tolerance are contacts too; twice of it are so with all rounding.
+        let distance = separation + 2.0 * tolerance;
+        if distance < ENORMOUS && self.is_coherent() {
+            self.run_followed(motions, question, distance);
             return;
         }
         let begin = Clock::now();
@@ -221,16 +224,14 @@ impl Engine {
     }
 
     /// Finds the contacts of a step that goes on from the one before.
-    fn run_followed(&mut self, motions: &dyn Motions, question: &Question) {
+    fn run_followed(&mut self, motions: &dyn Motions, question: &Question, distance: f64) {
         let Some(followed) = &mut self.followed else {
             return;
         };
         let begin = Clock::now();
         let hierarchies = &self.broad_phase.hierarchies;
         let topology = hierarchies.topology();
-        let Limits { separation, tolerance } = question.limits;
-        // Pairs within the tolerance are contacts too; twice of it are so with all rounding.
-        followed.find(topology, motions, separation + 2.0 * tolerance, separation);
+        followed.find(topology, motions, distance, question.limits.separation);
         let vertices = [PairKind::VertexFace, PairKind::EdgeEdge].into_iter().flat_map(|kind| {
             let pairs = followed.open[kind as usize].iter();
             pairs.flat_map(move |&pair| topology.vertices_of(kind, pair))
