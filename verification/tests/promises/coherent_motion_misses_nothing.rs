@@ -113,7 +113,7 @@ fn are_followed<S: Format>(mesh: &MeshCase<S>, compared: &Cell<[usize; 2]>, sepa
         let (start, end) = (step.frame(0), step.frame(1));
         let result = coherent.contacts(&start, &end, &mut found);
         let mut anew = new();
-        prop_assert_eq!(result, anew.contacts(&start, &end, &mut expected));
+        prop_assert_eq!(result.is_err(), anew.contacts(&start, &end, &mut expected).is_err());
         if result.is_err() {
             continue;
         }
