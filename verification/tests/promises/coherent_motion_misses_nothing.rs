@@ -271,8 +271,11 @@ fn what_rests_changes_nothing_for_what_moves() {
         let (mut found, mut expected) = (Vec::new(), Vec::new());
         for step in steps(&resting).into_iter().take(10) {
             let (start, end) = (step.frame(0), step.frame(1));
-            coherent.contacts(&start, &end, &mut found).expect("finite positions");
-            whole.contacts(&start, &end, &mut expected).expect("finite positions");
+            let result = coherent.contacts(&start, &end, &mut found);
+            prop_assert_eq!(result.is_err(), whole.contacts(&start, &end, &mut expected).is_err());
+            if result.is_err() {
+                continue;
+            }
             expected.retain(|contact| {
                 let vertices = topology.vertices_of(contact.kind, contact.pair);
                 vertices.iter().any(|&vertex| moving[vertex as usize])
