@@ -10,7 +10,7 @@
 //!
 //! what is asked      input ▸ world ▸ scene
 //! what is simulated  effects ▸ plan, step
-//! how                schedule, contact, simulator
+//! how                membrane, hierarchy, schedule, contact, simulator
 //! what changes       state ▸ checkpoint
 //! ```
 //!
@@ -29,7 +29,9 @@
 mod checkpoint;
 mod contact;
 mod effects;
+mod hierarchy;
 mod input;
+mod membrane;
 mod plan;
 mod scene;
 mod schedule;

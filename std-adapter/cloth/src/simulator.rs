@@ -129,6 +129,9 @@ impl Simulation {
             bodies: &bodies,
             time_step,
         });
+        for (_, effect) in &effects {
+            effect.announce(&mut plan.fabric);
+        }
         let mut times = Vec::with_capacity(effects.len());
         for (index, (name, effect)) in effects.into_iter().enumerate() {
             times.push(EffectTime { name, seconds: 0.0 });
