@@ -46,7 +46,7 @@ pub use contact::{Blocker, ContactCounts, ContactSeconds};
 pub use effects::effect_names;
 pub use input::SceneError;
 pub use scene::{OnBlocked, Scene};
-pub use simulator::{Blocked, CHECKPOINT_STEPS, EffectTime, FASTEST, SetupError, Simulation};
+pub use simulator::{Blocked, CHECKPOINT_STEPS, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation};
 pub use world::{Body, Cloth, RigidMotion};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
