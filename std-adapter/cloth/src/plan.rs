@@ -6,7 +6,7 @@
 use super::contact::ContactSettings;
 use super::hierarchy::{Hierarchy, Level};
 use super::step::{Carrier, Constraint, FREE, Force};
-use super::world::{RigidMotion, World};
+use super::world::{Cloth, RigidMotion, World};
 use std::sync::Arc;
 
 /// An entry of a phase and the effect that it belongs to.
@@ -53,7 +53,7 @@ impl<'a> Plan<'a> {
             effect: 0,
             fabric: Fabric::default(),
             hierarchy: None,
-            inverse_masses: masses(world).into_iter().map(f64::recip).collect(),
+            inverse_masses: masses_of(world.cloth).into_iter().map(f64::recip).collect(),
             carriers: vec![FREE; world.cloth.mesh.positions.len()],
             motions: world.bodies.iter().map(|body| body.motion.clone()).collect(),
             forces: Vec::new(),
@@ -92,7 +92,7 @@ impl<'a> Plan<'a> {
         }
         let world = self.world;
         let pinned = || self.inverse_masses.iter().map(|&inverse| inverse == 0.0).collect();
-        let make = || Hierarchy::new(world.cloth, masses(world), pinned());
+        let make = || Hierarchy::new(world.cloth, masses_of(world.cloth), pinned());
         let mut levels = self.hierarchy.get_or_insert_with(make).levels_to(coarsest);
         levels.truncate(most.unwrap_or(usize::MAX));
         levels
@@ -106,12 +106,12 @@ impl<'a> Plan<'a> {
 }
 
 /// The mass of each cloth vertex: a third of its triangles', in kg.
-pub(crate) fn masses(world: World<'_>) -> Vec<f64> {
-    let mesh = &world.cloth.mesh;
+pub(crate) fn masses_of(cloth: &Cloth) -> Vec<f64> {
+    let mesh = &cloth.mesh;
     let mut masses = vec![0.0; mesh.positions.len()];
     for triangle in &mesh.triangles {
         let [a, b, c] = triangle.map(|v| mesh.positions[v as usize]);
-        let mass = world.cloth.density * 0.5 * (b - a).cross(c - a).length();
+        let mass = cloth.density * 0.5 * (b - a).cross(c - a).length();
         for &vertex in triangle {
             masses[vertex as usize] += mass / 3.0;
         }

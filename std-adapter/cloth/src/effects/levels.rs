@@ -199,3 +199,77 @@ pub(super) fn read_most(table: &Table<'_>) -> Result<Option<usize>, SceneError> 
 pub(super) fn settings(most: Option<usize>) -> Option<(&'static str, String)> {
     most.map(|most| ("levels", most.to_string()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hierarchy::{Hierarchy, irregular};
+    use crate::plan::masses_of;
+    use crate::world::{Cloth, capsule, tube};
+
+    const FABRIC: [Option<f64>; 3] = [Some(400.0), Some(300.0), Some(80.0)];
+
+    /// What the levels make of these positions, with nothing on the mesh itself.
+    fn moved(cloth: &Cloth, positions: &[DVec3], tension: impl Fn(&CoarseTriangle) -> Tension) -> Vec<DVec3> {
+        let masses = masses_of(cloth);
+        let mut hierarchy = Hierarchy::new(cloth, masses.clone(), vec![false; masses.len()]);
+        let mesh = Schedule::<Tension, 3>::once(Vec::new(), masses.len());
+        let mut levels = OnLevels::new(hierarchy.levels_to(f64::INFINITY), mesh, tension);
+        let mut moved = positions.to_vec();
+        let step = TimeStep {
+            time: 0.0,
+            h: 1e-3,
+            start: positions,
+            inverse_masses: &masses.iter().map(|m| 1.0 / m).collect::<Vec<_>>(),
+            poses: &[],
+        };
+        levels.project(&step, &mut moved, &mut Touches::default());
+        moved
+    }
+
+    fn stretched(cloth: &Cloth, by: f64) -> Vec<DVec3> {
+        let rest = cloth.mesh.positions.iter();
+        rest.map(|p| DVec3::new(p.x * by, p.y, 0.05 * (9.0 * p.y).sin())).collect()
+    }
+
+    #[test]
+    fn sweeps_on_levels_conserve_momentum() {
+        let hole = irregular::with_hole(&irregular::sheet(32, 0), DVec3::new(0.2, 0.1, 0.0), 0.15);
+        let cloth = Cloth::of(hole);
+        let masses = masses_of(&cloth);
+        let start = stretched(&cloth, 1.2);
+        for fabric in [FABRIC, [Some(400.0), Some(300.0), None]] {
+            let end = moved(&cloth, &start, |triangle| Tension::stretch(triangle, fabric));
+            let moves = || start.iter().zip(&end).map(|(from, to)| *to - *from);
+            let momentum: DVec3 = moves().zip(&masses).map(|(by, m)| by * *m).sum();
+            let all: f64 = moves().zip(&masses).map(|(by, m)| by.length() * m).sum();
+            assert!(all > 1e-4 && momentum.length() < 1e-12 * all, "{momentum} of {all}");
+        }
+    }
+
+    #[test]
+    fn a_stretched_sheet_is_drawn_together_and_a_shortened_one_left_alone() {
+        for mesh in [irregular::sheet(32, 0), irregular::sheet(32, 4)] {
+            let cloth = Cloth::of(mesh);
+            let width = |positions: &[DVec3]| positions.iter().map(|p| p.x).fold(0.0, f64::max) * 2.0;
+            let start = stretched(&cloth, 1.2);
+            let limited = moved(&cloth, &start, |triangle| Tension::limit(triangle, 1.1));
+            assert!((1.0..1.18).contains(&width(&limited)), "{}", width(&limited));
+            let rest = moved(&cloth, &stretched(&cloth, 1.09), |triangle| Tension::limit(triangle, 1.1));
+            assert_eq!(rest, stretched(&cloth, 1.09));
+            let short: Vec<_> = cloth.mesh.positions.iter().map(|p| *p * 0.8).collect();
+            assert_eq!(moved(&cloth, &short, |triangle| Tension::stretch(triangle, FABRIC)), short);
+        }
+    }
+
+    /// Flat triangles between points of a curved cloth have sides that are shorter than the cloth: at rest nothing pulls.
+    #[test]
+    fn curved_cloth_at_rest_is_left_alone() {
+        let tube = tube([DVec3::ZERO, DVec3::Z], 0.2, [80, 64]);
+        for mesh in [tube, capsule([DVec3::ZERO; 2], 0.3, 64)] {
+            let cloth = Cloth::of(mesh);
+            let rest = &cloth.mesh.positions;
+            assert_eq!(&moved(&cloth, rest, |triangle| Tension::stretch(triangle, FABRIC)), rest);
+        }
+    }
+}

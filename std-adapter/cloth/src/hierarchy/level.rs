@@ -23,6 +23,9 @@ pub(crate) struct CoarseTriangle {
     pub(crate) sides: [f64; 3],
 }
 
+/// A vertex is in a triangle that is no farther off than so many spacings.
+const INSIDE: f64 = 1e-6;
+
 /// The cloth as its seeds see it.
 #[derive(Debug)]
 pub(crate) struct Level {
@@ -34,7 +37,8 @@ pub(crate) struct Level {
     ///
     /// Then moves of seeds that do not change Σ mass·position of seeds do not change it of vertices either: momentum is conserved.
     pub(crate) inverse_masses: Vec<f64>,
-    seeds: Vec<u32>,
+    /// Vertices of the cloth.
+    pub(super) seeds: Vec<u32>,
     /// Of each vertex of the cloth. No shares where it is pinned or left out.
     follows: Vec<Follows>,
 }
@@ -60,7 +64,7 @@ impl Level {
             mut triangles,
             follows: mut all,
             outside,
-        } = Interpolation::new(surface, &seeds);
+        } = Interpolation::new(surface, &seeds, spacing);
         for (part, outside) in outside.into_iter().enumerate() {
             wanted[part] &= outside as f64 <= MOST_OUTSIDE * surface.parts[part].0 as f64;
         }
@@ -128,10 +132,16 @@ struct Flat {
     places: [DVec2; 3],
 }
 
+/// A place of a coarse triangle, and how far off what follows it is.
+struct Nearest {
+    follows: Follows,
+    squared_way: f64,
+}
+
 impl Interpolation {
     /// Each cell in a chart of its own, together with the triangles around its seed; and with those around its neighbours, where it
     /// reaches beyond.
-    fn new(surface: &Surface<'_>, seeds: &Seeds) -> Self {
+    fn new(surface: &Surface<'_>, seeds: &Seeds, spacing: f64) -> Self {
         let dual = Dual::new(surface, seeds);
         let owned = seeds.owner.iter().enumerate();
         let owned = owned.filter(|(_, owner)| **owner != Seeds::NONE);
@@ -167,19 +177,14 @@ impl Interpolation {
                     all.triangles.extend(first.map(|flat| (flat.corners, flat.at_rest())));
                 }
                 left.retain(|&vertex| {
-                    let place = chart.at(vertex);
-                    let in_flats = flats.iter().filter_map(|flat| Some((flat.corners, flat.shares(place?))));
-                    let least = |shares: [f64; 3]| shares[0].min(shares[1]).min(shares[2]);
-                    let best = in_flats.max_by(|a, b| least(a.1).total_cmp(&least(b.1)));
-                    let Some((seeds, shares)) = best else { return true };
-                    // Outside it is drawn to the nearest side.
-                    let inside = shares.map(|share| share.max(0.0));
-                    let sum: f64 = inside.iter().sum();
-                    all.follows[vertex as usize] = Follows {
-                        seeds,
-                        shares: inside.map(|share| share / sum),
+                    let Some(place) = chart.at(vertex) else { return true };
+                    // Outside all it is drawn to the nearest.
+                    let nearest = flats.iter().map(|flat| flat.nearest(place));
+                    let Some(nearest) = nearest.min_by(|a, b| a.squared_way.total_cmp(&b.squared_way)) else {
+                        return true;
                     };
-                    least(shares) < -1e-9
+                    all.follows[vertex as usize] = nearest.follows;
+                    nearest.squared_way > (INSIDE * spacing).powi(2)
                 });
                 if left.is_empty() {
                     break;
@@ -189,7 +194,31 @@ impl Interpolation {
                 all.outside[surface.part[vertex as usize] as usize] += 1;
             }
         }
+        all.join(surface, seeds);
         all
+    }
+
+    /// What no chart reached, as beyond a vertex by which alone two pieces of cloth hang together, follows what its neighbours follow.
+    fn join(&mut self, surface: &Surface<'_>, seeds: &Seeds) {
+        let follows_any = |follows: &Follows| follows.shares != [0.0; 3];
+        let is_left =
+            |all: &[Follows], vertex: u32| seeds.owner[vertex as usize] != Seeds::NONE && !follows_any(&all[vertex as usize]);
+        let all = &mut self.follows;
+        let mut left: Vec<u32> = (0..all.len() as u32).filter(|&vertex| is_left(all, vertex)).collect();
+        let mut before = usize::MAX;
+        while left.len() < before {
+            before = left.len();
+            left.retain(|&vertex| {
+                let known = surface.ways[vertex]
+                    .iter()
+                    .filter(|(other, _)| follows_any(&all[*other as usize]));
+                let nearest = known.min_by(|a, b| a.1.total_cmp(&b.1));
+                if let Some((other, _)) = nearest {
+                    all[vertex as usize] = all[*other as usize];
+                }
+                nearest.is_none()
+            });
+        }
     }
 }
 
@@ -214,10 +243,19 @@ impl Flat {
         }
     }
 
-    /// Barycentric coordinates of a place.
-    fn shares(&self, place: DVec2) -> [f64; 3] {
+    /// The nearest point of the triangle, by barycentric coordinates none of which is negative; about the nearest, if it is at a corner.
+    fn nearest(&self, place: DVec2) -> Nearest {
         let [a, b, c] = self.places.map(|corner| corner - place);
-        let double = (self.places[1] - self.places[0]).perp_dot(self.places[2] - self.places[0]);
-        [b.perp_dot(c) / double, c.perp_dot(a) / double, a.perp_dot(b) / double]
+        let [across_a, across_b, across_c] =
+            [b.perp_dot(c), c.perp_dot(a), a.perp_dot(b)].map(|double_area| double_area.max(0.0));
+        let sum = across_a + across_b + across_c;
+        let shares = [across_a, across_b, across_c].map(|double_area| double_area / sum);
+        Nearest {
+            squared_way: (a * shares[0] + b * shares[1] + c * shares[2]).length_squared(),
+            follows: Follows {
+                seeds: self.corners,
+                shares,
+            },
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Triangulations of a square that are like nothing a program would make of a grid.
+//! For tests: triangulations of a square that no program would make of a grid.
 
 use selvedge::glam::{DVec2, DVec3};
 use selvedge::{Mesh, Topology};
