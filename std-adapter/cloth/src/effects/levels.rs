@@ -31,9 +31,9 @@ use crate::step::{Constraint, TimeStep, Touches};
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
-/// How much more a triangle may be stretched than its longest side: with three sides at 60° to each other a stretch of e along one
-/// direction stretches the nearest side by at least ¾e; 4/3, and a little for those that are less regular.
-const TRUST: f64 = 1.5;
+/// How much more a triangle may be stretched than its longest side. A stretch of e along one direction stretches a side at an angle of φ to
+/// it by e·cos²φ, and the nearest side of a right-angled triangle with equal legs is no farther than 45° off: e/2.
+const TRUST: f64 = 2.0;
 
 /// An effect on coarse levels, then on the mesh.
 #[derive(Debug)]
