@@ -10,7 +10,7 @@
 //!
 //! what is asked      input ▸ world ▸ scene
 //! what is simulated  effects ▸ plan, step
-//! how                schedule, contact, simulator
+//! how                membrane, hierarchy, schedule, contact, simulator
 //! what changes       state ▸ checkpoint
 //! ```
 //!
@@ -29,7 +29,9 @@
 mod checkpoint;
 mod contact;
 mod effects;
+mod hierarchy;
 mod input;
+mod membrane;
 mod plan;
 mod scene;
 mod schedule;
@@ -44,7 +46,7 @@ pub use contact::{Blocker, ContactCounts, ContactSeconds};
 pub use effects::effect_names;
 pub use input::SceneError;
 pub use scene::{OnBlocked, Scene};
-pub use simulator::{Blocked, CHECKPOINT_STEPS, EffectTime, FASTEST, SetupError, Simulation};
+pub use simulator::{Blocked, CHECKPOINT_STEPS, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation};
 pub use world::{Body, Cloth, RigidMotion};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].

@@ -4,8 +4,10 @@
 //! effects run in the order of the registry, not of the file.
 
 use super::contact::ContactSettings;
+use super::hierarchy::{Hierarchy, Level};
 use super::step::{Carrier, Constraint, FREE, Force};
-use super::world::{RigidMotion, World};
+use super::world::{Cloth, RigidMotion, World};
+use std::sync::Arc;
 
 /// An entry of a phase and the effect that it belongs to.
 #[derive(Debug)]
@@ -15,12 +17,20 @@ pub(crate) struct Entry<T: ?Sized> {
     pub(crate) action: Box<T>,
 }
 
+/// What the scene's effects say of the fabric before any of them registers.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Fabric {
+    /// How stiff the angle between warp and weft is, in N/m; `None`: no effect makes it so.
+    pub(crate) shear: Option<f64>,
+}
+
 /// What the effects have registered.
 #[derive(Debug)]
 pub(crate) struct Plan<'a> {
     pub(crate) world: World<'a>,
     /// The effect that is registering.
     pub(crate) effect: usize,
+    pub(crate) fabric: Fabric,
     /// Of all cloth vertices, in 1/kg.
     pub(crate) inverse_masses: Vec<f64>,
     /// Of all cloth vertices.
@@ -31,6 +41,8 @@ pub(crate) struct Plan<'a> {
     pub(crate) constraints: Vec<Entry<dyn Constraint>>,
     pub(crate) contact: ContactSettings,
     pub(crate) friction: Vec<Entry<dyn Constraint>>,
+    /// Made for the first effect that asks for levels.
+    hierarchy: Option<Hierarchy<'a>>,
 }
 
 impl<'a> Plan<'a> {
@@ -39,7 +51,9 @@ impl<'a> Plan<'a> {
         Self {
             world,
             effect: 0,
-            inverse_masses: masses(world).into_iter().map(f64::recip).collect(),
+            fabric: Fabric::default(),
+            hierarchy: None,
+            inverse_masses: masses_of(world.cloth).into_iter().map(f64::recip).collect(),
             carriers: vec![FREE; world.cloth.mesh.positions.len()],
             motions: world.bodies.iter().map(|body| body.motion.clone()).collect(),
             forces: Vec::new(),
@@ -69,6 +83,21 @@ impl<'a> Plan<'a> {
         self.friction.push(self.entry(Box::new(friction)));
     }
 
+    /// The cloth's coarser levels, from fine to coarse, whose seeds are no farther apart than `coarsest`: the `most` finest of them.
+    ///
+    /// Pins are known: they register before.
+    pub(crate) fn levels(&mut self, coarsest: f64, most: Option<usize>) -> Vec<Arc<Level>> {
+        if most == Some(0) || coarsest <= 0.0 {
+            return Vec::new();
+        }
+        let world = self.world;
+        let pinned = || self.inverse_masses.iter().map(|&inverse| inverse == 0.0).collect();
+        let make = || Hierarchy::new(world.cloth, masses_of(world.cloth), pinned());
+        let mut levels = self.hierarchy.get_or_insert_with(make).levels_to(coarsest);
+        levels.truncate(most.unwrap_or(usize::MAX));
+        levels
+    }
+
     /// Makes a cloth vertex kinematic.
     pub(crate) fn pin(&mut self, vertex: u32, carrier: Carrier) {
         self.inverse_masses[vertex as usize] = 0.0;
@@ -77,12 +106,12 @@ impl<'a> Plan<'a> {
 }
 
 /// The mass of each cloth vertex: a third of its triangles', in kg.
-pub(crate) fn masses(world: World<'_>) -> Vec<f64> {
-    let mesh = &world.cloth.mesh;
+pub(crate) fn masses_of(cloth: &Cloth) -> Vec<f64> {
+    let mesh = &cloth.mesh;
     let mut masses = vec![0.0; mesh.positions.len()];
     for triangle in &mesh.triangles {
         let [a, b, c] = triangle.map(|v| mesh.positions[v as usize]);
-        let mass = world.cloth.density * 0.5 * (b - a).cross(c - a).length();
+        let mass = cloth.density * 0.5 * (b - a).cross(c - a).length();
         for &vertex in triangle {
             masses[vertex as usize] += mass / 3.0;
         }

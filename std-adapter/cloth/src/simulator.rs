@@ -78,6 +78,15 @@ pub struct EffectTime {
     pub seconds: f64,
 }
 
+/// How long the edges of the cloth are, over their lengths at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeStretch {
+    /// No more than one in a hundred edges is longer.
+    pub percentile_99: f64,
+    /// Of the longest.
+    pub largest: f64,
+}
+
 /// A step that could not be made without an intersection, and was not.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
@@ -129,6 +138,9 @@ impl Simulation {
             bodies: &bodies,
             time_step,
         });
+        for (_, effect) in &effects {
+            effect.announce(&mut plan.fabric);
+        }
         let mut times = Vec::with_capacity(effects.len());
         for (index, (name, effect)) in effects.into_iter().enumerate() {
             times.push(EffectTime { name, seconds: 0.0 });
@@ -246,6 +258,25 @@ impl Simulation {
     #[must_use]
     pub fn cloth_triangles(&self) -> usize {
         self.cloth_triangles
+    }
+
+    /// How much the cloth is stretched now. Finds the edges anew, in O(n log n) time.
+    #[must_use]
+    pub fn edge_stretch(&self) -> EdgeStretch {
+        let cloth = self.triangles[..self.cloth_triangles].iter();
+        let ends = cloth.flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+        let mut edges: Vec<[u32; 2]> = ends.map(|(a, b)| [a.min(b), a.max(b)]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let length = |all: &[DVec3], [a, b]: [u32; 2]| all[a as usize].distance(all[b as usize]);
+        let stretch = |&edge: &[u32; 2]| length(&self.state.positions, edge) / length(&self.rest, edge);
+        let mut all: Vec<f64> = edges.iter().map(stretch).collect();
+        all.sort_unstable_by(f64::total_cmp);
+        let at = |index: usize| all.get(index).copied().unwrap_or(1.0);
+        EdgeStretch {
+            percentile_99: at(all.len() * 99 / 100),
+            largest: at(all.len().saturating_sub(1)),
+        }
     }
 
     /// The effects that were constructed, in the order in which they run, and the time that each has taken.

@@ -5,7 +5,7 @@ mod bend;
 mod body_contact;
 mod friction;
 mod gravity;
-mod membrane;
+mod levels;
 mod pins;
 mod pressure;
 mod registration;

@@ -3,9 +3,9 @@
 //! C = V(x) − r·V₀ with the volume V = ⅙Σ a·(b × c) and the energy ½·K·C²/(r·V₀), K a bulk modulus: compliance r·V₀/K. The
 //! volume is taken relative to the first vertex, so that it does not depend on where the cloth is.
 
-use super::membrane::Incidence;
 use super::registration::{Effect, Registration};
 use crate::input::{PRESSURE, RATIO};
+use crate::membrane::Incidence;
 use crate::plan::Plan;
 use crate::step::{Constraint, TimeStep, Touches};
 use selvedge::verification::parallel;

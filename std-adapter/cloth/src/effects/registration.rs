@@ -1,12 +1,15 @@
 //! What an effect is to the rest: how its table is read, and what it puts into the plan.
 
 use crate::input::{SceneError, Table};
-use crate::plan::Plan;
+use crate::plan::{Fabric, Plan};
 use crate::world::World;
 use std::fmt::Debug;
 
 /// What a scene's `[effects.NAME]` has been read into.
 pub(crate) trait Effect: Debug + Send {
+    /// Says what effects that register before it must know.
+    fn announce(&self, _fabric: &mut Fabric) {}
+
     /// Puts what the effect does into the plan.
     fn register(self: Box<Self>, plan: &mut Plan<'_>);
 

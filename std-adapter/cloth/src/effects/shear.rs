@@ -1,9 +1,9 @@
 //! Shear: C = w_u·w_v (Baraff and Witkin 1998), compliance 1/(k·A).
 
-use super::membrane::{Membrane, all, image, of_triangles};
 use super::registration::{Effect, Registration};
 use crate::input::MEMBRANE_STIFFNESS;
-use crate::plan::Plan;
+use crate::membrane::{Membrane, all, image, of_triangles};
+use crate::plan::{Fabric, Plan};
 use crate::schedule::{Local, Schedule};
 use selvedge_core::glam::DVec3;
 
@@ -23,6 +23,10 @@ struct Shear {
 }
 
 impl Effect for Shear {
+    fn announce(&self, fabric: &mut Fabric) {
+        fabric.shear = Some(self.stiffness);
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
         let angles = of_triangles(cloth, |membrane, area| Angle {

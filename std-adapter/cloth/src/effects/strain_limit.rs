@@ -1,24 +1,26 @@
 //! Strain limit: no triangle is stretched to more than a given ratio along any direction, its principal one included.
 //!
-//! A triangle's deformation takes warp and weft to w_u and w_v. The direction d in it that is stretched most is the first
-//! eigenvector of [[w_u·w_u, w_u·w_v], [w_u·w_v, w_v·w_v]]; the constraint |d_u·w_u + d_v·w_v| ≤ limit has the form of stretch,
-//! with coefficients d_u·a + d_v·b, and no compliance. One triangle's correction stretches its neighbours, so some are left a
-//! little above the limit: more `sweeps` bring them closer (an accuracy–time choice).
+//! For the principal direction d ([`SquaredStretch`]) the constraint |d_u·w_u + d_v·w_v| ≤ limit has the form of stretch, with
+//! coefficients d_u·a + d_v·b, and no compliance. One triangle's correction stretches its neighbours, so some are left a little above
+//! the limit: more `sweeps` bring them closer (an accuracy–time choice). Before them the same limit holds on coarse
+//! [`levels`](super::levels), all that there are.
 
-use super::membrane::{Membrane, all, image, of_triangles};
+use super::levels::{self, OnLevels, Tension};
 use super::registration::{Effect, Registration};
 use crate::input::RATIO;
+use crate::membrane::{Membrane, SquaredStretch, all, image, of_triangles};
 use crate::plan::Plan;
 use crate::schedule::{Local, Schedule};
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["limit", "sweeps"],
+    keys: &["limit", "sweeps", "levels"],
     needs: &[],
     read: |table, _| {
         Ok(Box::new(StrainLimit {
             limit: table.required_number("limit", RATIO, 1.0..=10.0)?,
             sweeps: table.count("sweeps", 1..=100)?.unwrap_or(1),
+            most_levels: levels::read_most(table)?,
         }))
     },
 };
@@ -27,18 +29,24 @@ pub(super) const REGISTRATION: Registration = Registration {
 struct StrainLimit {
     limit: f64,
     sweeps: u64,
+    most_levels: Option<usize>,
 }
 
 impl Effect for StrainLimit {
     fn settings(&self) -> Vec<(&'static str, String)> {
-        vec![("sweeps", self.sweeps.to_string())]
+        let mut settings = vec![("sweeps", self.sweeps.to_string())];
+        settings.extend(levels::settings(self.most_levels));
+        settings
     }
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
         let limit = self.limit;
+        // It does not give, so that a pull goes all the way at once.
+        let levels = plan.levels(f64::INFINITY, self.most_levels);
         let limits = of_triangles(cloth, |membrane, _| Limit { membrane, limit });
-        plan.add_constraint(Schedule::in_blocks(limits, &cloth.mesh.positions, self.sweeps));
+        let limits = Schedule::in_blocks(limits, &cloth.mesh.positions, self.sweeps);
+        plan.add_constraint(OnLevels::new(levels, limits, |triangle| Tension::limit(triangle, limit)));
     }
 }
 
@@ -49,47 +57,30 @@ struct Limit {
 }
 
 impl Limit {
-    /// The squared stretch is middle ± √(half² + shear²): these three.
+    /// Most are.
     #[inline(always)]
-    fn squared_stretch(&self, x: [DVec3; 3]) -> [f64; 3] {
-        let Membrane { a, b, .. } = self.membrane;
-        let (warp, weft) = (image(a, x), image(b, x));
-        let (uu, uv, vv) = (warp.dot(warp), warp.dot(weft), weft.dot(weft));
-        [0.5 * (uu + vv), 0.5 * (uu - vv), uv]
-    }
-
-    /// Most are: a length is no more than the sum of its parts.
-    #[inline(always)]
-    fn is_far_below(&self, [middle, half, shear]: [f64; 3]) -> bool {
-        middle + half.abs() + shear.abs() < self.limit * self.limit
+    fn is_far_below(&self, stretch: SquaredStretch) -> bool {
+        stretch.bound() < self.limit * self.limit
     }
 }
 
 impl Local<3> for Limit {
     #[inline(always)]
     fn moves_nothing(&self, x: [DVec3; 3]) -> bool {
-        self.is_far_below(self.squared_stretch(x))
+        self.is_far_below(SquaredStretch::new(self.membrane, x))
     }
 
     #[inline(always)]
     fn corrections(&self, x: [DVec3; 3], w: [f64; 3], _: f64) -> [DVec3; 3] {
-        let stretch = self.squared_stretch(x);
+        let stretch = SquaredStretch::new(self.membrane, x);
         if self.is_far_below(stretch) {
             return [DVec3::ZERO; 3];
         }
         let Membrane { a, b, .. } = self.membrane;
-        let [middle, half, uv] = stretch;
-        let spread = (half * half + uv * uv).sqrt();
-        let largest = (middle + spread).sqrt();
+        // The direction's length does not matter: the correction is a product with it, divided by its square.
+        let (largest, [du, dv]) = stretch.principal();
         // No branch: nobody could foretell it.
         let excess = (largest - self.limit).max(0.0);
-        // The eigenvector of the larger eigenvalue, by whichever of its two forms does not cancel. Its length does not matter: the
-        // correction is a product with it, divided by its square.
-        let (du, dv) = match (half >= 0.0, spread > 0.0) {
-            (_, false) => (1.0, 0.0),
-            (true, _) => (half + spread, uv),
-            (false, _) => (uv, spread - half),
-        };
         let two = [du * a[0] + dv * b[0], du * a[1] + dv * b[1]];
         let c = all(two);
         let weight = w[0] * c[0] * c[0] + w[1] * c[1] * c[1] + w[2] * c[2] * c[2];

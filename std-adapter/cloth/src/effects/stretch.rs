@@ -2,16 +2,23 @@
 //!
 //! Extended position-based dynamics (Macklin et al. 2016) with one iteration a step: Δx = −C·W∇C / (∇C·W∇C + α/h²). Where w
 //! vanishes it has no direction, and nothing is done.
+//!
+//! One iteration moves a pull by one edge, so that a cloth would be the softer the finer its mesh: before it come coarse
+//! [`levels`](super::levels). In a step of h the equations themselves carry a pull by some h·√(k/ρ), ρ being the mass of an area: they
+//! are those of ∂²x/∂t² = (k/ρ)·∂²x/∂s² in one implicit step, x − h²(k/ρ)·x″ = what inertia predicts, in which a pull fades by e
+//! in each h·√(k/ρ). Levels go on to [`REACH`] times that, where e⁻⁴ is left; a mesh that is coarser needs none.
 
-use super::membrane::{Membrane, all, image, of_triangles};
+use super::levels::{self, OnLevels, Tension};
 use super::registration::{Effect, Registration};
+use crate::hierarchy::mesh_spacing;
 use crate::input::MEMBRANE_STIFFNESS;
+use crate::membrane::{Membrane, all, image, of_triangles};
 use crate::plan::Plan;
 use crate::schedule::{Local, Schedule};
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["stiffness", "weft_stiffness"],
+    keys: &["stiffness", "weft_stiffness", "levels"],
     needs: &[],
     read: |table, _| {
         let range = 1e-3..=1e9;
@@ -19,6 +26,7 @@ pub(super) const REGISTRATION: Registration = Registration {
         let weft = table.number("weft_stiffness", MEMBRANE_STIFFNESS, range)?;
         Ok(Box::new(Stretch {
             stiffness: [warp, weft.unwrap_or(warp)],
+            most_levels: levels::read_most(table)?,
         }))
     },
 };
@@ -27,16 +35,33 @@ pub(super) const REGISTRATION: Registration = Registration {
 struct Stretch {
     /// Along warp and weft, in N/m.
     stiffness: [f64; 2],
+    most_levels: Option<usize>,
 }
 
+/// How many times as far as a pull goes in a step the seeds of the coarsest level are apart.
+const REACH: f64 = 4.0;
+
 impl Effect for Stretch {
+    fn settings(&self) -> Vec<(&'static str, String)> {
+        levels::settings(self.most_levels).into_iter().collect()
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
         let springs = of_triangles(cloth, |membrane, area| Spring {
             membrane,
             compliance: self.stiffness.map(|k| 1.0 / (k * area)),
         });
-        plan.add_constraint(Schedule::once(springs, cloth.mesh.positions.len()));
+        let springs = Schedule::once(springs, cloth.mesh.positions.len());
+        let stiffest = self.stiffness[0].max(self.stiffness[1]);
+        let way = plan.world.time_step * (stiffest / cloth.density).sqrt();
+        let coarsest = if way > mesh_spacing(cloth) { REACH * way } else { 0.0 };
+        let levels = plan.levels(coarsest, self.most_levels);
+        // Each level and the mesh itself do their part of the work.
+        let parts = (levels.len() + 1) as f64;
+        let [warp, weft] = self.stiffness;
+        let fabric = [Some(warp), Some(weft), plan.fabric.shear].map(|k| k.map(|k| k / parts));
+        plan.add_constraint(OnLevels::new(levels, springs, |triangle| Tension::stretch(triangle, fabric)));
     }
 }
 

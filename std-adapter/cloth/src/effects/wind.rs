@@ -7,9 +7,9 @@
 //!
 //! Gusts: the wind's speed varies as 1 + g·sin(2πft − q·x) with x along the wind, q one wave in [`GUST_LENGTH`] metres.
 
-use super::membrane::Incidence;
 use super::registration::{Effect, Registration};
 use crate::input::{AIR_DENSITY, FREQUENCY, RATIO, SPEED};
+use crate::membrane::Incidence;
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
 use libm::sin;

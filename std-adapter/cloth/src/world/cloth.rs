@@ -83,6 +83,19 @@ impl Cloth {
         })
     }
 
+    /// Of this mesh, 100 g/m², its warp along x.
+    #[cfg(test)]
+    pub(crate) fn of(mesh: Mesh) -> Self {
+        Self {
+            topology: mesh.topology().unwrap(),
+            mesh,
+            density: 0.1,
+            warp: DVec3::X,
+            velocity: DVec3::ZERO,
+            selections: Vec::new(),
+        }
+    }
+
     /// The vertices that `name` stands for. What is wrong, if it stands for none.
     pub(crate) fn selection(&self, name: &str) -> Result<&[u32], String> {
         match self.selections.iter().find(|(known, _)| *known == name) {

@@ -10,6 +10,8 @@ pub use cloth::Cloth;
 pub use motion::RigidMotion;
 
 pub(crate) use motion::Pose;
+#[cfg(test)]
+pub(crate) use shapes::{capsule, sheet, tube};
 
 /// What effects are checked against.
 #[derive(Clone, Copy, Debug)]

@@ -6,6 +6,7 @@ mod drape;
 mod energy;
 mod paying_only;
 mod stability;
+mod stretch;
 mod wrong_scenes;
 
 use selvedge_cloth::{Scene, Simulation};

@@ -177,12 +177,14 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, seconds: f64) -> Valu
     let stages = simulation.contact_seconds().into_iter();
     let stages = stages.flat_map(|seconds| seconds.stages());
     let stages = stages.map(|(stage, seconds)| json!({"stage": stage, "seconds": seconds}));
+    let stretch = simulation.edge_stretch();
     json!({
         "scene": simulation.name(),
         "steps": steps,
         "seconds": seconds,
         "steps_per_second": steps as f64 / seconds,
         "simulated_seconds": simulation.time(),
+        "edge_stretch_at_end": {"percentile_99": stretch.percentile_99, "largest": stretch.largest},
         "effects": effects,
         "pairs": pairs.collect::<Vec<_>>(),
         "stages": stages.collect::<Vec<_>>(),

@@ -24,12 +24,15 @@ pub fn effects_one_by_one(costs: &[EffectCost]) -> String {
 pub fn simulation(simulation: &Simulation, seconds: f64) -> String {
     let steps = simulation.steps_done();
     let per_step = |(name, seconds): (&str, f64)| [name.to_owned(), time(seconds / steps.max(1) as f64)];
+    let stretch = simulation.edge_stretch();
     let mut text = format!(
-        "{}: {} in {}, {} a second\n\n",
+        "{}: {} in {}, {} a second\nat the end 99 % of the edges are at most {:.3} times as long as at rest, the longest {:.3}\n\n",
         simulation.name(),
         counted(steps, "step"),
         time(seconds),
         figures(steps as f64 / seconds),
+        stretch.percentile_99,
+        stretch.largest,
     );
     let effects = simulation.effects().iter();
     let mut rows: Vec<_> = effects.map(|effect| per_step((effect.name, effect.seconds))).collect();

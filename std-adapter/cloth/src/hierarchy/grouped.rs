@@ -1,0 +1,33 @@
+//! Lists of items, one for each of a number of owners, in one piece of memory.
+
+use std::ops::Index;
+
+#[derive(Debug)]
+pub(super) struct Grouped<T> {
+    starts: Vec<u32>,
+    items: Vec<T>,
+}
+
+impl<T: Copy> Grouped<T> {
+    /// Each owner's items in the order in which `pairs` has them.
+    pub(super) fn new(owners: usize, pairs: &[(u32, T)]) -> Self {
+        let mut starts = vec![0_u32; owners + 1];
+        pairs.iter().for_each(|(owner, _)| starts[*owner as usize + 1] += 1);
+        for owner in 1..starts.len() {
+            starts[owner] += starts[owner - 1];
+        }
+        let mut order: Vec<u32> = (0..pairs.len() as u32).collect();
+        order.sort_by_key(|&k| pairs[k as usize].0);
+        let items = order.into_iter().map(|k| pairs[k as usize].1).collect();
+        Self { starts, items }
+    }
+}
+
+impl<T> Index<u32> for Grouped<T> {
+    type Output = [T];
+
+    fn index(&self, owner: u32) -> &[T] {
+        let owner = owner as usize;
+        &self.items[self.starts[owner] as usize..self.starts[owner + 1] as usize]
+    }
+}

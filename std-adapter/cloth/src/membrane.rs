@@ -1,0 +1,159 @@
+//! What the effects in the plane of the cloth have in common.
+
+use crate::schedule::On;
+use crate::world::Cloth;
+use selvedge_core::glam::{DVec2, DVec3};
+
+/// The material directions of a triangle of cloth (Baraff and Witkin 1998): positions xᵢ give the images
+/// w_u = Σaᵢxᵢ of a unit of warp and w_v = Σbᵢxᵢ of a unit of weft. At rest both have length one and are perpendicular. The
+/// coefficients of each sum to zero: of three, the last two are here.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Membrane {
+    pub(crate) a: [f64; 2],
+    pub(crate) b: [f64; 2],
+}
+
+/// Σcᵢxᵢ.
+#[inline(always)]
+pub(crate) fn image(c: [f64; 2], x: [DVec3; 3]) -> DVec3 {
+    (x[1] - x[0]) * c[0] + (x[2] - x[0]) * c[1]
+}
+
+/// All three coefficients.
+#[inline(always)]
+pub(crate) fn all(c: [f64; 2]) -> [f64; 3] {
+    [-c[0] - c[1], c[0], c[1]]
+}
+
+impl Membrane {
+    /// Of a triangle at rest with these two sides from its first vertex, along warp and weft.
+    pub(crate) fn new(first: DVec2, second: DVec2) -> Self {
+        let scale = 1.0 / first.perp_dot(second);
+        Self {
+            a: [second.y * scale, -first.y * scale],
+            b: [-second.x * scale, first.x * scale],
+        }
+    }
+}
+
+/// Which way warp and weft go in a triangle with these two sides: the warp as far as it lies in the triangle; a side where it does not.
+pub(crate) fn warp_and_weft(first: DVec3, second: DVec3, warp: DVec3) -> [DVec3; 2] {
+    let normal = first.cross(second).normalize();
+    let along = warp - normal * normal.dot(warp);
+    let along = if along.length() > 1e-3 * warp.length() {
+        along.normalize()
+    } else {
+        first.normalize()
+    };
+    [along, normal.cross(along)]
+}
+
+/// A constraint for each triangle, made from its material directions and its area at rest, in m².
+pub(crate) fn of_triangles<C>(cloth: &Cloth, constraint: impl Fn(Membrane, f64) -> C) -> Vec<On<C, 3>> {
+    let make = |&vertices: &[u32; 3]| {
+        let [p, q, r] = vertices.map(|v| cloth.mesh.positions[v as usize]);
+        let (first, second) = (q - p, r - p);
+        let [along, across] = warp_and_weft(first, second, cloth.warp);
+        let [first_flat, second_flat] = [first, second].map(|side| DVec2::new(side.dot(along), side.dot(across)));
+        let membrane = Membrane::new(first_flat, second_flat);
+        (vertices, constraint(membrane, 0.5 * first.cross(second).length()))
+    };
+    cloth.mesh.triangles.iter().map(make).collect()
+}
+
+/// How much a triangle is stretched: the square of it is middle + half·cos 2φ + shear·sin 2φ at an angle of φ to the warp.
+///
+/// A deformation takes warp and weft to w_u and w_v, and the direction d to d_u·w_u + d_v·w_v, so that squares are a quadratic form of
+/// d, [[w_u·w_u, w_u·w_v], [w_u·w_v, w_v·w_v]]. Its first eigenvector is the principal direction, in which most is stretched.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SquaredStretch {
+    middle: f64,
+    half: f64,
+    shear: f64,
+}
+
+impl SquaredStretch {
+    #[inline(always)]
+    pub(crate) fn new(membrane: Membrane, x: [DVec3; 3]) -> Self {
+        let (warp, weft) = (image(membrane.a, x), image(membrane.b, x));
+        let (uu, uv, vv) = (warp.dot(warp), warp.dot(weft), weft.dot(weft));
+        Self {
+            middle: 0.5 * (uu + vv),
+            half: 0.5 * (uu - vv),
+            shear: uv,
+        }
+    }
+
+    /// No less than the largest: a length is no more than the sum of its parts.
+    #[inline(always)]
+    pub(crate) fn bound(self) -> f64 {
+        self.middle + self.half.abs() + self.shear.abs()
+    }
+
+    /// The largest stretch, no square, and the parts along warp and weft of a vector in its direction, of some length.
+    ///
+    /// By whichever of the eigenvector's two forms does not cancel.
+    #[inline(always)]
+    pub(crate) fn principal(self) -> (f64, [f64; 2]) {
+        let Self { middle, half, shear } = self;
+        let spread = (half * half + shear * shear).sqrt();
+        let direction = match (half >= 0.0, spread > 0.0) {
+            (_, false) => [1.0, 0.0],
+            (true, _) => [half + spread, shear],
+            (false, _) => [shear, spread - half],
+        };
+        ((middle + spread).sqrt(), direction)
+    }
+}
+
+/// The triangles of each vertex, and the share of each in the vertex's mass.
+#[derive(Debug)]
+pub(crate) struct Incidence {
+    starts: Vec<u32>,
+    triangles: Vec<(u32, f64)>,
+}
+
+impl Incidence {
+    pub(crate) fn new(cloth: &Cloth) -> Self {
+        let mesh = &cloth.mesh;
+        let mut starts = vec![0_u32; mesh.positions.len() + 1];
+        for &vertex in mesh.triangles.iter().flatten() {
+            starts[vertex as usize + 1] += 1;
+        }
+        for vertex in 1..starts.len() {
+            starts[vertex] += starts[vertex - 1];
+        }
+        let mut next = starts.clone();
+        let mut triangles = vec![(0, 0.0); mesh.triangles.len() * 3];
+        for (index, triangle) in mesh.triangles.iter().enumerate() {
+            let [a, b, c] = triangle.map(|v| mesh.positions[v as usize]);
+            let area = (b - a).cross(c - a).length();
+            for &vertex in triangle {
+                let place = &mut next[vertex as usize];
+                triangles[*place as usize] = (index as u32, area);
+                *place += 1;
+            }
+        }
+        let mut incidence = Self { starts, triangles };
+        for vertex in 0..incidence.len() {
+            let range = incidence.range(vertex);
+            let around = &mut incidence.triangles[range];
+            let all: f64 = around.iter().map(|(_, area)| area).sum();
+            around.iter_mut().for_each(|(_, share)| *share /= all);
+        }
+        incidence
+    }
+
+    /// Vertices.
+    pub(crate) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    pub(crate) fn of(&self, vertex: usize) -> &[(u32, f64)] {
+        &self.triangles[self.range(vertex)]
+    }
+
+    fn range(&self, vertex: usize) -> std::ops::Range<usize> {
+        self.starts[vertex] as usize..self.starts[vertex + 1] as usize
+    }
+}
