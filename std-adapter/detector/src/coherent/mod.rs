@@ -18,11 +18,6 @@
 //! Nothing here decides by a bound of its own: directions, clearances and courses, with their derivations, are
 //! [core's](selvedge_core::separation).
 
-#![expect(
-    clippy::neg_cmp_op_on_partial_ord,
-    reason = "a comparison is false with NaN, which must then take the side that proves nothing"
-)]
-
 mod closest;
 mod follow;
 mod horizon;
