@@ -340,7 +340,8 @@ impl<S: Scalar> CollisionDetector<S> {
     ///   s + δ and turns back, a near miss, is a contact as any other, and then the exact first contact is that of another pair, or
     ///   there is none. A near miss at more than s + δ never is; the time may well come after it.
     /// * **The exception**: a pair too close for rounding to tell, within some 2⁻⁴⁸ of the size of its
-    ///   differences, counts from when that cannot be excluded, which may be long before it touches, or though it never does.
+    ///   differences, counts from when that cannot be excluded, which may be long before it touches, or though it never does. Of such pairs
+    ///   it may tell one that [`contacts`](Self::contacts) does not have, or another time.
     ///
     /// So it is not a proof of contact. Where a step without contact must not be cut short,
     /// [`elementary::contact`](selvedge_core::elementary::contact()) decides whether the pair touches, exactly.
