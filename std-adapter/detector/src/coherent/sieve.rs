@@ -55,20 +55,23 @@ impl Sieve {
     /// at the end and with the same order: then it does on straight ways in between as well.
     #[inline(always)]
     pub(super) fn keep_apart(&self, kind: PairKind, vertices: [u32; 4], class: usize) -> bool {
-        // Written out: `map` would not be inlined here.
-        let way = |corner: usize| &self.ways[vertices[corner] as usize];
-        let (a, b, c, d) = (way(0), way(1), way(2), way(3));
-        let clearance = &self.clearances[class];
-        clearance.is_kept(kind, [a.start, b.start, c.start, d.start], [a.end, b.end, c.end, d.end])
+        let [start, end] = self.ways(vertices);
+        self.clearances[class].is_kept(kind, start, end)
     }
 
     /// How far vertices may stray for the pair to do so, as [`Reach::beyond`]; less than zero if it does not.
     #[inline(always)]
     pub(super) fn largest_stray(&self, kind: PairKind, vertices: [u32; 4], class: usize) -> f32 {
+        let [start, end] = self.ways(vertices);
+        self.clearances[class].largest_stray(kind, start, end)
+    }
+
+    #[inline(always)]
+    fn ways(&self, vertices: [u32; 4]) -> [[Vec3A; 4]; 2] {
+        // Written out: `map` would not be inlined here.
         let way = |corner: usize| &self.ways[vertices[corner] as usize];
         let (a, b, c, d) = (way(0), way(1), way(2), way(3));
-        let clearance = &self.clearances[class];
-        clearance.largest_stray(kind, [a.start, b.start, c.start, d.start], [a.end, b.end, c.end, d.end])
+        [[a.start, b.start, c.start, d.start], [a.end, b.end, c.end, d.end]]
     }
 }
 

@@ -90,7 +90,18 @@ pub(super) struct StepInput<'a> {
     pub(super) bound: &'a Bound,
 }
 
-impl StepInput<'_> {
+impl<'a> StepInput<'a> {
+    /// Of pairs that are named by the mesh's numbers.
+    pub(super) fn of_mesh(hierarchies: &'a Hierarchies, rows: &'a Rows, question: &Question, bound: &'a Bound) -> Self {
+        Self {
+            level: hierarchies.level(),
+            numbers: Numbers::Mesh(hierarchies.topology()),
+            rows,
+            question: *question,
+            bound,
+        }
+    }
+
     /// The pair of four vertices.
     #[inline(always)]
     fn primitives(&self, kind: PairKind, rows: [u32; 4]) -> PrimitivePair<f64> {

@@ -239,13 +239,7 @@ impl Engine {
         self.rows.set_some(motions, vertices, followed.is_single);
         let update = begin.elapsed().as_secs_f64();
         let bound = Bound::new(1.0);
-        let step = StepInput {
-            level: hierarchies.level(),
-            numbers: Numbers::Mesh(topology),
-            rows: &self.rows,
-            question: *question,
-            bound: &bound,
-        };
+        let step = StepInput::of_mesh(hierarchies, &self.rows, question, &bound);
         let pairs = followed.open.each_ref().map(Vec::as_slice);
         decide(&mut self.workers, &mut self.spaces, &step, pairs, |_, pairs, _| Some(pairs));
         let count = followed.count() as u64;
@@ -274,13 +268,7 @@ impl Engine {
         let update = begin.elapsed().as_secs_f64();
 
         let bound = Bound::new(1.0);
-        let step = StepInput {
-            level: hierarchies.level(),
-            numbers: Numbers::Mesh(topology),
-            rows: &self.rows,
-            question: *question,
-            bound: &bound,
-        };
+        let step = StepInput::of_mesh(hierarchies, &self.rows, question, &bound);
         let boxes = &self.boxes;
         let are_of_mesh = decide(&mut self.workers, &mut self.spaces, &step, pairs, |kind, pairs, near| {
             boxes.keep_near(step.level, kind, pairs, near)?;
