@@ -51,6 +51,12 @@ impl<S: Scalar> GapError<S> {
     pub fn larger(self, other: Self) -> Self {
         Self(self.0.larger(other.0))
     }
+
+    /// As a length.
+    #[inline(always)]
+    pub(super) const fn length(self) -> S {
+        self.0
+    }
 }
 
 /// σ of the module's documentation.
@@ -61,7 +67,7 @@ fn slack<S: Scalar>() -> S {
 
 /// What a gap must exceed to prove that two sets are more than `separation` apart.
 #[inline(always)]
-fn threshold<S: Scalar>(separation: S, error: GapError<S>) -> S {
+pub(super) fn threshold<S: Scalar>(separation: S, error: GapError<S>) -> S {
     separation * (slack::<S>() * slack::<S>()) + error.0
 }
 

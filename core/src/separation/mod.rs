@@ -5,12 +5,14 @@
 //! | [`gap`] | the distance along a direction, from below; the direction that a pair remembers | 64u of the largest coordinate, and 2⁻²⁰ for what is stored |
 //! | [`clearance`] | the distance that a pair keeps though its points stray from the motion that was looked at | 64u of the largest coordinate and of each distance, in `f32` |
 //! | [`course`] | how far points may stray from their course, and whether they have | 64u of the largest coordinate, no more than a hundredth of the room |
+//! | [`truncation`] | how far each point may go for the pair to keep its distance | decides nothing: what it leads to is certified by the others |
 //!
 //! All are functions of values: the caller keeps the pairs, and what was found out about them.
 
 pub mod clearance;
 pub mod course;
 pub mod gap;
+pub mod truncation;
 
 use crate::lanes::{Lanes, Rounding};
 use crate::scalar::{Position, Scalar};

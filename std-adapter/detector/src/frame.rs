@@ -4,6 +4,7 @@ use crate::PairKind;
 use crate::broad_phase::Fit;
 use selvedge_core::boxes::Aabb;
 use selvedge_core::boxes::mapping::Mapping;
+use selvedge_core::glam::DVec3;
 use selvedge_core::narrowing::rounded_up;
 use selvedge_core::{Motion, Position, Scalar};
 use std::fmt;
@@ -143,6 +144,12 @@ fn check_frame<P: Position>(frame: Frame, positions: &[P], expected: usize) -> R
     }
 }
 
+/// The same position in `f64`.
+pub(crate) fn exactly<P: Position>(position: P) -> DVec3 {
+    let coordinates: [P::Scalar; 3] = position.into();
+    coordinates.map(Scalar::to_f64).into()
+}
+
 /// A step's positions, of either format. What reads them is compiled once, not for each type that positions have.
 pub(crate) trait Motions: Sync {
     /// How many vertices there are.
@@ -164,7 +171,12 @@ impl<'a, P: Position> Step<'a, P> {
     /// Checks the frames of a mesh with so many vertices.
     pub(crate) fn checked(start: &'a [P], end: &'a [P], vertex_count: usize) -> Result<Self, StepError> {
         check_frames(start, end, vertex_count)?;
-        Ok(Self { start, end })
+        Ok(Self::of_finite(start, end))
+    }
+
+    /// Of frames that are known to be as long as they must be, and finite.
+    pub(crate) const fn of_finite(start: &'a [P], end: &'a [P]) -> Self {
+        Self { start, end }
     }
 }
 
@@ -174,10 +186,6 @@ impl<P: Position> Motions for Step<'_, P> {
     }
 
     fn of(&self, vertex: usize) -> Motion<f64> {
-        let exactly = |position: P| {
-            let [x, y, z]: [P::Scalar; 3] = position.into();
-            [x.to_f64(), y.to_f64(), z.to_f64()].into()
-        };
         Motion::new(exactly(self.start[vertex]), exactly(self.end[vertex]))
     }
 

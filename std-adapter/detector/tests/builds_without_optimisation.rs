@@ -13,7 +13,7 @@ use selvedge::core::elementary::advance::{time_of_impact, time_of_impact_within}
 use selvedge::core::elementary::{Impact, Limits, contact};
 use selvedge::core::filter::{Depth, Filter, Tier, inside};
 use selvedge::core::{Motion, PrimitivePair};
-use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, PairKind, Scalar, Topology};
+use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, PairKind, Scalar, StepError, Topology};
 
 /// What a thread of a pool has at least, everywhere.
 const STACK: usize = 1 << 20;
@@ -246,8 +246,8 @@ fn frames<S: Scalar>() -> [Vec<[S; 3]>; 2] {
     [frame(0.75), frame(-0.125)]
 }
 
-/// Every question to a detector, by either criterion.
-fn detectors<S: Scalar>() -> [u64; 2] {
+/// The answers of a detector to questions about one step, by either criterion.
+fn answers<S: Scalar>(ask: impl Fn(&mut CollisionDetector<S>, [&[[S; 3]]; 2], &mut Digest) -> Result<(), StepError>) -> [u64; 2] {
     let [start, end] = frames::<S>();
     let tolerance = Limits::default().tolerance;
     let separated = Limits {
@@ -257,32 +257,47 @@ fn detectors<S: Scalar>() -> [u64; 2] {
     [Criterion::Within(separated), Criterion::Touching { tolerance }].map(|criterion| {
         let mut detector = CollisionDetector::<S>::new(sheets());
         detector.set_criterion(criterion).expect("lengths");
-        let (mut digest, mut contacts) = (Digest::new(), Vec::new());
-        let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
-        let mut ask = || {
-            // Twice: built hierarchies, and refitted ones.
-            for _ in 0..2 {
-                detector.contacts(&start, &end, &mut contacts)?;
-                assert!(contacts.len() > 1000);
-                contacts.iter().for_each(|contact| digest.add_contact(contact));
-            }
-            let earliest = detector.earliest(&start, &end)?;
-            earliest.iter().for_each(|contact| digest.add_contact(contact));
-            digest.add(detector.is_free(&start, &end)?);
-            digest.add(detector.is_free(&start, &start)?);
-            for boxes in [CandidateBoxes::Swept, CandidateBoxes::Moving] {
-                detector.candidates(&start, &end, boxes, &mut vertex_face, &mut edge_edge)?;
-                for [first, second] in vertex_face.iter().chain(&edge_edge) {
-                    digest.add(*first);
-                    digest.add(*second);
-                }
-            }
-            detector.contacts_of(&start, &end, &vertex_face, &edge_edge, &mut contacts)?;
-            contacts.iter().for_each(|contact| digest.add_contact(contact));
-            Ok::<(), selvedge::StepError>(())
-        };
-        ask().expect("finite positions, one for each vertex");
+        let mut digest = Digest::new();
+        ask(&mut detector, [&start, &end], &mut digest).expect("finite positions, one for each vertex");
         digest.0
+    })
+}
+
+/// Every question but where a step is truncated.
+fn detectors<S: Scalar>() -> [u64; 2] {
+    answers::<S>(|detector, [start, end], digest| {
+        let mut contacts = Vec::new();
+        let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+        // Twice: built hierarchies, and refitted ones.
+        for _ in 0..2 {
+            detector.contacts(start, end, &mut contacts)?;
+            assert!(contacts.len() > 1000);
+            contacts.iter().for_each(|contact| digest.add_contact(contact));
+        }
+        let earliest = detector.earliest(start, end)?;
+        earliest.iter().for_each(|contact| digest.add_contact(contact));
+        digest.add(detector.is_free(start, end)?);
+        digest.add(detector.is_free(start, start)?);
+        for boxes in [CandidateBoxes::Swept, CandidateBoxes::Moving] {
+            detector.candidates(start, end, boxes, &mut vertex_face, &mut edge_edge)?;
+            for [first, second] in vertex_face.iter().chain(&edge_edge) {
+                digest.add(*first);
+                digest.add(*second);
+            }
+        }
+        detector.contacts_of(start, end, &vertex_face, &edge_edge, &mut contacts)?;
+        contacts.iter().for_each(|contact| digest.add_contact(contact));
+        Ok(())
+    })
+}
+
+fn truncated<S: Scalar>() -> [u64; 2] {
+    answers::<S>(|detector, [start, wanted], digest| {
+        let mut end = Vec::new();
+        let truncation = detector.truncate(start, wanted, &mut end)?;
+        assert!(truncation.held_back > 10 && detector.is_free(start, &end)? == (truncation.in_contact == 0));
+        end.iter().flatten().for_each(|x: &S| digest.add(x.to_f64().to_bits()));
+        Ok(())
     })
 }
 
@@ -313,5 +328,17 @@ fn a_detector_needs_little_stack_and_answers_as_ever_f64() {
     assert_eq!(
         written(in_little_stack(detectors::<f64>)),
         "7e1e6ad80392807d 825c1d29d511ef95"
+    );
+}
+
+#[test]
+fn a_truncated_step_needs_little_stack_and_ends_where_it_always_does() {
+    assert_eq!(
+        written(in_little_stack(truncated::<f32>)),
+        "7803fc776034605c 6de459e2f9ceb077"
+    );
+    assert_eq!(
+        written(in_little_stack(truncated::<f64>)),
+        "8986c88a26d1c3f4 a8136671b61d2e34"
     );
 }

@@ -6,7 +6,8 @@
 //! ```
 //!
 //! Meshes are OBJ or PLY files of equal topology. The detector is made once; each step takes two slices of positions and fills
-//! the same list of contacts.
+//! the same list of contacts. Beside the earliest contact, at which the whole mesh would have to be stopped, stands what truncation comes
+//! to: how many vertices are held back, and which share of all their motion together is kept.
 
 use selvedge::Topology;
 use selvedge::glam::DVec3;
@@ -15,6 +16,7 @@ use selvedge_files::mesh::read_step;
 use selvedge_laboratory::scene::ArmScene;
 use std::error::Error;
 use std::path::PathBuf;
+use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let files: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
@@ -27,22 +29,35 @@ fn main() -> Result<(), Box<dyn Error>> {
     // 0: a thread for each core.
     let mut detector = CollisionDetector::<f64>::new(topology);
     detector.set_threads(Threads::EachCore)?;
-    let mut contacts = Vec::new();
-    println!(" step   candidates   contacts   earliest         ms");
+    let (mut contacts, mut end) = (Vec::new(), Vec::new());
+    println!(" step   candidates   contacts   earliest         ms  held back     kept  rounds  in contact         ms");
     for (step, frames) in frames.windows(2).enumerate() {
         detector.contacts(&frames[0], &frames[1], &mut contacts)?;
-        let tally = detector.tally();
+        let tally = *detector.tally();
         let earliest = contacts.iter().map(|contact| contact.time);
         let earliest = earliest.min_by(f64::total_cmp);
+        let begin = Instant::now();
+        let truncation = detector.truncate(&frames[0], &frames[1], &mut end)?;
+        let seconds = begin.elapsed().as_secs_f64();
         println!(
-            "{step:>5} {:>12} {:>10} {:>10} {:>10.3}",
+            "{step:>5} {:>12} {:>10} {:>10} {:>10.3} {:>10} {:>8.4} {:>7} {:>11} {:>10.3}",
             tally.candidates.total(),
             contacts.len(),
             earliest.map_or_else(String::new, |time| format!("{time:.6}")),
             tally.seconds * 1e3,
+            truncation.held_back,
+            motion(&frames[0], &end) / motion(&frames[0], &frames[1]),
+            truncation.rounds,
+            truncation.in_contact,
+            seconds * 1e3,
         );
     }
     Ok(())
+}
+
+/// How far all vertices go, together.
+fn motion(start: &[DVec3], end: &[DVec3]) -> f64 {
+    start.iter().zip(end).map(|(from, to)| from.distance(*to)).sum()
 }
 
 type Sequence = (Topology, Vec<Vec<DVec3>>);

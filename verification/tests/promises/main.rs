@@ -38,4 +38,5 @@ mod simulation_is_free_of_intersections;
 mod tiers_keep_their_promises;
 mod time_of_impact_is_never_late;
 mod time_of_impact_on_tiny_numbers;
+mod truncated_steps_are_free;
 mod verdicts_are_invariant;

@@ -6,17 +6,20 @@ mod given;
 #[cfg(feature = "verification")]
 mod shown;
 mod sweep;
+mod truncation;
 
 pub use engine::StepTally;
+pub use truncation::Truncation;
 
 use crate::PairKind;
-use crate::frame::{Step, StepError, check_length};
+use crate::frame::{Step, StepError, check_length, exactly};
 use crate::mesh::Topology;
 use crate::parallel::Workers;
 #[cfg(feature = "parallel")]
 use crate::parallel::{ThreadError, Threads};
 use engine::{Engine, Probe, in_format_of_positions};
 use selvedge_core::elementary::Limits;
+use selvedge_core::glam::DVec3;
 use selvedge_core::narrowing::widened;
 use selvedge_core::{Position, Scalar};
 use std::sync::Arc;
@@ -194,6 +197,7 @@ impl Bound {
 /// | all contacts with their times | [`contacts`](Self::contacts) | |
 /// | the earliest contact | [`earliest`](Self::earliest) | looks at a short part of the step first, and never beyond the earliest contact so far |
 /// | is the step free of contact? | [`is_free`](Self::is_free) | ends at the first contact |
+/// | how far may each vertex go? | [`truncate`](Self::truncate) | only vertices that would come into contact are held back |
 /// | which pairs come near each other? | [`candidates`](Self::candidates) | ends after the broad phase |
 /// | contacts of pairs that the caller has | [`contacts_of`](Self::contacts_of) | no broad phase |
 ///
@@ -366,6 +370,59 @@ impl<S: Scalar> CollisionDetector<S> {
         Ok(self.engine.tally().contacts.total() == 0)
     }
 
+    /// Replaces `end` by positions to which the step is free of contact, each on the way of its vertex from `start` to `wanted`: vertices that
+    /// would come into contact are held back, each as far as its own neighbourhood asks for, and all others reach where they are wanted.
+    ///
+    /// For solvers that would else cut the whole step at its [earliest](Self::earliest) contact.
+    ///
+    /// * **The step from `start` to `end` is certified free**, by the same tests as [`is_free`](Self::is_free), but for pairs that are
+    ///   [in contact](Truncation::in_contact) at the start: their vertices rest.
+    /// * A vertex ends exactly where it is wanted, or in the box of its way, rounding included. Where the whole step is free, `end` is `wanted`.
+    /// * The share of its way that a vertex goes is for all of its motion, so that what slides along something, nearer than its next
+    ///   step, is held back as well: a separation between the two leaves it room.
+    /// * The same bits for any number of threads. It always ends ([how](selvedge_core::separation::truncation) shares are chosen).
+    ///
+    /// A body that has to reach its position is held back as all others are: whoever cannot have that cuts the step at the contacts of that body.
+    ///
+    /// ```
+    /// use selvedge::{CollisionDetector, Topology, glam::DVec3};
+    ///
+    /// // Two small triangles above a large one; the first falls through it, the second beside it.
+    /// let mut detector = CollisionDetector::<f64>::new(Topology::new(9, vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]])?);
+    /// let large = [DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, -5.0, 0.0), DVec3::new(0.0, 5.0, 0.0)];
+    /// let small = |x| [DVec3::new(x, 0.0, 0.2), DVec3::new(x + 1.0, 0.0, 0.3), DVec3::new(x, 1.0, 0.4)];
+    /// let start = [large, small(0.0), small(9.0)].concat();
+    /// let mut wanted = start.clone();
+    /// wanted[3..].iter_mut().for_each(|vertex| vertex.z -= 0.5);
+    ///
+    /// let mut end = Vec::new();
+    /// let truncation = detector.truncate(&start, &wanted, &mut end)?;
+    /// assert_eq!((truncation.held_back, truncation.in_contact), (3, 0));
+    /// assert!(detector.is_free(&start, &end)?);
+    /// // Nearly down on it, and the other all the way.
+    /// assert!(end[3].z < 0.01 && end[6..] == wanted[6..]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts).
+    pub fn truncate<P: Position<Scalar = S>>(
+        &mut self,
+        start: &[P],
+        wanted: &[P],
+        end: &mut Vec<P>,
+    ) -> Result<Truncation, StepError> {
+        self.step(start, wanted)?;
+        let question = self.question(Wanted::All);
+        let [start, wanted] = [start, wanted].map(|positions| positions.iter().map(|&p| exactly(p)).collect::<Vec<_>>());
+        let mut ends = Vec::new();
+        let ways = [&start[..], &wanted];
+        let truncation = self.engine.truncate(&self.workers, ways, &question, rounded::<P>, &mut ends);
+        end.clear();
+        end.extend(ends.into_iter().map(nearest::<P>));
+        Ok(truncation)
+    }
+
     /// Replaces `vertex_face` and `edge_edge` by the pairs that boxes leave: vertex and face, or two edges, the smaller
     /// number first. All others are certainly farther apart than the separation throughout the step.
     ///
@@ -433,4 +490,13 @@ impl<S: Scalar> CollisionDetector<S> {
             is_exact: matches!(self.criterion, Criterion::Touching { .. }),
         }
     }
+}
+
+/// A position of the caller's format.
+fn nearest<P: Position>(position: DVec3) -> P {
+    P::from(position.to_array().map(P::Scalar::from_f64))
+}
+
+fn rounded<P: Position>(position: DVec3) -> DVec3 {
+    exactly(nearest::<P>(position))
 }

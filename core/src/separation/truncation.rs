@@ -1,0 +1,122 @@
+//! How far each point of a pair may go so that the pair keeps its distance, whatever the others do: a step is truncated vertex by vertex,
+//! where a time of impact would cut it for the whole mesh.
+//!
+//! **The lemma.** Let x be where the four points start, y where they are wanted, d a direction with |d| ≤ 1 along which the first set A is
+//! ahead of the second B by more than m at the start: min_A d·x − max_B d·x > m. Choose an offset o with max_B d·x ≤ o ≤ min_A d·x − m, and let
+//! each point go as far as e = x + s·(y − x), its share s in [0, 1] at most the largest with d·e ≥ o + m in A and d·e ≤ o in B. Then the sets
+//! are at least m apart throughout the step from x to e, **and so they are for all smaller shares, each on its own**.
+//!
+//! *Proof.* At s = 0 each point is in its half-space by the choice of o. Half-spaces are convex: so it is for every share up to the largest,
+//! whatever the others' are. So the gap along d is at least m at the end, and more than m at the start; along straight ways it is linear in
+//! time ([`gap`](super::gap)). ∎
+//!
+//! A vertex takes the least of its shares over all of its pairs; the order in which they are asked for does not matter. Only d is shared by
+//! both ends, o belongs to the end: what moves together is not held back. Where d keeps the pair apart at y too, o is put so that nobody is.
+//! Else the room is shared in proportion to how far each set goes towards the other.
+//!
+//! **Rounding.** What the shares are for has the ordinary certificate, of the positions that are stored: *no promise rests on the
+//! arithmetic here*. So that the certificate finds what it needs, m is the threshold of [`gap`](super::gap), and once more the error that it
+//! allows for, which covers the rounding of e; and a share is of [`PART`] of what there is.
+//!
+//! Shares towards planes are Lan, Li and others' *Divide and Truncate* (2026) and Chen and others' *Offset Geometric Contact* (2025), who
+//! leave pairs out or let them through that they cannot certify.
+
+use super::gap::{GapError, threshold};
+use crate::kind::PairKind;
+use crate::lanes::{Lanes, Rounding};
+use crate::points::PairShape;
+use crate::scalar::{Position, Scalar};
+use crate::vector::Vector;
+
+/// How much of its room a point may take: what takes all of it has none in the next step, and its pair would rest from then on.
+pub const PART: f64 = 127.0 / 128.0;
+
+/// The largest shares of their ways from `start` to `wanted` that the four points may go, each in [0, 1], for the pair to keep more than
+/// `separation` along `direction`, which goes from the second set to the first and is no longer than one. `None` if it keeps the
+/// pair no farther apart than that at the start.
+///
+/// The shares of points that need not be held back are exactly 1. Plain floating point, and never NaN: see the [module](self) for what is
+/// proven of them.
+///
+/// ```
+/// use selvedge_core::{PairKind, glam::DVec3, separation::gap::GapError, separation::truncation::shares};
+/// // A vertex that falls by 1 from half of that above a triangle that rises by as much.
+/// let start = [DVec3::new(0.2, 0.2, 0.5), DVec3::ZERO, DVec3::X, DVec3::Y];
+/// let wanted = [start[0] - DVec3::Z, start[1] + DVec3::Z, start[2] + DVec3::Z, start[3] + DVec3::Z];
+/// let [vertex, face, ..] = shares(PairKind::VertexFace, [start, wanted], DVec3::Z, 0.1, GapError::of_coordinates(1.5)).unwrap();
+/// // Each may go by nearly half of the 0.4 that are between them.
+/// assert!(vertex < 0.2 && vertex > 0.198 && face < 0.2 && face > 0.198);
+/// ```
+#[must_use]
+pub fn shares<P: Position>(
+    kind: PairKind,
+    [start, wanted]: [[P; 4]; 2],
+    direction: P,
+    separation: P::Scalar,
+    error: GapError<P::Scalar>,
+) -> Option<[P::Scalar; 4]> {
+    let (zero, one) = (P::Scalar::ZERO, P::Scalar::ONE);
+    let direction = Vector::from(direction.into());
+    let along = |points: [P; 4]| points.map(|point| direction.dot(Vector::from(point.into())));
+    let kept = threshold(separation, error) + error.length();
+    let (from, to) = (along(start), along(wanted));
+    let ranges = |values| of_kind!(kind, K => K::ranges(values));
+    let [[first, _], [_, second]] = ranges(from);
+    let [[first_wanted, _], [_, second_wanted]] = ranges(to);
+    let room = first - kept - second;
+    if !(room > zero && direction.dot(direction).is_finite()) {
+        return None;
+    }
+    let (low, high) = (second.larger(second_wanted), first.smaller(first_wanted) - kept);
+    if low <= high {
+        return Some([one; 4]);
+    }
+    let (falls, rises) = ((first - first_wanted).larger(zero), (second_wanted - second).larger(zero));
+    let offset = second + room * (rises / (falls + rises));
+    let of_first = match kind {
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
+    };
+    let mut shares = [one; 4];
+    for corner in 0..4 {
+        // By how much it is on its side of the plane, at both ends.
+        let [before, after] = [from, to].map(|values| {
+            if corner < of_first {
+                values[corner] - offset - kept
+            } else {
+                offset - values[corner]
+            }
+        });
+        let stays = after >= zero;
+        if !stays {
+            let share = before / (before - after) * P::Scalar::from_f64(PART);
+            let is_share = share >= zero && share <= one;
+            shares[corner] = if is_share { share } else { zero };
+        }
+    }
+    Some(shares)
+}
+
+/// Where a point is that goes a share of its way: in the box of its two ends, rounding included, and at one of them exactly if the share
+/// is 0 or 1. In no other order of operations: the results are the same bits everywhere.
+///
+/// ```
+/// use selvedge_core::{glam::DVec3, separation::truncation::part_of_way};
+/// assert_eq!(part_of_way(DVec3::ZERO, DVec3::new(1.0, 2.0, -4.0), 0.5), DVec3::new(0.5, 1.0, -2.0));
+/// ```
+#[must_use]
+pub fn part_of_way<P: Position>(start: P, wanted: P, share: P::Scalar) -> P {
+    let (from, to): ([P::Scalar; 3], [P::Scalar; 3]) = (start.into(), wanted.into());
+    let mut at = [P::Scalar::ZERO; 3];
+    for axis in 0..3 {
+        let (from, to) = (from[axis], to[axis]);
+        // A difference of the two might overflow.
+        let there = from * (P::Scalar::ONE - share) + to * share;
+        at[axis] = there.larger(from.smaller(to)).smaller(from.larger(to));
+    }
+    match share {
+        share if share == P::Scalar::ONE => wanted,
+        share if share == P::Scalar::ZERO => start,
+        _ => P::from(at),
+    }
+}

@@ -1,0 +1,198 @@
+//! A step that every vertex goes as far as its own neighbourhood lets it, in place of one that is cut for the whole mesh at its earliest
+//! contact.
+//!
+//! ```text
+//! wanted step   ─▶ contacts ─ none ─▶ it is free
+//!                     │
+//!                     ▼
+//! each contact     planes between its two sets: shares of their ways (core's truncation); if it has them already, none of its vertices moves
+//! vertices         the least of their shares
+//! pairs of those   from the boxes that whole ways sweep: contacts again ─▶ once more, until there are none
+//! ```
+//!
+//! **What is left is free.** A pair that swept boxes exclude keeps its distance wherever each vertex ends in the box of its way. One that they
+//! leave is looked at, by the same certified tests as any, for every end that its vertices are given: in the last round, or in an earlier
+//! one since which none of them has changed.
+//!
+//! **It ends.** In each round every contact found is a pair that moves. The first time it lowers shares by its planes, or at once lets all its
+//! vertices rest; the second time it lets them rest. A pair at rest is not looked at any more. So there are at most two rounds for each
+//! pair.
+//!
+//! **Pairs in contact at the start** cannot be told apart by any share: their vertices rest, so that they come no nearer, and they are counted.
+
+use super::engine::{Engine, Probe};
+use super::{CandidateBoxes, Contact, Question};
+use crate::PairKind;
+use crate::coherent::Closest;
+use crate::frame::Step;
+use crate::parallel::Workers;
+use selvedge_core::glam::DVec3;
+use selvedge_core::separation::gap::GapError;
+use selvedge_core::separation::largest_coordinate;
+use selvedge_core::separation::truncation::{part_of_way, shares};
+use std::collections::BTreeSet;
+
+/// What came of a step that was [truncated](crate::CollisionDetector::truncate).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Truncation {
+    /// Vertices that go less than the whole of their way.
+    pub held_back: usize,
+    /// Pairs that are in contact at the start already, by the detector's criterion. Their vertices rest. Where there are none, the
+    /// step is certainly free of contact.
+    pub in_contact: usize,
+    /// How often contacts were looked for.
+    pub rounds: usize,
+}
+
+/// A step that is being truncated.
+struct Held<'a> {
+    start: &'a [DVec3],
+    wanted: &'a [DVec3],
+    /// What pairs are to keep, and a little more, so that the elementary test finds it kept.
+    distance: f64,
+    error: GapError<f64>,
+    /// Of its way, for each vertex.
+    shares: Vec<f64>,
+    /// Whether its share has changed in this round.
+    changed: Vec<bool>,
+    /// Pairs that have had their planes.
+    parted: BTreeSet<(PairKind, [u32; 2])>,
+}
+
+impl Held<'_> {
+    /// Holds back the vertices of a pair that comes into contact on the way to where they are led now.
+    fn hold(&mut self, contact: &Contact<f64>, vertices: [u32; 4], end: &[DVec3]) {
+        let is_new = self.parted.insert((contact.kind, contact.pair));
+        let own = if is_new { self.planes(contact, vertices, end) } else { None };
+        let lowers = |own: &[f64; 4]| vertices.iter().zip(own).any(|(&v, &own)| own < self.shares[v as usize]);
+        let own = own.filter(lowers).unwrap_or([0.0; 4]);
+        for (vertex, own) in vertices.into_iter().zip(own) {
+            let vertex = vertex as usize;
+            if own < self.shares[vertex] {
+                self.shares[vertex] = own;
+                self.changed[vertex] = true;
+            }
+        }
+    }
+
+    /// The shares that leave most to the vertex that has least, of those by the pair's closest points at the start, at its contact and where it
+    /// is wanted.
+    fn planes(&self, contact: &Contact<f64>, vertices: [u32; 4], end: &[DVec3]) -> Option<[f64; 4]> {
+        let at = |positions: &[DVec3]| vertices.map(|vertex| positions[vertex as usize]);
+        let (start, wanted, end) = (at(self.start), at(self.wanted), at(end));
+        let mut met = start;
+        for corner in 0..4 {
+            met[corner] = part_of_way(start[corner], end[corner], contact.time);
+        }
+        let least = |shares: &[f64; 4]| shares.iter().copied().fold(1.0, f64::min);
+        let by = [start, met, wanted].map(|points| {
+            let direction = Closest::of(contact.kind, points).direction;
+            shares(contact.kind, [start, wanted], direction, self.distance, self.error)
+        });
+        by.into_iter()
+            .flatten()
+            .reduce(|a, b| if least(&b) > least(&a) { b } else { a })
+    }
+}
+
+impl Engine {
+    /// Replaces `end` by the ends of a step that is free of contact, but for pairs that are in contact at the start.
+    /// `round` brings a position into the format that the caller has, between the same two numbers.
+    pub(super) fn truncate(
+        &mut self,
+        threads: &Workers,
+        [start, wanted]: [&[DVec3]; 2],
+        question: &Question,
+        round: fn(DVec3) -> DVec3,
+        end: &mut Vec<DVec3>,
+    ) -> Truncation {
+        end.clear();
+        end.extend_from_slice(wanted);
+        let mut contacts = Vec::new();
+        self.run(threads, &Step::of_finite(start, end), question, Probe::WHOLE);
+        self.collect_contacts(&mut contacts);
+        let mut truncation = Truncation {
+            rounds: 1,
+            ..Truncation::default()
+        };
+        if contacts.is_empty() {
+            return truncation;
+        }
+
+        let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+        let separation = question.limits.separation;
+        let whole = Step::of_finite(start, wanted);
+        self.candidates(
+            threads,
+            &whole,
+            separation,
+            CandidateBoxes::Swept,
+            &mut vertex_face,
+            &mut edge_edge,
+        );
+        let candidates = [vertex_face, edge_edge];
+        let largest = largest_coordinate(start).max(largest_coordinate(wanted));
+        let mut held = Held {
+            start,
+            wanted,
+            distance: separation + 2.0 * question.limits.tolerance,
+            error: GapError::of_coordinates(largest),
+            shares: vec![1.0; start.len()],
+            changed: vec![false; start.len()],
+            parted: BTreeSet::new(),
+        };
+        let mut open = [Vec::new(), Vec::new()];
+        while !contacts.is_empty() {
+            held.changed.fill(false);
+            for contact in &contacts {
+                let vertices = self.topology().vertices_of(contact.kind, contact.pair);
+                held.hold(contact, vertices, end);
+            }
+            for vertex in (0..end.len()).filter(|&vertex| held.changed[vertex]) {
+                end[vertex] = round(part_of_way(start[vertex], wanted[vertex], held.shares[vertex]));
+            }
+            let topology = self.topology();
+            for (kind, (open, candidates)) in [PairKind::VertexFace, PairKind::EdgeEdge]
+                .into_iter()
+                .zip(open.iter_mut().zip(&candidates))
+            {
+                open.clear();
+                open.extend(candidates.iter().filter(|&&pair| {
+                    let vertices = topology.vertices_of(kind, pair).map(|vertex| vertex as usize);
+                    let moves = vertices.iter().any(|&vertex| end[vertex] != start[vertex]);
+                    moves && vertices.iter().any(|&vertex| held.changed[vertex])
+                }));
+            }
+            self.contacts_among(threads, [start, end], question, &open, &mut contacts);
+            truncation.rounds += 1;
+        }
+
+        // Who is in contact at the start was so in the first round.
+        open.iter_mut().for_each(Vec::clear);
+        for &(kind, pair) in &held.parted {
+            let vertices = self.topology().vertices_of(kind, pair).map(|vertex| vertex as usize);
+            if vertices.iter().all(|&vertex| end[vertex] == start[vertex]) {
+                open[kind as usize].push(pair);
+            }
+        }
+        self.contacts_among(threads, [start, end], question, &open, &mut contacts);
+        truncation.in_contact = contacts.len();
+        truncation.held_back = held.shares.iter().filter(|&&share| share < 1.0).count();
+        truncation
+    }
+
+    /// Replaces `contacts` by those of the mesh's own pairs.
+    fn contacts_among(
+        &mut self,
+        threads: &Workers,
+        [start, end]: [&[DVec3]; 2],
+        question: &Question,
+        [vertex_face, edge_edge]: &[Vec<[u32; 2]>; 2],
+        contacts: &mut Vec<Contact<f64>>,
+    ) {
+        let step = Step::of_finite(start, end);
+        let known = self.run_on(threads, &step, question, [vertex_face, edge_edge]);
+        known.expect("the pairs are the broad phase's");
+        self.collect_contacts(contacts);
+    }
+}

@@ -1,0 +1,162 @@
+//! Truncation: whatever step is wanted, what is left of it is free of contact by exact arithmetic, and nothing is held back without need.
+
+use super::collision_detector_keeps_its_promises::pairs_of;
+use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
+use selvedge::{CollisionDetector, Criterion, Threads};
+use selvedge_core::elementary::Limits;
+use selvedge_core::glam::DVec3;
+use selvedge_core::separation::gap::GapError;
+use selvedge_core::separation::largest_coordinate;
+use selvedge_core::separation::truncation::{part_of_way, shares};
+use selvedge_core::{PairKind, Scalar};
+use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
+use selvedge_verification::oracle::{Pair, collides, within};
+use std::cell::Cell;
+
+/// How many steps were whole, truncated, and truncated with some pair in contact at the start.
+type Met = Cell<[usize; 3]>;
+
+fn are_in_contact(question: &Pair, separation: f64) -> bool {
+    if separation == 0.0 {
+        collides(question).is_some()
+    } else {
+        within(question, separation)
+    }
+}
+
+fn is_free<S: Format>(mesh: &MeshCase<S>, criterion: Criterion<S>, met: &Met) -> Result<(), TestCaseError> {
+    let topology = mesh.topology();
+    let separation = match criterion {
+        Criterion::Within(limits) => limits.separation.to_f64(),
+        Criterion::Touching { .. } => 0.0,
+    };
+    let truncated = |threads| {
+        let mut detector = CollisionDetector::<S>::new(mesh.topology());
+        detector.set_criterion(criterion).expect("lengths");
+        detector.set_threads(threads).expect("threads");
+        let mut end = Vec::new();
+        let truncation = detector.truncate(&mesh.frame(0), &mesh.frame(1), &mut end);
+        truncation.map(|truncation| (truncation, end, detector))
+    };
+    let Ok((truncation, end, mut detector)) = truncated(Threads::Calling) else {
+        let is_finite = |ends: &[[S; 3]; 2]| ends.iter().flatten().all(|&x| x.is_finite());
+        prop_assert!(!mesh.positions.iter().all(is_finite));
+        return Ok(());
+    };
+    let step = MeshCase {
+        triangles: mesh.triangles.clone(),
+        positions: (mesh.positions.iter().zip(&end))
+            .map(|(&[start, _], &end)| [start, end.into()])
+            .collect(),
+    };
+    for pair in pairs_of(&topology) {
+        let vertices = topology
+            .vertices_of(pair.0, pair.1)
+            .map(|vertex| step.positions[vertex as usize]);
+        if are_in_contact(&step.pair(&topology, pair).question(), separation) {
+            prop_assert!(vertices.iter().all(|[start, end]| start == end), "{:?}", pair);
+            prop_assert!(truncation.in_contact > 0, "{:?}", pair);
+        }
+    }
+    let mut held_back = 0;
+    for (&[start, wanted], &[_, end]) in mesh.positions.iter().zip(&step.positions) {
+        held_back += usize::from(end != wanted);
+        for axis in 0..3 {
+            let (from, to, at) = (start[axis].to_f64(), wanted[axis].to_f64(), end[axis].to_f64());
+            prop_assert!(from.min(to) <= at && at <= from.max(to), "in the box of its way");
+        }
+    }
+    prop_assert!(held_back <= truncation.held_back);
+    let is_free_as_wanted = detector.is_free(&mesh.frame(0), &mesh.frame(1)).expect("finite positions");
+    prop_assert_eq!(is_free_as_wanted, truncation.rounds == 1);
+    if truncation.rounds == 1 {
+        prop_assert_eq!(held_back, 0);
+    }
+    if truncation.in_contact == 0 {
+        prop_assert!(detector.is_free(&mesh.frame(0), &end).expect("finite positions"));
+    }
+    let (others, same, _) = truncated(Threads::from_count(2)).expect("it went well on one thread");
+    prop_assert_eq!(truncation, others);
+    prop_assert!(end == same, "the same bits");
+
+    let [whole, some, stuck] = met.get();
+    met.set(match truncation {
+        truncation if truncation.rounds == 1 => [whole + 1, some, stuck],
+        truncation if truncation.in_contact == 0 => [whole, some + 1, stuck],
+        _ => [whole, some, stuck + 1],
+    });
+    Ok(())
+}
+
+#[test]
+fn what_is_left_of_a_step_is_free_but_for_what_is_in_contact_at_the_start_and_rests() {
+    let met = Cell::new([0; 3]);
+    for separation in [0.0, 1e-6, 0.125] {
+        let within = |tolerance| Limits { separation, tolerance };
+        check(60, meshes::<f64>(), |mesh| {
+            is_free(mesh, Criterion::Within(within(1e-9)), &met)
+        });
+        let within = Limits {
+            separation: separation as f32,
+            tolerance: 1e-6,
+        };
+        check(60, meshes::<f32>(), |mesh| is_free(mesh, Criterion::Within(within), &met));
+    }
+    check(40, meshes::<f64>(), |mesh| {
+        is_free(mesh, Criterion::Touching { tolerance: 1e-9 }, &met)
+    });
+    assert!(met.get().into_iter().all(|steps| steps > 10), "{:?}", met.get());
+}
+
+/// The lemma itself, on the function itself: each point may go any part of its share, whatever the others do.
+#[test]
+fn a_pair_keeps_its_separation_for_all_smaller_shares() {
+    let held = Cell::new(0);
+    let coordinates = || prop::array::uniform3(-1.0..1.0_f64);
+    let points = || prop::array::uniform4(coordinates());
+    let inputs = (
+        points(),
+        points(),
+        coordinates(),
+        prop::array::uniform4(0.0..=1.0_f64),
+        -40..40_i32,
+        any::<bool>(),
+    );
+    let mut runner = TestRunner::new(ProptestConfig::with_cases(2000));
+    let result = runner.run(&inputs, |(start, wanted, direction, parts, exponent, is_edges)| {
+        let scale = 2_f64.powi(exponent);
+        let points = |of: [[f64; 3]; 4]| of.map(|point| DVec3::from(point) * scale);
+        let (mut start, mut wanted) = (points(start), points(wanted));
+        let kind = if is_edges { PairKind::EdgeEdge } else { PairKind::VertexFace };
+        // Apart at first, in most cases.
+        let direction = DVec3::from(direction).normalize_or_zero();
+        for corner in 0..if is_edges { 2 } else { 1 } {
+            start[corner] += direction * scale;
+            wanted[corner] += direction * (0.25 * scale);
+        }
+        let largest = largest_coordinate(&start).max(largest_coordinate(&wanted));
+        let separation = 0.01 * scale;
+        let Some(shares) = shares(
+            kind,
+            [start, wanted],
+            direction,
+            separation,
+            GapError::of_coordinates(largest),
+        ) else {
+            return Ok(());
+        };
+        held.set(held.get() + usize::from(shares.iter().any(|&share| share < 1.0)));
+        let mut ends = wanted;
+        for corner in 0..4 {
+            prop_assert!((0.0..=1.0).contains(&shares[corner]));
+            ends[corner] = part_of_way(start[corner], wanted[corner], shares[corner] * parts[corner]);
+        }
+        let motions = [0, 1, 2, 3].map(|corner| [start[corner].to_array(), ends[corner].to_array()]);
+        let question = PairCase::new(kind, motions).question();
+        prop_assert!(!within(&question, separation));
+        Ok(())
+    });
+    result.unwrap();
+    assert!(held.get() > 400, "{}", held.get());
+}
