@@ -61,6 +61,13 @@ pub enum StepError {
         /// What was given.
         length: f64,
     },
+    /// A vertex is named that the mesh does not have.
+    NoSuchVertex {
+        /// The vertex.
+        vertex: u32,
+        /// How many there are.
+        count: usize,
+    },
     /// A pair names a vertex, a face or an edge that the mesh does not have.
     NoSuchPair {
         /// Vertex–face or edge–edge.
@@ -94,6 +101,7 @@ impl fmt::Display for StepError {
                 f,
                 "{length} is no separation, and no tolerance: it must be a finite length, not negative"
             ),
+            Self::NoSuchVertex { vertex, count } => write!(f, "there is no vertex {vertex} in this mesh: it has {count}"),
             Self::NoSuchPair {
                 kind,
                 pair: [first, second],

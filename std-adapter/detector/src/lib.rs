@@ -27,6 +27,8 @@ mod clock;
 #[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod coherent;
 #[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
+mod collision_filter;
+#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod dispatch;
 #[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod frame;
@@ -40,6 +42,7 @@ mod step;
 #[cfg(feature = "verification")]
 pub mod verification;
 
+pub use collision_filter::{CollisionFilter, Groups};
 pub use frame::{Frame, StepError};
 pub use mesh::{Mesh, Topology, TopologyError, TopologyStatistics};
 #[cfg(feature = "parallel")]

@@ -14,6 +14,7 @@ mod certified_filter_never_culls_coplanar;
 mod certified_in_every_floating_point_environment;
 mod coherent_motion_misses_nothing;
 mod collision_detector_keeps_its_promises;
+mod collision_filters_exclude_what_they_say;
 mod contact_is_decided_exactly;
 mod control_values_within_error_bounds;
 mod decisions_are_the_same_everywhere;

@@ -8,6 +8,7 @@ use super::traversal::{BlockPair, Scratch, Trees};
 use super::tree::Tree;
 use crate::PairKind;
 use crate::buffer::settle;
+use crate::collision_filter::{CollisionFilter, Members};
 use crate::dispatch::{Level, best_level};
 use crate::frame::Motions;
 use crate::mesh::Topology;
@@ -73,6 +74,8 @@ pub(crate) struct Hierarchies {
     boxes: Vec<MovingBox<f32>>,
     /// Which vertices move, if not all.
     moving: Option<Vec<bool>>,
+    /// Which pairs are looked at, if not all.
+    filter: Option<Arc<CollisionFilter>>,
     /// Whether what does not count as moving may move all the same.
     refit_all: bool,
     /// What the boxes of what rests were fitted with, if they are still good.
@@ -102,6 +105,7 @@ impl Hierarchies {
             rows: Rows::default(),
             boxes: Vec::new(),
             moving: None,
+            filter: None,
             refit_all: false,
             fitted: None,
             fit: Fit::default(),
@@ -147,6 +151,12 @@ impl Hierarchies {
         self.moving = moving;
         self.fitted = None;
         self.mark();
+    }
+
+    /// From the next update on only pairs that the filter allows are found; `None`: all.
+    pub(crate) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
+        self.filter = filter;
+        self.note_members();
     }
 
     /// From the next update on only pairs with a wanted vertex are found. All vertices may move.
@@ -224,6 +234,7 @@ impl Hierarchies {
         self.boxes.clear();
         self.fitted = None;
         self.mark();
+        self.note_members();
         self.degradation = Degradation::default();
         self.must_build = false;
         self.statistics.builds += 1;
@@ -242,6 +253,15 @@ impl Hierarchies {
         self.vertices.mark(moves);
         self.edges.mark(moves);
         self.faces.mark(moves);
+    }
+
+    fn note_members(&mut self) {
+        let vertices = &self.vertices.primitives;
+        let members = |filter: &Arc<CollisionFilter>| vertices.iter().map(|&v| Members::of(filter, v)).collect();
+        let members: Vec<_> = self.filter.as_ref().map_or_else(Vec::new, members);
+        self.vertices.note_members(&members);
+        self.edges.note_members(&members);
+        self.faces.note_members(&members);
     }
 
     fn refit(&mut self, motions: &dyn Motions, mapping: Mapping) {
@@ -274,11 +294,13 @@ impl Hierarchies {
             first: &self.vertices,
             second: &self.faces,
             are_same: false,
+            are_filtered: self.filter.is_some(),
         };
         let edge_edge_trees = Trees {
             first: &self.edges,
             second: &self.edges,
             are_same: true,
+            are_filtered: self.filter.is_some(),
         };
         let (level, scratch) = (self.level, &mut self.scratch);
         self.task_tests = vertex_face_trees.tasks(level, TASK_LEVEL, scratch, vertex_face);
@@ -318,17 +340,36 @@ impl Hierarchies {
     /// Gives `sink` the candidates of a share, by their positions. Returns the number of tests, or `None` if the sink has had
     /// enough.
     pub(crate) fn visit(&self, share: Share<'_>, scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
+        let Some(filter) = &self.filter else {
+            return self.visit_all(share, scratch, sink);
+        };
+        let mut allowed = Allowed {
+            hierarchies: self,
+            filter,
+            kind: share.kind,
+            pairs: std::mem::take(&mut scratch.allowed),
+            sink,
+        };
+        let tests = self.visit_all(share, scratch, &mut allowed);
+        scratch.allowed = allowed.pairs;
+        tests
+    }
+
+    fn visit_all(&self, share: Share<'_>, scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
+        let are_filtered = self.filter.is_some();
         match share.kind {
             PairKind::VertexFace => Trees {
                 first: &self.vertices,
                 second: &self.faces,
                 are_same: false,
+                are_filtered,
             }
             .pairs(self.level, share.tasks, scratch, sink),
             PairKind::EdgeEdge => Trees {
                 first: &self.edges,
                 second: &self.edges,
                 are_same: true,
+                are_filtered,
             }
             .pairs(self.level, share.tasks, scratch, sink),
         }
@@ -340,6 +381,7 @@ impl Hierarchies {
             first: &self.edges,
             second: &self.faces,
             are_same: false,
+            are_filtered: self.filter.is_some(),
         };
         let mut tasks = Vec::new();
         trees.tasks(self.level, TASK_LEVEL, &mut self.scratch, &mut tasks);
@@ -412,6 +454,33 @@ impl Hierarchies {
                 [a.min(b), a.max(b)]
             }
         }
+    }
+}
+
+/// Hands on what a filter allows.
+struct Allowed<'a> {
+    hierarchies: &'a Hierarchies,
+    filter: &'a CollisionFilter,
+    kind: PairKind,
+    pairs: Vec<[u32; 2]>,
+    sink: &'a mut dyn Sink,
+}
+
+impl Sink for Allowed<'_> {
+    fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
+        let Self {
+            hierarchies,
+            filter,
+            kind,
+            pairs: allowed,
+            sink,
+        } = self;
+        allowed.clear();
+        allowed.extend(pairs.iter().filter(|&&pair| {
+            let pair = hierarchies.in_mesh(*kind, pair);
+            filter.allows(*kind, pair, hierarchies.topology.vertices_of(*kind, pair))
+        }));
+        sink.take(allowed)
     }
 }
 

@@ -52,6 +52,7 @@ pub(crate) use traversal::Scratch;
 
 use crate::PairKind;
 use crate::buffer::settle;
+use crate::collision_filter::CollisionFilter;
 use crate::dispatch::Level;
 use crate::frame::{Step, StepError, check_length};
 use crate::mesh::Topology;
@@ -128,6 +129,11 @@ impl MovingBroadPhase {
     /// At the next update, if there are fewer entries than vertices.
     pub fn set_wanted(&mut self, wanted: Vec<bool>) {
         self.hierarchies.set_wanted(wanted);
+    }
+
+    /// From the next update on only pairs that the filter allows are candidates; `None`: all.
+    pub(crate) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
+        self.hierarchies.set_filter(filter);
     }
 
     /// From the next update on only pairs with a `wanted` vertex are candidates, and only such vertices have moved since the last

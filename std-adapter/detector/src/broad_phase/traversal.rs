@@ -23,6 +23,8 @@ pub(super) struct Trees<'a, const N: usize, const M: usize> {
     pub(super) first: &'a Tree<N>,
     pub(super) second: &'a Tree<M>,
     pub(super) are_same: bool,
+    /// Whether it matters who is in a block.
+    pub(super) are_filtered: bool,
 }
 
 /// What a traversal keeps from step to step.
@@ -30,6 +32,8 @@ pub(super) struct Trees<'a, const N: usize, const M: usize> {
 pub(crate) struct Scratch {
     stack: Vec<BlockPair>,
     found: PairBuffer,
+    /// Pairs that a collision filter leaves.
+    pub(super) allowed: Vec<[u32; 2]>,
 }
 
 impl Scratch {
@@ -37,6 +41,7 @@ impl Scratch {
         Self {
             stack: Vec::with_capacity(1024),
             found: PairBuffer::new(),
+            allowed: Vec::new(),
         }
     }
 }
@@ -67,7 +72,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
     /// Gives `sink` the pairs of primitives of `tasks` that are near each other and have no vertex in common. Returns the
     /// number of tests, or `None` if the sink has had enough.
     pub(super) fn pairs(&self, level: Level, tasks: &[BlockPair], scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
-        let Scratch { stack, found } = scratch;
+        let Scratch { stack, found, .. } = scratch;
         found.clear();
         let all_pairs = AllPairs {
             trees: self,
@@ -79,9 +84,23 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         in_lanes(level, all_pairs)
     }
 
+    /// Whether nobody in one of two blocks collides with anybody in the other.
+    #[inline(always)]
+    fn are_excluded(&self, [level_a, level_b]: [u8; 2], [a, b]: [u32; 2]) -> bool {
+        let members = || {
+            let first = self.first.levels[usize::from(level_a)].members[a as usize];
+            let second = self.second.levels[usize::from(level_b)].members[b as usize];
+            first.may_collide(second)
+        };
+        self.are_filtered && !members()
+    }
+
     /// Puts the pairs of blocks that two blocks hold on the stack.
     #[inline(always)]
     fn take_apart(&self, lanes: impl Compares, pair: BlockPair, stack: &mut Vec<BlockPair>) -> u64 {
+        if self.are_excluded(pair.levels, pair.blocks) {
+            return 0;
+        }
         let [a, b] = pair.blocks;
         let [level_a, level_b] = pair.levels;
         let (block_a, node_a) = part(self.first, level_a, a);
@@ -142,6 +161,9 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
     /// Puts the pairs of primitives that two blocks hold with those that are found.
     #[inline(always)]
     fn compare_primitives(&self, lanes: impl Compares, [a, b]: [u32; 2], found: &mut PairBuffer) -> u64 {
+        if self.are_excluded([0, 0], [a, b]) {
+            return 0;
+        }
         let (block_a, node_a) = part(self.first, 0, a);
         let (block_b, node_b) = part(self.second, 0, b);
         let is_same = self.are_same && a == b;

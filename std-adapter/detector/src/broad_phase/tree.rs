@@ -6,6 +6,7 @@
 //! children of block b are the blocks, or primitives, from 16b on, and no block but the last of a level has an empty lane.
 
 use super::order::{Centre, LEAF, order};
+use crate::collision_filter::Members;
 use crate::parallel;
 use selvedge_core::batch::{LANES, Mask};
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
@@ -17,6 +18,8 @@ const _: () = assert!(LEAF == LANES, "the order's groups are the blocks");
 pub(super) struct Level {
     pub(super) blocks: Vec<MovingBlock>,
     pub(super) nodes: Vec<Node>,
+    /// Who is in each block, if that matters.
+    pub(super) members: Vec<Members>,
 }
 
 /// What is known of a block as a whole.
@@ -125,6 +128,24 @@ impl<const N: usize> Tree<N> {
                 node.moving = lanes.fold(0, |mask, lane| mask | Mask::from(is_moving(lane)) << lane);
             }
             below = &level.nodes;
+        }
+    }
+
+    /// Notes who is in each block, given that of each vertex by its position; nothing of nobody.
+    pub(super) fn note_members(&mut self, of_vertices: &[Members]) {
+        self.levels.iter_mut().for_each(|level| level.members.clear());
+        if of_vertices.is_empty() {
+            return;
+        }
+        let all = |members: &mut dyn Iterator<Item = Members>| members.reduce(Members::joined);
+        let of_primitive = |vertices: &[u32; N]| all(&mut vertices.iter().map(|&vertex| of_vertices[vertex as usize]));
+        let mut below: Vec<Members> = self.vertices.iter().filter_map(of_primitive).collect();
+        for level in &mut self.levels {
+            let blocks = below.chunks(LANES);
+            level
+                .members
+                .extend(blocks.filter_map(|block| all(&mut block.iter().copied())));
+            below.clone_from(&level.members);
         }
     }
 

@@ -8,6 +8,7 @@
 use super::{Interest, NearPairs, Reach};
 use crate::PairKind;
 use crate::broad_phase::{Fit, extent};
+use crate::collision_filter::CollisionFilter;
 use crate::frame::Motions;
 use crate::mesh::Topology;
 use crate::parallel;
@@ -47,6 +48,7 @@ impl Interest for OfMoving {
 #[derive(Debug)]
 pub(crate) struct Followed {
     moving: Option<Vec<bool>>,
+    filter: Option<Arc<CollisionFilter>>,
     /// Which vertices have a triangle.
     used: Vec<bool>,
     /// Once there has been a step.
@@ -70,9 +72,10 @@ struct Open {
 }
 
 impl Followed {
-    pub(crate) fn new(moving: Option<Vec<bool>>) -> Self {
+    pub(crate) fn new(moving: Option<Vec<bool>>, filter: Option<Arc<CollisionFilter>>) -> Self {
         Self {
             moving,
+            filter,
             used: Vec::new(),
             near: None,
             distance: 0.0,
@@ -139,6 +142,7 @@ impl Followed {
                 let interest = OfMoving(self.moving.clone());
                 let new = NearPairs::new(Arc::clone(topology), interest, wanted, reach);
                 let near = near.insert(new.expect("edges are lengths"));
+                near.set_filter(self.filter.clone());
                 near.cover(start, end, 1.0);
             }
         }

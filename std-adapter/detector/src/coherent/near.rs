@@ -10,6 +10,7 @@ use super::horizon::Horizon;
 use super::pair::NearPair;
 use super::search::Search;
 use super::{Interest, Reach};
+use crate::collision_filter::CollisionFilter;
 use crate::frame::StepError;
 use crate::mesh::Topology;
 use selvedge_core::glam::DVec3;
@@ -74,6 +75,11 @@ impl<I: Interest> NearPairs<I> {
             found: Vec::new(),
             statistics: Default::default(),
         })
+    }
+
+    /// Only pairs that the filter allows are found from here on.
+    pub(super) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
+        self.search.set_filter(filter);
     }
 
     /// What it was made with.

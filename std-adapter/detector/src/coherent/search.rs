@@ -6,6 +6,7 @@ use super::sieve::Sieve;
 use super::{Interest, Reach};
 use crate::PairKind;
 use crate::broad_phase::MovingBroadPhase;
+use crate::collision_filter::CollisionFilter;
 use crate::frame::StepError;
 use crate::mesh::Topology;
 use crate::parallel;
@@ -46,6 +47,10 @@ impl<I: Interest> Search<I> {
             sorted: Vec::new(),
             places: Vec::new(),
         }
+    }
+
+    pub(super) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
+        self.broad_phase.set_filter(filter);
     }
 
     pub(super) const fn interest(&self) -> &I {

@@ -8,6 +8,7 @@ use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
 use crate::buffer::settle;
 use crate::clock::Clock;
 use crate::coherent::{ENORMOUS, Followed};
+use crate::collision_filter::CollisionFilter;
 use crate::dispatch::Level;
 use crate::frame::{Motions, StepError};
 use crate::mesh::Topology;
@@ -70,6 +71,8 @@ pub(crate) struct Engine {
     followed: Option<Box<Followed>>,
     /// Which vertices move, if not all.
     moving: Option<Vec<bool>>,
+    /// Which pairs are looked at, if not all.
+    filter: Option<Arc<CollisionFilter>>,
     /// One for each share of the work.
     workers: Vec<Worker>,
     /// One for each thread.
@@ -115,6 +118,7 @@ impl Engine {
             broad_phase: MovingBroadPhase::new(topology),
             followed: None,
             moving: None,
+            filter: None,
             workers: Vec::new(),
             spaces: Vec::new(),
             rows: Rows::default(),
@@ -137,7 +141,16 @@ impl Engine {
 
     /// Whether steps go on from one another. Forgets those before.
     pub(crate) fn set_coherent(&mut self, coherent: bool) {
-        self.followed = coherent.then(|| Box::new(Followed::new(self.moving.clone())));
+        self.followed = coherent.then(|| Box::new(Followed::new(self.moving.clone(), self.filter.clone())));
+    }
+
+    /// Only pairs that the filter allows are found from here on.
+    pub(crate) fn set_filter(&mut self, filter: CollisionFilter) {
+        self.filter = (!filter.excludes_nothing()).then(|| Arc::new(filter));
+        self.broad_phase.set_filter(self.filter.clone());
+        if self.is_coherent() {
+            self.set_coherent(true);
+        }
     }
 
     pub(crate) fn near_statistics(&self) -> crate::coherent::NearStatistics {

@@ -12,6 +12,7 @@ pub use engine::StepTally;
 pub use truncation::Truncation;
 
 use crate::PairKind;
+use crate::collision_filter::CollisionFilter;
 use crate::frame::{Step, StepError, check_length, exactly};
 use crate::mesh::Topology;
 use crate::parallel::Workers;
@@ -277,6 +278,18 @@ impl<S: Scalar> CollisionDetector<S> {
                 Ok(())
             }
         }
+    }
+
+    /// Which pairs are looked at from the next step on; at first all.
+    ///
+    /// Pairs that the caller brings ([`contacts_of`](Self::contacts_of)) are looked at whatever the filter says.
+    ///
+    /// # Errors
+    /// If a list of the filter's does not have an entry for each of the mesh's vertices, or names one that is not there. Then it stays as it was.
+    pub fn set_collision_filter(&mut self, filter: CollisionFilter) -> Result<(), StepError> {
+        filter.check(self.topology().vertex_count())?;
+        self.engine.set_filter(filter);
+        Ok(())
     }
 
     /// Whether steps go on from one another, as those of a simulation do; at first not.
