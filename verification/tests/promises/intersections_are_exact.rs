@@ -183,7 +183,7 @@ fn neighbours_intersect_only_when_they_are_folded_flat() {
     let topology = Topology::new(4, vec![[0, 1, 2], [1, 0, 3]]).expect("corners exist");
     let mut detector = CollisionDetector::<f32>::new(topology);
     assert_eq!(intersections(&mut detector, &hinge(1e-30)), []);
-    // Vertex 0's edge to 2 and vertex 1's to 3 cross, whichever is numbered first.
+    // The edges from 1 to 2 and from 0 to 3 cross.
     assert_eq!(detector.topology().edges()[1..], [[0, 2], [1, 2], [0, 3], [1, 3]]);
     let folded = intersections(&mut detector, &hinge(0.0));
     assert_eq!(folded, [Intersection::EdgeEdge { edges: [2, 3] }]);

@@ -49,9 +49,9 @@ pub(super) enum Numbers<'a> {
     Mesh(&'a Topology),
     /// The mesh's own, in rows by their positions in the hierarchies.
     Placed(&'a Hierarchies),
-    /// Edges and faces by their positions in the hierarchies. An edge is a vertex that goes from one of its ends to the other; its row
+    /// Faces and edges by their positions in the hierarchies. An edge is a vertex that goes from one of its ends to the other; its row
     /// comes after those of all vertices.
-    EdgesAndFaces(&'a Hierarchies),
+    FacesAndEdges(&'a Hierarchies),
 }
 
 impl Numbers<'_> {
@@ -65,8 +65,8 @@ impl Numbers<'_> {
                 let vertices = hierarchies.topology().vertices_of(kind, pair);
                 vertices.map(|vertex| hierarchies.position_of(vertex))
             }
-            Self::EdgesAndFaces(hierarchies) => {
-                let [edge, face] = pair;
+            Self::FacesAndEdges(hierarchies) => {
+                let [face, edge] = pair;
                 let [a, b, c] = hierarchies.face_corners(face);
                 [hierarchies.vertex_positions() as u32 + edge, a, b, c]
             }
@@ -89,7 +89,7 @@ impl Numbers<'_> {
         match self {
             Self::Positions(hierarchies) => hierarchies.in_mesh(kind, pair),
             Self::Mesh(_) | Self::Placed(_) => pair,
-            Self::EdgesAndFaces(hierarchies) => hierarchies.edge_face_in_mesh(pair),
+            Self::FacesAndEdges(hierarchies) => hierarchies.face_edge_in_mesh(pair),
         }
     }
 }

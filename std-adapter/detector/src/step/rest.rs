@@ -134,7 +134,7 @@ impl Engine {
         self.stop.begin();
         let hierarchies = &mut self.broad_phase.hierarchies;
         hierarchies.update(motions, &Fit::default());
-        hierarchies.find_edge_face_tasks();
+        hierarchies.find_face_edge_tasks();
         let hierarchies = &*hierarchies;
         set_rows(&mut self.rows, hierarchies);
         let hinges = self.hinges.get_or_insert_with(|| Hinges::new(hierarchies.topology()));
@@ -144,7 +144,7 @@ impl Engine {
         let look = Look {
             step: StepInput {
                 level: hierarchies.level(),
-                numbers: Numbers::EdgesAndFaces(hierarchies),
+                numbers: Numbers::FacesAndEdges(hierarchies),
                 rows: &self.rows,
                 question: Question {
                     // How near the sweeps come before the exact verdict is asked. It changes no answer.
@@ -159,7 +159,7 @@ impl Engine {
             hierarchies,
             hinges,
         };
-        let parts = [Part::EdgesAndFaces, Part::Hinges, Part::LooseEdges];
+        let parts = [Part::FacesAndEdges, Part::Hinges, Part::LooseEdges];
         for part in parts {
             let shares = shares();
             self.workers.resize_with(shares, Worker::new);
@@ -200,7 +200,7 @@ impl HingeChunk {
 /// What is looked at, one after the other.
 #[derive(Clone, Copy, Debug)]
 enum Part {
-    EdgesAndFaces,
+    FacesAndEdges,
     Hinges,
     LooseEdges,
 }
@@ -209,9 +209,9 @@ impl Part {
     fn intersection(self, contact: &Contact<f64>) -> Intersection {
         let [first, second] = contact.pair;
         match (self, contact.kind) {
-            (Self::EdgesAndFaces, _) => Intersection::EdgeFace {
-                edge: first,
-                face: second,
+            (Self::FacesAndEdges, _) => Intersection::EdgeFace {
+                face: first,
+                edge: second,
             },
             (_, PairKind::VertexFace) => Intersection::VertexFace {
                 vertex: first,
@@ -241,7 +241,7 @@ impl Look<'_> {
     fn at(&self, part: Part, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) {
         space.chunk.clear();
         match part {
-            Part::EdgesAndFaces => self.edges_and_faces([share, shares], space, found),
+            Part::FacesAndEdges => self.faces_and_edges([share, shares], space, found),
             Part::Hinges => {
                 let edges = self.hierarchies.topology().edges().len();
                 let bound = |share: usize| (edges * share / shares) as u32;
@@ -252,7 +252,7 @@ impl Look<'_> {
         }
     }
 
-    fn edges_and_faces(&self, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) {
+    fn faces_and_edges(&self, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) {
         let Space { scratch, chunk, .. } = space;
         let kind = PairKind::VertexFace;
         let step = &self.step;
@@ -262,7 +262,7 @@ impl Look<'_> {
             step,
             kind,
         };
-        if self.hierarchies.visit_edge_face(share, shares, scratch, &mut sink) {
+        if self.hierarchies.visit_face_edge(share, shares, scratch, &mut sink) {
             chunk.finish(step, kind, found);
         }
     }
