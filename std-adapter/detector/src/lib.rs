@@ -50,7 +50,7 @@ pub use parallel::{ThreadError, Threads};
 pub use selvedge_core as core;
 pub use selvedge_core::glam;
 pub use selvedge_core::{PairKind, ParsePairKindError, Position, Scalar};
-pub use step::{CandidateBoxes, CollisionDetector, Contact, Criterion, Truncation};
+pub use step::{Cancellation, CandidateBoxes, CollisionDetector, Contact, Criterion, Intersection, Truncation};
 
 /// The readme's examples are tests.
 #[cfg(doctest)]

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod arm;
+mod check;
 mod compare;
 mod cull;
 mod hard_cases;
@@ -37,15 +38,18 @@ Examples:
   selvedge                                  a sleeve in motion, all methods on it
   selvedge cull a.ply b.ply                 pairs that may collide from a to b
   selvedge cull a.ply b.ply --pairs c.csv   … and the contacts, one a line
+  selvedge check frames/*.ply               does a mesh pass through itself?
   selvedge compare a.obj b.obj --json       all methods on your own mesh
   selvedge arm --frames 55,56               two meshes to try these on
   selvedge simulate scene.toml              cloth, as a scene file describes it
 
-Exit status: 0 done, 1 the input is at fault, 2 the command line is at fault.";
+Exit status: 0 done, 1 the input is at fault, 2 the command line is at fault,
+3 `check` has found intersections.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
     Cull(cull::Cull),
+    Check(check::Check),
     Compare(compare::Compare),
     Queries(queries::Queries),
     HardCases(hard_cases::HardCases),
@@ -60,6 +64,7 @@ pub(crate) fn main() -> ExitCode {
     let cli = Cli::parse();
     let result = match &cli.command {
         None => cli.main_job.run(),
+        Some(Command::Check(check)) => return exit(check.run()),
         Some(Command::Cull(cull)) => cull.run(),
         Some(Command::Compare(compare)) => compare.run(),
         Some(Command::Queries(queries)) => queries.run(),
@@ -69,8 +74,12 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Arm(arm)) => arm.run(),
         Some(Command::Simulate(simulate)) => simulate.run(),
     };
+    exit(result.map(|()| ExitCode::SUCCESS))
+}
+
+fn exit(result: Result<ExitCode, Failure>) -> ExitCode {
     match result {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(failure) => {
             output::say(format_args!("error: {failure}"));
             ExitCode::from(1)

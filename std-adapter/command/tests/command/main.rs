@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bad_input;
+mod check;
 mod compare;
 mod cull;
 mod hard_cases;

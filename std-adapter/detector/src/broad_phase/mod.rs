@@ -164,6 +164,16 @@ impl MovingBroadPhase {
     /// Replaces `vertex_face` and `edge_edge` by the candidates of the last update: vertex and face, or two edges, the smaller
     /// number first, as the topology numbers them.
     pub fn candidates(&mut self, vertex_face: &mut Vec<[u32; 2]>, edge_edge: &mut Vec<[u32; 2]>) {
+        self.candidates_until(&|_| true, vertex_face, edge_edge);
+    }
+
+    /// As [`candidates`](Self::candidates), as long as `goes_on`, which is told of how many more pairs there are.
+    pub(crate) fn candidates_until(
+        &mut self,
+        goes_on: &(dyn Fn(usize) -> bool + Sync),
+        vertex_face: &mut Vec<[u32; 2]>,
+        edge_edge: &mut Vec<[u32; 2]>,
+    ) {
         let shares = self.hierarchies.shares();
         self.collectors.resize_with(shares, Collector::new);
         let hierarchies = &self.hierarchies;
@@ -172,7 +182,7 @@ impl MovingBroadPhase {
         swap(&mut self.collectors[firsts[0]].pairs, vertex_face);
         swap(&mut self.collectors[firsts[1]].pairs, edge_edge);
         parallel::for_each(&mut self.collectors, |index, collector| {
-            collector.collect(hierarchies, hierarchies.share(index));
+            collector.collect(hierarchies, hierarchies.share(index), goes_on);
         });
         swap(&mut self.collectors[firsts[0]].pairs, vertex_face);
         swap(&mut self.collectors[firsts[1]].pairs, edge_edge);
@@ -193,18 +203,6 @@ impl MovingBroadPhase {
         self.hierarchies.observe(tests.sum(), vertex_face.len() + edge_edge.len());
     }
 
-    /// Replaces `pairs` by the edges and faces that boxes leave and that have no vertex in common: edge and face, as the topology
-    /// numbers them, in order. On the calling thread.
-    ///
-    /// An edge that passes through a face of a mesh at rest is among them.
-    pub fn edge_face_candidates(&mut self, pairs: &mut Vec<[u32; 2]>) {
-        let mut positions = Positions(Vec::new());
-        self.hierarchies.visit_edge_face(&mut positions);
-        pairs.clear();
-        pairs.extend(positions.0.iter().map(|&pair| self.hierarchies.edge_face_in_mesh(pair)));
-        pairs.sort_unstable();
-    }
-
     /// Counts of what was done.
     #[must_use]
     pub const fn statistics(&self) -> MovingStatistics {
@@ -221,25 +219,16 @@ impl Collector {
         }
     }
 
-    fn collect(&mut self, hierarchies: &Hierarchies, share: Share<'_>) {
+    fn collect(&mut self, hierarchies: &Hierarchies, share: Share<'_>, goes_on: &(dyn Fn(usize) -> bool + Sync)) {
         self.pairs.clear();
         let mut collected = Collected {
             hierarchies,
             kind: share.kind,
             pairs: &mut self.pairs,
+            goes_on,
         };
         let tests = hierarchies.visit(share, &mut self.scratch, &mut collected);
         self.tests = tests.unwrap_or(0);
-    }
-}
-
-/// Pairs as the trees number them.
-struct Positions(Vec<[u32; 2]>);
-
-impl Sink for Positions {
-    fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
-        self.0.extend_from_slice(pairs);
-        true
     }
 }
 
@@ -247,10 +236,14 @@ struct Collected<'a> {
     hierarchies: &'a Hierarchies,
     kind: PairKind,
     pairs: &'a mut Vec<[u32; 2]>,
+    goes_on: &'a (dyn Fn(usize) -> bool + Sync),
 }
 
 impl Sink for Collected<'_> {
     fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
+        if !(self.goes_on)(pairs.len()) {
+            return false;
+        }
         let in_mesh = |&pair| self.hierarchies.in_mesh(self.kind, pair);
         self.pairs.extend(pairs.iter().map(in_mesh));
         true

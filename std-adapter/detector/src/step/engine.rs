@@ -2,7 +2,8 @@
 
 use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
 use super::given::PrimitiveBoxes;
-use super::{Bound, CandidateBoxes, Contact, Question, Wanted};
+use super::rest::HingeChunk;
+use super::{Bound, CandidateBoxes, Contact, Question, Stop, Wanted};
 use crate::PairKind;
 use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
 use crate::buffer::settle;
@@ -11,7 +12,7 @@ use crate::coherent::{ENORMOUS, Followed};
 use crate::collision_filter::CollisionFilter;
 use crate::dispatch::Level;
 use crate::frame::{Motions, StepError};
-use crate::mesh::Topology;
+use crate::mesh::{Hinges, Topology};
 use crate::pair_counts::PairCounts;
 use crate::parallel::{self, Workers};
 use selvedge_core::Scalar;
@@ -66,43 +67,47 @@ pub struct StepTally {
 /// See the [module](super).
 #[derive(Debug)]
 pub(crate) struct Engine {
-    broad_phase: MovingBroadPhase,
+    pub(super) broad_phase: MovingBroadPhase,
     /// In the mode for coherent motion.
     followed: Option<Box<Followed>>,
     /// Which vertices move, if not all.
     moving: Option<Vec<bool>>,
     /// Which pairs are looked at, if not all.
-    filter: Option<Arc<CollisionFilter>>,
+    pub(super) filter: Option<Arc<CollisionFilter>>,
     /// One for each share of the work.
-    workers: Vec<Worker>,
+    pub(super) workers: Vec<Worker>,
     /// One for each thread.
-    spaces: Vec<Mutex<Space>>,
+    pub(super) spaces: Vec<Mutex<Space>>,
     /// The motion of each vertex as the mesh numbers them, for pairs of the caller's.
-    rows: Rows,
+    pub(super) rows: Rows,
     boxes: PrimitiveBoxes,
+    /// Once a mesh at rest was asked about.
+    pub(super) hinges: Option<Hinges>,
+    pub(super) stop: Stop,
     tally: StepTally,
 }
 
 /// What a thread works in.
 #[derive(Debug)]
-struct Space {
-    scratch: Scratch,
-    chunk: Chunk,
+pub(super) struct Space {
+    pub(super) scratch: Scratch,
+    pub(super) chunk: Chunk,
     /// A caller's pairs that boxes leave.
-    near: Vec<[u32; 2]>,
+    pub(super) near: Vec<[u32; 2]>,
+    pub(super) hinges: HingeChunk,
 }
 
 /// One share of the work.
 #[derive(Debug)]
-struct Worker {
-    found: Found,
+pub(super) struct Worker {
+    pub(super) found: Found,
     kind: PairKind,
     tests: u64,
     seconds: f64,
 }
 
 impl Worker {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self {
             found: Found::nothing(),
             kind: PairKind::VertexFace,
@@ -123,6 +128,8 @@ impl Engine {
             spaces: Vec::new(),
             rows: Rows::default(),
             boxes: PrimitiveBoxes::default(),
+            hinges: None,
+            stop: Stop::new(),
             tally: StepTally::default(),
         }
     }
@@ -175,6 +182,7 @@ impl Engine {
     }
 
     fn run_here(&mut self, motions: &dyn Motions, question: &Question, probe: Probe) {
+        self.stop.begin();
         let Limits { separation, tolerance } = question.limits;
         // Pairs within the tolerance are contacts too; twice of it are so with all rounding.
         let distance = separation + 2.0 * tolerance;
@@ -202,6 +210,7 @@ impl Engine {
             rows: hierarchies.rows(),
             question: *question,
             bound: &bound,
+            stop: &self.stop,
         };
         parallel::for_each(&mut self.workers, |index, worker| {
             let begin = Clock::now();
@@ -210,7 +219,7 @@ impl Engine {
             worker.found.clear();
             worker.tests = 0;
             let has_enough = question.wanted == Wanted::Any && bound.is_lowered();
-            if !has_enough {
+            if !has_enough && step.stop.goes_on(0) {
                 let Space { scratch, chunk, .. } = &mut *own_space(spaces);
                 chunk.clear();
                 let mut sink = ChunkSink {
@@ -231,7 +240,7 @@ impl Engine {
         let tests = self.workers.iter().map(|worker| worker.tests).sum();
         let candidates = self.tally.candidates.total() as usize;
         // A traversal that ended early, or of a part of the step, tells nothing of how good the hierarchies are.
-        if question.wanted == Wanted::All {
+        if question.wanted == Wanted::All && !self.stop.has_stopped() {
             self.broad_phase.hierarchies.observe(tests, candidates);
         }
     }
@@ -252,7 +261,7 @@ impl Engine {
         self.rows.set_some(motions, vertices, followed.is_single);
         let update = begin.elapsed().as_secs_f64();
         let bound = Bound::new(1.0);
-        let step = StepInput::of_mesh(hierarchies, &self.rows, question, &bound);
+        let step = StepInput::of_mesh(hierarchies, &self.rows, question, &bound, &self.stop);
         let pairs = followed.open.each_ref().map(Vec::as_slice);
         decide(&mut self.workers, &mut self.spaces, &step, pairs, |_, pairs, _| Some(pairs));
         let count = followed.count() as u64;
@@ -272,6 +281,7 @@ impl Engine {
     }
 
     fn run_here_on(&mut self, motions: &dyn Motions, question: &Question, pairs: [&[[u32; 2]]; 2]) -> Result<(), StepError> {
+        self.stop.begin();
         let begin = Clock::now();
         let hierarchies = &self.broad_phase.hierarchies;
         let topology = hierarchies.topology();
@@ -281,7 +291,7 @@ impl Engine {
         let update = begin.elapsed().as_secs_f64();
 
         let bound = Bound::new(1.0);
-        let step = StepInput::of_mesh(hierarchies, &self.rows, question, &bound);
+        let step = StepInput::of_mesh(hierarchies, &self.rows, question, &bound, &self.stop);
         let boxes = &self.boxes;
         let are_of_mesh = decide(&mut self.workers, &mut self.spaces, &step, pairs, |kind, pairs, near| {
             boxes.keep_near(step.level, kind, pairs, near)?;
@@ -309,6 +319,8 @@ impl Engine {
         edge_edge: &mut Vec<[u32; 2]>,
     ) {
         let begin = Clock::now();
+        self.stop.begin();
+        let stop = &self.stop;
         let fit = Fit {
             separation,
             is_swept: boxes == CandidateBoxes::Swept,
@@ -317,7 +329,7 @@ impl Engine {
         let broad_phase = &mut self.broad_phase;
         threads.run(|| {
             broad_phase.hierarchies.update(motions, &fit);
-            broad_phase.candidates(vertex_face, edge_edge);
+            broad_phase.candidates_until(&|pairs| stop.goes_on(pairs), vertex_face, edge_edge);
         });
         let seconds = begin.elapsed().as_secs_f64();
         self.tally = StepTally {
@@ -363,10 +375,13 @@ impl Engine {
     /// The earliest contact of a step: of its beginning first, then of all of it.
     pub(super) fn earliest(&mut self, threads: &Workers, motions: &dyn Motions, question: &Question) -> Option<Contact<f64>> {
         let begin = Clock::now();
+        self.stop.begin();
         // Of pairs that are followed few are left to look at, in any part of the step.
         let probes = if self.is_coherent() { &PROBES[1..] } else { &PROBES };
         let earliest = probes.iter().find_map(|&probe| {
-            self.run(threads, motions, question, probe);
+            if self.stop.result().is_ok() {
+                self.run(threads, motions, question, probe);
+            }
             self.earliest_found()
         });
         self.tally.seconds = begin.elapsed().as_secs_f64();
@@ -421,10 +436,7 @@ fn decide(
     pairs: [&[[u32; 2]]; 2],
     pick: impl for<'a> Fn(PairKind, &'a [[u32; 2]], &'a mut Vec<[u32; 2]>) -> Option<&'a [[u32; 2]]> + Sync,
 ) -> Option<()> {
-    let shares = match parallel::threads() {
-        1 => 1,
-        threads => 8 * threads,
-    };
+    let shares = shares();
     workers.resize_with(2 * shares, Worker::new);
     let spaces = spaces_for_threads(spaces);
     let is_strange = AtomicBool::new(false);
@@ -445,12 +457,22 @@ fn decide(
                 is_strange.store(true, atomic::Ordering::Relaxed);
                 return;
             };
-            chunk.take(step, kind, picked, &mut worker.found);
+            if !chunk.take(step, kind, picked, &mut worker.found) {
+                return;
+            }
         }
         chunk.finish(step, kind, &mut worker.found);
         worker.seconds = begin.elapsed().as_secs_f64();
     });
     (!is_strange.into_inner()).then_some(())
+}
+
+/// Into how many parts work of one kind is split on the threads there are.
+pub(super) fn shares() -> usize {
+    match parallel::threads() {
+        1 => 1,
+        threads => 8 * threads,
+    }
 }
 
 /// A contact with its time rounded down, so that it is no later.
@@ -464,12 +486,13 @@ pub(super) fn in_format_of_positions<S: Scalar>(contact: &Contact<f64>) -> Conta
 }
 
 /// Makes a space for each thread, if they are not there.
-fn spaces_for_threads(spaces: &mut Vec<Mutex<Space>>) -> &[Mutex<Space>] {
+pub(super) fn spaces_for_threads(spaces: &mut Vec<Mutex<Space>>) -> &[Mutex<Space>] {
     let new = || {
         Mutex::new(Space {
             scratch: Scratch::new(),
             chunk: Chunk::new(),
             near: Vec::with_capacity(CHUNK),
+            hinges: HingeChunk::default(),
         })
     };
     if spaces.len() < parallel::threads() {
@@ -479,7 +502,7 @@ fn spaces_for_threads(spaces: &mut Vec<Mutex<Space>>) -> &[Mutex<Space>] {
 }
 
 /// The space of the thread that calls. Nobody else asks for it: a thread has one share at a time.
-fn own_space(spaces: &[Mutex<Space>]) -> MutexGuard<'_, Space> {
+pub(super) fn own_space(spaces: &[Mutex<Space>]) -> MutexGuard<'_, Space> {
     let space = &spaces[parallel::own_index() % spaces.len()];
     // What a panic has left behind is cleared before use.
     space.lock().unwrap_or_else(PoisonError::into_inner)

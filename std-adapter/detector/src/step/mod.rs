@@ -3,12 +3,17 @@
 mod chunk;
 mod engine;
 mod given;
+mod rest;
 #[cfg(feature = "verification")]
 mod shown;
+mod stop;
 mod sweep;
 mod truncation;
 
 pub use engine::StepTally;
+pub use rest::Intersection;
+pub use stop::Cancellation;
+pub(crate) use stop::Stop;
 pub use truncation::Truncation;
 
 use crate::PairKind;
@@ -200,6 +205,7 @@ impl Bound {
 /// | is the step free of contact? | [`is_free`](Self::is_free) | ends at the first contact |
 /// | how far may each vertex go? | [`truncate`](Self::truncate) | only vertices that would come into contact are held back |
 /// | which pairs come near each other? | [`candidates`](Self::candidates) | ends after the broad phase |
+/// | which primitives meet in one state, at rest? | [`intersections`](Self::intersections), [`has_intersections`](Self::has_intersections) | exact, and passing through counts as well |
 /// | contacts of pairs that the caller has | [`contacts_of`](Self::contacts_of) | no broad phase |
 ///
 /// Steps that go on from one another, as a simulation's, take less time if one says so ([`set_coherent`](Self::set_coherent)).
@@ -240,7 +246,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// The threads that steps are split between; at first [`Threads::Calling`].
     ///
     /// # Errors
-    /// If the operating system refuses the threads. Then they stay as they were.
+    /// If the operating system refuses the threads, or they are more than [`Threads::most`]. Then they stay as they were.
     #[cfg(feature = "parallel")]
     pub fn set_threads(&mut self, threads: Threads) -> Result<(), ThreadError> {
         self.workers = Workers::new(threads)?;
@@ -330,7 +336,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Replaces `contacts` by all contacts of the step from `start` to `end`, one position for each vertex: vertex–face first.
     ///
     /// # Errors
-    /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
+    /// If a frame's length is not the mesh's number of vertices, a coordinate is NaN or infinite, or the step is cut short: by a
+    /// [`cancellation`](Self::cancellation), or by more pairs than [allowed](Self::set_pair_limit). What is in `contacts` then is of no use.
     pub fn contacts<P: Position<Scalar = S>>(
         &mut self,
         start: &[P],
@@ -341,7 +348,7 @@ impl<S: Scalar> CollisionDetector<S> {
         let question = self.question(Wanted::All);
         self.engine.run(&self.workers, &step, &question, Probe::WHOLE);
         self.engine.collect_contacts(contacts);
-        Ok(())
+        self.engine.stop.result()
     }
 
     /// The earliest contact of the step; of several at the same time the one with the smallest numbers, vertex–face first.
@@ -369,6 +376,7 @@ impl<S: Scalar> CollisionDetector<S> {
         let step = self.step(start, end)?;
         let question = self.question(Wanted::Earliest);
         let earliest = self.engine.earliest(&self.workers, &step, &question);
+        self.engine.stop.result()?;
         Ok(earliest.as_ref().map(in_format_of_positions))
     }
 
@@ -380,7 +388,11 @@ impl<S: Scalar> CollisionDetector<S> {
         let step = self.step(start, end)?;
         let question = self.question(Wanted::Any);
         self.engine.run(&self.workers, &step, &question, Probe::WHOLE);
-        Ok(self.engine.tally().contacts.total() == 0)
+        if self.engine.tally().contacts.total() > 0 {
+            return Ok(false);
+        }
+        self.engine.stop.result()?;
+        Ok(true)
     }
 
     /// Replaces `end` by positions to which the step is free of contact, each on the way of its vertex from `start` to `wanted`: vertices that
@@ -430,7 +442,9 @@ impl<S: Scalar> CollisionDetector<S> {
         let [start, wanted] = [start, wanted].map(|positions| positions.iter().map(|&p| exactly(p)).collect::<Vec<_>>());
         let mut ends = Vec::new();
         let ways = [&start[..], &wanted];
-        let truncation = self.engine.truncate(&self.workers, ways, &question, rounded::<P>, &mut ends);
+        let truncation = self
+            .engine
+            .truncate(&self.workers, ways, &question, rounded::<P>, &mut ends)?;
         end.clear();
         end.extend(ends.into_iter().map(nearest::<P>));
         Ok(truncation)
@@ -453,7 +467,7 @@ impl<S: Scalar> CollisionDetector<S> {
         let separation = self.question(Wanted::All).limits.separation;
         self.engine
             .candidates(&self.workers, &step, separation, boxes, vertex_face, edge_edge);
-        Ok(())
+        self.engine.stop.result()
     }
 
     /// Replaces `contacts` by those of the pairs given, in their order, vertex–face first: a vertex and a face, or two edges.
@@ -476,7 +490,7 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine
             .run_on(&self.workers, &step, &question, [vertex_face, edge_edge])?;
         self.engine.collect_contacts(contacts);
-        Ok(())
+        self.engine.stop.result()
     }
 
     /// The mesh's vertices, edges and triangles.
@@ -492,6 +506,7 @@ impl<S: Scalar> CollisionDetector<S> {
     }
 
     fn step<'a, P: Position>(&self, start: &'a [P], end: &'a [P]) -> Result<Step<'a, P>, StepError> {
+        self.engine.stop.admits()?;
         Step::checked(start, end, self.topology().vertex_count())
     }
 

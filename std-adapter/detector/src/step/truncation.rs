@@ -24,7 +24,7 @@ use super::engine::{Engine, Probe};
 use super::{CandidateBoxes, Contact, Question};
 use crate::PairKind;
 use crate::coherent::Closest;
-use crate::frame::Step;
+use crate::frame::{Step, StepError};
 use crate::parallel::Workers;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
@@ -105,18 +105,19 @@ impl Engine {
         question: &Question,
         round: fn(DVec3) -> DVec3,
         end: &mut Vec<DVec3>,
-    ) -> Truncation {
+    ) -> Result<Truncation, StepError> {
         end.clear();
         end.extend_from_slice(wanted);
         let mut contacts = Vec::new();
         self.run(threads, &Step::of_finite(start, end), question, Probe::WHOLE);
+        self.stop.result()?;
         self.collect_contacts(&mut contacts);
         let mut truncation = Truncation {
             rounds: 1,
             ..Truncation::default()
         };
         if contacts.is_empty() {
-            return truncation;
+            return Ok(truncation);
         }
 
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
@@ -130,6 +131,7 @@ impl Engine {
             &mut vertex_face,
             &mut edge_edge,
         );
+        self.stop.result()?;
         let candidates = [vertex_face, edge_edge];
         let largest = largest_coordinate(start).max(largest_coordinate(wanted));
         let mut held = Held {
@@ -163,7 +165,7 @@ impl Engine {
                     moves && vertices.iter().any(|&vertex| held.changed[vertex])
                 }));
             }
-            self.contacts_among(threads, [start, end], question, &open, &mut contacts);
+            self.contacts_among(threads, [start, end], question, &open, &mut contacts)?;
             truncation.rounds += 1;
         }
 
@@ -175,10 +177,10 @@ impl Engine {
                 open[kind as usize].push(pair);
             }
         }
-        self.contacts_among(threads, [start, end], question, &open, &mut contacts);
+        self.contacts_among(threads, [start, end], question, &open, &mut contacts)?;
         truncation.in_contact = contacts.len();
         truncation.held_back = held.shares.iter().filter(|&&share| share < 1.0).count();
-        truncation
+        Ok(truncation)
     }
 
     /// Replaces `contacts` by those of the mesh's own pairs.
@@ -189,10 +191,10 @@ impl Engine {
         question: &Question,
         [vertex_face, edge_edge]: &[Vec<[u32; 2]>; 2],
         contacts: &mut Vec<Contact<f64>>,
-    ) {
+    ) -> Result<(), StepError> {
         let step = Step::of_finite(start, end);
-        let known = self.run_on(threads, &step, question, [vertex_face, edge_edge]);
-        known.expect("the pairs are the broad phase's");
+        self.run_on(threads, &step, question, [vertex_face, edge_edge])?;
         self.collect_contacts(contacts);
+        self.stop.result()
     }
 }

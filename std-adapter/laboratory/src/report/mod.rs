@@ -17,6 +17,7 @@ mod plot;
 mod recording;
 mod step;
 pub mod tables;
+mod tangles;
 
 pub use self::csv::{comparison_csv, contacts_csv, pairs_csv};
 pub use comparison::{comparison_html, comparison_markdown};
@@ -27,6 +28,7 @@ pub use plot::{accuracy_svg, elementary_svg, scaling_svg};
 pub use recording::{About, Added, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind};
 pub use recording::{SimulationRecorder, Subject, costs_of_added_effects};
 pub use step::{StepQuestion, StepSummary};
+pub use tangles::{Tangle, intersections_csv, intersections_json, tangle_ply, tangles, tangles_json};
 
 use crate::pipeline::Stage;
 use crate::study::{ComparisonRow, MeanCounts, ScalingPoint};

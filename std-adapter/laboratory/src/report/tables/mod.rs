@@ -21,7 +21,7 @@ pub use step::step;
 use comfy_table::{CellAlignment, LineStyle, Row, Table, TableStyle};
 
 /// A table with a line under its header; the first column to the left, numbers to the right.
-fn table<R: Into<Row>>(header: impl Into<Row>, rows: impl IntoIterator<Item = R>) -> String {
+pub(super) fn table<R: Into<Row>>(header: impl Into<Row>, rows: impl IntoIterator<Item = R>) -> String {
     let mut table = Table::new();
     let line = LineStyle::none().fill('─').junction('─');
     table.load_style(TableStyle::new().header_separator(line));

@@ -1,0 +1,166 @@
+//! `selvedge check`.
+
+use super::Failure;
+use super::options::Threads;
+use super::output::{self, OutputFiles};
+use super::progress::Progress;
+use selvedge::{CollisionDetector, Mesh, Topology};
+use selvedge_files::mesh;
+use selvedge_laboratory::report::{Tangle, intersections_csv, intersections_json, tangle_ply, tangles, tangles_json};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Tells whether meshes pass through themselves, exactly.
+///
+/// Reads meshes (OBJ or PLY), one after the other, and looks at each as it stands: which edges pass through faces or touch them, and which
+/// neighbours are folded flat onto each other. Frames of a sequence, with the same triangles, share their hierarchies. Primitives with a
+/// common vertex meet there, which is no intersection.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  selvedge check cloth.obj
+  selvedge check frames/*.ply --threads 0 --list intersections.csv
+  selvedge check frames/*.ply --any --json
+  selvedge check tangled.ply --ply out/      writes out/tangled-intersections.ply
+
+The list has mesh,kind,i0,i1,i2,i3,i4: the two vertices of the edge and the three of
+the face, numbered from 0 in the order of the file.
+
+Exit status: 0 all are free, 3 there are intersections, 1 the input is at fault,
+2 the command line is at fault.")]
+pub(crate) struct Check {
+    /// The meshes, or the frames of a sequence in their order
+    #[arg(required = true, value_name = "MESH")]
+    meshes: Vec<PathBuf>,
+    #[command(flatten)]
+    threads: Threads,
+    /// End at the first intersection of each mesh: tells whether there is any
+    #[arg(long, conflicts_with_all = ["list", "ply"])]
+    any: bool,
+    /// Write all intersections to this file, as its name ends: .csv or .json
+    #[arg(long, value_name = "OUT.csv")]
+    list: Option<PathBuf>,
+    /// Write each mesh that intersects itself to this folder, with what meets in red
+    #[arg(long, value_name = "FOLDER")]
+    ply: Option<PathBuf>,
+    /// Print one JSON document instead of a table
+    #[arg(long)]
+    json: bool,
+}
+
+/// There are intersections.
+const TANGLED: u8 = 3;
+
+/// How a list is written.
+#[derive(Clone, Copy)]
+enum ListFormat {
+    Csv,
+    Json,
+}
+
+impl ListFormat {
+    fn of(path: &Path) -> Result<Self, Failure> {
+        match path.extension().and_then(|extension| extension.to_str()) {
+            Some(extension) if extension.eq_ignore_ascii_case("csv") => Ok(Self::Csv),
+            Some(extension) if extension.eq_ignore_ascii_case("json") => Ok(Self::Json),
+            _ => Err(format!("{}: a list is written as .csv or .json; name it so", path.display()).into()),
+        }
+    }
+}
+
+impl Check {
+    pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        let format = self.list.as_deref().map(ListFormat::of).transpose()?;
+        if let Some(path) = &self.list {
+            OutputFiles::check(path)?;
+        }
+        let coloured = self.coloured_files()?;
+        let mut files = OutputFiles::default();
+        let found = self.look(&coloured, &mut files)?;
+        if let (Some(path), Some(format)) = (&self.list, format) {
+            files.add(path.clone(), |out| match format {
+                ListFormat::Csv => intersections_csv(&found, out),
+                ListFormat::Json => serde_json::to_writer(out, &intersections_json(&found)).map_err(Into::into),
+            })?;
+        }
+        files.publish()?;
+        output::answer(self.json, || tangles_json(&found), || tangles(&found))?;
+        let are_free = found.iter().all(|tangle| tangle.is_free);
+        Ok(if are_free {
+            ExitCode::SUCCESS
+        } else {
+            ExitCode::from(TANGLED)
+        })
+    }
+
+    /// Looks at one mesh after the other.
+    fn look(&self, coloured: &[PathBuf], files: &mut OutputFiles) -> Result<Vec<Tangle>, Failure> {
+        let progress = Progress::steps("checking", self.meshes.len() as u64);
+        let mut before: Option<(Arc<Topology>, CollisionDetector<f64>)> = None;
+        let mut found = Vec::with_capacity(self.meshes.len());
+        let mut intersections = Vec::new();
+        for (index, path) in self.meshes.iter().enumerate() {
+            let mesh = mesh::read(path)?.mesh;
+            let is_next = |(topology, _): &(Arc<Topology>, _)| is_frame_of(topology, &mesh);
+            let (topology, mut detector) = match before.take().filter(is_next) {
+                Some(before) => before,
+                None => {
+                    let topology = Arc::new(mesh.topology()?);
+                    let mut detector = CollisionDetector::new(Arc::clone(&topology));
+                    detector.set_threads(selvedge::Threads::from_count(self.threads.get()))?;
+                    (topology, detector)
+                }
+            };
+            let name = path.display().to_string();
+            let begin = Instant::now();
+            if self.any {
+                let is_tangled = detector.has_intersections(&mesh.positions)?;
+                let seconds = begin.elapsed().as_secs_f64();
+                found.push(Tangle::of_any(name, &topology, is_tangled, seconds));
+            } else {
+                detector.intersections(&mesh.positions, &mut intersections)?;
+                let seconds = begin.elapsed().as_secs_f64();
+                found.push(Tangle::new(name, &topology, &intersections, seconds));
+            }
+            if let Some(path) = coloured.get(index).filter(|_| !intersections.is_empty()) {
+                files.add(path.clone(), |out| tangle_ply(&mesh, &topology, &intersections, out))?;
+            }
+            before = Some((topology, detector));
+            progress.set_steps(index as u64 + 1);
+        }
+        Ok(found)
+    }
+
+    /// The files with colours, one for each mesh, if they are wanted; refuses what could not be written, before long work.
+    fn coloured_files(&self) -> Result<Vec<PathBuf>, Failure> {
+        let Some(folder) = &self.ply else {
+            return Ok(Vec::new());
+        };
+        let mut meshes = BTreeMap::new();
+        let mut files = Vec::new();
+        for path in &self.meshes {
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+            let file = folder.join(format!("{stem}-intersections.ply"));
+            if let Some(other) = meshes.insert(file.clone(), path) {
+                return Err(format!(
+                    "{} and {} would both be written to {}: check them one after the other, into two folders",
+                    other.display(),
+                    path.display(),
+                    file.display()
+                )
+                .into());
+            }
+            files.push(file);
+        }
+        OutputFiles::check_folder(folder)?;
+        Ok(files)
+    }
+}
+
+/// Whether it is another frame of the mesh.
+fn is_frame_of(topology: &Topology, mesh: &Mesh) -> bool {
+    topology.vertex_count() == mesh.positions.len() && topology.triangles() == mesh.triangles
+}

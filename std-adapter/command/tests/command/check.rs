@@ -1,0 +1,161 @@
+//! `selvedge check`.
+
+use crate::support::{ABOVE, Workplace, keys, moved_by};
+use selvedge_files::mesh;
+use serde_json::{Value, json};
+
+/// What a run prints that finds intersections.
+#[track_caller]
+fn tangled(place: &Workplace, arguments: &[&str]) -> String {
+    let output = place.run(arguments);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// The small triangle lies at three heights: above the large one, through it, and with a corner on it.
+fn sequence() -> Workplace {
+    let place = Workplace::new();
+    place.write("above.obj", ABOVE);
+    place.write("through.obj", moved_by(-1.05));
+    place.write("on.obj", moved_by(-1.0));
+    place
+}
+
+#[test]
+fn the_exit_status_says_whether_there_are_intersections() {
+    let place = sequence();
+    assert!(place.stdout(&["check", "above.obj"]).contains("free of intersections"));
+    assert!(tangled(&place, &["check", "through.obj"]).contains("intersects itself"));
+    assert!(tangled(&place, &["check", "--any", "above.obj", "on.obj"]).contains("1 of 2 meshes intersect themselves"));
+}
+
+#[test]
+fn json_has_counts_of_each_mesh_in_order() {
+    let place = sequence();
+    let text = tangled(&place, &["check", "--json", "above.obj", "through.obj", "on.obj"]);
+    let document: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(keys(&document), ["meshes", "are_free"]);
+    assert_eq!(document["are_free"], false);
+    let meshes = document["meshes"].as_array().unwrap();
+    let names = [
+        "mesh",
+        "vertices",
+        "triangles",
+        "edge_face",
+        "vertex_face",
+        "edge_edge",
+        "is_free",
+        "seconds",
+    ];
+    assert_eq!(keys(&meshes[0]), names);
+    let counts: Vec<_> = meshes
+        .iter()
+        .map(|mesh| [&mesh["mesh"], &mesh["edge_face"], &mesh["is_free"]])
+        .collect();
+    // Two edges meet at the corner below the large triangle's plane.
+    assert_eq!(counts[0], [&json!("above.obj"), &json!(0), &json!(true)]);
+    assert_eq!(counts[1], [&json!("through.obj"), &json!(2), &json!(false)]);
+    assert_eq!(counts[2], [&json!("on.obj"), &json!(2), &json!(false)]);
+
+    // Whether there is any is all that was asked.
+    let document: Value = serde_json::from_str(&tangled(&place, &["check", "--json", "--any", "on.obj"])).unwrap();
+    assert!(document["meshes"][0]["edge_face"].is_null() && document["are_free"] == false);
+}
+
+#[test]
+fn the_list_names_the_vertices_of_both_as_csv_and_as_json() {
+    let place = sequence();
+    tangled(&place, &["check", "above.obj", "through.obj", "--list", "list.csv"]);
+    let expected = "\
+mesh,kind,i0,i1,i2,i3,i4
+through.obj,edge-face,3,4,0,1,2
+through.obj,edge-face,3,5,0,1,2
+";
+    assert_eq!(place.read("list.csv"), expected);
+    tangled(&place, &["check", "above.obj", "through.obj", "--list", "list.json"]);
+    let document: Value = serde_json::from_str(&place.read("list.json")).unwrap();
+    let meets = |edge: [u32; 2]| json!({ "kind": "edge-face", "vertices": [edge[0], edge[1], 0, 1, 2] });
+    let expected = json!({ "meshes": [
+        { "mesh": "above.obj", "intersections": [] },
+        { "mesh": "through.obj", "intersections": [meets([3, 4]), meets([3, 5])] },
+    ]});
+    assert_eq!(document, expected);
+}
+
+#[test]
+fn neighbours_folded_flat_are_listed_by_their_edges() {
+    let place = Workplace::new();
+    place.write("folded.obj", "v 0 0 0\nv 3 1 0\nv 1 2 0\nv 2 2 0\nf 1 2 3\nf 2 1 4\n");
+    tangled(&place, &["check", "folded.obj", "--list", "list.csv"]);
+    assert_eq!(
+        place.read("list.csv"),
+        "mesh,kind,i0,i1,i2,i3,i4\nfolded.obj,edge-edge,1,2,0,3,\n"
+    );
+}
+
+#[test]
+fn the_mesh_in_colours_is_written_where_there_are_intersections_and_reads_back() {
+    let place = Workplace::new();
+    place.write("above.obj", ABOVE);
+    // A third triangle, far away: not red.
+    place.write("through.obj", moved_by(-1.05) + "v 9 9 9\nv 9 8 9\nv 8 9 9\nf 7 8 9\n");
+    tangled(&place, &["check", "above.obj", "through.obj", "--ply", "out"]);
+    assert_eq!(
+        place.listing(),
+        ["above.obj", "out", "out/through-intersections.ply", "through.obj"]
+    );
+    let coloured = mesh::read(&place.path("out/through-intersections.ply")).unwrap();
+    assert_eq!(coloured.mesh, mesh::read(&place.path("through.obj")).unwrap().mesh);
+    let bytes = std::fs::read(place.path("out/through-intersections.ply")).unwrap();
+    let (vertices, faces) = bytes[bytes.len() - 9 * 27 - 3 * 16..].split_at(9 * 27);
+    let colours = |records: &[u8], size: usize| -> Vec<bool> {
+        records
+            .chunks(size)
+            .map(|record| record[size - 3] > record[size - 2])
+            .collect()
+    };
+    let (red, grey) = (true, false);
+    assert_eq!(colours(vertices, 27), [[red; 6].as_slice(), &[grey; 3]].concat());
+    assert_eq!(colours(faces, 16), [red, red, grey]);
+}
+
+#[test]
+fn meshes_with_other_triangles_may_follow_each_other() {
+    let place = sequence();
+    place.write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let text = tangled(
+        &place,
+        &["check", "--json", "other.obj", "through.obj", "other.obj", "above.obj"],
+    );
+    let document: Value = serde_json::from_str(&text).unwrap();
+    let free: Vec<_> = document["meshes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|mesh| &mesh["is_free"])
+        .collect();
+    assert_eq!(free, [true, false, true, true]);
+}
+
+#[test]
+fn what_cannot_be_read_or_written_is_refused_with_its_name() {
+    let place = sequence();
+    let refused = |status, arguments: &[&str], text: &str| {
+        let message = place.refusal(status, &[&["check"], arguments].concat());
+        assert!(message.contains(text), "{message}");
+    };
+    refused(1, &["above.obj", "missing.obj"], "missing.obj");
+    place.write("nothing.obj", "v 0 0 0\n");
+    refused(1, &["nothing.obj"], "nothing.obj");
+    refused(
+        1,
+        &["on.obj", "--list", "list.txt"],
+        "list.txt: a list is written as .csv or .json",
+    );
+    refused(1, &["on.obj", "--list", "nowhere/list.csv"], "nowhere");
+    refused(2, &["on.obj", "--any", "--list", "list.csv"], "cannot be used with");
+    refused(2, &[], "<MESH>");
+    place.write("again/on.obj", ABOVE);
+    refused(1, &["on.obj", "again/on.obj", "--ply", "out"], "would both be written");
+}
