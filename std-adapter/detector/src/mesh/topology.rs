@@ -1,6 +1,7 @@
 //! The vertices, edges and triangles of a mesh, and how they hang together.
 
 use crate::PairKind;
+use crate::frame::StepError;
 use std::fmt;
 
 /// The vertices, edges and triangles of a mesh that may be anything a file can hold: edges with
@@ -138,6 +139,21 @@ impl Topology {
         }
     }
 
+    /// Whether the pair is of this mesh; if not, that is an error.
+    pub(crate) fn check_pair(&self, kind: PairKind, pair: [u32; 2]) -> Result<(), StepError> {
+        let edges = self.edges.len();
+        let [firsts, seconds] = match kind {
+            PairKind::VertexFace => [self.vertex_count, self.triangles.len()],
+            PairKind::EdgeEdge => [edges, edges],
+        };
+        let [first, second] = pair.map(|primitive| primitive as usize);
+        if first < firsts && second < seconds {
+            Ok(())
+        } else {
+            Err(StepError::NoSuchPair { kind, pair })
+        }
+    }
+
     /// How many vertices there are, those without a triangle included.
     #[must_use]
     pub fn vertex_count(&self) -> usize {
@@ -167,10 +183,39 @@ impl Topology {
         &self.triangle_edges
     }
 
+    /// For each vertex the one with the smallest number that triangles connect it to: the same for all of a component.
+    ///
+    /// ```
+    /// let topology = selvedge::Topology::new(7, vec![[0, 1, 2], [5, 3, 4]])?;
+    /// assert_eq!(topology.components(), [0, 0, 0, 3, 3, 3, 6]);
+    /// # Ok::<(), selvedge::TopologyError>(())
+    /// ```
+    #[must_use]
+    pub fn components(&self) -> Vec<u32> {
+        // Union-find over vertices, by path halving and the smaller number as root.
+        let mut parents: Vec<u32> = (0..self.vertex_count as u32).collect();
+        for &[a, b, c] in &self.triangles {
+            for (u, v) in [(a, b), (b, c)] {
+                let (u, v) = (root(&mut parents, u), root(&mut parents, v));
+                parents[u.max(v) as usize] = u.min(v);
+            }
+        }
+        (0..self.vertex_count as u32)
+            .map(|vertex| root(&mut parents, vertex))
+            .collect()
+    }
+
     /// Counts what is unusual about the mesh. Takes about as long as [`Topology::new`].
     #[must_use]
     pub fn statistics(&self) -> TopologyStatistics {
-        let (components, isolated_vertices) = count_components(self.vertex_count, &self.triangles);
+        let mut is_used = vec![false; self.vertex_count];
+        self.triangles
+            .iter()
+            .flatten()
+            .for_each(|&vertex| is_used[vertex as usize] = true);
+        let isolated_vertices = is_used.iter().filter(|&&is_used| !is_used).count();
+        let own = (0..).zip(self.components()).zip(is_used);
+        let components = own.filter(|&((vertex, first), is_used)| is_used && vertex == first).count();
         let mut statistics = TopologyStatistics {
             components,
             isolated_vertices,
@@ -294,28 +339,6 @@ fn count_duplicates(vertex_count: usize, triangles: &[[u32; 3]]) -> usize {
     let groups = Groups::new(vertex_count, keys);
     let distinct: usize = groups.iter().map(|(_, group)| group.chunk_by(|a, b| a == b).count()).sum();
     triangles.len() - distinct
-}
-
-/// How many sets of connected triangles there are, and how many vertices without a triangle.
-fn count_components(vertex_count: usize, triangles: &[[u32; 3]]) -> (usize, usize) {
-    // Union-find over vertices, by path halving and the smaller number as root.
-    let mut parents: Vec<u32> = (0..vertex_count as u32).collect();
-    let mut used = vec![false; vertex_count];
-    let mut joins = 0;
-    for &[a, b, c] in triangles {
-        for vertex in [a, b, c] {
-            used[vertex as usize] = true;
-        }
-        for (u, v) in [(a, b), (b, c)] {
-            let (u, v) = (root(&mut parents, u), root(&mut parents, v));
-            if u != v {
-                parents[u.max(v) as usize] = u.min(v);
-                joins += 1;
-            }
-        }
-    }
-    let used = used.iter().filter(|&&used| used).count();
-    (used - joins, vertex_count - used)
 }
 
 fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
