@@ -31,6 +31,30 @@ impl<S: Scalar> Motion<S> {
         Self::new(position, position)
     }
 
+    /// Where the point is at a time in [0, 1] of the step: in the box of its two ends, rounding included, and at one of them exactly at 0
+    /// and at 1; along each axis within 8u of the larger coordinate of where it would be without rounding.
+    ///
+    /// ```
+    /// use selvedge_core::{Motion, glam::DVec3};
+    /// assert_eq!(Motion::new(DVec3::ZERO, DVec3::new(1.0, 2.0, -4.0)).at(0.5), DVec3::new(0.5, 1.0, -2.0));
+    /// ```
+    #[must_use]
+    pub fn at(&self, time: S) -> S::Vector {
+        let [from, to] = self.ends();
+        let mut there = [S::ZERO; 3];
+        for axis in 0..3 {
+            let (from, to) = (from[axis], to[axis]);
+            // A difference of the two might overflow.
+            let between = from * (S::ONE - time) + to * time;
+            there[axis] = between.larger(from.smaller(to)).smaller(from.larger(to));
+        }
+        match time {
+            time if time == S::ONE => self.end,
+            time if time == S::ZERO => self.start,
+            _ => there.into(),
+        }
+    }
+
     /// Start and end as arrays.
     #[inline(always)]
     pub(crate) fn ends(&self) -> [[S; 3]; 2] {

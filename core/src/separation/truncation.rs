@@ -96,27 +96,3 @@ pub fn shares<P: Position>(
     }
     Some(shares)
 }
-
-/// Where a point is that goes a share of its way: in the box of its two ends, rounding included, and at one of them exactly if the share
-/// is 0 or 1. In no other order of operations: the results are the same bits everywhere.
-///
-/// ```
-/// use selvedge_core::{glam::DVec3, separation::truncation::part_of_way};
-/// assert_eq!(part_of_way(DVec3::ZERO, DVec3::new(1.0, 2.0, -4.0), 0.5), DVec3::new(0.5, 1.0, -2.0));
-/// ```
-#[must_use]
-pub fn part_of_way<P: Position>(start: P, wanted: P, share: P::Scalar) -> P {
-    let (from, to): ([P::Scalar; 3], [P::Scalar; 3]) = (start.into(), wanted.into());
-    let mut at = [P::Scalar::ZERO; 3];
-    for axis in 0..3 {
-        let (from, to) = (from[axis], to[axis]);
-        // A difference of the two might overflow.
-        let there = from * (P::Scalar::ONE - share) + to * share;
-        at[axis] = there.larger(from.smaller(to)).smaller(from.larger(to));
-    }
-    match share {
-        share if share == P::Scalar::ONE => wanted,
-        share if share == P::Scalar::ZERO => start,
-        _ => P::from(at),
-    }
-}

@@ -132,7 +132,7 @@ impl CollisionFilter {
     /// Each connected component is a patch: no self-collision of any.
     #[must_use]
     pub fn between_components(topology: &Topology) -> Self {
-        Self::new().with_patches(components(topology))
+        Self::new().with_patches(topology.components())
     }
 
     /// These vertices do not collide with each other, in either order.
@@ -220,24 +220,4 @@ impl Members {
         let are_one_patch = self.patch.is_some() && self.patch == other.patch;
         !are_one_patch && self.groups.collide(other.groups)
     }
-}
-
-/// For each vertex the smallest one that triangles connect it to.
-fn components(topology: &Topology) -> Vec<u32> {
-    let mut parents: Vec<u32> = (0..topology.vertex_count() as u32).collect();
-    let find = |parents: &mut [u32], mut vertex: u32| {
-        while parents[vertex as usize] != vertex {
-            let above = parents[parents[vertex as usize] as usize];
-            parents[vertex as usize] = above;
-            vertex = above;
-        }
-        vertex
-    };
-    for &[a, b, c] in topology.triangles() {
-        for other in [b, c] {
-            let (one, other) = (find(&mut parents, a), find(&mut parents, other));
-            parents[one.max(other) as usize] = one.min(other);
-        }
-    }
-    (0..parents.len() as u32).map(|vertex| find(&mut parents, vertex)).collect()
 }

@@ -49,8 +49,9 @@ pub use mesh::{Mesh, Topology, TopologyError, TopologyStatistics};
 pub use parallel::{ThreadError, Threads};
 pub use selvedge_core as core;
 pub use selvedge_core::glam;
+pub use selvedge_core::separation::geometry::Geometry;
 pub use selvedge_core::{PairKind, ParsePairKindError, Position, Scalar};
-pub use step::{Cancellation, CandidateBoxes, CollisionDetector, Contact, Criterion, Intersection, Truncation};
+pub use step::{Cancellation, CandidateBoxes, CollisionDetector, Contact, ContactGeometry, Criterion, Intersection, Truncation};
 
 /// The readme's examples are tests.
 #[cfg(doctest)]

@@ -4,12 +4,12 @@ use super::collision_detector_keeps_its_promises::pairs_of;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use selvedge::{CollisionDetector, Criterion, Threads};
-use selvedge_core::PairKind;
 use selvedge_core::elementary::Limits;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
-use selvedge_core::separation::truncation::{part_of_way, shares};
+use selvedge_core::separation::truncation::shares;
+use selvedge_core::{Motion, PairKind};
 use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
 use selvedge_verification::oracle::{Pair, collides, within};
 use std::cell::Cell;
@@ -150,7 +150,7 @@ fn a_pair_keeps_its_separation_for_all_smaller_shares() {
         let mut ends = wanted;
         for corner in 0..4 {
             prop_assert!((0.0..=1.0).contains(&shares[corner]));
-            ends[corner] = part_of_way(start[corner], wanted[corner], shares[corner] * parts[corner]);
+            ends[corner] = Motion::new(start[corner], wanted[corner]).at(shares[corner] * parts[corner]);
         }
         let motions = [0, 1, 2, 3].map(|corner| [start[corner].to_array(), ends[corner].to_array()]);
         let question = PairCase::new(kind, motions).question();

@@ -54,7 +54,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
     use selvedge::PairKind;
-    use selvedge::verification::Closest;
+    use selvedge::core::separation::closest::Closest;
 
     fn point() -> impl Strategy<Value = DVec3> {
         prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from)

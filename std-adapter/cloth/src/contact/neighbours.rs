@@ -5,7 +5,8 @@
 
 use selvedge::PairKind;
 use selvedge::Topology;
-use selvedge::verification::{Closest, MovingBroadPhase};
+use selvedge::core::separation::closest::Closest;
+use selvedge::verification::MovingBroadPhase;
 use selvedge_core::glam::{DVec3, Vec3A};
 use selvedge_core::separation::clearance::{are_boxes_within, nearness};
 use selvedge_core::separation::largest_coordinate;

@@ -12,13 +12,12 @@
 //! | `search` | near pairs: hierarchies of moving boxes, then the sieve |
 //! | `sieve` | pairs that keep apart until the next search |
 //! | `horizon`, `near` | for how many steps the pairs are good, and the list of them |
-//! | `pair`, `closest` | one pair, and the direction that keeps it apart |
+//! | `pair` | one pair, and the direction that keeps it apart |
 //! | `follow` | all of it for the steps of a [`CollisionDetector`](crate::CollisionDetector) |
 //!
 //! Nothing here decides by a bound of its own: directions, clearances and courses, with their derivations, are
 //! [core's](selvedge_core::separation).
 
-mod closest;
 mod follow;
 mod horizon;
 mod near;
@@ -26,7 +25,6 @@ mod pair;
 mod search;
 mod sieve;
 
-pub use closest::Closest;
 pub(crate) use follow::{ENORMOUS, Followed};
 pub use near::{NearPairs, NearStatistics};
 pub use pair::NearPair;

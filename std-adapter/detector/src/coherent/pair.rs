@@ -2,9 +2,9 @@
 //!
 //! What a direction proves, and how far rounding can move it, is [core's](selvedge_core::separation::gap).
 
-use super::closest::Closest;
 use crate::PairKind;
 use selvedge_core::glam::DVec3;
+use selvedge_core::separation::closest::Closest;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
 
 /// A vertex and a face, or two edges, that may come near each other.

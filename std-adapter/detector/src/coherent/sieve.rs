@@ -77,9 +77,9 @@ impl Sieve {
 
 #[cfg(test)]
 mod tests {
-    use super::super::closest::Closest;
     use super::*;
     use proptest::prelude::*;
+    use selvedge_core::separation::closest::Closest;
 
     fn point() -> impl Strategy<Value = DVec3> {
         prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from)

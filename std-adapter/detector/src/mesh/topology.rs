@@ -1,6 +1,7 @@
 //! The vertices, edges and triangles of a mesh, and how they hang together.
 
 use crate::PairKind;
+use crate::frame::StepError;
 use std::borrow::Cow;
 use std::fmt;
 
@@ -139,6 +140,21 @@ impl Topology {
         }
     }
 
+    /// Whether the pair is of this mesh; if not, that is an error.
+    pub(crate) fn check_pair(&self, kind: PairKind, pair: [u32; 2]) -> Result<(), StepError> {
+        let edges = self.edges.len();
+        let [firsts, seconds] = match kind {
+            PairKind::VertexFace => [self.vertex_count, self.triangles.len()],
+            PairKind::EdgeEdge => [edges, edges],
+        };
+        let [first, second] = pair.map(|primitive| primitive as usize);
+        if first < firsts && second < seconds {
+            Ok(())
+        } else {
+            Err(StepError::NoSuchPair { kind, pair })
+        }
+    }
+
     /// How many vertices there are, those without a triangle included.
     #[must_use]
     pub fn vertex_count(&self) -> usize {
@@ -166,6 +182,18 @@ impl Topology {
     #[must_use]
     pub fn triangle_edges(&self) -> &[[u32; 3]] {
         &self.triangle_edges
+    }
+
+    /// For each vertex the one with the smallest number that triangles connect it to: the same for all of a component.
+    ///
+    /// ```
+    /// let topology = selvedge::Topology::new(7, vec![[0, 1, 2], [5, 3, 4]])?;
+    /// assert_eq!(topology.components(), [0, 0, 0, 3, 3, 3, 6]);
+    /// # Ok::<(), selvedge::TopologyError>(())
+    /// ```
+    #[must_use]
+    pub fn components(&self) -> Vec<u32> {
+        firsts(self.vertex_count, &self.triangles)
     }
 
     /// Counts what is unusual about the mesh. Takes about as long as [`Topology::new`].
@@ -340,25 +368,26 @@ fn count_duplicates(named: &Named<'_>) -> usize {
 
 /// How many sets of connected triangles there are, and how many vertices with a triangle.
 fn count_components(named: &Named<'_>) -> (usize, usize) {
-    let (vertex_count, triangles) = (named.vertex_count, &*named.triangles);
+    let mut is_used = vec![false; named.vertex_count];
+    let vertices = named.triangles.iter().flatten();
+    vertices.for_each(|&vertex| is_used[vertex as usize] = true);
+    let used = is_used.iter().filter(|&&is_used| is_used).count();
+    let own = (0..).zip(firsts(named.vertex_count, &named.triangles)).zip(is_used);
+    let components = own.filter(|&((vertex, first), is_used)| is_used && vertex == first).count();
+    (components, used)
+}
+
+/// For each vertex the one with the smallest number of its component.
+fn firsts(vertex_count: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
     // Union-find over vertices, by path halving and the smaller number as root.
     let mut parents: Vec<u32> = (0..vertex_count as u32).collect();
-    let mut used = vec![false; vertex_count];
-    let mut joins = 0;
     for &[a, b, c] in triangles {
-        for vertex in [a, b, c] {
-            used[vertex as usize] = true;
-        }
         for (u, v) in [(a, b), (b, c)] {
             let (u, v) = (root(&mut parents, u), root(&mut parents, v));
-            if u != v {
-                parents[u.max(v) as usize] = u.min(v);
-                joins += 1;
-            }
+            parents[u.max(v) as usize] = u.min(v);
         }
     }
-    let used = used.iter().filter(|&&used| used).count();
-    (used - joins, used)
+    (0..vertex_count as u32).map(|vertex| root(&mut parents, vertex)).collect()
 }
 
 fn root(parents: &mut [u32], mut vertex: u32) -> u32 {

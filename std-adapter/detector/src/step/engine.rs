@@ -510,14 +510,7 @@ pub(super) fn own_space(spaces: &[Mutex<Space>]) -> MutexGuard<'_, Space> {
 
 /// Every pair must be of the mesh.
 fn check_pairs(topology: &Topology, [vertex_face, edge_edge]: [&[[u32; 2]]; 2]) -> Result<(), StepError> {
-    let counts = [topology.vertex_count(), topology.triangles().len(), topology.edges().len()];
-    let [vertices, faces, edges] = counts;
-    let is_bad =
-        |[first, second]: [u32; 2], [firsts, seconds]: [usize; 2]| first as usize >= firsts || second as usize >= seconds;
-    let bad = |kind, pairs: &[[u32; 2]], counts| {
-        let pair = pairs.iter().copied().find(|&pair| is_bad(pair, counts));
-        pair.map_or(Ok(()), |pair| Err(StepError::NoSuchPair { kind, pair }))
-    };
-    bad(PairKind::VertexFace, vertex_face, [vertices, faces])?;
-    bad(PairKind::EdgeEdge, edge_edge, [edges, edges])
+    let check = |kind, pairs: &[[u32; 2]]| pairs.iter().try_for_each(|&pair| topology.check_pair(kind, pair));
+    check(PairKind::VertexFace, vertex_face)?;
+    check(PairKind::EdgeEdge, edge_edge)
 }

@@ -2,6 +2,7 @@
 
 mod chunk;
 mod engine;
+mod geometry;
 mod given;
 mod rest;
 #[cfg(feature = "verification")]
@@ -11,6 +12,7 @@ mod sweep;
 mod truncation;
 
 pub use engine::StepTally;
+pub use geometry::ContactGeometry;
 pub use rest::Intersection;
 pub use stop::Cancellation;
 pub(crate) use stop::Stop;
@@ -204,6 +206,8 @@ impl Bound {
 /// | the earliest contact | [`earliest`](Self::earliest) | looks at a short part of the step first, and never beyond the earliest contact so far |
 /// | is the step free of contact? | [`is_free`](Self::is_free) | ends at the first contact |
 /// | how far may each vertex go? | [`truncate`](Self::truncate) | only vertices that would come into contact are held back |
+/// | where does a contact lie, and what is its normal? | [`contact_geometry`](Self::contact_geometry), [`contact_geometries`](Self::contact_geometries) | only contacts are looked at |
+/// | which pairs are near each other at rest? | [`near`](Self::near) | |
 /// | which pairs come near each other? | [`candidates`](Self::candidates) | ends after the broad phase |
 /// | which primitives meet in one state, at rest? | [`intersections`](Self::intersections), [`has_intersections`](Self::has_intersections) | exact, and passing through counts as well |
 /// | contacts of pairs that the caller has | [`contacts_of`](Self::contacts_of) | no broad phase |

@@ -23,13 +23,14 @@
 use super::engine::{Engine, Probe};
 use super::{CandidateBoxes, Contact, Question};
 use crate::PairKind;
-use crate::coherent::Closest;
 use crate::frame::{Step, StepError};
 use crate::parallel::Workers;
+use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
+use selvedge_core::separation::closest::Closest;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
-use selvedge_core::separation::truncation::{part_of_way, shares};
+use selvedge_core::separation::truncation::shares;
 use std::collections::BTreeSet;
 
 /// What came of a step that was [truncated](crate::CollisionDetector::truncate).
@@ -82,7 +83,7 @@ impl Held<'_> {
         let (start, wanted, end) = (at(self.start), at(self.wanted), at(end));
         let mut met = start;
         for corner in 0..4 {
-            met[corner] = part_of_way(start[corner], end[corner], contact.time);
+            met[corner] = Motion::new(start[corner], end[corner]).at(contact.time);
         }
         let least = |shares: &[f64; 4]| shares.iter().copied().fold(1.0, f64::min);
         let by = [start, met, wanted].map(|points| {
@@ -151,7 +152,7 @@ impl Engine {
                 held.hold(contact, vertices, end);
             }
             for vertex in (0..end.len()).filter(|&vertex| held.changed[vertex]) {
-                end[vertex] = round(part_of_way(start[vertex], wanted[vertex], held.shares[vertex]));
+                end[vertex] = round(Motion::new(start[vertex], wanted[vertex]).at(held.shares[vertex]));
             }
             let topology = self.topology();
             for (kind, (open, candidates)) in [PairKind::VertexFace, PairKind::EdgeEdge]

@@ -2,8 +2,8 @@
 //!
 //! Nothing that is certified relies on how well this is done (Ericson, Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9).
 
-use crate::PairKind;
-use selvedge_core::glam::DVec3;
+use crate::kind::PairKind;
+use glam::DVec3;
 
 /// The shortest way from the second set of a pair to the first.
 #[derive(Clone, Copy, Debug)]
@@ -134,45 +134,4 @@ fn of_edge_edge([a, b, c, d]: [DVec3; 4]) -> [f64; 4] {
 fn share(part: f64, whole: f64) -> f64 {
     let share = part / whole;
     if share.is_finite() { share } else { 0.0 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn point() -> impl Strategy<Value = DVec3> {
-        prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from)
-    }
-
-    /// The least distance over a grid of points of both sets.
-    fn on_a_grid(kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> f64 {
-        let mut least = f64::INFINITY;
-        for i in 0..=40 {
-            for j in 0..=40 {
-                let (x, y) = (f64::from(i) / 40.0, f64::from(j) / 40.0);
-                let way = match kind {
-                    PairKind::VertexFace if x + y > 1.0 => continue,
-                    PairKind::VertexFace => p - (q + (r - q) * x + (s - q) * y),
-                    PairKind::EdgeEdge => (p + (q - p) * x) - (r + (s - r) * y),
-                };
-                least = least.min(way.length());
-            }
-        }
-        least
-    }
-
-    proptest! {
-        #[test]
-        fn no_point_of_a_grid_is_closer(points in prop::array::uniform4(point())) {
-            for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
-                let closest = Closest::of(kind, points);
-                let grid = on_a_grid(kind, points);
-                prop_assert!(closest.distance() <= grid + 1e-12);
-                prop_assert!(closest.distance() >= grid - 0.15);
-                let sum: DVec3 = (0..4).map(|k| points[k] * closest.weights[k]).sum();
-                prop_assert!((sum - closest.way).length() < 1e-12);
-            }
-        }
-    }
 }

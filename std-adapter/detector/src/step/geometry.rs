@@ -1,0 +1,166 @@
+//! What contacts are beyond their times: vertices, points, weights, normals. And what of a mesh at rest is near each other.
+
+use super::{CandidateBoxes, CollisionDetector, Contact, Criterion};
+use crate::PairKind;
+use crate::frame::{Frame, StepError, check_length, exactly};
+use crate::mesh::Topology;
+use crate::parallel;
+use selvedge_core::elementary::Limits;
+use selvedge_core::narrowing::widened;
+use selvedge_core::separation::geometry::{Geometry, geometry};
+use selvedge_core::{Motion, Position, PrimitivePair, Scalar};
+
+/// Two primitives, their vertices, and how they lie to each other at some time. Computed in `f64`, whatever the format of the positions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactGeometry {
+    /// Vertex–face or edge–edge.
+    pub kind: PairKind,
+    /// The vertex and the face, or the two edges, as numbered by the [`Topology`].
+    pub pair: [u32; 2],
+    /// The vertex and the corners of the face, or the ends of both edges, as the mesh numbers them.
+    pub vertices: [u32; 4],
+    /// Points, weights, normal, distance, speed: with what is [promised](selvedge_core::separation::geometry) of them.
+    pub geometry: Geometry,
+}
+
+impl<S: Scalar> CollisionDetector<S> {
+    /// The geometry of one contact of the step from `start` to `end`, at its time.
+    ///
+    /// ```
+    /// use selvedge::{CollisionDetector, Topology, glam::DVec3};
+    ///
+    /// // A triangle falls flat onto a larger one.
+    /// let mut detector = CollisionDetector::<f64>::new(Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?);
+    /// let large = [DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, -5.0, 0.0), DVec3::new(0.0, 5.0, 0.0)];
+    /// let small = [DVec3::new(0.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 1.1), DVec3::new(0.0, 1.0, 1.2)];
+    /// let start = [large, small].concat();
+    /// let end = [large, small.map(|vertex| vertex - 2.0 * DVec3::Z)].concat();
+    ///
+    /// let first = detector.earliest(&start, &end)?.expect("they meet");
+    /// let found = detector.contact_geometry(&start, &end, &first)?;
+    /// assert_eq!(found.vertices, [3, 0, 1, 2]);
+    /// assert_eq!(found.geometry.normal, Some(DVec3::Z));
+    /// assert_eq!(found.geometry.speed, -2.0);
+    /// assert!(found.geometry.points[0].length() < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If a frame's length is not the mesh's number of vertices, or the pair is none of the mesh's. Positions that are not finite give no
+    /// normal.
+    pub fn contact_geometry<P: Position<Scalar = S>>(
+        &self,
+        start: &[P],
+        end: &[P],
+        contact: &Contact<S>,
+    ) -> Result<ContactGeometry, StepError> {
+        let expected = self.topology().vertex_count();
+        for (frame, positions) in [(Frame::Start, start), (Frame::End, end)] {
+            if positions.len() != expected {
+                let found = positions.len();
+                return Err(StepError::WrongLength { frame, found, expected });
+            }
+        }
+        self.topology().check_pair(contact.kind, contact.pair)?;
+        Ok(of(self.topology(), [start, end], contact))
+    }
+
+    /// Replaces `geometries` by those of many contacts of a step, in their order, on the detector's threads.
+    ///
+    /// Nothing is allocated if `geometries` has room.
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts), and if a pair is none of the mesh's.
+    pub fn contact_geometries<P: Position<Scalar = S>>(
+        &self,
+        start: &[P],
+        end: &[P],
+        contacts: &[Contact<S>],
+        geometries: &mut Vec<ContactGeometry>,
+    ) -> Result<(), StepError> {
+        self.step(start, end)?;
+        let topology = self.topology();
+        contacts
+            .iter()
+            .try_for_each(|contact| topology.check_pair(contact.kind, contact.pair))?;
+        self.workers
+            .run(|| parallel::fill(geometries, contacts, |contact| of(topology, [start, end], contact)));
+        Ok(())
+    }
+
+    /// Replaces `near` by all pairs of a mesh at rest that are within `distance` of each other, with their closest points: what contact forces
+    /// are made of. Ascending by kind and pair, vertex–face first; pairs that share a vertex are none.
+    ///
+    /// **None is missed.** A pair a little farther away may be among them, by 2⁻¹⁹ of the distance and what rounding hides; each tells the
+    /// [range](Geometry::distance) that its distance is in.
+    ///
+    /// ```
+    /// use selvedge::{CollisionDetector, Topology};
+    ///
+    /// let mut detector = CollisionDetector::<f32>::new(Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?);
+    /// let positions = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [1.0, 1.0, 0.5], [1.0, 1.0, 2.0], [2.0, 1.0, 2.0]];
+    /// let mut near = Vec::new();
+    /// detector.near(&positions, 1.0, &mut near)?;
+    /// assert_eq!(near.len(), 1);
+    /// assert_eq!(near[0].vertices, [3, 0, 1, 2]);
+    /// assert_eq!(near[0].geometry.weights, [1.0, 0.5, 0.25, 0.25]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If there is not one position for each vertex, one is not finite, the distance is negative, infinite or NaN, or the question is
+    /// [cut short](Self::cancellation).
+    pub fn near<P: Position<Scalar = S>>(
+        &mut self,
+        positions: &[P],
+        distance: S,
+        near: &mut Vec<ContactGeometry>,
+    ) -> Result<(), StepError> {
+        check_length(distance)?;
+        let step = self.step(positions, positions)?;
+        let limits = Limits {
+            separation: distance,
+            ..Criterion::default().limits()
+        };
+        let distance = widened(&limits).separation;
+        let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
+        let boxes = CandidateBoxes::Moving;
+        self.engine
+            .candidates(&self.workers, &step, distance, boxes, &mut vertex_face, &mut edge_edge);
+        self.engine.stop.result()?;
+        near.clear();
+        let topology = self.engine.topology();
+        for (kind, mut pairs) in [(PairKind::VertexFace, vertex_face), (PairKind::EdgeEdge, edge_edge)] {
+            pairs.sort_unstable();
+            let mut found = Vec::new();
+            self.workers.run(|| {
+                parallel::fill(&mut found, &pairs, |&pair| {
+                    let at_start = Contact {
+                        kind,
+                        pair,
+                        time: S::default(),
+                    };
+                    of(topology, [positions; 2], &at_start)
+                });
+            });
+            near.extend(found.into_iter().filter(|found| {
+                let is_farther = found.geometry.distance[0] > distance;
+                !is_farther
+            }));
+        }
+        Ok(())
+    }
+}
+
+/// Of a pair of the mesh.
+fn of<P: Position>(topology: &Topology, [start, end]: [&[P]; 2], contact: &Contact<P::Scalar>) -> ContactGeometry {
+    let &Contact { kind, pair, time } = contact;
+    let vertices = topology.vertices_of(kind, pair);
+    let motions = vertices.map(|vertex| Motion::new(exactly(start[vertex as usize]), exactly(end[vertex as usize])));
+    ContactGeometry {
+        kind,
+        pair,
+        vertices,
+        geometry: geometry(&PrimitivePair { kind, motions }, time.to_f64()),
+    }
+}

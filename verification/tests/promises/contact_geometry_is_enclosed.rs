@@ -1,0 +1,209 @@
+//! Points, weights, distance and normal of a contact, against rational numbers.
+
+use proptest::prelude::*;
+use rug::Rational;
+use selvedge::{CollisionDetector, PairKind, StepError, Topology};
+use selvedge_core::glam::DVec3;
+use selvedge_core::separation::geometry::geometry;
+use selvedge_core::separation::largest_coordinate;
+use selvedge_laboratory::scene::ArmScene;
+use selvedge_verification::generator::{Moment, PairCase, check, extraordinary_pairs, pairs_of_any_kind, touching_pairs};
+use selvedge_verification::oracle::within_at;
+use std::cell::Cell;
+
+type Exact = [Rational; 3];
+
+fn exact(number: f64) -> Rational {
+    Rational::from_f64(number).expect("a finite number")
+}
+
+fn exactly(point: DVec3) -> Exact {
+    point.to_array().map(exact)
+}
+
+/// Where the four points are at a time, without rounding.
+fn positions(case: &PairCase<f64>, time: f64) -> [Exact; 4] {
+    case.pair().motions.map(|motion| {
+        [0, 1, 2].map(|axis| {
+            let (from, to) = (exact(motion.start[axis]), exact(motion.end[axis]));
+            (to - &from) * exact(time) + from
+        })
+    })
+}
+
+fn dot(a: &Exact, b: &Exact) -> Rational {
+    let products = a.iter().zip(b).map(|(a, b)| Rational::from(a * b));
+    products.fold(Rational::new(), |sum, product| sum + product)
+}
+
+fn first_of(kind: PairKind) -> usize {
+    match kind {
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
+    }
+}
+
+/// Everything that is promised, at one time. Whether there is a normal.
+fn keeps_promises(case: &PairCase<f64>, time: f64) -> Result<bool, TestCaseError> {
+    let pair = case.pair();
+    let found = geometry(&pair, time);
+    let ends: Vec<DVec3> = pair.motions.iter().flat_map(|motion| [motion.start, motion.end]).collect();
+    let largest = exact(largest_coordinate(&ends));
+    let unit = exact(f64::EPSILON / 2.0);
+    let first = first_of(pair.kind);
+
+    let at = positions(case, time);
+    for (side, corners) in [0..first, first..4].into_iter().enumerate() {
+        let weights = &found.weights[corners.clone()];
+        prop_assert!(weights.iter().all(|weight| (0.0..=1.0).contains(weight)), "{:?}", weights);
+        let sum: Rational = weights.iter().map(|&weight| exact(weight)).sum();
+        prop_assert!((sum - 1_u32).abs() <= Rational::from(&unit * 4), "{:?}", weights);
+        let mut way = exactly(found.points[side]);
+        for corner in corners {
+            for axis in 0..3 {
+                way[axis] -= exact(found.weights[corner]) * &at[corner][axis];
+            }
+        }
+        let bound = Rational::from(&largest * &unit) * 96_u32 + exact(f64::MIN_POSITIVE) * 512_u32;
+        prop_assert!(dot(&way, &way) <= Rational::from(&bound * &bound), "a point of side {}", side);
+    }
+
+    let (question, now) = (case.question(), exact(time));
+    let [from, to] = found.distance;
+    prop_assert!(
+        from <= 0.0 || !within_at(&question, &now, from.next_down()),
+        "nearer than {}",
+        from
+    );
+    prop_assert!(to.is_infinite() || within_at(&question, &now, to), "farther than {}", to);
+
+    let Some(normal) = found.normal else {
+        prop_assert!(found.speed == 0.0 && from == 0.0);
+        return Ok(false);
+    };
+    let exact_normal = exactly(normal);
+    let excess = (dot(&exact_normal, &exact_normal) - 1_u32).abs();
+    prop_assert!(excess <= Rational::from(&unit * 16), "of length one");
+    prop_assert!((0.0..=time).contains(&found.separated_at));
+    let then = positions(case, found.separated_at);
+    let heights = then.each_ref().map(|point| dot(&exact_normal, point));
+    let lowest = heights[..first].iter().min();
+    prop_assert!(lowest > heights[first..].iter().max(), "apart along the normal");
+    Ok(true)
+}
+
+fn is_in_range(case: &PairCase<f64>) -> bool {
+    case.coordinates().all(|x| x.abs() < 1e150)
+}
+
+#[test]
+fn points_weights_distances_and_normals_are_as_promised_at_any_time() {
+    let normals = Cell::new([0; 2]);
+    let count = |has_normal: bool| {
+        let mut counts = normals.get();
+        counts[usize::from(has_normal)] += 1;
+        normals.set(counts);
+    };
+    for time in [0.0, 0.3, 1.0] {
+        let property = |case: &PairCase<f64>| {
+            if is_in_range(case) {
+                count(keeps_promises(case, time)?);
+            }
+            Ok(())
+        };
+        check(400, pairs_of_any_kind::<f64>(), property);
+        check(400, extraordinary_pairs::<f64>(), property);
+    }
+    let [without, with] = normals.get();
+    assert!(without > 50 && with > 500, "{without} {with}");
+}
+
+/// At the last moment before they touch, as a time of impact tells it: most have a normal.
+#[test]
+fn a_pair_that_was_apart_before_it_touches_has_a_normal() {
+    use selvedge_core::elementary::advance::time_of_impact;
+    use selvedge_core::elementary::{Impact, Limits};
+    let found = Cell::new([0; 2]);
+    check(1500, touching_pairs::<f64>(), |moment: &Moment<f64>| {
+        let case = &moment.pair();
+        if !is_in_range(case) {
+            return Ok(());
+        }
+        if let Impact::Possible { time, .. } = time_of_impact(&case.pair(), &Limits::default()) {
+            let has_normal = keeps_promises(case, time)?;
+            let [all, with] = found.get();
+            // Not those that touch, or are too near for rounding to tell, when the step begins.
+            let begins_apart = time > 0.0;
+            found.set([
+                all + usize::from(begins_apart),
+                with + usize::from(begins_apart && has_normal),
+            ]);
+        }
+        Ok(())
+    });
+    let [all, with] = found.get();
+    assert!(all > 200 && 10 * with > 9 * all, "{with} of {all}");
+}
+
+/// On the mesh: all that is near is found, whatever the numbers of the pairs, and a contact's geometry is its pair's.
+#[test]
+fn near_pairs_are_all_within_the_distance_and_none_is_missed() {
+    let scene = ArmScene::new(8).expect("a refinement in range");
+    let topology = scene.topology().clone();
+    let positions = scene.frame(50);
+    let mut detector = CollisionDetector::<f64>::new(topology.clone());
+    let mut near = Vec::new();
+    for distance in [0.0, 1e-3, 1e-2] {
+        detector.near(&positions, distance, &mut near).expect("finite positions");
+        let keys: Vec<_> = near.iter().map(|near| (near.kind, near.pair)).collect();
+        assert!(keys.is_sorted());
+        let is_within = |pair: (PairKind, [u32; 2]), distance: f64| {
+            let vertices = topology.vertices_of(pair.0, pair.1);
+            let resting = vertices.map(|vertex| [positions[vertex as usize].to_array(); 2]);
+            within_at(&PairCase::new(pair.0, resting).question(), &Rational::new(), distance)
+        };
+        assert!(keys.iter().all(|&pair| is_within(pair, 1.00001 * distance)));
+        // Some of the others, which are many.
+        let others = super::collision_detector_keeps_its_promises::pairs_of(&topology).into_iter();
+        for pair in others.filter(|pair| keys.binary_search(pair).is_err()).step_by(4999) {
+            assert!(!is_within(pair, distance), "{pair:?}");
+        }
+    }
+    assert!(near.len() > 100);
+}
+
+#[test]
+fn geometry_of_what_the_mesh_does_not_have_is_an_error() {
+    let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]]).expect("triangles");
+    let mut detector = CollisionDetector::<f64>::new(topology);
+    let start = [
+        [0.0, 0.0, 0.0],
+        [4.0, 0.0, 0.0],
+        [0.0, 4.0, 0.0],
+        [1.0, 1.0, 0.5],
+        [1.0, 1.0, 2.0],
+        [2.0, 1.0, 2.0],
+    ];
+    let mut end = start;
+    end[3][2] = -0.5;
+    let contact = detector
+        .earliest(&start, &end)
+        .expect("finite positions")
+        .expect("the vertex goes through the face");
+    let strange = selvedge::Contact { pair: [3, 2], ..contact };
+    let (kind, pair) = (strange.kind, strange.pair);
+    let no_such_pair = StepError::NoSuchPair { kind, pair };
+    assert_eq!(detector.contact_geometry(&start, &end, &strange), Err(no_such_pair));
+    let many = detector.contact_geometries(&start, &end, &[contact, strange], &mut Vec::new());
+    assert_eq!(many, Err(no_such_pair));
+    assert!(detector.contact_geometry(&start, &end[1..], &contact).is_err());
+    assert!(detector.near(&start, f64::NAN, &mut Vec::new()).is_err());
+    end[0][0] = f64::NAN;
+    assert!(
+        detector
+            .contact_geometries(&start, &end, &[contact], &mut Vec::new())
+            .is_err()
+    );
+    let found = detector.contact_geometry(&start, &end, &contact).expect("a pair of the mesh");
+    assert_eq!((found.geometry.normal, found.geometry.distance), (None, [0.0, f64::INFINITY]));
+}
