@@ -1,0 +1,88 @@
+//! What a detector has found, as C sees it.
+
+use crate::detector::Finder;
+use selvedge::{Contact, PairKind, Scalar, Topology};
+
+/// Which primitives a pair is made of.
+#[repr(u32)]
+#[derive(Clone, Copy)]
+pub enum Kind {
+    /// A vertex and a face.
+    VertexFace = 0,
+    /// Two edges.
+    EdgeEdge = 1,
+}
+
+/// Which boxes tell candidates.
+#[repr(u32)]
+#[derive(Clone, Copy)]
+pub enum Boxes {
+    /// Those at the start and at the end of the step, that are not in one order along an axis at both. Fewer pairs, in less time.
+    Moving = 0,
+    /// Those that primitives sweep, that overlap: what other systems call candidates.
+    Swept = 1,
+}
+
+/// A vertex and a face, two edges, or the two vertices of an edge, by their numbers.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Pair {
+    /// The vertex, or the first edge.
+    pub first: u32,
+    /// The face, or the second edge.
+    pub second: u32,
+}
+
+impl From<[u32; 2]> for Pair {
+    fn from([first, second]: [u32; 2]) -> Self {
+        Self { first, second }
+    }
+}
+
+/// A pair for which contact during the step is not excluded.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactRow {
+    /// When, in [0, 1] of the step: not after the exact time. Of a detector for float it is a float, widened without rounding.
+    pub time: f64,
+    /// A selvedge_kind.
+    pub kind: u32,
+    /// The vertex and the face, or the two edges. Faces are numbered as the triangles, edges as by selvedge_detector_edges.
+    pub pair: Pair,
+    /// The vertex and the face's three, or the ends of the first edge and of the second.
+    pub vertices: [u32; 4],
+}
+
+impl ContactRow {
+    pub(crate) fn new<S: Scalar>(contact: &Contact<S>, topology: &Topology) -> Self {
+        let kind = match contact.kind {
+            PairKind::VertexFace => Kind::VertexFace,
+            PairKind::EdgeEdge => Kind::EdgeEdge,
+        };
+        Self {
+            time: contact.time.to_f64(),
+            kind: kind as u32,
+            pair: contact.pair.into(),
+            vertices: topology.vertices_of(contact.kind, contact.pair),
+        }
+    }
+}
+
+/// The lists that pointers given to C show.
+#[derive(Default)]
+pub(crate) struct Answers {
+    pub(crate) contacts: Vec<ContactRow>,
+    pub(crate) vertex_face: Vec<[u32; 2]>,
+    pub(crate) edge_edge: Vec<[u32; 2]>,
+}
+
+impl Answers {
+    /// Takes over what the detector has found.
+    pub(crate) fn show_contacts<S: Scalar>(&mut self, finder: &Finder<S>) -> &[ContactRow] {
+        let topology = finder.detector.topology();
+        self.contacts.clear();
+        let rows = finder.contacts.iter().map(|contact| ContactRow::new(contact, topology));
+        self.contacts.extend(rows);
+        &self.contacts
+    }
+}

@@ -1,0 +1,386 @@
+//! What a detector can be asked of a step: thin functions for each format over one that is generic.
+
+use crate::answers::{Answers, Boxes, ContactRow, Pair};
+use crate::detector::{Detector, Finder, Format, Handle, on};
+use crate::input::{Out, OutList, unknown, view};
+use crate::status::{Failure, Status};
+use selvedge::{CandidateBoxes, Frame, StepError};
+
+/// The step that a question is about, as it came.
+struct Asked<S> {
+    detector: *mut Handle,
+    start: *const S,
+    end: *const S,
+    vertex_count: usize,
+}
+
+impl<S: Format> Asked<S> {
+    /// Puts the question, with the two frames.
+    ///
+    /// # Safety
+    /// Unless they are null, misaligned or too few, `start` and `end` have 3 * `vertex_count` numbers, which nobody writes to meanwhile.
+    unsafe fn ask(self, question: impl FnOnce(&mut Finder<S>, &mut Answers, [&[[S; 3]]; 2]) -> Result<(), Failure>) -> Status {
+        on(self.detector, |it| {
+            let found = self.vertex_count;
+            let expected = it.topology().vertex_count();
+            let Detector { finder, answers, .. } = it;
+            let Some(finder) = S::of(finder) else {
+                let text = format!("the detector is not for positions in {}", S::NAME);
+                return Err(Failure::new(Status::WrongScalar, text));
+            };
+            if found != expected {
+                // Before one of them is looked at.
+                let frame = Frame::Start;
+                return Err(StepError::WrongLength { frame, found, expected }.into());
+            }
+            // SAFETY: the caller's promise.
+            let frames = unsafe { [view("start", self.start, found)?, view("end", self.end, found)?] };
+            question(finder, answers, frames)
+        })
+    }
+}
+
+unsafe fn find_contacts<S: Format>(asked: Asked<S>, contacts: *mut *const ContactRow, count: *mut usize) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, answers, [start, end]| {
+            let out = OutList::new("contacts", contacts, count)?;
+            finder.detector.contacts(start, end, &mut finder.contacts)?;
+            out.set(answers.show_contacts(finder));
+            Ok(())
+        })
+    }
+}
+
+unsafe fn find_contacts_of<S: Format>(
+    asked: Asked<S>,
+    vertex_face: (*const Pair, usize),
+    edge_edge: (*const Pair, usize),
+    contacts: *mut *const ContactRow,
+    count: *mut usize,
+) -> Status {
+    // SAFETY: the caller's promises. The pairs may be this detector's candidates, to which nothing is written here.
+    unsafe {
+        asked.ask(|finder, answers, [start, end]| {
+            let out = OutList::new("contacts", contacts, count)?;
+            let vertex_face = view("vertex_face", vertex_face.0.cast::<u32>(), vertex_face.1)?;
+            let edge_edge = view("edge_edge", edge_edge.0.cast::<u32>(), edge_edge.1)?;
+            let found = &mut finder.contacts;
+            finder.detector.contacts_of(start, end, vertex_face, edge_edge, found)?;
+            out.set(answers.show_contacts(finder));
+            Ok(())
+        })
+    }
+}
+
+unsafe fn find_earliest<S: Format>(asked: Asked<S>, found: *mut bool, contact: *mut ContactRow) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, _, [start, end]| {
+            let (found, out) = (Out::new("found", found)?, Out::new("contact", contact)?);
+            let earliest = finder.detector.earliest(start, end)?;
+            found.set(earliest.is_some());
+            if let Some(earliest) = earliest {
+                out.set(ContactRow::new(&earliest, finder.detector.topology()));
+            }
+            Ok(())
+        })
+    }
+}
+
+unsafe fn tell_free<S: Format>(asked: Asked<S>, is_free: *mut bool) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, _, [start, end]| {
+            let out = Out::new("is_free", is_free)?;
+            out.set(finder.detector.is_free(start, end)?);
+            Ok(())
+        })
+    }
+}
+
+unsafe fn find_candidates<S: Format>(
+    asked: Asked<S>,
+    boxes: u32,
+    vertex_face: (*mut *const Pair, *mut usize),
+    edge_edge: (*mut *const Pair, *mut usize),
+) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, answers, [start, end]| {
+            let vf = OutList::new("vertex_face", vertex_face.0, vertex_face.1)?;
+            let ee = OutList::new("edge_edge", edge_edge.0, edge_edge.1)?;
+            let boxes = match boxes {
+                number if number == Boxes::Moving as u32 => CandidateBoxes::Moving,
+                number if number == Boxes::Swept as u32 => CandidateBoxes::Swept,
+                number => return Err(unknown("selvedge_boxes", number)),
+            };
+            let lists = (&mut answers.vertex_face, &mut answers.edge_edge);
+            finder.detector.candidates(start, end, boxes, lists.0, lists.1)?;
+            vf.set_pairs(&answers.vertex_face);
+            ee.set_pairs(&answers.edge_edge);
+            Ok(())
+        })
+    }
+}
+
+/// All contacts of the step from `start` to `end`. They stay where they are until this detector's contacts are asked for again, in
+/// either way, or it is freed. If there are none they are at NULL.
+///
+/// # Safety
+/// `start` and `end` point to 3 * `vertex_count` numbers, `contacts` to a pointer, `count` to a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_contacts_f64(
+    detector: *mut Handle,
+    start: *const f64,
+    end: *const f64,
+    vertex_count: usize,
+    contacts: *mut *const ContactRow,
+    count: *mut usize,
+) -> Status {
+    let asked = Asked {
+        detector,
+        start,
+        end,
+        vertex_count,
+    };
+    // SAFETY: the caller's promises.
+    unsafe { find_contacts(asked, contacts, count) }
+}
+
+/// selvedge_detector_contacts_f64 for float.
+///
+/// # Safety
+/// As selvedge_detector_contacts_f64.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_contacts_f32(
+    detector: *mut Handle,
+    start: *const f32,
+    end: *const f32,
+    vertex_count: usize,
+    contacts: *mut *const ContactRow,
+    count: *mut usize,
+) -> Status {
+    let asked = Asked {
+        detector,
+        start,
+        end,
+        vertex_count,
+    };
+    // SAFETY: the caller's promises.
+    unsafe { find_contacts(asked, contacts, count) }
+}
+
+/// The contacts among pairs that the caller has, in their order: so many of a vertex and a face, and so many of two edges. They stay as those of selvedge_detector_contacts_f64. The pairs may be this detector's own candidates.
+///
+/// # Safety
+/// As selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to so many pairs.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_contacts_of_f64(
+    detector: *mut Handle,
+    start: *const f64,
+    end: *const f64,
+    vertex_count: usize,
+    vertex_face: *const Pair,
+    vertex_face_count: usize,
+    edge_edge: *const Pair,
+    edge_edge_count: usize,
+    contacts: *mut *const ContactRow,
+    count: *mut usize,
+) -> Status {
+    let asked = Asked {
+        detector,
+        start,
+        end,
+        vertex_count,
+    };
+    // SAFETY: the caller's promises.
+    unsafe {
+        find_contacts_of(
+            asked,
+            (vertex_face, vertex_face_count),
+            (edge_edge, edge_edge_count),
+            contacts,
+            count,
+        )
+    }
+}
+
+/// selvedge_detector_contacts_of_f64 for float.
+///
+/// # Safety
+/// As selvedge_detector_contacts_of_f64.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_contacts_of_f32(
+    detector: *mut Handle,
+    start: *const f32,
+    end: *const f32,
+    vertex_count: usize,
+    vertex_face: *const Pair,
+    vertex_face_count: usize,
+    edge_edge: *const Pair,
+    edge_edge_count: usize,
+    contacts: *mut *const ContactRow,
+    count: *mut usize,
+) -> Status {
+    let asked = Asked {
+        detector,
+        start,
+        end,
+        vertex_count,
+    };
+    // SAFETY: the caller's promises.
+    unsafe {
+        find_contacts_of(
+            asked,
+            (vertex_face, vertex_face_count),
+            (edge_edge, edge_edge_count),
+            contacts,
+            count,
+        )
+    }
+}
+
+/// The earliest contact of the step: of several at the same time the one with the smallest numbers. `*found` becomes whether there is
+/// one. Then `*contact` becomes it, and the step is free of contact before its time; otherwise the whole step is, and `*contact` stays.
+///
+/// # Safety
+/// `start` and `end` point to 3 * `vertex_count` numbers, `found` and `contact` to one of their type.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_earliest_f64(
+    detector: *mut Handle,
+    start: *const f64,
+    end: *const f64,
+    vertex_count: usize,
+    found: *mut bool,
+    contact: *mut ContactRow,
+) -> Status {
+    let asked = Asked {
+        detector,
+        start,
+        end,
+        vertex_count,
+    };
+    // SAFETY: the caller's promises.
+    unsafe { find_earliest(asked, found, contact) }
+}
+
+/// selvedge_detector_earliest_f64 for float.
+///
+/// # Safety
+/// As selvedge_detector_earliest_f64.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_earliest_f32(
+    detector: *mut Handle,
+    start: *const f32,
+    end: *const f32,
+    vertex_count: usize,
+    found: *mut bool,
+    contact: *mut ContactRow,
+) -> Status {
+    let asked = Asked {
+        detector,
+        start,
+        end,
+        vertex_count,
+    };
+    // SAFETY: the caller's promises.
+    unsafe { find_earliest(asked, found, contact) }
+}
+
+/// Whether the step is certainly free of contact. Ends at the first contact.
+///
+/// # Safety
+/// `start` and `end` point to 3 * `vertex_count` numbers, `is_free` to one of its type.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_is_free_f64(
+    detector: *mut Handle,
+    start: *const f64,
+    end: *const f64,
+    vertex_count: usize,
+    is_free: *mut bool,
+) -> Status {
+    let asked = Asked {
+        detector,
+        start,
+        end,
+        vertex_count,
+    };
+    // SAFETY: the caller's promises.
+    unsafe { tell_free(asked, is_free) }
+}
+
+/// selvedge_detector_is_free_f64 for float.
+///
+/// # Safety
+/// As selvedge_detector_is_free_f64.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_is_free_f32(
+    detector: *mut Handle,
+    start: *const f32,
+    end: *const f32,
+    vertex_count: usize,
+    is_free: *mut bool,
+) -> Status {
+    let asked = Asked {
+        detector,
+        start,
+        end,
+        vertex_count,
+    };
+    // SAFETY: the caller's promises.
+    unsafe { tell_free(asked, is_free) }
+}
+
+/// The pairs that boxes leave; all others are certainly farther apart than the separation throughout the step. `boxes`
+/// is a selvedge_boxes. They stay where they are until this detector's candidates are asked for again, or it is freed.
+///
+/// # Safety
+/// `start` and `end` point to 3 * `vertex_count` numbers, `vertex_face` and `edge_edge` to pointers, the counts to numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_candidates_f64(
+    detector: *mut Handle,
+    start: *const f64,
+    end: *const f64,
+    vertex_count: usize,
+    boxes: u32,
+    vertex_face: *mut *const Pair,
+    vertex_face_count: *mut usize,
+    edge_edge: *mut *const Pair,
+    edge_edge_count: *mut usize,
+) -> Status {
+    let asked = Asked {
+        detector,
+        start,
+        end,
+        vertex_count,
+    };
+    // SAFETY: the caller's promises.
+    unsafe { find_candidates(asked, boxes, (vertex_face, vertex_face_count), (edge_edge, edge_edge_count)) }
+}
+
+/// selvedge_detector_candidates_f64 for float.
+///
+/// # Safety
+/// As selvedge_detector_candidates_f64.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_candidates_f32(
+    detector: *mut Handle,
+    start: *const f32,
+    end: *const f32,
+    vertex_count: usize,
+    boxes: u32,
+    vertex_face: *mut *const Pair,
+    vertex_face_count: *mut usize,
+    edge_edge: *mut *const Pair,
+    edge_edge_count: *mut usize,
+) -> Status {
+    let asked = Asked {
+        detector,
+        start,
+        end,
+        vertex_count,
+    };
+    // SAFETY: the caller's promises.
+    unsafe { find_candidates(asked, boxes, (vertex_face, vertex_face_count), (edge_edge, edge_edge_count)) }
+}
