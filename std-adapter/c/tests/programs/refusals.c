@@ -72,9 +72,16 @@ static void meshes(void) {
   HOLDS(made == NULL);
 }
 
-/* 2^32 - 1 vertices can be numbered. On a machine with memory for two frames of them it takes a while. */
+/* 2^32 - 1 vertices can be numbered: 192 GiB of positions. Asked where the system refuses memory that it does not have. */
 static void more_vertices_than_memory(void) {
   selvedge_detector *made = NULL;
+  FILE *file = fopen("/proc/sys/vm/overcommit_memory", "r");
+  int promises_all = !file || fgetc(file) == '1';
+  if (file) fclose(file);
+  if (promises_all) {
+    printf("skipped: more vertices than memory, on a system that promises any memory\n");
+    return;
+  }
   EXPECT(NO_MEMORY, selvedge_detector_new(SELVEDGE_SCALAR_F64, UINT32_MAX, TRIANGLES, 2, &made));
   HOLDS(made == NULL);
 }
@@ -183,6 +190,17 @@ static void questions(selvedge_detector *detector) {
   HOLDS(contacts == before && count == 1 && contacts[0].pair.first == 3);
 }
 
+/* A leak would be found here, by the sanitizer. */
+static void come_and_go(void) {
+  for (int k = 0; k < 300; k++) {
+    selvedge_detector *made = NULL;
+    EXPECT(OK, selvedge_detector_new(SELVEDGE_SCALAR_F64, VERTICES, TRIANGLES, 2, &made));
+    if (k % 50 == 0) EXPECT(OK, selvedge_detector_set_threads(made, 2));
+    answers_as_ever(made);
+    EXPECT(OK, selvedge_detector_free(made));
+  }
+}
+
 int main(void) {
   HOLDS(selvedge_version() == SELVEDGE_VERSION);
   HOLDS(*selvedge_last_error() == '\0');
@@ -194,6 +212,7 @@ int main(void) {
   handles(detector);
   settings(detector);
   questions(detector);
+  come_and_go();
   EXPECT(OK, selvedge_detector_free(detector));
   return faults == 0 ? 0 : 1;
 }
