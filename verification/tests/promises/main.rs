@@ -24,6 +24,7 @@ mod false_culls_are_counted;
 mod generator_makes_what_it_promises;
 mod hard_cases_have_exact_answers;
 mod inside_functions_never_cull_what_touches;
+mod intersections_are_exact;
 mod known_examples;
 mod minifloat_exhaustive;
 mod moving_boxes_find_what_relative_boxes_leave;

@@ -1,15 +1,10 @@
 //! Whether a mesh passes through itself, where a simulation starts.
 //!
 //! The certified pass keeps apart what is apart. It would never notice two surfaces that pass through each other far from any vertex
-//! and any other edge. Two triangles without a common vertex have a point in common exactly if an edge of one of them meets the
-//! other, and an edge is the way of a point that moves from one of its ends to the other: so the exact verdict on that point and the
-//! face decides. Of triangles with a common vertex only the edges without it are asked about.
+//! and any other edge: edges that pass through faces are asked for by themselves.
 
-use selvedge::Topology;
-use selvedge::verification::MovingBroadPhase;
-use selvedge_core::elementary::contact::{Contact, contact};
-use selvedge_core::glam::DVec3;
-use selvedge_core::{Motion, PrimitivePair};
+use selvedge::core::glam::DVec3;
+use selvedge::{CollisionDetector, Intersection, Topology};
 use std::sync::Arc;
 
 /// An edge and a face that it meets, if a vertex of the one and a vertex of the other `are_asked` about; in words.
@@ -18,24 +13,19 @@ pub(super) fn first_crossing(
     positions: &[DVec3],
     are_asked: impl Fn(u32, u32) -> bool,
 ) -> Option<String> {
-    let mut broad_phase = MovingBroadPhase::new(Arc::clone(topology));
-    let mut pairs = Vec::new();
-    match broad_phase.update(positions, positions) {
-        Ok(()) => broad_phase.edge_face_candidates(&mut pairs),
-        Err(error) => return Some(error.to_string()),
+    let mut detector = CollisionDetector::<f64>::new(Arc::clone(topology));
+    let mut found = Vec::new();
+    if let Err(error) = detector.intersections(positions, &mut found) {
+        return Some(error.to_string());
     }
-    pairs.into_iter().find_map(|[edge, face]| {
+    found.into_iter().find_map(|intersection| {
+        // Vertices and faces, and edges, are the pass's own.
+        let Intersection::EdgeFace { edge, face } = intersection else {
+            return None;
+        };
         let [from, to] = topology.edges()[edge as usize];
         let [a, b, c] = topology.triangles()[face as usize];
-        if !are_asked(from, a) {
-            return None;
-        }
-        let pair = PrimitivePair::vertex_face(
-            Motion::new(positions[from as usize], positions[to as usize]),
-            [a, b, c].map(|vertex| Motion::resting(positions[vertex as usize])),
-        );
-        let meets = contact(&pair) != Contact::Never;
-        meets.then(|| format!("the pair of the edge {from}, {to} and the face {a}, {b}, {c}"))
+        are_asked(from, a).then(|| format!("the pair of the edge {from}, {to} and the face {a}, {b}, {c}"))
     })
 }
 

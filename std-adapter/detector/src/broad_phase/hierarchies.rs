@@ -81,6 +81,7 @@ pub(crate) struct Hierarchies {
     fit: Fit,
     extent: Aabb<f64>,
     tasks: [Vec<BlockPair>; 2],
+    edge_face_tasks: Vec<BlockPair>,
     task_tests: u64,
     scratch: Scratch,
     degradation: Degradation,
@@ -107,6 +108,7 @@ impl Hierarchies {
             fit: Fit::default(),
             extent: Aabb::empty(),
             tasks: [Vec::new(), Vec::new()],
+            edge_face_tasks: Vec::new(),
             task_tests: 0,
             scratch: Scratch::new(),
             degradation: Degradation::default(),
@@ -334,16 +336,66 @@ impl Hierarchies {
         }
     }
 
-    /// Gives `sink` the edges and faces that are near each other and have no vertex in common, by their positions.
-    pub(crate) fn visit_edge_face(&mut self, sink: &mut dyn Sink) {
+    /// Finds where to look for edges and faces that are near each other, as the last update left them.
+    pub(crate) fn find_edge_face_tasks(&mut self) {
         let trees = Trees {
             first: &self.edges,
             second: &self.faces,
             are_same: false,
         };
-        let mut tasks = Vec::new();
-        trees.tasks(self.level, TASK_LEVEL, &mut self.scratch, &mut tasks);
-        trees.pairs(self.level, &tasks, &mut self.scratch, sink);
+        trees.tasks(self.level, TASK_LEVEL, &mut self.scratch, &mut self.edge_face_tasks);
+        settle(&mut self.edge_face_tasks);
+    }
+
+    /// Gives `sink` the edges and faces that are near each other and have no vertex in common, by their positions: a share of them
+    /// out of so many. Returns false if it has had enough.
+    pub(crate) fn visit_edge_face(&self, share: usize, shares: usize, scratch: &mut Scratch, sink: &mut dyn Sink) -> bool {
+        let tasks = &self.edge_face_tasks;
+        let bound = |index: usize| tasks.len() * index / shares;
+        let tasks = &tasks[bound(share)..bound(share + 1)];
+        let trees = Trees {
+            first: &self.edges,
+            second: &self.faces,
+            are_same: false,
+        };
+        trees.pairs(self.level, tasks, scratch, sink).is_some()
+    }
+
+    /// A share of the vertices and faces, out of so many.
+    pub(crate) fn vertex_face_share(&self, share: usize, shares: usize) -> Share<'_> {
+        let tasks = &self.tasks[PairKind::VertexFace as usize];
+        let bound = |index: usize| tasks.len() * index / shares;
+        Share {
+            kind: PairKind::VertexFace,
+            tasks: &tasks[bound(share)..bound(share + 1)],
+        }
+    }
+
+    /// How many positions there are: a row for each.
+    pub(crate) fn vertex_positions(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// The positions of each edge's ends, by its own position.
+    pub(crate) fn edge_ends(&self) -> &[[u32; 2]] {
+        &self.edges.vertices
+    }
+
+    /// The positions of a face's corners.
+    #[inline(always)]
+    pub(crate) fn face_corners(&self, face: u32) -> [u32; 3] {
+        self.faces.vertices[face as usize]
+    }
+
+    /// The position of a vertex of the mesh that has a triangle.
+    #[inline(always)]
+    pub(crate) fn position_of(&self, vertex: u32) -> u32 {
+        self.positions[vertex as usize]
+    }
+
+    /// Whether a vertex of the mesh takes part in every pair, not only in those with such a partner.
+    pub(crate) fn moves(&self, vertex: u32) -> bool {
+        self.moving.as_ref().is_none_or(|moving| moving[vertex as usize])
     }
 
     /// An edge and a face as the topology numbers them.

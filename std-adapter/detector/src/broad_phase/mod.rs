@@ -187,18 +187,6 @@ impl MovingBroadPhase {
         self.hierarchies.observe(tests.sum(), vertex_face.len() + edge_edge.len());
     }
 
-    /// Replaces `pairs` by the edges and faces that boxes leave and that have no vertex in common: edge and face, as the topology
-    /// numbers them, in order. On the calling thread.
-    ///
-    /// An edge that passes through a face of a mesh at rest is among them.
-    pub fn edge_face_candidates(&mut self, pairs: &mut Vec<[u32; 2]>) {
-        let mut positions = Positions(Vec::new());
-        self.hierarchies.visit_edge_face(&mut positions);
-        pairs.clear();
-        pairs.extend(positions.0.iter().map(|&pair| self.hierarchies.edge_face_in_mesh(pair)));
-        pairs.sort_unstable();
-    }
-
     /// Counts of what was done.
     #[must_use]
     pub const fn statistics(&self) -> MovingStatistics {
@@ -224,16 +212,6 @@ impl Collector {
         };
         let tests = hierarchies.visit(share, &mut self.scratch, &mut collected);
         self.tests = tests.unwrap_or(0);
-    }
-}
-
-/// Pairs as the trees number them.
-struct Positions(Vec<[u32; 2]>);
-
-impl Sink for Positions {
-    fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
-        self.0.extend_from_slice(pairs);
-        true
     }
 }
 

@@ -3,8 +3,10 @@
 //! A [`Mesh`] is positions and triangles, nothing else. [`Topology`] is what a mesh's triangles
 //! say about its edges; it does not change while the mesh moves, so it is built once.
 
+mod hinges;
 mod topology;
 
+pub(crate) use hinges::{Hinge, Hinges};
 pub use topology::{Topology, TopologyError, TopologyStatistics};
 
 use selvedge_core::glam::DVec3;

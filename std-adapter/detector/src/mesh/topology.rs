@@ -250,7 +250,7 @@ impl fmt::Display for TopologyStatistics {
     }
 }
 
-fn is_degenerate(&[a, b, c]: &[u32; 3]) -> bool {
+pub(super) fn is_degenerate(&[a, b, c]: &[u32; 3]) -> bool {
     a == b || b == c || c == a
 }
 
@@ -330,14 +330,15 @@ fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
 /// Items grouped by a key below a known bound and sorted within each group: a counting sort by
 /// key, then a small sort for each group. A mesh has few items to a vertex, so this is much faster
 /// than sorting everything at once.
-struct Groups<T> {
+#[derive(Debug)]
+pub(super) struct Groups<T> {
     /// Group k is `items[starts[k]..starts[k + 1]]`.
     starts: Vec<u32>,
     items: Vec<T>,
 }
 
 impl<T: Copy + Default + Ord> Groups<T> {
-    fn new(key_count: usize, keyed: impl Iterator<Item = (u32, T)> + Clone) -> Self {
+    pub(super) fn new(key_count: usize, keyed: impl Iterator<Item = (u32, T)> + Clone) -> Self {
         let mut starts = vec![0_u32; key_count + 1];
         for (key, _) in keyed.clone() {
             starts[key as usize + 1] += 1;
@@ -356,6 +357,11 @@ impl<T: Copy + Default + Ord> Groups<T> {
             items[starts[key] as usize..starts[key + 1] as usize].sort_unstable();
         }
         Self { starts, items }
+    }
+
+    /// The group of a key.
+    pub(super) fn of(&self, key: usize) -> &[T] {
+        &self.items[self.starts[key] as usize..self.starts[key + 1] as usize]
     }
 
     /// The groups in order of their keys; some may be empty.

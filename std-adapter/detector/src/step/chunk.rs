@@ -47,6 +47,11 @@ pub(super) enum Numbers<'a> {
     Positions(&'a Hierarchies),
     /// The mesh's own.
     Mesh(&'a Topology),
+    /// The mesh's own, in rows by their positions in the hierarchies.
+    Placed(&'a Hierarchies),
+    /// Edges and faces by their positions in the hierarchies. An edge is a vertex that goes from one of its ends to the other; its row
+    /// comes after those of all vertices.
+    EdgesAndFaces(&'a Hierarchies),
 }
 
 impl Numbers<'_> {
@@ -56,6 +61,15 @@ impl Numbers<'_> {
         match self {
             Self::Positions(hierarchies) => hierarchies.vertices(kind, pair),
             Self::Mesh(topology) => topology.vertices_of(kind, pair),
+            Self::Placed(hierarchies) => {
+                let vertices = hierarchies.topology().vertices_of(kind, pair);
+                vertices.map(|vertex| hierarchies.position_of(vertex))
+            }
+            Self::EdgesAndFaces(hierarchies) => {
+                let [edge, face] = pair;
+                let [a, b, c] = hierarchies.face_corners(face);
+                [hierarchies.vertex_positions() as u32 + edge, a, b, c]
+            }
         }
     }
 
@@ -63,9 +77,9 @@ impl Numbers<'_> {
     fn vertices_of_all(&self, kind: PairKind, pairs: &[[u32; 2]], rows: &mut [[u32; 4]]) {
         match self {
             Self::Positions(hierarchies) => hierarchies.vertices_of_all(kind, pairs, rows),
-            Self::Mesh(topology) => {
+            _ => {
                 for (rows, &pair) in rows.iter_mut().zip(pairs) {
-                    *rows = topology.vertices_of(kind, pair);
+                    *rows = self.vertices(kind, pair);
                 }
             }
         }
@@ -74,7 +88,8 @@ impl Numbers<'_> {
     fn in_mesh(&self, kind: PairKind, pair: [u32; 2]) -> [u32; 2] {
         match self {
             Self::Positions(hierarchies) => hierarchies.in_mesh(kind, pair),
-            Self::Mesh(_) => pair,
+            Self::Mesh(_) | Self::Placed(_) => pair,
+            Self::EdgesAndFaces(hierarchies) => hierarchies.edge_face_in_mesh(pair),
         }
     }
 }
@@ -183,17 +198,10 @@ impl Chunk {
         self.pairs.extend_from_slice(candidates);
         self.indices.resize(first + candidates.len(), [0; 4]);
         step.numbers.vertices_of_all(kind, candidates, &mut self.indices[first..]);
-        let limits = &step.question.limits;
-        match step.rows.single() {
-            Some(rows) => {
-                let separation = rounded_up(limits.separation);
-                self.filter(step.level, kind, first, rows, Tier::Widened, separation);
-            }
-            None => {
-                let rows = step.rows.double();
-                self.filter(step.level, kind, first, rows, Tier::Permanent, limits.separation);
-            }
-        }
+        let Self {
+            pairs, indices, masks, ..
+        } = self;
+        drop_never_coplanar(step, kind, first, pairs, indices, masks);
         let kept = &self.pairs[first..];
         *count(&mut found.tally.candidates, kind) += candidates.len() as u64;
         *count(&mut found.tally.filtered, kind) += kept.len() as u64;
@@ -203,35 +211,6 @@ impl Chunk {
         }
         found.tally.filter_time += begin.elapsed();
         self.pairs.len() < CHUNK || self.finish(step, kind, found)
-    }
-
-    /// Drops the pairs from `first` on that are never coplanar.
-    fn filter<F: Scalar>(
-        &mut self,
-        level: Level,
-        kind: PairKind,
-        first: usize,
-        rows: &[VertexRow<F>],
-        tier: Tier,
-        separation: F,
-    ) {
-        // A separation that the format has no number for excludes nothing.
-        let Some(filter) = Filter::new(tier).with_separation(separation) else {
-            return;
-        };
-        let indices = &mut self.indices[first..];
-        let pairs = &mut self.pairs[first..];
-        self.masks.clear();
-        self.masks.resize(indices.len().div_ceil(LANES), 0);
-        culled_from_rows(level, kind, filter, rows, indices, &mut self.masks);
-        let mut kept = 0;
-        for read in 0..pairs.len() {
-            pairs[kept] = pairs[read];
-            indices[kept] = indices[read];
-            kept += usize::from(self.masks[read / LANES] >> (read % LANES) & 1 == 0);
-        }
-        self.pairs.truncate(first + kept);
-        self.indices.truncate(first + kept);
     }
 
     /// Decides all pairs that there are. Returns whether to go on.
@@ -313,6 +292,42 @@ impl Chunk {
             impacts[place as usize] = advanced(step, kind, indices, time, until);
         }
     }
+}
+
+/// Drops the pairs from `first` on that are never coplanar, with their rows.
+pub(super) fn drop_never_coplanar(
+    step: &StepInput<'_>,
+    kind: PairKind,
+    first: usize,
+    pairs: &mut Vec<[u32; 2]>,
+    indices: &mut Vec<[u32; 4]>,
+    masks: &mut Vec<Mask>,
+) {
+    masks.clear();
+    masks.resize((indices.len() - first).div_ceil(LANES), 0);
+    let (level, own, separation) = (step.level, &indices[first..], step.question.limits.separation);
+    // A separation that the format has no number for excludes nothing.
+    match step.rows.single() {
+        Some(rows) => {
+            if let Some(filter) = Filter::new(Tier::Widened).with_separation(rounded_up(separation)) {
+                culled_from_rows(level, kind, filter, rows, own, masks);
+            }
+        }
+        None => {
+            if let Some(filter) = Filter::new(Tier::Permanent).with_separation(separation) {
+                culled_from_rows(level, kind, filter, step.rows.double(), own, masks);
+            }
+        }
+    }
+    let mut kept = first;
+    for read in first..pairs.len() {
+        let place = read - first;
+        pairs[kept] = pairs[read];
+        indices[kept] = indices[read];
+        kept += usize::from(masks[place / LANES] >> (place % LANES) & 1 == 0);
+    }
+    pairs.truncate(kept);
+    indices.truncate(kept);
 }
 
 /// One pair alone, from the time up to which it is proven to be apart. [`NEVER`] if it is so until the end.

@@ -2,6 +2,7 @@
 
 use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
 use super::given::PrimitiveBoxes;
+use super::rest::HingeChunk;
 use super::{Bound, CandidateBoxes, Contact, Question, Wanted};
 use crate::PairKind;
 use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
@@ -10,7 +11,7 @@ use crate::clock::Clock;
 use crate::coherent::{ENORMOUS, Followed};
 use crate::dispatch::Level;
 use crate::frame::{Motions, StepError};
-use crate::mesh::Topology;
+use crate::mesh::{Hinges, Topology};
 use crate::pair_counts::PairCounts;
 use crate::parallel::{self, Workers};
 use selvedge_core::Scalar;
@@ -65,41 +66,44 @@ pub struct StepTally {
 /// See the [module](super).
 #[derive(Debug)]
 pub(crate) struct Engine {
-    broad_phase: MovingBroadPhase,
+    pub(super) broad_phase: MovingBroadPhase,
     /// In the mode for coherent motion.
     followed: Option<Box<Followed>>,
     /// Which vertices move, if not all.
     moving: Option<Vec<bool>>,
     /// One for each share of the work.
-    workers: Vec<Worker>,
+    pub(super) workers: Vec<Worker>,
     /// One for each thread.
-    spaces: Vec<Mutex<Space>>,
+    pub(super) spaces: Vec<Mutex<Space>>,
     /// The motion of each vertex as the mesh numbers them, for pairs of the caller's.
-    rows: Rows,
+    pub(super) rows: Rows,
     boxes: PrimitiveBoxes,
+    /// Once a mesh at rest was asked about.
+    pub(super) hinges: Option<Hinges>,
     tally: StepTally,
 }
 
 /// What a thread works in.
 #[derive(Debug)]
-struct Space {
-    scratch: Scratch,
-    chunk: Chunk,
+pub(super) struct Space {
+    pub(super) scratch: Scratch,
+    pub(super) chunk: Chunk,
     /// A caller's pairs that boxes leave.
-    near: Vec<[u32; 2]>,
+    pub(super) near: Vec<[u32; 2]>,
+    pub(super) hinges: HingeChunk,
 }
 
 /// One share of the work.
 #[derive(Debug)]
-struct Worker {
-    found: Found,
+pub(super) struct Worker {
+    pub(super) found: Found,
     kind: PairKind,
     tests: u64,
     seconds: f64,
 }
 
 impl Worker {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self {
             found: Found::nothing(),
             kind: PairKind::VertexFace,
@@ -119,6 +123,7 @@ impl Engine {
             spaces: Vec::new(),
             rows: Rows::default(),
             boxes: PrimitiveBoxes::default(),
+            hinges: None,
             tally: StepTally::default(),
         }
     }
@@ -420,10 +425,7 @@ fn decide(
     pairs: [&[[u32; 2]]; 2],
     pick: impl for<'a> Fn(PairKind, &'a [[u32; 2]], &'a mut Vec<[u32; 2]>) -> Option<&'a [[u32; 2]]> + Sync,
 ) -> Option<()> {
-    let shares = match parallel::threads() {
-        1 => 1,
-        threads => 8 * threads,
-    };
+    let shares = shares();
     workers.resize_with(2 * shares, Worker::new);
     let spaces = spaces_for_threads(spaces);
     let is_strange = AtomicBool::new(false);
@@ -452,6 +454,14 @@ fn decide(
     (!is_strange.into_inner()).then_some(())
 }
 
+/// Into how many parts work of one kind is split on the threads there are.
+pub(super) fn shares() -> usize {
+    match parallel::threads() {
+        1 => 1,
+        threads => 8 * threads,
+    }
+}
+
 /// A contact with its time rounded down, so that it is no later.
 pub(super) fn in_format_of_positions<S: Scalar>(contact: &Contact<f64>) -> Contact<S> {
     let &Contact { kind, pair, time } = contact;
@@ -463,12 +473,13 @@ pub(super) fn in_format_of_positions<S: Scalar>(contact: &Contact<f64>) -> Conta
 }
 
 /// Makes a space for each thread, if they are not there.
-fn spaces_for_threads(spaces: &mut Vec<Mutex<Space>>) -> &[Mutex<Space>] {
+pub(super) fn spaces_for_threads(spaces: &mut Vec<Mutex<Space>>) -> &[Mutex<Space>] {
     let new = || {
         Mutex::new(Space {
             scratch: Scratch::new(),
             chunk: Chunk::new(),
             near: Vec::with_capacity(CHUNK),
+            hinges: HingeChunk::default(),
         })
     };
     if spaces.len() < parallel::threads() {
@@ -478,7 +489,7 @@ fn spaces_for_threads(spaces: &mut Vec<Mutex<Space>>) -> &[Mutex<Space>] {
 }
 
 /// The space of the thread that calls. Nobody else asks for it: a thread has one share at a time.
-fn own_space(spaces: &[Mutex<Space>]) -> MutexGuard<'_, Space> {
+pub(super) fn own_space(spaces: &[Mutex<Space>]) -> MutexGuard<'_, Space> {
     let space = &spaces[parallel::own_index() % spaces.len()];
     // What a panic has left behind is cleared before use.
     space.lock().unwrap_or_else(PoisonError::into_inner)

@@ -3,11 +3,13 @@
 mod chunk;
 mod engine;
 mod given;
+mod rest;
 #[cfg(feature = "verification")]
 mod shown;
 mod sweep;
 
 pub use engine::StepTally;
+pub use rest::Intersection;
 
 use crate::PairKind;
 use crate::frame::{Step, StepError, check_length};
@@ -195,6 +197,7 @@ impl Bound {
 /// | the earliest contact | [`earliest`](Self::earliest) | looks at a short part of the step first, and never beyond the earliest contact so far |
 /// | is the step free of contact? | [`is_free`](Self::is_free) | ends at the first contact |
 /// | which pairs come near each other? | [`candidates`](Self::candidates) | ends after the broad phase |
+/// | which primitives meet in one state, at rest? | [`intersections`](Self::intersections), [`has_intersections`](Self::has_intersections) | exact, and passing through counts as well |
 /// | contacts of pairs that the caller has | [`contacts_of`](Self::contacts_of) | no broad phase |
 ///
 /// Steps that go on from one another, as a simulation's, take less time if one says so ([`set_coherent`](Self::set_coherent)).

@@ -1,0 +1,93 @@
+//! What hangs together so closely that no edge of the one is free of the other's vertices.
+
+use super::topology::{Groups, Topology, is_degenerate};
+
+/// Two triangles with a common edge, and the edge.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hinge {
+    triangles: [u32; 2],
+    edge: u32,
+}
+
+/// The hinges of a mesh, and its loose edges.
+#[derive(Debug)]
+pub(crate) struct Hinges {
+    /// The triangles of each edge, but for those that name a vertex twice.
+    triangles: Groups<u32>,
+    /// The ends of the edges of those, either end first, in ascending order.
+    loose: Vec<[u32; 2]>,
+}
+
+impl Hinges {
+    pub(crate) fn new(topology: &Topology) -> Self {
+        let triangles = topology.triangles();
+        let edges = (0..).zip(topology.triangle_edges()).zip(triangles);
+        let proper = edges.filter(|(_, triangle)| !is_degenerate(triangle));
+        let keyed = proper.flat_map(|((triangle, edges), _)| edges.map(|edge| (edge, triangle)));
+        let degenerate = triangles.iter().filter(|triangle| is_degenerate(triangle));
+        let ends = degenerate.flat_map(|&[a, b, c]| [[a, b], [b, a], [b, c], [c, b], [c, a], [a, c]]);
+        let mut loose: Vec<_> = ends.filter(|[a, b]| a != b).collect();
+        loose.sort_unstable();
+        loose.dedup();
+        Self {
+            triangles: Groups::new(topology.edges().len(), keyed),
+            loose,
+        }
+    }
+
+    /// Those at an edge.
+    pub(crate) fn at(&self, edge: u32) -> impl Iterator<Item = Hinge> {
+        let own = self.triangles.of(edge as usize);
+        let pairs = own
+            .iter()
+            .enumerate()
+            .flat_map(|(k, &first)| own[k + 1..].iter().map(move |&second| [first, second]));
+        pairs.map(move |triangles| Hinge { triangles, edge })
+    }
+
+    /// Whether there is a triangle that names a vertex twice: an edge.
+    pub(crate) fn has_loose_edges(&self) -> bool {
+        !self.loose.is_empty()
+    }
+
+    /// Whether a loose edge joins a vertex with one of a triangle's.
+    pub(crate) fn is_tied(&self, vertex: u32, triangle: [u32; 3]) -> bool {
+        let is_loose = |&corner: &u32| self.loose.binary_search(&[vertex, corner]).is_ok();
+        triangle.iter().any(is_loose)
+    }
+}
+
+impl Hinge {
+    /// The vertices of the edge, and the one opposite to it of each triangle; `None` if that is the same.
+    #[inline(always)]
+    pub(crate) fn vertices(&self, topology: &Topology) -> Option<[u32; 4]> {
+        let [u, v] = topology.edges()[self.edge as usize];
+        let [a, b] = self.triangles.map(|triangle| {
+            let vertices = topology.triangles()[triangle as usize];
+            // Exactly: of three numbers, the one that is left when the edge's two are taken away.
+            vertices[0] ^ vertices[1] ^ vertices[2] ^ u ^ v
+        });
+        (a != b).then_some([u, v, a, b])
+    }
+
+    /// The pairs of the two triangles that have no vertex in common: each opposite vertex with the other triangle; an edge of each.
+    /// The latter with the smaller number first. By kind.
+    pub(crate) fn pairs(&self, topology: &Topology) -> Option<[[[u32; 2]; 2]; 2]> {
+        let [u, v, a, b] = self.vertices(topology)?;
+        let [first, second] = self.triangles;
+        let edge_of = |triangle: u32, end: u32, other: u32| {
+            let vertices = topology.triangles()[triangle as usize];
+            let joins = |k: &usize| {
+                let [from, to] = [vertices[*k], vertices[(*k + 1) % 3]];
+                [from, to] == [end, other] || [from, to] == [other, end]
+            };
+            let place = (0..3).find(joins)?;
+            Some(topology.triangle_edges()[triangle as usize][place])
+        };
+        let edges = |end, other| {
+            let (one, other) = (edge_of(first, end, a)?, edge_of(second, other, b)?);
+            Some([one.min(other), one.max(other)])
+        };
+        Some([[[a, second], [b, first]], [edges(u, v)?, edges(v, u)?]])
+    }
+}

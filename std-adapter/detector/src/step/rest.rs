@@ -1,0 +1,374 @@
+//! A mesh at rest: which of its primitives meet.
+//!
+//! An edge is the way of a vertex from one of its ends to the other. So whether it meets a face is asked as of any vertex and face
+//! during a step, of the same filter, sweeps and exact verdict:
+//!
+//! ```text
+//! edges and faces without a common vertex     traversal of their hierarchies
+//! triangles with a common edge ("hinges")     those that may be coplanar: the four pairs of them without a common vertex
+//! ends of loose edges                         vertices and faces, tied together by the edge
+//!   │  chunk by chunk, as in a step           filter, sweeps, exact verdict
+//!   ▼
+//! intersections
+//! ```
+//!
+//! # Why these are enough
+//! Two triangles have a point in common, besides the vertices that they share, exactly if one of these pairs meets:
+//! * **No common vertex.** The hull of three points is the union of its edges where it has no area; elsewhere a segment in which two such
+//!   hulls meet ends where an edge of one meets the other, and coplanar ones overlap in a polygon whose corners do.
+//! * **One common vertex v**, and x another common point. The ray from v through x leaves each triangle at a point of the edge opposite
+//!   to v, or in an end of it; where it leaves the first of them it still is in the other, which is convex.
+//! * **A common edge, v u**, and x a common point beside it. Then both lie in a plane, on one side of v u, with the corners a and b. By the
+//!   angles at v and at u either one of the corners is within the other triangle, or v a crosses u b, or u a crosses v b. No
+//!   edge is free of the other triangle's vertices, so these four pairs are looked at by themselves.
+//!
+//! A vertex that touches a face, or two edges that touch, are thereby found with an edge and a face of theirs, or as a pair of a hinge. But
+//! for triangles that name a vertex twice: such is an edge, and all that its end may touch is a face with its other end.
+
+use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, drop_never_coplanar};
+use super::engine::{Engine, Space, Worker, own_space, shares, spaces_for_threads};
+use super::{Bound, CollisionDetector, Contact, Question, Wanted};
+use crate::PairKind;
+use crate::broad_phase::{CHUNK, Fit, Hierarchies, Rows, Sink};
+use crate::frame::{Motions, StepError};
+use crate::mesh::{Hinge, Hinges};
+use crate::parallel::{self, Workers};
+use selvedge_core::batch::{Mask, VertexRow};
+use selvedge_core::elementary::Limits;
+use selvedge_core::{Motion, Position, Scalar};
+
+/// Two primitives of a mesh at rest that have a point in common, and no vertex. Numbered as by the [`Topology`](crate::Topology).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Intersection {
+    /// An edge passes through a face, or touches it.
+    EdgeFace {
+        /// The edge.
+        edge: u32,
+        /// The face.
+        face: u32,
+    },
+    /// A vertex touches a face of which an edge belongs to a triangle of the vertex: they are folded flat onto each other.
+    VertexFace {
+        /// The vertex.
+        vertex: u32,
+        /// The face.
+        face: u32,
+    },
+    /// Two edges touch that belong to triangles with a common edge: they are folded flat onto each other.
+    EdgeEdge {
+        /// The edges, the smaller number first.
+        edges: [u32; 2],
+    },
+}
+
+impl<S: Scalar> CollisionDetector<S> {
+    /// Replaces `intersections` by all edges and faces that meet where the mesh is at `positions`, and by vertices and faces, and edges, that
+    /// touch where neighbours are folded flat onto each other. Each once, in ascending order: the same list on any number of threads,
+    /// whatever was asked before.
+    ///
+    /// **Exact**: touching counts, however little; what is apart by the smallest number does not. Faces without area and edges without
+    /// length are what they are, segments and points. The list is empty exactly if no two triangles have a point in common besides
+    /// the vertices, and the edge, that they share; then the mesh is a state from which steps can be certified.
+    ///
+    /// Primitives with a common vertex always meet there, and are no intersection. (Nor is a triangle that is there twice with the same
+    /// vertices. A face without area, whose corner lies on its edge, touches its neighbour at that edge with its corner: that is one.)
+    /// Vertices named by [`set_moving`](Self::set_moving) are looked at as in a step; [criterion](Self::set_criterion) and separation are
+    /// not asked.
+    ///
+    /// ```
+    /// use selvedge::{CollisionDetector, Intersection, Topology};
+    ///
+    /// // The edges from vertex 3 pass through the large triangle.
+    /// let mut detector = CollisionDetector::<f32>::new(Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?);
+    /// let mut positions = [[-5.0, -5.0, 0.0], [5.0, -5.0, 0.0], [0.0, 5.0, 0.0], [0.0, 0.0, -1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
+    /// assert_eq!(detector.topology().edges()[3..5], [[3, 4], [3, 5]]);
+    /// let mut found = Vec::new();
+    /// detector.intersections(&positions, &mut found)?;
+    /// assert_eq!(found, [3, 4].map(|edge| Intersection::EdgeFace { edge, face: 0 }));
+    ///
+    /// // Only the vertex touches; and now not even that.
+    /// positions[3][2] = 0.0;
+    /// assert!(detector.has_intersections(&positions)?);
+    /// positions[3][2] = f32::MIN_POSITIVE;
+    /// assert!(!detector.has_intersections(&positions)?);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If there is not one position for each of the mesh's vertices, or a coordinate is NaN or infinite (named as of the
+    /// [start](crate::Frame::Start)).
+    pub fn intersections<P: Position<Scalar = S>>(
+        &mut self,
+        positions: &[P],
+        intersections: &mut Vec<Intersection>,
+    ) -> Result<(), StepError> {
+        let step = self.step(positions, positions)?;
+        self.engine.intersections(&self.workers, &step, Wanted::All, intersections);
+        Ok(())
+    }
+
+    /// Whether there is any of the [`intersections`](Self::intersections). Ends at the first.
+    ///
+    /// # Errors
+    /// As [`intersections`](Self::intersections).
+    pub fn has_intersections<P: Position<Scalar = S>>(&mut self, positions: &[P]) -> Result<bool, StepError> {
+        let step = self.step(positions, positions)?;
+        let mut found = Vec::new();
+        self.engine.intersections(&self.workers, &step, Wanted::Any, &mut found);
+        Ok(!found.is_empty())
+    }
+}
+
+impl Engine {
+    /// Replaces `found` by the intersections of a mesh at rest, or by some of them if any will do.
+    fn intersections(&mut self, threads: &Workers, motions: &dyn Motions, wanted: Wanted, found: &mut Vec<Intersection>) {
+        threads.run(|| self.intersections_here(motions, wanted, found));
+    }
+
+    fn intersections_here(&mut self, motions: &dyn Motions, wanted: Wanted, found: &mut Vec<Intersection>) {
+        found.clear();
+        let hierarchies = &mut self.broad_phase.hierarchies;
+        hierarchies.update(motions, &Fit::default());
+        hierarchies.find_edge_face_tasks();
+        let hierarchies = &*hierarchies;
+        set_rows(&mut self.rows, hierarchies);
+        let hinges = self.hinges.get_or_insert_with(|| Hinges::new(hierarchies.topology()));
+
+        spaces_for_threads(&mut self.spaces);
+        let bound = Bound::new(1.0);
+        let look = Look {
+            step: StepInput {
+                level: hierarchies.level(),
+                numbers: Numbers::EdgesAndFaces(hierarchies),
+                rows: &self.rows,
+                question: Question {
+                    // How near the sweeps come before the exact verdict is asked. It changes no answer.
+                    limits: Limits::default(),
+                    wanted,
+                    keeps_filtered: false,
+                    is_exact: true,
+                },
+                bound: &bound,
+            },
+            hierarchies,
+            hinges,
+        };
+        let parts = [Part::EdgesAndFaces, Part::Hinges, Part::LooseEdges];
+        for part in parts {
+            let shares = shares();
+            self.workers.resize_with(shares, Worker::new);
+            let spaces = &self.spaces;
+            parallel::for_each(&mut self.workers, |share, worker| {
+                worker.found.clear();
+                if !look.has_enough() {
+                    look.at(part, [share, shares], &mut own_space(spaces), &mut worker.found);
+                }
+            });
+            for worker in &self.workers {
+                found.extend(worker.found.contacts.iter().map(|contact| part.intersection(contact)));
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+    }
+}
+
+/// Some hinges of a thread's.
+#[derive(Debug, Default)]
+pub(super) struct HingeChunk {
+    hinges: Vec<Hinge>,
+    /// Of those that may be coplanar: which, twice, and the rows of their vertices.
+    indices: Vec<[u32; 2]>,
+    rows: Vec<[u32; 4]>,
+    masks: Vec<Mask>,
+}
+
+impl HingeChunk {
+    fn clear(&mut self) {
+        self.hinges.clear();
+        self.indices.clear();
+        self.rows.clear();
+    }
+}
+
+/// What is looked at, one after the other.
+#[derive(Clone, Copy, Debug)]
+enum Part {
+    EdgesAndFaces,
+    Hinges,
+    LooseEdges,
+}
+
+impl Part {
+    fn intersection(self, contact: &Contact<f64>) -> Intersection {
+        let [first, second] = contact.pair;
+        match (self, contact.kind) {
+            (Self::EdgesAndFaces, _) => Intersection::EdgeFace {
+                edge: first,
+                face: second,
+            },
+            (_, PairKind::VertexFace) => Intersection::VertexFace {
+                vertex: first,
+                face: second,
+            },
+            (_, PairKind::EdgeEdge) => Intersection::EdgeEdge { edges: contact.pair },
+        }
+    }
+}
+
+/// What all threads read.
+struct Look<'a> {
+    /// Of edges and faces.
+    step: StepInput<'a>,
+    hierarchies: &'a Hierarchies,
+    hinges: &'a Hinges,
+}
+
+impl Look<'_> {
+    /// Whether one was found, and nobody wants more.
+    fn has_enough(&self) -> bool {
+        self.step.question.wanted == Wanted::Any && self.step.bound.is_lowered()
+    }
+
+    /// A share of a part, out of so many.
+    fn at(&self, part: Part, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) {
+        space.chunk.clear();
+        match part {
+            Part::EdgesAndFaces => self.edges_and_faces([share, shares], space, found),
+            Part::Hinges => {
+                let edges = self.hierarchies.topology().edges().len();
+                let bound = |share: usize| (edges * share / shares) as u32;
+                self.hinges(bound(share)..bound(share + 1), space, found);
+            }
+            Part::LooseEdges if self.hinges.has_loose_edges() => self.loose_edges([share, shares], space, found),
+            Part::LooseEdges => {}
+        }
+    }
+
+    fn edges_and_faces(&self, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) {
+        let Space { scratch, chunk, .. } = space;
+        let kind = PairKind::VertexFace;
+        let step = &self.step;
+        let mut sink = ChunkSink {
+            chunk,
+            found,
+            step,
+            kind,
+        };
+        if self.hierarchies.visit_edge_face(share, shares, scratch, &mut sink) {
+            chunk.finish(step, kind, found);
+        }
+    }
+
+    /// Those of some edges.
+    fn hinges(&self, edges: impl Iterator<Item = u32>, space: &mut Space, found: &mut Found) {
+        let topology = self.hierarchies.topology();
+        let step = StepInput {
+            numbers: Numbers::Placed(self.hierarchies),
+            ..self.step
+        };
+        let moves = |vertices: [u32; 4]| vertices.into_iter().any(|vertex| self.hierarchies.moves(vertex));
+        let mut hinges = edges
+            .flat_map(|edge| self.hinges.at(edge))
+            .filter_map(|hinge| Some((hinge, hinge.vertices(topology)?)))
+            .filter(|&(_, vertices)| moves(vertices))
+            .peekable();
+        let Space {
+            chunk,
+            near,
+            hinges: own,
+            ..
+        } = space;
+        while hinges.peek().is_some() && !self.has_enough() {
+            own.clear();
+            // Two pairs of a kind come of each.
+            for (hinge, vertices) in hinges.by_ref().take(CHUNK / 2) {
+                own.indices.push([own.hinges.len() as u32; 2]);
+                own.hinges.push(hinge);
+                own.rows.push(vertices.map(|vertex| self.hierarchies.position_of(vertex)));
+            }
+            // All four pairs have one volume.
+            drop_never_coplanar(&step, PairKind::EdgeEdge, 0, &mut own.indices, &mut own.rows, &mut own.masks);
+            for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+                near.clear();
+                for &[index, _] in &own.indices {
+                    if let Some(pairs) = own.hinges[index as usize].pairs(topology) {
+                        near.extend(pairs[kind as usize]);
+                    }
+                }
+                if chunk.take(&step, kind, near, found) {
+                    chunk.finish(&step, kind, found);
+                }
+            }
+        }
+    }
+
+    fn loose_edges(&self, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) {
+        let Space {
+            scratch, chunk, near, ..
+        } = space;
+        let step = StepInput {
+            numbers: Numbers::Positions(self.hierarchies),
+            ..self.step
+        };
+        let mut sink = TiedSink {
+            look: self,
+            step: &step,
+            tied: near,
+            chunk,
+            found,
+        };
+        let share = self.hierarchies.vertex_face_share(share, shares);
+        if self.hierarchies.visit(share, scratch, &mut sink).is_some() {
+            chunk.finish(&step, PairKind::VertexFace, found);
+        }
+    }
+}
+
+/// Takes the vertices and faces that a loose edge ties together.
+struct TiedSink<'a> {
+    look: &'a Look<'a>,
+    step: &'a StepInput<'a>,
+    tied: &'a mut Vec<[u32; 2]>,
+    chunk: &'a mut Chunk,
+    found: &'a mut Found,
+}
+
+impl Sink for TiedSink<'_> {
+    fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
+        let Look { hierarchies, hinges, .. } = self.look;
+        let is_tied = |&pair: &[u32; 2]| {
+            let [vertex, face] = hierarchies.in_mesh(PairKind::VertexFace, pair);
+            hinges.is_tied(vertex, hierarchies.topology().triangles()[face as usize])
+        };
+        self.tied.clear();
+        self.tied.extend(pairs.iter().copied().filter(is_tied));
+        self.chunk.take(self.step, PairKind::VertexFace, self.tied, self.found)
+    }
+}
+
+/// Rows that one thread makes in one go.
+const ROWS: usize = 4096;
+
+/// A row for each vertex, at rest, and then one for each edge, that goes from one end to the other.
+fn set_rows(rows: &mut Rows, hierarchies: &Hierarchies) {
+    let vertices = hierarchies.rows().double();
+    let edges = hierarchies.edge_ends();
+    let point = |position: u32| vertices[position as usize].motion().start;
+    let row = |index: usize| match index.checked_sub(vertices.len()) {
+        None => VertexRow::new(Motion::resting(point(index as u32))),
+        Some(edge) => {
+            let [from, to] = edges[edge].map(point);
+            VertexRow::new(Motion::new(from, to))
+        }
+    };
+    let all = rows.resize(vertices.len() + edges.len());
+    let mut chunks: Vec<_> = all.chunks_mut(ROWS).collect();
+    parallel::for_each(&mut chunks, |chunk, rows| {
+        for (offset, own) in rows.iter_mut().enumerate() {
+            *own = row(chunk * ROWS + offset);
+        }
+    });
+    drop(chunks);
+    rows.narrow();
+}

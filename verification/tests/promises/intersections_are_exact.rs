@@ -1,0 +1,209 @@
+//! Which primitives of a mesh at rest meet: against exact triangles, pair by pair and all together.
+
+use proptest::prelude::*;
+use selvedge::glam::{DVec3, Vec3};
+use selvedge::verification::available_levels;
+use selvedge::{CollisionDetector, Intersection, Position, Threads, Topology};
+use selvedge_core::Scalar;
+use selvedge_verification::generator::{Format, MeshCase, check, meshes};
+use selvedge_verification::oracle::{mesh_self_intersections, triangles_intersect};
+use std::collections::BTreeSet;
+
+type Point = [f64; 3];
+
+fn intersections<P: Position>(detector: &mut CollisionDetector<P::Scalar>, positions: &[P]) -> Vec<Intersection> {
+    let mut found = Vec::new();
+    detector
+        .intersections(positions, &mut found)
+        .expect("finite positions, one for each vertex");
+    found
+}
+
+fn points<S: Format>(mesh: &MeshCase<S>) -> Vec<Point> {
+    mesh.positions.iter().map(|[start, _]| start.map(Scalar::to_f64)).collect()
+}
+
+/// Whether two hulls of up to three vertices each, of which none is in common, have a point in common. A point and a segment are
+/// triangles with a corner twice.
+fn meet(positions: &[Point], one: &[u32], other: &[u32]) -> bool {
+    let hull = |vertices: &[u32]| [0, 1, 2].map(|k| positions[vertices[k.min(vertices.len() - 1)] as usize]);
+    triangles_intersect(&hull(one), &hull(other), &[])
+}
+
+fn are_apart(one: &[u32], other: &[u32]) -> bool {
+    one.iter().all(|vertex| !other.contains(vertex))
+}
+
+/// What is promised, by looking at everything.
+struct Truth {
+    /// All edges and faces that meet.
+    edge_face: BTreeSet<Intersection>,
+    /// All vertices and faces, and edges, that touch.
+    touching: BTreeSet<Intersection>,
+}
+
+fn truth(topology: &Topology, positions: &[Point]) -> Truth {
+    let meet = |one: &[u32], other: &[u32]| are_apart(one, other) && meet(positions, one, other);
+    let faces: Vec<_> = (0..).zip(topology.triangles()).collect();
+    let edges: Vec<_> = (0..).zip(topology.edges()).collect();
+    let mut truth = Truth {
+        edge_face: BTreeSet::new(),
+        touching: BTreeSet::new(),
+    };
+    for &(face, corners) in &faces {
+        let met = edges.iter().filter(|(_, ends)| meet(*ends, corners));
+        truth
+            .edge_face
+            .extend(met.map(|&(edge, _)| Intersection::EdgeFace { edge, face }));
+        let used: BTreeSet<u32> = topology.triangles().iter().flatten().copied().collect();
+        let met = used.into_iter().filter(|&vertex| meet(&[vertex], corners));
+        truth
+            .touching
+            .extend(met.map(|vertex| Intersection::VertexFace { vertex, face }));
+    }
+    for (k, &(first, ends)) in edges.iter().enumerate() {
+        let met = edges[k + 1..].iter().filter(|(_, others)| meet(ends, *others));
+        truth
+            .touching
+            .extend(met.map(|&(second, _)| Intersection::EdgeEdge { edges: [first, second] }));
+    }
+    truth
+}
+
+/// Edges and faces, all that meet and no others; vertices and faces, and edges, only such as touch, and some if any do.
+fn intersections_are_those_of_exact_triangles<S: Format>(mesh: &MeshCase<S>) -> Result<(), TestCaseError> {
+    let topology = mesh.topology();
+    let positions = points(mesh);
+    let mut detector = CollisionDetector::<S>::new(topology.clone());
+    let found = intersections(&mut detector, &mesh.frame(0));
+    prop_assert!(found.is_sorted_by(|a, b| a < b), "{:?}", found);
+    let found: BTreeSet<_> = found.into_iter().collect();
+    let truth = truth(&topology, &positions);
+    let is_edge_face = |found: &&Intersection| matches!(found, Intersection::EdgeFace { .. });
+    let edge_face: BTreeSet<_> = found.iter().filter(is_edge_face).copied().collect();
+    prop_assert_eq!(&edge_face, &truth.edge_face);
+    let others: BTreeSet<_> = found.difference(&edge_face).copied().collect();
+    prop_assert!(others.is_subset(&truth.touching), "{:?} of {:?}", others, truth.touching);
+    prop_assert_eq!(found.is_empty(), truth.edge_face.is_empty() && truth.touching.is_empty());
+    prop_assert_eq!(detector.has_intersections(&mesh.frame(0)), Ok(!found.is_empty()));
+    // Two triangles with more in common than the hull of their common vertices.
+    let triangles = mesh_self_intersections(&positions, topology.triangles());
+    prop_assert!(triangles.is_empty() || !found.is_empty(), "{:?}", triangles);
+    if topology.triangles().iter().all(|&corners| has_area(&positions, corners)) {
+        prop_assert_eq!(triangles.is_empty(), found.is_empty(), "{:?}, {:?}", triangles, found);
+    }
+    Ok(())
+}
+
+/// Whether the corners are not on a line: a triangle without area touches its neighbours' edges with its own corners.
+fn has_area(positions: &[Point], [a, b, c]: [u32; 3]) -> bool {
+    let edges = [[a, b, c], [b, c, a], [c, a, b]];
+    edges.iter().all(|&[u, v, w]| !meet(positions, &[u, v], &[w]))
+}
+
+#[test]
+fn intersections_are_those_of_exact_triangles_f64() {
+    check(400, meshes::<f64>(), intersections_are_those_of_exact_triangles);
+}
+
+#[test]
+fn intersections_are_those_of_exact_triangles_f32() {
+    check(400, meshes::<f32>(), intersections_are_those_of_exact_triangles);
+}
+
+/// Two sheets of `n` by `n` squares that wave through each other.
+fn tangled_sheets(n: u32) -> (Topology, Vec<DVec3>) {
+    let at = |index: u32| f64::from(index) / f64::from(n);
+    let rows = (0..=n).flat_map(|j| (0..=n).map(move |i| (at(i), at(j))));
+    let height = |x: f64, y: f64| 0.02 * ((17.0 * x).sin() * (13.0 * y).cos() + 0.3 * (41.0 * x + 23.0 * y).sin());
+    let sheet = rows.map(|(x, y)| DVec3::new(x, y, height(x, y)));
+    let other = sheet.clone().map(|p| DVec3::new(p.y + 0.013, p.x + 0.007, p.z + 0.004));
+    let positions: Vec<_> = sheet.chain(other).collect();
+    let first = |sheet: u32, i: u32, j: u32| sheet * (n + 1) * (n + 1) + j * (n + 1) + i;
+    let squares = (0..2).flat_map(|sheet| (0..n).flat_map(move |j| (0..n).map(move |i| first(sheet, i, j))));
+    let triangles = squares.flat_map(|a| [[a, a + 1, a + n + 2], [a, a + n + 2, a + n + 1]]);
+    let topology = Topology::new(positions.len(), triangles.collect()).expect("corners exist");
+    (topology, positions)
+}
+
+#[test]
+fn the_same_list_on_any_number_of_threads_on_every_instruction_set_and_after_any_step() {
+    let (topology, positions) = tangled_sheets(60);
+    let expected = intersections(&mut CollisionDetector::<f64>::new(topology.clone()), &positions);
+    assert!(expected.len() > 500, "{}", expected.len());
+    let moved: Vec<_> = positions.iter().map(|p| DVec3::new(p.z, p.x * p.y, p.x - p.y)).collect();
+    for count in [1, 2, 3, 7] {
+        for (name, level) in available_levels() {
+            let mut detector = CollisionDetector::<f64>::new(topology.clone());
+            detector.set_threads(Threads::from_count(count)).expect("a few threads");
+            detector.set_level(level);
+            assert!(detector.is_free(&moved, &positions).is_ok());
+            assert!(
+                intersections(&mut detector, &positions) == expected,
+                "{count} threads, {name}"
+            );
+        }
+    }
+}
+
+#[test]
+fn triangles_of_a_large_mesh_that_intersect_are_those_of_the_pairs_found() {
+    let (topology, positions) = tangled_sheets(60);
+    let found = intersections(&mut CollisionDetector::<f64>::new(topology.clone()), &positions);
+    let mut triangles = BTreeSet::new();
+    for intersection in found {
+        let Intersection::EdgeFace { edge, face } = intersection else {
+            panic!("nothing is folded: {intersection:?}");
+        };
+        let of_edge = (0..)
+            .zip(topology.triangle_edges())
+            .filter(|(_, edges)| edges.contains(&edge));
+        triangles.extend(of_edge.map(|(triangle, _): (u32, _)| [triangle.min(face), triangle.max(face)]));
+    }
+    let positions: Vec<Point> = positions.iter().map(DVec3::to_array).collect();
+    let expected: BTreeSet<_> = mesh_self_intersections(&positions, topology.triangles())
+        .into_iter()
+        .collect();
+    // An edge with two triangles that ends in a face's plane would be found with both; here none does.
+    assert_eq!(triangles, expected);
+}
+
+/// Two triangles with a common edge, opened by so much.
+fn hinge(opened: f32) -> [Vec3; 4] {
+    [
+        Vec3::ZERO,
+        Vec3::new(3.0, 1.0, 0.0),
+        Vec3::new(1.0, 2.0, 0.0),
+        Vec3::new(2.0, 2.0, opened),
+    ]
+}
+
+#[test]
+fn neighbours_intersect_only_when_they_are_folded_flat() {
+    let topology = Topology::new(4, vec![[0, 1, 2], [1, 0, 3]]).expect("corners exist");
+    let mut detector = CollisionDetector::<f32>::new(topology);
+    assert_eq!(intersections(&mut detector, &hinge(1e-30)), []);
+    // Vertex 0's edge to 2 and vertex 1's to 3 cross, whichever is numbered first.
+    assert_eq!(detector.topology().edges()[1..], [[0, 2], [1, 2], [0, 3], [1, 3]]);
+    let folded = intersections(&mut detector, &hinge(0.0));
+    assert_eq!(folded, [Intersection::EdgeEdge { edges: [2, 3] }]);
+    // Flat, but not folded.
+    let mut open = hinge(0.0);
+    open[3].y = -5.0;
+    assert_eq!(intersections(&mut detector, &open), []);
+}
+
+#[test]
+fn resting_vertices_among_themselves_are_not_asked_about() {
+    let (topology, positions) = tangled_sheets(8);
+    let mut detector = CollisionDetector::<f64>::new(topology);
+    let all = intersections(&mut detector, &positions);
+    detector
+        .set_moving(Some(&vec![false; positions.len()]))
+        .expect("one for each vertex");
+    assert_eq!(intersections(&mut detector, &positions), []);
+    // Everything of the first sheet: nothing but that intersects itself.
+    let half: Vec<_> = (0..positions.len()).map(|vertex| vertex < positions.len() / 2).collect();
+    detector.set_moving(Some(&half)).expect("one for each vertex");
+    assert!(!all.is_empty() && intersections(&mut detector, &positions) == all);
+}
