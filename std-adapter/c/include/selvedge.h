@@ -220,6 +220,35 @@ typedef uint32_t selvedge_boxes;
 #endif // __cplusplus
 
 /**
+ * Which primitives intersect.
+ */
+enum selvedge_intersection_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * An edge passes through a face, or touches it.
+   */
+  SELVEDGE_INTERSECTION_KIND_EDGE_FACE = 0,
+  /**
+   * A vertex touches a face of a neighbour, folded flat onto it.
+   */
+  SELVEDGE_INTERSECTION_KIND_VERTEX_FACE = 1,
+  /**
+   * Two edges of neighbours touch, folded flat onto each other.
+   */
+  SELVEDGE_INTERSECTION_KIND_EDGE_EDGE = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum selvedge_intersection_kind selvedge_intersection_kind;
+#else
+typedef uint32_t selvedge_intersection_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
  * A mesh, and what is kept of it from step to step. Only pointers to it exist; they are numbers, and nothing is behind them.
  *
  * One thread at a time: a call on a detector that another thread is using fails with SELVEDGE_STATUS_BUSY and changes nothing.
@@ -262,6 +291,20 @@ typedef struct selvedge_contact {
    */
   uint32_t vertices[4];
 } selvedge_contact;
+
+/**
+ * Two primitives of a mesh at rest that have a point in common, and no vertex.
+ */
+typedef struct selvedge_intersection {
+  /**
+   * A selvedge_intersection_kind.
+   */
+  uint32_t kind;
+  /**
+   * The edge and the face, the vertex and the face, or the two edges.
+   */
+  struct selvedge_pair pair;
+} selvedge_intersection;
 
 #ifdef __cplusplus
 extern "C" {
@@ -519,6 +562,55 @@ selvedge_status selvedge_detector_candidates_f32(struct selvedge_detector *detec
                                                  size_t *vertex_face_count,
                                                  const struct selvedge_pair **edge_edge,
                                                  size_t *edge_edge_count);
+
+/**
+ * All edges and faces that meet where the mesh is at `positions`, at rest, touching included, exactly; and vertices and faces, and
+ * edges, that touch where neighbours are folded flat onto each other. None exactly if no two triangles have a point in common
+ * besides the vertices and the edge that they share. They stay where they are until this detector's intersections are asked for
+ * again, or it is freed.
+ *
+ * The caller promises:
+ * `positions` points to 3 * `vertex_count` numbers, `intersections` to a pointer, `count` to a number.
+ */
+selvedge_status selvedge_detector_intersections_f64(struct selvedge_detector *detector,
+                                                    const double *positions,
+                                                    size_t vertex_count,
+                                                    const struct selvedge_intersection **intersections,
+                                                    size_t *count);
+
+/**
+ * selvedge_detector_intersections_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_intersections_f64.
+ */
+selvedge_status selvedge_detector_intersections_f32(struct selvedge_detector *detector,
+                                                    const float *positions,
+                                                    size_t vertex_count,
+                                                    const struct selvedge_intersection **intersections,
+                                                    size_t *count);
+
+/**
+ * Whether there is any intersection. Ends at the first.
+ *
+ * The caller promises:
+ * `positions` points to 3 * `vertex_count` numbers, `has_any` to one of its type.
+ */
+selvedge_status selvedge_detector_has_intersections_f64(struct selvedge_detector *detector,
+                                                        const double *positions,
+                                                        size_t vertex_count,
+                                                        bool *has_any);
+
+/**
+ * selvedge_detector_has_intersections_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_has_intersections_f64.
+ */
+selvedge_status selvedge_detector_has_intersections_f32(struct selvedge_detector *detector,
+                                                        const float *positions,
+                                                        size_t vertex_count,
+                                                        bool *has_any);
 
 #ifdef __cplusplus
 }  // extern "C"

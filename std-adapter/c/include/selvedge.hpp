@@ -198,6 +198,29 @@ class detector {
     return {{vf, vf_count}, {ee, ee_count}};
   }
 
+  /// All primitives that meet at rest, exactly. They stay until this detector's intersections are asked for again, or it is gone.
+  list<selvedge_intersection> intersections(triples<Scalar> positions) {
+    const selvedge_intersection *first = nullptr;
+    std::size_t count = 0;
+    if constexpr (is_single) {
+      check(selvedge_detector_intersections_f32(get(), positions.data(), positions.size(), &first, &count));
+    } else {
+      check(selvedge_detector_intersections_f64(get(), positions.data(), positions.size(), &first, &count));
+    }
+    return {first, count};
+  }
+
+  /// Whether any primitives meet at rest.
+  bool has_intersections(triples<Scalar> positions) {
+    bool has_any = false;
+    if constexpr (is_single) {
+      check(selvedge_detector_has_intersections_f32(get(), positions.data(), positions.size(), &has_any));
+    } else {
+      check(selvedge_detector_has_intersections_f64(get(), positions.data(), positions.size(), &has_any));
+    }
+    return has_any;
+  }
+
   /// For functions of selvedge.h; still owned here.
   selvedge_detector *get() const noexcept { return handle_.get(); }
 

@@ -1,7 +1,7 @@
 //! What a detector has found, as C sees it.
 
 use crate::detector::Finder;
-use selvedge::{Contact, PairKind, Scalar, Topology};
+use selvedge::{Contact, Intersection, PairKind, Scalar, Topology};
 
 /// Which primitives a pair is made of.
 #[repr(u32)]
@@ -68,12 +68,50 @@ impl ContactRow {
     }
 }
 
+/// Which primitives intersect.
+#[repr(u32)]
+#[derive(Clone, Copy)]
+pub enum IntersectionKind {
+    /// An edge passes through a face, or touches it.
+    EdgeFace = 0,
+    /// A vertex touches a face of a neighbour, folded flat onto it.
+    VertexFace = 1,
+    /// Two edges of neighbours touch, folded flat onto each other.
+    EdgeEdge = 2,
+}
+
+/// Two primitives of a mesh at rest that have a point in common, and no vertex.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct IntersectionRow {
+    /// A selvedge_intersection_kind.
+    pub kind: u32,
+    /// The edge and the face, the vertex and the face, or the two edges.
+    pub pair: Pair,
+}
+
+impl From<&Intersection> for IntersectionRow {
+    fn from(intersection: &Intersection) -> Self {
+        let (kind, pair) = match *intersection {
+            Intersection::EdgeFace { edge, face } => (IntersectionKind::EdgeFace, [edge, face]),
+            Intersection::VertexFace { vertex, face } => (IntersectionKind::VertexFace, [vertex, face]),
+            Intersection::EdgeEdge { edges } => (IntersectionKind::EdgeEdge, edges),
+        };
+        Self {
+            kind: kind as u32,
+            pair: pair.into(),
+        }
+    }
+}
+
 /// The lists that pointers given to C show.
 #[derive(Default)]
 pub(crate) struct Answers {
     pub(crate) contacts: Vec<ContactRow>,
     pub(crate) vertex_face: Vec<[u32; 2]>,
     pub(crate) edge_edge: Vec<[u32; 2]>,
+    pub(crate) found_at_rest: Vec<Intersection>,
+    pub(crate) intersections: Vec<IntersectionRow>,
 }
 
 impl Answers {
@@ -84,5 +122,13 @@ impl Answers {
         let rows = finder.contacts.iter().map(|contact| ContactRow::new(contact, topology));
         self.contacts.extend(rows);
         &self.contacts
+    }
+
+    /// Takes over what the detector has found at rest.
+    pub(crate) fn show_intersections(&mut self) -> &[IntersectionRow] {
+        self.intersections.clear();
+        self.intersections
+            .extend(self.found_at_rest.iter().map(IntersectionRow::from));
+        &self.intersections
     }
 }

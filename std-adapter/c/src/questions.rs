@@ -1,25 +1,50 @@
 //! What a detector can be asked of a step: thin functions for each format over one that is generic.
 
-use crate::answers::{Answers, Boxes, ContactRow, Pair};
+use crate::answers::{Answers, Boxes, ContactRow, IntersectionRow, Pair};
 use crate::detector::{Detector, Finder, Format, Handle, on};
 use crate::input::{Out, OutList, unknown, view};
 use crate::status::{Failure, Status};
 use selvedge::{CandidateBoxes, Frame, StepError};
 
-/// The step that a question is about, as it came.
-struct Asked<S> {
+/// What a question is about, as it came: `N` frames of a mesh, with their names.
+struct Asked<S, const N: usize> {
     detector: *mut Handle,
-    start: *const S,
-    end: *const S,
+    frames: [(&'static str, *const S); N],
     vertex_count: usize,
 }
 
-impl<S: Format> Asked<S> {
-    /// Puts the question, with the two frames.
+/// A question about a step.
+type AskedStep<S> = Asked<S, 2>;
+
+impl<S> AskedStep<S> {
+    const fn new(detector: *mut Handle, start: *const S, end: *const S, vertex_count: usize) -> Self {
+        Self {
+            detector,
+            frames: [("start", start), ("end", end)],
+            vertex_count,
+        }
+    }
+}
+
+/// A question about a mesh at rest.
+type AskedState<S> = Asked<S, 1>;
+
+impl<S> AskedState<S> {
+    const fn new(detector: *mut Handle, positions: *const S, vertex_count: usize) -> Self {
+        Self {
+            detector,
+            frames: [("positions", positions)],
+            vertex_count,
+        }
+    }
+}
+
+impl<S: Format, const N: usize> Asked<S, N> {
+    /// Puts the question, with the frames.
     ///
     /// # Safety
-    /// Unless they are null, misaligned or too few, `start` and `end` have 3 * `vertex_count` numbers, which nobody writes to meanwhile.
-    unsafe fn ask(self, question: impl FnOnce(&mut Finder<S>, &mut Answers, [&[[S; 3]]; 2]) -> Result<(), Failure>) -> Status {
+    /// Unless they are null, misaligned or too few, the frames have 3 * `vertex_count` numbers, which nobody writes to meanwhile.
+    unsafe fn ask(self, question: impl FnOnce(&mut Finder<S>, &mut Answers, [&[[S; 3]]; N]) -> Result<(), Failure>) -> Status {
         on(self.detector, |it| {
             let found = self.vertex_count;
             let expected = it.topology().vertex_count();
@@ -33,14 +58,17 @@ impl<S: Format> Asked<S> {
                 let frame = Frame::Start;
                 return Err(StepError::WrongLength { frame, found, expected }.into());
             }
-            // SAFETY: the caller's promise.
-            let frames = unsafe { [view("start", self.start, found)?, view("end", self.end, found)?] };
+            let mut frames: [&[[S; 3]]; N] = [&[]; N];
+            for (frame, (name, start)) in frames.iter_mut().zip(self.frames) {
+                // SAFETY: the caller's promise.
+                *frame = unsafe { view(name, start, found) }?;
+            }
             question(finder, answers, frames)
         })
     }
 }
 
-unsafe fn find_contacts<S: Format>(asked: Asked<S>, contacts: *mut *const ContactRow, count: *mut usize) -> Status {
+unsafe fn find_contacts<S: Format>(asked: AskedStep<S>, contacts: *mut *const ContactRow, count: *mut usize) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
         asked.ask(|finder, answers, [start, end]| {
@@ -53,7 +81,7 @@ unsafe fn find_contacts<S: Format>(asked: Asked<S>, contacts: *mut *const Contac
 }
 
 unsafe fn find_contacts_of<S: Format>(
-    asked: Asked<S>,
+    asked: AskedStep<S>,
     vertex_face: (*const Pair, usize),
     edge_edge: (*const Pair, usize),
     contacts: *mut *const ContactRow,
@@ -73,7 +101,7 @@ unsafe fn find_contacts_of<S: Format>(
     }
 }
 
-unsafe fn find_earliest<S: Format>(asked: Asked<S>, found: *mut bool, contact: *mut ContactRow) -> Status {
+unsafe fn find_earliest<S: Format>(asked: AskedStep<S>, found: *mut bool, contact: *mut ContactRow) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
         asked.ask(|finder, _, [start, end]| {
@@ -88,7 +116,7 @@ unsafe fn find_earliest<S: Format>(asked: Asked<S>, found: *mut bool, contact: *
     }
 }
 
-unsafe fn tell_free<S: Format>(asked: Asked<S>, is_free: *mut bool) -> Status {
+unsafe fn tell_free<S: Format>(asked: AskedStep<S>, is_free: *mut bool) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
         asked.ask(|finder, _, [start, end]| {
@@ -100,7 +128,7 @@ unsafe fn tell_free<S: Format>(asked: Asked<S>, is_free: *mut bool) -> Status {
 }
 
 unsafe fn find_candidates<S: Format>(
-    asked: Asked<S>,
+    asked: AskedStep<S>,
     boxes: u32,
     vertex_face: (*mut *const Pair, *mut usize),
     edge_edge: (*mut *const Pair, *mut usize),
@@ -124,6 +152,33 @@ unsafe fn find_candidates<S: Format>(
     }
 }
 
+unsafe fn find_intersections<S: Format>(
+    asked: AskedState<S>,
+    intersections: *mut *const IntersectionRow,
+    count: *mut usize,
+) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, answers, [positions]| {
+            let out = OutList::new("intersections", intersections, count)?;
+            finder.detector.intersections(positions, &mut answers.found_at_rest)?;
+            out.set(answers.show_intersections());
+            Ok(())
+        })
+    }
+}
+
+unsafe fn tell_intersections<S: Format>(asked: AskedState<S>, has_any: *mut bool) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, _, [positions]| {
+            let out = Out::new("has_any", has_any)?;
+            out.set(finder.detector.has_intersections(positions)?);
+            Ok(())
+        })
+    }
+}
+
 /// All contacts of the step from `start` to `end`. They stay where they are until this detector's contacts are asked for again, in
 /// either way, or it is freed. If there are none they are at NULL.
 ///
@@ -138,12 +193,7 @@ pub unsafe extern "C" fn selvedge_detector_contacts_f64(
     contacts: *mut *const ContactRow,
     count: *mut usize,
 ) -> Status {
-    let asked = Asked {
-        detector,
-        start,
-        end,
-        vertex_count,
-    };
+    let asked = AskedStep::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
     unsafe { find_contacts(asked, contacts, count) }
 }
@@ -161,12 +211,7 @@ pub unsafe extern "C" fn selvedge_detector_contacts_f32(
     contacts: *mut *const ContactRow,
     count: *mut usize,
 ) -> Status {
-    let asked = Asked {
-        detector,
-        start,
-        end,
-        vertex_count,
-    };
+    let asked = AskedStep::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
     unsafe { find_contacts(asked, contacts, count) }
 }
@@ -188,12 +233,7 @@ pub unsafe extern "C" fn selvedge_detector_contacts_of_f64(
     contacts: *mut *const ContactRow,
     count: *mut usize,
 ) -> Status {
-    let asked = Asked {
-        detector,
-        start,
-        end,
-        vertex_count,
-    };
+    let asked = AskedStep::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
     unsafe {
         find_contacts_of(
@@ -223,12 +263,7 @@ pub unsafe extern "C" fn selvedge_detector_contacts_of_f32(
     contacts: *mut *const ContactRow,
     count: *mut usize,
 ) -> Status {
-    let asked = Asked {
-        detector,
-        start,
-        end,
-        vertex_count,
-    };
+    let asked = AskedStep::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
     unsafe {
         find_contacts_of(
@@ -255,12 +290,7 @@ pub unsafe extern "C" fn selvedge_detector_earliest_f64(
     found: *mut bool,
     contact: *mut ContactRow,
 ) -> Status {
-    let asked = Asked {
-        detector,
-        start,
-        end,
-        vertex_count,
-    };
+    let asked = AskedStep::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
     unsafe { find_earliest(asked, found, contact) }
 }
@@ -278,12 +308,7 @@ pub unsafe extern "C" fn selvedge_detector_earliest_f32(
     found: *mut bool,
     contact: *mut ContactRow,
 ) -> Status {
-    let asked = Asked {
-        detector,
-        start,
-        end,
-        vertex_count,
-    };
+    let asked = AskedStep::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
     unsafe { find_earliest(asked, found, contact) }
 }
@@ -300,12 +325,7 @@ pub unsafe extern "C" fn selvedge_detector_is_free_f64(
     vertex_count: usize,
     is_free: *mut bool,
 ) -> Status {
-    let asked = Asked {
-        detector,
-        start,
-        end,
-        vertex_count,
-    };
+    let asked = AskedStep::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
     unsafe { tell_free(asked, is_free) }
 }
@@ -322,12 +342,7 @@ pub unsafe extern "C" fn selvedge_detector_is_free_f32(
     vertex_count: usize,
     is_free: *mut bool,
 ) -> Status {
-    let asked = Asked {
-        detector,
-        start,
-        end,
-        vertex_count,
-    };
+    let asked = AskedStep::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
     unsafe { tell_free(asked, is_free) }
 }
@@ -349,12 +364,7 @@ pub unsafe extern "C" fn selvedge_detector_candidates_f64(
     edge_edge: *mut *const Pair,
     edge_edge_count: *mut usize,
 ) -> Status {
-    let asked = Asked {
-        detector,
-        start,
-        end,
-        vertex_count,
-    };
+    let asked = AskedStep::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
     unsafe { find_candidates(asked, boxes, (vertex_face, vertex_face_count), (edge_edge, edge_edge_count)) }
 }
@@ -375,12 +385,76 @@ pub unsafe extern "C" fn selvedge_detector_candidates_f32(
     edge_edge: *mut *const Pair,
     edge_edge_count: *mut usize,
 ) -> Status {
-    let asked = Asked {
-        detector,
-        start,
-        end,
-        vertex_count,
-    };
+    let asked = AskedStep::new(detector, start, end, vertex_count);
     // SAFETY: the caller's promises.
     unsafe { find_candidates(asked, boxes, (vertex_face, vertex_face_count), (edge_edge, edge_edge_count)) }
+}
+
+/// All edges and faces that meet where the mesh is at `positions`, at rest, touching included, exactly; and vertices and faces, and
+/// edges, that touch where neighbours are folded flat onto each other. None exactly if no two triangles have a point in common
+/// besides the vertices and the edge that they share. They stay where they are until this detector's intersections are asked for
+/// again, or it is freed.
+///
+/// # Safety
+/// `positions` points to 3 * `vertex_count` numbers, `intersections` to a pointer, `count` to a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_intersections_f64(
+    detector: *mut Handle,
+    positions: *const f64,
+    vertex_count: usize,
+    intersections: *mut *const IntersectionRow,
+    count: *mut usize,
+) -> Status {
+    let asked = AskedState::new(detector, positions, vertex_count);
+    // SAFETY: the caller's promises.
+    unsafe { find_intersections(asked, intersections, count) }
+}
+
+/// selvedge_detector_intersections_f64 for float.
+///
+/// # Safety
+/// As selvedge_detector_intersections_f64.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_intersections_f32(
+    detector: *mut Handle,
+    positions: *const f32,
+    vertex_count: usize,
+    intersections: *mut *const IntersectionRow,
+    count: *mut usize,
+) -> Status {
+    let asked = AskedState::new(detector, positions, vertex_count);
+    // SAFETY: the caller's promises.
+    unsafe { find_intersections(asked, intersections, count) }
+}
+
+/// Whether there is any intersection. Ends at the first.
+///
+/// # Safety
+/// `positions` points to 3 * `vertex_count` numbers, `has_any` to one of its type.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_has_intersections_f64(
+    detector: *mut Handle,
+    positions: *const f64,
+    vertex_count: usize,
+    has_any: *mut bool,
+) -> Status {
+    let asked = AskedState::new(detector, positions, vertex_count);
+    // SAFETY: the caller's promises.
+    unsafe { tell_intersections(asked, has_any) }
+}
+
+/// selvedge_detector_has_intersections_f64 for float.
+///
+/// # Safety
+/// As selvedge_detector_has_intersections_f64.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_has_intersections_f32(
+    detector: *mut Handle,
+    positions: *const f32,
+    vertex_count: usize,
+    has_any: *mut bool,
+) -> Status {
+    let asked = AskedState::new(detector, positions, vertex_count);
+    // SAFETY: the caller's promises.
+    unsafe { tell_intersections(asked, has_any) }
 }

@@ -1,6 +1,6 @@
 //! C's functions, called as C does, beside the detector itself. Programs in C and C++ are tried in `tests/programs.rs`.
 
-use crate::answers::{Boxes, ContactRow, Kind, Pair};
+use crate::answers::{Boxes, ContactRow, IntersectionRow, Kind, Pair};
 use crate::detector::{Handle, ScalarFormat, on, selvedge_detector_free, selvedge_detector_new};
 use crate::questions::*;
 use crate::settings::*;
@@ -54,10 +54,17 @@ trait ForC: Scalar {
     /// # Safety
     /// As the functions themselves.
     unsafe fn candidates(on: *mut Handle, frames: [&[[Self; 3]]; 2], boxes: u32, out: [OutPair<Pair>; 2]) -> Status;
+    /// # Safety
+    /// As the functions themselves.
+    unsafe fn intersections(on: *mut Handle, at: &[[Self; 3]], out: OutPair<IntersectionRow>) -> Status;
+    /// # Safety
+    /// As the functions themselves.
+    unsafe fn has_intersections(on: *mut Handle, at: &[[Self; 3]], out: *mut bool) -> Status;
 }
 
 macro_rules! for_c {
-    ($scalar:ty, $format:ident, $contacts:ident, $contacts_of:ident, $earliest:ident, $is_free:ident, $candidates:ident) => {
+    ($scalar:ident = $format:ident: $contacts:ident, $contacts_of:ident, $earliest:ident, $is_free:ident, $candidates:ident, $intersections:ident,
+     $has_intersections:ident) => {
         impl ForC for $scalar {
             const FORMAT: ScalarFormat = ScalarFormat::$format;
             fn from_double(value: f64) -> Self {
@@ -81,6 +88,14 @@ macro_rules! for_c {
                 // SAFETY: the caller's promise.
                 unsafe { $earliest(on, a.as_ptr().cast(), b.as_ptr().cast(), a.len(), found, out) }
             }
+            unsafe fn intersections(on: *mut Handle, at: &[[Self; 3]], out: OutPair<IntersectionRow>) -> Status {
+                // SAFETY: the caller's promise.
+                unsafe { $intersections(on, at.as_ptr().cast(), at.len(), out.0, out.1) }
+            }
+            unsafe fn has_intersections(on: *mut Handle, at: &[[Self; 3]], out: *mut bool) -> Status {
+                // SAFETY: the caller's promise.
+                unsafe { $has_intersections(on, at.as_ptr().cast(), at.len(), out) }
+            }
             unsafe fn is_free(on: *mut Handle, [a, b]: [&[[Self; 3]]; 2], out: *mut bool) -> Status {
                 // SAFETY: the caller's promise.
                 unsafe { $is_free(on, a.as_ptr().cast(), b.as_ptr().cast(), a.len(), out) }
@@ -94,22 +109,22 @@ macro_rules! for_c {
     };
 }
 for_c!(
-    f32,
-    F32,
-    selvedge_detector_contacts_f32,
+    f32 = F32: selvedge_detector_contacts_f32,
     selvedge_detector_contacts_of_f32,
     selvedge_detector_earliest_f32,
     selvedge_detector_is_free_f32,
-    selvedge_detector_candidates_f32
+    selvedge_detector_candidates_f32,
+    selvedge_detector_intersections_f32,
+    selvedge_detector_has_intersections_f32
 );
 for_c!(
-    f64,
-    F64,
-    selvedge_detector_contacts_f64,
+    f64 = F64: selvedge_detector_contacts_f64,
     selvedge_detector_contacts_of_f64,
     selvedge_detector_earliest_f64,
     selvedge_detector_is_free_f64,
-    selvedge_detector_candidates_f64
+    selvedge_detector_candidates_f64,
+    selvedge_detector_intersections_f64,
+    selvedge_detector_has_intersections_f64
 );
 
 /// A list that C was given.
@@ -178,6 +193,16 @@ fn ask_both<S: ForC>(handle: *mut Handle, detector: &mut CollisionDetector<S>) -
         // SAFETY: as above.
         let status = unsafe { S::is_free(handle, frames, &raw mut is_free) };
         assert_eq!((status, is_free), (Status::Ok, detector.is_free(start, end).unwrap()));
+
+        let mut at_rest = Vec::new();
+        detector.intersections(end, &mut at_rest).unwrap();
+        // SAFETY: as above.
+        let from_c = list(|out| unsafe { S::intersections(handle, end, out) });
+        assert_eq!(from_c, at_rest.iter().map(IntersectionRow::from).collect::<Vec<_>>());
+        let mut has_any = false;
+        // SAFETY: as above.
+        let status = unsafe { S::has_intersections(handle, end, &raw mut has_any) };
+        assert_eq!((status, has_any), (Status::Ok, !at_rest.is_empty()));
 
         for (boxes, number) in [(CandidateBoxes::Moving, Boxes::Moving), (CandidateBoxes::Swept, Boxes::Swept)] {
             detector.candidates(start, end, boxes, &mut vf, &mut ee).unwrap();

@@ -171,6 +171,15 @@ static void questions(selvedge_detector *detector) {
   }
   EXPECT(UNKNOWN_CONSTANT, selvedge_detector_candidates_f64(detector, START, END, VERTICES, 2, &vf, &count, &ee, &other));
 
+  const selvedge_intersection *intersections = NULL;
+  EXPECT(NULL_POINTER, selvedge_detector_intersections_f64(detector, NULL, VERTICES, &intersections, &count));
+  EXPECT(NULL_POINTER, selvedge_detector_intersections_f64(detector, START, VERTICES, NULL, &count));
+  EXPECT(NULL_POINTER, selvedge_detector_has_intersections_f64(detector, START, VERTICES, NULL));
+  EXPECT(NOT_FINITE, selvedge_detector_intersections_f64(detector, wrong, VERTICES, &intersections, &count));
+  EXPECT(WRONG_LENGTH, selvedge_detector_has_intersections_f64(detector, START, SIZE_MAX, &answer));
+  EXPECT(WRONG_SCALAR, selvedge_detector_has_intersections_f32(detector, single, VERTICES, &answer));
+  HOLDS(intersections == NULL);
+
   const selvedge_pair pairs[] = {{3, 0}, {6, 0}, {3, 2}, {UINT32_MAX, UINT32_MAX}};
   for (int k = 1; k < 4; k++) {
     EXPECT(NO_SUCH_PAIR,

@@ -53,6 +53,9 @@ static void try_all() {
   const auto candidates = first.candidates(start, end);
   holds(__LINE__, first.contacts_of(start, end, candidates).size() == first.contacts(start, end).size());
   holds(__LINE__, first.edges().size() == 6 && first.edges()[0].first == 0 && first.edges()[0].second == 1);
+  holds(__LINE__, !first.has_intersections(start) && first.intersections(start).empty() && first.has_intersections(end));
+  holds(__LINE__, first.intersections(end)[0].kind == SELVEDGE_INTERSECTION_KIND_EDGE_FACE);
+  expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.has_intersections({start.data(), 5}); });
   first.set_touching(1e-7);
   first.set_coherent(true);
   first.set_threads(2);
