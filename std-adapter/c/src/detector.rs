@@ -14,7 +14,7 @@ use selvedge::{CollisionDetector, Contact, Scalar, Topology, TopologyError};
 use std::collections::BTreeMap;
 use std::ptr;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError, RwLock, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
 
 /// A mesh, and what is kept of it from step to step. Only pointers to it exist; they are numbers, and nothing is behind them.
 ///
@@ -88,38 +88,42 @@ impl Format for f64 {
     }
 }
 
-/// What a handle stands for.
+/// What a call works on.
 pub(crate) struct Detector {
     pub(crate) finder: AnyFinder,
     pub(crate) answers: Answers,
-    /// The process whose threads it has, if it has any of its own.
-    pub(crate) threads_of: Option<u32>,
 }
 
 impl Detector {
     pub(crate) fn topology(&self) -> &Topology {
         with_either!(&self.finder, finder => finder.detector.topology())
     }
+}
+
+/// What a handle stands for: a detector, and what is known of it while a call has it.
+pub(crate) struct Kept {
+    detector: Mutex<Detector>,
+    /// The process whose threads it has, if it has any of its own.
+    threads_of: Mutex<Option<u32>>,
+}
+
+impl Kept {
+    fn threads_of(&self) -> MutexGuard<'_, Option<u32>> {
+        self.threads_of.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// It has threads of its own, of this process, or none.
+    pub(crate) fn set_has_threads(&self, has_threads: bool) {
+        *self.threads_of() = has_threads.then(std::process::id);
+    }
 
     /// Whether its threads stayed behind in a parent process. To wait for them would be for ever.
     fn is_forked(&self) -> bool {
-        self.threads_of.is_some_and(|process| process != std::process::id())
+        self.threads_of().is_some_and(|process| process != std::process::id())
     }
 }
 
-impl Drop for Detector {
-    fn drop(&mut self) {
-        if self.is_forked() {
-            // The pool's end would be told to threads that are not there. Its memory is the parent's.
-            let one = Topology::new(1, vec![[0; 3]]).map(|topology| AnyFinder::F32(Finder::new(topology)));
-            if let Ok(empty) = one {
-                std::mem::forget(std::mem::replace(&mut self.finder, empty));
-            }
-        }
-    }
-}
-
-static LIVING: RwLock<BTreeMap<usize, Arc<Mutex<Detector>>>> = RwLock::new(BTreeMap::new());
+static LIVING: RwLock<BTreeMap<usize, Arc<Kept>>> = RwLock::new(BTreeMap::new());
 /// Zero is NULL.
 static NEXT: AtomicUsize = AtomicUsize::new(1);
 
@@ -127,9 +131,13 @@ fn keep(detector: Detector) -> Result<*mut Handle, Failure> {
     let one_more = |number: usize| number.checked_add(1);
     let number = NEXT.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_more);
     let number = number.map_err(|_| Failure::new(Status::BadCount, "there are no more handles"))?;
+    let kept = Kept {
+        detector: Mutex::new(detector),
+        threads_of: Mutex::new(None),
+    };
     // A panic cannot leave the map half changed.
     let mut living = LIVING.write().unwrap_or_else(PoisonError::into_inner);
-    living.insert(number, Arc::new(Mutex::new(detector)));
+    living.insert(number, Arc::new(kept));
     Ok(ptr::without_provenance_mut(number))
 }
 
@@ -142,25 +150,32 @@ fn no_such(handle: *const Handle) -> Failure {
     }
 }
 
+fn find(handle: *const Handle) -> Result<Arc<Kept>, Failure> {
+    let living = LIVING.read().unwrap_or_else(PoisonError::into_inner);
+    living.get(&handle.addr()).cloned().ok_or_else(|| no_such(handle))
+}
+
 /// Does something with a detector.
 pub(crate) fn on(handle: *const Handle, action: impl FnOnce(&mut Detector) -> Result<(), Failure>) -> Status {
+    on_kept(handle, |_, detector| action(detector))
+}
+
+/// Does something with a detector and what is kept beside it.
+pub(crate) fn on_kept(handle: *const Handle, action: impl FnOnce(&Kept, &mut Detector) -> Result<(), Failure>) -> Status {
     guarded(|| {
-        let living = LIVING.read().unwrap_or_else(PoisonError::into_inner);
-        let shared = living.get(&handle.addr()).cloned();
-        drop(living);
-        let shared = shared.ok_or_else(|| no_such(handle))?;
-        let mut detector = shared.try_lock().map_err(|error| match error {
+        let kept = find(handle)?;
+        if kept.is_forked() {
+            let text = "the detector's threads are in the process that was forked: make one in the child";
+            return Err(Failure::new(Status::Forked, text));
+        }
+        let mut detector = kept.detector.try_lock().map_err(|error| match error {
             TryLockError::WouldBlock => Failure::new(Status::Busy, "another thread is using the detector"),
             TryLockError::Poisoned(_) => {
                 let text = "a call on this detector failed by a fault of Selvedge's: it can only be freed";
                 Failure::new(Status::Internal, text)
             }
         })?;
-        if detector.is_forked() {
-            let text = "the detector's threads are in the process that was forked: make one in the child";
-            return Err(Failure::new(Status::Forked, text));
-        }
-        action(&mut detector)
+        action(&kept, &mut detector)
     })
 }
 
@@ -210,7 +225,6 @@ pub unsafe extern "C" fn selvedge_detector_new(
         out.set(keep(Detector {
             finder,
             answers: Answers::default(),
-            threads_of: None,
         })?);
         Ok(())
     })
@@ -237,6 +251,11 @@ pub extern "C" fn selvedge_detector_free(detector: *mut Handle) -> Status {
         let mut living = LIVING.write().unwrap_or_else(PoisonError::into_inner);
         let freed = living.remove(&detector.addr());
         drop(living);
-        freed.map(drop).ok_or_else(|| no_such(detector))
+        let kept = freed.ok_or_else(|| no_such(detector))?;
+        if kept.is_forked() {
+            // The end would be told to threads that are not there. Its memory is the parent's.
+            std::mem::forget(kept);
+        }
+        Ok(())
     })
 }

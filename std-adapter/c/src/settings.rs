@@ -1,7 +1,7 @@
 //! How a detector is to look, and what it knows of its mesh.
 
 use crate::answers::Pair;
-use crate::detector::{Handle, on, with_either};
+use crate::detector::{Handle, on, on_kept, with_either};
 use crate::input::{Out, OutList, view};
 use crate::status::{Failure, Status};
 use selvedge::core::elementary::Limits;
@@ -31,7 +31,7 @@ pub(crate) fn length<S: Scalar>(given: f64) -> Result<S, Failure> {
 /// core. Answers are the same bit for bit.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_threads(detector: *mut Handle, count: usize) -> Status {
-    on(detector, |it| {
+    on_kept(detector, |kept, it| {
         if count > SELVEDGE_MAX_THREADS {
             let text = format!(
                 "{count} threads are too many: there may be {SELVEDGE_MAX_THREADS}, and one for each core is the most of use"
@@ -39,7 +39,7 @@ pub extern "C" fn selvedge_detector_set_threads(detector: *mut Handle, count: us
             return Err(Failure::new(Status::BadCount, text));
         }
         with_either!(&mut it.finder, finder => finder.detector.set_threads(Threads::from_count(count)))?;
-        it.threads_of = (count != 1).then(std::process::id);
+        kept.set_has_threads(count != 1);
         Ok(())
     })
 }
