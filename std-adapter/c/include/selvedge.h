@@ -348,7 +348,7 @@ selvedge_status selvedge_detector_new(uint32_t scalar,
                                       struct selvedge_detector **detector);
 
 /**
- * Frees a detector and ends its threads; all that it has shown is gone with it. NULL is well. One that another thread is using goes when
+ * Frees a detector and tells its threads to end; all that it has shown is gone with it. NULL is well. One that another thread is using goes when
  * that call has ended.
  */
 selvedge_status selvedge_detector_free(struct selvedge_detector *detector);

@@ -240,7 +240,7 @@ fn topology<S: Format>(vertex_count: usize, given: &[[u32; 3]]) -> Result<Topolo
     Ok(Topology::new(vertex_count, triangles)?)
 }
 
-/// Frees a detector and ends its threads; all that it has shown is gone with it. NULL is well. One that another thread is using goes when
+/// Frees a detector and tells its threads to end; all that it has shown is gone with it. NULL is well. One that another thread is using goes when
 /// that call has ended.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_free(detector: *mut Handle) -> Status {
