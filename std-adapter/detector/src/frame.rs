@@ -67,6 +67,13 @@ pub enum StepError {
         /// The first such pair.
         pair: [u32; 2],
     },
+    /// Another thread has [cancelled](crate::Cancellation) the step.
+    Cancelled,
+    /// More pairs are near each other than the [limit](crate::CollisionDetector::set_pair_limit) allows to look at.
+    TooManyPairs {
+        /// The limit.
+        limit: u64,
+    },
 }
 
 impl fmt::Display for StepError {
@@ -97,6 +104,11 @@ impl fmt::Display for StepError {
                 kind,
                 pair: [first, second],
             } => write!(f, "there is no {kind} pair {first}, {second} in this mesh"),
+            Self::Cancelled => f.write_str("the step was cancelled"),
+            Self::TooManyPairs { limit } => write!(
+                f,
+                "more than {limit} pairs are near each other, the most that may be looked at: raise the limit, or look whether the mesh has collapsed"
+            ),
         }
     }
 }

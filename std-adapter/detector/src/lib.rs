@@ -47,7 +47,7 @@ pub use parallel::{ThreadError, Threads};
 pub use selvedge_core as core;
 pub use selvedge_core::glam;
 pub use selvedge_core::{PairKind, ParsePairKindError, Position, Scalar};
-pub use step::{CandidateBoxes, CollisionDetector, Contact, Criterion, Intersection};
+pub use step::{Cancellation, CandidateBoxes, CollisionDetector, Contact, Criterion, Intersection};
 
 /// The readme's examples are tests.
 #[cfg(doctest)]

@@ -158,6 +158,16 @@ impl MovingBroadPhase {
     /// Replaces `vertex_face` and `edge_edge` by the candidates of the last update: vertex and face, or two edges, the smaller
     /// number first, as the topology numbers them.
     pub fn candidates(&mut self, vertex_face: &mut Vec<[u32; 2]>, edge_edge: &mut Vec<[u32; 2]>) {
+        self.candidates_until(&|_| true, vertex_face, edge_edge);
+    }
+
+    /// As [`candidates`](Self::candidates), as long as `goes_on`, which is told of how many more pairs there are.
+    pub(crate) fn candidates_until(
+        &mut self,
+        goes_on: &(dyn Fn(usize) -> bool + Sync),
+        vertex_face: &mut Vec<[u32; 2]>,
+        edge_edge: &mut Vec<[u32; 2]>,
+    ) {
         let shares = self.hierarchies.shares();
         self.collectors.resize_with(shares, Collector::new);
         let hierarchies = &self.hierarchies;
@@ -166,7 +176,7 @@ impl MovingBroadPhase {
         swap(&mut self.collectors[firsts[0]].pairs, vertex_face);
         swap(&mut self.collectors[firsts[1]].pairs, edge_edge);
         parallel::for_each(&mut self.collectors, |index, collector| {
-            collector.collect(hierarchies, hierarchies.share(index));
+            collector.collect(hierarchies, hierarchies.share(index), goes_on);
         });
         swap(&mut self.collectors[firsts[0]].pairs, vertex_face);
         swap(&mut self.collectors[firsts[1]].pairs, edge_edge);
@@ -203,12 +213,13 @@ impl Collector {
         }
     }
 
-    fn collect(&mut self, hierarchies: &Hierarchies, share: Share<'_>) {
+    fn collect(&mut self, hierarchies: &Hierarchies, share: Share<'_>, goes_on: &(dyn Fn(usize) -> bool + Sync)) {
         self.pairs.clear();
         let mut collected = Collected {
             hierarchies,
             kind: share.kind,
             pairs: &mut self.pairs,
+            goes_on,
         };
         let tests = hierarchies.visit(share, &mut self.scratch, &mut collected);
         self.tests = tests.unwrap_or(0);
@@ -219,10 +230,14 @@ struct Collected<'a> {
     hierarchies: &'a Hierarchies,
     kind: PairKind,
     pairs: &'a mut Vec<[u32; 2]>,
+    goes_on: &'a (dyn Fn(usize) -> bool + Sync),
 }
 
 impl Sink for Collected<'_> {
     fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
+        if !(self.goes_on)(pairs.len()) {
+            return false;
+        }
         let in_mesh = |&pair| self.hierarchies.in_mesh(self.kind, pair);
         self.pairs.extend(pairs.iter().map(in_mesh));
         true

@@ -1,6 +1,7 @@
 //! The vertices, edges and triangles of a mesh, and how they hang together.
 
 use crate::PairKind;
+use std::borrow::Cow;
 use std::fmt;
 
 /// The vertices, edges and triangles of a mesh that may be anything a file can hold: edges with
@@ -85,7 +86,7 @@ impl Topology {
     pub const MAX_TRIANGLES: usize = (u32::MAX / 3) as usize;
 
     /// Finds the edges of `triangles`, in O(v + n log d) time for v vertices, n triangles and at
-    /// most d edges to a vertex.
+    /// most d edges to a vertex; in O(n log n) if few of many vertices have a triangle. Memory is bounded by what the triangles name.
     ///
     /// # Errors
     /// If there are no triangles, a triangle names a vertex that does not exist, or there are more
@@ -109,7 +110,7 @@ impl Topology {
                 });
             }
         }
-        let (edges, triangle_edges) = find_edges(vertex_count, &triangles);
+        let (edges, triangle_edges) = find_edges(&Named::by(vertex_count, &triangles));
         Ok(Self {
             vertex_count,
             triangles,
@@ -170,12 +171,13 @@ impl Topology {
     /// Counts what is unusual about the mesh. Takes about as long as [`Topology::new`].
     #[must_use]
     pub fn statistics(&self) -> TopologyStatistics {
-        let (components, isolated_vertices) = count_components(self.vertex_count, &self.triangles);
+        let named = Named::by(self.vertex_count, &self.triangles);
+        let (components, used) = count_components(&named);
         let mut statistics = TopologyStatistics {
             components,
-            isolated_vertices,
+            isolated_vertices: self.vertex_count - used,
             degenerate_triangles: self.triangles.iter().filter(|t| is_degenerate(t)).count(),
-            duplicate_triangles: count_duplicates(self.vertex_count, &self.triangles),
+            duplicate_triangles: count_duplicates(&named),
             ..TopologyStatistics::default()
         };
         for count in self.triangles_per_edge() {
@@ -254,8 +256,47 @@ pub(super) fn is_degenerate(&[a, b, c]: &[u32; 3]) -> bool {
     a == b || b == c || c == a
 }
 
+/// The vertices that triangles name, numbered so that a list of them all is not much longer than that of the triangles.
+struct Named<'a> {
+    vertex_count: usize,
+    triangles: Cow<'a, [[u32; 3]]>,
+    /// The vertices by their own numbers, in order, if they have others.
+    names: Option<Vec<u32>>,
+}
+
+/// Vertices for each corner of a triangle, from which on most must be without one. A mesh has one for each six.
+const SPARSE: usize = 4;
+
+impl<'a> Named<'a> {
+    fn by(vertex_count: usize, triangles: &'a [[u32; 3]]) -> Self {
+        if vertex_count / SPARSE <= 3 * triangles.len() {
+            return Self {
+                vertex_count,
+                triangles: Cow::Borrowed(triangles),
+                names: None,
+            };
+        }
+        let mut names: Vec<u32> = triangles.iter().flatten().copied().collect();
+        names.sort_unstable();
+        names.dedup();
+        // It is there: the list is of all of them.
+        let number = |vertex: u32| names.partition_point(|&name| name < vertex) as u32;
+        Self {
+            vertex_count: names.len(),
+            triangles: triangles.iter().map(|corners| corners.map(number)).collect(),
+            names: Some(names),
+        }
+    }
+
+    /// The mesh's own number of a vertex. In the same order.
+    fn name(&self, vertex: u32) -> u32 {
+        self.names.as_ref().map_or(vertex, |names| names[vertex as usize])
+    }
+}
+
 /// Edges in their order, and each triangle's three.
-fn find_edges(vertex_count: usize, triangles: &[[u32; 3]]) -> (Vec<[u32; 2]>, Vec<[u32; 3]>) {
+fn find_edges(named: &Named<'_>) -> (Vec<[u32; 2]>, Vec<[u32; 3]>) {
+    let triangles = &*named.triangles;
     // A slot is a triangle's entry: 3 × triangle + k.
     let ends = |slot: usize| {
         let (triangle, k) = (triangles[slot / 3], slot % 3);
@@ -265,7 +306,7 @@ fn find_edges(vertex_count: usize, triangles: &[[u32; 3]]) -> (Vec<[u32; 2]>, Ve
         let (a, b) = ends(slot);
         (a != b).then(|| (a.max(b), (a.min(b), slot as u32)))
     });
-    let groups = Groups::new(vertex_count, slots);
+    let groups = Groups::new(named.vertex_count, slots);
 
     let mut edges: Vec<[u32; 2]> = Vec::with_capacity(triangles.len() * 3 / 2);
     let mut triangle_edges = vec![[Topology::NO_EDGE; 3]; triangles.len()];
@@ -274,14 +315,15 @@ fn find_edges(vertex_count: usize, triangles: &[[u32; 3]]) -> (Vec<[u32; 2]>, Ve
             for &(_, slot) in same_edge {
                 triangle_edges[slot as usize / 3][slot as usize % 3] = edges.len() as u32;
             }
-            edges.push([same_edge[0].0, larger]);
+            edges.push([same_edge[0].0, larger].map(|end| named.name(end)));
         }
     }
     (edges, triangle_edges)
 }
 
 /// How many triangles have the same set of vertices as an earlier one.
-fn count_duplicates(vertex_count: usize, triangles: &[[u32; 3]]) -> usize {
+fn count_duplicates(named: &Named<'_>) -> usize {
+    let triangles = &*named.triangles;
     let keys = triangles.iter().map(|&triangle| {
         let mut key = triangle;
         key.sort_unstable();
@@ -291,13 +333,14 @@ fn count_duplicates(vertex_count: usize, triangles: &[[u32; 3]]) -> usize {
         }
         (key[2], (key[0], key[1]))
     });
-    let groups = Groups::new(vertex_count, keys);
+    let groups = Groups::new(named.vertex_count, keys);
     let distinct: usize = groups.iter().map(|(_, group)| group.chunk_by(|a, b| a == b).count()).sum();
     triangles.len() - distinct
 }
 
-/// How many sets of connected triangles there are, and how many vertices without a triangle.
-fn count_components(vertex_count: usize, triangles: &[[u32; 3]]) -> (usize, usize) {
+/// How many sets of connected triangles there are, and how many vertices with a triangle.
+fn count_components(named: &Named<'_>) -> (usize, usize) {
+    let (vertex_count, triangles) = (named.vertex_count, &*named.triangles);
     // Union-find over vertices, by path halving and the smaller number as root.
     let mut parents: Vec<u32> = (0..vertex_count as u32).collect();
     let mut used = vec![false; vertex_count];
@@ -315,7 +358,7 @@ fn count_components(vertex_count: usize, triangles: &[[u32; 3]]) -> (usize, usiz
         }
     }
     let used = used.iter().filter(|&&used| used).count();
-    (used - joins, vertex_count - used)
+    (used - joins, used)
 }
 
 fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
@@ -413,6 +456,20 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn vertices_without_a_triangle_change_no_edge_but_its_vertices_numbers((n, triangles) in index_soup()) {
+            let far = |vertex: u32| 400_000_000 * vertex + 5;
+            let topology = Topology::new(n, triangles.clone()).unwrap();
+            let scattered = triangles.iter().map(|corners| corners.map(far)).collect();
+            let scattered = Topology::new(u32::MAX as usize, scattered).unwrap();
+            let edges: Vec<_> = topology.edges().iter().map(|ends| ends.map(far)).collect();
+            prop_assert_eq!(scattered.edges(), edges);
+            prop_assert_eq!(scattered.triangle_edges(), topology.triangle_edges());
+            let expected = topology.statistics();
+            let isolated_vertices = expected.isolated_vertices + u32::MAX as usize - n;
+            prop_assert_eq!(scattered.statistics(), TopologyStatistics { isolated_vertices, ..expected });
+        }
+
         #[test]
         fn edges_are_each_found_once_and_sorted_by_larger_then_smaller_vertex((n, triangles) in index_soup()) {
             let topology = Topology::new(n, triangles.clone()).unwrap();

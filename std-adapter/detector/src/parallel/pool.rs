@@ -23,7 +23,7 @@ pub enum Threads {
     /// Those of the rayon pool that a method is called in; outside of one, the thread that calls. (The global pool is one only for code
     /// that runs on its threads.)
     CallersPool,
-    /// So many of the detector's own. With one it is the thread that calls.
+    /// So many of the detector's own, at most [`most`](Self::most). With one it is the thread that calls.
     Own(NonZeroUsize),
     /// Its own, one for each core.
     EachCore,
@@ -39,30 +39,43 @@ impl Threads {
             Some(count) => Self::Own(count),
         }
     }
+
+    /// The most threads that are started: four for each core, and on a small machine 256. More only take memory, some megabytes each.
+    #[must_use]
+    pub fn most() -> usize {
+        let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        (4 * cores).max(256)
+    }
 }
 
-/// The operating system refuses threads.
+/// There are no such threads: the operating system refuses them, or they are more than [`Threads::most`].
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct ThreadError {
     /// Those that were asked for.
     pub threads: Threads,
-    source: rayon::ThreadPoolBuildError,
+    /// Why the operating system refuses, if it was asked.
+    source: Option<rayon::ThreadPoolBuildError>,
 }
 
 impl fmt::Display for ThreadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { threads, source } = self;
         match threads {
-            Threads::Own(count) => write!(f, "cannot start {count} threads: {source}"),
-            _ => write!(f, "cannot start a thread for each core: {source}"),
+            Threads::Own(count) => write!(f, "cannot start {count} threads")?,
+            _ => f.write_str("cannot start a thread for each core")?,
+        }
+        match source {
+            Some(source) => write!(f, ": {source}"),
+            None => write!(f, ": {} are the most on this machine", Threads::most()),
         }
     }
 }
 
 impl std::error::Error for ThreadError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(&self.source)
+        let source = self.source.as_ref()?;
+        Some(source)
     }
 }
 
@@ -82,17 +95,21 @@ impl Workers {
     /// Starts a pool, if `threads` are to be its own and more than one.
     ///
     /// # Errors
-    /// If the operating system refuses.
+    /// If the operating system refuses, or there are more than [`Threads::most`].
     pub fn new(threads: Threads) -> Result<Self, ThreadError> {
         let count = match threads {
             Threads::Calling | Threads::Own(NonZeroUsize::MIN) => return Ok(Self(Kind::Calling)),
             Threads::CallersPool => return Ok(Self(Kind::CallersPool)),
+            Threads::Own(count) if count.get() > Threads::most() => return Err(ThreadError { threads, source: None }),
             Threads::Own(count) => count.get(),
             // For rayon that is one for each core.
             Threads::EachCore => 0,
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
-        let pool = pool.map_err(|source| ThreadError { threads, source })?;
+        let pool = pool.map_err(|source| ThreadError {
+            threads,
+            source: Some(source),
+        })?;
         Ok(Self(Kind::Own(pool)))
     }
 

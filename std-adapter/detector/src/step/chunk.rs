@@ -18,7 +18,7 @@
 //! separation and the end of the time asked about are rounded up.
 
 use super::sweep::{Left, MOST, Open, Sweep};
-use super::{Bound, Contact, Question, Wanted};
+use super::{Bound, Contact, Question, Stop, Wanted};
 use crate::PairKind;
 use crate::broad_phase::{CHUNK, Hierarchies, Rows, Sink};
 use crate::clock::Clock;
@@ -103,6 +103,7 @@ pub(super) struct StepInput<'a> {
     pub(super) question: Question,
     /// The earliest contact so far, of all threads.
     pub(super) bound: &'a Bound,
+    pub(super) stop: &'a Stop,
 }
 
 impl StepInput<'_> {
@@ -193,6 +194,9 @@ impl Chunk {
 
     /// Takes candidates. Returns whether to go on.
     pub(super) fn take(&mut self, step: &StepInput<'_>, kind: PairKind, candidates: &[[u32; 2]], found: &mut Found) -> bool {
+        if !step.stop.goes_on(candidates.len()) {
+            return false;
+        }
         let begin = Clock::now();
         let first = self.pairs.len();
         self.pairs.extend_from_slice(candidates);

@@ -3,7 +3,7 @@
 use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
 use super::given::PrimitiveBoxes;
 use super::rest::HingeChunk;
-use super::{Bound, CandidateBoxes, Contact, Question, Wanted};
+use super::{Bound, CandidateBoxes, Contact, Question, Stop, Wanted};
 use crate::PairKind;
 use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
 use crate::buffer::settle;
@@ -80,6 +80,7 @@ pub(crate) struct Engine {
     boxes: PrimitiveBoxes,
     /// Once a mesh at rest was asked about.
     pub(super) hinges: Option<Hinges>,
+    pub(super) stop: Stop,
     tally: StepTally,
 }
 
@@ -124,6 +125,7 @@ impl Engine {
             rows: Rows::default(),
             boxes: PrimitiveBoxes::default(),
             hinges: None,
+            stop: Stop::new(),
             tally: StepTally::default(),
         }
     }
@@ -167,6 +169,7 @@ impl Engine {
     }
 
     fn run_here(&mut self, motions: &dyn Motions, question: &Question, probe: Probe) {
+        self.stop.begin();
         let Limits { separation, tolerance } = question.limits;
         // Pairs within the tolerance are contacts too; twice of it are so with all rounding.
         let distance = separation + 2.0 * tolerance;
@@ -194,6 +197,7 @@ impl Engine {
             rows: hierarchies.rows(),
             question: *question,
             bound: &bound,
+            stop: &self.stop,
         };
         parallel::for_each(&mut self.workers, |index, worker| {
             let begin = Clock::now();
@@ -202,7 +206,7 @@ impl Engine {
             worker.found.clear();
             worker.tests = 0;
             let has_enough = question.wanted == Wanted::Any && bound.is_lowered();
-            if !has_enough {
+            if !has_enough && step.stop.goes_on(0) {
                 let Space { scratch, chunk, .. } = &mut *own_space(spaces);
                 chunk.clear();
                 let mut sink = ChunkSink {
@@ -223,7 +227,7 @@ impl Engine {
         let tests = self.workers.iter().map(|worker| worker.tests).sum();
         let candidates = self.tally.candidates.total() as usize;
         // A traversal that ended early, or of a part of the step, tells nothing of how good the hierarchies are.
-        if question.wanted == Wanted::All {
+        if question.wanted == Wanted::All && !self.stop.has_stopped() {
             self.broad_phase.hierarchies.observe(tests, candidates);
         }
     }
@@ -250,6 +254,7 @@ impl Engine {
             rows: &self.rows,
             question: *question,
             bound: &bound,
+            stop: &self.stop,
         };
         let pairs = followed.open.each_ref().map(Vec::as_slice);
         decide(&mut self.workers, &mut self.spaces, &step, pairs, |_, pairs, _| Some(pairs));
@@ -270,6 +275,7 @@ impl Engine {
     }
 
     fn run_here_on(&mut self, motions: &dyn Motions, question: &Question, pairs: [&[[u32; 2]]; 2]) -> Result<(), StepError> {
+        self.stop.begin();
         let begin = Clock::now();
         let hierarchies = &self.broad_phase.hierarchies;
         let topology = hierarchies.topology();
@@ -285,6 +291,7 @@ impl Engine {
             rows: &self.rows,
             question: *question,
             bound: &bound,
+            stop: &self.stop,
         };
         let boxes = &self.boxes;
         let are_of_mesh = decide(&mut self.workers, &mut self.spaces, &step, pairs, |kind, pairs, near| {
@@ -313,6 +320,8 @@ impl Engine {
         edge_edge: &mut Vec<[u32; 2]>,
     ) {
         let begin = Clock::now();
+        self.stop.begin();
+        let stop = &self.stop;
         let fit = Fit {
             separation,
             is_swept: boxes == CandidateBoxes::Swept,
@@ -321,7 +330,7 @@ impl Engine {
         let broad_phase = &mut self.broad_phase;
         threads.run(|| {
             broad_phase.hierarchies.update(motions, &fit);
-            broad_phase.candidates(vertex_face, edge_edge);
+            broad_phase.candidates_until(&|pairs| stop.goes_on(pairs), vertex_face, edge_edge);
         });
         let seconds = begin.elapsed().as_secs_f64();
         self.tally = StepTally {
@@ -367,10 +376,13 @@ impl Engine {
     /// The earliest contact of a step: of its beginning first, then of all of it.
     pub(super) fn earliest(&mut self, threads: &Workers, motions: &dyn Motions, question: &Question) -> Option<Contact<f64>> {
         let begin = Clock::now();
+        self.stop.begin();
         // Of pairs that are followed few are left to look at, in any part of the step.
         let probes = if self.is_coherent() { &PROBES[1..] } else { &PROBES };
         let earliest = probes.iter().find_map(|&probe| {
-            self.run(threads, motions, question, probe);
+            if self.stop.result().is_ok() {
+                self.run(threads, motions, question, probe);
+            }
             self.earliest_found()
         });
         self.tally.seconds = begin.elapsed().as_secs_f64();
@@ -446,7 +458,9 @@ fn decide(
                 is_strange.store(true, atomic::Ordering::Relaxed);
                 return;
             };
-            chunk.take(step, kind, picked, &mut worker.found);
+            if !chunk.take(step, kind, picked, &mut worker.found) {
+                return;
+            }
         }
         chunk.finish(step, kind, &mut worker.found);
         worker.seconds = begin.elapsed().as_secs_f64();

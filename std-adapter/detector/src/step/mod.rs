@@ -6,10 +6,13 @@ mod given;
 mod rest;
 #[cfg(feature = "verification")]
 mod shown;
+mod stop;
 mod sweep;
 
 pub use engine::StepTally;
 pub use rest::Intersection;
+pub use stop::Cancellation;
+pub(crate) use stop::Stop;
 
 use crate::PairKind;
 use crate::frame::{Step, StepError, check_length};
@@ -238,7 +241,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// The threads that steps are split between; at first [`Threads::Calling`].
     ///
     /// # Errors
-    /// If the operating system refuses the threads. Then they stay as they were.
+    /// If the operating system refuses the threads, or they are more than [`Threads::most`]. Then they stay as they were.
     #[cfg(feature = "parallel")]
     pub fn set_threads(&mut self, threads: Threads) -> Result<(), ThreadError> {
         self.workers = Workers::new(threads)?;
@@ -316,7 +319,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Replaces `contacts` by all contacts of the step from `start` to `end`, one position for each vertex: vertex–face first.
     ///
     /// # Errors
-    /// If a frame's length is not the mesh's number of vertices, or a coordinate is NaN or infinite.
+    /// If a frame's length is not the mesh's number of vertices, a coordinate is NaN or infinite, or the step is cut short: by a
+    /// [`cancellation`](Self::cancellation), or by more pairs than [allowed](Self::set_pair_limit). What is in `contacts` then is of no use.
     pub fn contacts<P: Position<Scalar = S>>(
         &mut self,
         start: &[P],
@@ -327,7 +331,7 @@ impl<S: Scalar> CollisionDetector<S> {
         let question = self.question(Wanted::All);
         self.engine.run(&self.workers, &step, &question, Probe::WHOLE);
         self.engine.collect_contacts(contacts);
-        Ok(())
+        self.engine.stop.result()
     }
 
     /// The earliest contact of the step; of several at the same time the one with the smallest numbers, vertex–face first.
@@ -355,6 +359,7 @@ impl<S: Scalar> CollisionDetector<S> {
         let step = self.step(start, end)?;
         let question = self.question(Wanted::Earliest);
         let earliest = self.engine.earliest(&self.workers, &step, &question);
+        self.engine.stop.result()?;
         Ok(earliest.as_ref().map(in_format_of_positions))
     }
 
@@ -366,7 +371,11 @@ impl<S: Scalar> CollisionDetector<S> {
         let step = self.step(start, end)?;
         let question = self.question(Wanted::Any);
         self.engine.run(&self.workers, &step, &question, Probe::WHOLE);
-        Ok(self.engine.tally().contacts.total() == 0)
+        if self.engine.tally().contacts.total() > 0 {
+            return Ok(false);
+        }
+        self.engine.stop.result()?;
+        Ok(true)
     }
 
     /// Replaces `vertex_face` and `edge_edge` by the pairs that boxes leave: vertex and face, or two edges, the smaller
@@ -386,7 +395,7 @@ impl<S: Scalar> CollisionDetector<S> {
         let separation = self.question(Wanted::All).limits.separation;
         self.engine
             .candidates(&self.workers, &step, separation, boxes, vertex_face, edge_edge);
-        Ok(())
+        self.engine.stop.result()
     }
 
     /// Replaces `contacts` by those of the pairs given, in their order, vertex–face first: a vertex and a face, or two edges.
@@ -409,7 +418,7 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine
             .run_on(&self.workers, &step, &question, [vertex_face, edge_edge])?;
         self.engine.collect_contacts(contacts);
-        Ok(())
+        self.engine.stop.result()
     }
 
     /// The mesh's vertices, edges and triangles.
@@ -425,6 +434,7 @@ impl<S: Scalar> CollisionDetector<S> {
     }
 
     fn step<'a, P: Position>(&self, start: &'a [P], end: &'a [P]) -> Result<Step<'a, P>, StepError> {
+        self.engine.stop.admits()?;
         Step::checked(start, end, self.topology().vertex_count())
     }
 

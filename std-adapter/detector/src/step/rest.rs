@@ -95,8 +95,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// ```
     ///
     /// # Errors
-    /// If there is not one position for each of the mesh's vertices, or a coordinate is NaN or infinite (named as of the
-    /// [start](crate::Frame::Start)).
+    /// If there is not one position for each of the mesh's vertices, a coordinate is NaN or infinite (named as of the
+    /// [start](crate::Frame::Start)), or the question is cut short, as [`contacts`](Self::contacts).
     pub fn intersections<P: Position<Scalar = S>>(
         &mut self,
         positions: &[P],
@@ -104,7 +104,7 @@ impl<S: Scalar> CollisionDetector<S> {
     ) -> Result<(), StepError> {
         let step = self.step(positions, positions)?;
         self.engine.intersections(&self.workers, &step, Wanted::All, intersections);
-        Ok(())
+        self.engine.stop.result()
     }
 
     /// Whether there is any of the [`intersections`](Self::intersections). Ends at the first.
@@ -115,7 +115,11 @@ impl<S: Scalar> CollisionDetector<S> {
         let step = self.step(positions, positions)?;
         let mut found = Vec::new();
         self.engine.intersections(&self.workers, &step, Wanted::Any, &mut found);
-        Ok(!found.is_empty())
+        if !found.is_empty() {
+            return Ok(true);
+        }
+        self.engine.stop.result()?;
+        Ok(false)
     }
 }
 
@@ -127,6 +131,7 @@ impl Engine {
 
     fn intersections_here(&mut self, motions: &dyn Motions, wanted: Wanted, found: &mut Vec<Intersection>) {
         found.clear();
+        self.stop.begin();
         let hierarchies = &mut self.broad_phase.hierarchies;
         hierarchies.update(motions, &Fit::default());
         hierarchies.find_edge_face_tasks();
@@ -149,6 +154,7 @@ impl Engine {
                     is_exact: true,
                 },
                 bound: &bound,
+                stop: &self.stop,
             },
             hierarchies,
             hinges,
@@ -225,9 +231,10 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    /// Whether one was found, and nobody wants more.
+    /// Whether one was found, and nobody wants more, or not now.
     fn has_enough(&self) -> bool {
-        self.step.question.wanted == Wanted::Any && self.step.bound.is_lowered()
+        let is_answered = self.step.question.wanted == Wanted::Any && self.step.bound.is_lowered();
+        is_answered || !self.step.stop.goes_on(0)
     }
 
     /// A share of a part, out of so many.

@@ -33,7 +33,7 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.run(&self.workers, &step, &question, Probe::WHOLE);
         self.engine.collect_contacts(contacts);
         self.engine.collect_kept(vertex_face, edge_edge);
-        Ok(())
+        self.engine.stop.result()
     }
 
     /// How often near pairs were searched for.
