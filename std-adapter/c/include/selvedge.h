@@ -47,11 +47,6 @@
 #define SELVEDGE_DEFAULT_TOLERANCE_F64 9.313225746154785e-10
 
 /**
- * Threads that a detector may have of its own.
- */
-#define SELVEDGE_MAX_THREADS 1024
-
-/**
  * What became of a call.
  */
 enum selvedge_status
@@ -120,7 +115,7 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_NO_SUCH_PAIR = 14,
   /**
-   * The operating system refuses threads.
+   * The operating system refuses threads, or there are more of them than any machine has use for.
    */
   SELVEDGE_STATUS_NO_THREADS = 15,
   /**
@@ -132,9 +127,17 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_FORKED = 17,
   /**
+   * The detector is cancelled.
+   */
+  SELVEDGE_STATUS_CANCELLED = 18,
+  /**
+   * More pairs are near each other than may be looked at.
+   */
+  SELVEDGE_STATUS_TOO_MANY_PAIRS = 19,
+  /**
    * A fault of the library's own. The detector can only be freed from now on.
    */
-  SELVEDGE_STATUS_INTERNAL = 18,
+  SELVEDGE_STATUS_INTERNAL = 20,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -348,6 +351,15 @@ selvedge_status selvedge_detector_new(uint32_t scalar,
                                       struct selvedge_detector **detector);
 
 /**
+ * Cuts the question short that another thread is asking, and each one from now on: it fails with SELVEDGE_STATUS_CANCELLED, unless
+ * it is as good as answered. `cancelled` is not 0; 0 takes it back. Afterwards the detector answers as if nothing had been.
+ *
+ * For any thread at any time: the only function that a detector in use does not refuse, but for selvedge_detector_free.
+ */
+selvedge_status selvedge_detector_set_cancelled(struct selvedge_detector *detector,
+                                                int32_t cancelled);
+
+/**
  * Frees a detector and tells its threads to end; all that it has shown is gone with it. NULL is well. One that another thread is using goes when
  * that call has ended.
  */
@@ -355,7 +367,7 @@ selvedge_status selvedge_detector_free(struct selvedge_detector *detector);
 
 /**
  * How many threads steps are split between: 1, as at first, is the one that calls; more are the detector's own; 0 is one for each
- * core. Answers are the same bit for bit.
+ * core. Answers are the same bit for bit. More than four for each core, and more than 256, are refused.
  */
 selvedge_status selvedge_detector_set_threads(struct selvedge_detector *detector,
                                               size_t count);
@@ -397,6 +409,13 @@ selvedge_status selvedge_detector_set_moving(struct selvedge_detector *detector,
  */
 selvedge_status selvedge_detector_set_coherent(struct selvedge_detector *detector,
                                                int32_t coherent);
+
+/**
+ * Most pairs that a question may look at, of those that boxes leave; UINT64_MAX, as at first: as many as there are. One with more
+ * fails with SELVEDGE_STATUS_TOO_MANY_PAIRS, on any number of threads.
+ */
+selvedge_status selvedge_detector_set_pair_limit(struct selvedge_detector *detector,
+                                                 uint64_t limit);
 
 /**
  * How many threads a step uses.

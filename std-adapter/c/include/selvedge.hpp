@@ -84,7 +84,7 @@ struct candidate_pairs {
 
 /// A mesh, and what is kept of it from step to step. `Scalar` is float or double, the format of the positions.
 ///
-/// Can be moved, not copied. One thread at a time; another one gets SELVEDGE_STATUS_BUSY. All functions throw `error`.
+/// Can be moved, not copied. One thread at a time; another one gets SELVEDGE_STATUS_BUSY, but for set_cancelled. All functions throw `error`.
 template <class Scalar>
 class detector {
   static_assert(std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>, "positions are float or double");
@@ -115,6 +115,12 @@ class detector {
 
   /// Whether steps go on from one another.
   void set_coherent(bool coherent) { check(selvedge_detector_set_coherent(get(), coherent ? 1 : 0)); }
+
+  /// Most pairs that a question may look at; UINT64_MAX: as many as there are.
+  void set_pair_limit(std::uint64_t limit) { check(selvedge_detector_set_pair_limit(get(), limit)); }
+
+  /// Cuts short the question that another thread is asking, and each one until it is taken back. For any thread at any time.
+  void set_cancelled(bool cancelled) { check(selvedge_detector_set_cancelled(get(), cancelled ? 1 : 0)); }
 
   /// How many threads a step uses.
   std::size_t threads() const {

@@ -104,12 +104,20 @@ impl From<&Intersection> for IntersectionRow {
     }
 }
 
+/// Of vertices and faces, and of edges.
+#[derive(Default)]
+pub(crate) struct CandidatePairs {
+    pub(crate) vertex_face: Vec<[u32; 2]>,
+    pub(crate) edge_edge: Vec<[u32; 2]>,
+}
+
 /// The lists that pointers given to C show.
 #[derive(Default)]
 pub(crate) struct Answers {
     pub(crate) contacts: Vec<ContactRow>,
-    pub(crate) vertex_face: Vec<[u32; 2]>,
-    pub(crate) edge_edge: Vec<[u32; 2]>,
+    pub(crate) candidates: CandidatePairs,
+    /// Where candidates go first: a question that is cut short leaves those that are shown.
+    pub(crate) found_candidates: CandidatePairs,
     pub(crate) found_at_rest: Vec<Intersection>,
     pub(crate) intersections: Vec<IntersectionRow>,
 }
@@ -122,6 +130,12 @@ impl Answers {
         let rows = finder.contacts.iter().map(|contact| ContactRow::new(contact, topology));
         self.contacts.extend(rows);
         &self.contacts
+    }
+
+    /// Takes over the candidates that the detector has found.
+    pub(crate) fn show_candidates(&mut self) -> &CandidatePairs {
+        std::mem::swap(&mut self.candidates, &mut self.found_candidates);
+        &self.candidates
     }
 
     /// Takes over what the detector has found at rest.

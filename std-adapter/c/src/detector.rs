@@ -10,7 +10,7 @@ use crate::answers::Answers;
 use crate::guard::guarded;
 use crate::input::{Out, Plain, unknown, view};
 use crate::status::{Failure, Status};
-use selvedge::{CollisionDetector, Contact, Scalar, Topology, TopologyError};
+use selvedge::{Cancellation, CollisionDetector, Contact, Scalar, Topology, TopologyError};
 use std::collections::BTreeMap;
 use std::ptr;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -105,6 +105,7 @@ pub(crate) struct Kept {
     detector: Mutex<Detector>,
     /// The process whose threads it has, if it has any of its own.
     threads_of: Mutex<Option<u32>>,
+    cancellation: Cancellation,
 }
 
 impl Kept {
@@ -132,6 +133,7 @@ fn keep(detector: Detector) -> Result<*mut Handle, Failure> {
     let number = NEXT.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_more);
     let number = number.map_err(|_| Failure::new(Status::BadCount, "there are no more handles"))?;
     let kept = Kept {
+        cancellation: with_either!(&detector.finder, finder => finder.detector.cancellation()),
         detector: Mutex::new(detector),
         threads_of: Mutex::new(None),
     };
@@ -179,16 +181,6 @@ pub(crate) fn on_kept(handle: *const Handle, action: impl FnOnce(&Kept, &mut Det
     })
 }
 
-/// Refused memory is an error here, where a wrong count is the likeliest reason; nothing is kept of it.
-fn ask_for_memory<T>(what: &str, count: usize) -> Result<Vec<T>, Failure> {
-    let mut items = Vec::new();
-    items.try_reserve_exact(count).map_err(|_| {
-        let text = format!("the operating system refuses memory for {count} {what}");
-        Failure::new(Status::NoMemory, text)
-    })?;
-    Ok(items)
-}
-
 /// A detector for a mesh. `scalar` is a selvedge_scalar: the format that its positions will have. On the calling thread at first, all
 /// vertices moving, steps not coherent, contacts within the default tolerance.
 ///
@@ -218,8 +210,8 @@ pub unsafe extern "C" fn selvedge_detector_new(
         // SAFETY: the caller's promise.
         let given = unsafe { view::<_, 3>("triangles", triangles, triangle_count) }?;
         let finder = match scalar {
-            number if number == ScalarFormat::F32 as u32 => AnyFinder::F32(Finder::new(topology::<f32>(vertex_count, given)?)),
-            number if number == ScalarFormat::F64 as u32 => AnyFinder::F64(Finder::new(topology::<f64>(vertex_count, given)?)),
+            number if number == ScalarFormat::F32 as u32 => AnyFinder::F32(Finder::new(topology(vertex_count, given)?)),
+            number if number == ScalarFormat::F64 as u32 => AnyFinder::F64(Finder::new(topology(vertex_count, given)?)),
             number => return Err(unknown("selvedge_scalar", number)),
         };
         out.set(keep(Detector {
@@ -230,14 +222,32 @@ pub unsafe extern "C" fn selvedge_detector_new(
     })
 }
 
-fn topology<S: Format>(vertex_count: usize, given: &[[u32; 3]]) -> Result<Topology, Failure> {
-    if vertex_count <= u32::MAX as usize {
-        // A mesh of which not even the two frames of a step find room.
-        drop(ask_for_memory::<[[S; 3]; 2]>("vertices", vertex_count)?);
-    }
-    let mut triangles = ask_for_memory("triangles", given.len())?;
+fn topology(vertex_count: usize, given: &[[u32; 3]]) -> Result<Topology, Failure> {
+    let mut triangles = Vec::new();
+    // Refused memory is an error here, where a wrong count is the likeliest reason.
+    triangles.try_reserve_exact(given.len()).map_err(|_| {
+        let text = format!("the operating system refuses memory for {} triangles", given.len());
+        Failure::new(Status::NoMemory, text)
+    })?;
     triangles.extend_from_slice(given);
     Ok(Topology::new(vertex_count, triangles)?)
+}
+
+/// Cuts the question short that another thread is asking, and each one from now on: it fails with SELVEDGE_STATUS_CANCELLED, unless
+/// it is as good as answered. `cancelled` is not 0; 0 takes it back. Afterwards the detector answers as if nothing had been.
+///
+/// For any thread at any time: the only function that a detector in use does not refuse, but for selvedge_detector_free.
+#[unsafe(no_mangle)]
+pub extern "C" fn selvedge_detector_set_cancelled(detector: *mut Handle, cancelled: i32) -> Status {
+    guarded(|| {
+        let cancellation = &find(detector)?.cancellation;
+        if cancelled == 0 {
+            cancellation.reset();
+        } else {
+            cancellation.cancel();
+        }
+        Ok(())
+    })
 }
 
 /// Frees a detector and tells its threads to end; all that it has shown is gone with it. NULL is well. One that another thread is using goes when

@@ -1,6 +1,6 @@
 //! What a detector can be asked of a step: thin functions for each format over one that is generic.
 
-use crate::answers::{Answers, Boxes, ContactRow, IntersectionRow, Pair};
+use crate::answers::{Answers, Boxes, CandidatePairs, ContactRow, IntersectionRow, Pair};
 use crate::detector::{Detector, Finder, Format, Handle, on};
 use crate::input::{Out, OutList, unknown, view};
 use crate::status::{Failure, Status};
@@ -143,10 +143,11 @@ unsafe fn find_candidates<S: Format>(
                 number if number == Boxes::Swept as u32 => CandidateBoxes::Swept,
                 number => return Err(unknown("selvedge_boxes", number)),
             };
-            let lists = (&mut answers.vertex_face, &mut answers.edge_edge);
-            finder.detector.candidates(start, end, boxes, lists.0, lists.1)?;
-            vf.set_pairs(&answers.vertex_face);
-            ee.set_pairs(&answers.edge_edge);
+            let CandidatePairs { vertex_face, edge_edge } = &mut answers.found_candidates;
+            finder.detector.candidates(start, end, boxes, vertex_face, edge_edge)?;
+            let shown = answers.show_candidates();
+            vf.set_pairs(&shown.vertex_face);
+            ee.set_pairs(&shown.edge_edge);
             Ok(())
         })
     }

@@ -15,8 +15,6 @@ pub const SELVEDGE_DEFAULT_TOLERANCE_F32: f64 = 9.5367431640625e-7;
 /// At first the tolerance of detectors for double: 2^-30, a nanometre where positions are in metres.
 #[allow(dead_code)]
 pub const SELVEDGE_DEFAULT_TOLERANCE_F64: f64 = 9.313225746154785e-10;
-/// Threads that a detector may have of its own.
-pub const SELVEDGE_MAX_THREADS: usize = 1024;
 
 /// A length in the format of the positions, not less than it was given: what is asked for is kept.
 pub(crate) fn length<S: Scalar>(given: f64) -> Result<S, Failure> {
@@ -28,16 +26,10 @@ pub(crate) fn length<S: Scalar>(given: f64) -> Result<S, Failure> {
 }
 
 /// How many threads steps are split between: 1, as at first, is the one that calls; more are the detector's own; 0 is one for each
-/// core. Answers are the same bit for bit.
+/// core. Answers are the same bit for bit. More than four for each core, and more than 256, are refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_threads(detector: *mut Handle, count: usize) -> Status {
     on_kept(detector, |kept, it| {
-        if count > SELVEDGE_MAX_THREADS {
-            let text = format!(
-                "{count} threads are too many: there may be {SELVEDGE_MAX_THREADS}, and one for each core is the most of use"
-            );
-            return Err(Failure::new(Status::BadCount, text));
-        }
         with_either!(&mut it.finder, finder => finder.detector.set_threads(Threads::from_count(count)))?;
         kept.set_has_threads(count != 1);
         Ok(())
@@ -106,6 +98,17 @@ pub unsafe extern "C" fn selvedge_detector_set_moving(detector: *mut Handle, mov
 pub extern "C" fn selvedge_detector_set_coherent(detector: *mut Handle, coherent: i32) -> Status {
     on(detector, |it| {
         with_either!(&mut it.finder, finder => finder.detector.set_coherent(coherent != 0));
+        Ok(())
+    })
+}
+
+/// Most pairs that a question may look at, of those that boxes leave; UINT64_MAX, as at first: as many as there are. One with more
+/// fails with SELVEDGE_STATUS_TOO_MANY_PAIRS, on any number of threads.
+#[unsafe(no_mangle)]
+pub extern "C" fn selvedge_detector_set_pair_limit(detector: *mut Handle, limit: u64) -> Status {
+    on(detector, |it| {
+        let limit = Some(limit).filter(|&limit| limit != u64::MAX);
+        with_either!(&mut it.finder, finder => finder.detector.set_pair_limit(limit));
         Ok(())
     })
 }

@@ -39,18 +39,22 @@ pub enum Status {
     BadLimit = 13,
     /// A pair names a vertex, a face or an edge that the mesh does not have.
     NoSuchPair = 14,
-    /// The operating system refuses threads.
+    /// The operating system refuses threads, or there are more of them than any machine has use for.
     NoThreads = 15,
     /// The operating system refuses memory.
     NoMemory = 16,
     /// The process was forked after the detector has started threads; they are not in the child.
     Forked = 17,
+    /// The detector is cancelled.
+    Cancelled = 18,
+    /// More pairs are near each other than may be looked at.
+    TooManyPairs = 19,
     /// A fault of the library's own. The detector can only be freed from now on.
-    Internal = 18,
+    Internal = 20,
 }
 
 impl Status {
-    const ALL: [Self; 19] = [
+    const ALL: [Self; 21] = [
         Self::Ok,
         Self::NullPointer,
         Self::MisalignedPointer,
@@ -69,6 +73,8 @@ impl Status {
         Self::NoThreads,
         Self::NoMemory,
         Self::Forked,
+        Self::Cancelled,
+        Self::TooManyPairs,
         Self::Internal,
     ];
 
@@ -92,6 +98,8 @@ impl Status {
             Self::NoThreads => c"threads refused",
             Self::NoMemory => c"memory refused",
             Self::Forked => c"detector of a parent process",
+            Self::Cancelled => c"cancelled",
+            Self::TooManyPairs => c"too many pairs",
             Self::Internal => c"internal error",
         }
     }
@@ -129,6 +137,8 @@ impl From<StepError> for Failure {
             StepError::NotFinite { .. } => Status::NotFinite,
             StepError::BadLimit { .. } => Status::BadLimit,
             StepError::NoSuchPair { .. } => Status::NoSuchPair,
+            StepError::Cancelled => Status::Cancelled,
+            StepError::TooManyPairs { .. } => Status::TooManyPairs,
             // One that this crate does not know yet.
             _ => Status::Internal,
         };

@@ -1,7 +1,7 @@
 //! C's functions, called as C does, beside the detector itself. Programs in C and C++ are tried in `tests/programs.rs`.
 
 use crate::answers::{Boxes, ContactRow, IntersectionRow, Kind, Pair};
-use crate::detector::{Handle, ScalarFormat, on, selvedge_detector_free, selvedge_detector_new};
+use crate::detector::{Handle, ScalarFormat, on, selvedge_detector_free, selvedge_detector_new, selvedge_detector_set_cancelled};
 use crate::questions::*;
 use crate::settings::*;
 use crate::status::{Status, selvedge_last_error, selvedge_status_string};
@@ -350,17 +350,20 @@ fn a_panic_without_words_ends_at_the_border_too() {
 }
 
 #[test]
-fn a_second_thread_is_refused_and_may_free() {
+fn a_second_thread_is_refused_and_may_cancel_and_free() {
     let handle = new(ScalarFormat::F64);
     let status = on(handle, |_| {
         let address = handle.addr();
         let second = std::thread::spawn(move || {
             let handle = ptr::without_provenance_mut(address);
             let refused = selvedge_detector_set_coherent(handle, 1);
-            (refused, last_error(), selvedge_detector_free(handle))
+            let words = last_error();
+            // But for these two.
+            let cancelled = selvedge_detector_set_cancelled(handle, 1);
+            (refused, words, cancelled, selvedge_detector_free(handle))
         });
-        let (refused, words, freed) = second.join().unwrap();
-        assert_eq!((refused, freed), (Status::Busy, Status::Ok));
+        let (refused, words, cancelled, freed) = second.join().unwrap();
+        assert_eq!((refused, cancelled, freed), (Status::Busy, Status::Ok, Status::Ok));
         assert!(words.contains("another thread"));
         Ok(())
     });

@@ -56,6 +56,13 @@ static void try_all() {
   holds(__LINE__, !first.has_intersections(start) && first.intersections(start).empty() && first.has_intersections(end));
   holds(__LINE__, first.intersections(end)[0].kind == SELVEDGE_INTERSECTION_KIND_EDGE_FACE);
   expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.has_intersections({start.data(), 5}); });
+  first.set_pair_limit(1);
+  expect(__LINE__, SELVEDGE_STATUS_TOO_MANY_PAIRS, [&] { first.contacts(start, end); });
+  first.set_pair_limit(UINT64_MAX);
+  first.set_cancelled(true);
+  expect(__LINE__, SELVEDGE_STATUS_CANCELLED, [&] { first.contacts(start, end); });
+  first.set_cancelled(false);
+  holds(__LINE__, !first.contacts(start, end).empty());
   first.set_touching(1e-7);
   first.set_coherent(true);
   first.set_threads(2);
