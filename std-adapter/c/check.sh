@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs the library into a folder, and builds and runs the programs in C and C++ on it as somebody else would: by each compiler that
-# is there, every warning an error, plainly and under the address and undefined-behaviour sanitizers; through pkg-config and CMake.
-# What is missing is skipped, and said. Linux; a few minutes, most of which is the library with link-time optimisation.
+# Installs the library into a folder, and builds and runs the programs in C and C++ on it as somebody else would: by each compiler
+# that is there, every warning an error, plainly and under the address and undefined-behaviour sanitizers; through pkg-config and
+# CMake. What is missing is skipped, and said. Linux; a few minutes, most of which is the library with link-time optimisation.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 

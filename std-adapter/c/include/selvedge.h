@@ -336,8 +336,8 @@ const char *selvedge_last_error(void);
 const char *selvedge_status_string(int32_t status);
 
 /**
- * A detector for a mesh. `scalar` is a selvedge_scalar: the format that its positions will have. On the calling thread at first, all
- * vertices moving, steps not coherent, contacts within the default tolerance.
+ * A detector for a mesh. `scalar` is a selvedge_scalar: the format that its positions will have. On the calling thread at first,
+ * all vertices moving, steps not coherent, contacts within the default tolerance.
  *
  * The triangles are copied. `*detector` becomes the handle; selvedge_detector_free gives back what it takes.
  *
@@ -351,8 +351,9 @@ selvedge_status selvedge_detector_new(uint32_t scalar,
                                       struct selvedge_detector **detector);
 
 /**
- * Cuts the question short that another thread is asking, and each one from now on: it fails with SELVEDGE_STATUS_CANCELLED, unless
- * it is as good as answered. `cancelled` is not 0; 0 takes it back. Afterwards the detector answers as if nothing had been.
+ * Cuts the question short that another thread is asking, and each one from now on: it fails with SELVEDGE_STATUS_CANCELLED,
+ * unless it is as good as answered. `cancelled` is not 0; 0 takes it back. Afterwards the detector answers as if nothing had
+ * been.
  *
  * For any thread at any time: the only function that a detector in use does not refuse, but for selvedge_detector_free.
  */
@@ -360,14 +361,14 @@ selvedge_status selvedge_detector_set_cancelled(struct selvedge_detector *detect
                                                 int32_t cancelled);
 
 /**
- * Frees a detector and tells its threads to end; all that it has shown is gone with it. NULL is well. One that another thread is using goes when
- * that call has ended.
+ * Frees a detector and tells its threads to end; all that it has shown is gone with it. NULL is well. One that another thread is
+ * using goes when that call has ended.
  */
 selvedge_status selvedge_detector_free(struct selvedge_detector *detector);
 
 /**
- * How many threads steps are split between: 1, as at first, is the one that calls; more are the detector's own; 0 is one for each
- * core. Answers are the same bit for bit. More than four for each core, and more than 256, are refused.
+ * How many threads steps are split between: 1, as at first, is the one that calls; more are the detector's own; 0 is one for
+ * each core. Answers are the same bit for bit. More than four for each core, and more than 256, are refused.
  */
 selvedge_status selvedge_detector_set_threads(struct selvedge_detector *detector,
                                               size_t count);
@@ -383,7 +384,8 @@ selvedge_status selvedge_detector_set_within(struct selvedge_detector *detector,
                                              double tolerance);
 
 /**
- * Contacts are only pairs that truly touch, decided exactly. A time may be as much too early as the pair needs to come closer by `tolerance`.
+ * Contacts are only pairs that truly touch, decided exactly. A time may be as much too early as the pair needs to come closer by
+ * `tolerance`.
  *
  * In the unit of the positions. For a detector for float it is rounded up to a float.
  */
@@ -393,8 +395,8 @@ selvedge_status selvedge_detector_set_touching(struct selvedge_detector *detecto
 /**
  * Names the vertices that move: for each of them a byte that is not 0. NULL and 0: all of them, as at first.
  *
- * From the next step on pairs of which no vertex moves are not looked at. Positions of vertices that do not move are taken from the next
- * step, and not looked at again until this is called anew. The bytes are copied.
+ * From the next step on pairs of which no vertex moves are not looked at. Positions of vertices that do not move are taken from
+ * the next step, and not looked at again until this is called anew. The bytes are copied.
  *
  * The caller promises:
  * `moving` points to `count` bytes.
@@ -411,8 +413,8 @@ selvedge_status selvedge_detector_set_coherent(struct selvedge_detector *detecto
                                                int32_t coherent);
 
 /**
- * Most pairs that a question may look at, of those that boxes leave; UINT64_MAX, as at first: as many as there are. One with more
- * fails with SELVEDGE_STATUS_TOO_MANY_PAIRS, on any number of threads.
+ * Most pairs that a question may look at, of those that boxes leave; UINT64_MAX, as at first: as many as there are. One with
+ * more fails with SELVEDGE_STATUS_TOO_MANY_PAIRS, on any number of threads.
  */
 selvedge_status selvedge_detector_set_pair_limit(struct selvedge_detector *detector,
                                                  uint64_t limit);
@@ -438,8 +440,8 @@ selvedge_status selvedge_detector_edges(const struct selvedge_detector *detector
                                         size_t *count);
 
 /**
- * All contacts of the step from `start` to `end`. They stay where they are until this detector's contacts are asked for again, in
- * either way, or it is freed. If there are none they are at NULL.
+ * All contacts of the step from `start` to `end`. They stay where they are until this detector's contacts are asked for again,
+ * in either way, or it is freed. If there are none they are at NULL.
  *
  * The caller promises:
  * `start` and `end` point to 3 * `vertex_count` numbers, `contacts` to a pointer, `count` to a number.
@@ -465,7 +467,8 @@ selvedge_status selvedge_detector_contacts_f32(struct selvedge_detector *detecto
                                                size_t *count);
 
 /**
- * The contacts among pairs that the caller has, in their order: so many of a vertex and a face, and so many of two edges. They stay as those of selvedge_detector_contacts_f64. The pairs may be this detector's own candidates.
+ * The contacts among pairs that the caller has, in their order: so many of a vertex and a face, and so many of two edges. They
+ * stay as those of selvedge_detector_contacts_f64. The pairs may be this detector's own candidates.
  *
  * The caller promises:
  * As selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to so many pairs.
@@ -499,8 +502,9 @@ selvedge_status selvedge_detector_contacts_of_f32(struct selvedge_detector *dete
                                                   size_t *count);
 
 /**
- * The earliest contact of the step: of several at the same time the one with the smallest numbers. `*found` becomes whether there is
- * one. Then `*contact` becomes it, and the step is free of contact before its time; otherwise the whole step is, and `*contact` stays.
+ * The earliest contact of the step: of several at the same time the one with the smallest numbers. `*found` becomes whether
+ * there is one. Then `*contact` becomes it, and the step is free of contact before its time; otherwise the whole step is, and
+ * `*contact` stays.
  *
  * The caller promises:
  * `start` and `end` point to 3 * `vertex_count` numbers, `found` and `contact` to one of their type.
@@ -583,10 +587,10 @@ selvedge_status selvedge_detector_candidates_f32(struct selvedge_detector *detec
                                                  size_t *edge_edge_count);
 
 /**
- * All edges and faces that meet where the mesh is at `positions`, at rest, touching included, exactly; and vertices and faces, and
- * edges, that touch where neighbours are folded flat onto each other. None exactly if no two triangles have a point in common
- * besides the vertices and the edge that they share. They stay where they are until this detector's intersections are asked for
- * again, or it is freed.
+ * All edges and faces that meet where the mesh is at `positions`, at rest, touching included, exactly; and vertices and faces,
+ * and edges, that touch where neighbours are folded flat onto each other. None exactly if no two triangles have a point in
+ * common besides the vertices and the edge that they share. They stay where they are until this detector's intersections are
+ * asked for again, or it is freed.
  *
  * The caller promises:
  * `positions` points to 3 * `vertex_count` numbers, `intersections` to a pointer, `count` to a number.

@@ -54,8 +54,8 @@ class list {
   std::size_t count_ = 0;
 };
 
-/// Groups of three numbers in a row, that the caller owns: positions or triangles. Made of a pointer and how many groups there are,
-/// or of anything with data() and size() that holds the numbers, as std::vector.
+/// Groups of three numbers in a row, that the caller owns: positions or triangles. Made of a pointer and how many groups there
+/// are, or of anything with data() and size() that holds the numbers, as std::vector.
 template <class T>
 class triples {
  public:
@@ -84,7 +84,8 @@ struct candidate_pairs {
 
 /// A mesh, and what is kept of it from step to step. `Scalar` is float or double, the format of the positions.
 ///
-/// Can be moved, not copied. One thread at a time; another one gets SELVEDGE_STATUS_BUSY, but for set_cancelled. All functions throw `error`.
+/// Can be moved, not copied. One thread at a time; another one gets SELVEDGE_STATUS_BUSY, but for set_cancelled. All functions
+/// throw `error`.
 template <class Scalar>
 class detector {
   static_assert(std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>, "positions are float or double");
@@ -157,11 +158,11 @@ class detector {
     const std::size_t vertices = common_size(start, end);
     const auto &[vf, ee] = pairs;
     if constexpr (is_single) {
-      check(selvedge_detector_contacts_of_f32(get(), start.data(), end.data(), vertices, vf.data(), vf.size(), ee.data(), ee.size(),
-                                              &first, &count));
+      check(selvedge_detector_contacts_of_f32(get(), start.data(), end.data(), vertices, vf.data(), vf.size(), ee.data(),
+                                              ee.size(), &first, &count));
     } else {
-      check(selvedge_detector_contacts_of_f64(get(), start.data(), end.data(), vertices, vf.data(), vf.size(), ee.data(), ee.size(),
-                                              &first, &count));
+      check(selvedge_detector_contacts_of_f64(get(), start.data(), end.data(), vertices, vf.data(), vf.size(), ee.data(),
+                                              ee.size(), &first, &count));
     }
     return {first, count};
   }

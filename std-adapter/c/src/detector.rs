@@ -3,8 +3,8 @@
 //! To C a handle is a pointer; here it is a number that was given once and never again, looked up at each call. So a handle that
 //! was freed, or never made, is told from one that lives, whatever memory holds, and no handle is ever followed.
 //!
-//! A detector stands behind a lock that only one call may have: a second thread is refused, not kept waiting. A panic poisons it, as it does
-//! all of Rust's, and that is the mark of a broken detector.
+//! A detector stands behind a lock that only one call may have: a second thread is refused, not kept waiting. A panic poisons it,
+//! as it does all of Rust's, and that is the mark of a broken detector.
 
 use crate::answers::Answers;
 use crate::guard::guarded;
@@ -181,8 +181,8 @@ pub(crate) fn on_kept(handle: *const Handle, action: impl FnOnce(&Kept, &mut Det
     })
 }
 
-/// A detector for a mesh. `scalar` is a selvedge_scalar: the format that its positions will have. On the calling thread at first, all
-/// vertices moving, steps not coherent, contacts within the default tolerance.
+/// A detector for a mesh. `scalar` is a selvedge_scalar: the format that its positions will have. On the calling thread at first,
+/// all vertices moving, steps not coherent, contacts within the default tolerance.
 ///
 /// The triangles are copied. `*detector` becomes the handle; selvedge_detector_free gives back what it takes.
 ///
@@ -233,8 +233,9 @@ fn topology(vertex_count: usize, given: &[[u32; 3]]) -> Result<Topology, Failure
     Ok(Topology::new(vertex_count, triangles)?)
 }
 
-/// Cuts the question short that another thread is asking, and each one from now on: it fails with SELVEDGE_STATUS_CANCELLED, unless
-/// it is as good as answered. `cancelled` is not 0; 0 takes it back. Afterwards the detector answers as if nothing had been.
+/// Cuts the question short that another thread is asking, and each one from now on: it fails with SELVEDGE_STATUS_CANCELLED,
+/// unless it is as good as answered. `cancelled` is not 0; 0 takes it back. Afterwards the detector answers as if nothing had
+/// been.
 ///
 /// For any thread at any time: the only function that a detector in use does not refuse, but for selvedge_detector_free.
 #[unsafe(no_mangle)]
@@ -250,8 +251,8 @@ pub extern "C" fn selvedge_detector_set_cancelled(detector: *mut Handle, cancell
     })
 }
 
-/// Frees a detector and tells its threads to end; all that it has shown is gone with it. NULL is well. One that another thread is using goes when
-/// that call has ended.
+/// Frees a detector and tells its threads to end; all that it has shown is gone with it. NULL is well. One that another thread is
+/// using goes when that call has ended.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_free(detector: *mut Handle) -> Status {
     guarded(|| {

@@ -9,8 +9,8 @@
 //! version    macros and functions
 //! ```
 //!
-//! All that the project has of `unsafe` is in this crate. A function of it trusts its caller in one thing: that a pointer which is
-//! neither null nor misaligned has so many items behind it as the count says, that nobody else writes to them meanwhile.
+//! All that the project has of `unsafe` is in this crate. A function of it trusts its caller in one thing: that a pointer which
+//! is neither null nor misaligned has so many items behind it as the count says, that nobody else writes to them meanwhile.
 
 #![deny(unsafe_op_in_unsafe_fn, clippy::undocumented_unsafe_blocks)]
 // Functions have to be public to be seen from C, though nobody can name them in Rust.

@@ -180,8 +180,8 @@ unsafe fn tell_intersections<S: Format>(asked: AskedState<S>, has_any: *mut bool
     }
 }
 
-/// All contacts of the step from `start` to `end`. They stay where they are until this detector's contacts are asked for again, in
-/// either way, or it is freed. If there are none they are at NULL.
+/// All contacts of the step from `start` to `end`. They stay where they are until this detector's contacts are asked for again,
+/// in either way, or it is freed. If there are none they are at NULL.
 ///
 /// # Safety
 /// `start` and `end` point to 3 * `vertex_count` numbers, `contacts` to a pointer, `count` to a number.
@@ -217,7 +217,8 @@ pub unsafe extern "C" fn selvedge_detector_contacts_f32(
     unsafe { find_contacts(asked, contacts, count) }
 }
 
-/// The contacts among pairs that the caller has, in their order: so many of a vertex and a face, and so many of two edges. They stay as those of selvedge_detector_contacts_f64. The pairs may be this detector's own candidates.
+/// The contacts among pairs that the caller has, in their order: so many of a vertex and a face, and so many of two edges. They
+/// stay as those of selvedge_detector_contacts_f64. The pairs may be this detector's own candidates.
 ///
 /// # Safety
 /// As selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to so many pairs.
@@ -277,8 +278,9 @@ pub unsafe extern "C" fn selvedge_detector_contacts_of_f32(
     }
 }
 
-/// The earliest contact of the step: of several at the same time the one with the smallest numbers. `*found` becomes whether there is
-/// one. Then `*contact` becomes it, and the step is free of contact before its time; otherwise the whole step is, and `*contact` stays.
+/// The earliest contact of the step: of several at the same time the one with the smallest numbers. `*found` becomes whether
+/// there is one. Then `*contact` becomes it, and the step is free of contact before its time; otherwise the whole step is, and
+/// `*contact` stays.
 ///
 /// # Safety
 /// `start` and `end` point to 3 * `vertex_count` numbers, `found` and `contact` to one of their type.
@@ -391,10 +393,10 @@ pub unsafe extern "C" fn selvedge_detector_candidates_f32(
     unsafe { find_candidates(asked, boxes, (vertex_face, vertex_face_count), (edge_edge, edge_edge_count)) }
 }
 
-/// All edges and faces that meet where the mesh is at `positions`, at rest, touching included, exactly; and vertices and faces, and
-/// edges, that touch where neighbours are folded flat onto each other. None exactly if no two triangles have a point in common
-/// besides the vertices and the edge that they share. They stay where they are until this detector's intersections are asked for
-/// again, or it is freed.
+/// All edges and faces that meet where the mesh is at `positions`, at rest, touching included, exactly; and vertices and faces,
+/// and edges, that touch where neighbours are folded flat onto each other. None exactly if no two triangles have a point in
+/// common besides the vertices and the edge that they share. They stay where they are until this detector's intersections are
+/// asked for again, or it is freed.
 ///
 /// # Safety
 /// `positions` points to 3 * `vertex_count` numbers, `intersections` to a pointer, `count` to a number.

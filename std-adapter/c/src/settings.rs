@@ -25,8 +25,8 @@ pub(crate) fn length<S: Scalar>(given: f64) -> Result<S, Failure> {
     }
 }
 
-/// How many threads steps are split between: 1, as at first, is the one that calls; more are the detector's own; 0 is one for each
-/// core. Answers are the same bit for bit. More than four for each core, and more than 256, are refused.
+/// How many threads steps are split between: 1, as at first, is the one that calls; more are the detector's own; 0 is one for
+/// each core. Answers are the same bit for bit. More than four for each core, and more than 256, are refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_threads(detector: *mut Handle, count: usize) -> Status {
     on_kept(detector, |kept, it| {
@@ -51,7 +51,8 @@ pub extern "C" fn selvedge_detector_set_within(detector: *mut Handle, separation
     })
 }
 
-/// Contacts are only pairs that truly touch, decided exactly. A time may be as much too early as the pair needs to come closer by `tolerance`.
+/// Contacts are only pairs that truly touch, decided exactly. A time may be as much too early as the pair needs to come closer by
+/// `tolerance`.
 ///
 /// In the unit of the positions. For a detector for float it is rounded up to a float.
 #[unsafe(no_mangle)]
@@ -67,8 +68,8 @@ pub extern "C" fn selvedge_detector_set_touching(detector: *mut Handle, toleranc
 
 /// Names the vertices that move: for each of them a byte that is not 0. NULL and 0: all of them, as at first.
 ///
-/// From the next step on pairs of which no vertex moves are not looked at. Positions of vertices that do not move are taken from the next
-/// step, and not looked at again until this is called anew. The bytes are copied.
+/// From the next step on pairs of which no vertex moves are not looked at. Positions of vertices that do not move are taken from
+/// the next step, and not looked at again until this is called anew. The bytes are copied.
 ///
 /// # Safety
 /// `moving` points to `count` bytes.
@@ -102,8 +103,8 @@ pub extern "C" fn selvedge_detector_set_coherent(detector: *mut Handle, coherent
     })
 }
 
-/// Most pairs that a question may look at, of those that boxes leave; UINT64_MAX, as at first: as many as there are. One with more
-/// fails with SELVEDGE_STATUS_TOO_MANY_PAIRS, on any number of threads.
+/// Most pairs that a question may look at, of those that boxes leave; UINT64_MAX, as at first: as many as there are. One with
+/// more fails with SELVEDGE_STATUS_TOO_MANY_PAIRS, on any number of threads.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_pair_limit(detector: *mut Handle, limit: u64) -> Status {
     on(detector, |it| {

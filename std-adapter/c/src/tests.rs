@@ -63,8 +63,8 @@ trait ForC: Scalar {
 }
 
 macro_rules! for_c {
-    ($scalar:ident = $format:ident: $contacts:ident, $contacts_of:ident, $earliest:ident, $is_free:ident, $candidates:ident, $intersections:ident,
-     $has_intersections:ident) => {
+    ($scalar:ident = $format:ident: $contacts:ident, $contacts_of:ident, $earliest:ident, $is_free:ident, $candidates:ident,
+     $intersections:ident, $has_intersections:ident) => {
         impl ForC for $scalar {
             const FORMAT: ScalarFormat = ScalarFormat::$format;
             fn from_double(value: f64) -> Self {

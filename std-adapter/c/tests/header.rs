@@ -28,6 +28,6 @@ fn the_header_is_that_of_the_sources() {
     let line = kept.lines().zip(made.lines()).position(|(kept, made)| kept != made);
     assert!(
         kept == made,
-        "include/selvedge.h is not that of the sources (line {line:?}): run UPDATE_HEADER=1 cargo test -p selvedge-c --test header"
+        "include/selvedge.h is not that of the sources (line {line:?}): UPDATE_HEADER=1 cargo test -p selvedge-c --test header"
     );
 }

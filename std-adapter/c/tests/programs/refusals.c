@@ -180,7 +180,8 @@ static void questions(selvedge_detector *detector) {
     EXPECT(NO_SUCH_PAIR,
            selvedge_detector_contacts_of_f64(detector, START, END, VERTICES, pairs + k, 1, NULL, 0, &contacts, &count));
   }
-  EXPECT(NO_SUCH_PAIR, selvedge_detector_contacts_of_f64(detector, START, END, VERTICES, NULL, 0, pairs + 1, 1, &contacts, &count));
+  EXPECT(NO_SUCH_PAIR,
+         selvedge_detector_contacts_of_f64(detector, START, END, VERTICES, NULL, 0, pairs + 1, 1, &contacts, &count));
   EXPECT(NULL_POINTER, selvedge_detector_contacts_of_f64(detector, START, END, VERTICES, NULL, 1, pairs, 1, &contacts, &count));
   EXPECT(BAD_COUNT,
          selvedge_detector_contacts_of_f64(detector, START, END, VERTICES, pairs, SIZE_MAX, pairs, 1, &contacts, &count));
@@ -201,7 +202,8 @@ static void cut_short(selvedge_detector *detector) {
   size_t count = 0, vf_count = 0, ee_count = 0;
   bool answer = true;
   EXPECT(OK, selvedge_detector_contacts_f64(detector, START, END, VERTICES, &contacts, &count));
-  EXPECT(OK, selvedge_detector_candidates_f64(detector, START, END, VERTICES, SELVEDGE_BOXES_SWEPT, &vf, &vf_count, &ee, &ee_count));
+  EXPECT(OK,
+         selvedge_detector_candidates_f64(detector, START, END, VERTICES, SELVEDGE_BOXES_SWEPT, &vf, &vf_count, &ee, &ee_count));
   HOLDS(vf_count >= 3 && vf[0].second == 0);
   const selvedge_pair first = vf[0];
 
