@@ -83,8 +83,8 @@ impl Topology {
     /// both ends are the same vertex.
     pub const NO_EDGE: u32 = u32::MAX;
 
-    /// Three edges to a triangle must be numbered below [`NO_EDGE`](Self::NO_EDGE).
-    const MAX_TRIANGLES: usize = (u32::MAX / 3) as usize;
+    /// The most triangles: three edges to each must be numbered below [`NO_EDGE`](Self::NO_EDGE).
+    pub const MAX_TRIANGLES: usize = (u32::MAX / 3) as usize;
 
     /// Finds the edges of `triangles`, in O(v + n log d) time for v vertices, n triangles and at
     /// most d edges to a vertex; in O(n log n) if few of many vertices have a triangle. Memory is bounded by what the triangles name.

@@ -1,0 +1,126 @@
+#!/usr/bin/env bash
+# Installs the library into a folder, and builds and runs the programs in C and C++ on it as somebody else would: by each compiler
+# that is there, every warning an error, plainly and under the address and undefined-behaviour sanitizers; through pkg-config and
+# CMake. What is missing is skipped, and said. Linux; a few minutes, most of which is the library with link-time optimisation.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+say() { printf '\n== %s\n' "$*"; }
+give_up() {
+    printf 'check.sh: %s\n' "$*" >&2
+    exit 1
+}
+is_there() { command -v "$1" >/dev/null 2>&1; }
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+prefix=$folder/installed
+export LD_LIBRARY_PATH=$prefix/lib PKG_CONFIG_PATH=$prefix/lib/pkgconfig
+# A count beyond reason is to be refused as plainly as without a sanitizer.
+export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=8192:detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1
+
+say "library: make install"
+make --no-print-directory install PREFIX="$prefix"
+
+say "what it shows to others"
+version=$(cargo pkgid | sed 's/.*[@#]//')
+if is_there readelf; then
+    readelf -d "$prefix/lib/libselvedge.so" | grep -q "SONAME.*\[libselvedge.so.${version%.*}\]" || give_up "its SONAME is another"
+    foreign=$(nm -D --defined-only "$prefix/lib/libselvedge.so" | awk '{ print $3 }' | grep -v '^selvedge_' || true)
+    [ -z "$foreign" ] || give_up "it shows symbols that are not ours: $foreign"
+    stat -c '%s bytes %n' "$prefix"/lib/libselvedge.so."$version" "$prefix"/lib/libselvedge.a
+else
+    echo "skipped: readelf is missing"
+fi
+
+say "frames: a tetrahedron that falls through a square"
+frame() { # HEIGHT
+    printf 'v %s 0\n' "-2 -2" "2 -2" "2 2" "-2 2"
+    for vertex in "0 0 0" "1 0 1" "0 1 1" "-1 -1 1"; do
+        echo "$vertex $1" | awk '{ print "v", $1, $2, $3 + $4 }'
+    done
+    printf 'f %s\n' "1 2 3" "1 3 4" "5 6 7" "5 6 8" "5 7 8" "6 7 8"
+}
+frames=()
+for height in 0.55 0.35 0.15 -0.05 -0.25; do
+    frame "$height" >"$folder/$height.obj"
+    frames+=("$folder/$height.obj")
+done
+
+warnings=(-pedantic -Wall -Wextra -Wconversion -Wshadow -Werror)
+sanitizers=(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+printed=
+
+# Builds a program and runs it, with frames if it takes them.
+try() { # NAME OUTPUT COMMAND...
+    local name=$1 output=$2
+    shift 2
+    "$@" -o "$folder/program"
+    case $name in
+    frames)
+        "$folder/program" "${frames[@]}" >"$output"
+        "$folder/program" --float "${frames[@]}" >>"$output"
+        [ -z "$printed" ] || cmp "$printed" "$output" || give_up "$* gives a program that prints something else"
+        [ -n "$printed" ] || cp "$output" "$folder/first" && printed=$folder/first
+        ;;
+    *) "$folder/program" ;;
+    esac
+}
+
+for compiler in gcc clang g++ clang++; do
+    if ! is_there "$compiler"; then
+        say "$compiler: skipped, it is missing"
+        continue
+    fi
+    say "$compiler: $($compiler --version | head -n 1)"
+    case $compiler in
+    *++) standards="c++17 c++20" suffix=cpp ;;
+    *) standards="c11 c17" suffix=c ;;
+    esac
+    for standard in $standards; do
+        for source in examples/frames tests/programs/refusals tests/programs/fork; do
+            [ -e "$source.$suffix" ] || continue
+            for mode in plain sanitized; do
+                extra=(-O2)
+                [ $mode = plain ] || extra=(-O1 "${sanitizers[@]}")
+                try "$(basename $source)" "$folder/output" "$compiler" "-std=$standard" "${warnings[@]}" "${extra[@]}" \
+                    -I "$prefix/include" "$source.$suffix" -L "$prefix/lib" -lselvedge -lm
+                echo "$source.$suffix, $standard, $mode: as it should be"
+            done
+        done
+    done
+done
+[ -n "$printed" ] || give_up "there is no compiler"
+grep -c ' time ' "$printed" | sed 's/$/ contacts, the same from all of them/'
+
+say "pkg-config"
+if is_there pkg-config && is_there gcc; then
+    [ "$(pkg-config --modversion selvedge)" = "$version" ] || give_up "pkg-config tells another version"
+    # shellcheck disable=SC2046 # words on purpose
+    try frames "$folder/output" gcc examples/frames.c $(pkg-config --cflags --libs selvedge)
+    # The archive in place of -lselvedge; the system's libraries as the package names them.
+    # shellcheck disable=SC2046
+    try frames "$folder/output" gcc examples/frames.c $(pkg-config --cflags selvedge) "$prefix/lib/libselvedge.a" \
+        $(pkg-config --static --libs-only-l selvedge | sed 's/-lselvedge//') -lm
+    echo "shared and static: as it should be"
+else
+    echo "skipped: pkg-config or gcc is missing"
+fi
+
+say "CMake"
+if is_there cmake && is_there g++; then
+    cmake -S tests/cmake -B "$folder/cmake" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+    cmake --build "$folder/cmake" >/dev/null
+    for program in frames-c-shared frames-c-static frames-cpp-shared frames-cpp-static; do
+        { "$folder/cmake/$program" "${frames[@]}" && "$folder/cmake/$program" --float "${frames[@]}"; } >"$folder/output"
+        cmp "$printed" "$folder/output" || give_up "$program prints something else"
+        echo "$program: as it should be"
+    done
+else
+    echo "skipped: cmake or g++ is missing"
+fi
+
+make --no-print-directory uninstall PREFIX="$prefix"
+left=$(find "$prefix" -type f -o -type l)
+[ -z "$left" ] || give_up "uninstall has left $left"
+say "C and C++: all as it should be"

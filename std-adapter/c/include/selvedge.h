@@ -1,0 +1,642 @@
+/* Selvedge: which vertex-face and edge-edge pairs of a deforming triangle mesh can collide during a time step.
+ *
+ * Made by cbindgen from std-adapter/c/src; do not edit. README.md beside it begins with an example.
+ *
+ * Every function returns a selvedge_status, those that only read a constant or a text excepted. One that fails has changed
+ * nothing, and written nothing to where its answers go; selvedge_last_error() says what is wrong.
+ *
+ * Positions are three numbers for each vertex, x y z, one vertex after another, in a unit of yours. Times are in [0, 1] of the
+ * step. Triangles are three vertex numbers each.
+ */
+
+#ifndef SELVEDGE_H
+#define SELVEDGE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/**
+ * Of the header: it changes with what was there before.
+ */
+#define SELVEDGE_VERSION_MAJOR 0
+
+/**
+ * Of the header: below 1.0 it changes with what was there before.
+ */
+#define SELVEDGE_VERSION_MINOR 1
+
+/**
+ * Of the header.
+ */
+#define SELVEDGE_VERSION_PATCH 0
+
+/**
+ * Of the header, as one number. That of the library is selvedge_version().
+ */
+#define SELVEDGE_VERSION (((1000000 * SELVEDGE_VERSION_MAJOR) + (1000 * SELVEDGE_VERSION_MINOR)) + SELVEDGE_VERSION_PATCH)
+
+/**
+ * At first the tolerance of detectors for float: 2^-20, a micrometre where positions are in metres.
+ */
+#define SELVEDGE_DEFAULT_TOLERANCE_F32 9.5367431640625e-7
+
+/**
+ * At first the tolerance of detectors for double: 2^-30, a nanometre where positions are in metres.
+ */
+#define SELVEDGE_DEFAULT_TOLERANCE_F64 9.313225746154785e-10
+
+/**
+ * What became of a call.
+ */
+enum selvedge_status
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * All is well.
+   */
+  SELVEDGE_STATUS_OK = 0,
+  /**
+   * A pointer is NULL that must not be.
+   */
+  SELVEDGE_STATUS_NULL_POINTER = 1,
+  /**
+   * A pointer is not aligned as its type has to be.
+   */
+  SELVEDGE_STATUS_MISALIGNED_POINTER = 2,
+  /**
+   * A count is larger than memory, or than what may be asked for.
+   */
+  SELVEDGE_STATUS_BAD_COUNT = 3,
+  /**
+   * A number is none of its enumeration's.
+   */
+  SELVEDGE_STATUS_UNKNOWN_CONSTANT = 4,
+  /**
+   * There is no such detector: it was freed, or never made.
+   */
+  SELVEDGE_STATUS_NO_SUCH_DETECTOR = 5,
+  /**
+   * Another thread is using the detector.
+   */
+  SELVEDGE_STATUS_BUSY = 6,
+  /**
+   * The detector is for positions in the other format.
+   */
+  SELVEDGE_STATUS_WRONG_SCALAR = 7,
+  /**
+   * The mesh has no triangles.
+   */
+  SELVEDGE_STATUS_NO_TRIANGLES = 8,
+  /**
+   * A triangle names a vertex that the mesh does not have.
+   */
+  SELVEDGE_STATUS_VERTEX_OUT_OF_RANGE = 9,
+  /**
+   * The mesh has more vertices or triangles than can be numbered.
+   */
+  SELVEDGE_STATUS_TOO_LARGE = 10,
+  /**
+   * A list does not have an entry for each vertex.
+   */
+  SELVEDGE_STATUS_WRONG_LENGTH = 11,
+  /**
+   * A coordinate is NaN or infinite.
+   */
+  SELVEDGE_STATUS_NOT_FINITE = 12,
+  /**
+   * A separation or a tolerance is negative, NaN or infinite.
+   */
+  SELVEDGE_STATUS_BAD_LIMIT = 13,
+  /**
+   * A pair names a vertex, a face or an edge that the mesh does not have.
+   */
+  SELVEDGE_STATUS_NO_SUCH_PAIR = 14,
+  /**
+   * The operating system refuses threads, or there are more of them than any machine has use for.
+   */
+  SELVEDGE_STATUS_NO_THREADS = 15,
+  /**
+   * The operating system refuses memory.
+   */
+  SELVEDGE_STATUS_NO_MEMORY = 16,
+  /**
+   * The process was forked after the detector has started threads; they are not in the child.
+   */
+  SELVEDGE_STATUS_FORKED = 17,
+  /**
+   * The detector is cancelled.
+   */
+  SELVEDGE_STATUS_CANCELLED = 18,
+  /**
+   * More pairs are near each other than may be looked at.
+   */
+  SELVEDGE_STATUS_TOO_MANY_PAIRS = 19,
+  /**
+   * A fault of the library's own. The detector can only be freed from now on.
+   */
+  SELVEDGE_STATUS_INTERNAL = 20,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum selvedge_status selvedge_status;
+#else
+typedef int32_t selvedge_status;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Which primitives a pair is made of.
+ */
+enum selvedge_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * A vertex and a face.
+   */
+  SELVEDGE_KIND_VERTEX_FACE = 0,
+  /**
+   * Two edges.
+   */
+  SELVEDGE_KIND_EDGE_EDGE = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum selvedge_kind selvedge_kind;
+#else
+typedef uint32_t selvedge_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * The format of a detector's positions.
+ */
+enum selvedge_scalar
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * float: functions whose names end in _f32.
+   */
+  SELVEDGE_SCALAR_F32 = 0,
+  /**
+   * double: functions whose names end in _f64.
+   */
+  SELVEDGE_SCALAR_F64 = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum selvedge_scalar selvedge_scalar;
+#else
+typedef uint32_t selvedge_scalar;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Which boxes tell candidates.
+ */
+enum selvedge_boxes
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * Those at the start and at the end of the step, that are not in one order along an axis at both. Fewer pairs, in less time.
+   */
+  SELVEDGE_BOXES_MOVING = 0,
+  /**
+   * Those that primitives sweep, that overlap: what other systems call candidates.
+   */
+  SELVEDGE_BOXES_SWEPT = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum selvedge_boxes selvedge_boxes;
+#else
+typedef uint32_t selvedge_boxes;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Which primitives intersect.
+ */
+enum selvedge_intersection_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  /**
+   * An edge passes through a face, or touches it.
+   */
+  SELVEDGE_INTERSECTION_KIND_EDGE_FACE = 0,
+  /**
+   * A vertex touches a face of a neighbour, folded flat onto it.
+   */
+  SELVEDGE_INTERSECTION_KIND_VERTEX_FACE = 1,
+  /**
+   * Two edges of neighbours touch, folded flat onto each other.
+   */
+  SELVEDGE_INTERSECTION_KIND_EDGE_EDGE = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum selvedge_intersection_kind selvedge_intersection_kind;
+#else
+typedef uint32_t selvedge_intersection_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * A mesh, and what is kept of it from step to step. Only pointers to it exist; they are numbers, and nothing is behind them.
+ *
+ * One thread at a time: a call on a detector that another thread is using fails with SELVEDGE_STATUS_BUSY and changes nothing.
+ * Detectors do not know of each other: each may be used by a thread of its own.
+ */
+typedef struct selvedge_detector selvedge_detector;
+
+/**
+ * A vertex and a face, two edges, or the two vertices of an edge, by their numbers.
+ */
+typedef struct selvedge_pair {
+  /**
+   * The vertex, or the first edge.
+   */
+  uint32_t first;
+  /**
+   * The face, or the second edge.
+   */
+  uint32_t second;
+} selvedge_pair;
+
+/**
+ * A pair for which contact during the step is not excluded.
+ */
+typedef struct selvedge_contact {
+  /**
+   * When, in [0, 1] of the step: not after the exact time. Of a detector for float it is a float, widened without rounding.
+   */
+  double time;
+  /**
+   * A selvedge_kind.
+   */
+  uint32_t kind;
+  /**
+   * The vertex and the face, or the two edges. Faces are numbered as the triangles, edges as by selvedge_detector_edges.
+   */
+  struct selvedge_pair pair;
+  /**
+   * The vertex and the face's three, or the ends of the first edge and of the second.
+   */
+  uint32_t vertices[4];
+} selvedge_contact;
+
+/**
+ * Two primitives of a mesh at rest that have a point in common, and no vertex.
+ */
+typedef struct selvedge_intersection {
+  /**
+   * A selvedge_intersection_kind.
+   */
+  uint32_t kind;
+  /**
+   * The edge and the face, the vertex and the face, or the two edges.
+   */
+  struct selvedge_pair pair;
+} selvedge_intersection;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/**
+ * The library's version in words, as "0.1.0". Never NULL; valid for ever.
+ */
+const char *selvedge_version_string(void);
+
+/**
+ * The library's version as a number: 1,000,000 * major + 1,000 * minor + patch. That of the header is SELVEDGE_VERSION.
+ */
+uint32_t selvedge_version(void);
+
+/**
+ * What the last call that failed on this thread has to say, in words; empty if none has. Never NULL.
+ *
+ * Valid until the next call that fails on this thread, or the thread's end. A call that succeeds leaves it.
+ */
+const char *selvedge_last_error(void);
+
+/**
+ * A selvedge_status in a few words, for any number. Never NULL; valid for ever.
+ */
+const char *selvedge_status_string(int32_t status);
+
+/**
+ * A detector for a mesh. `scalar` is a selvedge_scalar: the format that its positions will have. On the calling thread at first,
+ * all vertices moving, steps not coherent, contacts within the default tolerance.
+ *
+ * The triangles are copied. `*detector` becomes the handle; selvedge_detector_free gives back what it takes.
+ *
+ * The caller promises:
+ * `triangles` points to 3 * `triangle_count` vertex numbers, `detector` to a pointer.
+ */
+selvedge_status selvedge_detector_new(uint32_t scalar,
+                                      size_t vertex_count,
+                                      const uint32_t *triangles,
+                                      size_t triangle_count,
+                                      struct selvedge_detector **detector);
+
+/**
+ * Cuts the question short that another thread is asking, and each one from now on: it fails with SELVEDGE_STATUS_CANCELLED,
+ * unless it is as good as answered. `cancelled` is not 0; 0 takes it back. Afterwards the detector answers as if nothing had
+ * been.
+ *
+ * For any thread at any time: the only function that a detector in use does not refuse, but for selvedge_detector_free.
+ */
+selvedge_status selvedge_detector_set_cancelled(struct selvedge_detector *detector,
+                                                int32_t cancelled);
+
+/**
+ * Frees a detector and tells its threads to end; all that it has shown is gone with it. NULL is well. One that another thread is
+ * using goes when that call has ended.
+ */
+selvedge_status selvedge_detector_free(struct selvedge_detector *detector);
+
+/**
+ * How many threads steps are split between: 1, as at first, is the one that calls; more are the detector's own; 0 is one for
+ * each core. Answers are the same bit for bit. More than four for each core, and more than 256, are refused.
+ */
+selvedge_status selvedge_detector_set_threads(struct selvedge_detector *detector,
+                                              size_t count);
+
+/**
+ * Contacts are pairs that cannot be proven to stay farther apart than `separation`, all that come within `tolerance` of it among
+ * them. At first the separation is 0, the tolerance SELVEDGE_DEFAULT_TOLERANCE_F32 or _F64.
+ *
+ * Both in the unit of the positions. For a detector for float they are rounded up to a float.
+ */
+selvedge_status selvedge_detector_set_within(struct selvedge_detector *detector,
+                                             double separation,
+                                             double tolerance);
+
+/**
+ * Contacts are only pairs that truly touch, decided exactly. A time may be as much too early as the pair needs to come closer by
+ * `tolerance`.
+ *
+ * In the unit of the positions. For a detector for float it is rounded up to a float.
+ */
+selvedge_status selvedge_detector_set_touching(struct selvedge_detector *detector,
+                                               double tolerance);
+
+/**
+ * Names the vertices that move: for each of them a byte that is not 0. NULL and 0: all of them, as at first.
+ *
+ * From the next step on pairs of which no vertex moves are not looked at. Positions of vertices that do not move are taken from
+ * the next step, and not looked at again until this is called anew. The bytes are copied.
+ *
+ * The caller promises:
+ * `moving` points to `count` bytes.
+ */
+selvedge_status selvedge_detector_set_moving(struct selvedge_detector *detector,
+                                             const uint8_t *moving,
+                                             size_t count);
+
+/**
+ * Whether steps go on from one another, as those of a simulation do: 0, as at first, or not 0. Then a step takes less time where
+ * vertices move by much less than an edge. The contacts are the same, in ascending order of their pairs' numbers.
+ */
+selvedge_status selvedge_detector_set_coherent(struct selvedge_detector *detector,
+                                               int32_t coherent);
+
+/**
+ * Most pairs that a question may look at, of those that boxes leave; UINT64_MAX, as at first: as many as there are. One with
+ * more fails with SELVEDGE_STATUS_TOO_MANY_PAIRS, on any number of threads.
+ */
+selvedge_status selvedge_detector_set_pair_limit(struct selvedge_detector *detector,
+                                                 uint64_t limit);
+
+/**
+ * How many threads a step uses.
+ *
+ * The caller promises:
+ * `count` points to a number.
+ */
+selvedge_status selvedge_detector_threads(const struct selvedge_detector *detector, size_t *count);
+
+/**
+ * The edges of the mesh by their numbers, each as its vertices, the smaller first; `count` becomes how many there are.
+ *
+ * They stay where they are until the detector is freed.
+ *
+ * The caller promises:
+ * `edges` points to a pointer, `count` to a number.
+ */
+selvedge_status selvedge_detector_edges(const struct selvedge_detector *detector,
+                                        const struct selvedge_pair **edges,
+                                        size_t *count);
+
+/**
+ * All contacts of the step from `start` to `end`. They stay where they are until this detector's contacts are asked for again,
+ * in either way, or it is freed. If there are none they are at NULL.
+ *
+ * The caller promises:
+ * `start` and `end` point to 3 * `vertex_count` numbers, `contacts` to a pointer, `count` to a number.
+ */
+selvedge_status selvedge_detector_contacts_f64(struct selvedge_detector *detector,
+                                               const double *start,
+                                               const double *end,
+                                               size_t vertex_count,
+                                               const struct selvedge_contact **contacts,
+                                               size_t *count);
+
+/**
+ * selvedge_detector_contacts_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_contacts_f64.
+ */
+selvedge_status selvedge_detector_contacts_f32(struct selvedge_detector *detector,
+                                               const float *start,
+                                               const float *end,
+                                               size_t vertex_count,
+                                               const struct selvedge_contact **contacts,
+                                               size_t *count);
+
+/**
+ * The contacts among pairs that the caller has, in their order: so many of a vertex and a face, and so many of two edges. They
+ * stay as those of selvedge_detector_contacts_f64. The pairs may be this detector's own candidates.
+ *
+ * The caller promises:
+ * As selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to so many pairs.
+ */
+selvedge_status selvedge_detector_contacts_of_f64(struct selvedge_detector *detector,
+                                                  const double *start,
+                                                  const double *end,
+                                                  size_t vertex_count,
+                                                  const struct selvedge_pair *vertex_face,
+                                                  size_t vertex_face_count,
+                                                  const struct selvedge_pair *edge_edge,
+                                                  size_t edge_edge_count,
+                                                  const struct selvedge_contact **contacts,
+                                                  size_t *count);
+
+/**
+ * selvedge_detector_contacts_of_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_contacts_of_f64.
+ */
+selvedge_status selvedge_detector_contacts_of_f32(struct selvedge_detector *detector,
+                                                  const float *start,
+                                                  const float *end,
+                                                  size_t vertex_count,
+                                                  const struct selvedge_pair *vertex_face,
+                                                  size_t vertex_face_count,
+                                                  const struct selvedge_pair *edge_edge,
+                                                  size_t edge_edge_count,
+                                                  const struct selvedge_contact **contacts,
+                                                  size_t *count);
+
+/**
+ * The earliest contact of the step: of several at the same time the one with the smallest numbers. `*found` becomes whether
+ * there is one. Then `*contact` becomes it, and the step is free of contact before its time; otherwise the whole step is, and
+ * `*contact` stays.
+ *
+ * The caller promises:
+ * `start` and `end` point to 3 * `vertex_count` numbers, `found` and `contact` to one of their type.
+ */
+selvedge_status selvedge_detector_earliest_f64(struct selvedge_detector *detector,
+                                               const double *start,
+                                               const double *end,
+                                               size_t vertex_count,
+                                               bool *found,
+                                               struct selvedge_contact *contact);
+
+/**
+ * selvedge_detector_earliest_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_earliest_f64.
+ */
+selvedge_status selvedge_detector_earliest_f32(struct selvedge_detector *detector,
+                                               const float *start,
+                                               const float *end,
+                                               size_t vertex_count,
+                                               bool *found,
+                                               struct selvedge_contact *contact);
+
+/**
+ * Whether the step is certainly free of contact. Ends at the first contact.
+ *
+ * The caller promises:
+ * `start` and `end` point to 3 * `vertex_count` numbers, `is_free` to one of its type.
+ */
+selvedge_status selvedge_detector_is_free_f64(struct selvedge_detector *detector,
+                                              const double *start,
+                                              const double *end,
+                                              size_t vertex_count,
+                                              bool *is_free);
+
+/**
+ * selvedge_detector_is_free_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_is_free_f64.
+ */
+selvedge_status selvedge_detector_is_free_f32(struct selvedge_detector *detector,
+                                              const float *start,
+                                              const float *end,
+                                              size_t vertex_count,
+                                              bool *is_free);
+
+/**
+ * The pairs that boxes leave; all others are certainly farther apart than the separation throughout the step. `boxes`
+ * is a selvedge_boxes. They stay where they are until this detector's candidates are asked for again, or it is freed.
+ *
+ * The caller promises:
+ * `start` and `end` point to 3 * `vertex_count` numbers, `vertex_face` and `edge_edge` to pointers, the counts to numbers.
+ */
+selvedge_status selvedge_detector_candidates_f64(struct selvedge_detector *detector,
+                                                 const double *start,
+                                                 const double *end,
+                                                 size_t vertex_count,
+                                                 uint32_t boxes,
+                                                 const struct selvedge_pair **vertex_face,
+                                                 size_t *vertex_face_count,
+                                                 const struct selvedge_pair **edge_edge,
+                                                 size_t *edge_edge_count);
+
+/**
+ * selvedge_detector_candidates_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_candidates_f64.
+ */
+selvedge_status selvedge_detector_candidates_f32(struct selvedge_detector *detector,
+                                                 const float *start,
+                                                 const float *end,
+                                                 size_t vertex_count,
+                                                 uint32_t boxes,
+                                                 const struct selvedge_pair **vertex_face,
+                                                 size_t *vertex_face_count,
+                                                 const struct selvedge_pair **edge_edge,
+                                                 size_t *edge_edge_count);
+
+/**
+ * All edges and faces that meet where the mesh is at `positions`, at rest, touching included, exactly; and vertices and faces,
+ * and edges, that touch where neighbours are folded flat onto each other. None exactly if no two triangles have a point in
+ * common besides the vertices and the edge that they share. They stay where they are until this detector's intersections are
+ * asked for again, or it is freed.
+ *
+ * The caller promises:
+ * `positions` points to 3 * `vertex_count` numbers, `intersections` to a pointer, `count` to a number.
+ */
+selvedge_status selvedge_detector_intersections_f64(struct selvedge_detector *detector,
+                                                    const double *positions,
+                                                    size_t vertex_count,
+                                                    const struct selvedge_intersection **intersections,
+                                                    size_t *count);
+
+/**
+ * selvedge_detector_intersections_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_intersections_f64.
+ */
+selvedge_status selvedge_detector_intersections_f32(struct selvedge_detector *detector,
+                                                    const float *positions,
+                                                    size_t vertex_count,
+                                                    const struct selvedge_intersection **intersections,
+                                                    size_t *count);
+
+/**
+ * Whether there is any intersection. Ends at the first.
+ *
+ * The caller promises:
+ * `positions` points to 3 * `vertex_count` numbers, `has_any` to one of its type.
+ */
+selvedge_status selvedge_detector_has_intersections_f64(struct selvedge_detector *detector,
+                                                        const double *positions,
+                                                        size_t vertex_count,
+                                                        bool *has_any);
+
+/**
+ * selvedge_detector_has_intersections_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_has_intersections_f64.
+ */
+selvedge_status selvedge_detector_has_intersections_f32(struct selvedge_detector *detector,
+                                                        const float *positions,
+                                                        size_t vertex_count,
+                                                        bool *has_any);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* SELVEDGE_H */

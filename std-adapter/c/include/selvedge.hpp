@@ -1,0 +1,252 @@
+/* Selvedge for C++17: selvedge.h with owners and exceptions. Nothing is compiled into a library of its own. */
+
+#ifndef SELVEDGE_HPP
+#define SELVEDGE_HPP
+
+#include "selvedge.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace selvedge {
+
+/// A call that failed. It has changed nothing.
+class error : public std::runtime_error {
+ public:
+  error(selvedge_status status, const std::string &words) : std::runtime_error(words), status_(status) {}
+
+  /// Why, as a number.
+  selvedge_status status() const noexcept { return status_; }
+
+ private:
+  selvedge_status status_;
+};
+
+/// Throws what the last call on this thread has to say, if it failed.
+inline void check(selvedge_status status) {
+  if (status != SELVEDGE_STATUS_OK) {
+    throw error(status, std::string(selvedge_status_string(status)) + ": " + selvedge_last_error());
+  }
+}
+
+/// A list that someone else owns: the function that returns it says how long it stays.
+template <class T>
+class list {
+ public:
+  list() = default;
+  list(const T *first, std::size_t count) noexcept : first_(first), count_(count) {}
+
+  const T *data() const noexcept { return first_; }
+  const T *begin() const noexcept { return first_; }
+  const T *end() const noexcept { return first_ + count_; }
+  std::size_t size() const noexcept { return count_; }
+  bool empty() const noexcept { return count_ == 0; }
+  const T &operator[](std::size_t index) const noexcept { return first_[index]; }
+
+ private:
+  const T *first_ = nullptr;
+  std::size_t count_ = 0;
+};
+
+/// Groups of three numbers in a row, that the caller owns: positions or triangles. Made of a pointer and how many groups there
+/// are, or of anything with data() and size() that holds the numbers, as std::vector.
+template <class T>
+class triples {
+ public:
+  triples(const T *first, std::size_t count) noexcept : first_(first), count_(count) {}
+
+  template <class Numbers, class = std::enable_if_t<std::is_same_v<decltype(std::declval<const Numbers &>().data()), const T *>>>
+  triples(const Numbers &numbers) : first_(numbers.data()), count_(numbers.size() / 3) {
+    if (numbers.size() % 3 != 0) {
+      throw error(SELVEDGE_STATUS_WRONG_LENGTH, std::to_string(numbers.size()) + " numbers are not three for each");
+    }
+  }
+
+  const T *data() const noexcept { return first_; }
+  std::size_t size() const noexcept { return count_; }
+
+ private:
+  const T *first_;
+  std::size_t count_;
+};
+
+/// Candidates of a step.
+struct candidate_pairs {
+  list<selvedge_pair> vertex_face;
+  list<selvedge_pair> edge_edge;
+};
+
+/// A mesh, and what is kept of it from step to step. `Scalar` is float or double, the format of the positions.
+///
+/// Can be moved, not copied. One thread at a time; another one gets SELVEDGE_STATUS_BUSY, but for set_cancelled. All functions
+/// throw `error`.
+template <class Scalar>
+class detector {
+  static_assert(std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>, "positions are float or double");
+  static constexpr bool is_single = std::is_same_v<Scalar, float>;
+
+ public:
+  detector(std::size_t vertex_count, triples<std::uint32_t> triangles) {
+    selvedge_detector *made = nullptr;
+    const std::uint32_t scalar = is_single ? SELVEDGE_SCALAR_F32 : SELVEDGE_SCALAR_F64;
+    check(selvedge_detector_new(scalar, vertex_count, triangles.data(), triangles.size(), &made));
+    handle_.reset(made);
+  }
+
+  /// How many threads steps are split between: 1 is the one that calls, 0 one for each core.
+  void set_threads(std::size_t count) { check(selvedge_detector_set_threads(get(), count)); }
+
+  /// Contacts are pairs that may come closer than the separation, all that come within the tolerance of it among them.
+  void set_within(double separation, double tolerance) { check(selvedge_detector_set_within(get(), separation, tolerance)); }
+
+  /// Contacts are only pairs that truly touch.
+  void set_touching(double tolerance) { check(selvedge_detector_set_touching(get(), tolerance)); }
+
+  /// Names the vertices that move: a byte that is not 0 for each that does.
+  void set_moving(const std::uint8_t *moving, std::size_t count) { check(selvedge_detector_set_moving(get(), moving, count)); }
+
+  /// All vertices move.
+  void set_all_moving() { check(selvedge_detector_set_moving(get(), nullptr, 0)); }
+
+  /// Whether steps go on from one another.
+  void set_coherent(bool coherent) { check(selvedge_detector_set_coherent(get(), coherent ? 1 : 0)); }
+
+  /// Most pairs that a question may look at; UINT64_MAX: as many as there are.
+  void set_pair_limit(std::uint64_t limit) { check(selvedge_detector_set_pair_limit(get(), limit)); }
+
+  /// Cuts short the question that another thread is asking, and each one until it is taken back. For any thread at any time.
+  void set_cancelled(bool cancelled) { check(selvedge_detector_set_cancelled(get(), cancelled ? 1 : 0)); }
+
+  /// How many threads a step uses.
+  std::size_t threads() const {
+    std::size_t count = 0;
+    check(selvedge_detector_threads(get(), &count));
+    return count;
+  }
+
+  /// The edges by their numbers, each as its two vertices. They stay as long as the detector.
+  list<selvedge_pair> edges() const {
+    const selvedge_pair *first = nullptr;
+    std::size_t count = 0;
+    check(selvedge_detector_edges(get(), &first, &count));
+    return {first, count};
+  }
+
+  /// All contacts of the step. They stay until this detector's contacts are asked for again, in either way, or it is gone.
+  list<selvedge_contact> contacts(triples<Scalar> start, triples<Scalar> end) {
+    const selvedge_contact *first = nullptr;
+    std::size_t count = 0;
+    const std::size_t vertices = common_size(start, end);
+    if constexpr (is_single) {
+      check(selvedge_detector_contacts_f32(get(), start.data(), end.data(), vertices, &first, &count));
+    } else {
+      check(selvedge_detector_contacts_f64(get(), start.data(), end.data(), vertices, &first, &count));
+    }
+    return {first, count};
+  }
+
+  /// The contacts among pairs that the caller has. They stay as those of `contacts`.
+  list<selvedge_contact> contacts_of(triples<Scalar> start, triples<Scalar> end, const candidate_pairs &pairs) {
+    const selvedge_contact *first = nullptr;
+    std::size_t count = 0;
+    const std::size_t vertices = common_size(start, end);
+    const auto &[vf, ee] = pairs;
+    if constexpr (is_single) {
+      check(selvedge_detector_contacts_of_f32(get(), start.data(), end.data(), vertices, vf.data(), vf.size(), ee.data(),
+                                              ee.size(), &first, &count));
+    } else {
+      check(selvedge_detector_contacts_of_f64(get(), start.data(), end.data(), vertices, vf.data(), vf.size(), ee.data(),
+                                              ee.size(), &first, &count));
+    }
+    return {first, count};
+  }
+
+  /// The earliest contact of the step, before which the step is free; none if the whole step is.
+  std::optional<selvedge_contact> earliest(triples<Scalar> start, triples<Scalar> end) {
+    bool found = false;
+    selvedge_contact contact{};
+    const std::size_t vertices = common_size(start, end);
+    if constexpr (is_single) {
+      check(selvedge_detector_earliest_f32(get(), start.data(), end.data(), vertices, &found, &contact));
+    } else {
+      check(selvedge_detector_earliest_f64(get(), start.data(), end.data(), vertices, &found, &contact));
+    }
+    return found ? std::optional<selvedge_contact>(contact) : std::nullopt;
+  }
+
+  /// Whether the step is certainly free of contact.
+  bool is_free(triples<Scalar> start, triples<Scalar> end) {
+    bool free = false;
+    const std::size_t vertices = common_size(start, end);
+    if constexpr (is_single) {
+      check(selvedge_detector_is_free_f32(get(), start.data(), end.data(), vertices, &free));
+    } else {
+      check(selvedge_detector_is_free_f64(get(), start.data(), end.data(), vertices, &free));
+    }
+    return free;
+  }
+
+  /// The pairs that boxes leave. They stay until this detector's candidates are asked for again, or it is gone.
+  candidate_pairs candidates(triples<Scalar> start, triples<Scalar> end, selvedge_boxes boxes = SELVEDGE_BOXES_MOVING) {
+    const selvedge_pair *vf = nullptr, *ee = nullptr;
+    std::size_t vf_count = 0, ee_count = 0;
+    const std::size_t vertices = common_size(start, end);
+    if constexpr (is_single) {
+      check(selvedge_detector_candidates_f32(get(), start.data(), end.data(), vertices, boxes, &vf, &vf_count, &ee, &ee_count));
+    } else {
+      check(selvedge_detector_candidates_f64(get(), start.data(), end.data(), vertices, boxes, &vf, &vf_count, &ee, &ee_count));
+    }
+    return {{vf, vf_count}, {ee, ee_count}};
+  }
+
+  /// All primitives that meet at rest, exactly. They stay until this detector's intersections are asked for again, or it is gone.
+  list<selvedge_intersection> intersections(triples<Scalar> positions) {
+    const selvedge_intersection *first = nullptr;
+    std::size_t count = 0;
+    if constexpr (is_single) {
+      check(selvedge_detector_intersections_f32(get(), positions.data(), positions.size(), &first, &count));
+    } else {
+      check(selvedge_detector_intersections_f64(get(), positions.data(), positions.size(), &first, &count));
+    }
+    return {first, count};
+  }
+
+  /// Whether any primitives meet at rest.
+  bool has_intersections(triples<Scalar> positions) {
+    bool has_any = false;
+    if constexpr (is_single) {
+      check(selvedge_detector_has_intersections_f32(get(), positions.data(), positions.size(), &has_any));
+    } else {
+      check(selvedge_detector_has_intersections_f64(get(), positions.data(), positions.size(), &has_any));
+    }
+    return has_any;
+  }
+
+  /// For functions of selvedge.h; still owned here.
+  selvedge_detector *get() const noexcept { return handle_.get(); }
+
+ private:
+  struct freed {
+    void operator()(selvedge_detector *handle) const noexcept { selvedge_detector_free(handle); }
+  };
+
+  static std::size_t common_size(const triples<Scalar> &start, const triples<Scalar> &end) {
+    if (start.size() != end.size()) {
+      throw error(SELVEDGE_STATUS_WRONG_LENGTH, "the start frame has " + std::to_string(start.size()) +
+                                                    " positions, the end frame " + std::to_string(end.size()));
+    }
+    return start.size();
+  }
+
+  std::unique_ptr<selvedge_detector, freed> handle_;
+};
+
+}  // namespace selvedge
+
+#endif

@@ -1,0 +1,110 @@
+//! What comes from C, checked: pointers, counts, numbers of enumerations.
+
+use crate::answers::Pair;
+use crate::status::{Failure, Status};
+use std::ptr::NonNull;
+use std::slice;
+
+/// Numbers of C's: any bits are one.
+pub(crate) trait Plain: Copy {}
+impl Plain for u8 {}
+impl Plain for u32 {}
+impl Plain for f32 {}
+impl Plain for f64 {}
+impl<T: Plain, const N: usize> Plain for [T; N] {}
+
+/// `count` groups of `N` numbers; none may be behind a null pointer.
+///
+/// # Safety
+/// A pointer that is neither null nor misaligned has that many behind it, which nobody writes to as long as the slice lives.
+pub(crate) unsafe fn view<'a, T: Plain, const N: usize>(
+    name: &str,
+    start: *const T,
+    count: usize,
+) -> Result<&'a [[T; N]], Failure> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    check_pointer(name, start)?;
+    let bytes = count.checked_mul(size_of::<[T; N]>());
+    if bytes.is_none_or(|bytes| bytes > isize::MAX as usize) {
+        let text = format!("{name} cannot have {count} entries: memory ends before");
+        return Err(Failure::new(Status::BadCount, text));
+    }
+    // SAFETY: neither null nor misaligned, of a size that exists; any bits are a value of `T`; the rest is the caller's promise.
+    Ok(unsafe { slice::from_raw_parts(start.cast(), count) })
+}
+
+fn check_pointer<T>(name: &str, pointer: *const T) -> Result<(), Failure> {
+    if pointer.is_null() {
+        Err(Failure::new(Status::NullPointer, format!("{name} is NULL")))
+    } else if pointer.is_aligned() {
+        Ok(())
+    } else {
+        let text = format!("{name} is not aligned: its address must be a multiple of {}", align_of::<T>());
+        Err(Failure::new(Status::MisalignedPointer, text))
+    }
+}
+
+/// Where an answer goes. It is checked before the work is done, and written to after that.
+#[derive(Debug)]
+pub(crate) struct Out<T>(NonNull<T>);
+
+impl<T> Out<T> {
+    /// # Safety
+    /// A pointer that is neither null nor misaligned may be written to until the call ends.
+    pub(crate) unsafe fn new(name: &str, pointer: *mut T) -> Result<Self, Failure> {
+        check_pointer(name, pointer)?;
+        NonNull::new(pointer)
+            .map(Self)
+            .ok_or_else(|| Failure::new(Status::NullPointer, format!("{name} is NULL")))
+    }
+
+    /// Writes the answer.
+    pub(crate) fn set(self, answer: T) {
+        // SAFETY: aligned, and `new` was promised that it may be written to. What was there has no meaning, and is not dropped.
+        unsafe { self.0.write(answer) }
+    }
+}
+
+/// Where a list goes: its beginning and how many entries it has.
+#[derive(Debug)]
+pub(crate) struct OutList<T> {
+    start: Out<*const T>,
+    count: Out<usize>,
+}
+
+impl<T> OutList<T> {
+    /// # Safety
+    /// As [`Out::new`], for both.
+    pub(crate) unsafe fn new(name: &str, start: *mut *const T, count: *mut usize) -> Result<Self, Failure> {
+        // SAFETY: the caller's promise.
+        let (start, count) = unsafe { (Out::new(name, start)?, Out::new("the count", count)?) };
+        Ok(Self { start, count })
+    }
+
+    /// Writes where the list is. An empty one is at NULL.
+    pub(crate) fn set(self, list: &[T]) {
+        self.start.set(if list.is_empty() { std::ptr::null() } else { list.as_ptr() });
+        self.count.set(list.len());
+    }
+}
+
+impl OutList<Pair> {
+    /// Writes where pairs are.
+    pub(crate) fn set_pairs(self, pairs: &[[u32; 2]]) {
+        // Two numbers in a row, whether as fields or as an array.
+        let start = if pairs.is_empty() {
+            std::ptr::null()
+        } else {
+            pairs.as_ptr().cast()
+        };
+        self.start.set(start);
+        self.count.set(pairs.len());
+    }
+}
+
+/// The number is none of the enumeration `name`.
+pub(crate) fn unknown(name: &str, number: u32) -> Failure {
+    Failure::new(Status::UnknownConstant, format!("{number} is no {name}"))
+}

@@ -1,0 +1,403 @@
+//! C's functions, called as C does, beside the detector itself. Programs in C and C++ are tried in `tests/programs.rs`.
+
+use crate::answers::{Boxes, ContactRow, IntersectionRow, Kind, Pair};
+use crate::detector::{Handle, ScalarFormat, on, selvedge_detector_free, selvedge_detector_new, selvedge_detector_set_cancelled};
+use crate::questions::*;
+use crate::settings::*;
+use crate::status::{Status, selvedge_last_error, selvedge_status_string};
+use selvedge::core::elementary::Limits;
+use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, PairKind, Scalar, Threads, Topology};
+use std::ffi::CStr;
+use std::fmt::Debug;
+use std::ptr;
+
+#[path = "../tests/sheet/mod.rs"]
+mod sheet;
+
+fn last_error() -> String {
+    // SAFETY: a text that ends, of this thread, which calls nothing meanwhile.
+    unsafe { CStr::from_ptr(selvedge_last_error()) }.to_str().unwrap().to_owned()
+}
+
+fn new(format: ScalarFormat) -> *mut Handle {
+    let triangles = sheet::triangles();
+    let vertex_count = sheet::frame(0).len();
+    let mut handle = ptr::null_mut();
+    // SAFETY: as long as it says.
+    let status = unsafe {
+        let start = triangles.as_ptr().cast();
+        selvedge_detector_new(format as u32, vertex_count, start, triangles.len(), &raw mut handle)
+    };
+    assert_eq!(status, Status::Ok, "{}", last_error());
+    handle
+}
+
+type OutPair<T> = (*mut *const T, *mut usize);
+type InPairs = (*const Pair, usize);
+
+/// The functions for one format.
+trait ForC: Scalar {
+    const FORMAT: ScalarFormat;
+    fn from_double(value: f64) -> Self;
+    /// # Safety
+    /// As the functions themselves.
+    unsafe fn contacts(on: *mut Handle, frames: [&[[Self; 3]]; 2], out: OutPair<ContactRow>) -> Status;
+    /// # Safety
+    /// As the functions themselves.
+    unsafe fn contacts_of(on: *mut Handle, frames: [&[[Self; 3]]; 2], pairs: [InPairs; 2], out: OutPair<ContactRow>) -> Status;
+    /// # Safety
+    /// As the functions themselves.
+    unsafe fn earliest(on: *mut Handle, frames: [&[[Self; 3]]; 2], found: *mut bool, out: *mut ContactRow) -> Status;
+    /// # Safety
+    /// As the functions themselves.
+    unsafe fn is_free(on: *mut Handle, frames: [&[[Self; 3]]; 2], out: *mut bool) -> Status;
+    /// # Safety
+    /// As the functions themselves.
+    unsafe fn candidates(on: *mut Handle, frames: [&[[Self; 3]]; 2], boxes: u32, out: [OutPair<Pair>; 2]) -> Status;
+    /// # Safety
+    /// As the functions themselves.
+    unsafe fn intersections(on: *mut Handle, at: &[[Self; 3]], out: OutPair<IntersectionRow>) -> Status;
+    /// # Safety
+    /// As the functions themselves.
+    unsafe fn has_intersections(on: *mut Handle, at: &[[Self; 3]], out: *mut bool) -> Status;
+}
+
+macro_rules! for_c {
+    ($scalar:ident = $format:ident: $contacts:ident, $contacts_of:ident, $earliest:ident, $is_free:ident, $candidates:ident,
+     $intersections:ident, $has_intersections:ident) => {
+        impl ForC for $scalar {
+            const FORMAT: ScalarFormat = ScalarFormat::$format;
+            fn from_double(value: f64) -> Self {
+                value as Self
+            }
+            unsafe fn contacts(on: *mut Handle, [a, b]: [&[[Self; 3]]; 2], out: OutPair<ContactRow>) -> Status {
+                // SAFETY: the caller's promise.
+                unsafe { $contacts(on, a.as_ptr().cast(), b.as_ptr().cast(), a.len(), out.0, out.1) }
+            }
+            unsafe fn contacts_of(
+                on: *mut Handle,
+                [a, b]: [&[[Self; 3]]; 2],
+                [vf, ee]: [InPairs; 2],
+                out: OutPair<ContactRow>,
+            ) -> Status {
+                let (start, end) = (a.as_ptr().cast(), b.as_ptr().cast());
+                // SAFETY: the caller's promise.
+                unsafe { $contacts_of(on, start, end, a.len(), vf.0, vf.1, ee.0, ee.1, out.0, out.1) }
+            }
+            unsafe fn earliest(on: *mut Handle, [a, b]: [&[[Self; 3]]; 2], found: *mut bool, out: *mut ContactRow) -> Status {
+                // SAFETY: the caller's promise.
+                unsafe { $earliest(on, a.as_ptr().cast(), b.as_ptr().cast(), a.len(), found, out) }
+            }
+            unsafe fn intersections(on: *mut Handle, at: &[[Self; 3]], out: OutPair<IntersectionRow>) -> Status {
+                // SAFETY: the caller's promise.
+                unsafe { $intersections(on, at.as_ptr().cast(), at.len(), out.0, out.1) }
+            }
+            unsafe fn has_intersections(on: *mut Handle, at: &[[Self; 3]], out: *mut bool) -> Status {
+                // SAFETY: the caller's promise.
+                unsafe { $has_intersections(on, at.as_ptr().cast(), at.len(), out) }
+            }
+            unsafe fn is_free(on: *mut Handle, [a, b]: [&[[Self; 3]]; 2], out: *mut bool) -> Status {
+                // SAFETY: the caller's promise.
+                unsafe { $is_free(on, a.as_ptr().cast(), b.as_ptr().cast(), a.len(), out) }
+            }
+            unsafe fn candidates(on: *mut Handle, [a, b]: [&[[Self; 3]]; 2], boxes: u32, [vf, ee]: [OutPair<Pair>; 2]) -> Status {
+                let (start, end) = (a.as_ptr().cast(), b.as_ptr().cast());
+                // SAFETY: the caller's promise.
+                unsafe { $candidates(on, start, end, a.len(), boxes, vf.0, vf.1, ee.0, ee.1) }
+            }
+        }
+    };
+}
+for_c!(
+    f32 = F32: selvedge_detector_contacts_f32,
+    selvedge_detector_contacts_of_f32,
+    selvedge_detector_earliest_f32,
+    selvedge_detector_is_free_f32,
+    selvedge_detector_candidates_f32,
+    selvedge_detector_intersections_f32,
+    selvedge_detector_has_intersections_f32
+);
+for_c!(
+    f64 = F64: selvedge_detector_contacts_f64,
+    selvedge_detector_contacts_of_f64,
+    selvedge_detector_earliest_f64,
+    selvedge_detector_is_free_f64,
+    selvedge_detector_candidates_f64,
+    selvedge_detector_intersections_f64,
+    selvedge_detector_has_intersections_f64
+);
+
+/// A list that C was given.
+fn list<T: Copy + Debug>(ask: impl FnOnce(OutPair<T>) -> Status) -> Vec<T> {
+    let (mut start, mut count) = (ptr::null(), usize::MAX);
+    let status = ask((&raw mut start, &raw mut count));
+    assert_eq!(status, Status::Ok, "{}", last_error());
+    assert_eq!(start.is_null(), count == 0);
+    if count == 0 {
+        return Vec::new();
+    }
+    // SAFETY: what the library says is there, until it is asked again.
+    unsafe { std::slice::from_raw_parts(start, count) }.to_vec()
+}
+
+fn frames<S: ForC>(number: u32) -> [Vec<[S; 3]>; 2] {
+    let narrowed = |number| sheet::frame(number).into_iter().map(|it| it.map(S::from_double)).collect();
+    [narrowed(number), narrowed(number + 1)]
+}
+
+fn rows<S: Scalar>(contacts: &[Contact<S>], topology: &Topology) -> Vec<(u64, ContactRow)> {
+    let row = |contact: &Contact<S>| {
+        let kind = match contact.kind {
+            PairKind::VertexFace => Kind::VertexFace,
+            PairKind::EdgeEdge => Kind::EdgeEdge,
+        };
+        let row = ContactRow {
+            time: contact.time.to_f64(),
+            kind: kind as u32,
+            pair: contact.pair.into(),
+            vertices: topology.vertices_of(contact.kind, contact.pair),
+        };
+        (row.time.to_bits(), row)
+    };
+    contacts.iter().map(row).collect()
+}
+
+fn with_bits(rows: &[ContactRow]) -> Vec<(u64, ContactRow)> {
+    rows.iter().map(|row| (row.time.to_bits(), *row)).collect()
+}
+
+/// Every question on each step of the sheet; how many contacts there were.
+fn ask_both<S: ForC>(handle: *mut Handle, detector: &mut CollisionDetector<S>) -> usize {
+    let (mut contacts, mut vf, mut ee, mut total) = (Vec::new(), Vec::new(), Vec::new(), 0);
+    let topology = detector.topology().clone();
+    for number in 0..4 {
+        let frames = frames::<S>(number);
+        let frames = [&frames[0][..], &frames[1][..]];
+        let [start, end] = frames;
+
+        detector.contacts(start, end, &mut contacts).unwrap();
+        // SAFETY: frames of the mesh; lists are written to for as long as they last.
+        let from_c = list(|out| unsafe { S::contacts(handle, frames, out) });
+        assert_eq!(with_bits(&from_c), rows(&contacts, &topology));
+        total += contacts.len();
+
+        let earliest = detector.earliest(start, end).unwrap();
+        let (mut found, mut row) = (false, ContactRow::default());
+        // SAFETY: as above.
+        let status = unsafe { S::earliest(handle, frames, &raw mut found, &raw mut row) };
+        assert_eq!((status, found), (Status::Ok, earliest.is_some()));
+        let from_c = if found { vec![row] } else { Vec::new() };
+        assert_eq!(with_bits(&from_c), rows(&Vec::from_iter(earliest), &topology));
+
+        let mut is_free = false;
+        // SAFETY: as above.
+        let status = unsafe { S::is_free(handle, frames, &raw mut is_free) };
+        assert_eq!((status, is_free), (Status::Ok, detector.is_free(start, end).unwrap()));
+
+        let mut at_rest = Vec::new();
+        detector.intersections(end, &mut at_rest).unwrap();
+        // SAFETY: as above.
+        let from_c = list(|out| unsafe { S::intersections(handle, end, out) });
+        assert_eq!(from_c, at_rest.iter().map(IntersectionRow::from).collect::<Vec<_>>());
+        let mut has_any = false;
+        // SAFETY: as above.
+        let status = unsafe { S::has_intersections(handle, end, &raw mut has_any) };
+        assert_eq!((status, has_any), (Status::Ok, !at_rest.is_empty()));
+
+        for (boxes, number) in [(CandidateBoxes::Moving, Boxes::Moving), (CandidateBoxes::Swept, Boxes::Swept)] {
+            detector.candidates(start, end, boxes, &mut vf, &mut ee).unwrap();
+            let (mut at, mut counts) = ([ptr::null(); 2], [0; 2]);
+            let [at_vf, at_ee] = &mut at;
+            let [vf_count, ee_count] = &mut counts;
+            let out = [(&raw mut *at_vf, &raw mut *vf_count), (&raw mut *at_ee, &raw mut *ee_count)];
+            // SAFETY: as above.
+            assert_eq!(unsafe { S::candidates(handle, frames, number as u32, out) }, Status::Ok);
+            let pairs = |which: usize| {
+                list(|(start, count)| {
+                    // SAFETY: of `list`.
+                    unsafe { (*start, *count) = (at[which], counts[which]) };
+                    Status::Ok
+                })
+            };
+            let as_pairs = |pairs: &[[u32; 2]]| pairs.iter().map(|&pair| Pair::from(pair)).collect::<Vec<_>>();
+            assert_eq!((pairs(0), pairs(1)), (as_pairs(&vf), as_pairs(&ee)));
+
+            // The detector's own lists, given back.
+            detector.contacts_of(start, end, &vf, &ee, &mut contacts).unwrap();
+            let given = [(at[0], counts[0]), (at[1], counts[1])];
+            // SAFETY: as above; the lists last until candidates are asked for again.
+            let from_c = list(|out| unsafe { S::contacts_of(handle, frames, given, out) });
+            assert_eq!(with_bits(&from_c), rows(&contacts, &topology));
+        }
+    }
+    total
+}
+
+fn every_question_in_every_setting<S: ForC>() {
+    let handle = new(S::FORMAT);
+    let topology = Topology::new(sheet::frame(0).len(), sheet::triangles()).unwrap();
+    // SAFETY: the list is written to.
+    let edges = list(|(start, count)| unsafe { selvedge_detector_edges(handle, start, count) });
+    assert_eq!(edges, topology.edges().iter().map(|&edge| edge.into()).collect::<Vec<Pair>>());
+
+    let mut detector = CollisionDetector::<S>::new(topology);
+    let at_first = ask_both(handle, &mut detector);
+    assert!(at_first > 100, "{at_first} contacts show little");
+
+    let (separation, tolerance) = (S::from_double(0.015625), S::from_double(0.0009765625));
+    let criterion = Criterion::Within(Limits { tolerance, separation });
+    detector.set_criterion(criterion).unwrap();
+    let status = selvedge_detector_set_within(handle, separation.to_f64(), tolerance.to_f64());
+    assert_eq!(status, Status::Ok);
+    let within = ask_both(handle, &mut detector);
+    assert!(within > at_first);
+
+    detector.set_criterion(Criterion::Touching { tolerance }).unwrap();
+    assert_eq!(selvedge_detector_set_touching(handle, tolerance.to_f64()), Status::Ok);
+    assert!(ask_both(handle, &mut detector) < within);
+
+    detector.set_threads(Threads::from_count(3)).unwrap();
+    assert_eq!(selvedge_detector_set_threads(handle, 3), Status::Ok);
+    let mut threads = 0;
+    // SAFETY: there is a number.
+    assert_eq!(unsafe { selvedge_detector_threads(handle, &raw mut threads) }, Status::Ok);
+    assert_eq!(threads, 3);
+    ask_both(handle, &mut detector);
+
+    detector.set_coherent(true);
+    assert_eq!(selvedge_detector_set_coherent(handle, -1), Status::Ok);
+    ask_both(handle, &mut detector);
+    detector.set_coherent(false);
+    assert_eq!(selvedge_detector_set_coherent(handle, 0), Status::Ok);
+
+    // One half rests.
+    let moving: Vec<bool> = sheet::frame(0).iter().map(|position| position[0] < 0.0).collect();
+    let bytes: Vec<u8> = moving.iter().map(|&moves| if moves { 7 } else { 0 }).collect();
+    detector.set_moving(Some(&moving)).unwrap();
+    // SAFETY: as long as it says.
+    let status = unsafe { selvedge_detector_set_moving(handle, bytes.as_ptr(), bytes.len()) };
+    assert_eq!(status, Status::Ok);
+    ask_both(handle, &mut detector);
+    detector.set_moving(None).unwrap();
+    // SAFETY: no bytes.
+    let status = unsafe { selvedge_detector_set_moving(handle, ptr::null(), 0) };
+    assert_eq!(status, Status::Ok);
+    ask_both(handle, &mut detector);
+    assert_eq!(selvedge_detector_free(handle), Status::Ok);
+}
+
+#[test]
+fn double_is_answered_as_in_rust_bit_for_bit() {
+    every_question_in_every_setting::<f64>();
+}
+
+#[test]
+fn float_is_answered_as_in_rust_bit_for_bit() {
+    every_question_in_every_setting::<f32>();
+}
+
+#[test]
+fn default_tolerances_are_the_detectors() {
+    assert_eq!(SELVEDGE_DEFAULT_TOLERANCE_F32, Limits::<f32>::default().tolerance.into());
+    assert_eq!(SELVEDGE_DEFAULT_TOLERANCE_F64, Limits::<f64>::default().tolerance);
+}
+
+#[test]
+fn a_separation_is_never_rounded_down() {
+    // The float nearest to it is more, less, none.
+    for separation in [0.1, 0.7, 1e-60] {
+        let kept: f64 = length::<f32>(separation).unwrap().into();
+        assert!(
+            kept >= separation && kept <= separation * 1.000001 + 1e-29,
+            "{separation} became {kept}"
+        );
+        assert_eq!(length::<f64>(separation).unwrap(), separation);
+    }
+    assert!(
+        [-1e-60, -1.0, f64::NAN, f64::INFINITY]
+            .iter()
+            .all(|&none| length::<f32>(none).is_err())
+    );
+}
+
+#[test]
+fn a_panic_breaks_its_detector_and_no_other() {
+    let (broken, other) = (new(ScalarFormat::F64), new(ScalarFormat::F64));
+    assert_eq!(on(broken, |_| panic!("on purpose, {}", 1)), Status::Internal);
+    assert!(last_error().ends_with("on purpose, 1"), "{}", last_error());
+    assert_eq!(selvedge_detector_set_coherent(broken, 1), Status::Internal);
+    assert!(last_error().contains("only be freed"), "{}", last_error());
+    assert_eq!(selvedge_detector_set_coherent(other, 1), Status::Ok);
+    assert_eq!(selvedge_detector_free(broken), Status::Ok);
+    assert_eq!(selvedge_detector_free(broken), Status::NoSuchDetector);
+    assert_eq!(selvedge_detector_free(other), Status::Ok);
+}
+
+/// Its drop panics, as any payload's may.
+struct Unhappy;
+impl Drop for Unhappy {
+    fn drop(&mut self) {
+        panic!("again");
+    }
+}
+
+#[test]
+fn a_panic_without_words_ends_at_the_border_too() {
+    let handle = new(ScalarFormat::F64);
+    assert_eq!(on(handle, |_| std::panic::panic_any(Unhappy)), Status::Internal);
+    assert!(last_error().contains("without words"));
+    selvedge_detector_free(handle);
+}
+
+#[test]
+fn a_second_thread_is_refused_and_may_cancel_and_free() {
+    let handle = new(ScalarFormat::F64);
+    let status = on(handle, |_| {
+        let address = handle.addr();
+        let second = std::thread::spawn(move || {
+            let handle = ptr::without_provenance_mut(address);
+            let refused = selvedge_detector_set_coherent(handle, 1);
+            let words = last_error();
+            // But for these two.
+            let cancelled = selvedge_detector_set_cancelled(handle, 1);
+            (refused, words, cancelled, selvedge_detector_free(handle))
+        });
+        let (refused, words, cancelled, freed) = second.join().unwrap();
+        assert_eq!((refused, cancelled, freed), (Status::Busy, Status::Ok, Status::Ok));
+        assert!(words.contains("another thread"));
+        Ok(())
+    });
+    assert_eq!(status, Status::Ok);
+    assert_eq!(selvedge_detector_set_coherent(handle, 1), Status::NoSuchDetector);
+}
+
+#[test]
+fn each_thread_has_its_own_last_error() {
+    assert_eq!(selvedge_detector_set_coherent(ptr::null_mut(), 1), Status::NullPointer);
+    let before = last_error();
+    std::thread::spawn(|| assert_eq!(last_error(), "")).join().unwrap();
+    assert_eq!(last_error(), before);
+    assert_eq!(before, "the detector is NULL");
+}
+
+#[test]
+fn every_status_has_a_text_of_its_own() {
+    let text = |status| {
+        // SAFETY: a text that ends, for ever.
+        unsafe { CStr::from_ptr(selvedge_status_string(status)) }.to_str().unwrap()
+    };
+    let texts: std::collections::BTreeSet<_> = (0..=Status::Internal as i32).map(text).collect();
+    assert_eq!(texts.len(), Status::Internal as usize + 1);
+    assert!(!texts.contains("unknown status"));
+    assert!([-1, i32::MIN, i32::MAX, Status::Internal as i32 + 1].map(text) == ["unknown status"; 4]);
+}
+
+#[test]
+fn a_long_text_is_cut_at_a_character() {
+    let text = "é".repeat(2000);
+    assert_eq!(
+        crate::status::remember(&crate::status::Failure::new(Status::Internal, text)),
+        Status::Internal
+    );
+    assert!(last_error().len() > 1000 && last_error().chars().all(|letter| letter == 'é'));
+}

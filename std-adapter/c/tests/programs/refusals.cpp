@@ -1,0 +1,90 @@
+// What C++ adds to refusals: exceptions, owners that can be moved, frames of two lengths.
+#include <cstdio>
+#include <selvedge.hpp>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+static int faults = 0;
+
+template <class Action>
+static void expect(int line, selvedge_status status, Action action) {
+  try {
+    action();
+  } catch (const selvedge::error &failed) {
+    if (failed.status() == status && *failed.what()) return;
+    std::fprintf(stderr, "line %d: not that, but: %s\n", line, failed.what());
+    faults++;
+    return;
+  }
+  std::fprintf(stderr, "line %d: nothing was thrown\n", line);
+  faults++;
+}
+
+static void holds(int line, bool condition) {
+  if (condition) return;
+  std::fprintf(stderr, "line %d: not so\n", line);
+  faults++;
+}
+
+template <class Scalar>
+static void try_all() {
+  using detector = selvedge::detector<Scalar>;
+  static_assert(!std::is_copy_constructible_v<detector> && std::is_nothrow_move_constructible_v<detector>);
+  const std::vector<std::uint32_t> triangles = {0, 1, 2, 3, 4, 5};
+  const std::vector<Scalar> start = {-5, -5, 0, 5, -5, 0, 0, 5, 0, 0, 0, Scalar(0.2), 1, 0, Scalar(0.3), 0, 1, Scalar(0.4)};
+  std::vector<Scalar> end = start;
+  for (std::size_t k = 11; k < end.size(); k += 3) end[k] -= Scalar(0.4);
+
+  expect(__LINE__, SELVEDGE_STATUS_VERTEX_OUT_OF_RANGE, [&] { detector(5, triangles); });
+  expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { detector(6, std::vector<std::uint32_t>{0, 1}); });
+
+  detector first(6, triangles);
+  expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.contacts(start, {end.data(), 5}); });
+  expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.is_free(std::vector<Scalar>(18 + 1), end); });
+  expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.earliest({start.data(), 5}, {end.data(), 5}); });
+  expect(__LINE__, SELVEDGE_STATUS_UNKNOWN_CONSTANT, [&] { first.candidates(start, end, static_cast<selvedge_boxes>(9)); });
+  expect(__LINE__, SELVEDGE_STATUS_BAD_LIMIT, [&] { first.set_within(-1, 0); });
+
+  // As ever, after all that.
+  first.set_within(0, 1e-7);
+  holds(__LINE__, first.contacts(start, end).size() >= 2 && !first.is_free(start, end) && first.is_free(start, start));
+  holds(__LINE__, !first.earliest(start, start).has_value() && first.earliest(start, end)->pair.first == 3);
+  const auto candidates = first.candidates(start, end);
+  holds(__LINE__, first.contacts_of(start, end, candidates).size() == first.contacts(start, end).size());
+  holds(__LINE__, first.edges().size() == 6 && first.edges()[0].first == 0 && first.edges()[0].second == 1);
+  holds(__LINE__, !first.has_intersections(start) && first.intersections(start).empty() && first.has_intersections(end));
+  holds(__LINE__, first.intersections(end)[0].kind == SELVEDGE_INTERSECTION_KIND_EDGE_FACE);
+  expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.has_intersections({start.data(), 5}); });
+  first.set_pair_limit(1);
+  expect(__LINE__, SELVEDGE_STATUS_TOO_MANY_PAIRS, [&] { first.contacts(start, end); });
+  first.set_pair_limit(UINT64_MAX);
+  first.set_cancelled(true);
+  expect(__LINE__, SELVEDGE_STATUS_CANCELLED, [&] { first.contacts(start, end); });
+  first.set_cancelled(false);
+  holds(__LINE__, !first.contacts(start, end).empty());
+  first.set_touching(1e-7);
+  first.set_coherent(true);
+  first.set_threads(2);
+  holds(__LINE__, first.threads() == 2 && !first.contacts(start, end).empty());
+
+  const std::vector<std::uint8_t> moving(6, 0);
+  first.set_moving(moving.data(), moving.size());
+  holds(__LINE__, first.is_free(start, end));
+  first.set_all_moving();
+  holds(__LINE__, !first.is_free(start, end));
+
+  detector second = std::move(first);
+  holds(__LINE__, second.threads() == 2);
+  expect(__LINE__, SELVEDGE_STATUS_NULL_POINTER, [&] { (void)first.threads(); });
+  second = detector(6, triangles);
+  holds(__LINE__, second.threads() == 1);
+  selvedge_detector_free(second.get());
+  expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_DETECTOR, [&] { second.set_threads(1); });
+}
+
+int main() {
+  try_all<float>();
+  try_all<double>();
+  return faults == 0 ? 0 : 1;
+}
