@@ -7,7 +7,10 @@ use crate::mesh::Topology;
 use crate::parallel;
 use selvedge_core::elementary::Limits;
 use selvedge_core::narrowing::widened;
+use selvedge_core::separation::closest::Closest;
+use selvedge_core::separation::gap::{GapError, distance_from_below};
 use selvedge_core::separation::geometry::{Geometry, geometry};
+use selvedge_core::separation::largest_coordinate;
 use selvedge_core::{Motion, Position, PrimitivePair, Scalar};
 
 /// Two primitives, their vertices, and how they lie to each other at some time. Computed in `f64`, whatever the format of the positions.
@@ -130,7 +133,19 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.stop.result()?;
         near.clear();
         let topology = self.engine.topology();
+        let error = GapError::of_coordinates(largest_coordinate(positions).to_f64());
         for (kind, mut pairs) in [(PairKind::VertexFace, vertex_face), (PairKind::EdgeEdge, edge_edge)] {
+            // Most are farther away than their boxes, and nobody asks for their geometry.
+            self.workers.run(|| {
+                parallel::retain(&mut pairs, |&pair| {
+                    let points = topology
+                        .vertices_of(kind, pair)
+                        .map(|vertex| exactly(positions[vertex as usize]));
+                    let direction = Closest::of(kind, points).direction;
+                    let is_farther = distance_from_below(kind, points, direction, error) > distance;
+                    !is_farther
+                });
+            });
             pairs.sort_unstable();
             let mut found = Vec::new();
             self.workers.run(|| {
