@@ -14,8 +14,10 @@ fn filters(vertices: usize) -> Vec<CollisionFilter> {
     let ghosts = each(&|v| if v < 4 { Groups::new(1, 0) } else { Groups::ALL });
     let patches: Vec<u32> = (0..vertices as u32).map(|v| v / 4).collect();
     let pairs = || (0..vertices as u32 - 1).flat_map(|v| [[v, v + 1], [v + 1, v / 2]]);
-    let rule =
-        |kind, [a, b]: [u32; 2], vertices: [u32; 4]| (a + b + vertices[3] + u32::from(kind == PairKind::EdgeEdge)) % 3 != 0;
+    let rule = |kind, [a, b]: [u32; 2], vertices: [u32; 4]| {
+        let sum = a + b + vertices[3] + u32::from(kind == PairKind::EdgeEdge);
+        !sum.is_multiple_of(3)
+    };
     vec![
         CollisionFilter::new(),
         CollisionFilter::new().with_groups(halves.clone()),
