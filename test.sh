@@ -65,4 +65,7 @@ cargo test --workspace --doc
 say "rounding constants: Gappa's proofs, where it is installed"
 verification/gappa/check.sh --present --gappa
 
+say "from rounding to geometry: Coq's proofs, where it is installed"
+verification/proofs/check.sh --present
+
 say "all tests passed in $SECONDS s"

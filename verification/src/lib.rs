@@ -10,6 +10,7 @@
 //! | [`altered`] | core's kernels with other constants in their error bounds |
 //! | [`traced`] | core's kernels on symbols: what they compute, in which steps |
 //! | [`proofs`] | Gappa scripts written from such traces |
+//! | [`terms`] | Coq terms written from such traces |
 //! | [`culling`] | core's culling tests by name, one pair at a time |
 
 pub mod altered;
@@ -20,4 +21,5 @@ pub mod hard_cases;
 pub mod minifloat;
 pub mod oracle;
 pub mod proofs;
+pub mod terms;
 pub mod traced;

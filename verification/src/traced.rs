@@ -6,7 +6,7 @@
 use selvedge_core::verification::lanes::{Lanes, Rounding};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 /// A number that knows how it was computed. Its steps are kept for the thread: see [`trace`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -64,10 +64,38 @@ pub enum Step {
     Selected(Traced, Traced),
 }
 
+/// A truth value that knows how it came about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mask {
+    /// Of [`Trace::masks`].
+    pub index: usize,
+    /// What it is if all comparisons are false.
+    truth: bool,
+}
+
+/// Where a [`Mask`] comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MaskStep {
+    /// True.
+    Always,
+    /// Whether the first is greater than the second.
+    Greater(Traced, Traced),
+    /// Both.
+    And(Mask, Mask),
+    /// One of them or both.
+    Or(Mask, Mask),
+    /// One of them, not both.
+    Xor(Mask, Mask),
+    /// The other truth value.
+    Not(Mask),
+}
+
 #[derive(Clone, Debug, Default)]
 struct Arena {
     steps: Vec<Step>,
     comparisons: Vec<[Traced; 2]>,
+    masks: Vec<MaskStep>,
+    any_is_true: bool,
 }
 
 thread_local! {
@@ -81,14 +109,88 @@ pub struct Trace {
     pub steps: Vec<Step>,
     /// All comparisons: whether the first is greater than the second.
     pub comparisons: Vec<[Traced; 2]>,
+    /// What was made of them.
+    pub masks: Vec<MaskStep>,
 }
 
 /// Runs a kernel on symbols. What it computes must not depend on its comparisons, which are all false.
 pub fn trace<T>(kernel: impl FnOnce() -> T) -> (T, Trace) {
     ARENA.take();
     let result = kernel();
-    let Arena { steps, comparisons } = ARENA.take();
-    (result, Trace { steps, comparisons })
+    let Arena {
+        steps,
+        comparisons,
+        masks,
+        ..
+    } = ARENA.take();
+    (
+        result,
+        Trace {
+            steps,
+            comparisons,
+            masks,
+        },
+    )
+}
+
+/// Within [`trace`]: runs a part of which each [`Lanes::any`] says that some lane is true.
+pub fn if_any<T>(part: impl FnOnce() -> T) -> T {
+    ARENA.with_borrow_mut(|arena| arena.any_is_true = true);
+    let result = part();
+    ARENA.with_borrow_mut(|arena| arena.any_is_true = false);
+    result
+}
+
+impl Mask {
+    /// True, whatever is compared.
+    #[must_use]
+    pub fn always() -> Self {
+        Self::record(MaskStep::Always)
+    }
+
+    fn record(step: MaskStep) -> Self {
+        let truth = match step {
+            MaskStep::Always => true,
+            MaskStep::Greater(..) => false,
+            MaskStep::And(a, b) => a.truth && b.truth,
+            MaskStep::Or(a, b) => a.truth || b.truth,
+            MaskStep::Xor(a, b) => a.truth != b.truth,
+            MaskStep::Not(a) => !a.truth,
+        };
+        ARENA.with_borrow_mut(|arena| {
+            arena.masks.push(step);
+            let index = arena.masks.len() - 1;
+            Self { index, truth }
+        })
+    }
+}
+
+impl BitAnd for Mask {
+    type Output = Self;
+    fn bitand(self, other: Self) -> Self {
+        Self::record(MaskStep::And(self, other))
+    }
+}
+
+impl BitOr for Mask {
+    type Output = Self;
+    fn bitor(self, other: Self) -> Self {
+        Self::record(MaskStep::Or(self, other))
+    }
+}
+
+impl BitXor for Mask {
+    type Output = Self;
+    fn bitxor(self, other: Self) -> Self {
+        Self::record(MaskStep::Xor(self, other))
+    }
+}
+
+impl Not for Mask {
+    type Output = Self;
+    fn not(self) -> Self {
+        Self::record(MaskStep::Not(self))
+    }
 }
 
 impl Traced {
@@ -161,12 +263,12 @@ impl Rounding for Traced {
 
 impl Lanes for Traced {
     type Scalar = Self;
-    type Mask = bool;
+    type Mask = Mask;
     fn splat(self, value: Self) -> Self {
         value
     }
-    fn any(mask: bool) -> bool {
-        mask
+    fn any(mask: Mask) -> bool {
+        mask.truth || ARENA.with_borrow(|arena| arena.any_is_true)
     }
     fn sqrt(self) -> Self {
         Self::record(Step::Root(self))
@@ -180,11 +282,11 @@ impl Lanes for Traced {
     fn smaller(self, other: Self) -> Self {
         Self::record(Step::Smaller(self, other))
     }
-    fn greater(self, other: Self) -> bool {
+    fn greater(self, other: Self) -> Mask {
         ARENA.with_borrow_mut(|arena| arena.comparisons.push([self, other]));
-        false
+        Mask::record(MaskStep::Greater(self, other))
     }
-    fn select(_: bool, if_true: Self, if_false: Self) -> Self {
+    fn select(_: Mask, if_true: Self, if_false: Self) -> Self {
         Self::record(Step::Selected(if_true, if_false))
     }
 }

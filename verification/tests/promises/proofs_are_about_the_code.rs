@@ -10,7 +10,8 @@ use selvedge_core::verification::lanes::Rounding;
 use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
 use selvedge_core::verification::vector::Vector;
 use selvedge_verification::proofs::{inside, scripts, tetrahedron};
-use selvedge_verification::traced::{Paths, Trace, Traced, trace};
+use selvedge_verification::terms::filter;
+use selvedge_verification::traced::{Mask, Paths, Trace, Traced, trace};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -48,6 +49,20 @@ fn traced_scripts_are_what_the_code_gives() {
         );
     }
     assert_eq!(fs::read_dir(traced).expect("a folder").count(), scripts.len());
+}
+
+/// Of these terms `proofs/Theorems.v` speaks.
+#[test]
+fn terms_of_the_filter_are_what_the_code_gives() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("proofs/generated/Filter.v");
+    let text = filter();
+    if std::env::var_os("UPDATE_PROOFS").is_some() {
+        fs::write(&path, &text).expect("a folder that can be written");
+    }
+    assert!(
+        read(&path) == text,
+        "Filter.v is not what the code gives; UPDATE_PROOFS=1 writes it anew, and verification/proofs/check.sh proves it anew"
+    );
 }
 
 /// Marked by `#!` (with the number, of which half is not enough) or `#~`: the file, and what stands in it.
@@ -269,7 +284,7 @@ fn roundings_of_a_direction_are_as_many_as_the_script_says() {
         let corners = edge_edge_corners();
         let direction = corners.direction(vector("w"), None);
         let positions = corners.at(Traced::input("t"));
-        let _ = corners.apart_along(&direction, &positions, true);
+        let _ = corners.apart_along(&direction, &positions, Mask::always());
         direction.bar
     });
     constant.begin_with_differences();

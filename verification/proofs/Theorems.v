@@ -1,0 +1,75 @@
+(* What is proven, for a reader who reads nothing else. Words are defined in Geometry.v (contact, volume), Arithmetic.v (one operation),
+   Expressions.v (an execution), and generated/Filter.v (what the code of the certified filter computes). *)
+From Coq Require Import Reals ZArith Lra Lia.
+From Flocq Require Import Core.
+From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter.
+Open Scope R_scope.
+
+(* 1. Both formats are ones that the theorems below hold for. *)
+Theorem formats_are_reasonable : reasonable binary32 /\ reasonable binary64.
+Proof. split; constructor; cbn; lia. Qed.
+
+(* 2. An operation of Flocq's formats, rounded in any direction, subnormal results kept or flushed, is off by at most 2u of its result and
+      the smallest normal number. *)
+Theorem an_operation_is_nearly_exact f z r : reasonable f -> rounds f z r -> Rabs (r - z) <= eps f * Rabs z + lam f.
+Proof. intros ok. exact (rounding_error f ok z r). Qed.
+
+Section OfAPair.
+(* The coordinates of a pair's four points. *)
+Variable place : coordinate -> R.
+Definition position n t := Point (place (Coordinate n t X)) (place (Coordinate n t Y)) (place (Coordinate n t Z_)).
+Definition path_of n := Path (position n Start) (position n End).
+(* The six differences that the code takes, without rounding. *)
+Definition differences (of : component -> coordinate * coordinate) c := place (fst (of c)) - place (snd (of c)).
+
+(* The control values of the volume of four paths. *)
+Definition control a b c p := (of_control (fun b0 _ c0 _ p0 _ => k0 b0 c0 p0) a b c p, of_control k1 a b c p,
+  of_control k2 a b c p, of_control (fun _ b1 _ c1 _ p1 => k3 b1 c1 p1) a b c p).
+
+(* 3. What the code computes are, but for rounding, the control values of the moving volume: VF, EE. *)
+Theorem the_code_computes_control_values_of_a_vertex_and_a_face : let e := exact (differences vertex_face) in
+  (e control_value_0, e control_value_1, e control_value_2, e control_value_3) = control (path_of 1) (path_of 2) (path_of 3) (path_of 0).
+Proof.
+  cbv beta zeta. unfold control. repeat apply f_equal2; cbv -[Rplus Rminus Rmult Ropp]; ring.
+Qed.
+Theorem the_code_computes_control_values_of_two_edges : let e := exact (differences edge_edge) in
+  (e control_value_0, e control_value_1, e control_value_2, e control_value_3) = control (path_of 2) (path_of 0) (path_of 1) (path_of 3).
+Proof.
+  cbv beta zeta. unfold control. repeat apply f_equal2; cbv -[Rplus Rminus Rmult Ropp]; ring.
+Qed.
+
+Definition are_of_one_sign values := let '(a, b, c, d) := values in one_sign a b c d.
+Definition have_one_sign of := let e := exact (differences of) in
+  are_of_one_sign (e control_value_0, e control_value_1, e control_value_2, e control_value_3).
+
+(* 4. If the exact values of what the code computes have one sign, no time of the step has contact. *)
+Theorem one_sign_excludes_contact_of_a_vertex_and_a_face t : have_one_sign vertex_face -> 0 <= t <= 1 ->
+  ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
+Proof.
+  intros sign time contact. apply vertex_in_triangle_is_flat in contact. revert contact.
+  apply one_sign_is_never_flat; [exact time|]. unfold have_one_sign in sign.
+  pose proof the_code_computes_control_values_of_a_vertex_and_a_face as same. cbv beta zeta in same, sign. rewrite same in sign. exact sign.
+Qed.
+Theorem one_sign_excludes_contact_of_two_edges t : have_one_sign edge_edge -> 0 <= t <= 1 ->
+  ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
+Proof.
+  intros sign time contact. apply segments_that_meet_are_flat in contact. revert contact.
+  apply one_sign_is_never_flat; [exact time|]. unfold have_one_sign in sign.
+  pose proof the_code_computes_control_values_of_two_edges as same. cbv beta zeta in same, sign. rewrite same in sign. exact sign.
+Qed.
+End OfAPair.
+
+(* 5. A computed sum beyond a bound has the sign of the exact one, in every execution of every floating-point environment in which no
+      difference is beyond the format's range, if the bound is at least what depth, permanent and underflow of the expression ask for.
+      `M` is any maximum of all magnitudes. *)
+Definition a_bound_that_is_large_enough_proves_a_sign := sign.
+
+(* 6. That no difference is beyond the range follows from a maximum of magnitudes that is computed to be in it. *)
+Definition a_maximum_in_range_puts_all_in_range := range.
+
+Print Assumptions formats_are_reasonable.
+Print Assumptions an_operation_is_nearly_exact.
+Print Assumptions one_sign_excludes_contact_of_a_vertex_and_a_face.
+Print Assumptions one_sign_excludes_contact_of_two_edges.
+Print Assumptions a_bound_that_is_large_enough_proves_a_sign.
+Print Assumptions a_maximum_in_range_puts_all_in_range.

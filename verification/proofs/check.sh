@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Has Coq check the proofs in this folder, and that they take nothing for granted but the real numbers.
+#
+#   check.sh            installs what is missing (Debian's coq, libcoq-flocq)
+#   check.sh --present  does not: skips, with a line that says so (./test.sh)
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+is_there() { command -v coqc >/dev/null 2>&1 && [ -e "$(coqc -where)/user-contrib/Flocq/Core/Core.vo" ]; }
+as_root() {
+    if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo -n "$@"; fi
+}
+install() { as_root apt-get install -y --no-install-recommends coq libcoq-flocq </dev/null >/dev/null; }
+
+if ! is_there; then
+    if [ "${1:-}" = --present ]; then
+        echo "proofs: SKIPPED, coq and libcoq-flocq are not installed (verification/proofs/check.sh installs them)"
+        exit 0
+    fi
+    command -v apt-get >/dev/null || {
+        echo "proofs: coq and flocq are missing, and only Debian's packages are known here" >&2
+        exit 1
+    }
+    install || { as_root apt-get update >/dev/null && install; }
+fi
+
+# In the order in which they build on each other; the last one prints what its theorems assume.
+files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Theorems)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cp ./*.v generated/*.v "$folder"
+cd "$folder"
+
+if [ "$(ls ./*.v | wc -l)" -ne "${#files[@]}" ]; then
+    echo "proofs: a file is not on the list of check.sh" >&2
+    exit 1
+fi
+if grep -nwE 'Admitted|Axiom|Axioms|Parameter|Parameters|Conjecture|Abort|admit|give_up' ./*.v; then
+    echo "proofs: something is taken for granted" >&2
+    exit 1
+fi
+for file in "${files[@]}"; do
+    coqc -q -Q . Selvedge "$file.v" >"$file.says" || {
+        echo "proofs: Coq does not accept $file.v" >&2
+        exit 1
+    }
+done
+
+# Coq's real numbers, and the logic that they are built with.
+known='ClassicalDedekindReals.sig_forall_dec|ClassicalDedekindReals.sig_not_dec|FunctionalExtensionality.functional_extensionality_dep|Classical_Prop.classic'
+says=${files[-1]}.says
+if ! grep -q '^Axioms:' "$says"; then
+    echo "proofs: ${files[-1]}.v does not print what it assumes" >&2
+    exit 1
+fi
+if grep -E '^[A-Za-z_.]+ *(:|$)' "$says" | grep -v '^Axioms:' | grep -vE "^($known)( |$)"; then
+    echo "proofs: an axiom that is not of the real numbers" >&2
+    exit 1
+fi
+echo "proofs: ${#files[@]} files accepted by Coq in $SECONDS s, $(grep -c '^Axioms:' "$says") theorems on the axioms of the real numbers alone"

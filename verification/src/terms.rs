@@ -1,0 +1,205 @@
+//! What the certified filter computes, as terms of Coq, written from core's kernels themselves.
+//!
+//! `verification/proofs` speaks of them: what they compute, and what its signs prove. The file is kept in `verification/proofs/generated/`; a
+//! test demands that it is what the code gives.
+
+use crate::proofs::tetrahedron;
+use crate::traced::{Mask, MaskStep, Step, Trace, Traced, if_any, trace};
+use selvedge_core::Scalar;
+use selvedge_core::verification::coplanarity::{Bound, MovingTetrahedron};
+use selvedge_core::verification::lanes::Rounding;
+use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
+use selvedge_core::verification::vector::Vector;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+const HEAD: &str = "\
+(* What the certified filter computes: core/src/filter/certified.rs, core/src/kernels/coplanarity.rs, core/src/kernels/points.rs.
+   Written from the code by verification/src/terms.rs; a test demands that it is what the code gives.
+   UPDATE_PROOFS=1 cargo test -p selvedge-verification --test promises proofs_are_about *)
+From Coq Require Import ZArith.
+From Selvedge Require Import Arithmetic Expressions.
+
+";
+
+/// The text of `generated/Filter.v`.
+#[must_use]
+pub fn filter() -> String {
+    let mut text = String::from(HEAD);
+    format::<f32>("binary32", [24, -149, 128], &mut text);
+    format::<f64>("binary64", [53, -1074, 1024], &mut text);
+    differences::<VertexFace>("vertex_face", "vertex, a, b, c", &mut text);
+    differences::<EdgeEdge>("edge_edge", "u, v, k, l", &mut text);
+
+    let ((values, bounds, masks), steps) = trace(|| {
+        let points = tetrahedron();
+        let by_permanent = points.is_never_coplanar(Bound::Permanent);
+        let masks = [
+            ("by_edge", points.is_never_coplanar(Bound::MagnitudesByEdge)),
+            ("by_axis", points.is_never_coplanar(Bound::MagnitudesByAxis)),
+            // Where no lane needs the permanent, and where one does.
+            ("by_permanent_alone", by_permanent),
+            ("by_permanent", if_any(|| points.is_never_coplanar(Bound::Permanent))),
+        ];
+        (points.control_values().0, points.error_bounds(), masks)
+    });
+    let mut terms = Terms::new(&steps);
+    for (index, value) in values.into_iter().enumerate() {
+        terms.define(&format!("control_value_{index}"), value);
+    }
+    for (index, bound) in bounds.into_iter().enumerate() {
+        terms.define(&format!("error_bound_{index}"), bound);
+    }
+    for (name, mask) in masks {
+        let formula = terms.mask(mask);
+        writeln!(terms.text, "Definition culled_{name} := {formula}.").expect("a string");
+    }
+    text + &terms.text
+}
+
+fn exponent(power_of_two: f64) -> i32 {
+    let exponent = power_of_two.log2();
+    assert_eq!(exponent.exp2(), power_of_two);
+    exponent as i32
+}
+
+/// The three numbers are the format's, by definition; the other two are core's constants.
+fn format<S: Scalar>(name: &str, [precision, least, greatest]: [i32; 3], text: &mut String) {
+    assert_eq!(<S as Rounding>::UNIT_ROUNDOFF.to_f64(), f64::from(-precision).exp2());
+    let underflow = exponent(S::UNDERFLOW.to_f64());
+    let largest_edge = exponent(S::LARGEST_EDGE.to_f64());
+    writeln!(
+        text,
+        "Definition {name} := Format {precision} ({least}) {greatest} ({underflow}) {largest_edge}."
+    )
+    .expect("a string");
+}
+
+/// Which coordinates each difference is made of, the one that is subtracted second.
+fn differences<P: PairShape>(name: &str, order: &str, text: &mut String) {
+    let (differences, steps) = trace(|| {
+        let points = |end: &str| {
+            [0, 1, 2, 3]
+                .map(|point| Vector::from(["X", "Y", "Z_"].map(|axis| Traced::input(format!("Coordinate {point} {end} {axis}")))))
+        };
+        let points = PairPoints {
+            start: points("Start"),
+            end: points("End"),
+        };
+        let MovingTetrahedron { b, c, p } = points.tetrahedron::<P>();
+        [b, c, p]
+    });
+    let input = |number: Traced| match step(number, &steps) {
+        Step::Input(name) => name.clone(),
+        other => panic!("{other:?} is no coordinate"),
+    };
+    writeln!(text, "\n(* Points 0 to 3 are {order}. *)").expect("a string");
+    writeln!(text, "Definition {name} c := match c with").expect("a string");
+    for (edge, ends) in ["B", "C", "P"].into_iter().zip(differences) {
+        for (end, vector) in ["Start", "End"].into_iter().zip(ends) {
+            for (axis, difference) in [("X", vector.x), ("Y", vector.y), ("Z_", vector.z)] {
+                let Step::Difference(to, from) = step(difference, &steps) else {
+                    panic!("no difference")
+                };
+                let (to, from) = (input(*to), input(*from));
+                writeln!(text, "| Component {edge} {end} {axis} => ({to}, {from})").expect("a string");
+            }
+        }
+    }
+    writeln!(text, "end.\n").expect("a string");
+}
+
+fn step(number: Traced, trace: &Trace) -> &Step {
+    match number {
+        Traced::Step(index) => &trace.steps[index],
+        other => panic!("{other:?} is no step"),
+    }
+}
+
+/// Definitions of what is used, each term once.
+struct Terms<'a> {
+    trace: &'a Trace,
+    names: BTreeMap<String, String>,
+    text: String,
+}
+
+impl<'a> Terms<'a> {
+    fn new(trace: &'a Trace) -> Self {
+        Self {
+            trace,
+            names: BTreeMap::new(),
+            text: String::new(),
+        }
+    }
+
+    fn define(&mut self, name: &str, number: Traced) {
+        let term = self.number(number);
+        writeln!(self.text, "Definition {name} := {term}.").expect("a string");
+    }
+
+    fn number(&mut self, number: Traced) -> String {
+        let Traced::Step(index) = number else {
+            return match number {
+                Traced::UnitRoundoff | Traced::Underflow | Traced::LargestEdge => format!("(Constant {number:?})"),
+                Traced::Small(count) => format!("(Constant (Small {count}))"),
+                other => panic!("{other:?} is not known to the proof"),
+            };
+        };
+        let term = match self.trace.steps[index].clone() {
+            Step::Input(name) => difference(&name),
+            Step::Sum(a, b) => self.operation("Sum", a, b),
+            Step::Difference(a, b) => self.operation("Minus", a, b),
+            Step::Product(a, b) => self.operation("Product", a, b),
+            Step::Larger(a, b) => self.operation("Larger", a, b),
+            Step::Smaller(a, b) => self.operation("Smaller", a, b),
+            Step::Negative(a) => format!("Negative {}", self.number(a)),
+            Step::Magnitude(a) => format!("Magnitude {}", self.number(a)),
+            other => panic!("{other:?} is not known to the proof"),
+        };
+        if let Some(name) = self.names.get(&term) {
+            return name.clone();
+        }
+        let name = format!("s{}", self.names.len());
+        writeln!(self.text, "Definition {name} := {term}.").expect("a string");
+        self.names.insert(term, name.clone());
+        name
+    }
+
+    fn operation(&mut self, name: &str, a: Traced, b: Traced) -> String {
+        let (a, b) = (self.number(a), self.number(b));
+        format!("{name} {a} {b}")
+    }
+
+    fn mask(&mut self, mask: Mask) -> String {
+        match self.trace.masks[mask.index] {
+            MaskStep::Greater(a, b) => {
+                let (a, b) = (self.number(a), self.number(b));
+                format!("(Greater {a} {b})")
+            }
+            MaskStep::And(a, b) => {
+                let (a, b) = (self.mask(a), self.mask(b));
+                format!("(Both {a} {b})")
+            }
+            MaskStep::Or(a, b) => {
+                let (a, b) = (self.mask(a), self.mask(b));
+                format!("(Either {a} {b})")
+            }
+            other => panic!("{other:?} is not known to the proof"),
+        }
+    }
+}
+
+/// From a name like `b0x`.
+fn difference(name: &str) -> String {
+    let [edge, end, axis] = name.as_bytes() else {
+        panic!("{name} is no component")
+    };
+    let edge = char::from(edge.to_ascii_uppercase());
+    let end = if *end == b'0' { "Start" } else { "End" };
+    let axis = match axis {
+        b'x' => "X",
+        b'y' => "Y",
+        _ => "Z_",
+    };
+    format!("Difference (Component {edge} {end} {axis})")
+}
