@@ -2,7 +2,7 @@
    Expressions.v (an execution), and generated/Filter.v (what the code of the certified filter computes). *)
 From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
-From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter.
+From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent.
 Open Scope R_scope.
 
 (* 1. Both formats are ones that the theorems below hold for. *)
@@ -57,19 +57,35 @@ Proof.
   apply one_sign_is_never_flat; [exact time|]. unfold have_one_sign in sign.
   pose proof the_code_computes_control_values_of_two_edges as same. cbv beta zeta in same, sign. rewrite same in sign. exact sign.
 Qed.
+
+(* 5. **From the bits to the geometry**: what the filter culls by the permanent has no contact in the step. `place` are the coordinates, any
+      finite numbers; `value_of` any execution of the code's operations, in any rounding direction, with subnormal numbers kept or
+      flushed, operands and results; `says` that the comparisons may come out so. *)
+Definition executed f of := execution f (fun c => place (snd (of c))) (fun c => place (fst (of c))).
+Theorem a_culled_vertex_and_face_do_not_touch f value_of t : reasonable f -> executed f vertex_face value_of ->
+  says f value_of last_part -> 0 <= t <= 1 ->
+  ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
+Proof.
+  intros ok run culled. apply one_sign_excludes_contact_of_a_vertex_and_a_face.
+  exact (the_last_part_proves_one_sign f ok _ _ value_of run culled).
+Qed.
+Theorem culled_edges_do_not_touch f value_of t : reasonable f -> executed f edge_edge value_of ->
+  says f value_of last_part -> 0 <= t <= 1 ->
+  ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
+Proof.
+  intros ok run culled. apply one_sign_excludes_contact_of_two_edges.
+  exact (the_last_part_proves_one_sign f ok _ _ value_of run culled).
+Qed.
 End OfAPair.
 
-(* 5. A computed sum beyond a bound has the sign of the exact one, in every execution of every floating-point environment in which no
-      difference is beyond the format's range, if the bound is at least what depth, permanent and underflow of the expression ask for.
-      `M` is any maximum of all magnitudes. *)
-Definition a_bound_that_is_large_enough_proves_a_sign := sign.
-
-(* 6. That no difference is beyond the range follows from a maximum of magnitudes that is computed to be in it. *)
-Definition a_maximum_in_range_puts_all_in_range := range.
+(* 6. What stands in these theorems is what the code decides by the permanent: the second of two alternatives, of which the first, by
+      magnitudes alone, is not proven here. *)
+Theorem the_second_alternative : exists first, culled_by_permanent = Either first last_part.
+Proof. exact the_code_decides_so. Qed.
 
 Print Assumptions formats_are_reasonable.
 Print Assumptions an_operation_is_nearly_exact.
 Print Assumptions one_sign_excludes_contact_of_a_vertex_and_a_face.
 Print Assumptions one_sign_excludes_contact_of_two_edges.
-Print Assumptions a_bound_that_is_large_enough_proves_a_sign.
-Print Assumptions a_maximum_in_range_puts_all_in_range.
+Print Assumptions a_culled_vertex_and_face_do_not_touch.
+Print Assumptions culled_edges_do_not_touch.
