@@ -6,7 +6,7 @@
 //! | [`clearance`] | the distance that a pair keeps though its points stray from the motion that was looked at | 64u of the largest coordinate and of each distance, in `f32` |
 //! | [`closest`] | the closest points of a pair at rest | plain floating point: certifies nothing by itself |
 //! | [`course`] | how far points may stray from their course, and whether they have | 64u of the largest coordinate, no more than a hundredth of the room |
-//! | [`geometry`] | where a pair meets: points, weights, normal | enclosed: 48u of the largest coordinate; a normal is certified by [`gap`] |
+//! | [`geometry`] | where a pair meets: points, weights, normal | enclosed: 96u of the largest coordinate; a normal is certified by [`gap`] |
 //! | [`truncation`] | how far each point may go for the pair to keep its distance | decides nothing: what it leads to is certified by the others |
 //!
 //! All are functions of values: the caller keeps the pairs, and what was found out about them.

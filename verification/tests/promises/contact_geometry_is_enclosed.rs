@@ -85,6 +85,25 @@ fn keeps_promises(case: &PairCase<f64>, time: f64) -> Result<bool, TestCaseError
     let excess = (dot(&exact_normal, &exact_normal) - 1_u32).abs();
     prop_assert!(excess <= Rational::from(&unit * 16), "of length one");
     prop_assert!((0.0..=time).contains(&found.separated_at));
+    // The speed of the points with these weights along this normal.
+    let first_point = case.pair().motions[0];
+    let mut largest_difference = Rational::new();
+    let mut speed = Rational::new();
+    for (corner, motion) in case.pair().motions.iter().enumerate() {
+        let sign = if corner < first { 1 } else { -1 };
+        for axis in 0..3 {
+            let (from, to) = (exact(motion.start[axis]), exact(motion.end[axis]));
+            let (other_from, other_to) = (exact(first_point.start[axis]), exact(first_point.end[axis]));
+            for difference in [Rational::from(&from - &other_from), Rational::from(&to - &other_to)] {
+                largest_difference = largest_difference.max(difference.abs());
+            }
+            // Of differences, as weights add up to one but for rounding.
+            let way = (to - other_to) - (from - other_from);
+            speed += way * exact(found.weights[corner]) * &exact_normal[axis] * sign;
+        }
+    }
+    let bound = largest_difference * &unit * 256_u32 + exact(f64::MIN_POSITIVE) * 512_u32;
+    prop_assert!((speed - exact(found.speed)).abs() <= bound, "the speed");
     let then = positions(case, found.separated_at);
     let heights = then.each_ref().map(|point| dot(&exact_normal, point));
     let lowest = heights[..first].iter().min();
@@ -153,8 +172,13 @@ fn near_pairs_are_all_within_the_distance_and_none_is_missed() {
     let positions = scene.frame(50);
     let mut detector = CollisionDetector::<f64>::new(topology.clone());
     let mut near = Vec::new();
+    let mut threaded = CollisionDetector::<f64>::new(topology.clone());
+    threaded.set_threads(selvedge::Threads::from_count(2)).expect("threads");
+    let mut same = Vec::new();
     for distance in [0.0, 1e-3, 1e-2] {
         detector.near(&positions, distance, &mut near).expect("finite positions");
+        threaded.near(&positions, distance, &mut same).expect("finite positions");
+        assert!(near == same, "on two threads");
         let keys: Vec<_> = near.iter().map(|near| (near.kind, near.pair)).collect();
         assert!(keys.is_sorted());
         let is_within = |pair: (PairKind, [u32; 2]), distance: f64| {
@@ -198,6 +222,13 @@ fn geometry_of_what_the_mesh_does_not_have_is_an_error() {
     assert_eq!(many, Err(no_such_pair));
     assert!(detector.contact_geometry(&start, &end[1..], &contact).is_err());
     assert!(detector.near(&start, f64::NAN, &mut Vec::new()).is_err());
+    for time in [-1.0, 2.0, f64::NAN, f64::INFINITY] {
+        let at_no_time = selvedge::Contact { time, ..contact };
+        let found = detector
+            .contact_geometry(&start, &end, &at_no_time)
+            .expect("a pair of the mesh");
+        assert_eq!((found.geometry.normal, found.geometry.distance), (None, [0.0, f64::INFINITY]));
+    }
     end[0][0] = f64::NAN;
     assert!(
         detector

@@ -49,8 +49,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// ```
     ///
     /// # Errors
-    /// If a frame's length is not the mesh's number of vertices, or the pair is none of the mesh's. Positions that are not finite give no
-    /// normal.
+    /// If a frame's length is not the mesh's number of vertices, or the pair is none of the mesh's. Positions that are not finite, and a time
+    /// that is not in [0, 1], give no normal.
     pub fn contact_geometry<P: Position<Scalar = S>>(
         &self,
         start: &[P],
