@@ -91,7 +91,7 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_NO_TRIANGLES = 8,
   /**
-   * A triangle names a vertex that the mesh does not have.
+   * A triangle, or a pair of vertices, names a vertex that the mesh does not have.
    */
   SELVEDGE_STATUS_VERTEX_OUT_OF_RANGE = 9,
   /**
@@ -107,7 +107,7 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_NOT_FINITE = 12,
   /**
-   * A separation or a tolerance is negative, NaN or infinite.
+   * A separation, a tolerance or a distance is negative, NaN or infinite.
    */
   SELVEDGE_STATUS_BAD_LIMIT = 13,
   /**
@@ -135,9 +135,13 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_TOO_MANY_PAIRS = 19,
   /**
+   * A contact's time is not in [0, 1].
+   */
+  SELVEDGE_STATUS_BAD_TIME = 20,
+  /**
    * A fault of the library's own. The detector can only be freed from now on.
    */
-  SELVEDGE_STATUS_INTERNAL = 20,
+  SELVEDGE_STATUS_INTERNAL = 21,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -260,7 +264,22 @@ typedef uint32_t selvedge_intersection_kind;
 typedef struct selvedge_detector selvedge_detector;
 
 /**
- * A vertex and a face, two edges, or the two vertices of an edge, by their numbers.
+ * What a vertex belongs to, and what it collides with, a bit for each group: two vertices collide if each is in a group that the
+ * other's filter has.
+ */
+typedef struct selvedge_groups {
+  /**
+   * The groups that it is in.
+   */
+  uint32_t memberships;
+  /**
+   * The groups that it collides with.
+   */
+  uint32_t filter;
+} selvedge_groups;
+
+/**
+ * A vertex and a face, two edges, or two vertices, as those of an edge, by their numbers.
  */
 typedef struct selvedge_pair {
   /**
@@ -308,6 +327,74 @@ typedef struct selvedge_intersection {
    */
   struct selvedge_pair pair;
 } selvedge_intersection;
+
+/**
+ * Two primitives and how they lie to each other at some time: at that of a contact, or at rest. Lengths are in the unit of the
+ * positions; all is computed in double, for float too.
+ */
+typedef struct selvedge_geometry {
+  /**
+   * A selvedge_kind.
+   */
+  uint32_t kind;
+  /**
+   * The vertex and the face, or the two edges.
+   */
+  struct selvedge_pair pair;
+  /**
+   * The vertex and the face's three, or the ends of the first edge and of the second.
+   */
+  uint32_t vertices[4];
+  /**
+   * Whether there is a normal. There is none where the two cannot be shown to have been apart: where they touch when the step
+   * begins, or have done so before; at rest, where they touch.
+   */
+  bool has_normal;
+  /**
+   * Of the four vertices, in [0, 1]: barycentric. Those of each side add up to one.
+   */
+  double weights[4];
+  /**
+   * The points of the first and of the second side that have these weights: the closest.
+   */
+  double points[2][3];
+  /**
+   * From the second side to the first, of length one; zeros if there is none.
+   */
+  double normal[3];
+  /**
+   * When the sides were certainly apart along the normal: at the time of contact, or a little before. 0 without a normal.
+   */
+  double separated_at;
+  /**
+   * The distance of the two sides at that time is certainly not less than the first, not more than the second.
+   */
+  double distance[2];
+  /**
+   * How fast the first point moves away from the second along the normal, in lengths a step: less than zero if they come
+   * nearer, zero without a normal.
+   */
+  double speed;
+} selvedge_geometry;
+
+/**
+ * What came of a step of which each vertex goes as far as it may.
+ */
+typedef struct selvedge_truncation {
+  /**
+   * Vertices that go less than the whole of their way.
+   */
+  size_t held_back;
+  /**
+   * Pairs that are in contact at the start already. Their vertices rest. Where there are none, the step is certainly free of
+   * contact.
+   */
+  size_t in_contact;
+  /**
+   * How often contacts were looked for.
+   */
+  size_t rounds;
+} selvedge_truncation;
 
 #ifdef __cplusplus
 extern "C" {
@@ -404,6 +491,24 @@ selvedge_status selvedge_detector_set_touching(struct selvedge_detector *detecto
 selvedge_status selvedge_detector_set_moving(struct selvedge_detector *detector,
                                              const uint8_t *moving,
                                              size_t count);
+
+/**
+ * Which pairs are looked at from the next step on, in place of what was said before. Vertices do not collide whose groups do
+ * not, that are of one patch, or that are an excluded pair, in either order; a pair is not looked at if no vertex of one side
+ * collides with any of the other. NULL: no such rule. All three NULL: all pairs are looked at, as at first.
+ *
+ * `groups` and `patches` have an entry for each vertex, `vertex_count` of them; it is not looked at if both are NULL. Pairs of
+ * selvedge_detector_contacts_of_f64 are looked at whatever this says. All is copied.
+ *
+ * The caller promises:
+ * `groups` and `patches` are NULL or point to `vertex_count` entries, `excluded` to `excluded_count` pairs of vertices.
+ */
+selvedge_status selvedge_detector_set_collision_filter(struct selvedge_detector *detector,
+                                                       const struct selvedge_groups *groups,
+                                                       const uint32_t *patches,
+                                                       size_t vertex_count,
+                                                       const struct selvedge_pair *excluded,
+                                                       size_t excluded_count);
 
 /**
  * Whether steps go on from one another, as those of a simulation do: 0, as at first, or not 0. Then a step takes less time where
@@ -634,6 +739,102 @@ selvedge_status selvedge_detector_has_intersections_f32(struct selvedge_detector
                                                         const float *positions,
                                                         size_t vertex_count,
                                                         bool *has_any);
+
+/**
+ * How the two of each contact lie to each other at its time: the closest points, their weights, a normal along which they were
+ * certainly apart, the range that their distance is in. `contacts` may be this detector's own list, or any rows of the caller's,
+ * of which kind, pair and time are looked at; the geometries are in their order. For a detector for float a time is rounded down
+ * to a float. They stay where they are until this detector's contact geometries are asked for again, or it is freed.
+ *
+ * The caller promises:
+ * `start` and `end` point to 3 * `vertex_count` numbers, `contacts` to `contact_count` rows, `geometries` to a pointer, `count`
+ * to a number.
+ */
+selvedge_status selvedge_detector_contact_geometries_f64(struct selvedge_detector *detector,
+                                                         const double *start,
+                                                         const double *end,
+                                                         size_t vertex_count,
+                                                         const struct selvedge_contact *contacts,
+                                                         size_t contact_count,
+                                                         const struct selvedge_geometry **geometries,
+                                                         size_t *count);
+
+/**
+ * selvedge_detector_contact_geometries_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_contact_geometries_f64.
+ */
+selvedge_status selvedge_detector_contact_geometries_f32(struct selvedge_detector *detector,
+                                                         const float *start,
+                                                         const float *end,
+                                                         size_t vertex_count,
+                                                         const struct selvedge_contact *contacts,
+                                                         size_t contact_count,
+                                                         const struct selvedge_geometry **geometries,
+                                                         size_t *count);
+
+/**
+ * All pairs that are within `distance` of each other where the mesh is at `positions`, at rest, with their closest points: none
+ * missed; a pair a little farther away may be among them, each tells the range that its distance is in. Ascending by kind and
+ * pair. Not asked are pairs that share a vertex, pairs of which no vertex moves (selvedge_detector_set_moving) and those that
+ * selvedge_detector_set_collision_filter excludes.
+ *
+ * `distance` is in the unit of the positions; for a detector for float it is rounded up to a float. The list stays where it is
+ * until this detector is asked for what is near again, or it is freed.
+ *
+ * The caller promises:
+ * `positions` points to 3 * `vertex_count` numbers, `geometries` to a pointer, `count` to a number.
+ */
+selvedge_status selvedge_detector_near_f64(struct selvedge_detector *detector,
+                                           const double *positions,
+                                           size_t vertex_count,
+                                           double distance,
+                                           const struct selvedge_geometry **geometries,
+                                           size_t *count);
+
+/**
+ * selvedge_detector_near_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_near_f64.
+ */
+selvedge_status selvedge_detector_near_f32(struct selvedge_detector *detector,
+                                           const float *positions,
+                                           size_t vertex_count,
+                                           double distance,
+                                           const struct selvedge_geometry **geometries,
+                                           size_t *count);
+
+/**
+ * Lets each vertex go from `start` to where it is `wanted` as far as its neighbourhood lets it: `end` becomes positions on these
+ * ways such that the step from `start` to `end` is free of contact, but for pairs that are in contact at the start, whose
+ * vertices rest. `*truncation` becomes what was done.
+ *
+ * `end` may be `wanted` or `start` itself: it is written to when all else is done, and not by a call that fails.
+ *
+ * The caller promises:
+ * `start` and `wanted` point to 3 * `vertex_count` numbers, `end` to room for as many, `truncation` to one of its type.
+ */
+selvedge_status selvedge_detector_truncate_f64(struct selvedge_detector *detector,
+                                               const double *start,
+                                               const double *wanted,
+                                               size_t vertex_count,
+                                               double *end,
+                                               struct selvedge_truncation *truncation);
+
+/**
+ * selvedge_detector_truncate_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_truncate_f64.
+ */
+selvedge_status selvedge_detector_truncate_f32(struct selvedge_detector *detector,
+                                               const float *start,
+                                               const float *wanted,
+                                               size_t vertex_count,
+                                               float *end,
+                                               struct selvedge_truncation *truncation);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -82,6 +82,16 @@ struct candidate_pairs {
   list<selvedge_pair> edge_edge;
 };
 
+/// Which pairs are not looked at. An empty list: no such rule.
+struct collision_filter {
+  /// For each vertex: two collide if each is in a group that the other's filter has.
+  list<selvedge_groups> groups;
+  /// For each vertex: two of one patch do not collide.
+  list<std::uint32_t> patches;
+  /// Two vertices that do not collide.
+  list<selvedge_pair> excluded;
+};
+
 /// A mesh, and what is kept of it from step to step. `Scalar` is float or double, the format of the positions.
 ///
 /// Can be moved, not copied. One thread at a time; another one gets SELVEDGE_STATUS_BUSY, but for set_cancelled. All functions
@@ -113,6 +123,19 @@ class detector {
 
   /// All vertices move.
   void set_all_moving() { check(selvedge_detector_set_moving(get(), nullptr, 0)); }
+
+  /// Which pairs are looked at from the next step on; `{}`: all of them. The lists are copied.
+  void set_collision_filter(const collision_filter &filter) {
+    const auto &[groups, patches, excluded] = filter;
+    if (!groups.empty() && !patches.empty() && groups.size() != patches.size()) {
+      throw error(SELVEDGE_STATUS_WRONG_LENGTH, "there are " + std::to_string(groups.size()) + " groups, but " +
+                                                    std::to_string(patches.size()) + " patches");
+    }
+    check(selvedge_detector_set_collision_filter(get(), groups.empty() ? nullptr : groups.data(),
+                                                 patches.empty() ? nullptr : patches.data(),
+                                                 groups.empty() ? patches.size() : groups.size(), excluded.data(),
+                                                 excluded.size()));
+  }
 
   /// Whether steps go on from one another.
   void set_coherent(bool coherent) { check(selvedge_detector_set_coherent(get(), coherent ? 1 : 0)); }
@@ -192,6 +215,41 @@ class detector {
     return free;
   }
 
+  /// How the two of each contact lie to each other at its time, in their order. They stay until this detector's contact
+  /// geometries are asked for again, or it is gone.
+  list<selvedge_geometry> contact_geometries(triples<Scalar> start, triples<Scalar> end, list<selvedge_contact> contacts) {
+    const selvedge_geometry *first = nullptr;
+    std::size_t count = 0;
+    const std::size_t vertices = common_size(start, end);
+    if constexpr (is_single) {
+      check(selvedge_detector_contact_geometries_f32(get(), start.data(), end.data(), vertices, contacts.data(),
+                                                     contacts.size(), &first, &count));
+    } else {
+      check(selvedge_detector_contact_geometries_f64(get(), start.data(), end.data(), vertices, contacts.data(),
+                                                     contacts.size(), &first, &count));
+    }
+    return {first, count};
+  }
+
+  /// Lets each vertex go as far as its neighbourhood lets it: `end` becomes positions such that the step from `start` is free of
+  /// contact, but for pairs that are in contact at the start. Anything with data() and size(), as std::vector, that has as many
+  /// numbers as `start`; it may be one of the other two.
+  template <class Numbers>
+  selvedge_truncation truncate(triples<Scalar> start, triples<Scalar> wanted, Numbers &end) {
+    selvedge_truncation truncation{};
+    const std::size_t vertices = common_size(start, wanted);
+    if (triples<Scalar>(end).size() != vertices) {
+      throw error(SELVEDGE_STATUS_WRONG_LENGTH, "there is room for " + std::to_string(end.size()) + " numbers, not for " +
+                                                    std::to_string(vertices) + " positions");
+    }
+    if constexpr (is_single) {
+      check(selvedge_detector_truncate_f32(get(), start.data(), wanted.data(), vertices, end.data(), &truncation));
+    } else {
+      check(selvedge_detector_truncate_f64(get(), start.data(), wanted.data(), vertices, end.data(), &truncation));
+    }
+    return truncation;
+  }
+
   /// The pairs that boxes leave. They stay until this detector's candidates are asked for again, or it is gone.
   candidate_pairs candidates(triples<Scalar> start, triples<Scalar> end, selvedge_boxes boxes = SELVEDGE_BOXES_MOVING) {
     const selvedge_pair *vf = nullptr, *ee = nullptr;
@@ -226,6 +284,19 @@ class detector {
       check(selvedge_detector_has_intersections_f64(get(), positions.data(), positions.size(), &has_any));
     }
     return has_any;
+  }
+
+  /// All pairs within a distance of each other at rest, with their closest points. They stay until this detector is asked for
+  /// what is near again, or it is gone. (`near` alone is a macro of Windows'.)
+  list<selvedge_geometry> near_pairs(triples<Scalar> positions, double distance) {
+    const selvedge_geometry *first = nullptr;
+    std::size_t count = 0;
+    if constexpr (is_single) {
+      check(selvedge_detector_near_f32(get(), positions.data(), positions.size(), distance, &first, &count));
+    } else {
+      check(selvedge_detector_near_f64(get(), positions.data(), positions.size(), distance, &first, &count));
+    }
+    return {first, count};
   }
 
   /// For functions of selvedge.h; still owned here.

@@ -1,7 +1,10 @@
 //! What a detector has found, as C sees it.
 
 use crate::detector::Finder;
-use selvedge::{Contact, Intersection, PairKind, Scalar, Topology};
+use crate::input::unknown;
+use crate::status::{Failure, Status};
+use selvedge::core::narrowing::rounded_down;
+use selvedge::{Contact, ContactGeometry, Intersection, PairKind, Scalar, Topology, Truncation};
 
 /// Which primitives a pair is made of.
 #[repr(u32)]
@@ -11,6 +14,15 @@ pub enum Kind {
     VertexFace = 0,
     /// Two edges.
     EdgeEdge = 1,
+}
+
+impl From<PairKind> for Kind {
+    fn from(kind: PairKind) -> Self {
+        match kind {
+            PairKind::VertexFace => Self::VertexFace,
+            PairKind::EdgeEdge => Self::EdgeEdge,
+        }
+    }
 }
 
 /// Which boxes tell candidates.
@@ -23,7 +35,7 @@ pub enum Boxes {
     Swept = 1,
 }
 
-/// A vertex and a face, two edges, or the two vertices of an edge, by their numbers.
+/// A vertex and a face, two edges, or two vertices, as those of an edge, by their numbers.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pair {
@@ -55,15 +67,99 @@ pub struct ContactRow {
 
 impl ContactRow {
     pub(crate) fn new<S: Scalar>(contact: &Contact<S>, topology: &Topology) -> Self {
-        let kind = match contact.kind {
-            PairKind::VertexFace => Kind::VertexFace,
-            PairKind::EdgeEdge => Kind::EdgeEdge,
-        };
         Self {
             time: contact.time.to_f64(),
-            kind: kind as u32,
+            kind: Kind::from(contact.kind) as u32,
             pair: contact.pair.into(),
             vertices: topology.vertices_of(contact.kind, contact.pair),
+        }
+    }
+
+    /// As the detector knows it. Whether the mesh has such a pair is left to the detector.
+    pub(crate) fn contact<S: Scalar>(&self) -> Result<Contact<S>, Failure> {
+        let kind = match self.kind {
+            number if number == Kind::VertexFace as u32 => PairKind::VertexFace,
+            number if number == Kind::EdgeEdge as u32 => PairKind::EdgeEdge,
+            number => return Err(unknown("selvedge_kind", number)),
+        };
+        if !(0.0..=1.0).contains(&self.time) {
+            let text = format!("a contact's time is {}: it must be in [0, 1] of the step", self.time);
+            return Err(Failure::new(Status::BadTime, text));
+        }
+        Ok(Contact {
+            kind,
+            pair: [self.pair.first, self.pair.second],
+            time: rounded_down(self.time),
+        })
+    }
+}
+
+/// Two primitives and how they lie to each other at some time: at that of a contact, or at rest. Lengths are in the unit of the
+/// positions; all is computed in double, for float too.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GeometryRow {
+    /// A selvedge_kind.
+    pub kind: u32,
+    /// The vertex and the face, or the two edges.
+    pub pair: Pair,
+    /// The vertex and the face's three, or the ends of the first edge and of the second.
+    pub vertices: [u32; 4],
+    /// Whether there is a normal. There is none where the two cannot be shown to have been apart: where they touch when the step
+    /// begins, or have done so before; at rest, where they touch.
+    pub has_normal: bool,
+    /// Of the four vertices, in [0, 1]: barycentric. Those of each side add up to one.
+    pub weights: [f64; 4],
+    /// The points of the first and of the second side that have these weights: the closest.
+    pub points: [[f64; 3]; 2],
+    /// From the second side to the first, of length one; zeros if there is none.
+    pub normal: [f64; 3],
+    /// When the sides were certainly apart along the normal: at the time of contact, or a little before. 0 without a normal.
+    pub separated_at: f64,
+    /// The distance of the two sides at that time is certainly not less than the first, not more than the second.
+    pub distance: [f64; 2],
+    /// How fast the first point moves away from the second along the normal, in lengths a step: less than zero if they come
+    /// nearer, zero without a normal.
+    pub speed: f64,
+}
+
+impl From<&ContactGeometry> for GeometryRow {
+    fn from(found: &ContactGeometry) -> Self {
+        let geometry = &found.geometry;
+        Self {
+            kind: Kind::from(found.kind) as u32,
+            pair: found.pair.into(),
+            vertices: found.vertices,
+            has_normal: geometry.normal.is_some(),
+            weights: geometry.weights,
+            points: geometry.points.map(Into::into),
+            normal: geometry.normal.map_or([0.0; 3], Into::into),
+            separated_at: geometry.separated_at,
+            distance: geometry.distance,
+            speed: geometry.speed,
+        }
+    }
+}
+
+/// What came of a step of which each vertex goes as far as it may.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TruncationRow {
+    /// Vertices that go less than the whole of their way.
+    pub held_back: usize,
+    /// Pairs that are in contact at the start already. Their vertices rest. Where there are none, the step is certainly free of
+    /// contact.
+    pub in_contact: usize,
+    /// How often contacts were looked for.
+    pub rounds: usize,
+}
+
+impl From<Truncation> for TruncationRow {
+    fn from(truncation: Truncation) -> Self {
+        Self {
+            held_back: truncation.held_back,
+            in_contact: truncation.in_contact,
+            rounds: truncation.rounds,
         }
     }
 }
@@ -120,6 +216,10 @@ pub(crate) struct Answers {
     pub(crate) found_candidates: CandidatePairs,
     pub(crate) found_at_rest: Vec<Intersection>,
     pub(crate) intersections: Vec<IntersectionRow>,
+    /// Of contacts or of what is near, before it is shown.
+    pub(crate) found_geometries: Vec<ContactGeometry>,
+    pub(crate) contact_geometries: Vec<GeometryRow>,
+    pub(crate) near: Vec<GeometryRow>,
 }
 
 impl Answers {
@@ -138,6 +238,16 @@ impl Answers {
         &self.candidates
     }
 
+    /// Takes over the geometries that the detector has found, of contacts.
+    pub(crate) fn show_contact_geometries(&mut self) -> &[GeometryRow] {
+        show_geometries(&self.found_geometries, &mut self.contact_geometries)
+    }
+
+    /// Takes over the geometries that the detector has found, of what is near.
+    pub(crate) fn show_near(&mut self) -> &[GeometryRow] {
+        show_geometries(&self.found_geometries, &mut self.near)
+    }
+
     /// Takes over what the detector has found at rest.
     pub(crate) fn show_intersections(&mut self) -> &[IntersectionRow] {
         self.intersections.clear();
@@ -145,4 +255,10 @@ impl Answers {
             .extend(self.found_at_rest.iter().map(IntersectionRow::from));
         &self.intersections
     }
+}
+
+fn show_geometries<'a>(found: &[ContactGeometry], shown: &'a mut Vec<GeometryRow>) -> &'a [GeometryRow] {
+    shown.clear();
+    shown.extend(found.iter().map(GeometryRow::from));
+    shown
 }

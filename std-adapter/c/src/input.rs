@@ -1,6 +1,6 @@
 //! What comes from C, checked: pointers, counts, numbers of enumerations.
 
-use crate::answers::Pair;
+use crate::answers::{ContactRow, Pair};
 use crate::status::{Failure, Status};
 use std::ptr::NonNull;
 use std::slice;
@@ -11,6 +11,7 @@ impl Plain for u8 {}
 impl Plain for u32 {}
 impl Plain for f32 {}
 impl Plain for f64 {}
+impl Plain for ContactRow {}
 impl<T: Plain, const N: usize> Plain for [T; N] {}
 
 /// `count` groups of `N` numbers; none may be behind a null pointer.
@@ -64,6 +65,31 @@ impl<T> Out<T> {
     pub(crate) fn set(self, answer: T) {
         // SAFETY: aligned, and `new` was promised that it may be written to. What was there has no meaning, and is not dropped.
         unsafe { self.0.write(answer) }
+    }
+}
+
+/// Where numbers go that the caller has room for, three for each of so many vertices.
+#[derive(Debug)]
+pub(crate) struct OutFrame<S> {
+    start: Out<S>,
+    vertex_count: usize,
+}
+
+impl<S: Plain> OutFrame<S> {
+    /// # Safety
+    /// As [`Out::new`], for as many numbers, until [`set`](Self::set).
+    pub(crate) unsafe fn new(name: &str, start: *mut S, vertex_count: usize) -> Result<Self, Failure> {
+        // SAFETY: the caller's promise.
+        let start = unsafe { Out::new(name, start) }?;
+        Ok(Self { start, vertex_count })
+    }
+
+    /// Writes the positions, which are the library's own.
+    pub(crate) fn set(self, positions: &[[S; 3]]) {
+        let count = positions.len().min(self.vertex_count);
+        let (from, to) = (NonNull::from(positions).cast::<[S; 3]>(), self.start.0.cast());
+        // SAFETY: aligned, and `new` was promised that so many may be written to; a slice of the library's is not among them.
+        unsafe { to.copy_from_nonoverlapping(from, count) };
     }
 }
 

@@ -1,8 +1,9 @@
 //! What a detector can be asked of a step: thin functions for each format over one that is generic.
 
-use crate::answers::{Answers, Boxes, CandidatePairs, ContactRow, IntersectionRow, Pair};
+use crate::answers::{Answers, Boxes, CandidatePairs, ContactRow, GeometryRow, IntersectionRow, Pair, TruncationRow};
 use crate::detector::{Detector, Finder, Format, Handle, on};
-use crate::input::{Out, OutList, unknown, view};
+use crate::input::{Out, OutFrame, OutList, unknown, view};
+use crate::settings::length;
 use crate::status::{Failure, Status};
 use selvedge::{CandidateBoxes, Frame, StepError};
 
@@ -18,9 +19,13 @@ type AskedStep<S> = Asked<S, 2>;
 
 impl<S> AskedStep<S> {
     const fn new(detector: *mut Handle, start: *const S, end: *const S, vertex_count: usize) -> Self {
+        Self::between(detector, [("start", start), ("end", end)], vertex_count)
+    }
+
+    const fn between(detector: *mut Handle, frames: [(&'static str, *const S); 2], vertex_count: usize) -> Self {
         Self {
             detector,
-            frames: [("start", start), ("end", end)],
+            frames,
             vertex_count,
         }
     }
@@ -178,6 +183,69 @@ unsafe fn tell_intersections<S: Format>(asked: AskedState<S>, has_any: *mut bool
             Ok(())
         })
     }
+}
+
+unsafe fn find_contact_geometries<S: Format>(
+    asked: AskedStep<S>,
+    contacts: (*const ContactRow, usize),
+    geometries: *mut *const GeometryRow,
+    count: *mut usize,
+) -> Status {
+    // SAFETY: the caller's promises. The contacts may be this detector's own, to which nothing is written here.
+    unsafe {
+        asked.ask(|finder, answers, [start, end]| {
+            let out = OutList::new("geometries", geometries, count)?;
+            let rows = view::<_, 1>("contacts", contacts.0, contacts.1)?;
+            let given = &mut finder.contacts;
+            given.clear();
+            for [row] in rows {
+                given.push(row.contact()?);
+            }
+            let found = &mut answers.found_geometries;
+            finder.detector.contact_geometries(start, end, given, found)?;
+            out.set(answers.show_contact_geometries());
+            Ok(())
+        })
+    }
+}
+
+unsafe fn find_near<S: Format>(
+    asked: AskedState<S>,
+    distance: f64,
+    geometries: *mut *const GeometryRow,
+    count: *mut usize,
+) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, answers, [positions]| {
+            let out = OutList::new("geometries", geometries, count)?;
+            finder
+                .detector
+                .near(positions, length(distance)?, &mut answers.found_geometries)?;
+            out.set(answers.show_near());
+            Ok(())
+        })
+    }
+}
+
+unsafe fn truncate<S: Format>(asked: AskedStep<S>, end: *mut S, truncation: *mut TruncationRow) -> Status {
+    let vertex_count = asked.vertex_count;
+    let (mut out, mut positions) = (None, Vec::new());
+    // SAFETY: the caller's promises.
+    let status = unsafe {
+        asked.ask(|finder, _, [start, wanted]| {
+            let (end, truncation) = (OutFrame::new("end", end, vertex_count)?, Out::new("truncation", truncation)?);
+            let found = finder.detector.truncate(start, wanted, &mut positions)?;
+            out = Some((end, truncation, found.into()));
+            Ok(())
+        })
+    };
+    // Not before the frames are looked at no more: the end may be one of them.
+    if let Some((end, truncation, found)) = out {
+        end.set(&positions);
+        truncation.set(found);
+    }
+    status
 }
 
 /// All contacts of the step from `start` to `end`. They stay where they are until this detector's contacts are asked for again,
@@ -460,4 +528,130 @@ pub unsafe extern "C" fn selvedge_detector_has_intersections_f32(
     let asked = AskedState::new(detector, positions, vertex_count);
     // SAFETY: the caller's promises.
     unsafe { tell_intersections(asked, has_any) }
+}
+
+/// How the two of each contact lie to each other at its time: the closest points, their weights, a normal along which they were
+/// certainly apart, the range that their distance is in. `contacts` may be this detector's own list, or any rows of the caller's,
+/// of which kind, pair and time are looked at; the geometries are in their order. For a detector for float a time is rounded down
+/// to a float. They stay where they are until this detector's contact geometries are asked for again, or it is freed.
+///
+/// # Safety
+/// `start` and `end` point to 3 * `vertex_count` numbers, `contacts` to `contact_count` rows, `geometries` to a pointer, `count`
+/// to a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_contact_geometries_f64(
+    detector: *mut Handle,
+    start: *const f64,
+    end: *const f64,
+    vertex_count: usize,
+    contacts: *const ContactRow,
+    contact_count: usize,
+    geometries: *mut *const GeometryRow,
+    count: *mut usize,
+) -> Status {
+    let asked = AskedStep::new(detector, start, end, vertex_count);
+    // SAFETY: the caller's promises.
+    unsafe { find_contact_geometries(asked, (contacts, contact_count), geometries, count) }
+}
+
+/// selvedge_detector_contact_geometries_f64 for float.
+///
+/// # Safety
+/// As selvedge_detector_contact_geometries_f64.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_contact_geometries_f32(
+    detector: *mut Handle,
+    start: *const f32,
+    end: *const f32,
+    vertex_count: usize,
+    contacts: *const ContactRow,
+    contact_count: usize,
+    geometries: *mut *const GeometryRow,
+    count: *mut usize,
+) -> Status {
+    let asked = AskedStep::new(detector, start, end, vertex_count);
+    // SAFETY: the caller's promises.
+    unsafe { find_contact_geometries(asked, (contacts, contact_count), geometries, count) }
+}
+
+/// All pairs that are within `distance` of each other where the mesh is at `positions`, at rest, with their closest points: none
+/// missed; a pair a little farther away may be among them, each tells the range that its distance is in. Ascending by kind and
+/// pair. Not asked are pairs that share a vertex, pairs of which no vertex moves (selvedge_detector_set_moving) and those that
+/// selvedge_detector_set_collision_filter excludes.
+///
+/// `distance` is in the unit of the positions; for a detector for float it is rounded up to a float. The list stays where it is
+/// until this detector is asked for what is near again, or it is freed.
+///
+/// # Safety
+/// `positions` points to 3 * `vertex_count` numbers, `geometries` to a pointer, `count` to a number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_near_f64(
+    detector: *mut Handle,
+    positions: *const f64,
+    vertex_count: usize,
+    distance: f64,
+    geometries: *mut *const GeometryRow,
+    count: *mut usize,
+) -> Status {
+    let asked = AskedState::new(detector, positions, vertex_count);
+    // SAFETY: the caller's promises.
+    unsafe { find_near(asked, distance, geometries, count) }
+}
+
+/// selvedge_detector_near_f64 for float.
+///
+/// # Safety
+/// As selvedge_detector_near_f64.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_near_f32(
+    detector: *mut Handle,
+    positions: *const f32,
+    vertex_count: usize,
+    distance: f64,
+    geometries: *mut *const GeometryRow,
+    count: *mut usize,
+) -> Status {
+    let asked = AskedState::new(detector, positions, vertex_count);
+    // SAFETY: the caller's promises.
+    unsafe { find_near(asked, distance, geometries, count) }
+}
+
+/// Lets each vertex go from `start` to where it is `wanted` as far as its neighbourhood lets it: `end` becomes positions on these
+/// ways such that the step from `start` to `end` is free of contact, but for pairs that are in contact at the start, whose
+/// vertices rest. `*truncation` becomes what was done.
+///
+/// `end` may be `wanted` or `start` itself: it is written to when all else is done, and not by a call that fails.
+///
+/// # Safety
+/// `start` and `wanted` point to 3 * `vertex_count` numbers, `end` to room for as many, `truncation` to one of its type.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_truncate_f64(
+    detector: *mut Handle,
+    start: *const f64,
+    wanted: *const f64,
+    vertex_count: usize,
+    end: *mut f64,
+    truncation: *mut TruncationRow,
+) -> Status {
+    let asked = AskedStep::between(detector, [("start", start), ("wanted", wanted)], vertex_count);
+    // SAFETY: the caller's promises.
+    unsafe { truncate(asked, end, truncation) }
+}
+
+/// selvedge_detector_truncate_f64 for float.
+///
+/// # Safety
+/// As selvedge_detector_truncate_f64.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_truncate_f32(
+    detector: *mut Handle,
+    start: *const f32,
+    wanted: *const f32,
+    vertex_count: usize,
+    end: *mut f32,
+    truncation: *mut TruncationRow,
+) -> Status {
+    let asked = AskedStep::between(detector, [("start", start), ("wanted", wanted)], vertex_count);
+    // SAFETY: the caller's promises.
+    unsafe { truncate(asked, end, truncation) }
 }

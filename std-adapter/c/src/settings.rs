@@ -6,7 +6,7 @@ use crate::input::{Out, OutList, view};
 use crate::status::{Failure, Status};
 use selvedge::core::elementary::Limits;
 use selvedge::core::narrowing::rounded_up;
-use selvedge::{Criterion, Scalar, StepError, Threads};
+use selvedge::{CollisionFilter, Criterion, Groups, Scalar, StepError, Threads};
 
 // The next two are for the header, and for tests.
 /// At first the tolerance of detectors for float: 2^-20, a micrometre where positions are in metres.
@@ -89,6 +89,63 @@ pub unsafe extern "C" fn selvedge_detector_set_moving(detector: *mut Handle, mov
         let given = unsafe { view::<_, 1>("moving", moving, count) }?;
         let moving: Vec<bool> = given.iter().map(|&[byte]| byte != 0).collect();
         with_either!(&mut it.finder, finder => finder.detector.set_moving(Some(&moving)))?;
+        Ok(())
+    })
+}
+
+/// What a vertex belongs to, and what it collides with, a bit for each group: two vertices collide if each is in a group that the
+/// other's filter has.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct GroupsRow {
+    /// The groups that it is in.
+    pub memberships: u32,
+    /// The groups that it collides with.
+    pub filter: u32,
+}
+
+/// Which pairs are looked at from the next step on, in place of what was said before. Vertices do not collide whose groups do
+/// not, that are of one patch, or that are an excluded pair, in either order; a pair is not looked at if no vertex of one side
+/// collides with any of the other. NULL: no such rule. All three NULL: all pairs are looked at, as at first.
+///
+/// `groups` and `patches` have an entry for each vertex, `vertex_count` of them; it is not looked at if both are NULL. Pairs of
+/// selvedge_detector_contacts_of_f64 are looked at whatever this says. All is copied.
+///
+/// # Safety
+/// `groups` and `patches` are NULL or point to `vertex_count` entries, `excluded` to `excluded_count` pairs of vertices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_detector_set_collision_filter(
+    detector: *mut Handle,
+    groups: *const GroupsRow,
+    patches: *const u32,
+    vertex_count: usize,
+    excluded: *const Pair,
+    excluded_count: usize,
+) -> Status {
+    on(detector, |it| {
+        let expected = it.topology().vertex_count();
+        let has_entries = !groups.is_null() || !patches.is_null();
+        if has_entries && vertex_count != expected {
+            // Before one of them is looked at.
+            let found = vertex_count;
+            return Err(StepError::WrongCount { found, expected }.into());
+        }
+        let mut filter = CollisionFilter::new();
+        if !groups.is_null() {
+            // SAFETY: the caller's promise. Two numbers in a row, whether as fields or as an array.
+            let given = unsafe { view("groups", groups.cast::<u32>(), vertex_count) }?;
+            let groups = given.iter().map(|&[memberships, filter]| Groups::new(memberships, filter));
+            filter = filter.with_groups(groups.collect());
+        }
+        if !patches.is_null() {
+            // SAFETY: the caller's promise.
+            let given = unsafe { view::<_, 1>("patches", patches, vertex_count) }?;
+            filter = filter.with_patches(given.as_flattened().to_vec());
+        }
+        // SAFETY: the caller's promise. Two numbers in a row, as above.
+        let excluded = unsafe { view::<_, 2>("excluded", excluded.cast::<u32>(), excluded_count) }?;
+        filter = filter.without_vertex_pairs(excluded.iter().copied());
+        with_either!(&mut it.finder, finder => finder.detector.set_collision_filter(filter))?;
         Ok(())
     })
 }

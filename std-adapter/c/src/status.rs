@@ -27,7 +27,7 @@ pub enum Status {
     WrongScalar = 7,
     /// The mesh has no triangles.
     NoTriangles = 8,
-    /// A triangle names a vertex that the mesh does not have.
+    /// A triangle, or a pair of vertices, names a vertex that the mesh does not have.
     VertexOutOfRange = 9,
     /// The mesh has more vertices or triangles than can be numbered.
     TooLarge = 10,
@@ -35,7 +35,7 @@ pub enum Status {
     WrongLength = 11,
     /// A coordinate is NaN or infinite.
     NotFinite = 12,
-    /// A separation or a tolerance is negative, NaN or infinite.
+    /// A separation, a tolerance or a distance is negative, NaN or infinite.
     BadLimit = 13,
     /// A pair names a vertex, a face or an edge that the mesh does not have.
     NoSuchPair = 14,
@@ -49,12 +49,14 @@ pub enum Status {
     Cancelled = 18,
     /// More pairs are near each other than may be looked at.
     TooManyPairs = 19,
+    /// A contact's time is not in [0, 1].
+    BadTime = 20,
     /// A fault of the library's own. The detector can only be freed from now on.
-    Internal = 20,
+    Internal = 21,
 }
 
 impl Status {
-    const ALL: [Self; 21] = [
+    const ALL: [Self; 22] = [
         Self::Ok,
         Self::NullPointer,
         Self::MisalignedPointer,
@@ -75,6 +77,7 @@ impl Status {
         Self::Forked,
         Self::Cancelled,
         Self::TooManyPairs,
+        Self::BadTime,
         Self::Internal,
     ];
 
@@ -93,13 +96,14 @@ impl Status {
             Self::TooLarge => c"mesh too large",
             Self::WrongLength => c"wrong length",
             Self::NotFinite => c"coordinate not finite",
-            Self::BadLimit => c"bad separation or tolerance",
+            Self::BadLimit => c"bad separation, tolerance or distance",
             Self::NoSuchPair => c"no such pair",
             Self::NoThreads => c"threads refused",
             Self::NoMemory => c"memory refused",
             Self::Forked => c"detector of a parent process",
             Self::Cancelled => c"cancelled",
             Self::TooManyPairs => c"too many pairs",
+            Self::BadTime => c"time not in [0, 1]",
             Self::Internal => c"internal error",
         }
     }
@@ -136,6 +140,7 @@ impl From<StepError> for Failure {
             StepError::WrongLength { .. } | StepError::WrongCount { .. } => Status::WrongLength,
             StepError::NotFinite { .. } => Status::NotFinite,
             StepError::BadLimit { .. } => Status::BadLimit,
+            StepError::NoSuchVertex { .. } => Status::VertexOutOfRange,
             StepError::NoSuchPair { .. } => Status::NoSuchPair,
             StepError::Cancelled => Status::Cancelled,
             StepError::TooManyPairs { .. } => Status::TooManyPairs,

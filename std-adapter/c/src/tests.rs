@@ -1,12 +1,15 @@
 //! C's functions, called as C does, beside the detector itself. Programs in C and C++ are tried in `tests/programs.rs`.
 
-use crate::answers::{Boxes, ContactRow, IntersectionRow, Kind, Pair};
+use crate::answers::{Boxes, ContactRow, GeometryRow, IntersectionRow, Kind, Pair, TruncationRow};
 use crate::detector::{Handle, ScalarFormat, on, selvedge_detector_free, selvedge_detector_new, selvedge_detector_set_cancelled};
 use crate::questions::*;
 use crate::settings::*;
 use crate::status::{Status, selvedge_last_error, selvedge_status_string};
 use selvedge::core::elementary::Limits;
-use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, PairKind, Scalar, Threads, Topology};
+use selvedge::{
+    CandidateBoxes, CollisionDetector, CollisionFilter, Contact, ContactGeometry, Criterion, Groups, PairKind, Scalar, Threads,
+    Topology,
+};
 use std::ffi::CStr;
 use std::fmt::Debug;
 use std::ptr;
@@ -60,11 +63,32 @@ trait ForC: Scalar {
     /// # Safety
     /// As the functions themselves.
     unsafe fn has_intersections(on: *mut Handle, at: &[[Self; 3]], out: *mut bool) -> Status;
+    /// # Safety
+    /// As the functions themselves.
+    unsafe fn contact_geometries(
+        on: *mut Handle,
+        frames: [&[[Self; 3]]; 2],
+        contacts: &[ContactRow],
+        out: OutPair<GeometryRow>,
+    ) -> Status;
+    /// # Safety
+    /// As the functions themselves.
+    unsafe fn near(on: *mut Handle, at: &[[Self; 3]], distance: f64, out: OutPair<GeometryRow>) -> Status;
+    /// # Safety
+    /// As the functions themselves.
+    unsafe fn truncate(
+        on: *mut Handle,
+        start: *const [Self; 3],
+        wanted: *const [Self; 3],
+        count: usize,
+        end: *mut [Self; 3],
+        out: *mut TruncationRow,
+    ) -> Status;
 }
 
 macro_rules! for_c {
     ($scalar:ident = $format:ident: $contacts:ident, $contacts_of:ident, $earliest:ident, $is_free:ident, $candidates:ident,
-     $intersections:ident, $has_intersections:ident) => {
+     $intersections:ident, $has_intersections:ident, $contact_geometries:ident, $near:ident, $truncate:ident) => {
         impl ForC for $scalar {
             const FORMAT: ScalarFormat = ScalarFormat::$format;
             fn from_double(value: f64) -> Self {
@@ -96,6 +120,31 @@ macro_rules! for_c {
                 // SAFETY: the caller's promise.
                 unsafe { $has_intersections(on, at.as_ptr().cast(), at.len(), out) }
             }
+            unsafe fn contact_geometries(
+                on: *mut Handle,
+                [a, b]: [&[[Self; 3]]; 2],
+                contacts: &[ContactRow],
+                out: OutPair<GeometryRow>,
+            ) -> Status {
+                let (start, end) = (a.as_ptr().cast(), b.as_ptr().cast());
+                // SAFETY: the caller's promise.
+                unsafe { $contact_geometries(on, start, end, a.len(), contacts.as_ptr(), contacts.len(), out.0, out.1) }
+            }
+            unsafe fn near(on: *mut Handle, at: &[[Self; 3]], distance: f64, out: OutPair<GeometryRow>) -> Status {
+                // SAFETY: the caller's promise.
+                unsafe { $near(on, at.as_ptr().cast(), at.len(), distance, out.0, out.1) }
+            }
+            unsafe fn truncate(
+                on: *mut Handle,
+                start: *const [Self; 3],
+                wanted: *const [Self; 3],
+                count: usize,
+                end: *mut [Self; 3],
+                out: *mut TruncationRow,
+            ) -> Status {
+                // SAFETY: the caller's promise.
+                unsafe { $truncate(on, start.cast(), wanted.cast(), count, end.cast(), out) }
+            }
             unsafe fn is_free(on: *mut Handle, [a, b]: [&[[Self; 3]]; 2], out: *mut bool) -> Status {
                 // SAFETY: the caller's promise.
                 unsafe { $is_free(on, a.as_ptr().cast(), b.as_ptr().cast(), a.len(), out) }
@@ -115,7 +164,10 @@ for_c!(
     selvedge_detector_is_free_f32,
     selvedge_detector_candidates_f32,
     selvedge_detector_intersections_f32,
-    selvedge_detector_has_intersections_f32
+    selvedge_detector_has_intersections_f32,
+    selvedge_detector_contact_geometries_f32,
+    selvedge_detector_near_f32,
+    selvedge_detector_truncate_f32
 );
 for_c!(
     f64 = F64: selvedge_detector_contacts_f64,
@@ -124,7 +176,10 @@ for_c!(
     selvedge_detector_is_free_f64,
     selvedge_detector_candidates_f64,
     selvedge_detector_intersections_f64,
-    selvedge_detector_has_intersections_f64
+    selvedge_detector_has_intersections_f64,
+    selvedge_detector_contact_geometries_f64,
+    selvedge_detector_near_f64,
+    selvedge_detector_truncate_f64
 );
 
 /// A list that C was given.
@@ -164,6 +219,116 @@ fn rows<S: Scalar>(contacts: &[Contact<S>], topology: &Topology) -> Vec<(u64, Co
 
 fn with_bits(rows: &[ContactRow]) -> Vec<(u64, ContactRow)> {
     rows.iter().map(|row| (row.time.to_bits(), *row)).collect()
+}
+
+/// Bits of all the numbers of a geometry: kind, pair, vertices, whether there is a normal, and the rest in its order.
+type Bits = (u32, [u32; 2], [u32; 4], bool, Vec<u64>);
+
+fn geometries_from_c(rows: &[GeometryRow]) -> Vec<Bits> {
+    let bits = |row: &GeometryRow| {
+        let [first, second] = row.points;
+        let numbers = [
+            &row.weights[..],
+            &first,
+            &second,
+            &row.normal,
+            &[row.separated_at],
+            &row.distance,
+            &[row.speed],
+        ]
+        .concat();
+        let pair = [row.pair.first, row.pair.second];
+        let numbers = numbers.into_iter().map(f64::to_bits).collect();
+        (row.kind, pair, row.vertices, row.has_normal, numbers)
+    };
+    rows.iter().map(bits).collect()
+}
+
+fn geometries_from_rust(found: &[ContactGeometry]) -> Vec<Bits> {
+    let bits = |found: &ContactGeometry| {
+        let kind = match found.kind {
+            PairKind::VertexFace => Kind::VertexFace,
+            PairKind::EdgeEdge => Kind::EdgeEdge,
+        };
+        let it = &found.geometry;
+        let [first, second] = it.points.map(|point| point.to_array());
+        let normal = it.normal.unwrap_or_default().to_array();
+        let numbers = [
+            &it.weights[..],
+            &first,
+            &second,
+            &normal,
+            &[it.separated_at],
+            &it.distance,
+            &[it.speed],
+        ]
+        .concat();
+        let numbers = numbers.into_iter().map(f64::to_bits).collect();
+        (kind as u32, found.pair, found.vertices, it.normal.is_some(), numbers)
+    };
+    found.iter().map(bits).collect()
+}
+
+/// Geometries of contacts and of what is near, and how far each vertex may go, of one step; of how many.
+fn ask_both_where<S: ForC>(handle: *mut Handle, detector: &mut CollisionDetector<S>, frames: [&[[S; 3]]; 2]) -> [usize; 3] {
+    let [start, end] = frames;
+    let (mut contacts, mut found) = (Vec::new(), Vec::new());
+    detector.contacts(start, end, &mut contacts).unwrap();
+    detector.contact_geometries(start, end, &contacts, &mut found).unwrap();
+    let (mut rows, mut count) = (ptr::null(), 0);
+    // SAFETY: frames of the mesh; lists are written to for as long as they last.
+    let status = unsafe { S::contacts(handle, frames, (&raw mut rows, &raw mut count)) };
+    assert_eq!((status, count), (Status::Ok, contacts.len()));
+    // The detector's own list, given back.
+    let rows = match count {
+        0 => &[],
+        // SAFETY: what the library says is there, until contacts are asked for again.
+        _ => unsafe { std::slice::from_raw_parts(rows, count) },
+    };
+    // SAFETY: as above.
+    let from_c = list(|out| unsafe { S::contact_geometries(handle, frames, rows, out) });
+    assert_eq!(geometries_from_c(&from_c), geometries_from_rust(&found));
+
+    let count_of_contacts = from_c.len();
+    let mut count_of_near = 0;
+    for distance in [0.0, 0.03125] {
+        detector.near(end, S::from_double(distance), &mut found).unwrap();
+        // SAFETY: as above.
+        let from_c = list(|out| unsafe { S::near(handle, end, distance, out) });
+        assert_eq!(geometries_from_c(&from_c), geometries_from_rust(&found));
+        count_of_near = from_c.len();
+    }
+
+    let (mut truncated, mut truncation) = (Vec::new(), TruncationRow::default());
+    let nowhere = vec![[S::from_double(f64::NAN); 3]; start.len()];
+    let (mut elsewhere, mut over_start, mut over_wanted) = (nowhere, start.to_vec(), end.to_vec());
+    let (first, last) = (over_start.as_mut_ptr(), over_wanted.as_mut_ptr());
+    // To its own place, and over either of the frames.
+    let places = [
+        (start.as_ptr(), end.as_ptr(), elsewhere.as_mut_ptr()),
+        (first.cast_const(), end.as_ptr(), first),
+        (start.as_ptr(), last.cast_const(), last),
+    ];
+    for (first, wanted, place) in places {
+        // As often: in which order contacts come depends on the questions before.
+        truncation = detector.truncate(start, end, &mut truncated).unwrap().into();
+        let mut row = TruncationRow::default();
+        // SAFETY: as many positions each as the mesh has vertices.
+        let status = unsafe { S::truncate(handle, first, wanted, truncated.len(), place, &raw mut row) };
+        assert_eq!((status, row), (Status::Ok, truncation));
+    }
+    let bits = |positions: &[[S; 3]]| {
+        positions
+            .iter()
+            .flatten()
+            .map(|number| number.to_f64().to_bits())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        [elsewhere, over_start, over_wanted].map(|it| bits(&it)),
+        [(); 3].map(|()| bits(&truncated))
+    );
+    [count_of_contacts, count_of_near, truncation.held_back]
 }
 
 /// Every question on each step of the sheet; how many contacts there were.
@@ -229,6 +394,7 @@ fn ask_both<S: ForC>(handle: *mut Handle, detector: &mut CollisionDetector<S>) -
             let from_c = list(|out| unsafe { S::contacts_of(handle, frames, given, out) });
             assert_eq!(with_bits(&from_c), rows(&contacts, &topology));
         }
+        ask_both_where(handle, detector, frames);
     }
     total
 }
@@ -243,6 +409,9 @@ fn every_question_in_every_setting<S: ForC>() {
     let mut detector = CollisionDetector::<S>::new(topology);
     let at_first = ask_both(handle, &mut detector);
     assert!(at_first > 100, "{at_first} contacts show little");
+    let [start, end] = frames::<S>(1);
+    let counts = ask_both_where(handle, &mut detector, [&start, &end]);
+    assert!(counts.iter().all(|&count| count > 100), "{counts:?} show little");
 
     let (separation, tolerance) = (S::from_double(0.015625), S::from_double(0.0009765625));
     let criterion = Criterion::Within(Limits { tolerance, separation });
@@ -284,6 +453,86 @@ fn every_question_in_every_setting<S: ForC>() {
     assert_eq!(status, Status::Ok);
     ask_both(handle, &mut detector);
     assert_eq!(selvedge_detector_free(handle), Status::Ok);
+}
+
+/// Groups, patches and vertex pairs, one by one and together, and none again.
+fn filters_exclude_what_they_do_in_rust<S: ForC>() {
+    let handle = new(S::FORMAT);
+    let topology = Topology::new(sheet::frame(0).len(), sheet::triangles()).unwrap();
+    let count = topology.vertex_count();
+    let vertices = || 0..u32::try_from(count).unwrap();
+    let groups: Vec<Groups> = vertices()
+        .map(|vertex| Groups::new(1 << (vertex % 3), 0b11 << (vertex % 2)))
+        .collect();
+    let group_rows: Vec<GroupsRow> = groups
+        .iter()
+        .map(|&Groups { memberships, filter }| GroupsRow { memberships, filter })
+        .collect();
+    // The halves of each of the sheet's rows.
+    let patches: Vec<u32> = vertices().map(|vertex| vertex / 8).collect();
+    let mut detector = CollisionDetector::<S>::new(topology);
+    let all = ask_both(handle, &mut detector);
+
+    // All that a vertex of the first contacts may meet, in either order.
+    let [start, end] = frames::<S>(2);
+    let mut contacts = Vec::new();
+    detector.contacts(&start, &end, &mut contacts).unwrap();
+    let first = contacts
+        .iter()
+        .find(|contact| contact.kind == PairKind::VertexFace)
+        .expect("a vertex meets a face");
+    let [vertex, ..] = detector.topology().vertices_of(first.kind, first.pair);
+    let excluded: Vec<[u32; 2]> = vertices()
+        .filter(|&other| other != vertex)
+        .map(|other| [other, vertex])
+        .collect();
+    let pairs: Vec<Pair> = excluded.iter().map(|&pair| pair.into()).collect();
+
+    let mut totals = Vec::new();
+    for (has_groups, has_patches, has_pairs) in [
+        (true, false, false),
+        (false, true, false),
+        (false, false, true),
+        (true, true, true),
+        (false, false, false),
+    ] {
+        let mut filter = CollisionFilter::new();
+        let (mut at_groups, mut at_patches, mut at_pairs) = (ptr::null(), ptr::null(), (ptr::null(), 0));
+        if has_groups {
+            filter = filter.with_groups(groups.clone());
+            at_groups = group_rows.as_ptr();
+        }
+        if has_patches {
+            filter = filter.with_patches(patches.clone());
+            at_patches = patches.as_ptr();
+        }
+        if has_pairs {
+            filter = filter.without_vertex_pairs(excluded.clone());
+            at_pairs = (pairs.as_ptr(), pairs.len());
+        }
+        detector.set_collision_filter(filter).unwrap();
+        let length = if has_groups || has_patches { count } else { 0 };
+        // SAFETY: as long as they say.
+        let status =
+            unsafe { selvedge_detector_set_collision_filter(handle, at_groups, at_patches, length, at_pairs.0, at_pairs.1) };
+        assert_eq!(status, Status::Ok, "{}", last_error());
+        totals.push(ask_both(handle, &mut detector));
+    }
+    assert!(
+        totals[..4].iter().all(|&some| some < all) && totals[4] == all,
+        "{totals:?} of {all}"
+    );
+    assert_eq!(selvedge_detector_free(handle), Status::Ok);
+}
+
+#[test]
+fn filters_of_double_exclude_what_they_do_in_rust() {
+    filters_exclude_what_they_do_in_rust::<f64>();
+}
+
+#[test]
+fn filters_of_float_exclude_what_they_do_in_rust() {
+    filters_exclude_what_they_do_in_rust::<f32>();
 }
 
 #[test]

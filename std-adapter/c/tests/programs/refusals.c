@@ -195,6 +195,152 @@ static void questions(selvedge_detector *detector) {
   HOLDS(contacts == before && count == 1 && contacts[0].pair.first == 3);
 }
 
+/* How the two of a contact lie to each other, what is near, and how far vertices may go. */
+static void places(selvedge_detector *detector) {
+  const selvedge_contact *contacts = NULL;
+  const selvedge_geometry *geometries = NULL;
+  selvedge_truncation truncation = {7, 7, 7};
+  size_t count = 0, other = 7;
+  double end[3 * VERTICES] = {7}, wrong[3 * VERTICES];
+  const float single[3 * VERTICES] = {0};
+  float single_end[3 * VERTICES] = {7};
+  EXPECT(OK, selvedge_detector_contacts_f64(detector, START, END, VERTICES, &contacts, &count));
+  HOLDS(count == 3);
+  memcpy(wrong, END, sizeof wrong);
+  wrong[16] = (double)NAN;
+
+#define GEOMETRIES(start, end, length, rows, rows_count) \
+  selvedge_detector_contact_geometries_f64(detector, start, end, length, rows, rows_count, &geometries, &other)
+  EXPECT(NULL_POINTER, GEOMETRIES(NULL, END, VERTICES, contacts, count));
+  EXPECT(NULL_POINTER, GEOMETRIES(START, END, VERTICES, NULL, 1));
+  EXPECT(NULL_POINTER, selvedge_detector_contact_geometries_f64(detector, START, END, VERTICES, contacts, count, NULL, &other));
+  EXPECT(NULL_POINTER,
+         selvedge_detector_contact_geometries_f64(detector, START, END, VERTICES, contacts, count, &geometries, NULL));
+  EXPECT(WRONG_LENGTH, GEOMETRIES(START, END, SIZE_MAX, contacts, count));
+  EXPECT(NOT_FINITE, GEOMETRIES(START, wrong, VERTICES, contacts, count));
+  EXPECT(BAD_COUNT, GEOMETRIES(START, END, VERTICES, contacts, SIZE_MAX));
+  EXPECT(WRONG_SCALAR, selvedge_detector_contact_geometries_f32(detector, single, single, VERTICES, contacts, count, &geometries,
+                                                                &other));
+  selvedge_contact row = contacts[0];
+  row.kind = 2;
+  EXPECT(UNKNOWN_CONSTANT, GEOMETRIES(START, END, VERTICES, &row, 1));
+  row = contacts[0];
+  row.pair.second = 2;
+  EXPECT(NO_SUCH_PAIR, GEOMETRIES(START, END, VERTICES, &row, 1));
+  const double never[] = {-1e-300, 1.0000000001, (double)NAN, (double)INFINITY};
+  for (int k = 0; k < 4; k++) {
+    row = contacts[0];
+    row.time = never[k];
+    EXPECT(BAD_TIME, GEOMETRIES(START, END, VERTICES, &row, 1));
+  }
+  HOLDS(geometries == NULL && other == 7);
+  EXPECT(OK, GEOMETRIES(START, END, VERTICES, NULL, 0));
+  HOLDS(geometries == NULL && other == 0);
+  /* The list of contacts is still there, and the vertices of a caller's row are not looked at. */
+  EXPECT(OK, GEOMETRIES(START, END, VERTICES, contacts, count));
+  HOLDS(other == 3 && geometries[0].pair.first == contacts[0].pair.first && geometries[0].vertices[3] == 2);
+  HOLDS(geometries[0].has_normal && geometries[0].normal[2] == 1 && fabs(geometries[0].speed + 0.4) < 1e-12);
+  HOLDS(fabs(geometries[0].points[0][2]) < 1e-8 && geometries[0].weights[0] == 1);
+  HOLDS(geometries[0].distance[0] <= geometries[0].distance[1] && geometries[0].distance[1] < 1e-8);
+  const selvedge_geometry *shown = geometries;
+  row.time = 0;
+  for (int k = 0; k < 4; k++) row.vertices[k] = UINT32_MAX;
+  row.kind = 2;
+  EXPECT(UNKNOWN_CONSTANT, GEOMETRIES(START, END, VERTICES, &row, 1));
+  HOLDS(geometries == shown && other == 3 && geometries[0].normal[2] == 1);
+  row.kind = SELVEDGE_KIND_VERTEX_FACE;
+  EXPECT(OK, GEOMETRIES(START, END, VERTICES, &row, 1));
+  HOLDS(other == 1 && geometries[0].vertices[3] == 2);
+
+  const selvedge_geometry *near_each_other = NULL;
+  size_t near_count = 7;
+#define NEAR(positions, length, distance) \
+  selvedge_detector_near_f64(detector, positions, length, distance, &near_each_other, &near_count)
+  EXPECT(NULL_POINTER, NEAR(NULL, VERTICES, 1));
+  EXPECT(NULL_POINTER, selvedge_detector_near_f64(detector, START, VERTICES, 1, NULL, &near_count));
+  EXPECT(NULL_POINTER, selvedge_detector_near_f64(detector, START, VERTICES, 1, &near_each_other, NULL));
+  EXPECT(WRONG_LENGTH, NEAR(START, VERTICES - 1, 1));
+  EXPECT(NOT_FINITE, NEAR(wrong, VERTICES, 1));
+  EXPECT(WRONG_SCALAR, selvedge_detector_near_f32(detector, single, VERTICES, 1, &near_each_other, &near_count));
+  const double none[] = {-1, (double)NAN, (double)INFINITY};
+  for (int k = 0; k < 3; k++) EXPECT(BAD_LIMIT, NEAR(START, VERTICES, none[k]));
+  HOLDS(near_each_other == NULL && near_count == 7);
+  EXPECT(OK, NEAR(START, VERTICES, 0.1));
+  HOLDS(near_each_other == NULL && near_count == 0);
+  EXPECT(OK, NEAR(START, VERTICES, 0.25));
+  HOLDS(near_count == 1 && near_each_other[0].pair.first == 3 && near_each_other[0].has_normal);
+  HOLDS(near_each_other[0].distance[0] <= 0.2 && near_each_other[0].distance[1] >= 0.2);
+  HOLDS(other == 1 && geometries[0].vertices[3] == 2); /* the other list is not this one */
+
+#define TRUNCATE(start, wanted, length, end) selvedge_detector_truncate_f64(detector, start, wanted, length, end, &truncation)
+  EXPECT(NULL_POINTER, TRUNCATE(NULL, END, VERTICES, end));
+  EXPECT(NULL_POINTER, TRUNCATE(START, NULL, VERTICES, end));
+  HOLDS(strstr(selvedge_last_error(), "wanted"));
+  EXPECT(NULL_POINTER, TRUNCATE(START, END, VERTICES, NULL));
+  EXPECT(NULL_POINTER, selvedge_detector_truncate_f64(detector, START, END, VERTICES, end, NULL));
+  EXPECT(MISALIGNED_POINTER, TRUNCATE(START, END, VERTICES, (double *)(void *)((char *)end + 4)));
+  EXPECT(WRONG_LENGTH, TRUNCATE(START, END, VERTICES + 1, end));
+  EXPECT(NOT_FINITE, TRUNCATE(START, wrong, VERTICES, end));
+  EXPECT(WRONG_SCALAR, selvedge_detector_truncate_f32(detector, single, single, VERTICES, single_end, &truncation));
+  EXPECT(OK, selvedge_detector_set_cancelled(detector, 1));
+  EXPECT(CANCELLED, TRUNCATE(START, END, VERTICES, end));
+  EXPECT(CANCELLED, NEAR(START, VERTICES, 0.25));
+  EXPECT(OK, selvedge_detector_set_cancelled(detector, 0));
+  HOLDS(end[0] == 7 && single_end[0] == 7 && truncation.held_back == 7 && truncation.rounds == 7);
+  HOLDS(near_count == 1 && near_each_other[0].pair.first == 3);
+  EXPECT(OK, TRUNCATE(START, END, VERTICES, end));
+  HOLDS(truncation.held_back > 0 && truncation.in_contact == 0 && truncation.rounds > 1);
+  bool is_free = false;
+  EXPECT(OK, selvedge_detector_is_free_f64(detector, START, end, VERTICES, &is_free));
+  HOLDS(is_free && end[11] > 0 && end[11] < START[11]);
+  /* In place. */
+  memcpy(wrong, END, sizeof wrong);
+  EXPECT(OK, TRUNCATE(START, wrong, VERTICES, wrong));
+  HOLDS(memcmp(wrong, end, sizeof end) == 0);
+  answers_as_ever(detector);
+}
+
+static size_t contact_count(selvedge_detector *detector) {
+  const selvedge_contact *contacts = NULL;
+  size_t count = 7;
+  EXPECT(OK, selvedge_detector_contacts_f64(detector, START, END, VERTICES, &contacts, &count));
+  return count;
+}
+
+/* A filter that is refused leaves the one before. */
+static void filters(selvedge_detector *detector) {
+  const selvedge_groups groups[VERTICES + 1] = {{1, 2}, {1, 2}, {1, 2}, {2, 1}, {4, 4}, {4, 4}, {1, 1}};
+  const uint32_t patches[VERTICES] = {0, 0, 0, 0, 1, 1};
+  const selvedge_pair excluded[] = {{4, 0}, {1, 4}, {2, 4}, {0, 6}};
+#define FILTER(groups, patches, length, excluded, count) \
+  selvedge_detector_set_collision_filter(detector, groups, patches, length, excluded, count)
+  EXPECT(OK, FILTER(groups, NULL, VERTICES, NULL, 0));
+  HOLDS(contact_count(detector) == 1);
+  const size_t lengths[] = {0, VERTICES - 1, VERTICES + 1, SIZE_MAX};
+  for (int k = 0; k < 4; k++) {
+    EXPECT(WRONG_LENGTH, FILTER(groups, NULL, lengths[k], NULL, 0));
+    EXPECT(WRONG_LENGTH, FILTER(NULL, patches, lengths[k], NULL, 0));
+  }
+  EXPECT(VERTEX_OUT_OF_RANGE, FILTER(NULL, NULL, 0, excluded, 4));
+  HOLDS(strstr(selvedge_last_error(), "vertex 6"));
+  EXPECT(VERTEX_OUT_OF_RANGE, FILTER(groups, patches, VERTICES, excluded, 4));
+  EXPECT(NULL_POINTER, FILTER(NULL, NULL, 0, NULL, 1));
+  EXPECT(BAD_COUNT, FILTER(NULL, NULL, 0, excluded, SIZE_MAX));
+  const selvedge_groups *odd_groups = (const selvedge_groups *)(const void *)((const char *)groups + 1);
+  const uint32_t *odd_patches = (const uint32_t *)(const void *)((const char *)patches + 2);
+  EXPECT(MISALIGNED_POINTER, FILTER(odd_groups, NULL, VERTICES, NULL, 0));
+  EXPECT(MISALIGNED_POINTER, FILTER(NULL, odd_patches, VERTICES, NULL, 0));
+  HOLDS(contact_count(detector) == 1);
+  EXPECT(OK, FILTER(NULL, patches, VERTICES, NULL, 0));
+  HOLDS(contact_count(detector) == 2);
+  EXPECT(OK, FILTER(NULL, NULL, 0, excluded, 3));
+  HOLDS(contact_count(detector) == 2);
+  EXPECT(OK, FILTER(groups, patches, VERTICES, excluded, 3));
+  HOLDS(contact_count(detector) == 0);
+  EXPECT(OK, FILTER(NULL, NULL, 0, NULL, 0));
+  answers_as_ever(detector);
+}
+
 /* A question that is cut short leaves the detector, and what it has shown. */
 static void cut_short(selvedge_detector *detector) {
   const selvedge_contact *contacts = NULL;
@@ -248,6 +394,8 @@ int main(void) {
   handles(detector);
   settings(detector);
   questions(detector);
+  places(detector);
+  filters(detector);
   cut_short(detector);
   come_and_go();
   EXPECT(OK, selvedge_detector_free(detector));

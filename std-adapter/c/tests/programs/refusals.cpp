@@ -56,6 +56,32 @@ static void try_all() {
   holds(__LINE__, !first.has_intersections(start) && first.intersections(start).empty() && first.has_intersections(end));
   holds(__LINE__, first.intersections(end)[0].kind == SELVEDGE_INTERSECTION_KIND_EDGE_FACE);
   expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.has_intersections({start.data(), 5}); });
+
+  const auto contacts = first.contacts(start, end);
+  const auto geometries = first.contact_geometries(start, end, contacts);
+  holds(__LINE__, geometries.size() == contacts.size() && geometries[0].vertices[0] == contacts[0].vertices[0]);
+  holds(__LINE__, first.near_pairs(start, 0.25).size() == 1 && first.near_pairs(start, 0.125).empty());
+  expect(__LINE__, SELVEDGE_STATUS_BAD_LIMIT, [&] { first.near_pairs(start, -1); });
+  std::vector<Scalar> free_end(start.size()), too_short(start.size() - 3);
+  holds(__LINE__, first.truncate(start, end, free_end).held_back > 0 && first.is_free(start, free_end));
+  expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.truncate(start, end, too_short); });
+  std::vector<Scalar> in_place = end;
+  first.truncate(start, in_place, in_place);
+  holds(__LINE__, in_place == free_end);
+
+  const std::vector<selvedge_groups> ghosts = {{1, 1}, {1, 1}, {1, 1}, {1, 0}, {1, 0}, {1, 0}};
+  const std::uint32_t one_patch[6] = {0, 0, 0, 0, 0, 0};
+  const selvedge_pair apart[] = {{3, 6}};
+  first.set_collision_filter({{ghosts.data(), 6}, {}, {}});
+  holds(__LINE__, first.is_free(start, end));
+  expect(__LINE__, SELVEDGE_STATUS_VERTEX_OUT_OF_RANGE, [&] { first.set_collision_filter({{}, {}, {apart, 1}}); });
+  expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.set_collision_filter({{ghosts.data(), 6}, {one_patch, 5}, {}}); });
+  expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.set_collision_filter({{}, {one_patch, 5}, {}}); });
+  first.set_collision_filter({{}, {one_patch, 6}, {}});
+  holds(__LINE__, first.is_free(start, end));
+  first.set_collision_filter({});
+  holds(__LINE__, !first.is_free(start, end));
+
   first.set_pair_limit(1);
   expect(__LINE__, SELVEDGE_STATUS_TOO_MANY_PAIRS, [&] { first.contacts(start, end); });
   first.set_pair_limit(UINT64_MAX);
