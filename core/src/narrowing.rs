@@ -1,18 +1,10 @@
 //! Times and lengths from one format to another, rounded to the safe side.
 //!
-//! # Rounding
-//! In any direction rounding to `f32` moves a normal number by at most 2⁻²³ of it. So if the number that a time is rounded to is later,
-//! what is 2⁻²² of it earlier has one that is not; and what is 2⁻²² of a length more has one that is not less:
-//!
-//! ```text
-//! (1 − 2⁻²²)(1 + 2⁻⁵²)(1 + 2⁻²³) ≤ 1        (1 + 2⁻²²)(1 − 2⁻⁵²)(1 − 2⁻²³) ≥ 1
-//! ```
-//!
-//! Below 2⁻¹⁰⁰, where subnormal numbers of `f32` may be rounded by more or flushed, a time becomes zero and a length 2⁻¹⁰⁰. Beyond the
-//! largest number a length becomes infinite.
+//! By cutting digits off, which rounds nothing and is no operation in floating point: the same numbers come out whatever direction the thread
+//! rounds in and whether or not it flushes subnormal numbers, and of two numbers the smaller never becomes the larger. So what comes first in
+//! `f64` comes first, or at the same time, in `f32`. Only what is below the normal numbers of `f32` becomes zero, or the smallest of them.
 
 use crate::elementary::Limits;
-use crate::lanes::power_of_two_f64;
 use crate::scalar::Scalar;
 
 /// The same limits in `f64`. A subnormal separation counts as the smallest normal number, as in all tests.
@@ -25,22 +17,15 @@ pub fn widened<S: Scalar>(limits: &Limits<S>) -> Limits<f64> {
     }
 }
 
-/// A time in another format: not later, in any direction of rounding, and by no more than 2⁻²¹ of it, or 2⁻¹⁰⁰, earlier. Of what is
-/// neither negative nor more than 2¹²⁷; NaN stays NaN.
+/// A time in another format: not later, and by less than 2⁻²³ of it, or 2⁻¹²⁶, earlier; of two times the earlier is not later. Of what is not
+/// negative; NaN stays NaN.
 #[inline]
 #[must_use]
 pub fn rounded_down<S: Scalar>(time: f64) -> S {
-    let nearest = S::from_f64(time);
-    if nearest.to_f64() <= time {
-        nearest
-    } else if time < power_of_two_f64(-100) {
-        S::ZERO
-    } else {
-        S::from_f64(time * (1.0 - power_of_two_f64(-22)))
-    }
+    S::truncated(time)
 }
 
-/// A length, or a time, in another format: not less, in any direction of rounding, and by no more than 2⁻²¹ of it, or 2⁻⁹⁹, more.
+/// A length, or a time, in another format: not less, and by no more than 2⁻²² of it, or 2⁻¹²⁶, more; of two lengths the shorter is not longer.
 /// Infinite if the format has no number so large. Of what is not negative; NaN stays NaN.
 ///
 /// ```
@@ -52,13 +37,10 @@ pub fn rounded_down<S: Scalar>(time: f64) -> S {
 pub fn rounded_up<S: Scalar>(value: f64) -> S {
     // What a thread takes for zero must not become zero.
     let value = value.raised_to_normal();
-    let nearest = S::from_f64(value);
-    if nearest.to_f64() >= value {
-        return nearest;
+    let below = S::truncated(value);
+    if below.to_f64() < value {
+        below.next_up().raised_to_normal()
+    } else {
+        below
     }
-    let more = value * (1.0 + power_of_two_f64(-22));
-    let least = power_of_two_f64(-100);
-    let more = S::from_f64(if more < least { least } else { more });
-    // Rounding towards zero stops at the largest number.
-    if more.to_f64() < value { S::INFINITY } else { more }
 }

@@ -36,6 +36,11 @@ pub trait Scalar: Number + BatchScalar + Debug + Display + Default + Send + Sync
     fn encoding(self) -> u64;
     /// The nearest number of this format; infinite if `value` is out of range.
     fn from_f64(value: f64) -> Self;
+    /// The number of this format next to `value` on the side of zero, in any direction of rounding: its largest one if `value` is beyond, zero
+    /// below the normal ones of `f32`; what is infinite or NaN stays so. Digits are cut off, there is no operation in floating point.
+    fn truncated(value: f64) -> Self;
+    /// The least number above.
+    fn next_up(self) -> Self;
     /// The same number as `f64`, exactly, even where a thread treats subnormal operands as zero.
     fn to_f64(self) -> f64;
     /// Neither infinite nor NaN.
@@ -59,7 +64,7 @@ impl<S: Scalar> Position for [S; 3] {
 }
 
 macro_rules! scalar {
-    ($scalar:ident, $vector:ty, $exponent_bits:literal, $to_f64:path) => {
+    ($scalar:ident, $vector:ty, $exponent_bits:literal, $to_f64:path, $truncated:path) => {
         impl Position for $vector {
             type Scalar = $scalar;
         }
@@ -82,6 +87,16 @@ macro_rules! scalar {
             }
 
             #[inline(always)]
+            fn truncated(value: f64) -> Self {
+                $truncated(value)
+            }
+
+            #[inline(always)]
+            fn next_up(self) -> Self {
+                <$scalar>::next_up(self)
+            }
+
+            #[inline(always)]
             fn to_f64(self) -> f64 {
                 $to_f64(self)
             }
@@ -100,8 +115,8 @@ macro_rules! scalar {
     };
 }
 
-scalar!(f32, glam::Vec3, 8, widened);
-scalar!(f64, glam::DVec3, 11, core::convert::identity);
+scalar!(f32, glam::Vec3, 8, widened, truncated);
+scalar!(f64, glam::DVec3, 11, core::convert::identity, core::convert::identity);
 
 /// A subnormal number goes by way of its digits, since a thread may take it for zero in arithmetic.
 #[inline(always)]
@@ -116,9 +131,50 @@ fn widened(value: f32) -> f64 {
     }
 }
 
+/// [`Scalar::truncated`] for `f32`.
+#[inline(always)]
+fn truncated(value: f64) -> f32 {
+    const DROPPED: u32 = f64::MANTISSA_DIGITS - f32::MANTISSA_DIGITS;
+    let bits = value.to_bits();
+    let magnitude = bits & !(1 << 63);
+    let truncated = if magnitude < f64::from(f32::MIN_POSITIVE).to_bits() {
+        0.0
+    } else if magnitude <= f64::from(f32::MAX).to_bits() {
+        // The exponents of both formats are counted from numbers of their own.
+        let bias = (f64::MAX_EXP - f32::MAX_EXP) as u64;
+        f32::from_bits(((magnitude >> DROPPED) - (bias << (f32::MANTISSA_DIGITS - 1))) as u32)
+    } else if magnitude < f64::INFINITY.to_bits() {
+        f32::MAX
+    } else if magnitude == f64::INFINITY.to_bits() {
+        f32::INFINITY
+    } else {
+        f32::NAN
+    };
+    if value.is_sign_negative() { -truncated } else { truncated }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Scalar;
+
+    #[test]
+    fn truncation_is_the_next_number_towards_zero() {
+        for bits in [0x0080_0000, 0x0080_0001, 0x3f7f_ffff, 0x3f80_0000, 0x7f7f_fffe, 0x7f7f_ffff] {
+            let number = f32::from_bits(bits);
+            let between = f64::from(number).midpoint(f64::from(number) * (1.0 + 2.0_f64.powi(-23)));
+            for value in [f64::from(number), f64::from(number).next_up(), between] {
+                assert_eq!(f32::truncated(value), number, "{value:e}");
+                assert_eq!(f32::truncated(-value), -number, "{value:e}");
+            }
+            let below = f64::from(number).next_down();
+            let expected = if bits == 0x0080_0000 { 0.0 } else { f32::from_bits(bits - 1) };
+            assert_eq!(f32::truncated(below), expected, "{below:e}");
+        }
+        assert_eq!(f32::truncated(1e300), f32::MAX);
+        assert_eq!(f32::truncated(f64::NEG_INFINITY), f32::NEG_INFINITY);
+        assert!(f32::truncated(f64::NAN).is_nan());
+        assert_eq!(f64::truncated(0.1), 0.1);
+    }
 
     #[test]
     fn widening_is_exact() {

@@ -163,6 +163,22 @@ fn the_contacts_are_those_of_a_detector_that_has_seen_no_step_before() {
     assert!(found > 250 && more < found / 20, "{compared:?}");
 }
 
+/// Of two contacts at 0.99999871 and 0.99999884, the later was told as the earlier one in `f32`, by rounding its time down farther.
+#[test]
+fn of_contacts_whose_times_hardly_differ_the_earliest_is_the_first() {
+    let mesh = MeshCase::<f32> {
+        triangles: vec![[0, 2, 4], [4, 3, 1]],
+        positions: vec![
+            [[-1.0, -3.0, 0.0], [0.0, 0.0, -1.0]],
+            [[4.0, -2.0, 0.0], [0.0, 0.0, 2.0]],
+            [[-1.0, 0.0, 0.0], [-1.0, -6.0, 2.0]],
+            [[-4.0, 1.0, 0.0], [-2.0, 0.0, 0.0]],
+            [[0.0, 4.0, 0.0], [-1.0, 1.0, 1.0]],
+        ],
+    };
+    are_followed(&mesh, &Cell::new([0; 2]), 1e-6).unwrap();
+}
+
 /// Asked of the oracle itself: what is not among the contacts neither touches nor comes within the separation.
 #[test]
 fn no_contact_of_any_step_is_missed() {

@@ -507,7 +507,8 @@ property!(
     pairs_of_any_kind(),
     |pair| {
         let exact = |x: f64| Rational::from_f64(x).expect("finite");
-        let near = Rational::from((1, 1 << 21));
+        let near = Rational::from((1, 1 << 22));
+        let least_normal = exact(f32::MIN_POSITIVE.into());
         for value in pair.coordinates().map(|x| x.to_f64().abs()) {
             // As it is, and as a time of the step.
             for value in [value, value / (1.0 + value), value * 1e-200] {
@@ -520,15 +521,15 @@ property!(
                         )
                     });
                     prop_assert!(up >= 0.0 && down >= 0.0);
-                    let most = exact(value) * (Rational::from(1) + &near) + exact(0.5_f64.powi(100));
+                    let most = exact(value) * (Rational::from(1) + &near) + &least_normal;
                     if up.is_finite() {
                         let up = exact(f64::from(up));
                         prop_assert!(up >= exact(value) && up <= most, "{environment:?}: {value} up to {up}");
                     } else {
-                        prop_assert!(most > exact(f64::from(f32::MAX)), "{environment:?}: {value}");
+                        prop_assert!(value > f64::from(f32::MAX), "{environment:?}: {value}");
                     }
-                    if value < 2.0_f64.powi(127) {
-                        let least = exact(value) * (Rational::from(1) - &near) - exact(0.5_f64.powi(100));
+                    if value <= f64::from(f32::MAX) {
+                        let least = exact(value) * (Rational::from(1) - &near) - &least_normal;
                         let down = exact(f64::from(down));
                         prop_assert!(
                             down <= exact(value) && down >= least,
@@ -537,6 +538,38 @@ property!(
                     }
                     prop_assert_eq!(same.to_bits(), value.to_bits());
                 }
+            }
+        }
+        Ok(())
+    }
+);
+
+property!(
+    narrowing_exchanges_no_two_numbers_in_any_environment,
+    1_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let value = pair
+            .coordinates()
+            .map(|x| x.to_f64().abs())
+            .next()
+            .expect("there are coordinates");
+        let nearest = f64::from(value as f32);
+        // About a number of `f32` and half-way to the next, where rounding to nearest changes its mind.
+        let about = [
+            value,
+            value / (1.0 + value),
+            value * 1e-30,
+            nearest,
+            nearest * (1.0 + 0.5_f64.powi(24)),
+        ];
+        for value in about {
+            let neighbours = [value.next_down().max(0.0), value, value.next_up()];
+            for environment in Environment::all() {
+                let narrowed = environment.run(&neighbours, |neighbours| {
+                    (neighbours.map(rounded_up::<f32>), neighbours.map(rounded_down::<f32>))
+                });
+                prop_assert!(narrowed.0.is_sorted() && narrowed.1.is_sorted(), "{environment:?}: {value:e}");
             }
         }
         Ok(())
