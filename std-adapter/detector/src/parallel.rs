@@ -75,24 +75,26 @@ pub fn fill<I: Sync, O: Send>(output: &mut Vec<O>, input: &[I], make: impl Fn(&I
     output.extend(input.iter().map(make));
 }
 
-/// Keeps the items for which `keep` is true, in their order.
-pub fn retain<T: Copy + Send + Sync>(items: &mut Vec<T>, keep: impl Fn(&T) -> bool + Sync + Send) {
+/// Replaces `output` by what is made of the items that are to be kept, in their order: `make` says of each whether it is.
+pub fn sift<I: Sync, O: Copy + Default + Send>(output: &mut Vec<O>, items: &[I], make: impl Fn(&I) -> (bool, O) + Sync + Send) {
+    output.clear();
     #[cfg(feature = "parallel")]
     if has_many_threads() {
-        let kept = |chunk: &[T]| -> Vec<T> { chunk.iter().copied().filter(&keep).collect() };
+        let kept = |item: &I| Some(make(item)).filter(|made| made.0).map(|made| made.1);
+        let kept = |chunk: &[I]| -> Vec<O> { chunk.iter().filter_map(kept).collect() };
         let chunks: Vec<_> = items.par_chunks(CHUNK).map(kept).collect();
-        items.clear();
-        chunks.iter().for_each(|chunk| items.extend_from_slice(chunk));
+        chunks.iter().for_each(|chunk| output.extend_from_slice(chunk));
         return;
     }
     // Without a branch that nobody could foretell.
+    output.resize(items.len(), O::default());
     let mut kept = 0;
-    for index in 0..items.len() {
-        let item = items[index];
-        items[kept] = item;
-        kept += usize::from(keep(&item));
+    for item in items {
+        let (is_kept, made) = make(item);
+        output[kept] = made;
+        kept += usize::from(is_kept);
     }
-    items.truncate(kept);
+    output.truncate(kept);
 }
 
 /// Calls `action` with chunks of the items and the index at which each begins; joins their results to `result` by `take`, in order.

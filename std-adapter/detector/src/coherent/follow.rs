@@ -20,8 +20,9 @@ use std::sync::Arc;
 
 /// How far beyond their distance pairs are looked for, in mean edges: more makes longer lists that last longer.
 const BEYOND: f64 = 0.1;
-/// Most steps to look ahead.
-const FARTHEST: u32 = 6;
+/// Most steps to look ahead. Measured on a whole drop and a sleeve that bends: with 6 it searches a third more often, with 12 it finds the pairs of
+/// strayed vertices again nearly twice as often; both take longer.
+const FARTHEST: u32 = 8;
 
 /// No distance that pairs are followed within, and no edge: sums of such might overflow.
 pub(crate) const ENORMOUS: f64 = 1e100;

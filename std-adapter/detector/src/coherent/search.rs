@@ -26,8 +26,18 @@ pub(super) struct Search<I> {
     sieve: Sieve,
     vertex_face: Vec<[u32; 2]>,
     edge_edge: Vec<[u32; 2]>,
-    sorted: Vec<[u32; 2]>,
+    /// Of them, what the sieve leaves.
+    left: Vec<Left>,
+    sorted: Vec<Left>,
     places: Vec<u32>,
+}
+
+/// A pair that the sieve leaves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Left {
+    pair: [u32; 2],
+    /// How far its vertices may [stray](NearPair::stray).
+    stray: f32,
 }
 
 impl<I: Interest> Search<I> {
@@ -44,6 +54,7 @@ impl<I: Interest> Search<I> {
             broad_phase,
             vertex_face: Vec::new(),
             edge_edge: Vec::new(),
+            left: Vec::new(),
             sorted: Vec::new(),
             places: Vec::new(),
         }
@@ -124,6 +135,7 @@ impl<I: Interest> Search<I> {
             sieve,
             vertex_face,
             edge_edge,
+            left,
             sorted,
             places,
             ..
@@ -133,30 +145,27 @@ impl<I: Interest> Search<I> {
         let counts = [topology.vertex_count(), topology.edges().len()];
         pairs.clear();
         for (kind, found, count) in [
-            (PairKind::VertexFace, &mut *vertex_face, counts[0]),
-            (PairKind::EdgeEdge, &mut *edge_edge, counts[1]),
+            (PairKind::VertexFace, vertex_face, counts[0]),
+            (PairKind::EdgeEdge, edge_edge, counts[1]),
         ] {
-            if reach.is_graded {
-                let enough = reach.beyond as f32;
-                parallel::retain(found, |&pair| {
-                    let vertices = topology.vertices_of(kind, pair);
-                    let keeps_apart = sieve.largest_stray(kind, vertices, interest.class(kind, vertices)) >= enough;
-                    !keeps_apart
-                });
-            } else {
-                parallel::retain(found, |&pair| {
-                    let vertices = topology.vertices_of(kind, pair);
-                    !sieve.keep_apart(kind, vertices, interest.class(kind, vertices))
-                });
-            }
-            sort(found, count, sorted, places);
-            pairs.extend(found.iter().filter_map(|&pair| {
+            let enough = reach.beyond as f32;
+            parallel::sift(left, found, |&pair| {
+                let vertices = topology.vertices_of(kind, pair);
+                let class = interest.class(kind, vertices);
+                let (keeps_apart, stray) = if reach.is_graded {
+                    let stray = sieve.largest_stray(kind, vertices, class);
+                    (stray >= enough, stray)
+                } else {
+                    (sieve.keep_apart(kind, vertices, class), f32::NEG_INFINITY)
+                };
+                (!keeps_apart, Left { pair, stray })
+            });
+            sort(left, count, sorted, places);
+            pairs.extend(left.iter().filter_map(|&Left { pair, stray }| {
                 let vertices = topology.vertices_of(kind, pair);
                 let data = interest.about(kind, vertices)?;
                 let mut pair = NearPair::new(kind, pair, vertices, data);
-                if reach.is_graded {
-                    pair.stray = sieve.largest_stray(kind, vertices, interest.class(kind, vertices));
-                }
+                pair.stray = stray;
                 Some(pair)
             }));
         }
@@ -164,36 +173,40 @@ impl<I: Interest> Search<I> {
 }
 
 /// Sorts pairs whose first numbers are below `count`: by counting, then each few with the same first number.
-fn sort(pairs: &mut Vec<[u32; 2]>, count: usize, sorted: &mut Vec<[u32; 2]>, places: &mut Vec<u32>) {
+fn sort(pairs: &mut Vec<Left>, count: usize, sorted: &mut Vec<Left>, places: &mut Vec<u32>) {
     places.clear();
     places.resize(count + 1, 0);
-    for &[first, _] in &*pairs {
-        places[first as usize + 1] += 1;
+    for left in &*pairs {
+        places[left.pair[0] as usize + 1] += 1;
     }
     for first in 0..count {
         places[first + 1] += places[first];
     }
     sorted.clear();
-    sorted.resize(pairs.len(), [0; 2]);
-    for &pair in &*pairs {
-        let place = &mut places[pair[0] as usize];
-        sorted[*place as usize] = pair;
+    sorted.resize(pairs.len(), Left::default());
+    for left in &*pairs {
+        let place = &mut places[left.pair[0] as usize];
+        sorted[*place as usize] = *left;
         *place += 1;
     }
-    sorted.chunk_by_mut(|a, b| a[0] == b[0]).for_each(|same| same.sort_unstable());
+    let same_first = sorted.chunk_by_mut(|a, b| a.pair[0] == b.pair[0]);
+    same_first.for_each(|same| same.sort_unstable_by_key(|left| left.pair));
     std::mem::swap(pairs, sorted);
 }
 
 #[cfg(test)]
 mod tests {
-    use super::sort;
+    use super::{Left, sort};
     use proptest::prelude::*;
 
     proptest! {
         #[test]
-        fn pairs_come_out_sorted(mut pairs in prop::collection::vec([0..9_u32, 0..99_u32], 0..60)) {
+        fn pairs_come_out_sorted(pairs in prop::collection::vec([0..9_u32, 0..99_u32], 0..60)) {
+            let of_pair = |&pair: &[u32; 2]| Left { pair, stray: pair[1] as f32 };
             let mut expected = pairs.clone();
             expected.sort_unstable();
+            let expected: Vec<_> = expected.iter().map(of_pair).collect();
+            let mut pairs = pairs.iter().map(of_pair).collect();
             sort(&mut pairs, 9, &mut Vec::new(), &mut Vec::new());
             prop_assert_eq!(pairs, expected);
         }

@@ -134,16 +134,17 @@ impl<S: Scalar> CollisionDetector<S> {
         near.clear();
         let topology = self.engine.topology();
         let error = GapError::of_coordinates(largest_coordinate(positions).to_f64());
-        for (kind, mut pairs) in [(PairKind::VertexFace, vertex_face), (PairKind::EdgeEdge, edge_edge)] {
+        let mut pairs = Vec::new();
+        for (kind, candidates) in [(PairKind::VertexFace, vertex_face), (PairKind::EdgeEdge, edge_edge)] {
             // Most are farther away than their boxes, and nobody asks for their geometry.
             self.workers.run(|| {
-                parallel::retain(&mut pairs, |&pair| {
+                parallel::sift(&mut pairs, &candidates, |&pair| {
                     let points = topology
                         .vertices_of(kind, pair)
                         .map(|vertex| exactly(positions[vertex as usize]));
                     let direction = Closest::of(kind, points).direction;
                     let is_farther = distance_from_below(kind, points, direction, error) > distance;
-                    !is_farther
+                    (!is_farther, pair)
                 });
             });
             pairs.sort_unstable();
