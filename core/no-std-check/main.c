@@ -6,6 +6,7 @@ uint32_t verdicts_f64(const double points[4][2][3]);
 uint32_t verdicts_f32(const float points[4][2][3]);
 uint32_t near(const float points[4][2][3]);
 uint32_t separations(const double points[4][2][3]);
+double height(const double points[4][2][3]);
 size_t distributed(const uint32_t corners[2][3], uint8_t vertices, uint8_t edges);
 
 #define FACE {{0, 0, 0}, {0, 0, 0}}, {{1, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 0}}
@@ -30,6 +31,9 @@ int main(void) {
     /* Through: above at the start, not at the end. Above: all but near the face. */
     if (separations(through) != 0x22) return 9;
     if (separations(above) != 0x3f) return 10;
+    /* In the middle of the step they meet, or it is half as high again as the face is long. */
+    if (height(through) != 0) return 11;
+    if (height(above) != 1.5) return 12;
     if (distributed(apart, 4, 3) != 0) return 6;
     return 0;
 }

@@ -16,6 +16,7 @@ use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::clearance::{Clearance, are_boxes_within, nearness};
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
+use selvedge_core::separation::geometry::geometry;
 use selvedge_core::separation::{course, largest_coordinate};
 use selvedge_core::verification::coplanarity::MovingTetrahedron;
 use selvedge_core::verification::exact;
@@ -196,6 +197,18 @@ pub extern "C" fn verdicts_f64(points: &Points<f64>) -> u32 {
 pub extern "C" fn verdicts_f32(points: &Points<f32>) -> u32 {
     let [vertex_face, edge_edge] = all_tests(points);
     vertex_face | edge_edge << 16
+}
+
+/// The height of the point that a vertex and a face meet at, half of the step on, if there is a normal that points upwards.
+#[unsafe(no_mangle)]
+pub extern "C" fn height(points: &Points<f64>) -> f64 {
+    let motions = points.map(|[start, end]| Motion::new(start.into(), end.into()));
+    let [vertex, face @ ..] = motions;
+    let found = geometry(&PrimitivePair::vertex_face(vertex, face), 0.5);
+    match found.normal {
+        Some(normal) if normal.z > 0.99 && found.distance[0] <= found.distance[1] => found.points[0].z,
+        _ => f64::NAN,
+    }
 }
 
 /// The lanes of a block with the first point in lane 3 and the box of the other three in lane 5 that are near the first point.

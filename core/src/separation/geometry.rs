@@ -7,18 +7,19 @@
 //! time after a pair has passed through each other it points as they lie then.)
 //!
 //! # What is promised
-//! For positions of at most 2¹⁰²⁰ in magnitude and a time in [0, 1], in every floating-point environment, with B the largest magnitude of a coordinate at both ends of the step, and D that of
-//! a coordinate's difference between the first of the four points and another: all but the points is computed of such differences, so that it
-//! does not matter how far from the origin a pair is.
+//! For positions of at most 2¹⁰²⁰ in magnitude and a time in [0, 1], in every floating-point environment, with B the largest magnitude of a
+//! coordinate at both ends of the step, and D that of a coordinate's difference between the first of the four points and another: all but
+//! the points is computed of such differences, so that it does not matter how far from the origin a pair is.
 //! * Weights are in [0, 1]; those of each side add up to 1 within 4u.
 //! * Each point is within 96u·B of the point of its side that has these weights exactly, at that time exactly. Along each axis a difference is
-//!   within 2u·D, and at a time within another 8u·D ([`Motion::at`](crate::Motion::at)); products add 2u·D, two sums 4u·D and the sum of the
-//!   weights another 4u·D: times √3 that is 34.7u·D, D ≤ 2B. The place of the first point adds 13.9u·B, the last sum 3.5u·B. Numbers too
-//!   small for the format add η = [`Rounding::UNDERFLOW`] at most.
+//!   within 2u·D, and at a time within another 6u·D ([`Motion::at`](crate::Motion::at)); products and two sums add 6u·D; D ≤ 2B. The place of
+//!   the first point adds 6u·B, what the weights do not add up to 4u·B, the last sum 2u·B: 40u·B, times √3. Numbers too small for the format
+//!   add η = [`Rounding::UNDERFLOW`] at most.
 //! * [`Geometry::distance`] encloses the distance of the two sides at that time. From above: no two points of the sides are nearer than those
-//!   that are nearest, whatever the weights; 96u·D, η and 16u of the length are added. From below: by the normal.
+//!   that are nearest, whatever the weights; both sides' 18u·D along each axis, 62.4u·D, are covered by 96u·D, and η and 16u of the length are
+//!   added. From below: by the normal.
 //! * The speed is within 256u·D of that of the points with these weights along this normal: along each axis a way is within 8u·D, weighing adds
-//!   20u·D, the difference of the two sides makes 64u·D of it, and the product with the normal no more than 160u·D in all.
+//!   12u·D, the difference of the two sides makes 48u·D of it, and the product with the normal no more than 125u·D in all.
 //! * A normal has length one within 16u, and **the two sides were certainly apart along it** at [`Geometry::separated_at`]. There is none
 //!   where none can be shown: for a pair that touches when the step begins, or is then nearer than rounding can tell.
 //!
@@ -27,8 +28,8 @@
 //! How well conditioned the closest points are depends on the pair, as of two edges next to parallel: the enclosure tells.
 //!
 //! # Rounding
-//! A gap is computed of positions that are off by 10u·D along each axis, 17.4u·D each: 35u·D more than the 49u·D that [`GapError`] of D allows
-//! 64u·D for. So it is asked for 2D.
+//! A gap is computed of positions that are off by 8u·D along each axis, 13.9u·D each: 28u·D more than the 49u·D that [`GapError`] of D allows
+//! 64u·D for. So it is asked for 2D. Gappa has proven all of these (`verification/gappa/geometry.g`).
 
 use super::closest::Closest;
 use super::gap::{GapError, distance_from_below};

@@ -75,17 +75,13 @@ impl ContactRow {
         }
     }
 
-    /// As the detector knows it. Whether the mesh has such a pair is left to the detector.
+    /// As the detector knows it, which looks whether the mesh has such a pair, and the step such a time.
     pub(crate) fn contact<S: Scalar>(&self) -> Result<Contact<S>, Failure> {
         let kind = match self.kind {
             number if number == Kind::VertexFace as u32 => PairKind::VertexFace,
             number if number == Kind::EdgeEdge as u32 => PairKind::EdgeEdge,
             number => return Err(unknown("selvedge_kind", number)),
         };
-        if !(0.0..=1.0).contains(&self.time) {
-            let text = format!("a contact's time is {}: it must be in [0, 1] of the step", self.time);
-            return Err(Failure::new(Status::BadTime, text));
-        }
         Ok(Contact {
             kind,
             pair: [self.pair.first, self.pair.second],

@@ -142,6 +142,7 @@ impl From<StepError> for Failure {
             StepError::BadLimit { .. } => Status::BadLimit,
             StepError::NoSuchVertex { .. } => Status::VertexOutOfRange,
             StepError::NoSuchPair { .. } => Status::NoSuchPair,
+            StepError::BadTime { .. } => Status::BadTime,
             StepError::Cancelled => Status::Cancelled,
             StepError::TooManyPairs { .. } => Status::TooManyPairs,
             // One that this crate does not know yet.

@@ -75,6 +75,11 @@ pub enum StepError {
         /// The first such pair.
         pair: [u32; 2],
     },
+    /// A contact's time is not in [0, 1] of the step.
+    BadTime {
+        /// What was given.
+        time: f64,
+    },
     /// Another thread has [cancelled](crate::Cancellation) the step.
     Cancelled,
     /// More pairs are near each other than the [limit](crate::CollisionDetector::set_pair_limit) allows to look at.
@@ -113,6 +118,7 @@ impl fmt::Display for StepError {
                 kind,
                 pair: [first, second],
             } => write!(f, "there is no {kind} pair {first}, {second} in this mesh"),
+            Self::BadTime { time } => write!(f, "a contact's time is {time}: it must be in [0, 1] of the step"),
             Self::Cancelled => f.write_str("the step was cancelled"),
             Self::TooManyPairs { limit } => write!(
                 f,

@@ -15,11 +15,13 @@ use selvedge_core::elementary::advance::{time_of_impact_and_work, time_of_impact
 use selvedge_core::elementary::contact::contact_and_evidence;
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::filter::{Filter, Tier, inside};
+use selvedge_core::glam::DVec3;
+use selvedge_core::separation::geometry::geometry;
 use selvedge_core::verification::coplanarity::{MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
 use selvedge_core::verification::exact::{
     UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within, touches,
 };
-use selvedge_core::{PrimitivePair, Verdict};
+use selvedge_core::{Motion, PrimitivePair, Verdict};
 use selvedge_laboratory::baselines::as_computed::AsComputed;
 use selvedge_laboratory::baselines::{plain, uncertified};
 use selvedge_verification::campaign::exact::{Source, sample};
@@ -347,6 +349,37 @@ fn times_of_impact() {
     assert_eq!(
         digests::<Times>(8000),
         "fca929a983766d2a ee3bd28bdad3fbb4 d6ed2af21a2af69e 2285de8de76f9538"
+    );
+}
+
+struct Geometries;
+
+impl Question for Geometries {
+    fn ask<S: Format>(_: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
+        let in_double = |point: S::Vector| DVec3::from(point.into().map(S::to_f64));
+        let motions = pair
+            .motions
+            .map(|motion| Motion::new(in_double(motion.start), in_double(motion.end)));
+        for time in [0.0, 0.7] {
+            let pair = PrimitivePair {
+                motions,
+                kind: pair.kind,
+            };
+            let found = geometry(&pair, time);
+            digest.add_numbers(found.weights);
+            found.points.iter().for_each(|point| digest.add_numbers(point.to_array()));
+            digest.add_numbers(found.normal.unwrap_or(DVec3::ZERO).to_array());
+            digest.add_numbers(found.distance);
+            digest.add_numbers([found.separated_at, found.speed]);
+        }
+    }
+}
+
+#[test]
+fn geometries_of_contacts() {
+    assert_eq!(
+        digests::<Geometries>(4000),
+        "143ff9a66d5e345c 8f4bd3492855d5b0 29aa30f54c6d4ebe 79d07806ff3157de"
     );
 }
 

@@ -49,8 +49,8 @@ impl<S: Scalar> CollisionDetector<S> {
     /// ```
     ///
     /// # Errors
-    /// If a frame's length is not the mesh's number of vertices, or the pair is none of the mesh's. Positions that are not finite, and a time
-    /// that is not in [0, 1], give no normal.
+    /// If a frame's length is not the mesh's number of vertices, the pair is none of the mesh's, or the time is not in [0, 1]. Positions
+    /// that are not finite give no normal.
     pub fn contact_geometry<P: Position<Scalar = S>>(
         &self,
         start: &[P],
@@ -64,7 +64,7 @@ impl<S: Scalar> CollisionDetector<S> {
                 return Err(StepError::WrongLength { frame, found, expected });
             }
         }
-        self.topology().check_pair(contact.kind, contact.pair)?;
+        check_contact(self.topology(), contact)?;
         Ok(of(self.topology(), [start, end], contact))
     }
 
@@ -73,7 +73,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// Nothing is allocated if `geometries` has room.
     ///
     /// # Errors
-    /// As [`contacts`](Self::contacts), and if a pair is none of the mesh's.
+    /// As [`contacts`](Self::contacts), and if a pair is none of the mesh's or a time is not in [0, 1].
     pub fn contact_geometries<P: Position<Scalar = S>>(
         &self,
         start: &[P],
@@ -83,9 +83,7 @@ impl<S: Scalar> CollisionDetector<S> {
     ) -> Result<(), StepError> {
         self.step(start, end)?;
         let topology = self.topology();
-        contacts
-            .iter()
-            .try_for_each(|contact| topology.check_pair(contact.kind, contact.pair))?;
+        contacts.iter().try_for_each(|contact| check_contact(topology, contact))?;
         self.workers
             .run(|| parallel::fill(geometries, contacts, |contact| of(topology, [start, end], contact)));
         Ok(())
@@ -166,6 +164,14 @@ impl<S: Scalar> CollisionDetector<S> {
         }
         Ok(())
     }
+}
+
+fn check_contact<S: Scalar>(topology: &Topology, contact: &Contact<S>) -> Result<(), StepError> {
+    if !(contact.time >= S::ZERO && contact.time <= S::ONE) {
+        let time = contact.time.to_f64();
+        return Err(StepError::BadTime { time });
+    }
+    topology.check_pair(contact.kind, contact.pair)
 }
 
 /// Of a pair of the mesh.
