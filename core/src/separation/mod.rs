@@ -7,6 +7,7 @@
 //! | [`closest`] | the closest points of a pair at rest | plain floating point: certifies nothing by itself |
 //! | [`course`] | how far points may stray from their course, and whether they have | 64u of the largest coordinate, no more than a hundredth of the room |
 //! | [`geometry`] | where a pair meets: points, weights, normal | enclosed: 96u of the largest coordinate; a normal is certified by [`gap`] |
+//! | [`hinge`] | whether neighbours can touch beside their common edge | 32u of products of squared lengths |
 //! | [`truncation`] | how far each point may go for the pair to keep its distance | decides nothing: what it leads to is certified by the others |
 //!
 //! All are functions of values: the caller keeps the pairs, and what was found out about them.
@@ -16,6 +17,7 @@ pub mod closest;
 pub mod course;
 pub mod gap;
 pub mod geometry;
+pub mod hinge;
 pub mod truncation;
 
 use crate::lanes::{Lanes, Rounding};

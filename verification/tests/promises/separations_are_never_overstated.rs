@@ -1,5 +1,6 @@
 //! What a caller relies on for several steps is never overstated: the gap along a direction, what a pair keeps though its points stray,
-//! how far they have strayed, boxes with a separation, lengths and times in fewer digits. In every floating-point environment.
+//! how far they have strayed, boxes with a separation, lengths and times in fewer digits; and how wide neighbours are open. In every
+//! floating-point environment.
 
 use crate::support::environment::Environment;
 use crate::support::point;
@@ -13,6 +14,7 @@ use selvedge_core::narrowing::{rounded_down, rounded_up};
 use selvedge_core::separation::clearance::Clearance;
 use selvedge_core::separation::course;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
+use selvedge_core::separation::hinge::is_wide_open;
 use selvedge_core::separation::largest_coordinate;
 use selvedge_verification::generator::{
     Choices, Format, Moment, PairCase, Simplify, check, extraordinary_pairs, from_choices, pairs_of_any_kind, touching_pairs,
@@ -575,3 +577,51 @@ property!(
         Ok(())
     }
 );
+
+/// (a·b)(e·e) − (a·e)(b·e) of the ways from the first point to the others, e to the second: less than zero beyond a right angle.
+fn across<S: Format>([v, others @ ..]: [[S; 3]; 4]) -> Rational {
+    let exact = |x: S| Rational::from_f64(x.to_f64()).expect("finite");
+    let way = |point: [S; 3]| [0, 1, 2].map(|axis| exact(point[axis]) - exact(v[axis]));
+    let [e, a, b] = others.map(way);
+    let dot = |x: &[Rational; 3], y: &[Rational; 3]| x.iter().zip(y).map(|(x, y)| Rational::from(x * y)).sum::<Rational>();
+    dot(&a, &b) * dot(&e, &e) - dot(&a, &e) * dot(&b, &e)
+}
+
+fn only_what_is_beyond_a_right_angle_is_wide_open<S: Format>() {
+    let open = std::cell::Cell::new([0; 2]);
+    check(1_500, pairs_of_any_kind::<S>(), |pair| {
+        let points = pair.points.map(|[start, _]| start);
+        // At a right angle, but for rounding: the last corner perpendicular to the first triangle, turned a little.
+        let [v, u, a, _] = points.map(|point| DVec3::from(point.map(S::to_f64)));
+        let upright = v + (u - v).cross(a - v).normalize_or_zero() * (a - v).length();
+        let turned = upright - (a - v) * f64::from(S::UNIT_ROUNDOFF.to_f64() as f32) * 3.0;
+        let in_format = |point: DVec3| point.to_array().map(S::from_f64);
+        let upright = [upright, turned].map(|last| [points[0], points[1], points[2], in_format(last)]);
+        for points in upright.into_iter().chain([points]) {
+            if !points.as_flattened().iter().all(|x| x.is_finite()) {
+                continue;
+            }
+            let exact = across(points);
+            for environment in Environment::all() {
+                let is_open = environment.run(&points, |points| is_wide_open(points.map(S::Vector::from)));
+                prop_assert!(!is_open || exact < 0, "{environment:?}: {points:?}");
+                let [so_far, all] = open.get();
+                open.set([so_far + usize::from(is_open), all + usize::from(exact < 0)]);
+            }
+        }
+        Ok(())
+    });
+    let [found, all] = open.get();
+    // What is open by a few roundings cannot be told.
+    assert!(found > 1_000 && all > found, "{found} of {all}");
+}
+
+#[test]
+fn only_what_is_beyond_a_right_angle_is_wide_open_f32() {
+    only_what_is_beyond_a_right_angle_is_wide_open::<f32>();
+}
+
+#[test]
+fn only_what_is_beyond_a_right_angle_is_wide_open_f64() {
+    only_what_is_beyond_a_right_angle_is_wide_open::<f64>();
+}

@@ -7,7 +7,7 @@
 //! pair twice.
 //!
 //! ```
-//! use selvedge::{Topology, glam::DVec3, verification::MovingBroadPhase};
+//! use selvedge::{CandidateBoxes, CollisionDetector, Topology, glam::DVec3};
 //!
 //! // A small triangle falls through a large one.
 //! let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?;
@@ -18,10 +18,9 @@
 //!     vertex.z -= 4.0;
 //! }
 //!
-//! let mut broad_phase = MovingBroadPhase::new(topology);
+//! let mut detector = CollisionDetector::<f64>::new(topology);
 //! let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
-//! broad_phase.update(&start, &end)?;
-//! broad_phase.candidates(&mut vertex_face, &mut edge_edge);
+//! detector.candidates(&start, &end, CandidateBoxes::Moving, &mut vertex_face, &mut edge_edge)?;
 //! vertex_face.sort();
 //! assert_eq!(vertex_face, [[3, 0], [4, 0], [5, 0]]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! edges and faces without a common vertex     traversal of their hierarchies
-//! triangles with a common edge ("hinges")     those that may be coplanar: the four pairs of them without a common vertex
+//! triangles with a common edge ("hinges")     those that are not wide open, and may be coplanar: their four pairs without a common vertex
 //! ends of loose edges                         vertices and faces, tied together by the edge
 //!   │  chunk by chunk, as in a step           filter, sweeps, exact verdict
 //!   ▼
@@ -35,6 +35,7 @@ use crate::mesh::{Hinge, Hinges};
 use crate::parallel::{self, Workers};
 use selvedge_core::batch::{Mask, VertexRow};
 use selvedge_core::elementary::Limits;
+use selvedge_core::separation::hinge::is_wide_open;
 use selvedge_core::{Motion, Position, Scalar};
 
 /// Two primitives of a mesh at rest that have a point in common, and no vertex. Numbered as by the [`Topology`](crate::Topology).
@@ -284,10 +285,14 @@ impl Look<'_> {
             ..self.step
         };
         let moves = |vertices: [u32; 4]| vertices.into_iter().any(|vertex| self.hierarchies.moves(vertex));
+        let rows = self.hierarchies.rows().double();
+        let is_folded = |places: [u32; 4]| !is_wide_open(places.map(|place| rows[place as usize].motion().start));
         let mut hinges = edges
             .flat_map(|edge| self.hinges.at(edge))
             .filter_map(|hinge| Some((hinge, hinge.vertices(topology)?)))
             .filter(|&(_, vertices)| moves(vertices))
+            .map(|(hinge, vertices)| (hinge, vertices.map(|vertex| self.hierarchies.position_of(vertex))))
+            .filter(|&(_, places)| is_folded(places))
             .peekable();
         let Space {
             chunk,
@@ -298,10 +303,10 @@ impl Look<'_> {
         while hinges.peek().is_some() && !self.has_enough() {
             own.clear();
             // Two pairs of a kind come of each.
-            for (hinge, vertices) in hinges.by_ref().take(CHUNK / 2) {
+            for (hinge, places) in hinges.by_ref().take(CHUNK / 2) {
                 own.indices.push([own.hinges.len() as u32; 2]);
                 own.hinges.push(hinge);
-                own.rows.push(vertices.map(|vertex| self.hierarchies.position_of(vertex)));
+                own.rows.push(places);
             }
             // All four pairs have one volume.
             drop_never_coplanar(&step, PairKind::EdgeEdge, 0, &mut own.indices, &mut own.rows, &mut own.masks);
