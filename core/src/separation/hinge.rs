@@ -15,7 +15,7 @@
 //! 2M³ ≤ M² + M⁴: less than 256λ(1 + M²)². η times (1 + a·a + b·b + e·e)² is added, and η ≥ 512λ. **Overflow.** a·a + b·b + e·e must not exceed the square of [`Rounding::LARGEST_EDGE`]. NaN proves nothing.
 
 use crate::lanes::Rounding;
-use crate::scalar::{Position, Scalar};
+use crate::scalar::Position;
 use crate::vector::Vector;
 
 /// Whether two triangles with a common edge, of which the first two `points` are the ends and the others the opposite corners, certainly have no
