@@ -2,7 +2,7 @@
    Expressions.v (an execution), and generated/Filter.v (what the code of the certified filter computes). *)
 From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
-From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent.
+From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes.
 Open Scope R_scope.
 
 (* 1. Both formats are ones that the theorems below hold for. *)
@@ -58,30 +58,51 @@ Proof.
   pose proof the_code_computes_control_values_of_two_edges as same. cbv beta zeta in same, sign. rewrite same in sign. exact sign.
 Qed.
 
-(* 5. **From the bits to the geometry**: what the filter culls by the permanent has no contact in the step. `place` are the coordinates, any
+(* 5. **From the bits to the geometry**: what a tier of the filter culls has no contact in the step. `place` are the coordinates, any
       finite numbers; `value_of` any execution of the code's operations, in any rounding direction, with subnormal numbers kept or
       flushed, operands and results; `says` that the comparisons may come out so. *)
+Inductive decision := MagnitudesByEdge | MagnitudesByAxis | PermanentOfNoLane | PermanentOfSomeLane.
+(* What the code decides, word by word: generated/Filter.v. The permanent's tier leaves out its second half where no lane needs it. *)
+Definition culled_by decision := match decision with
+  | MagnitudesByEdge => culled_by_edge
+  | MagnitudesByAxis => culled_by_axis
+  | PermanentOfNoLane => culled_by_permanent_alone
+  | PermanentOfSomeLane => culled_by_permanent end.
 Definition executed f of := execution f (fun c => place (snd (of c))) (fun c => place (fst (of c))).
-Theorem a_culled_vertex_and_face_do_not_touch f value_of t : reasonable f -> executed f vertex_face value_of ->
-  says f value_of last_part -> 0 <= t <= 1 ->
+Lemma culled_has_one_sign f of tier value_of : reasonable f -> executed f of value_of -> says f value_of (culled_by tier) -> have_one_sign of.
+Proof.
+  intros ok run culled. destruct tier.
+  - exact (by_edge_proves_one_sign f ok _ _ value_of run culled).
+  - exact (by_axis_proves_one_sign f ok _ _ value_of run culled).
+  - exact (alone_proves_one_sign f ok _ _ value_of run culled).
+  - exact (by_permanent_proves_one_sign f ok _ _ value_of run culled).
+Qed.
+Theorem a_culled_vertex_and_face_do_not_touch f tier value_of t : reasonable f -> executed f vertex_face value_of ->
+  says f value_of (culled_by tier) -> 0 <= t <= 1 ->
+  ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
+Proof. intros ok run culled. apply one_sign_excludes_contact_of_a_vertex_and_a_face. eapply culled_has_one_sign; eassumption. Qed.
+Theorem culled_edges_do_not_touch f tier value_of t : reasonable f -> executed f edge_edge value_of ->
+  says f value_of (culled_by tier) -> 0 <= t <= 1 ->
+  ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
+Proof. intros ok run culled. apply one_sign_excludes_contact_of_two_edges. eapply culled_has_one_sign; eassumption. Qed.
+
+(* 6. The widened tier asks binary64 where binary32 does not decide: the same coordinates, the same code. *)
+Definition culled_widened of := exists f value_of, (f = binary32 \/ f = binary64) /\ executed f of value_of /\
+  says f value_of (culled_by PermanentOfSomeLane).
+Theorem widened_culls_no_vertex_and_face_that_touch t : culled_widened vertex_face ->
+  0 <= t <= 1 ->
   ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
 Proof.
-  intros ok run culled. apply one_sign_excludes_contact_of_a_vertex_and_a_face.
-  exact (the_last_part_proves_one_sign f ok _ _ value_of run culled).
+  intros (f & value_of & which & run & culled). destruct formats_are_reasonable.
+  apply (a_culled_vertex_and_face_do_not_touch f PermanentOfSomeLane value_of); try assumption. destruct which as [-> | ->]; assumption.
 Qed.
-Theorem culled_edges_do_not_touch f value_of t : reasonable f -> executed f edge_edge value_of ->
-  says f value_of last_part -> 0 <= t <= 1 ->
+Theorem widened_culls_no_edges_that_touch t : culled_widened edge_edge -> 0 <= t <= 1 ->
   ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
 Proof.
-  intros ok run culled. apply one_sign_excludes_contact_of_two_edges.
-  exact (the_last_part_proves_one_sign f ok _ _ value_of run culled).
+  intros (f & value_of & which & run & culled). destruct formats_are_reasonable.
+  apply (culled_edges_do_not_touch f PermanentOfSomeLane value_of); try assumption. destruct which as [-> | ->]; assumption.
 Qed.
 End OfAPair.
-
-(* 6. What stands in these theorems is what the code decides by the permanent: the second of two alternatives, of which the first, by
-      magnitudes alone, is not proven here. *)
-Theorem the_second_alternative : exists first, culled_by_permanent = Either first last_part.
-Proof. exact the_code_decides_so. Qed.
 
 Print Assumptions formats_are_reasonable.
 Print Assumptions an_operation_is_nearly_exact.
@@ -89,3 +110,5 @@ Print Assumptions one_sign_excludes_contact_of_a_vertex_and_a_face.
 Print Assumptions one_sign_excludes_contact_of_two_edges.
 Print Assumptions a_culled_vertex_and_face_do_not_touch.
 Print Assumptions culled_edges_do_not_touch.
+Print Assumptions widened_culls_no_vertex_and_face_that_touch.
+Print Assumptions widened_culls_no_edges_that_touch.
