@@ -1,8 +1,10 @@
 (* What is proven, for a reader who reads nothing else. Words are defined in Geometry.v (contact, volume), Arithmetic.v (one operation),
-   Expressions.v (an execution), and generated/Filter.v (what the code of the certified filter computes). *)
+   Expressions.v (an execution), and generated/Filter.v (what the code of the certified filter computes); for boxes in Orders.v (an
+   execution) and generated/Boxes.v. *)
 From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes.
+From Selvedge Require Orders Boxes Apart.
 Open Scope R_scope.
 
 (* 1. Both formats are ones that the theorems below hold for. *)
@@ -102,6 +104,43 @@ Proof.
   intros (f & value_of & which & run & culled). destruct formats_are_reasonable.
   apply (culled_edges_do_not_touch f PermanentOfSomeLane value_of); try assumption. destruct which as [-> | ->]; assumption.
 Qed.
+
+(* 7. Swept boxes, relative boxes along three axes, and along nine directions: they compare coordinates, or sums of two that are rounded
+      once. `environment` is one direction of rounding for all, and whether subnormal results and operands count as zero; operands may
+      not, along nine directions. *)
+Inductive box_test := SweptBoxes | ThreeAxes | NineDirections.
+Definition of_a_vertex_and_a_face test := match test with
+  | SweptBoxes => Boxes.a_vertex_and_a_face.culled_by_swept_boxes
+  | ThreeAxes => Boxes.a_vertex_and_a_face.culled_by_three_axes
+  | NineDirections => Boxes.a_vertex_and_a_face.culled_by_nine_directions end.
+Definition of_two_edges test := match test with
+  | SweptBoxes => Boxes.two_edges.culled_by_swept_boxes
+  | ThreeAxes => Boxes.two_edges.culled_by_three_axes
+  | NineDirections => Boxes.two_edges.culled_by_nine_directions end.
+Theorem gaps_are_wide : 2 * lam binary32 <= power Boxes.gap_of_binary32 /\ 2 * lam binary64 <= power Boxes.gap_of_binary64.
+Proof.
+  unfold lam, power. change 2 with (bpow radix2 1). rewrite <- !bpow_plus. split; apply bpow_le; vm_compute; discriminate.
+Qed.
+Theorem boxes_apart_exclude_contact_of_a_vertex_and_a_face f environment gap test value_of t : reasonable f -> 2 * lam f <= gap ->
+  (forall c, representable f (place c)) -> (test = NineDirections -> Orders.flushes_operands environment = false) ->
+  Orders.execution f environment gap place value_of -> Orders.says f environment value_of (of_a_vertex_and_a_face test) -> 0 <= t <= 1 ->
+  ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
+Proof.
+  intros ok wide_ numbers kept run culled. revert t. destruct test.
+  - exact (Apart.swept_boxes_of_a_vertex_and_a_face place f environment gap value_of run culled).
+  - exact (Apart.three_axes_of_a_vertex_and_a_face place f environment gap value_of run culled).
+  - exact (Apart.nine_directions_of_a_vertex_and_a_face place f environment gap value_of run ok numbers wide_ (kept eq_refl) culled).
+Qed.
+Theorem boxes_apart_exclude_contact_of_two_edges f environment gap test value_of t : reasonable f -> 2 * lam f <= gap ->
+  (forall c, representable f (place c)) -> (test = NineDirections -> Orders.flushes_operands environment = false) ->
+  Orders.execution f environment gap place value_of -> Orders.says f environment value_of (of_two_edges test) -> 0 <= t <= 1 ->
+  ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
+Proof.
+  intros ok wide_ numbers kept run culled. revert t. destruct test.
+  - exact (Apart.swept_boxes_of_two_edges place f environment gap value_of run culled).
+  - exact (Apart.three_axes_of_two_edges place f environment gap value_of run culled).
+  - exact (Apart.nine_directions_of_two_edges place f environment gap value_of run ok numbers wide_ (kept eq_refl) culled).
+Qed.
 End OfAPair.
 
 Print Assumptions formats_are_reasonable.
@@ -112,3 +151,5 @@ Print Assumptions a_culled_vertex_and_face_do_not_touch.
 Print Assumptions culled_edges_do_not_touch.
 Print Assumptions widened_culls_no_vertex_and_face_that_touch.
 Print Assumptions widened_culls_no_edges_that_touch.
+Print Assumptions boxes_apart_exclude_contact_of_a_vertex_and_a_face.
+Print Assumptions boxes_apart_exclude_contact_of_two_edges.

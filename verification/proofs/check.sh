@@ -25,7 +25,7 @@ if ! is_there; then
 fi
 
 # In the order in which they build on each other; the last one prints what its theorems assume.
-files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Theorems)
+files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Boxes Apart Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp ./*.v generated/*.v "$folder"
