@@ -4,7 +4,7 @@
 From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes.
-From Selvedge Require Orders Boxes Apart.
+From Selvedge Require Orders Boxes Apart Nearest Witnesses.
 Open Scope R_scope.
 
 (* 1. Both formats are ones that the theorems below hold for. *)
@@ -143,6 +143,32 @@ Proof.
 Qed.
 End OfAPair.
 
+(* 8. None of this is empty. Executions exist, whatever the coordinates (to nearest is one); and there are coordinates that each decision
+      culls in one, vertex and face or two edges, in both formats: computed in Coq with Flocq's binary numbers. *)
+Theorem executions_exist place of : (exists value_of, executed place binary32 of value_of) /\ (exists value_of, executed place binary64 of value_of).
+Proof.
+  destruct formats_are_reasonable as [a b]. split; eexists.
+  - exact (Nearest.an_execution_exists 24 128 Witnesses.gt24 (-117) 30 a _ _).
+  - exact (Nearest.an_execution_exists 53 1024 Witnesses.gt53 (-1000) 250 b _ _).
+Qed.
+Definition culls_some_pair f of culled := exists place value_of, (forall c, representable f (place (fst (of c))) /\
+  representable f (place (snd (of c)))) /\ executed place f of value_of /\ says f value_of culled.
+Theorem every_decision_culls_some_pair tier f : f = binary32 \/ f = binary64 ->
+  culls_some_pair f vertex_face (culled_by tier) /\ culls_some_pair f edge_edge (culled_by tier).
+Proof. intro which. apply (Witnesses.every_decision_culls_some (culled_by tier) f); [destruct tier; cbn; tauto|exact which]. Qed.
+(* By the permanent itself: what the code asks last. *)
+Theorem the_permanent_culls_some_pair : culls_some_pair binary32 vertex_face last_part /\ culls_some_pair binary32 edge_edge last_part.
+Proof. exact Witnesses.the_last_part_culls_some. Qed.
+Theorem every_box_test_culls_some_pair f gap test : reasonable f -> 0 <= gap <= 1 -> exists environment place place' value_of value_of',
+  Orders.flushes_operands environment = false /\
+  Orders.execution f environment gap place value_of /\ Orders.says f environment value_of (of_a_vertex_and_a_face test) /\
+  Orders.execution f environment gap place' value_of' /\ Orders.says f environment value_of' (of_two_edges test).
+Proof.
+  intros ok fits_. destruct (Witnesses.every_box_test_culls_some f gap ok fits_) as (v & v' & run & run' & a & b & c & d & e & g).
+  exists Witnesses.plain, (Witnesses.beside 1), (Witnesses.beside 2), v, v'.
+  split; [reflexivity|]. split; [exact run|]. split; [destruct test; assumption|]. split; [exact run'|]. destruct test; assumption.
+Qed.
+
 Print Assumptions formats_are_reasonable.
 Print Assumptions an_operation_is_nearly_exact.
 Print Assumptions one_sign_excludes_contact_of_a_vertex_and_a_face.
@@ -153,3 +179,7 @@ Print Assumptions widened_culls_no_vertex_and_face_that_touch.
 Print Assumptions widened_culls_no_edges_that_touch.
 Print Assumptions boxes_apart_exclude_contact_of_a_vertex_and_a_face.
 Print Assumptions boxes_apart_exclude_contact_of_two_edges.
+Print Assumptions executions_exist.
+Print Assumptions every_decision_culls_some_pair.
+Print Assumptions the_permanent_culls_some_pair.
+Print Assumptions every_box_test_culls_some_pair.
