@@ -106,8 +106,11 @@ Proof.
 Qed.
 
 (* 7. Swept boxes, relative boxes along three axes, and along nine directions: they compare coordinates, or sums of two that are rounded
-      once. `environment` is one direction of rounding for all, and whether subnormal results and operands count as zero; operands may
-      not, along nine directions. *)
+      once. `environment` is one direction of rounding for all, and whether subnormal results and operands count as zero. The gap that
+      one sum must exceed another by is a power of two, not too small for the format; core's constants are not. *)
+Definition wide_gap f g := (least_exponent f + precision f - 1 + precision f + 9 <= g)%Z.
+Theorem gaps_are_wide : wide_gap binary32 Boxes.gap_of_binary32 /\ wide_gap binary64 Boxes.gap_of_binary64.
+Proof. split; vm_compute; discriminate. Qed.
 Inductive box_test := SweptBoxes | ThreeAxes | NineDirections.
 Definition of_a_vertex_and_a_face test := match test with
   | SweptBoxes => Boxes.a_vertex_and_a_face.culled_by_swept_boxes
@@ -117,29 +120,25 @@ Definition of_two_edges test := match test with
   | SweptBoxes => Boxes.two_edges.culled_by_swept_boxes
   | ThreeAxes => Boxes.two_edges.culled_by_three_axes
   | NineDirections => Boxes.two_edges.culled_by_nine_directions end.
-Theorem gaps_are_wide : 2 * lam binary32 <= power Boxes.gap_of_binary32 /\ 2 * lam binary64 <= power Boxes.gap_of_binary64.
-Proof.
-  unfold lam, power. change 2 with (bpow radix2 1). rewrite <- !bpow_plus. split; apply bpow_le; vm_compute; discriminate.
-Qed.
-Theorem boxes_apart_exclude_contact_of_a_vertex_and_a_face f environment gap test value_of t : reasonable f -> 2 * lam f <= gap ->
-  (forall c, representable f (place c)) -> (test = NineDirections -> Orders.flushes_operands environment = false) ->
-  Orders.execution f environment gap place value_of -> Orders.says f environment value_of (of_a_vertex_and_a_face test) -> 0 <= t <= 1 ->
+Theorem boxes_apart_exclude_contact_of_a_vertex_and_a_face f environment g test value_of t : reasonable f -> wide_gap f g ->
+  (forall c, representable f (place c)) -> Orders.execution f environment (power g) place value_of ->
+  Orders.says f environment value_of (of_a_vertex_and_a_face test) -> 0 <= t <= 1 ->
   ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
 Proof.
-  intros ok wide_ numbers kept run culled. revert t. destruct test.
-  - exact (Apart.swept_boxes_of_a_vertex_and_a_face place f environment gap value_of run culled).
-  - exact (Apart.three_axes_of_a_vertex_and_a_face place f environment gap value_of run culled).
-  - exact (Apart.nine_directions_of_a_vertex_and_a_face place f environment gap value_of run ok numbers wide_ (kept eq_refl) culled).
+  intros ok wide_ numbers run culled. revert t. destruct test.
+  - exact (Apart.swept_boxes_of_a_vertex_and_a_face place f environment (power g) value_of run culled).
+  - exact (Apart.three_axes_of_a_vertex_and_a_face place f environment (power g) value_of run culled).
+  - exact (Apart.nine_directions_of_a_vertex_and_a_face place f environment (power g) value_of run ok numbers g eq_refl wide_ culled).
 Qed.
-Theorem boxes_apart_exclude_contact_of_two_edges f environment gap test value_of t : reasonable f -> 2 * lam f <= gap ->
-  (forall c, representable f (place c)) -> (test = NineDirections -> Orders.flushes_operands environment = false) ->
-  Orders.execution f environment gap place value_of -> Orders.says f environment value_of (of_two_edges test) -> 0 <= t <= 1 ->
+Theorem boxes_apart_exclude_contact_of_two_edges f environment g test value_of t : reasonable f -> wide_gap f g ->
+  (forall c, representable f (place c)) -> Orders.execution f environment (power g) place value_of ->
+  Orders.says f environment value_of (of_two_edges test) -> 0 <= t <= 1 ->
   ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
 Proof.
-  intros ok wide_ numbers kept run culled. revert t. destruct test.
-  - exact (Apart.swept_boxes_of_two_edges place f environment gap value_of run culled).
-  - exact (Apart.three_axes_of_two_edges place f environment gap value_of run culled).
-  - exact (Apart.nine_directions_of_two_edges place f environment gap value_of run ok numbers wide_ (kept eq_refl) culled).
+  intros ok wide_ numbers run culled. revert t. destruct test.
+  - exact (Apart.swept_boxes_of_two_edges place f environment (power g) value_of run culled).
+  - exact (Apart.three_axes_of_two_edges place f environment (power g) value_of run culled).
+  - exact (Apart.nine_directions_of_two_edges place f environment (power g) value_of run ok numbers g eq_refl wide_ culled).
 Qed.
 End OfAPair.
 
@@ -160,13 +159,12 @@ Proof. intro which. apply (Witnesses.every_decision_culls_some (culled_by tier) 
 Theorem the_permanent_culls_some_pair : culls_some_pair binary32 vertex_face last_part /\ culls_some_pair binary32 edge_edge last_part.
 Proof. exact Witnesses.the_last_part_culls_some. Qed.
 Theorem every_box_test_culls_some_pair f gap test : reasonable f -> 0 <= gap <= 1 -> exists environment place place' value_of value_of',
-  Orders.flushes_operands environment = false /\
   Orders.execution f environment gap place value_of /\ Orders.says f environment value_of (of_a_vertex_and_a_face test) /\
   Orders.execution f environment gap place' value_of' /\ Orders.says f environment value_of' (of_two_edges test).
 Proof.
   intros ok fits_. destruct (Witnesses.every_box_test_culls_some f gap ok fits_) as (v & v' & run & run' & a & b & c & d & e & g).
   exists Witnesses.plain, (Witnesses.beside 1), (Witnesses.beside 2), v, v'.
-  split; [reflexivity|]. split; [exact run|]. split; [destruct test; assumption|]. split; [exact run'|]. destruct test; assumption.
+  split; [exact run|]. split; [destruct test; assumption|]. split; [exact run'|]. destruct test; assumption.
 Qed.
 
 Print Assumptions formats_are_reasonable.
@@ -177,6 +175,7 @@ Print Assumptions a_culled_vertex_and_face_do_not_touch.
 Print Assumptions culled_edges_do_not_touch.
 Print Assumptions widened_culls_no_vertex_and_face_that_touch.
 Print Assumptions widened_culls_no_edges_that_touch.
+Print Assumptions gaps_are_wide.
 Print Assumptions boxes_apart_exclude_contact_of_a_vertex_and_a_face.
 Print Assumptions boxes_apart_exclude_contact_of_two_edges.
 Print Assumptions executions_exist.
