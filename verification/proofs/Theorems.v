@@ -4,7 +4,7 @@
 From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes.
-From Selvedge Require Orders Boxes Apart Nearest Witnesses.
+From Selvedge Require Orders Boxes Apart Nearest Witnesses Integers.
 Open Scope R_scope.
 
 (* 1. Both formats are ones that the theorems below hold for. *)
@@ -167,6 +167,11 @@ Proof.
   split; [exact run|]. split; [destruct test; assumption|]. split; [exact run'|]. destruct test; assumption.
 Qed.
 
+(* 9. Whole numbers of the exact signs, in words of 64 bits: from what the code documents, not from the code. *)
+Theorem control_values_fit_three_times_the_words n x : (1 <= n)%Z -> (Z.abs x <= 18 * (2 ^ (64 * n - 2) * (2 ^ (64 * n - 2) * 2 ^ (64 * n - 2))))%Z ->
+  (- Integers.word ^ (3 * n) <= 2 * x < Integers.word ^ (3 * n))%Z.
+Proof. intro h. exact (Integers.three_words_suffice n h x). Qed.
+
 Print Assumptions formats_are_reasonable.
 Print Assumptions an_operation_is_nearly_exact.
 Print Assumptions one_sign_excludes_contact_of_a_vertex_and_a_face.
@@ -182,3 +187,7 @@ Print Assumptions executions_exist.
 Print Assumptions every_decision_culls_some_pair.
 Print Assumptions the_permanent_culls_some_pair.
 Print Assumptions every_box_test_culls_some_pair.
+Print Assumptions control_values_fit_three_times_the_words.
+Print Assumptions Integers.carries_are_right.
+Print Assumptions Integers.what_fits_is_exact.
+Print Assumptions Integers.control_values_have_room.

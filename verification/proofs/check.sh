@@ -28,7 +28,7 @@ fi
 # generated files:
 # above Filter: Permanent Magnitudes Witnesses Theorems
 # above Boxes: Apart Witnesses Theorems
-files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Gaps Boxes Apart Nearest Witnesses Theorems)
+files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Gaps Boxes Apart Nearest Witnesses Integers Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp ./*.v generated/*.v "$folder"
