@@ -24,8 +24,11 @@ if ! is_there; then
     install || { as_root apt-get update >/dev/null && install; }
 fi
 
-# In the order in which they build on each other; the last one prints what its theorems assume.
-files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Theorems)
+# In the order in which they build on each other; the last one prints what its theorems assume. mutations.py reads what stands above the
+# generated files:
+# above Filter: Permanent Magnitudes Witnesses Theorems
+# above Boxes: Apart Witnesses Theorems
+files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Gaps Boxes Apart Nearest Witnesses Integers Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp ./*.v generated/*.v "$folder"

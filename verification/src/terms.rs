@@ -1,7 +1,7 @@
-//! What the certified filter computes, as terms of Coq, written from core's kernels themselves.
+//! What the certified filter and the box tests compute, as terms of Coq, written from core's kernels themselves.
 //!
-//! `verification/proofs` speaks of them: what they compute, and what its signs prove. The file is kept in `verification/proofs/generated/`; a
-//! test demands that it is what the code gives.
+//! `verification/proofs` speaks of them: what they compute, and what its signs prove. The files are kept in
+//! `verification/proofs/generated/`; a test demands that they are what the code gives.
 
 use crate::proofs::tetrahedron;
 use crate::traced::{Mask, MaskStep, Step, Trace, Traced, if_any, trace};
@@ -22,9 +22,22 @@ From Selvedge Require Import Arithmetic Expressions.
 
 ";
 
-/// The text of `generated/Filter.v`.
+const BOXES_HEAD: &str = "\
+(* What relative and swept boxes ask: core/src/boxes/mod.rs, core/src/boxes/relative.rs, core/src/kernels/points.rs.
+   Written from the code by verification/src/terms.rs; a test demands that it is what the code gives.
+   UPDATE_PROOFS=1 cargo test -p selvedge-verification --test promises proofs_are_about *)
+From Coq Require Import ZArith.
+From Selvedge Require Import Expressions Orders.
+
+";
+
+/// The files of `generated/`, each with its text.
 #[must_use]
-pub fn filter() -> String {
+pub fn files() -> [(&'static str, String); 2] {
+    [("Filter.v", filter()), ("Boxes.v", boxes())]
+}
+
+fn filter() -> String {
     let mut text = String::from(HEAD);
     format::<f32>("binary32", [24, -149, 128], &mut text);
     format::<f64>("binary64", [53, -1074, 1024], &mut text);
@@ -57,6 +70,47 @@ pub fn filter() -> String {
     text + &terms.text
 }
 
+fn boxes() -> String {
+    let mut text = String::from(BOXES_HEAD);
+    for (format, gap) in [("binary32", f32::SUM_GAP.to_f64()), ("binary64", f64::SUM_GAP)] {
+        writeln!(text, "Definition gap_of_{format} := ({})%Z.", exponent(gap)).expect("a string");
+    }
+    text.push('\n');
+    box_tests::<VertexFace>("a_vertex_and_a_face", &mut text);
+    box_tests::<EdgeEdge>("two_edges", &mut text);
+    text
+}
+
+fn box_tests<P: PairShape>(of: &str, text: &mut String) {
+    let (masks, steps) = trace(|| {
+        let points = coordinates();
+        [
+            ("swept_boxes", points.have_disjoint_swept_boxes::<P>()),
+            ("three_axes", points.are_apart_along_three_axes::<P>()),
+            ("nine_directions", points.are_apart_along_nine_directions::<P>()),
+        ]
+    });
+    let mut terms = Terms::new(&steps);
+    let formulas = masks.map(|(name, mask)| (name, terms.mask(mask)));
+    writeln!(text, "Module {of}.\n{}", terms.text.trim_end()).expect("a string");
+    for (name, formula) in formulas {
+        writeln!(text, "Definition culled_by_{name} := {formula}.").expect("a string");
+    }
+    writeln!(text, "End {of}.\n").expect("a string");
+}
+
+/// A pair's 24 coordinates.
+fn coordinates() -> PairPoints<Traced> {
+    let points = |end: &str| {
+        [0, 1, 2, 3]
+            .map(|point| Vector::from(["X", "Y", "Z_"].map(|axis| Traced::input(format!("Coordinate {point} {end} {axis}")))))
+    };
+    PairPoints {
+        start: points("Start"),
+        end: points("End"),
+    }
+}
+
 fn exponent(power_of_two: f64) -> i32 {
     let exponent = power_of_two.log2();
     assert_eq!(exponent.exp2(), power_of_two);
@@ -78,14 +132,7 @@ fn format<S: Scalar>(name: &str, [precision, least, greatest]: [i32; 3], text: &
 /// Which coordinates each difference is made of, the one that is subtracted second.
 fn differences<P: PairShape>(name: &str, order: &str, text: &mut String) {
     let (differences, steps) = trace(|| {
-        let points = |end: &str| {
-            [0, 1, 2, 3]
-                .map(|point| Vector::from(["X", "Y", "Z_"].map(|axis| Traced::input(format!("Coordinate {point} {end} {axis}")))))
-        };
-        let points = PairPoints {
-            start: points("Start"),
-            end: points("End"),
-        };
+        let points = coordinates();
         let MovingTetrahedron { b, c, p } = points.tetrahedron::<P>();
         [b, c, p]
     });
@@ -141,12 +188,13 @@ impl<'a> Terms<'a> {
         let Traced::Step(index) = number else {
             return match number {
                 Traced::UnitRoundoff | Traced::Underflow | Traced::LargestEdge => format!("(Constant {number:?})"),
+                Traced::SumGap => "Gap".to_owned(),
                 Traced::Small(count) => format!("(Constant (Small {count}))"),
                 other => panic!("{other:?} is not known to the proof"),
             };
         };
         let term = match self.trace.steps[index].clone() {
-            Step::Input(name) => difference(&name),
+            Step::Input(name) => leaf(&name),
             Step::Sum(a, b) => self.operation("Sum", a, b),
             Step::Difference(a, b) => self.operation("Minus", a, b),
             Step::Product(a, b) => self.operation("Product", a, b),
@@ -172,6 +220,8 @@ impl<'a> Terms<'a> {
 
     fn mask(&mut self, mask: Mask) -> String {
         match self.trace.masks[mask.index] {
+            // Of finite coordinates the proof says nothing but that.
+            MaskStep::Greater(Traced::Infinity, _) => "Finite".to_owned(),
             MaskStep::Greater(a, b) => {
                 let (a, b) = (self.number(a), self.number(b));
                 format!("(Greater {a} {b})")
@@ -189,8 +239,11 @@ impl<'a> Terms<'a> {
     }
 }
 
-/// From a name like `b0x`.
-fn difference(name: &str) -> String {
+/// The term of an input, from its name: a coordinate's, or one like `b0x`.
+fn leaf(name: &str) -> String {
+    if name.starts_with("Coordinate") {
+        return format!("Value ({name})");
+    }
     let [edge, end, axis] = name.as_bytes() else {
         panic!("{name} is no component")
     };

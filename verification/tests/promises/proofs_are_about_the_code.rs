@@ -10,7 +10,7 @@ use selvedge_core::verification::lanes::Rounding;
 use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
 use selvedge_core::verification::vector::Vector;
 use selvedge_verification::proofs::{inside, scripts, tetrahedron};
-use selvedge_verification::terms::filter;
+use selvedge_verification::terms::files;
 use selvedge_verification::traced::{Mask, Paths, Trace, Traced, trace};
 use std::collections::BTreeMap;
 use std::fs;
@@ -53,16 +53,20 @@ fn traced_scripts_are_what_the_code_gives() {
 
 /// Of these terms `proofs/Theorems.v` speaks.
 #[test]
-fn terms_of_the_filter_are_what_the_code_gives() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("proofs/generated/Filter.v");
-    let text = filter();
-    if std::env::var_os("UPDATE_PROOFS").is_some() {
-        fs::write(&path, &text).expect("a folder that can be written");
+fn terms_of_the_proofs_are_what_the_code_gives() {
+    let generated = Path::new(env!("CARGO_MANIFEST_DIR")).join("proofs/generated");
+    let files = files();
+    for (name, text) in &files {
+        let path = generated.join(name);
+        if std::env::var_os("UPDATE_PROOFS").is_some() {
+            fs::write(&path, text).expect("a folder that can be written");
+        }
+        assert!(
+            read(&path) == *text,
+            "{name} is not what the code gives; UPDATE_PROOFS=1 writes it anew, and verification/proofs/check.sh proves it anew"
+        );
     }
-    assert!(
-        read(&path) == text,
-        "Filter.v is not what the code gives; UPDATE_PROOFS=1 writes it anew, and verification/proofs/check.sh proves it anew"
-    );
+    assert_eq!(fs::read_dir(generated).expect("a folder").count(), files.len());
 }
 
 /// Marked by `#!` (with the number, of which half is not enough) or `#~`: the file, and what stands in it.

@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+"""Mutations of core's kernels that the proofs must notice: a sign, a constant, an order of operations, a comparison.
+
+    mutations.py [FOLDER]    takes some minutes; needs cargo and what check.sh needs
+
+Each is made in a copy of core. Its terms are traced anew; if they are the kept ones, nothing has noticed it and this fails. Then Coq is
+asked about the new terms: it refuses those that it can not prove. What it accepts is refused by the comparison alone (a test), and is as sound
+as the code was. The table goes to docs/proof-mutations.md.
+"""
+
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+# What builds on each generated file, and which files do on both.
+ABOVE = {name: line.split() for name, line in re.findall(r"^# above (\w+): (.*)$", (HERE / "check.sh").read_text(), re.M)}
+
+# File of core/src, the code, what takes its place, and in which of several places (the first is 0).
+MUTATIONS = [
+    ("kernels/coplanarity.rs", "b: [b0 - a0, b1 - a1]", "b: [a0 - b0, b1 - a1]", 0),
+    ("kernels/coplanarity.rs", "c: [c0 - a0, c1 - a1]", "c: [c0 - a0, c1 - a0]", 0),
+    ("kernels/coplanarity.rs", "p0.dot(h) + p1.dot(n0)", "p0.dot(h) - p1.dot(n0)", 0),
+    ("kernels/coplanarity.rs", "p0.dot(h) + p1.dot(n0)", "p1.dot(n0) + p0.dot(h)", 0),
+    ("kernels/coplanarity.rs", "p1.dot(h) + p0.dot(n1)", "p1.dot(h) + p0.dot(n0)", 0),
+    ("kernels/coplanarity.rs", "b0.cross(c1) + b1.cross(c0)", "b0.cross(c1) - b1.cross(c0)", 0),
+    ("kernels/coplanarity.rs", "L::Scalar::small(16)", "L::Scalar::small(15)", 0),
+    ("kernels/coplanarity.rs", "L::Scalar::small(20)", "L::Scalar::small(19)", 0),
+    ("kernels/coplanarity.rs", "L::Scalar::small(96)", "L::Scalar::small(48)", 0),
+    ("kernels/coplanarity.rs", "p1.dot(h) + p0.dot(n1)", "p1.dot(h)", 1),
+    ("kernels/coplanarity.rs", "more * more * more", "more * more", 0),
+    ("kernels/coplanarity.rs", "largest.x * largest.y * largest.z", "largest.x * largest.y * largest.y", 0),
+    ("kernels/coplanarity.rs", "LARGEST_EDGE).greater(largest)", "LARGEST_EDGE).greater(-largest)", 0),
+    ("kernels/coplanarity.rs", "(-e2).greater(k2)", "e2.greater(k2)", 0),
+    ("kernels/coplanarity.rs", "k1.greater(e1)", "k1.greater(e0)", 0),
+    ("kernels/coplanarity.rs", "k0.greater(e0) & k1.greater(e1)", "k0.greater(e0) | k1.greater(e1)", 0),
+    ("kernels/coplanarity.rs", "let zero = sum - sum;", "let zero = sum + sum;", 0),
+    ("kernels/coplanarity.rs", "c0.abs().larger(c1.abs())", "c0.abs().smaller(c1.abs())", 0),
+    ("filter/certified.rs", "outer.splat(L::Scalar::small(4))", "outer.splat(L::Scalar::small(3))", 0),
+    ("filter/certified.rs", "largest.x.splat(L::Scalar::small(4))", "largest.x.splat(L::Scalar::small(3))", 0),
+    ("filter/certified.rs", "least.larger(-greatest)", "least.larger(greatest)", 0),
+    ("filter/certified.rs", "k0.smaller(k1).smaller(k2.smaller(k3))", "k0.smaller(k1).smaller(k2.larger(k3))", 0),
+    ("filter/certified.rs", "of_one_sign.greater(bound) & in_range", "of_one_sign.greater(bound)", 0),
+    ("filter/certified.rs", "(values.one_sign_beyond(bounds) & in_range)", "values.one_sign_beyond(bounds)", 0),
+    ("kernels/vector.rs", "(self.x * other.x + self.y * other.y) + self.z * other.z", "(self.x * other.x + self.y * other.y) - self.z * other.z", 0),
+    ("kernels/vector.rs", "(self.x * other.x + self.y * other.y) + self.z * other.z", "self.x * other.x + (self.y * other.y + self.z * other.z)", 0),
+    ("kernels/vector.rs", "self.z * other.x - self.x * other.z", "self.x * other.z - self.z * other.x", 0),
+    ("kernels/vector.rs", "self.z * other.x + self.x * other.z", "self.z * other.x - self.x * other.z", 0),
+    ("kernels/vector.rs", "self.x.larger(self.y).larger(self.z)", "self.x.larger(self.y)", 0),
+    ("kernels/vector.rs", "Self::new(self.x.abs(), self.y.abs(), self.z.abs())", "Self::new(self.x.abs(), self.y.abs(), self.z)", 0),
+    ("kernels/points.rs", "[a, b, c, vertex]", "[a, c, b, vertex]", 0),
+    ("kernels/points.rs", "[k, u, v, l]", "[u, k, v, l]", 0),
+    ("kernels/lanes.rs", "underflow: -117", "underflow: -120", 0),
+    ("kernels/lanes.rs", "largest_edge: 30", "largest_edge: 33", 0),
+    ("kernels/lanes.rs", "sum_gap: -93", "sum_gap: -126", 0),
+    ("kernels/points.rs", "a.smaller(b).smaller(c)", "a.smaller(b)", 0),
+    ("kernels/points.rs", "u.larger(v)", "u.smaller(v)", 0),
+    ("boxes/mod.rs", "low_0.smaller(low_1)", "low_0.larger(low_1)", 0),
+    ("boxes/mod.rs", "other_high_0.larger(other_high_1)", "other_high_0", 0),
+    ("boxes/relative.rs", "low_1.greater(other_high_1)", "low_1.greater(other_high_0)", 0),
+    ("boxes/relative.rs", "(low_0.greater(other_high_0) & low_1", "(low_0.greater(other_high_0) | low_1", 0),
+    ("boxes/relative.rs", "other_low_1.greater(high_1)", "other_low_1.greater(high_0)", 0),
+    ("boxes/relative.rs", "low_0.greater(other_high_0 + gap)", "(low_0 + gap).greater(other_high_0)", 0),
+    ("boxes/relative.rs", "along!(p => p.x - p.z)", "along!(p => p.x + p.x)", 0),
+]
+
+MANIFEST = """[package]
+name = "terms"
+version = "0.0.0"
+edition = "2024"
+[dependencies]
+selvedge-core = { path = "../core", features = ["verification"] }
+"""
+MAIN = """#![allow(dead_code)]
+mod proofs;
+mod terms;
+mod traced;
+fn main() {
+    let folder = std::env::args().nth(1).expect("a folder");
+    for (name, text) in terms::files() {
+        std::fs::write(format!("{folder}/{name}"), text).expect("a folder that can be written");
+    }
+}
+"""
+
+
+def prepare(folder):
+    """A workspace of core and a program that writes the terms."""
+    shutil.copytree(ROOT / "core", folder / "core", copy_function=shutil.copy, ignore=shutil.ignore_patterns("benches", "examples"))
+    manifest = (ROOT / "Cargo.toml").read_text()
+    manifest = re.sub(r"members = \[.*?\]", 'members = ["core", "terms"]', manifest, count=1, flags=re.S)
+    manifest = re.sub(r"default-members = \[.*?\]\n", "", manifest, flags=re.S)
+    (folder / "Cargo.toml").write_text(manifest)
+    shutil.copy(ROOT / "Cargo.lock", folder)
+    core = folder / "core/Cargo.toml"
+    core.write_text(re.sub(r"\[\[bench\]\]\nname = .*\nharness = false\n", "", core.read_text()))
+    source = folder / "terms/src"
+    source.mkdir(parents=True)
+    (folder / "terms/Cargo.toml").write_text(MANIFEST)
+    (source / "main.rs").write_text(MAIN)
+    for name in ["traced.rs", "proofs.rs", "terms.rs"]:
+        shutil.copy(HERE.parent / "src" / name, source)
+
+
+def trace(folder):
+    """The traced files, or what went wrong."""
+    out = folder / "traced"
+    shutil.rmtree(out, ignore_errors=True)
+    out.mkdir()
+    run = ["cargo", "run", "--quiet", "--package", "terms", "--", str(out)]
+    ran = subprocess.run(run, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+    if ran.returncode != 0:
+        errors = [line for line in ran.stderr.splitlines() if "error" in line or "panicked" in line or "known" in line]
+        return None, (errors or ran.stderr.splitlines())[-1]
+    return {path.name: path.read_text() for path in sorted(out.iterdir())}, None
+
+
+def accepts(proofs, name):
+    ran = subprocess.run(["coqc", "-q", "-Q", ".", "Selvedge", f"{name}.v"], cwd=proofs, capture_output=True)
+    return ran.returncode == 0
+
+
+def coq(proofs, kept, traced):
+    """The first file that Coq refuses with these terms, or none."""
+    changed = [name for name in kept if kept[name] != traced[name]]
+    again = [name.removesuffix(".v") for name in changed]
+    files = [file for file in ORDER if file in again or any(file in ABOVE[name] for name in again)]
+    tried = proofs.with_name("tried")
+    shutil.rmtree(tried, ignore_errors=True)
+    shutil.copytree(proofs, tried)
+    for name in changed:
+        (tried / name).write_text(traced[name])
+    return next((file for file in files if not accepts(tried, file)), None)
+
+
+ORDER = re.search(r"^files=\((.*)\)$", (HERE / "check.sh").read_text(), re.M)[1].split()
+
+
+def main():
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else tempfile.mkdtemp())
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in ["core", "terms", "proofs", "tried"]:
+        shutil.rmtree(folder / name, ignore_errors=True)
+    prepare(folder)
+    proofs = folder / "proofs"
+    proofs.mkdir()
+    for path in [*HERE.glob("*.v"), *HERE.glob("generated/*.v")]:
+        shutil.copy(path, proofs)
+    for file in ORDER:
+        if not accepts(proofs, file):
+            sys.exit(f"mutations: Coq does not accept {file}.v as it is kept")
+    kept = {path.name: path.read_text() for path in sorted(HERE.glob("generated/*.v"))}
+    traced, wrong = trace(folder)
+    if traced != kept:
+        sys.exit(f"mutations: the kept terms are not what the code gives {wrong or ''}")
+
+    rows, alive = [], 0
+    for number, (name, old, new, place) in enumerate(MUTATIONS, 1):
+        path = folder / "core/src" / name
+        source = path.read_text()
+        parts = source.split(old)
+        if len(parts) < place + 2:
+            sys.exit(f"mutations: {name} does not have {old}")
+        path.write_text(old.join(parts[: place + 1]) + new + old.join(parts[place + 1 :]))
+        try:
+            traced, wrong = trace(folder)
+        finally:
+            path.write_text(source)
+        if wrong and "known to the proof" not in wrong:
+            sys.exit(f"mutations: {new} can not be tried: {wrong}")
+        if wrong:
+            said = "the tracer: it is no term of the proofs"
+        elif traced == kept:
+            said, alive = "**nothing**", alive + 1
+        else:
+            refused = coq(proofs, kept, traced)
+            said = f"the comparison, and Coq in `{refused}.v`" if refused else "the comparison; Coq proves the new terms too"
+        rows.append(f"| {number} | `{name}` | `{old}` → `{new}`{f' (place {place + 1})' if place else ''} | {said} |".replace(" | low", " \\| low").replace("e0) | k1", "e0) \\| k1"))
+        print(rows[-1], flush=True)
+    head = (
+        "# Mutations that the proofs notice\n\nWritten by `verification/proofs/mutations.py`, which makes each in a copy of core, traces its terms anew, "
+        "compares them with\nthe kept ones, and has Coq prove the new ones. See [proof.md](proof.md).\n\n"
+        "| | in `core/src` | mutation | refused by |\n|---|---|---|---|\n"
+    )
+    (ROOT / "docs/proof-mutations.md").write_text(head + "\n".join(rows) + "\n")
+    if alive:
+        sys.exit(f"mutations: {alive} of {len(rows)} are not noticed")
+    print(f"mutations: all {len(rows)} are refused")
+
+
+main()
