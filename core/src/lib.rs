@@ -36,6 +36,7 @@
 //! | [`narrowing`] | times and lengths in another format, rounded to the safe side | certified |
 //! | [`features`], [`distribution`] | representative features of a triangle; a candidate triangle pair to its primitive pairs | each pair once |
 //! | [`elementary`] | whether a pair touches; time of impact | exact; certified |
+//! | [`paths`] | time of impact where points move on arcs, with bodies that turn, or on several straight pieces | certified |
 //!
 //! # Features
 //! They only add; a user of single pairs needs none of them.
@@ -80,6 +81,7 @@ mod kind;
 pub mod motion;
 #[cfg(feature = "batch")]
 pub mod narrowing;
+pub mod paths;
 pub mod scalar;
 #[cfg(feature = "batch")]
 pub mod separation;

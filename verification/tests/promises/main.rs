@@ -35,6 +35,7 @@ mod oracle_collision;
 mod oracle_coplanarity;
 mod oracle_hard_cases;
 mod oracle_mesh;
+mod paths_need_not_be_straight;
 mod pipeline_distributes_each_pair_once;
 mod proofs_are_about_the_code;
 mod separations_are_never_overstated;

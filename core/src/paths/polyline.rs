@@ -1,0 +1,77 @@
+//! Several straight pieces.
+
+use super::{Path, Piece, largest, length_above, u};
+use crate::lanes::Rounding;
+use crate::motion::Motion;
+use glam::DVec3;
+
+/// From knot to knot, at constant velocity between two of them.
+///
+/// ```
+/// use selvedge_core::{glam::DVec3, paths::{Path, Polyline}};
+/// let knots = [DVec3::ZERO, DVec3::X, DVec3::ZERO];
+/// let path = Polyline::new(&[0.0, 0.5, 1.0], &knots).unwrap();
+/// // There and back: at rest, but for the way to the knot.
+/// let piece = path.piece(0.0, 1.0);
+/// assert!(piece.motion.end == DVec3::ZERO && piece.deviation >= 1.0);
+/// assert!(path.piece(0.0, 0.5).deviation < 1e-13);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Polyline<'a> {
+    times: &'a [f64],
+    positions: &'a [DVec3],
+    /// How far a place may be from where it is computed to be.
+    rounding: f64,
+}
+
+impl<'a> Polyline<'a> {
+    /// Through `positions` at these `times`.
+    ///
+    /// `None` unless there are as many of both, times ascend from 0 to 1, none twice, and all positions are finite.
+    #[must_use]
+    pub fn new(times: &'a [f64], positions: &'a [DVec3]) -> Option<Self> {
+        let ascend = times.iter().zip(times.iter().skip(1)).all(|(before, after)| before < after);
+        let span = times.first() == Some(&0.0) && times.last() == Some(&1.0);
+        let are_finite = positions.iter().all(|position| position.is_finite());
+        let size = positions.iter().copied().map(largest).fold(0.0, f64::max);
+        (ascend && span && are_finite && times.len() == positions.len()).then_some(Self {
+            times,
+            positions,
+            // The time within a piece by three operations, of a way of at most 2B along each axis, and the place by 8u of B: 35u of it in all.
+            rounding: 48.0 * u() * size + <f64 as Rounding>::UNDERFLOW,
+        })
+    }
+
+    fn at(&self, time: f64) -> DVec3 {
+        let after = self.times.partition_point(|&knot| knot <= time);
+        let knot = |index: usize| Some((*self.times.get(index)?, *self.positions.get(index)?));
+        match (after.checked_sub(1).and_then(knot), knot(after)) {
+            (Some((begin, from)), Some((end, to))) => {
+                let share = ((time - begin) / (end - begin)).clamp(0.0, 1.0);
+                Motion::<f64>::new(from, to).at(share)
+            }
+            // At the last knot.
+            (Some((_, last)), None) => last,
+            _ => DVec3::NAN,
+        }
+    }
+}
+
+impl Path for Polyline<'_> {
+    fn piece(&self, from: f64, to: f64) -> Piece {
+        let motion = Motion::new(self.at(from), self.at(to));
+        let inner = self
+            .times
+            .iter()
+            .zip(self.positions)
+            .filter(|&(&time, _)| from < time && time < to);
+        // Between knots both are straight, so that they are farthest from each other at one of them or at an end.
+        let bent = inner.map(|(&time, &knot)| length_above(knot - motion.at((time - from) / (to - from))));
+        let bent = bent.fold(0.0, f64::max);
+        Piece {
+            motion,
+            // The ends are off, and so is the place at the time of a knot: by as much at most. Two roundings.
+            deviation: (bent + 2.0 * self.rounding) * (1.0 + 16.0 * u()),
+        }
+    }
+}

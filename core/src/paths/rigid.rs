@@ -1,0 +1,197 @@
+//! A body that turns, and the arcs on which its points move.
+//!
+//! A point that is at p when the step begins is at time t at
+//!
+//! ```text
+//! x(t) = c + t·τ + R(t·θ)(p − c)
+//! ```
+//!
+//! c the centre, τ the translation, R(φ) the rotation by φ about the axis, all as they stand in the [`RigidMotion`], without rounding.
+//!
+//! # How far from straight
+//! Let r be the distance of p from the axis through c. Along any direction of length one x″ is at most θ²r in magnitude, as the translation is
+//! straight. A function with second derivative at most m is within m·h²/8 of the line between its values at two points that are h apart; so
+//! between two times that φ = θ·h lie between, x is within **r·φ²/8** of the straight motion between its places at both. Nor is it ever
+//! farther than 2r: both are within r of the moving axis.
+//!
+//! # Rounding
+//! (Any direction: ε = 2u an operation.) Let H be the largest coordinate of q = p − c, C and T those of c and τ; |q| ≤ √3·H.
+//! * **Frame.** The axis of length one errs by 6ε of each component (quotient, 3 operations of a square under the root, root, quotient); q by
+//!   εH. The part along the axis errs by 30εH along each coordinate: its product 17.4ε, times the axis 12.2ε. The part across by 32.5εH, the
+//!   part sideways, axis × q, by 15.6εH.
+//! * **Sine and cosine** err by κ = 512u + 4u|θ|: the angle t·θ by ε|θ|, its remainder after whole turns, of magnitude at most 3.2, by 17u, and the
+//!   nested series by 4k + 7 operations of its term with the power 2k: 164ε of cosh(3.2), and 0.1u for what is left out.
+//! * **Place.** The three parts, 77.7εH; the sine and cosine, 3.5κH; products and sums, 14εH and u(4C + 6T + 3.5H). Times √3: less than
+//!   u((3500 + 25|θ|)H + 16(C + T)). [`Arc`] allows u((4096 + 32|θ|)H + 16(C + T)) + η: flushed numbers are covered by η and by uH.
+//! * **Radius.** The part sideways, 15.6εH along each coordinate, 54u·H in all: 64u·H is added to its length.
+
+use super::{Path, Piece, largest, length_above, u};
+use crate::lanes::Rounding;
+use crate::motion::Motion;
+use glam::{DQuat, DVec3};
+
+/// Most radians that a body may turn in a step; 2²⁰.
+const MOST: f64 = 1_048_576.0;
+
+/// 2π in two parts, of which the first has so few digits that a multiple of it is exact.
+const TURN: [f64; 2] = [6.283_185_306_936_502_5, 2.430_840_202_602_477e-10];
+
+/// How a rigid body moves during the step: it turns about an axis at a constant rate, while the axis moves on at a constant velocity.
+///
+/// ```
+/// use selvedge_core::{glam::DVec3, paths::RigidMotion};
+/// // Half a turn about the z axis, and up by one.
+/// let motion = RigidMotion::new(DVec3::ZERO, DVec3::Z, core::f64::consts::PI, DVec3::Z).unwrap();
+/// let arc = motion.path(DVec3::X);
+/// assert!(arc.at(0.5).distance(DVec3::new(0.0, 1.0, 0.5)) < 1e-12);
+/// assert!(arc.at(1.0).distance(DVec3::new(-1.0, 0.0, 1.0)) < 1e-12);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidMotion {
+    centre: DVec3,
+    axis: DVec3,
+    angle: f64,
+    translation: DVec3,
+}
+
+impl RigidMotion {
+    /// By `angle` radians, anticlockwise where the axis points at the viewer, about an axis through `centre` along `axis`, of any length; and
+    /// `translation`, in the unit of the positions.
+    ///
+    /// `None` if a number is not finite, the axis has no length while the angle is not zero, or the angle is more than 2²⁰.
+    #[must_use]
+    pub fn new(centre: DVec3, axis: DVec3, angle: f64, translation: DVec3) -> Option<Self> {
+        let is_finite = centre.is_finite() && axis.is_finite() && translation.is_finite();
+        let turns = angle != 0.0;
+        let is_in_range = angle.abs() <= MOST && (!turns || largest(axis) > 0.0);
+        (is_finite && is_in_range).then_some(Self {
+            centre,
+            axis,
+            angle,
+            translation,
+        })
+    }
+
+    /// From one pose to another, each a rotation and where the body's origin is: it turns the short way about an axis through its origin,
+    /// which moves straight.
+    ///
+    /// What the motion is, is said by the numbers that come of the poses: rounded, so that it ends a few roundings from the second one.
+    /// `None` if a number is not finite, or a quaternion is zero.
+    ///
+    /// ```
+    /// use selvedge_core::{glam::{DQuat, DVec3}, paths::RigidMotion};
+    /// let quarter = DQuat::from_rotation_z(core::f64::consts::FRAC_PI_2);
+    /// let motion = RigidMotion::between((DQuat::IDENTITY, DVec3::X), (quarter, DVec3::Y)).unwrap();
+    /// assert!(motion.path(DVec3::new(2.0, 0.0, 0.0)).at(1.0).distance(DVec3::new(0.0, 2.0, 0.0)) < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn between((from, origin): (DQuat, DVec3), (to, target): (DQuat, DVec3)) -> Option<Self> {
+        let size = |quaternion: DQuat| quaternion.length_squared();
+        let is_rotation = |quaternion: DQuat| size(quaternion).is_finite() && size(quaternion) > 0.0;
+        if !(is_rotation(from) && is_rotation(to)) {
+            return None;
+        }
+        let turn = to.normalize() * from.normalize().conjugate();
+        let turn = if turn.w < 0.0 { -turn } else { turn };
+        let axis = turn.xyz();
+        let angle = 2.0 * libm::atan2(axis.length(), turn.w);
+        Self::new(origin, axis, angle, target - origin)
+    }
+
+    /// The way of the point of the body that is at `start` when the step begins.
+    #[must_use]
+    pub fn path(&self, start: DVec3) -> Arc {
+        let &Self {
+            centre,
+            axis,
+            angle,
+            translation,
+        } = self;
+        let from_centre = start - centre;
+        let axis = if angle == 0.0 { DVec3::ZERO } else { of_length_one(axis) };
+        let along = axis * axis.dot(from_centre);
+        let sideways = axis.cross(from_centre);
+        let size = largest(from_centre);
+        Arc {
+            start,
+            centre,
+            translation,
+            along,
+            across: from_centre - along,
+            sideways,
+            angle,
+            radius: length_above(sideways) + 64.0 * u() * size,
+            rounding: u() * ((4096.0 + 32.0 * angle.abs()) * size + 16.0 * (largest(centre) + largest(translation)))
+                + <f64 as Rounding>::UNDERFLOW,
+        }
+    }
+}
+
+/// The way of a point of a body that turns. See the derivation in the [module](self)'s source.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    start: DVec3,
+    centre: DVec3,
+    translation: DVec3,
+    /// Of the way from the centre: along the axis, across it, and what a quarter of a turn makes of that.
+    along: DVec3,
+    across: DVec3,
+    sideways: DVec3,
+    angle: f64,
+    /// From the axis, or a little more.
+    radius: f64,
+    /// How far a place may be from where it is computed to be.
+    rounding: f64,
+}
+
+impl Arc {
+    /// Where the point is at a time in [0, 1], within [`rounding`](Self::rounding) of it.
+    #[must_use]
+    pub fn at(&self, time: f64) -> DVec3 {
+        if time == 0.0 {
+            return self.start;
+        }
+        let [sine, cosine] = sine_and_cosine(time * self.angle);
+        let turned = self.along + (self.across * cosine + self.sideways * sine);
+        (self.centre + self.translation * time) + turned
+    }
+
+    /// How far [`at`](Self::at) may be off, in the unit of the positions.
+    #[must_use]
+    pub const fn rounding(&self) -> f64 {
+        self.rounding
+    }
+}
+
+impl Path for Arc {
+    fn piece(&self, from: f64, to: f64) -> Piece {
+        let angle = self.angle * (to - from);
+        // Of an angle that is not a number nothing is known.
+        let bent = if angle * angle > 16.0 { 2.0 } else { angle * angle * 0.125 };
+        Piece {
+            motion: Motion::new(self.at(from), self.at(to)),
+            // Eight roundings.
+            deviation: (self.radius * bent + self.rounding) * (1.0 + 32.0 * u()),
+        }
+    }
+}
+
+fn of_length_one(axis: DVec3) -> DVec3 {
+    let axis = axis / largest(axis);
+    axis / axis.length()
+}
+
+/// Of an angle of at most 2²⁰.
+fn sine_and_cosine(angle: f64) -> [f64; 2] {
+    let [turn, rest] = TURN;
+    let turns = libm::floor(angle * (1.0 / turn) + 0.5);
+    let angle = (angle - turns * turn) - turns * rest;
+    let square = angle * angle;
+    let (mut sine, mut cosine) = (1.0, 1.0);
+    for k in (1..=14).rev() {
+        let twice = f64::from(2 * k);
+        sine = 1.0 - square / (twice * (twice + 1.0)) * sine;
+        cosine = 1.0 - square / ((twice - 1.0) * twice) * cosine;
+    }
+    [angle * sine, cosine]
+}

@@ -1,0 +1,329 @@
+//! On arcs and polylines: places, deviations and times of impact against numbers of 256 bits, which stand for exact ones.
+
+use crate::support::environment::Environment;
+use proptest::prelude::*;
+use rug::Float;
+use selvedge_core::elementary::{Impact, Limits};
+use selvedge_core::glam::DVec3;
+use selvedge_core::paths::{Arc, Path, Piece, Polyline, RigidMotion, time_of_impact};
+use selvedge_core::{Motion, PairKind};
+use selvedge_verification::generator::{Choices, Simplify, check, from_choices};
+use std::cell::Cell;
+use std::f64::consts::{PI, TAU};
+
+const BITS: u32 = 256;
+
+type Place = [Float; 3];
+
+fn float(x: f64) -> Float {
+    Float::with_val(BITS, x)
+}
+
+fn place(point: DVec3) -> Place {
+    point.to_array().map(float)
+}
+
+fn plus(a: &Place, b: &Place) -> Place {
+    [0, 1, 2].map(|k| Float::with_val(BITS, &a[k] + &b[k]))
+}
+
+fn times(a: &Place, factor: &Float) -> Place {
+    a.each_ref().map(|x| Float::with_val(BITS, x * factor))
+}
+
+fn dot(a: &Place, b: &Place) -> Float {
+    let mut sum = float(0.0);
+    for k in 0..3 {
+        sum += Float::with_val(BITS, &a[k] * &b[k]);
+    }
+    sum
+}
+
+fn cross(a: &Place, b: &Place) -> Place {
+    [0, 1, 2].map(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        Float::with_val(BITS, &a[i] * &b[j]) - Float::with_val(BITS, &a[j] * &b[i])
+    })
+}
+
+fn distance(a: &Place, b: &Place) -> Float {
+    let way = plus(a, &times(b, &float(-1.0)));
+    dot(&way, &way).sqrt()
+}
+
+/// A rigid motion's numbers.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    centre: DVec3,
+    axis: DVec3,
+    angle: f64,
+    translation: DVec3,
+}
+
+impl Turn {
+    fn choose(choices: &mut Choices<'_>) -> Self {
+        let mut unit = || choices.word() as f64 / u64::MAX as f64 * 2.0 - 1.0;
+        let mut vector = || DVec3::new(unit(), unit(), unit());
+        let (centre, axis, translation) = (vector(), vector(), vector());
+        let share = unit();
+        let centre = centre * choices.pick(&[0.0, 1.0, 1e3, 1e6]);
+        let angle = share * choices.pick(&[0.0, 1e-9, 0.01, 1.0, PI, TAU, 20.0, 1e6]);
+        let axis = choices.pick(&[axis, DVec3::Z, axis * 1e-12, axis * 1e200]);
+        Self {
+            centre,
+            axis: if axis == DVec3::ZERO { DVec3::X } else { axis },
+            angle,
+            translation: translation * choices.pick(&[0.0, 1.0, 1e3]),
+        }
+    }
+
+    fn motion(&self) -> RigidMotion {
+        RigidMotion::new(self.centre, self.axis, self.angle, self.translation).expect("numbers in range")
+    }
+
+    /// Turned by an angle about the axis, which is nowhere zero.
+    fn rotated(&self, way: &Place, angle: &Float) -> Place {
+        let axis = place(self.axis);
+        let length = dot(&axis, &axis).sqrt();
+        let axis = times(&axis, &length.recip());
+        let along = times(&axis, &dot(&axis, way));
+        let across = plus(way, &times(&along, &float(-1.0)));
+        let sideways = cross(&axis, way);
+        let (sine, cosine) = Float::with_val(BITS, angle).sin_cos(float(0.0));
+        plus(&along, &plus(&times(&across, &cosine), &times(&sideways, &sine)))
+    }
+
+    /// Where the point is at a time that started there.
+    fn at(&self, start: DVec3, time: f64) -> Place {
+        let centre = place(self.centre);
+        let way = plus(&place(start), &times(&centre, &float(-1.0)));
+        let angle = float(self.angle) * float(time);
+        let turned = self.rotated(&way, &angle);
+        plus(&plus(&centre, &times(&place(self.translation), &float(time))), &turned)
+    }
+
+    /// Where a point starts that is at a place at a time; rounded.
+    fn start_of(&self, there: &Place, time: f64) -> DVec3 {
+        let centre = place(self.centre);
+        let moved = plus(&centre, &times(&place(self.translation), &float(time)));
+        let way = plus(there, &times(&moved, &float(-1.0)));
+        let angle = float(self.angle) * float(-time);
+        let start = plus(&centre, &self.rotated(&way, &angle));
+        DVec3::from_array(start.each_ref().map(Float::to_f64))
+    }
+}
+
+/// A motion and points of its body.
+#[derive(Clone, Debug)]
+struct Turning {
+    turns: [Turn; 2],
+    /// Near the centre of the first.
+    points: [DVec3; 4],
+    time: f64,
+}
+
+impl Simplify for Turning {
+    fn attempts(&self) -> usize {
+        0
+    }
+
+    fn simpler(&self, _: usize) -> Option<Self> {
+        None
+    }
+}
+
+fn turning() -> impl Strategy<Value = Turning> + Clone {
+    from_choices(|choices: &mut Choices<'_>| {
+        let turns = [Turn::choose(choices), Turn::choose(choices)];
+        let size = choices.pick(&[1.0, 1e-3, 10.0]);
+        let mut unit = || choices.word() as f64 / u64::MAX as f64 * 2.0 - 1.0;
+        let points = [(); 4].map(|()| turns[0].centre + size * DVec3::new(unit(), unit(), unit()));
+        let time = (0.5 + 0.5 * unit()).clamp(0.0, 1.0);
+        Turning { turns, points, time }
+    })
+}
+
+#[test]
+fn a_point_of_a_body_that_turns_is_where_it_is_said_to_be() {
+    check(500, turning(), |case| {
+        let turn = &case.turns[0];
+        for start in case.points {
+            for time in [0.0, case.time, 1.0] {
+                let exact = turn.at(start, time);
+                for environment in Environment::all() {
+                    let (there, rounding) = environment.run(&(turn, start, time), |&(turn, start, time)| {
+                        let arc = turn.motion().path(start);
+                        (arc.at(time), arc.rounding())
+                    });
+                    let off = distance(&place(there), &exact);
+                    prop_assert!(off <= float(rounding), "{environment:?}: {off} at {time}");
+                }
+            }
+        }
+        Ok(())
+    });
+}
+
+/// How far a point is from the straight motion, at times in between.
+fn deviates(piece: &Piece, [from, to]: [f64; 2], at: impl Fn(f64) -> Place) -> Result<(), TestCaseError> {
+    for share in [0.0, 0.1, 0.5, 0.77, 1.0] {
+        let time = from + (to - from) * share;
+        if time > to {
+            continue;
+        }
+        // The share that this time truly is.
+        let share = (float(time) - float(from)) / (float(to) - float(from));
+        let rest = float(1.0) - &share;
+        let straight = plus(
+            &times(&place(piece.motion.start), &rest),
+            &times(&place(piece.motion.end), &share),
+        );
+        let off = distance(&straight, &at(time));
+        prop_assert!(off <= float(piece.deviation), "{off} of {} at {time}", piece.deviation);
+    }
+    Ok(())
+}
+
+#[test]
+fn no_path_deviates_farther_from_its_straight_pieces_than_is_said() {
+    check(600, turning(), |case| {
+        let turn = &case.turns[0];
+        let [from, to] = [case.time * 0.5, case.time * 0.5 + 0.5];
+        for [from, to] in [[0.0, 1.0], [from, to], [from, from + (to - from) * 1e-3]] {
+            let arc = turn.motion().path(case.points[0]);
+            deviates(&arc.piece(from, to), [from, to], |time| turn.at(case.points[0], time))?;
+
+            let straight = Motion::<f64>::new(case.points[0], case.points[1]);
+            let knots = [0.0, 0.25, 0.25 + 0.5 * case.time, 1.0];
+            let line = Polyline::new(&knots, &case.points).expect("ascending times");
+            let between = |a: DVec3, b: DVec3, share: Float| {
+                let rest = float(1.0) - &share;
+                plus(&times(&place(a), &rest), &times(&place(b), &share))
+            };
+            deviates(&straight.piece(from, to), [from, to], |time| {
+                between(straight.start, straight.end, float(time))
+            })?;
+            let on_line = |time: f64| {
+                let k = knots.iter().rposition(|&knot| knot <= time).unwrap_or(0).min(2);
+                let share = (float(time) - float(knots[k])) / (float(knots[k + 1]) - float(knots[k]));
+                between(case.points[k], case.points[k + 1], share)
+            };
+            deviates(&line.piece(from, to), [from, to], on_line)?;
+        }
+        Ok(())
+    });
+}
+
+/// Two bodies in screw motion, each with one set, that touch at a time by construction, but for the rounding of where they start: the time of
+/// impact is no later, at any separation that is more than this rounding.
+fn contacts_are_found(case: &Turning, count: &Cell<[usize; 2]>) -> Result<(), TestCaseError> {
+    let [first, second] = &case.turns;
+    // On the first body, at the time: a vertex in the middle of a face, or two edges that cross.
+    let [a, b, c, d] = case.points;
+    for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+        let there = |point: DVec3| first.at(point, case.time);
+        let middle = |points: &[DVec3]| points.iter().sum::<DVec3>() / points.len() as f64;
+        let (own, other) = match kind {
+            PairKind::VertexFace => (vec![middle(&[b, c, d])], vec![b, c, d]),
+            // The second edge goes through the middle of the first.
+            PairKind::EdgeEdge => (vec![a, b], vec![c, middle(&[a, b]) * 2.0 - c]),
+        };
+        let size = case
+            .points
+            .iter()
+            .chain([&first.centre, &second.centre, &first.translation, &second.translation]);
+        let size = size.map(|point| point.abs().max_element()).fold(1.0, f64::max);
+        let arcs: Vec<Arc> = own
+            .iter()
+            .map(|&point| first.motion().path(point))
+            .chain(
+                other
+                    .iter()
+                    .map(|&point| second.motion().path(second.start_of(&there(point), case.time))),
+            )
+            .collect();
+        let paths: [&dyn Path; 4] = [&arcs[0], &arcs[1], &arcs[2], &arcs[3]];
+        let limits = Limits {
+            separation: 1e-13 * size,
+            tolerance: 1e-6 * size,
+        };
+        let impact = time_of_impact(kind, paths, &limits);
+        match impact {
+            Impact::Possible { time, .. } => prop_assert!(time <= case.time, "{kind:?}: {time} is later than {}", case.time),
+            Impact::Never => prop_assert!(false, "{kind:?} at {} is missed", case.time),
+        }
+        let [all, late] = count.get();
+        let is_tight = matches!(impact, Impact::Possible { time, .. } if time > 0.5 * case.time);
+        count.set([all + 1, late + usize::from(is_tight)]);
+    }
+    Ok(())
+}
+
+/// 117,000 cases, in both kinds, were looked at with `PROPTEST_CASES=20000`.
+#[test]
+fn no_contact_of_bodies_in_screw_motion_is_missed() {
+    let count = Cell::new([0; 2]);
+    check(1_500, turning(), |case| contacts_are_found(case, &count));
+    let [all, late] = count.get();
+    assert!(all > 2_000 && 10 * late > all, "{late} of {all}");
+}
+
+/// The case that parry's issue 317 stands for: a plank that spins fast hits a box beside it, though it is clear of it when the step begins and
+/// when it ends, and would be on the straight ways of its corners.
+#[test]
+fn a_plank_that_spins_hits_the_box_beside_it() {
+    // From along the x axis, by half a turn, so that its ends change places and its straight ways lead through the middle.
+    let plank = RigidMotion::new(DVec3::ZERO, DVec3::Z, PI, DVec3::ZERO).expect("numbers in range");
+    let tip = [DVec3::new(2.0, -0.1, 0.0), DVec3::new(2.0, 0.1, 0.0)].map(|corner| plank.path(corner));
+    let post = [DVec3::new(0.0, 1.5, -1.0), DVec3::new(0.0, 1.5, 1.0)].map(Motion::resting);
+    let side = plank.path(DVec3::new(-2.0, -0.1, 0.0));
+    // The long side that leads comes to the post when the plank is nearly upright.
+    let paths: [&dyn Path; 4] = [&side, &tip[0], &post[0], &post[1]];
+    let limits = Limits::default();
+    let edges = time_of_impact(PairKind::EdgeEdge, paths, &limits);
+    let other: [&dyn Path; 4] = [&tip[0], &tip[1], &post[0], &post[1]];
+    assert_eq!(
+        time_of_impact(PairKind::EdgeEdge, other, &limits),
+        Impact::Never,
+        "the tip passes beyond the post"
+    );
+    // At an angle of φ the side, 0.1 from the axis, is at (0, 1.5): it trails the plank's middle line by asin(0.1 / 1.5).
+    let angle = std::f64::consts::FRAC_PI_2 + (0.1_f64 / 1.5).asin();
+    let exact = angle / PI;
+    let time = edges.time().expect("a contact");
+    assert!(time <= exact && time > exact - 1e-7, "{time}, {exact}");
+    // On straight ways it goes through the axis of the plank, far from the post.
+    let ends = |path: &Arc| Motion::<f64>::new(path.at(0.0), path.at(1.0));
+    let straight = [ends(&side), ends(&tip[0]), post[0], post[1]];
+    let straight: [&dyn Path; 4] = [&straight[0], &straight[1], &straight[2], &straight[3]];
+    assert_eq!(time_of_impact(PairKind::EdgeEdge, straight, &limits), Impact::Never);
+}
+
+#[test]
+fn what_is_not_known_excludes_nothing() {
+    let wall = [
+        DVec3::new(0.0, 5.0, 0.0),
+        DVec3::new(1.0, 5.0, 0.0),
+        DVec3::new(0.0, 5.0, 1.0),
+    ]
+    .map(Motion::resting);
+    let turn = RigidMotion::new(DVec3::ZERO, DVec3::Z, 1.0, DVec3::ZERO).expect("numbers in range");
+    for start in [DVec3::NAN, DVec3::INFINITY, DVec3::new(f64::MAX, -f64::MAX, 0.0)] {
+        let point = turn.path(start);
+        let paths: [&dyn Path; 4] = [&point, &wall[0], &wall[1], &wall[2]];
+        let impact = time_of_impact(PairKind::VertexFace, paths, &Limits::default());
+        assert_eq!(impact.time(), Some(0.0), "{start}");
+    }
+    let strange = [f64::NAN, f64::INFINITY, 1e7];
+    assert!(
+        strange
+            .iter()
+            .all(|&angle| RigidMotion::new(DVec3::ZERO, DVec3::Z, angle, DVec3::ZERO).is_none())
+    );
+    assert!(RigidMotion::new(DVec3::ZERO, DVec3::ZERO, 1.0, DVec3::ZERO).is_none());
+    let knots = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    for times in [[0.0, 0.5, 0.5], [0.0, 0.5, 0.9], [0.1, 0.5, 1.0], [0.0, f64::NAN, 1.0]] {
+        assert!(Polyline::new(&times, &knots).is_none());
+    }
+    assert!(Polyline::new(&[0.0, 1.0], &knots).is_none());
+}
