@@ -184,6 +184,9 @@ pub(crate) fn on_kept(handle: *const Handle, action: impl FnOnce(&Kept, &mut Det
 /// A detector for a mesh. `scalar` is a selvedge_scalar: the format that its positions will have. On the calling thread at first,
 /// all vertices moving, steps not coherent, contacts within the default tolerance.
 ///
+/// Edges and points that belong to no triangle, of ropes, hair and particles, are triangles that name a vertex twice, (a, b, b), or
+/// three times, (p, p, p): they collide as what they are. A vertex that nothing names touches nothing.
+///
 /// The triangles are copied. `*detector` becomes the handle; selvedge_detector_free gives back what it takes.
 ///
 /// # Safety

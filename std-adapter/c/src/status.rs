@@ -126,7 +126,7 @@ impl Failure {
 impl From<TopologyError> for Failure {
     fn from(error: TopologyError) -> Self {
         let status = match error {
-            TopologyError::VertexOutOfRange { .. } => Status::VertexOutOfRange,
+            TopologyError::VertexOutOfRange { .. } | TopologyError::LooseVertexOutOfRange { .. } => Status::VertexOutOfRange,
             TopologyError::NoTriangles => Status::NoTriangles,
             TopologyError::TooLarge { .. } => Status::TooLarge,
         };

@@ -455,6 +455,39 @@ fn every_question_in_every_setting<S: ForC>() {
     assert_eq!(selvedge_detector_free(handle), Status::Ok);
 }
 
+/// A rope of two pieces and two particles, one of which falls onto the other and one piece.
+#[test]
+fn ropes_and_particles_are_triangles_that_name_a_vertex_again() {
+    let (edges, points) = ([[0, 1], [1, 2]], [3, 4]);
+    let topology = Topology::with_loose_features(5, vec![], &edges, &points).unwrap();
+    let faces = [[0_u32, 1, 1], [1, 2, 2], [3, 3, 3], [4, 4, 4]];
+    let mut handle = ptr::null_mut();
+    // SAFETY: as long as it says.
+    let status = unsafe { selvedge_detector_new(ScalarFormat::F64 as u32, 5, faces.as_ptr().cast(), 4, &raw mut handle) };
+    assert_eq!(status, Status::Ok, "{}", last_error());
+    let start = [
+        [-1.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [1.0, 0.0, 1.0],
+        [1.0, 0.0, 0.5],
+    ];
+    let mut end = start;
+    end[3][2] = -1.0;
+    let mut contacts = Vec::new();
+    let mut detector = CollisionDetector::<f64>::new(topology.clone());
+    detector.contacts(&start, &end, &mut contacts).unwrap();
+    assert_eq!(
+        contacts.len(),
+        3,
+        "each particle with the other, one with the piece: {contacts:?}"
+    );
+    // SAFETY: as long as they are.
+    let from_c = list(|out| unsafe { f64::contacts(handle, [&start, &end], out) });
+    assert_eq!(with_bits(&from_c), rows(&contacts, &topology));
+    assert_eq!(selvedge_detector_free(handle), Status::Ok);
+}
+
 /// Groups, patches and vertex pairs, one by one and together, and none again.
 fn filters_exclude_what_they_do_in_rust<S: ForC>() {
     let handle = new(S::FORMAT);

@@ -44,7 +44,7 @@ pub mod verification;
 
 pub use collision_filter::{CollisionFilter, Groups};
 pub use frame::{Frame, StepError};
-pub use mesh::{Mesh, Topology, TopologyError, TopologyStatistics};
+pub use mesh::{FeaturePair, Mesh, Topology, TopologyError, TopologyStatistics};
 #[cfg(feature = "parallel")]
 pub use parallel::{ThreadError, Threads};
 pub use selvedge_core as core;

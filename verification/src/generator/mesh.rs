@@ -8,7 +8,7 @@ use selvedge_core::PairKind;
 use std::fmt;
 
 /// Triangles over 4 to 12 vertices: any three indices, so that degenerate triangles (v, v, w), duplicates, edges with many
-/// triangles and isolated vertices are common.
+/// triangles and isolated vertices are common. Some have ropes, of loose edges, and particles.
 #[derive(Clone, PartialEq)]
 pub struct MeshCase<S> {
     /// The three vertices of each triangle.
@@ -31,13 +31,22 @@ impl<S: Format> MeshCase<S> {
         let positions = positions(vertices as usize, choices);
         // Fewer vertices in use than there are: isolated ones.
         let used = vertices - choices.pick(&[0, 0, 1, 2]).min(vertices - 3);
-        let triangles = if choices.once_in(3) {
+        let mut triangles: Vec<[u32; 3]> = if choices.once_in(3) {
             // A strip: every inner edge has two triangles.
             (2..used).map(|k| [k - 2, k - 1, k]).collect()
         } else {
             let count = choices.pick(&[3, 1, 2, 8, 16, 40, 80]);
             (0..count).map(|_| std::array::from_fn(|_| choices.below(used))).collect()
         };
+        if choices.once_in(4) {
+            // Ropes and particles, as `Topology::with_loose_features` has them; beside triangles, or alone.
+            if choices.once_in(3) {
+                triangles.clear();
+            }
+            let rope = (1..used).map(|k| [k - 1, k, k]).take(1 + choices.below(used - 1) as usize);
+            triangles.extend(rope);
+            triangles.extend((0..choices.below(4)).map(|k| [vertices - 1 - k; 3]));
+        }
         Self { triangles, positions }
     }
 

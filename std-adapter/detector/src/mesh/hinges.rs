@@ -9,13 +9,15 @@ pub(crate) struct Hinge {
     edge: u32,
 }
 
-/// The hinges of a mesh, and its loose edges.
+/// The hinges of a mesh, and what is loose in it.
 #[derive(Debug)]
 pub(crate) struct Hinges {
     /// The triangles of each edge, but for those that name a vertex twice.
     triangles: Groups<u32>,
     /// The ends of the edges of those, either end first, in ascending order.
     loose: Vec<[u32; 2]>,
+    /// The vertices of those that name only one, in ascending order.
+    points: Vec<u32>,
 }
 
 impl Hinges {
@@ -25,6 +27,13 @@ impl Hinges {
         let proper = edges.filter(|(_, triangle)| !is_degenerate(triangle));
         let keyed = proper.flat_map(|((triangle, edges), _)| edges.map(|edge| (edge, triangle)));
         let degenerate = triangles.iter().filter(|triangle| is_degenerate(triangle));
+        let mut points: Vec<_> = degenerate
+            .clone()
+            .filter(|[a, b, c]| a == b && b == c)
+            .map(|&[a, ..]| a)
+            .collect();
+        points.sort_unstable();
+        points.dedup();
         let ends = degenerate.flat_map(|&[a, b, c]| [[a, b], [b, a], [b, c], [c, b], [c, a], [a, c]]);
         let mut loose: Vec<_> = ends.filter(|[a, b]| a != b).collect();
         loose.sort_unstable();
@@ -32,6 +41,7 @@ impl Hinges {
         Self {
             triangles: Groups::new(topology.edges().len(), keyed),
             loose,
+            points,
         }
     }
 
@@ -45,15 +55,15 @@ impl Hinges {
         pairs.map(move |triangles| Hinge { triangles, edge })
     }
 
-    /// Whether there is a triangle that names a vertex twice: an edge.
-    pub(crate) fn has_loose_edges(&self) -> bool {
-        !self.loose.is_empty()
+    /// Whether there is a triangle that names a vertex twice: an edge, or a point.
+    pub(crate) fn has_loose_features(&self) -> bool {
+        !self.loose.is_empty() || !self.points.is_empty()
     }
 
-    /// Whether a loose edge joins a vertex with one of a triangle's.
-    pub(crate) fn is_tied(&self, vertex: u32, triangle: [u32; 3]) -> bool {
+    /// Whether no edge of a vertex tells what of a triangle it touches: it is a point, or a loose edge joins it with one of the corners.
+    pub(crate) fn must_be_looked_at(&self, vertex: u32, triangle: [u32; 3]) -> bool {
         let is_loose = |&corner: &u32| self.loose.binary_search(&[vertex, corner]).is_ok();
-        triangle.iter().any(is_loose)
+        self.points.binary_search(&vertex).is_ok() || triangle.iter().any(is_loose)
     }
 }
 

@@ -7,7 +7,7 @@ mod hinges;
 mod topology;
 
 pub(crate) use hinges::{Hinge, Hinges};
-pub use topology::{Topology, TopologyError, TopologyStatistics};
+pub use topology::{FeaturePair, Topology, TopologyError, TopologyStatistics};
 
 use selvedge_core::glam::DVec3;
 

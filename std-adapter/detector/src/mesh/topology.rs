@@ -9,6 +9,9 @@ use std::fmt;
 /// one, two or more triangles, several components, vertices without a triangle, duplicate
 /// triangles, and triangles that name a vertex twice. Nothing is dropped or renumbered.
 ///
+/// [Loose edges and points](Self::with_loose_features), of ropes, hair and particles, are faces that name a vertex twice, or three
+/// times: such collide as what they are, a segment and a point.
+///
 /// ```
 /// use selvedge::Topology;
 ///
@@ -23,9 +26,41 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Topology {
     vertex_count: usize,
+    /// Triangles, and then what is loose.
     triangles: Vec<[u32; 3]>,
+    /// How many of them are loose edges, and points.
+    loose: [usize; 2],
     edges: Vec<[u32; 2]>,
     triangle_edges: Vec<[u32; 3]>,
+}
+
+/// What the two sides of a [pair](Topology::features_of) are, numbered as by the [`Topology`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum FeaturePair {
+    /// A vertex and a point.
+    VertexVertex {
+        /// The vertex, and the point's vertex.
+        vertices: [u32; 2],
+    },
+    /// A vertex and a loose edge.
+    VertexEdge {
+        /// The vertex.
+        vertex: u32,
+        /// The edge.
+        edge: u32,
+    },
+    /// A vertex and a triangle.
+    VertexFace {
+        /// The vertex.
+        vertex: u32,
+        /// The face.
+        face: u32,
+    },
+    /// Two edges, of triangles or loose.
+    EdgeEdge {
+        /// The edges, the smaller number first.
+        edges: [u32; 2],
+    },
 }
 
 /// Why a list of triangles has no [`Topology`].
@@ -40,7 +75,18 @@ pub enum TopologyError {
         /// How many vertices there are.
         vertex_count: usize,
     },
-    /// The list of triangles is empty.
+    /// A loose edge, or a point, names a vertex that does not exist.
+    LooseVertexOutOfRange {
+        /// The first such edge, or point, in the list that was given.
+        index: usize,
+        /// Whether it is a point.
+        is_point: bool,
+        /// The vertex that it names.
+        vertex: u32,
+        /// How many vertices there are.
+        vertex_count: usize,
+    },
+    /// There are no triangles, and no loose edges or points.
     NoTriangles,
     /// Vertices, or the corners of all triangles, are too many to be numbered by a `u32`.
     TooLarge {
@@ -61,6 +107,16 @@ impl fmt::Display for TopologyError {
             } => write!(
                 f,
                 "triangle {triangle} names vertex {vertex}, but there are {vertex_count} vertices, numbered from 0"
+            ),
+            Self::LooseVertexOutOfRange {
+                index,
+                is_point,
+                vertex,
+                vertex_count,
+            } => write!(
+                f,
+                "{} {index} names vertex {vertex}, but there are {vertex_count} vertices, numbered from 0",
+                if is_point { "point" } else { "loose edge" }
             ),
             Self::NoTriangles => f.write_str("the mesh has no triangles"),
             Self::TooLarge {
@@ -93,17 +149,63 @@ impl Topology {
     /// If there are no triangles, a triangle names a vertex that does not exist, or there are more
     /// than a `u32` can number.
     pub fn new(vertex_count: usize, triangles: Vec<[u32; 3]>) -> Result<Self, TopologyError> {
-        if triangles.is_empty() {
+        Self::with_loose_features(vertex_count, triangles, &[], &[])
+    }
+
+    /// As [`new`](Self::new), with edges and points that need belong to no triangle: ropes, hair, wires, particles. There may be
+    /// no triangles at all.
+    ///
+    /// Each is one more face, in their order after the triangles: an edge is (a, b, b), a point (p, p, p). A detector asks the same
+    /// certified and exact tests about them as about triangles, and all that is promised of those holds: a face without area is a
+    /// segment, or a point. So pairs of vertices with them are [`PairKind::VertexFace`], and [`features_of`](Self::features_of) says
+    /// what they are.
+    ///
+    /// * **Every edge with every edge**, loose or not, as ever.
+    /// * **Every vertex that something names with every loose edge and every point.** Two points are a pair twice, either first. A vertex
+    ///   at an edge is also told of by the edges that end in it, if any; but not by those that share a vertex with that edge: where a
+    ///   rope's end folds back, say. So one touch is often several contacts, as that of a vertex and an edge of triangles is.
+    /// * A vertex that nothing names touches nothing: name it a point. Without separation points touch only if they meet exactly.
+    ///
+    /// ```
+    /// use selvedge::{CollisionDetector, Criterion, FeaturePair, Topology};
+    /// use selvedge_core::elementary::Limits;
+    ///
+    /// // A particle, 2, falls past a rope of one piece, and comes within 0.1 of it; another, 3, never does.
+    /// let topology = Topology::with_loose_features(4, vec![], &[[0, 1]], &[2, 3])?;
+    /// let start = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 0.05, 1.0], [0.5, 9.0, 1.0]];
+    /// let mut end = start;
+    /// end[2][2] = -1.0;
+    ///
+    /// let mut detector = CollisionDetector::<f64>::new(topology);
+    /// detector.set_criterion(Criterion::Within(Limits { tolerance: 1e-6, separation: 0.1 }))?;
+    /// let mut contacts = Vec::new();
+    /// detector.contacts(&start, &end, &mut contacts)?;
+    /// let features = contacts.iter().map(|contact| detector.topology().features_of(contact.kind, contact.pair));
+    /// assert!(features.eq([FeaturePair::VertexEdge { vertex: 2, edge: 0 }]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If there is nothing, something names a vertex that does not exist, or there are more than a `u32` can number.
+    pub fn with_loose_features(
+        vertex_count: usize,
+        mut triangles: Vec<[u32; 3]>,
+        edges: &[[u32; 2]],
+        points: &[u32],
+    ) -> Result<Self, TopologyError> {
+        let faces = triangles.len().saturating_add(edges.len()).saturating_add(points.len());
+        if faces == 0 {
             return Err(TopologyError::NoTriangles);
         }
-        if vertex_count > u32::MAX as usize || triangles.len() > Self::MAX_TRIANGLES {
+        if vertex_count > u32::MAX as usize || faces > Self::MAX_TRIANGLES {
             return Err(TopologyError::TooLarge {
                 vertex_count,
-                triangle_count: triangles.len(),
+                triangle_count: faces,
             });
         }
+        let unknown = |vertices: &[u32]| vertices.iter().copied().find(|&vertex| vertex as usize >= vertex_count);
         for (triangle, vertices) in triangles.iter().enumerate() {
-            if let Some(&vertex) = vertices.iter().find(|&&v| v as usize >= vertex_count) {
+            if let Some(vertex) = unknown(vertices) {
                 return Err(TopologyError::VertexOutOfRange {
                     triangle,
                     vertex,
@@ -111,13 +213,62 @@ impl Topology {
                 });
             }
         }
-        let (edges, triangle_edges) = find_edges(&Named::by(vertex_count, &triangles));
+        let unknown_of = |(index, vertices): (usize, &[u32]), is_point| {
+            unknown(vertices).map(|vertex| TopologyError::LooseVertexOutOfRange {
+                index,
+                is_point,
+                vertex,
+                vertex_count,
+            })
+        };
+        let mut of_edges = edges.iter().map(<[u32; 2]>::as_slice).enumerate();
+        let mut of_points = points.iter().map(std::slice::from_ref).enumerate();
+        let first = of_edges.find_map(|edge| unknown_of(edge, false));
+        if let Some(error) = first.or_else(|| of_points.find_map(|point| unknown_of(point, true))) {
+            return Err(error);
+        }
+        triangles.extend(edges.iter().map(|&[a, b]| [a, b, b]));
+        triangles.extend(points.iter().map(|&point| [point; 3]));
+        let (found, triangle_edges) = find_edges(&Named::by(vertex_count, &triangles));
         Ok(Self {
             vertex_count,
             triangles,
-            edges,
+            loose: [edges.len(), points.len()],
+            edges: found,
             triangle_edges,
         })
+    }
+
+    /// What the two sides of a pair of this kind are: a face that names a vertex twice is an edge, three times a point.
+    ///
+    /// ```
+    /// use selvedge::{FeaturePair, PairKind, Topology};
+    /// let topology = Topology::with_loose_features(6, vec![[0, 1, 2]], &[[3, 4]], &[5])?;
+    /// assert_eq!(topology.edges()[3], [3, 4]);
+    /// let features = |pair| topology.features_of(PairKind::VertexFace, pair);
+    /// assert_eq!(features([5, 0]), FeaturePair::VertexFace { vertex: 5, face: 0 });
+    /// assert_eq!(features([0, 1]), FeaturePair::VertexEdge { vertex: 0, edge: 3 });
+    /// assert_eq!(features([3, 2]), FeaturePair::VertexVertex { vertices: [3, 5] });
+    /// # Ok::<(), selvedge::TopologyError>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If the pair is not of this mesh.
+    #[must_use]
+    pub fn features_of(&self, kind: PairKind, pair: [u32; 2]) -> FeaturePair {
+        let [vertex, face] = pair;
+        if kind == PairKind::EdgeEdge {
+            return FeaturePair::EdgeEdge { edges: pair };
+        }
+        let corners = self.triangles[face as usize];
+        let edges = self.triangle_edges[face as usize];
+        match edges.into_iter().find(|&edge| edge != Self::NO_EDGE) {
+            None => FeaturePair::VertexVertex {
+                vertices: [vertex, corners[0]],
+            },
+            Some(edge) if is_degenerate(&corners) => FeaturePair::VertexEdge { vertex, edge },
+            Some(_) => FeaturePair::VertexFace { vertex, face },
+        }
     }
 
     /// The four vertices of a pair of this kind: the vertex and the face's three, or the two edges' ends.
@@ -161,7 +312,8 @@ impl Topology {
         self.vertex_count
     }
 
-    /// The three vertices of each triangle, as given.
+    /// The three vertices of each triangle, as given; then [loose edges and points](Self::with_loose_features), which name a vertex
+    /// twice, or three times.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
@@ -199,17 +351,22 @@ impl Topology {
     /// Counts what is unusual about the mesh. Takes about as long as [`Topology::new`].
     #[must_use]
     pub fn statistics(&self) -> TopologyStatistics {
-        let named = Named::by(self.vertex_count, &self.triangles);
-        let (components, used) = count_components(&named);
+        let (components, used) = count_components(&Named::by(self.vertex_count, &self.triangles));
+        let [loose_edges, points] = self.loose;
+        let triangles = self.proper_triangles();
         let mut statistics = TopologyStatistics {
             components,
             isolated_vertices: self.vertex_count - used,
-            degenerate_triangles: self.triangles.iter().filter(|t| is_degenerate(t)).count(),
-            duplicate_triangles: count_duplicates(&named),
+            degenerate_triangles: triangles.iter().filter(|t| is_degenerate(t)).count(),
+            duplicate_triangles: count_duplicates(&Named::by(self.vertex_count, triangles)),
+            loose_edges,
+            points,
             ..TopologyStatistics::default()
         };
         for count in self.triangles_per_edge() {
             match count {
+                // A loose one.
+                0 => {}
                 1 => statistics.boundary_edges += 1,
                 2 => statistics.interior_edges += 1,
                 _ => statistics.non_manifold_edges += 1,
@@ -218,10 +375,15 @@ impl Topology {
         statistics
     }
 
+    /// Those that were given as triangles.
+    fn proper_triangles(&self) -> &[[u32; 3]] {
+        &self.triangles[..self.triangles.len() - self.loose[0] - self.loose[1]]
+    }
+
     /// How many triangles each edge has; a triangle (v, v, w) counts once for its edge v-w.
     fn triangles_per_edge(&self) -> Vec<u32> {
         let mut counts = vec![0; self.edges.len()];
-        for &[a, b, c] in &self.triangle_edges {
+        for &[a, b, c] in &self.triangle_edges[..self.proper_triangles().len()] {
             let distinct = [Some(a), Some(b).filter(|_| b != a), Some(c).filter(|_| c != a && c != b)];
             for edge in distinct.into_iter().flatten() {
                 if edge != Self::NO_EDGE {
@@ -234,12 +396,12 @@ impl Topology {
 }
 
 /// What is unusual about a mesh. None of it is an error: everything is kept and takes part in
-/// collision, except isolated vertices, which belong to no triangle and so can touch nothing.
+/// collision, except isolated vertices, which belong to nothing and so can touch nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TopologyStatistics {
-    /// Sets of triangles connected through shared vertices.
+    /// Sets of triangles, loose edges and points connected through shared vertices.
     pub components: usize,
-    /// Vertices without a triangle. They keep their number.
+    /// Vertices without a triangle, and that are not loose. They keep their number.
     pub isolated_vertices: usize,
     /// Edges with one triangle.
     pub boundary_edges: usize,
@@ -252,6 +414,10 @@ pub struct TopologyStatistics {
     /// Triangles that name a vertex twice. A triangle of zero area with three different vertices
     /// is not counted: that is geometry, and changes as the mesh moves.
     pub degenerate_triangles: usize,
+    /// [Loose edges](Topology::with_loose_features) that were given.
+    pub loose_edges: usize,
+    /// Points that were given.
+    pub points: usize,
 }
 
 impl fmt::Display for TopologyStatistics {
@@ -271,6 +437,8 @@ impl fmt::Display for TopologyStatistics {
             (self.isolated_vertices, "isolated vertex", "isolated vertices"),
             (self.duplicate_triangles, "duplicate triangle", "duplicate triangles"),
             (self.degenerate_triangles, "degenerate triangle", "degenerate triangles"),
+            (self.loose_edges, "loose edge", "loose edges"),
+            (self.points, "point", "points"),
         ] {
             if count > 0 {
                 write!(f, ", {count} {}", if count == 1 { singular } else { plural })?;
@@ -537,6 +705,8 @@ mod tests {
                 non_manifold_edges: edges_with(|count| count >= 3),
                 duplicate_triangles: (0..sets.len()).filter(|&i| sets[..i].contains(&sets[i])).count(),
                 degenerate_triangles: sets.iter().filter(|set| set.len() < 3).count(),
+                loose_edges: 0,
+                points: 0,
             });
         }
     }

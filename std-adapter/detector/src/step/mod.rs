@@ -38,7 +38,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct Contact<S> {
     /// Vertex–face or edge–edge.
     pub kind: PairKind,
-    /// The vertex and the face, or the two edges, as numbered by the [`Topology`].
+    /// The vertex and the face, or the two edges, as numbered by the [`Topology`]. [It tells](Topology::features_of) whether the face is a
+    /// loose edge or a point.
     pub pair: [u32; 2],
     /// When, in [0, 1] of the step: not after the exact time, and hardly before it ([how early](CollisionDetector::earliest)).
     pub time: S,

@@ -6,7 +6,7 @@
 //! ```text
 //! edges and faces without a common vertex     traversal of their hierarchies
 //! triangles with a common edge ("hinges")     those that are not wide open, and may be coplanar: their four pairs without a common vertex
-//! ends of loose edges                         vertices and faces, tied together by the edge
+//! ends of loose edges, points                 vertices and faces that the edge ties together; all of a point's
 //!   │  chunk by chunk, as in a step           filter, sweeps, exact verdict
 //!   ▼
 //! intersections
@@ -23,7 +23,8 @@
 //!   edge is free of the other triangle's vertices, so these four pairs are looked at by themselves.
 //!
 //! A vertex that touches a face, or two edges that touch, are thereby found with an edge and a face of theirs, or as a pair of a hinge. But
-//! for triangles that name a vertex twice: such is an edge, and all that its end may touch is a face with its other end.
+//! for triangles that name a vertex twice: such is an edge, and all that its end may touch is a face with its other end. And for those
+//! that name one vertex only: such is a point, which has no edge, so that it is looked at with every face.
 
 use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, drop_never_coplanar};
 use super::engine::{Engine, Space, Worker, own_space, shares, spaces_for_threads};
@@ -48,7 +49,8 @@ pub enum Intersection {
         /// The face.
         face: u32,
     },
-    /// A vertex touches a face of which an edge belongs to a triangle of the vertex: they are folded flat onto each other.
+    /// A vertex touches a face of which an edge belongs to a triangle of the vertex: they are folded flat onto each other. Or a
+    /// [loose point](crate::Topology::with_loose_features) touches a face, edge or point.
     VertexFace {
         /// The vertex.
         vertex: u32,
@@ -169,7 +171,7 @@ impl Engine {
             hierarchies,
             hinges,
         };
-        let parts = [Part::FacesAndEdges, Part::Hinges, Part::LooseEdges];
+        let parts = [Part::FacesAndEdges, Part::Hinges, Part::LooseFeatures];
         for part in parts {
             let shares = shares();
             self.workers.resize_with(shares, Worker::new);
@@ -212,7 +214,7 @@ impl HingeChunk {
 enum Part {
     FacesAndEdges,
     Hinges,
-    LooseEdges,
+    LooseFeatures,
 }
 
 impl Part {
@@ -257,8 +259,8 @@ impl Look<'_> {
                 let bound = |share: usize| (edges * share / shares) as u32;
                 self.hinges(bound(share)..bound(share + 1), space, found);
             }
-            Part::LooseEdges if self.hinges.has_loose_edges() => self.loose_edges([share, shares], space, found),
-            Part::LooseEdges => {}
+            Part::LooseFeatures if self.hinges.has_loose_features() => self.loose_features([share, shares], space, found),
+            Part::LooseFeatures => {}
         }
     }
 
@@ -324,7 +326,7 @@ impl Look<'_> {
         }
     }
 
-    fn loose_edges(&self, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) {
+    fn loose_features(&self, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) {
         let Space {
             scratch, chunk, near, ..
         } = space;
@@ -346,7 +348,7 @@ impl Look<'_> {
     }
 }
 
-/// Takes the vertices and faces that a loose edge ties together.
+/// Takes the vertices and faces that no edge and face tell of.
 struct TiedSink<'a> {
     look: &'a Look<'a>,
     step: &'a StepInput<'a>,
@@ -358,12 +360,12 @@ struct TiedSink<'a> {
 impl Sink for TiedSink<'_> {
     fn take(&mut self, pairs: &[[u32; 2]]) -> bool {
         let Look { hierarchies, hinges, .. } = self.look;
-        let is_tied = |&pair: &[u32; 2]| {
+        let must_be_looked_at = |&pair: &[u32; 2]| {
             let [vertex, face] = hierarchies.in_mesh(PairKind::VertexFace, pair);
-            hinges.is_tied(vertex, hierarchies.topology().triangles()[face as usize])
+            hinges.must_be_looked_at(vertex, hierarchies.topology().triangles()[face as usize])
         };
         self.tied.clear();
-        self.tied.extend(pairs.iter().copied().filter(is_tied));
+        self.tied.extend(pairs.iter().copied().filter(must_be_looked_at));
         self.chunk.take(self.step, PairKind::VertexFace, self.tied, self.found)
     }
 }
