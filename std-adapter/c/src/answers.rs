@@ -2,7 +2,7 @@
 
 use crate::detector::Finder;
 use crate::input::unknown;
-use crate::status::{Failure, Status};
+use crate::status::Failure;
 use selvedge::core::narrowing::rounded_down;
 use selvedge::{Contact, ContactGeometry, Intersection, PairKind, Scalar, Topology, Truncation};
 
