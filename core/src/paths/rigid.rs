@@ -127,7 +127,7 @@ impl RigidMotion {
     }
 }
 
-/// The way of a point of a body that turns. See the derivation in the [module](self)'s source.
+/// The way of a point of a body that turns: an arc, or a screw line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     start: DVec3,
