@@ -49,6 +49,13 @@ install_m4() {
     give_up "m4 is missing, and there is no package manager that we know; install it and start again"
 }
 
+# cargo asks rustc through it, and fails on text that it does not know if a program run by root put a file there.
+if [ ! -c /dev/null ]; then
+    [ "$(id -u)" -eq 0 ] && rm -f /dev/null && mknod -m 666 /dev/null c 1 3 ||
+        give_up "/dev/null is a file, not the null device; put it back (rm /dev/null; mknod -m 666 /dev/null c 1 3)"
+    # What cargo remembers of rustc may come from that text.
+    rm -f "${CARGO_TARGET_DIR:-target}/.rustc_info.json"
+fi
 is_there cargo || give_up "Rust is missing; install it from https://rustup.rs and start again"
 { is_there cc || is_there gcc || is_there clang; } || give_up "a C compiler is missing; install one and start again"
 is_there make || give_up "make is missing; install it and start again"

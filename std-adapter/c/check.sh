@@ -123,6 +123,8 @@ else
 fi
 
 make --no-print-directory uninstall PREFIX="$prefix"
+# It once was a file after an installation by root, with what rustc wrote there: the next cargo failed on it.
+[ -c /dev/null ] || give_up "/dev/null is no longer a device"
 left=$(find "$prefix" -type f -o -type l)
 [ -z "$left" ] || give_up "uninstall has left $left"
 say "C and C++: all as it should be"
