@@ -22,6 +22,12 @@
 //! order belong to coordinates more than s apart. Overflow makes a bound infinite, or in directed rounding the largest number;
 //! neither is beyond a bound that it should not be beyond, for both are at least as far out as any that is not widened.
 //! What is NaN or infinite, or so large that a vertex's coordinates add up to that, has no bounds.
+//!
+//! # Two mappings
+//! Boxes of two mappings compare if both have one origin; of an empty extent it is zero. With half separations h and k, images in strict order
+//! belong to coordinates more than h + k apart, as each bound is moved outwards by its own half. Without one (h = 0, the other with k > 0):
+//! let b be the bound that was moved, an `f32` number, and image(x) < b. Were x ≥ b, image(x) ≥ image(b) = b, rounding being monotone: so x < b,
+//! and the other coordinate is more than k beyond b. With origin zero x − o is exact, so that this holds of x itself.
 
 use super::Aabb;
 use super::moving::MovingBox;

@@ -5,7 +5,7 @@
 //! until a certified time; from there on the part is half as long. When the deviations are no more than the tolerance, that time is the answer.
 //!
 //! # Rounding
-//! The sum of separation and deviations is rounded up by 16u for three operations. A time t within the part, found for the straight pieces in
+//! The [sum of separation and deviations](separation_of_pieces) is rounded up. A time t within the part, found for the straight pieces in
 //! [0, 1], is the time from + (to − from)·t of the step: three operations, and one to take 16u off; never less than `from`.
 
 use super::{Path, u};
@@ -38,6 +38,15 @@ pub fn time_of_impact(kind: PairKind, paths: [&dyn Path; 4], limits: &Limits<f64
     between(kind, paths, limits, [0.0, 1.0])
 }
 
+/// The distance that points are to keep on straight pieces, so that they keep `separation` on their paths, rounding included.
+///
+/// `deviation` is what the paths of the two sides [deviate](super::Piece::deviation) at most, added up: within that sum of it are the ways
+/// between two points, one of each side, on pieces and on paths. Three operations, each within 2u: 16u of it is added.
+#[must_use]
+pub fn separation_of_pieces(separation: f64, deviation: f64) -> f64 {
+    (separation + deviation) * (1.0 + 16.0 * u())
+}
+
 /// The same of a part of the step, from its first time to its second: [`Impact::Never`] is said of that part only.
 ///
 /// Not in [0, 1], or not ascending: nothing is excluded from time 0 on.
@@ -62,7 +71,7 @@ pub(super) fn between(kind: PairKind, paths: [&dyn Path; 4], limits: &Limits<f64
         };
         let deviation = first + second + unknown;
         let straight = Limits {
-            separation: (limits.separation + deviation) * (1.0 + 16.0 * u()),
+            separation: separation_of_pieces(limits.separation, deviation),
             ..*limits
         };
         let motions = pieces.map(|piece| piece.motion);

@@ -17,7 +17,7 @@ mod impact;
 mod polyline;
 mod rigid;
 
-pub use impact::time_of_impact;
+pub use impact::{separation_of_pieces, time_of_impact};
 pub use polyline::Polyline;
 pub use rigid::{Arc, RigidMotion};
 
