@@ -207,6 +207,11 @@ impl Members {
         }
     }
 
+    /// Those of a mesh as a whole.
+    pub(crate) const fn of_mesh(groups: Groups) -> Self {
+        Self { groups, patch: None }
+    }
+
     pub(crate) fn joined(self, other: Self) -> Self {
         Self {
             groups: self.groups.either(other.groups),

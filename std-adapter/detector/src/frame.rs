@@ -145,7 +145,7 @@ pub fn check_frames<P: Position>(start: &[P], end: &[P], vertex_count: usize) ->
     check_frame(Frame::End, end, vertex_count)
 }
 
-fn check_frame<P: Position>(frame: Frame, positions: &[P], expected: usize) -> Result<(), StepError> {
+pub(crate) fn check_frame<P: Position>(frame: Frame, positions: &[P], expected: usize) -> Result<(), StepError> {
     if positions.len() != expected {
         return Err(StepError::WrongLength {
             frame,

@@ -41,6 +41,7 @@ mod parallel;
 mod step;
 #[cfg(feature = "verification")]
 pub mod verification;
+mod world;
 
 pub use collision_filter::{CollisionFilter, Groups};
 pub use frame::{Frame, StepError};
@@ -52,6 +53,7 @@ pub use selvedge_core::glam;
 pub use selvedge_core::separation::geometry::Geometry;
 pub use selvedge_core::{PairKind, ParsePairKindError, Position, Scalar};
 pub use step::{Cancellation, CandidateBoxes, CollisionDetector, Contact, ContactGeometry, Criterion, Intersection, Truncation};
+pub use world::{MeshHandle, MeshMotion, World, WorldContact, WorldError};
 
 /// The readme's examples are tests.
 #[cfg(doctest)]

@@ -2,9 +2,10 @@
 
 use super::MovingStatistics;
 use super::degradation::{Degradation, Prices};
+use super::pairing::Pairing;
 use super::pairs::Sink;
 use super::rows::Rows;
-use super::traversal::{BlockPair, Scratch, Trees};
+use super::traversal::{BlockPair, Common, Scratch, Trees};
 use super::tree::Tree;
 use crate::PairKind;
 use crate::buffer::settle;
@@ -13,6 +14,7 @@ use crate::dispatch::{Level, best_level};
 use crate::frame::Motions;
 use crate::mesh::Topology;
 use crate::parallel;
+use selvedge_core::Motion;
 use selvedge_core::batch::VertexRow;
 use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::{Aabb, moving::MovingBox};
@@ -25,7 +27,7 @@ use std::sync::Arc;
 ///
 /// Item: measured just after a build, 9.5 tests an edge with 12.8 candidates an edge (cloth-ball), 5.6 with 0.8
 /// (cloth-funnel), hence a third for a candidate and 5.3 for an edge besides.
-const PRICES: Prices = Prices { build: 0.65, item: 16.0 };
+pub(super) const PRICES: Prices = Prices { build: 0.65, item: 16.0 };
 
 /// What boxes are to hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,9 +64,9 @@ pub(crate) struct Share<'a> {
 pub(crate) struct Hierarchies {
     topology: Arc<Topology>,
     level: Level,
-    vertices: Tree<1>,
-    edges: Tree<2>,
-    faces: Tree<3>,
+    pub(super) vertices: Tree<1>,
+    pub(super) edges: Tree<2>,
+    pub(super) faces: Tree<3>,
     /// For each edge by position the positions of its two ends, and the edge as the mesh numbers it: what makes an EE pair's
     /// vertices, in one place.
     edge_ends: Vec<EdgeEnds>,
@@ -142,6 +144,12 @@ impl Hierarchies {
         &self.rows
     }
 
+    /// The motion of a vertex of the mesh in the last update, if it has a triangle.
+    pub(crate) fn motion_of(&self, vertex: usize) -> Option<Motion<f64>> {
+        let position = *self.positions.get(vertex)?;
+        self.rows.double().get(position as usize).map(VertexRow::motion)
+    }
+
     /// Makes the rows in `f32` too, if they are exact.
     pub(crate) fn narrow(&mut self) {
         self.rows.narrow();
@@ -184,6 +192,12 @@ impl Hierarchies {
 
     /// Takes the positions of a step and finds where to look for pairs.
     pub(crate) fn update(&mut self, motions: &dyn Motions, fit: &Fit) {
+        self.fit_boxes(motions, fit);
+        self.find_tasks();
+    }
+
+    /// Takes the positions of a step.
+    pub(crate) fn fit_boxes(&mut self, motions: &dyn Motions, fit: &Fit) {
         let items = self.edges.len();
         if self.must_build || self.degradation.is_worth_a_build(PRICES, items) {
             self.build(motions);
@@ -191,7 +205,13 @@ impl Hierarchies {
         let mapping = motions.mapping(&self.extent, fit);
         self.refit(motions, mapping);
         self.fit = *fit;
-        self.find_tasks();
+        self.task_tests = 0;
+    }
+
+    /// The box that holds all, as the last update left it.
+    pub(crate) fn bounds(&self) -> MovingBox<f32> {
+        let top = self.vertices.top().map(|top| self.vertices.levels[top].nodes[0].bounds);
+        top.unwrap_or_else(MovingBox::empty)
     }
 
     fn build(&mut self, motions: &dyn Motions) {
@@ -295,16 +315,18 @@ impl Hierarchies {
         let vertex_face_trees = Trees {
             first: &self.vertices,
             second: &self.faces,
-            are_same: false,
+            common: Common::Mesh,
             are_filtered: self.filter.is_some(),
         };
         let edge_edge_trees = Trees {
             first: &self.edges,
             second: &self.edges,
-            are_same: true,
+            common: Common::Tree,
             are_filtered: self.filter.is_some(),
         };
         let (level, scratch) = (self.level, &mut self.scratch);
+        vertex_face.clear();
+        edge_edge.clear();
         self.task_tests = vertex_face_trees.tasks(level, TASK_LEVEL, scratch, vertex_face);
         self.task_tests += edge_edge_trees.tasks(level, TASK_LEVEL, scratch, edge_edge);
         settle(vertex_face);
@@ -358,23 +380,12 @@ impl Hierarchies {
     }
 
     fn visit_all(&self, share: Share<'_>, scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
-        let are_filtered = self.filter.is_some();
-        match share.kind {
-            PairKind::VertexFace => Trees {
-                first: &self.vertices,
-                second: &self.faces,
-                are_same: false,
-                are_filtered,
-            }
-            .pairs(self.level, share.tasks, scratch, sink),
-            PairKind::EdgeEdge => Trees {
-                first: &self.edges,
-                second: &self.edges,
-                are_same: true,
-                are_filtered,
-            }
-            .pairs(self.level, share.tasks, scratch, sink),
-        }
+        Pairing::within(share.kind, self).visit(share.tasks, scratch, sink)
+    }
+
+    /// Whether it matters who is in a block.
+    pub(super) const fn are_filtered(&self) -> bool {
+        self.filter.is_some()
     }
 
     /// Finds where to look for faces and edges that are near each other, as the last update left them.
@@ -382,9 +393,10 @@ impl Hierarchies {
         let trees = Trees {
             first: &self.faces,
             second: &self.edges,
-            are_same: false,
+            common: Common::Mesh,
             are_filtered: self.filter.is_some(),
         };
+        self.face_edge_tasks.clear();
         trees.tasks(self.level, TASK_LEVEL, &mut self.scratch, &mut self.face_edge_tasks);
         settle(&mut self.face_edge_tasks);
     }
@@ -399,7 +411,7 @@ impl Hierarchies {
         let trees = Trees {
             first: &self.faces,
             second: &self.edges,
-            are_same: false,
+            common: Common::Mesh,
             are_filtered: self.filter.is_some(),
         };
         trees.pairs(self.level, tasks, scratch, sink).is_some()
@@ -550,7 +562,7 @@ struct EdgeEnds {
 const NOWHERE: u32 = u32::MAX;
 
 /// Pairs of blocks of this level are what a share is made of: of 256 primitives each.
-const TASK_LEVEL: usize = 1;
+pub(super) const TASK_LEVEL: usize = 1;
 
 /// Parts of the traversal for each thread and kind.
 const SHARES: usize = 16;

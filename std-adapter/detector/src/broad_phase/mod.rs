@@ -37,6 +37,8 @@
 mod degradation;
 mod hierarchies;
 mod order;
+mod over_meshes;
+mod pairing;
 mod pairs;
 mod rows;
 mod traversal;
@@ -45,9 +47,11 @@ mod tree;
 pub use degradation::{Degradation, Prices};
 pub(crate) use hierarchies::{Fit, Hierarchies, Share, extent};
 pub use order::{Centre, LEAF, order};
+pub(crate) use over_meshes::MeshHierarchy;
+pub(crate) use pairing::Pairing;
 pub(crate) use pairs::{CHUNK, Sink};
-pub(crate) use rows::Rows;
-pub(crate) use traversal::Scratch;
+pub(crate) use rows::{RowSlices, Rows};
+pub(crate) use traversal::{BlockPair, Scratch};
 
 use crate::PairKind;
 use crate::buffer::settle;

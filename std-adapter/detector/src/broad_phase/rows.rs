@@ -18,7 +18,22 @@ pub(crate) struct Rows {
     has_single: bool,
 }
 
+/// Rows to read: of all vertices, exactly; and the same in `f32`, if that is exact too.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RowSlices<'a> {
+    pub(crate) double: &'a [VertexRow<f64>],
+    pub(crate) single: Option<&'a [VertexRow<f32>]>,
+}
+
 impl Rows {
+    /// To read.
+    pub(crate) fn slices(&self) -> RowSlices<'_> {
+        RowSlices {
+            double: self.double(),
+            single: self.single(),
+        }
+    }
+
     /// All vertices, exactly.
     pub(crate) fn double(&self) -> &[VertexRow<f64>] {
         &self.double
@@ -27,6 +42,28 @@ impl Rows {
     /// The same in `f32`, if that is exact too and [`narrow`](Self::narrow) has looked.
     pub(crate) fn single(&self) -> Option<&[VertexRow<f32>]> {
         self.has_single.then_some(&self.single)
+    }
+
+    /// Puts all rows of `other` at `first` and after it, in `f32` too if it has such.
+    pub(crate) fn put(&mut self, first: usize, other: &Self) {
+        let end = first + other.double.len();
+        if self.double.len() < end {
+            self.resize(end);
+        }
+        self.double[first..end].copy_from_slice(&other.double);
+        if let Some(single) = other.single() {
+            let nowhere = VertexRow::new(Motion::resting(Default::default()));
+            self.single.resize(self.double.len(), nowhere);
+            self.single[first..end].copy_from_slice(single);
+        }
+    }
+
+    /// To read those that were [put](Self::put), in `f32` too if all that are asked for have come so.
+    pub(crate) fn put_slices(&self, are_single: bool) -> RowSlices<'_> {
+        RowSlices {
+            double: self.double(),
+            single: are_single.then_some(&self.single),
+        }
     }
 
     /// Forgets all.

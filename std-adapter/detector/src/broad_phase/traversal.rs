@@ -12,9 +12,20 @@ use selvedge_core::boxes::moving::MovingBlock;
 
 /// Two blocks that are near each other: the level and the number of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct BlockPair {
+pub(crate) struct BlockPair {
     levels: [u8; 2],
     blocks: [u32; 2],
+}
+
+/// What two trees have in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Common {
+    /// All: it is one tree, of which each pair is looked at once.
+    Tree,
+    /// The mesh: primitives that share a vertex are no pair.
+    Mesh,
+    /// Nothing.
+    Nothing,
 }
 
 /// Two trees, or one against itself.
@@ -22,7 +33,7 @@ pub(super) struct BlockPair {
 pub(super) struct Trees<'a, const N: usize, const M: usize> {
     pub(super) first: &'a Tree<N>,
     pub(super) second: &'a Tree<M>,
-    pub(super) are_same: bool,
+    pub(super) common: Common,
     /// Whether it matters who is in a block.
     pub(super) are_filtered: bool,
 }
@@ -47,10 +58,9 @@ impl Scratch {
 }
 
 impl<const N: usize, const M: usize> Trees<'_, N, M> {
-    /// Replaces `tasks` by the pairs of blocks of a level, or below, that are near each other, in the order in which a
+    /// Appends to `tasks` the pairs of blocks of a level, or below, that are near each other, in the order in which a
     /// traversal of the whole comes to them. Returns the number of tests, each of one box against sixteen.
     pub(super) fn tasks(&self, level: Level, floor: usize, scratch: &mut Scratch, tasks: &mut Vec<BlockPair>) -> u64 {
-        tasks.clear();
         let (Some(top), Some(other_top)) = (self.first.top(), self.second.top()) else {
             return 0;
         };
@@ -105,7 +115,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         let [level_a, level_b] = pair.levels;
         let (block_a, node_a) = part(self.first, level_a, a);
         let (block_b, node_b) = part(self.second, level_b, b);
-        let is_same = self.are_same && level_a == level_b && a == b;
+        let is_same = self.common == Common::Tree && level_a == level_b && a == b;
         if level_a > level_b {
             let mut near = lanes.near(block_a, &node_b.bounds) & node_a.present;
             near &= partners(node_b.moving != 0, node_a.moving);
@@ -166,7 +176,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         }
         let (block_a, node_a) = part(self.first, 0, a);
         let (block_b, node_b) = part(self.second, 0, b);
-        let is_same = self.are_same && a == b;
+        let is_same = self.common == Common::Tree && a == b;
         let (mut own, mut others) = (node_a.present, node_b.present);
         let mut tests = 0;
         if !is_same {
@@ -192,8 +202,10 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             near &= lanes.near(block_b, &block_a.get(lane as usize % LANES));
             tests += 1;
             if near != 0 {
-                let vertices = &self.first.vertices[(first + lane) as usize];
-                near &= !sharing(lanes, corners, vertices);
+                if self.common != Common::Nothing {
+                    let vertices = &self.first.vertices[(first + lane) as usize];
+                    near &= !sharing(lanes, corners, vertices);
+                }
                 found.push(first + lane, second, near);
             }
         }

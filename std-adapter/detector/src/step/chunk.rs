@@ -20,7 +20,7 @@
 use super::sweep::{Left, MOST, Open, Sweep};
 use super::{Bound, Contact, Question, Stop, Wanted};
 use crate::PairKind;
-use crate::broad_phase::{CHUNK, Hierarchies, Rows, Sink};
+use crate::broad_phase::{CHUNK, Hierarchies, Pairing, RowSlices, Sink};
 use crate::clock::Clock;
 use crate::dispatch::Level;
 use crate::mesh::Topology;
@@ -52,6 +52,8 @@ pub(super) enum Numbers<'a> {
     /// Faces and edges by their positions in the hierarchies. An edge is a vertex that goes from one of its ends to the other; its row
     /// comes after those of all vertices.
     FacesAndEdges(&'a Hierarchies),
+    /// Positions in the hierarchies of two meshes, whose rows begin at these.
+    Between(Pairing<'a>, [u32; 2]),
 }
 
 impl Numbers<'_> {
@@ -70,6 +72,7 @@ impl Numbers<'_> {
                 let [a, b, c] = hierarchies.face_corners(face);
                 [hierarchies.vertex_positions() as u32 + edge, a, b, c]
             }
+            Self::Between(pairing, first_rows) => pairing.rows_of(pair, *first_rows),
         }
     }
 
@@ -90,6 +93,7 @@ impl Numbers<'_> {
             Self::Positions(hierarchies) => hierarchies.in_mesh(kind, pair),
             Self::Mesh(_) | Self::Placed(_) => pair,
             Self::FacesAndEdges(hierarchies) => hierarchies.face_edge_in_mesh(pair),
+            Self::Between(pairing, _) => pairing.in_meshes(pair),
         }
     }
 }
@@ -99,7 +103,7 @@ impl Numbers<'_> {
 pub(super) struct StepInput<'a> {
     pub(super) level: Level,
     pub(super) numbers: Numbers<'a>,
-    pub(super) rows: &'a Rows,
+    pub(super) rows: RowSlices<'a>,
     pub(super) question: Question,
     /// The earliest contact so far, of all threads.
     pub(super) bound: &'a Bound,
@@ -110,7 +114,7 @@ impl<'a> StepInput<'a> {
     /// Of pairs that are named by the mesh's numbers.
     pub(super) fn of_mesh(
         hierarchies: &'a Hierarchies,
-        rows: &'a Rows,
+        rows: RowSlices<'a>,
         question: &Question,
         bound: &'a Bound,
         stop: &'a Stop,
@@ -130,7 +134,7 @@ impl<'a> StepInput<'a> {
     fn primitives(&self, kind: PairKind, rows: [u32; 4]) -> PrimitivePair<f64> {
         PrimitivePair {
             kind,
-            motions: rows.map(|row| self.rows.double()[row as usize].motion()),
+            motions: rows.map(|row| self.rows.double[row as usize].motion()),
         }
     }
 }
@@ -241,7 +245,7 @@ impl Chunk {
         let until = step.bound.get();
         self.impacts.clear();
         self.impacts.resize(self.pairs.len(), NEVER);
-        let sweeps = match step.rows.single() {
+        let sweeps = match step.rows.single {
             Some(rows) => self.sweep_in_single(step, kind, until, rows),
             None => {
                 self.double.fill(&self.indices);
@@ -298,7 +302,7 @@ impl Chunk {
         let sweep = Sweep {
             level: step.level,
             kind,
-            rows: step.rows.double(),
+            rows: step.rows.double,
             limits: step.question.limits,
             until,
         };
@@ -329,7 +333,7 @@ pub(super) fn drop_never_coplanar(
     masks.resize((indices.len() - first).div_ceil(LANES), 0);
     let (level, own, separation) = (step.level, &indices[first..], step.question.limits.separation);
     // A separation that the format has no number for excludes nothing.
-    match step.rows.single() {
+    match step.rows.single {
         Some(rows) => {
             if let Some(filter) = Filter::new(Tier::Widened).with_separation(rounded_up(separation)) {
                 culled_from_rows(level, kind, filter, rows, own, masks);
@@ -337,7 +341,7 @@ pub(super) fn drop_never_coplanar(
         }
         None => {
             if let Some(filter) = Filter::new(Tier::Permanent).with_separation(separation) {
-                culled_from_rows(level, kind, filter, step.rows.double(), own, masks);
+                culled_from_rows(level, kind, filter, step.rows.double, own, masks);
             }
         }
     }

@@ -207,7 +207,7 @@ impl Engine {
         let step = StepInput {
             level: hierarchies.level(),
             numbers: Numbers::Positions(hierarchies),
-            rows: hierarchies.rows(),
+            rows: hierarchies.rows().slices(),
             question: *question,
             bound: &bound,
             stop: &self.stop,
@@ -261,7 +261,7 @@ impl Engine {
         self.rows.set_some(motions, vertices, followed.is_single);
         let update = begin.elapsed().as_secs_f64();
         let bound = Bound::new(1.0);
-        let step = StepInput::of_mesh(hierarchies, &self.rows, question, &bound, &self.stop);
+        let step = StepInput::of_mesh(hierarchies, self.rows.slices(), question, &bound, &self.stop);
         let pairs = followed.open.each_ref().map(Vec::as_slice);
         decide(&mut self.workers, &mut self.spaces, &step, pairs, |_, pairs, _| Some(pairs));
         let count = followed.count() as u64;
@@ -291,7 +291,7 @@ impl Engine {
         let update = begin.elapsed().as_secs_f64();
 
         let bound = Bound::new(1.0);
-        let step = StepInput::of_mesh(hierarchies, &self.rows, question, &bound, &self.stop);
+        let step = StepInput::of_mesh(hierarchies, self.rows.slices(), question, &bound, &self.stop);
         let boxes = &self.boxes;
         let are_of_mesh = decide(&mut self.workers, &mut self.spaces, &step, pairs, |kind, pairs, near| {
             boxes.keep_near(step.level, kind, pairs, near)?;

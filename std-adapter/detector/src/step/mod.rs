@@ -1,5 +1,6 @@
 //! A mesh's contacts, step by step: what an engine asks, put to the stages.
 
+mod between;
 mod chunk;
 mod engine;
 mod geometry;
@@ -11,6 +12,7 @@ mod stop;
 mod sweep;
 mod truncation;
 
+pub(crate) use between::{Source, SourceEngine};
 pub use engine::StepTally;
 pub use geometry::ContactGeometry;
 pub use rest::Intersection;
@@ -73,7 +75,7 @@ pub enum Criterion<S> {
 }
 
 impl<S: Scalar> Criterion<S> {
-    const fn limits(&self) -> Limits<S> {
+    pub(crate) const fn limits(&self) -> Limits<S> {
         match *self {
             Self::Within(limits) => limits,
             Self::Touching { tolerance } => Limits {
@@ -81,6 +83,15 @@ impl<S: Scalar> Criterion<S> {
                 separation: S::ZERO,
             },
         }
+    }
+}
+
+impl<S: Scalar> Criterion<S> {
+    /// Both lengths must be such.
+    pub(crate) fn check(&self) -> Result<(), StepError> {
+        let limits = self.limits();
+        check_length(limits.separation)?;
+        check_length(limits.tolerance)
     }
 }
 
@@ -122,6 +133,17 @@ pub(crate) struct Question {
     pub(crate) keeps_filtered: bool,
     /// Whether only pairs that truly touch are contacts, by the exact verdict.
     pub(crate) is_exact: bool,
+}
+
+impl Question {
+    pub(crate) fn new<S: Scalar>(criterion: &Criterion<S>, wanted: Wanted) -> Self {
+        Self {
+            limits: widened(&criterion.limits()),
+            wanted,
+            keeps_filtered: false,
+            is_exact: matches!(criterion, Criterion::Touching { .. }),
+        }
+    }
 }
 
 /// How late a contact may be to be of interest: shared by all threads, lowered by each contact where only the earliest is wanted.
@@ -263,9 +285,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// # Errors
     /// If a length is negative, infinite or NaN. Then it stays as it was.
     pub fn set_criterion(&mut self, criterion: Criterion<S>) -> Result<(), StepError> {
-        let limits = criterion.limits();
-        check_length(limits.separation)?;
-        check_length(limits.tolerance)?;
+        criterion.check()?;
         self.criterion = criterion;
         Ok(())
     }
@@ -516,20 +536,15 @@ impl<S: Scalar> CollisionDetector<S> {
     }
 
     fn question(&self, wanted: Wanted) -> Question {
-        Question {
-            limits: widened(&self.criterion.limits()),
-            wanted,
-            keeps_filtered: false,
-            is_exact: matches!(self.criterion, Criterion::Touching { .. }),
-        }
+        Question::new(&self.criterion, wanted)
     }
 }
 
 /// A position of the caller's format.
-fn nearest<P: Position>(position: DVec3) -> P {
+pub(crate) fn nearest<P: Position>(position: DVec3) -> P {
     P::from(position.to_array().map(P::Scalar::from_f64))
 }
 
-fn rounded<P: Position>(position: DVec3) -> DVec3 {
+pub(crate) fn rounded<P: Position>(position: DVec3) -> DVec3 {
     exactly(nearest::<P>(position))
 }

@@ -157,7 +157,7 @@ impl Engine {
             step: StepInput {
                 level: hierarchies.level(),
                 numbers: Numbers::FacesAndEdges(hierarchies),
-                rows: &self.rows,
+                rows: self.rows.slices(),
                 question: Question {
                     // How near the sweeps come before the exact verdict is asked. It changes no answer.
                     limits: Limits::default(),

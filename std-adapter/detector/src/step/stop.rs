@@ -46,9 +46,9 @@ impl Cancellation {
 /// Whether to go on with a step: all threads ask, some thousand pairs at a time.
 #[derive(Debug)]
 pub(crate) struct Stop {
-    cancellation: Cancellation,
+    pub(crate) cancellation: Cancellation,
     /// Most pairs to look at.
-    limit: u64,
+    pub(crate) limit: u64,
     looked_at: AtomicU64,
     is_cancelled: AtomicBool,
 }
@@ -84,7 +84,7 @@ impl Stop {
     }
 
     /// Why it was, if it was.
-    pub(super) fn result(&self) -> Result<(), StepError> {
+    pub(crate) fn result(&self) -> Result<(), StepError> {
         if self.is_cancelled.load(Ordering::Relaxed) {
             Err(StepError::Cancelled)
         } else if self.has_stopped() {
@@ -95,7 +95,7 @@ impl Stop {
     }
 
     /// Whether a question may begin.
-    pub(super) fn admits(&self) -> Result<(), StepError> {
+    pub(crate) fn admits(&self) -> Result<(), StepError> {
         if self.cancellation.is_cancelled() {
             Err(StepError::Cancelled)
         } else {

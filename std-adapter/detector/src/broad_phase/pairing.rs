@@ -1,0 +1,112 @@
+//! The pairs of a kind within a mesh, or between two.
+
+use super::hierarchies::{Hierarchies, TASK_LEVEL};
+use super::pairs::Sink;
+use super::traversal::{BlockPair, Common, Scratch, Trees};
+use super::tree::Tree;
+use crate::PairKind;
+
+/// Primitives of one mesh and of another, or of the same: vertices of the first and faces of the second, or edges of both.
+///
+/// Two meshes' boxes must be comparable: made by one [mapping](selvedge_core::boxes::mapping), or by several about one origin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pairing<'a> {
+    pub(crate) kind: PairKind,
+    pub(crate) meshes: [&'a Hierarchies; 2],
+    is_within: bool,
+}
+
+impl<'a> Pairing<'a> {
+    /// Of a mesh with itself.
+    #[inline(always)]
+    pub(super) const fn within(kind: PairKind, mesh: &'a Hierarchies) -> Self {
+        Self {
+            kind,
+            meshes: [mesh; 2],
+            is_within: true,
+        }
+    }
+
+    /// Both kinds of pairs of a mesh with itself.
+    pub(crate) fn all_within(mesh: &'a Hierarchies) -> [Self; 2] {
+        [PairKind::VertexFace, PairKind::EdgeEdge].map(|kind| Self::within(kind, mesh))
+    }
+
+    /// Between two meshes: vertices of the first and faces of the second, the other way round, edges of both.
+    pub(crate) fn all_between(first: &'a Hierarchies, second: &'a Hierarchies) -> [Self; 3] {
+        let between = |kind, meshes| Self {
+            kind,
+            meshes,
+            is_within: false,
+        };
+        [
+            between(PairKind::VertexFace, [first, second]),
+            between(PairKind::VertexFace, [second, first]),
+            between(PairKind::EdgeEdge, [first, second]),
+        ]
+    }
+
+    /// Appends where to look for pairs to `tasks`. Returns the number of tests.
+    pub(crate) fn find_tasks(&self, scratch: &mut Scratch, tasks: &mut Vec<BlockPair>) -> u64 {
+        let level = self.meshes[0].level();
+        match self.kind {
+            PairKind::VertexFace => self.vertex_face().tasks(level, TASK_LEVEL, scratch, tasks),
+            PairKind::EdgeEdge => self.edge_edge().tasks(level, TASK_LEVEL, scratch, tasks),
+        }
+    }
+
+    /// Gives `sink` the candidates of some tasks, by their positions. Returns the number of tests, or `None` if the sink has had enough.
+    pub(crate) fn visit(&self, tasks: &[BlockPair], scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
+        let level = self.meshes[0].level();
+        match self.kind {
+            PairKind::VertexFace => self.vertex_face().pairs(level, tasks, scratch, sink),
+            PairKind::EdgeEdge => self.edge_edge().pairs(level, tasks, scratch, sink),
+        }
+    }
+
+    fn vertex_face(&self) -> Trees<'a, 1, 3> {
+        let [first, second] = self.meshes;
+        self.trees(&first.vertices, &second.faces, Common::Mesh)
+    }
+
+    fn edge_edge(&self) -> Trees<'a, 2, 2> {
+        let [first, second] = self.meshes;
+        self.trees(&first.edges, &second.edges, Common::Tree)
+    }
+
+    fn trees<const N: usize, const M: usize>(&self, first: &'a Tree<N>, second: &'a Tree<M>, within: Common) -> Trees<'a, N, M> {
+        Trees {
+            first,
+            second,
+            common: if self.is_within { within } else { Common::Nothing },
+            are_filtered: self.is_within && self.meshes[0].are_filtered(),
+        }
+    }
+
+    /// The rows of a pair's four vertices, given the first row of each of two meshes.
+    #[inline(always)]
+    pub(crate) fn rows_of(&self, [first, second]: [u32; 2], first_rows: [u32; 2]) -> [u32; 4] {
+        let [mesh, other] = self.meshes;
+        let [here, there] = first_rows;
+        match self.kind {
+            PairKind::VertexFace => {
+                let [a, b, c] = other.face_corners(second);
+                [here + first, there + a, there + b, there + c]
+            }
+            PairKind::EdgeEdge => {
+                let ([a, b], [c, d]) = (mesh.edge_ends()[first as usize], other.edge_ends()[second as usize]);
+                [here + a, here + b, there + c, there + d]
+            }
+        }
+    }
+
+    /// A pair of two meshes as each of them numbers its own.
+    pub(crate) fn in_meshes(&self, [first, second]: [u32; 2]) -> [u32; 2] {
+        let [mesh, other] = self.meshes;
+        let (first, second) = (first as usize, second as usize);
+        match self.kind {
+            PairKind::VertexFace => [mesh.vertices.primitives[first], other.faces.primitives[second]],
+            PairKind::EdgeEdge => [mesh.edges.primitives[first], other.edges.primitives[second]],
+        }
+    }
+}

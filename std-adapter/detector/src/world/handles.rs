@@ -1,0 +1,133 @@
+//! Handles of what comes and goes.
+
+use std::fmt;
+
+/// A mesh of a [`World`](super::World). Of a mesh that was removed it stays the name for good: no other mesh gets the same one.
+///
+/// A world knows its own handles only; that of another world may be taken for one of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct MeshHandle {
+    index: u32,
+    generation: u32,
+}
+
+impl MeshHandle {
+    /// The place that the mesh has, counted from zero: another mesh gets it once this one is removed. For a caller's own tables.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.index as usize
+    }
+
+    /// How many meshes have had this place before.
+    #[must_use]
+    pub const fn generation(self) -> u32 {
+        self.generation
+    }
+}
+
+impl fmt::Display for MeshHandle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} (generation {})", self.index, self.generation)
+    }
+}
+
+/// Things with handles, in places that are used again.
+#[derive(Debug)]
+pub(super) struct Places<T> {
+    places: Vec<Place<T>>,
+    free: Vec<u32>,
+}
+
+#[derive(Debug)]
+struct Place<T> {
+    /// Of what is in it, or of what will be.
+    generation: u32,
+    item: Option<T>,
+}
+
+impl<T> Places<T> {
+    pub(super) const fn new() -> Self {
+        Self {
+            places: Vec::new(),
+            free: Vec::new(),
+        }
+    }
+
+    /// `None` if there is no handle left.
+    pub(super) fn insert(&mut self, item: T) -> Option<MeshHandle> {
+        let index = match self.free.pop() {
+            Some(index) => index,
+            None => {
+                let index = u32::try_from(self.places.len()).ok()?;
+                self.places.push(Place {
+                    generation: 0,
+                    item: None,
+                });
+                index
+            }
+        };
+        let place = &mut self.places[index as usize];
+        place.item = Some(item);
+        Some(MeshHandle {
+            index,
+            generation: place.generation,
+        })
+    }
+
+    pub(super) fn remove(&mut self, handle: MeshHandle) -> Option<T> {
+        self.get(handle)?;
+        let place = &mut self.places[handle.index()];
+        // A place that has no generation left is not used again.
+        if let Some(next) = place.generation.checked_add(1) {
+            place.generation = next;
+            self.free.push(handle.index);
+        }
+        place.item.take()
+    }
+
+    pub(super) fn get(&self, handle: MeshHandle) -> Option<&T> {
+        let place = self.places.get(handle.index())?;
+        place.item.as_ref().filter(|_| place.generation == handle.generation)
+    }
+
+    pub(super) fn get_mut(&mut self, handle: MeshHandle) -> Option<&mut T> {
+        let place = self.places.get_mut(handle.index())?;
+        place.item.as_mut().filter(|_| place.generation == handle.generation)
+    }
+
+    /// All there are, in ascending order of their places.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (MeshHandle, &T)> {
+        (0..).zip(&self.places).filter_map(|(index, place)| {
+            let generation = place.generation;
+            Some((MeshHandle { index, generation }, place.item.as_ref()?))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_handle_names_one_thing_for_good() {
+        let mut places = Places::new();
+        let first = places.insert("first").unwrap();
+        assert_eq!(places.remove(first), Some("first"));
+        let second = places.insert("second").unwrap();
+        assert_eq!((first.index(), second.index()), (0, 0));
+        assert_eq!((places.get(first), places.get(second)), (None, Some(&"second")));
+        assert_eq!(places.remove(first), None);
+        assert!(places.iter().eq([(second, &"second")]));
+    }
+
+    #[test]
+    fn a_place_without_generations_left_is_not_used_again() {
+        let mut places = Places::new();
+        places.insert(0).unwrap();
+        places.places[0].generation = u32::MAX;
+        let last = places.iter().next().unwrap().0;
+        assert_eq!(places.remove(last), Some(0));
+        assert_eq!(places.insert(1).unwrap().index(), 1);
+        assert_eq!(places.get(last), None);
+    }
+}

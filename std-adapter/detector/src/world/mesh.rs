@@ -1,0 +1,171 @@
+//! A mesh of a world, and how it moves in a step.
+
+use crate::broad_phase::{Fit, Hierarchies};
+use crate::collision_filter::Groups;
+use crate::frame::Motions;
+use crate::mesh::Topology;
+use crate::parallel;
+use selvedge_core::Motion;
+use selvedge_core::boxes::Aabb;
+use selvedge_core::boxes::mapping::Mapping;
+use selvedge_core::glam::{DQuat, DVec3};
+use selvedge_core::paths::{Path, Piece, RigidMotion, separation_of_pieces};
+use std::sync::Arc;
+
+/// What a mesh does in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Moves {
+    /// Nothing.
+    Not,
+    /// Each vertex goes its own way: it can meet itself.
+    Deforming,
+    /// All vertices go one way.
+    Straight,
+    /// As a body that turns. Its vertices are this far from their straight ways, at most.
+    Turning(RigidMotion, f64),
+}
+
+impl Moves {
+    pub(super) const fn deviation(&self) -> f64 {
+        match self {
+            Self::Turning(_, deviation) => *deviation,
+            _ => 0.0,
+        }
+    }
+
+    pub(super) const fn turning(&self) -> Option<RigidMotion> {
+        match self {
+            Self::Turning(motion, _) => Some(*motion),
+            _ => None,
+        }
+    }
+}
+
+#[derive(Debug)]
+pub(super) struct WorldMesh {
+    pub(super) hierarchies: Hierarchies,
+    /// The positions that it was inserted with.
+    pub(super) shape: Vec<DVec3>,
+    pub(super) groups: Groups,
+    pub(super) moves: Moves,
+    /// Where its rows are among those of all.
+    pub(super) rows_at: Option<RowsAt>,
+}
+
+/// A place among the rows of all meshes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RowsAt {
+    /// Places of another arrangement are none.
+    pub(super) arrangement: u64,
+    pub(super) first: u32,
+    /// Whether what is there is what the hierarchies hold.
+    pub(super) are_current: bool,
+}
+
+impl WorldMesh {
+    /// Builds its hierarchies, and rests.
+    pub(super) fn new(topology: Arc<Topology>, shape: Vec<DVec3>, groups: Groups, separation: f64) -> Self {
+        let mut mesh = Self {
+            hierarchies: Hierarchies::new(topology),
+            shape: Vec::new(),
+            groups,
+            moves: Moves::Not,
+            rows_at: None,
+        };
+        let resting = Frames(shape.iter().map(|&position| Motion::resting(position)).collect());
+        mesh.set_motion(&resting, Moves::Not, separation);
+        mesh.shape = shape;
+        mesh
+    }
+
+    /// Moves in the next step, keeping `separation` from others.
+    pub(super) fn set_motion(&mut self, motions: &dyn Motions, moves: Moves, separation: f64) {
+        let separation = match moves {
+            // For its half of the separation: the box is to hold the deviation on each side.
+            Moves::Turning(_, deviation) => separation_of_pieces(separation, 2.0 * deviation),
+            _ => separation,
+        };
+        let fit = Fit {
+            separation,
+            ..Fit::default()
+        };
+        self.hierarchies.fit_boxes(&AboutOrigin(motions), &fit);
+        self.hierarchies.narrow();
+        self.moves = moves;
+        if let Some(place) = &mut self.rows_at {
+            place.are_current = false;
+        }
+    }
+
+    /// Rests from now on where its last motion has ended.
+    pub(super) fn come_to_rest(&mut self, separation: f64) {
+        let motion = |vertex| self.hierarchies.motion_of(vertex).unwrap_or_default();
+        let vertices = 0..self.hierarchies.topology().vertex_count();
+        let resting = Frames(vertices.map(|vertex| Motion::resting(motion(vertex).end)).collect());
+        self.set_motion(&resting, Moves::Not, separation);
+    }
+}
+
+/// The motion of each vertex.
+#[derive(Debug)]
+pub(super) struct Frames(pub(super) Vec<Motion<f64>>);
+
+impl Motions for Frames {
+    fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    fn of(&self, vertex: usize) -> Motion<f64> {
+        self.0[vertex]
+    }
+
+    fn mapping(&self, extent: &Aabb<f64>, fit: &Fit) -> Mapping {
+        Mapping::new(extent, fit.separation, fit.until, fit.is_swept)
+    }
+}
+
+/// Boxes of all meshes about one origin, zero, [so that they compare](selvedge_core::boxes::mapping#two-mappings).
+struct AboutOrigin<'a>(&'a dyn Motions);
+
+impl Motions for AboutOrigin<'_> {
+    fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    fn of(&self, vertex: usize) -> Motion<f64> {
+        self.0.of(vertex)
+    }
+
+    fn mapping(&self, _: &Aabb<f64>, fit: &Fit) -> Mapping {
+        self.0.mapping(&Aabb::empty(), fit)
+    }
+}
+
+/// A rotation, and where the mesh's origin is.
+pub(super) type Pose = (DQuat, DVec3);
+
+/// How a mesh moves from one pose to another, by vertices at positions that `rounded` leaves where it goes straight; `None` if the poses are
+/// none, or too far out.
+pub(super) fn between_poses(shape: &[DVec3], [start, end]: [Pose; 2], rounded: fn(DVec3) -> DVec3) -> Option<(Frames, Moves)> {
+    let motion = RigidMotion::between(start, end)?;
+    let turn = start.0.normalize();
+    let turned = |&position: &DVec3| turn * position;
+    let (frames, moves) = if start.0 == end.0 || start.0 == -end.0 {
+        let ends = |position: DVec3| Motion::new(rounded(position + start.1), rounded(position + end.1));
+        let frames = shape.iter().map(|position| ends(turned(position))).collect();
+        (Frames(frames), Moves::Straight)
+    } else {
+        let mut pieces: Vec<Piece> = Vec::new();
+        let piece = |position: &DVec3| motion.path(turned(position) + start.1).piece(0.0, 1.0);
+        parallel::fill(&mut pieces, shape, piece);
+        // A maximum may drop NaN.
+        let deviations = pieces.iter().map(|piece| piece.deviation);
+        let deviation = deviations.fold(0.0, |most: f64, own| most.max(own) + 0.0 * own);
+        (
+            Frames(pieces.iter().map(|piece| piece.motion).collect()),
+            Moves::Turning(motion, deviation),
+        )
+    };
+    let are_finite = frames.0.iter().all(|own| own.start.is_finite() && own.end.is_finite());
+    (are_finite && moves.deviation().is_finite()).then_some((frames, moves))
+}

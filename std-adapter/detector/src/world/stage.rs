@@ -1,0 +1,301 @@
+//! A step of a world: what moves is refitted, meshes that are near each other are found, and their pairs decided.
+
+use super::handles::{MeshHandle, Places};
+use super::mesh::{Moves, RowsAt, WorldMesh};
+use crate::broad_phase::{MeshHierarchy, Pairing, Rows};
+use crate::frame::{Motions, StepError};
+use crate::step::{Contact, Question, Source, SourceEngine};
+use selvedge_core::elementary::Limits;
+use selvedge_core::paths::{Arc, Path, Piece, RigidMotion, separation_of_pieces, time_of_impact};
+use selvedge_core::{Motion, PairKind};
+
+/// Most vertices of all meshes: rows are numbered, with as many places unused as used.
+pub(super) const MOST_VERTICES: usize = u32::MAX as usize / 2;
+
+/// All meshes, and what a step is made with.
+#[derive(Debug)]
+pub(super) struct Stage {
+    pub(super) meshes: Places<WorldMesh>,
+    hierarchy: MeshHierarchy,
+    /// Those in the hierarchy, in ascending order.
+    handles: Vec<MeshHandle>,
+    /// Whether there are other meshes than in the hierarchy, or other groups.
+    pub(super) are_others: bool,
+    pub(super) engine: SourceEngine,
+    /// Vertices of all meshes.
+    pub(super) vertices: usize,
+    /// Whether boxes are made for another separation.
+    pub(super) must_fit: bool,
+    /// The meshes that moved in the last step.
+    moved: Vec<MeshHandle>,
+    near: Vec<[u32; 2]>,
+    rows: PlacedRows,
+    /// The meshes of each source of the last step.
+    pub(super) sources: Vec<[MeshHandle; 2]>,
+}
+
+/// A mesh's motion in a step.
+pub(super) type Given<'a> = (MeshHandle, &'a dyn Motions, Moves);
+
+impl Stage {
+    pub(super) fn new() -> Self {
+        Self {
+            meshes: Places::new(),
+            hierarchy: MeshHierarchy::new(),
+            handles: Vec::new(),
+            are_others: false,
+            engine: SourceEngine::new(),
+            vertices: 0,
+            must_fit: false,
+            moved: Vec::new(),
+            near: Vec::new(),
+            rows: PlacedRows::default(),
+            sources: Vec::new(),
+        }
+    }
+
+    /// Finds the contacts of a step. All meshes that are given are there, each once.
+    pub(super) fn run(&mut self, given: &[Given<'_>], question: &Question) -> Result<(), StepError> {
+        self.set_motions(given, question.limits.separation);
+        self.hierarchy.find(&mut self.near);
+        self.place_rows();
+
+        let meshes = &self.meshes;
+        let mut sources = Vec::new();
+        let mut turning = Vec::new();
+        self.sources.clear();
+        for &handle in &self.moved {
+            let Some(mesh) = meshes.get(handle) else { continue };
+            if mesh.moves == Moves::Deforming && mesh.groups.collide(mesh.groups) {
+                for pairing in Pairing::all_within(&mesh.hierarchies) {
+                    sources.push(Source {
+                        pairing,
+                        rows: None,
+                        question: *question,
+                    });
+                    turning.push(None);
+                    self.sources.push([handle; 2]);
+                }
+            }
+        }
+        for pair in &self.near {
+            let [a, b] = pair.map(|index| self.handles[index as usize]);
+            let (Some(first), Some(second)) = (meshes.get(a), meshes.get(b)) else {
+                continue;
+            };
+            let (there, back) = ([first, second], [second, first]);
+            let pairings = Pairing::all_between(&first.hierarchies, &second.hierarchies);
+            for (pairing, (meshes, handles)) in pairings.into_iter().zip([(there, [a, b]), (back, [b, a]), (there, [a, b])]) {
+                let motions = meshes.map(|mesh| mesh.moves.turning());
+                let are_single = meshes.iter().all(|mesh| mesh.hierarchies.rows().single().is_some());
+                sources.push(Source {
+                    pairing,
+                    rows: Some((self.rows.rows.put_slices(are_single), meshes.map(PlacedRows::first_of))),
+                    question: question_on_pieces(question, meshes),
+                });
+                turning.push(motions.iter().any(Option::is_some).then_some(motions));
+                self.sources.push(handles);
+            }
+        }
+        let refine = |source: usize, contact: &Contact<f64>| match &turning[source] {
+            None => Some(contact.time),
+            Some(motions) => time_on_paths(&sources[source].pairing, motions, &question.limits, contact),
+        };
+        self.engine.run(&sources, &refine);
+        self.observe();
+        self.engine.stop.result()
+    }
+
+    /// Refits what moves, and what has come to rest.
+    fn set_motions(&mut self, given: &[Given<'_>], separation: f64) {
+        for &(handle, motions, moves) in given {
+            if let Some(mesh) = self.meshes.get_mut(handle) {
+                mesh.set_motion(motions, moves, separation);
+            }
+        }
+        let mut listed: Vec<_> = given.iter().map(|&(handle, ..)| handle).collect();
+        listed.sort_unstable();
+        let rests = |handle: &MeshHandle| listed.binary_search(handle).is_err();
+        if self.must_fit {
+            self.moved = self.meshes.iter().map(|(handle, _)| handle).collect();
+            self.must_fit = false;
+        }
+        self.moved.retain(rests);
+        for &handle in &self.moved {
+            // Else it was removed.
+            if let Some(mesh) = self.meshes.get_mut(handle) {
+                mesh.come_to_rest(separation);
+            }
+        }
+        let bounds = |mesh: &WorldMesh| (mesh.hierarchies.bounds(), mesh.moves != Moves::Not);
+        if self.are_others {
+            self.handles = self.meshes.iter().map(|(handle, _)| handle).collect();
+            let all = self.meshes.iter().map(|(_, mesh)| {
+                let (bounds, moves) = bounds(mesh);
+                (bounds, moves, mesh.groups)
+            });
+            self.hierarchy.replace(all);
+            self.are_others = false;
+        } else {
+            for handle in self.moved.iter().chain(&listed) {
+                let Ok(index) = self.handles.binary_search(handle) else {
+                    continue;
+                };
+                if let Some(mesh) = self.meshes.get(*handle) {
+                    let (bounds, moves) = bounds(mesh);
+                    self.hierarchy.set(index, bounds, moves);
+                }
+            }
+        }
+        self.moved = listed;
+    }
+
+    /// Puts the rows of meshes that are near others with those of all.
+    fn place_rows(&mut self) {
+        let mut near: Vec<u32> = self.near.iter().flatten().copied().collect();
+        near.sort_unstable();
+        near.dedup();
+        let near: Vec<_> = near.into_iter().map(|index| self.handles[index as usize]).collect();
+        let new = near.iter().filter_map(|&handle| self.meshes.get(handle));
+        let new = new.filter(|mesh| !self.rows.has(mesh));
+        let new = new.map(|mesh| mesh.hierarchies.vertex_positions()).sum();
+        self.rows.make_room(new, self.vertices);
+        for handle in near {
+            if let Some(mesh) = self.meshes.get_mut(handle) {
+                self.rows.place(mesh);
+            }
+        }
+    }
+
+    /// Tells hierarchies what they have cost, which decides when they are built anew.
+    fn observe(&mut self) {
+        if self.engine.stop.result().is_err() {
+            return;
+        }
+        let mut efforts = vec![(0, 0); self.sources.len()];
+        for (source, tests, candidates) in self.engine.efforts() {
+            let (own_tests, own_candidates) = &mut efforts[source];
+            *own_tests += tests;
+            *own_candidates += candidates;
+        }
+        // Those of a mesh with itself come two by two, and first.
+        let within = self.sources.chunks(2).zip(efforts.chunks(2));
+        for (handles, efforts) in within.take_while(|(handles, _)| handles[0][0] == handles[0][1]) {
+            if let Some(mesh) = self.meshes.get_mut(handles[0][0]) {
+                let tests = efforts.iter().map(|effort| effort.0).sum();
+                let candidates: u64 = efforts.iter().map(|effort| effort.1).sum();
+                mesh.hierarchies.observe(tests, candidates as usize);
+            }
+        }
+    }
+}
+
+/// What two meshes are to keep on the straight pieces of their ways. No exact verdict is there for what is not straight.
+fn question_on_pieces(question: &Question, meshes: [&WorldMesh; 2]) -> Question {
+    let [first, second] = meshes.map(|mesh| mesh.moves.deviation());
+    let limits = question.limits;
+    match first + second {
+        0.0 => *question,
+        deviation => Question {
+            limits: Limits {
+                separation: separation_of_pieces(limits.separation, deviation),
+                ..limits
+            },
+            is_exact: false,
+            ..*question
+        },
+    }
+}
+
+/// When a pair is in contact on its paths.
+fn time_on_paths(
+    pairing: &Pairing<'_>,
+    motions: &[Option<RigidMotion>; 2],
+    limits: &Limits<f64>,
+    contact: &Contact<f64>,
+) -> Option<f64> {
+    let [first, second] = contact.pair.map(|primitive| primitive as usize);
+    let [mesh, other] = pairing.meshes.map(|hierarchies| hierarchies.topology());
+    let way = |side: usize, vertex: u32| {
+        let straight = pairing.meshes[side].motion_of(vertex as usize).unwrap_or_default();
+        motions[side].map_or(Way::Straight(straight), |motion| Way::Arc(motion.path(straight.start)))
+    };
+    let ways = match contact.kind {
+        PairKind::VertexFace => {
+            let [a, b, c] = other.triangles()[second];
+            [way(0, contact.pair[0]), way(1, a), way(1, b), way(1, c)]
+        }
+        PairKind::EdgeEdge => {
+            let ([a, b], [c, d]) = (mesh.edges()[first], other.edges()[second]);
+            [way(0, a), way(0, b), way(1, c), way(1, d)]
+        }
+    };
+    let paths = ways.each_ref().map(|way| way as &dyn Path);
+    time_of_impact(contact.kind, paths, limits).time()
+}
+
+/// Of a vertex.
+enum Way {
+    Straight(Motion<f64>),
+    Arc(Arc),
+}
+
+impl Path for Way {
+    fn piece(&self, from: f64, to: f64) -> Piece {
+        match self {
+            Self::Straight(motion) => motion.piece(from, to),
+            Self::Arc(arc) => arc.piece(from, to),
+        }
+    }
+}
+
+/// The rows of meshes that are, or were, near others: each keeps its place as long as there is room, so that what rests is put there once.
+#[derive(Debug, Default)]
+struct PlacedRows {
+    rows: Rows,
+    arrangement: u64,
+    /// Where there is room.
+    end: usize,
+}
+
+impl PlacedRows {
+    fn has(&self, mesh: &WorldMesh) -> bool {
+        mesh.rows_at.is_some_and(|place| place.arrangement == self.arrangement)
+    }
+
+    /// Room for so many more rows. Where more than half of them would be of nobody, all are placed anew.
+    fn make_room(&mut self, new: usize, vertices: usize) {
+        if self.end + new > 2 * vertices {
+            self.rows.clear();
+            self.arrangement += 1;
+            self.end = 0;
+        }
+    }
+
+    fn place(&mut self, mesh: &mut WorldMesh) {
+        let rows = mesh.hierarchies.rows();
+        let place = match mesh.rows_at.filter(|place| place.arrangement == self.arrangement) {
+            Some(place) => place,
+            None => {
+                let first = self.end as u32;
+                self.end += mesh.hierarchies.vertex_positions();
+                RowsAt {
+                    arrangement: self.arrangement,
+                    first,
+                    are_current: false,
+                }
+            }
+        };
+        if !place.are_current {
+            self.rows.put(place.first as usize, rows);
+        }
+        mesh.rows_at = Some(RowsAt {
+            are_current: true,
+            ..place
+        });
+    }
+
+    fn first_of(mesh: &WorldMesh) -> u32 {
+        mesh.rows_at.map_or(0, |place| place.first)
+    }
+}
