@@ -45,3 +45,4 @@ mod time_of_impact_is_never_late;
 mod time_of_impact_on_tiny_numbers;
 mod truncated_steps_are_free;
 mod verdicts_are_invariant;
+mod worlds_are_as_detectors_built_anew;

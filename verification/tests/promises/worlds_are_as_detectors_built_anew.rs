@@ -1,0 +1,679 @@
+//! A world of meshes that come and go tells the contacts that a detector built anew tells of the same triangles.
+
+use proptest::prelude::*;
+use selvedge::core::elementary::Limits;
+use selvedge::glam::{DQuat, DVec3};
+use selvedge::{
+    CollisionDetector, CollisionFilter, Criterion, Groups, MeshHandle, MeshMotion, PairKind, Position, Scalar, StepError,
+    Threads, Topology, World, WorldContact, WorldError,
+};
+use selvedge_core::separation::closest::Closest;
+use std::cell::Cell;
+use std::f64::consts::PI;
+
+/// Numbers that follow from a seed (SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn word(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.word() % count as u64) as usize
+    }
+
+    fn pick<T: Copy>(&mut self, options: &[T]) -> T {
+        options[self.below(options.len())]
+    }
+
+    /// In [-1, 1].
+    fn unit(&mut self) -> f64 {
+        (self.word() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    fn vector(&mut self) -> DVec3 {
+        DVec3::new(self.unit(), self.unit(), self.unit())
+    }
+
+    /// With many coordinates in common, or with none.
+    fn point(&mut self, on_lattice: bool) -> DVec3 {
+        let point = self.vector();
+        if on_lattice { (point * 2.0).round() * 0.5 } else { point }
+    }
+
+    fn rotation(&mut self) -> DQuat {
+        DQuat::from_axis_angle(DVec3::new(self.unit(), self.unit(), 1.5).normalize(), PI * self.unit())
+    }
+}
+
+/// A mesh as the test knows it.
+#[derive(Clone)]
+struct Model<S> {
+    handle: MeshHandle,
+    topology: Topology,
+    shape: Vec<[S; 3]>,
+    /// Where it rests.
+    at: Vec<[S; 3]>,
+    groups: Groups,
+}
+
+#[derive(Clone)]
+enum Way<S> {
+    Rests,
+    Deforms(Vec<[S; 3]>, Vec<[S; 3]>),
+    Goes([(DQuat, DVec3); 2]),
+}
+
+fn narrow<S: Scalar>(point: DVec3) -> [S; 3] {
+    point.to_array().map(S::from_f64)
+}
+
+fn wide<S: Scalar>(point: [S; 3]) -> DVec3 {
+    point.map(S::to_f64).into()
+}
+
+impl<S: Scalar> Model<S> {
+    fn frames(&self, way: &Way<S>) -> [Vec<[S; 3]>; 2] {
+        match way {
+            Way::Rests => [self.at.clone(), self.at.clone()],
+            Way::Deforms(start, end) => [start.clone(), end.clone()],
+            Way::Goes(poses) => poses.map(|(rotation, origin)| {
+                let posed = |&point: &[S; 3]| narrow(rotation.normalize() * wide(point) + origin);
+                self.shape.iter().map(posed).collect()
+            }),
+        }
+    }
+}
+
+type Told<S> = Vec<(PairKind, [MeshHandle; 2], [u32; 2], S)>;
+
+fn told<S: Scalar>(contacts: &[WorldContact<S>]) -> Told<S> {
+    let mut told: Told<S> = contacts.iter().map(|c| (c.kind, c.meshes, c.pair, c.time)).collect();
+    told.sort_by_key(|&(kind, meshes, pair, _)| (kind, meshes, pair));
+    told
+}
+
+/// The contacts of some of the meshes, by a detector for all their triangles as one mesh.
+fn by_one_detector<S: Scalar>(models: &[(&Model<S>, &Way<S>)], criterion: Criterion<S>) -> Told<S>
+where
+    [S; 3]: Position<Scalar = S>,
+{
+    let (mut triangles, mut of_vertex) = (Vec::new(), Vec::new());
+    let (mut start, mut end) = (Vec::new(), Vec::new());
+    // Of each mesh its first vertex, edge and face.
+    let mut firsts = vec![[0_u32; 3]];
+    for (index, (model, way)) in models.iter().enumerate() {
+        let [vertices, edges, faces] = *firsts.last().expect("one at least");
+        let topology = &model.topology;
+        triangles.extend(topology.triangles().iter().map(|own| own.map(|vertex| vertex + vertices)));
+        let [from, to] = model.frames(way);
+        of_vertex.extend(vec![index; from.len()]);
+        firsts.push([
+            vertices + from.len() as u32,
+            edges + topology.edges().len() as u32,
+            faces + topology.triangles().len() as u32,
+        ]);
+        start.extend(from);
+        end.extend(to);
+    }
+    if triangles.is_empty() {
+        return Vec::new();
+    }
+    let mut detector = CollisionDetector::<S>::new(Topology::new(start.len(), triangles).expect("as they were"));
+    detector.set_criterion(criterion).expect("lengths");
+    let known: Vec<(bool, bool, Groups)> = models
+        .iter()
+        .map(|(model, way)| (!matches!(way, Way::Rests), matches!(way, Way::Deforms(..)), model.groups))
+        .collect();
+    let meshes_of = of_vertex.clone();
+    let rule = move |_, _, vertices: [u32; 4]| {
+        let [a, b] = [vertices[0], vertices[3]].map(|vertex| meshes_of[vertex as usize]);
+        let ((moves, deforms, groups), (other_moves, _, other_groups)) = (known[a], known[b]);
+        groups.collide(other_groups) && if a == b { deforms } else { moves || other_moves }
+    };
+    detector
+        .set_collision_filter(CollisionFilter::new().with_rule(rule))
+        .expect("no lists");
+    let mut contacts = Vec::new();
+    detector.contacts(&start, &end, &mut contacts).expect("finite positions");
+    let mut told = Vec::new();
+    for contact in contacts {
+        let of = |item: u32, what: usize| firsts.iter().rposition(|first| first[what] <= item).expect("from zero on");
+        let whats = match contact.kind {
+            PairKind::VertexFace => [0, 2],
+            PairKind::EdgeEdge => [1, 1],
+        };
+        let meshes = [0, 1].map(|side| of(contact.pair[side], whats[side]));
+        let pair = [0, 1].map(|side| contact.pair[side] - firsts[meshes[side]][whats[side]]);
+        told.push((contact.kind, meshes.map(|index| models[index].0.handle), pair, contact.time));
+    }
+    told.sort_by_key(|&(kind, meshes, pair, _)| (kind, meshes, pair));
+    told
+}
+
+/// What happens to a world, one after the other.
+#[derive(Clone, Copy, Debug)]
+enum Event {
+    Insertion,
+    Removal,
+    Grouping,
+    Setting,
+    Step,
+}
+
+fn stories() -> impl Strategy<Value = Vec<(Event, u64)>> + Clone {
+    let event = prop_oneof![
+        4 => Just(Event::Insertion),
+        2 => Just(Event::Removal),
+        1 => Just(Event::Grouping),
+        1 => Just(Event::Setting),
+        6 => Just(Event::Step),
+    ];
+    prop::collection::vec((event, any::<u64>()), 1..80)
+}
+
+/// How often each was done, and contacts found: within meshes, between them.
+#[derive(Clone, Copy, Debug, Default)]
+struct Count {
+    insertions: usize,
+    removals: usize,
+    moves: usize,
+    contacts: [usize; 2],
+}
+
+fn is_as_one_detector<S: Scalar>(story: &[(Event, u64)], count: &Cell<Count>) -> Result<(), TestCaseError>
+where
+    [S; 3]: Position<Scalar = S>,
+{
+    let mut worlds = [World::<[S; 3]>::new(), World::<[S; 3]>::new()];
+    worlds[1].set_threads(Threads::from_count(2)).expect("two threads");
+    let mut models: Vec<Model<S>> = Vec::new();
+    let mut removed = Vec::new();
+    let mut criterion = Criterion::default();
+    let mut done = count.get();
+    for &(event, seed) in story {
+        let mut random = Random(seed);
+        match event {
+            Event::Insertion => {
+                let vertices = 3 + random.below(6);
+                let place = random.vector() * random.pick(&[0.0, 1.0, 4.0]);
+                let on_lattice = random.below(2) == 0;
+                let shape: Vec<[S; 3]> = (0..vertices).map(|_| narrow(place + random.point(on_lattice))).collect();
+                let triangles = (0..1 + random.below(6)).map(|_| [(); 3].map(|()| random.below(vertices) as u32));
+                let topology = Topology::new(vertices, triangles.collect()).expect("vertices that exist");
+                let groups = random.pick(&[Groups::ALL, Groups::ALL, Groups::new(1, 2), Groups::new(2, 3)]);
+                let handles = worlds.each_mut().map(|world| world.insert(topology.clone(), &shape, groups));
+                let [Ok(handle), Ok(other)] = handles else {
+                    return Err(TestCaseError::fail("refused"));
+                };
+                prop_assert_eq!(handle, other);
+                prop_assert!(!removed.contains(&handle), "a handle of a mesh that was removed");
+                models.push(Model {
+                    handle,
+                    topology,
+                    at: shape.clone(),
+                    shape,
+                    groups,
+                });
+                models.sort_by_key(|model| model.handle);
+                done.insertions += 1;
+            }
+            Event::Removal if !models.is_empty() => {
+                let model = models.remove(random.below(models.len()));
+                for world in &mut worlds {
+                    prop_assert_eq!(world.remove(model.handle), Ok(()));
+                    prop_assert_eq!(world.remove(model.handle), Err(WorldError::NoSuchMesh { mesh: model.handle }));
+                }
+                removed.push(model.handle);
+                done.removals += 1;
+            }
+            Event::Grouping if !models.is_empty() => {
+                let index = random.below(models.len());
+                let model = &mut models[index];
+                model.groups = random.pick(&[Groups::ALL, Groups::new(1, 2), Groups::new(2, 3), Groups::new(1, 1)]);
+                for world in &mut worlds {
+                    prop_assert_eq!(world.set_groups(model.handle, model.groups), Ok(()));
+                }
+            }
+            Event::Setting => {
+                let limits = Limits {
+                    separation: S::from_f64(random.pick(&[0.0, 0.01, 0.3])),
+                    ..Limits::default()
+                };
+                let tolerance = limits.tolerance;
+                criterion = random.pick(&[Criterion::Within(limits), Criterion::Touching { tolerance }]);
+                for world in &mut worlds {
+                    prop_assert_eq!(world.set_criterion(criterion), Ok(()));
+                }
+            }
+            Event::Step => {
+                let way = |model: &Model<S>, random: &mut Random| {
+                    let far = random.pick(&[0.1, 0.5, 2.0]);
+                    match random.below(5) {
+                        0 | 1 => Way::Rests,
+                        2 | 3 => {
+                            let on_lattice = random.below(2) == 0;
+                            let start = model.at.clone();
+                            let by = random.vector() * far;
+                            let end = start.iter().map(|&point| {
+                                let bend = random.point(on_lattice) * 0.5 * far;
+                                narrow(wide(point) + if on_lattice { bend } else { by + bend })
+                            });
+                            Way::Deforms(start.clone(), end.collect())
+                        }
+                        _ => {
+                            let rotation = if random.below(2) == 0 {
+                                DQuat::IDENTITY
+                            } else {
+                                random.rotation()
+                            };
+                            Way::Goes([(rotation, random.vector() * far), (rotation, random.vector() * far)])
+                        }
+                    }
+                };
+                let ways: Vec<Way<S>> = models.iter().map(|model| way(model, &mut random)).collect();
+                let motions: Vec<(MeshHandle, MeshMotion<'_, [S; 3]>)> = models
+                    .iter()
+                    .zip(&ways)
+                    .filter_map(|(model, way)| {
+                        let motion = match way {
+                            Way::Rests => return None,
+                            Way::Deforms(start, end) => MeshMotion::Deforming { start, end },
+                            &Way::Goes([start, end]) => MeshMotion::Rigid { start, end },
+                        };
+                        Some((model.handle, motion))
+                    })
+                    .collect();
+                done.moves += motions.len();
+                let mut found = [Vec::new(), Vec::new()];
+                for (world, contacts) in worlds.iter_mut().zip(&mut found) {
+                    prop_assert_eq!(world.contacts(&motions, contacts), Ok(()));
+                }
+                let [found, on_two_threads] = found;
+                prop_assert_eq!(&found, &on_two_threads, "on one thread and on two");
+                let all: Vec<_> = models.iter().zip(&ways).collect();
+                let found = told(&found);
+                if S::UNIT_ROUNDOFF.to_f64() > f64::EPSILON {
+                    prop_assert_eq!(&found, &by_one_detector(&all, criterion));
+                } else {
+                    // In `f64` a pair is looked at in `f32` first if all of its detector's positions are such numbers: two meshes at a time.
+                    let mut expected = Vec::new();
+                    for (index, &one) in all.iter().enumerate() {
+                        expected.extend(by_one_detector(&[one], criterion));
+                        for &other in &all[index + 1..] {
+                            let both = by_one_detector(&[one, other], criterion);
+                            expected.extend(both.into_iter().filter(|(_, meshes, ..)| meshes[0] != meshes[1]));
+                        }
+                    }
+                    expected.sort_by_key(|&(kind, meshes, pair, _)| (kind, meshes, pair));
+                    prop_assert_eq!(&found, &expected);
+                }
+                for (_, meshes, ..) in &found {
+                    done.contacts[usize::from(meshes[0] != meshes[1])] += 1;
+                }
+                for (model, way) in models.iter_mut().zip(&ways) {
+                    model.at = model.frames(way)[1].clone();
+                }
+            }
+            _ => {}
+        }
+    }
+    for world in &worlds {
+        prop_assert!(world.meshes().eq(models.iter().map(|model| model.handle)));
+    }
+    count.set(done);
+    Ok(())
+}
+
+fn config(cases: u32) -> ProptestConfig {
+    ProptestConfig {
+        cases,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    }
+}
+
+#[test]
+fn ten_thousand_changes_of_a_world_give_the_contacts_of_a_detector_built_anew() {
+    let count = Cell::new(Count::default());
+    let run = |cases: u32, is_as: &dyn Fn(&[(Event, u64)]) -> Result<(), TestCaseError>| {
+        let mut runner = proptest::test_runner::TestRunner::new(config(cases));
+        runner
+            .run(&stories(), |story| is_as(&story))
+            .unwrap_or_else(|error| panic!("{error}"));
+    };
+    run(120, &|story| is_as_one_detector::<f32>(story, &count));
+    run(120, &|story| is_as_one_detector::<f64>(story, &count));
+    let count = count.get();
+    let changes = count.insertions + count.removals + count.moves;
+    eprintln!("{count:?}");
+    assert!(
+        changes >= 10_000 && count.contacts.iter().all(|&contacts| contacts > 2_000),
+        "{count:?}"
+    );
+}
+
+fn triangle() -> Topology {
+    Topology::new(3, vec![[0, 1, 2]]).expect("a triangle")
+}
+
+const CORNERS: [DVec3; 3] = [DVec3::ZERO, DVec3::X, DVec3::Y];
+const AT_REST: (DQuat, DVec3) = (DQuat::IDENTITY, DVec3::ZERO);
+
+#[test]
+fn what_is_out_of_order_is_told_and_nothing_is_lost() {
+    let mut world = World::<DVec3>::new();
+    let floor = world.insert(triangle(), &CORNERS, Groups::ALL).expect("in order");
+    let above = CORNERS.map(|corner| corner + DVec3::new(0.1, 0.1, 1.0));
+    let mesh = world.insert(triangle(), &above, Groups::ALL).expect("in order");
+    let gone = world.insert(triangle(), &CORNERS, Groups::ALL).expect("in order");
+    world.remove(gone).expect("it is there");
+
+    let below = above.map(|corner| corner - 2.0 * DVec3::Z);
+    let falls = (
+        mesh,
+        MeshMotion::Deforming {
+            start: &above,
+            end: &below,
+        },
+    );
+    let mut expected = Vec::new();
+    world.contacts(&[falls], &mut expected).expect("in order");
+    assert!(!expected.is_empty());
+
+    let refused = [
+        world.insert(triangle(), &CORNERS[..2], Groups::ALL).map(|_| ()),
+        world.insert(triangle(), &[DVec3::NAN; 3], Groups::ALL).map(|_| ()),
+        world.remove(gone),
+        world.set_groups(gone, Groups::ALL),
+        world.topology(gone).map(|_| ()),
+        world.set_criterion(Criterion::Touching { tolerance: f64::NAN }),
+    ];
+    assert!(refused.iter().all(Result::is_err), "{refused:?}");
+
+    let nan = [DVec3::NAN; 3];
+    let rests = |pose| MeshMotion::Rigid {
+        start: AT_REST,
+        end: pose,
+    };
+    let of_mesh = |motion| (mesh, motion);
+    let far = DVec3::splat(f64::MAX);
+    for (motion, error) in [
+        ((gone, rests(AT_REST)), WorldError::NoSuchMesh { mesh: gone }),
+        (falls, WorldError::MovedTwice { mesh }),
+        (of_mesh(rests((DQuat::IDENTITY, DVec3::NAN))), WorldError::BadPose { mesh }),
+        (
+            of_mesh(rests((DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0), DVec3::ZERO))),
+            WorldError::BadPose { mesh },
+        ),
+        (
+            of_mesh(rests((DQuat::from_xyzw(f64::NAN, 0.0, 0.0, 1.0), DVec3::ZERO))),
+            WorldError::BadPose { mesh },
+        ),
+        (
+            of_mesh(MeshMotion::Rigid {
+                start: (DQuat::IDENTITY, -far),
+                end: (DQuat::from_rotation_x(1.0), far),
+            }),
+            WorldError::BadPose { mesh },
+        ),
+        (
+            of_mesh(MeshMotion::Deforming {
+                start: &above[1..],
+                end: &below,
+            }),
+            WorldError::BadPositions {
+                mesh,
+                error: StepError::WrongLength {
+                    frame: selvedge::Frame::Start,
+                    found: 2,
+                    expected: 3,
+                },
+            },
+        ),
+    ] {
+        let motions = match error {
+            WorldError::MovedTwice { .. } => vec![falls, motion],
+            _ => vec![(floor, rests(AT_REST)), motion],
+        };
+        assert_eq!(world.contacts(&motions, &mut Vec::new()), Err(error));
+        assert!(!error.to_string().is_empty());
+    }
+    let not_finite = of_mesh(MeshMotion::Deforming {
+        start: &above,
+        end: &nan,
+    });
+    let refused = world.contacts(&[not_finite], &mut Vec::new()).expect_err("not finite");
+    assert!(matches!(
+        refused,
+        WorldError::BadPositions {
+            error: StepError::NotFinite { vertex: 0, .. },
+            ..
+        }
+    ));
+
+    // Cut short, by the number of pairs and by another thread.
+    world.set_pair_limit(Some(1));
+    let limit = StepError::TooManyPairs { limit: 1 };
+    assert_eq!(world.contacts(&[falls], &mut Vec::new()), Err(WorldError::Step(limit)));
+    world.set_pair_limit(None);
+    world.cancellation().cancel();
+    assert_eq!(
+        world.contacts(&[falls], &mut Vec::new()),
+        Err(WorldError::Step(StepError::Cancelled))
+    );
+    world.cancellation().reset();
+
+    let mut contacts = Vec::new();
+    world.contacts(&[falls], &mut contacts).expect("as before");
+    assert_eq!(contacts, expected);
+    assert!(world.meshes().eq([floor, mesh]));
+}
+
+/// A body's pose at the start and at the end, and what it makes of a point at a time: Rodrigues' formula.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    start: (DQuat, DVec3),
+    axis: DVec3,
+    angle: f64,
+    translation: DVec3,
+}
+
+impl Turn {
+    fn choose(random: &mut Random) -> Self {
+        let axis = DVec3::new(random.unit(), random.unit(), 1.5).normalize();
+        Self {
+            start: (random.rotation(), random.vector()),
+            axis,
+            angle: random.unit() * random.pick(&[0.0, 1e-6, 0.1, 1.0, 3.1]),
+            translation: random.vector(),
+        }
+    }
+
+    fn end(&self) -> (DQuat, DVec3) {
+        let turn = DQuat::from_axis_angle(self.axis, self.angle);
+        (turn * self.start.0, self.start.1 + self.translation)
+    }
+
+    fn at(&self, point: DVec3, time: f64) -> DVec3 {
+        let way = self.start.0 * point;
+        let (sine, cosine) = (self.angle * time).sin_cos();
+        let along = self.axis * self.axis.dot(way);
+        self.start.1 + self.translation * time + along + (way - along) * cosine + self.axis.cross(way) * sine
+    }
+
+    /// The point of the shape that is there at a time.
+    fn shape_of(&self, there: DVec3, time: f64) -> DVec3 {
+        let way = there - self.start.1 - self.translation * time;
+        let (sine, cosine) = (-self.angle * time).sin_cos();
+        let along = self.axis * self.axis.dot(way);
+        self.start.0.inverse() * (along + (way - along) * cosine + self.axis.cross(way) * sine)
+    }
+}
+
+/// Two bodies, at least one of which may turn, and a deforming mesh. What is told is not late, and what is not told is apart.
+fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<(), TestCaseError> {
+    let mut random = Random(seed);
+    let turns = [Turn::choose(&mut random), Turn::choose(&mut random)];
+    let separation = random.pick(&[1e-9, 0.05]);
+    let mut world = World::<DVec3>::new();
+    let limits = Limits {
+        separation,
+        tolerance: 1e-6,
+    };
+    world.set_criterion(Criterion::Within(limits)).expect("lengths");
+    // A corner of the first body is in the middle of the second's face at a time; the edges of a third mesh cross the first's.
+    let time = 0.5 + 0.5 * random.unit();
+    let there = [(); 3].map(|()| turns[0].at(random.vector(), time));
+    let middle = (there[0] + there[1] + there[2]) / 3.0;
+    let first = [middle, turns[0].at(random.vector(), time), turns[0].at(random.vector(), time)];
+    let shapes = [
+        first.map(|point| turns[0].shape_of(point, time)),
+        there.map(|point| turns[1].shape_of(point, time)),
+    ];
+    let sheet = [random.vector(), random.vector(), random.vector()];
+    let crossed = (first[0] + first[1]) * 0.5;
+    let sheet_end = {
+        // At that time the middle of its first edge is on the middle of the first body's edge.
+        let start = sheet;
+        let velocity = random.vector();
+        let offset = crossed - ((start[0] + start[1]) * 0.5 + velocity * time);
+        [
+            start.map(|point| point + offset),
+            start.map(|point| point + offset + velocity),
+        ]
+    };
+    let [a, b] = shapes.map(|shape| world.insert(triangle(), &shape, Groups::ALL).expect("in order"));
+    let c = world.insert(triangle(), &sheet_end[0], Groups::ALL).expect("in order");
+    let rigid = |turn: &Turn| MeshMotion::Rigid {
+        start: turn.start,
+        end: turn.end(),
+    };
+    let deforming = MeshMotion::Deforming {
+        start: &sheet_end[0],
+        end: &sheet_end[1],
+    };
+    let motions = [(a, rigid(&turns[0])), (b, rigid(&turns[1])), (c, deforming)];
+    let mut contacts = Vec::new();
+    prop_assert_eq!(world.contacts(&motions, &mut contacts), Ok(()));
+    let mut again = Vec::new();
+    world.set_threads(Threads::from_count(2)).expect("two threads");
+    prop_assert_eq!(world.contacts(&motions, &mut again), Ok(()));
+    prop_assert_eq!(&contacts, &again);
+
+    let found = |kind, meshes, pair| {
+        let own = contacts.iter().find(|c| (c.kind, c.meshes, c.pair) == (kind, meshes, pair));
+        own.map(|contact| contact.time)
+    };
+    for (kind, meshes, pair) in [(PairKind::VertexFace, [a, b], [0, 0]), (PairKind::EdgeEdge, [a, c], [0, 0])] {
+        let own = found(kind, meshes, pair);
+        prop_assert!(own.is_some_and(|own| own <= time), "{own:?} at {time}: {turns:?}");
+    }
+    // Every other pair at some times.
+    let place = |mesh: MeshHandle, vertex: usize, time: f64| match mesh {
+        own if own == a => turns[0].at(shapes[0][vertex], time),
+        own if own == b => turns[1].at(shapes[1][vertex], time),
+        _ => sheet_end[0][vertex].lerp(sheet_end[1][vertex], time),
+    };
+    let edges = world.topology(a).expect("it is there").edges().to_vec();
+    let [mut apart, mut near, mut tight] = count.get();
+    for [one, other] in [[a, b], [a, c], [b, c]] {
+        for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
+            let sides: &[[MeshHandle; 2]] = match kind {
+                PairKind::VertexFace => &[[one, other], [other, one]],
+                PairKind::EdgeEdge => &[[one, other]],
+            };
+            for &meshes in sides {
+                for i in 0..3_u32 {
+                    let seconds = if kind == PairKind::VertexFace { 1 } else { 3 };
+                    for j in 0..seconds {
+                        let told = found(kind, meshes, [i, j]);
+                        let distance = |time: f64| {
+                            let own = |vertex: u32| place(meshes[0], vertex as usize, time);
+                            let others = |vertex: u32| place(meshes[1], vertex as usize, time);
+                            let points = match kind {
+                                PairKind::VertexFace => [own(i), others(0), others(1), others(2)],
+                                PairKind::EdgeEdge => {
+                                    let ([p, q], [r, s]) = (edges[i as usize], edges[j as usize]);
+                                    [own(p), own(q), others(r), others(s)]
+                                }
+                            };
+                            Closest::of(kind, points).distance()
+                        };
+                        let until = told.unwrap_or(1.0);
+                        for k in 0..=40 {
+                            let time = until * f64::from(k) / 40.0;
+                            // The places are rounded, and so is the distance.
+                            let is_apart = distance(time) > separation - 1e-10;
+                            let is_told = told.is_some_and(|told| time >= told);
+                            prop_assert!(is_apart || is_told, "{kind:?} {meshes:?} {i} {j} at {time}: {turns:?}");
+                        }
+                        match told {
+                            None => apart += 1,
+                            Some(time) => {
+                                near += 1;
+                                tight += usize::from(distance(time) < separation + 3.1e-6);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+    count.set([apart, near, tight]);
+    Ok(())
+}
+
+#[test]
+fn no_contact_of_bodies_that_turn_is_missed() {
+    let count = Cell::new([0; 3]);
+    let mut runner = proptest::test_runner::TestRunner::new(config(600));
+    runner
+        .run(&any::<u64>(), |seed| turning_bodies_are_not_missed(seed, &count))
+        .unwrap_or_else(|error| panic!("{error}"));
+    let [apart, near, tight] = count.get();
+    eprintln!("{apart} {near} {tight}");
+    assert!(
+        apart > 5_000 && near > 2_000 && 100 * tight > 99 * near,
+        "{apart} {near} {tight}"
+    );
+}
+
+/// As in parry's issue 317, of whole meshes: straight ways would lead past each other.
+#[test]
+fn a_plank_that_spins_hits_the_post_beside_it() {
+    let mut world = World::<[f32; 3]>::new();
+    let plank = [[-2.0, -0.1, 0.0], [2.0, -0.1, 0.0], [2.0, 0.1, 0.0], [-2.0, 0.1, 0.0]];
+    let plank = world.insert(
+        Topology::new(4, vec![[0, 1, 2], [0, 2, 3]]).expect("two triangles"),
+        &plank,
+        Groups::ALL,
+    );
+    let post = [[0.0, 1.5, -1.0], [0.0, 1.5, 1.0], [-0.1, 1.6, 0.0]];
+    let post = world.insert(triangle(), &post, Groups::ALL);
+    let [plank, post] = [plank, post].map(|mesh| mesh.expect("in order"));
+    let turn = |angle| (DQuat::from_rotation_z(angle), DVec3::ZERO);
+    let spins = MeshMotion::Rigid {
+        start: turn(0.0),
+        end: turn(3.0),
+    };
+    let mut contacts = Vec::new();
+    world.contacts(&[(plank, spins)], &mut contacts).expect("in order");
+    let first = contacts.iter().map(|contact| contact.time).fold(1.0, f32::min);
+    // The side that leads, 0.1 from the axis, comes to the post before the middle line does.
+    let exact = ((PI / 2.0 - (0.1_f64 / 1.5).asin()) / 3.0) as f32;
+    assert!(first <= exact && first > exact - 1e-5, "{first} {exact}");
+    assert!(
+        contacts
+            .iter()
+            .all(|contact| contact.meshes.contains(&plank) && contact.meshes.contains(&post))
+    );
+    // At rest they are apart.
+    world.contacts(&[], &mut contacts).expect("in order");
+    assert!(contacts.is_empty());
+}
