@@ -88,7 +88,7 @@ pub(crate) struct Hierarchies {
     tasks: [Vec<BlockPair>; 2],
     face_edge_tasks: Vec<BlockPair>,
     task_tests: u64,
-    scratch: Scratch,
+    stack: Vec<BlockPair>,
     degradation: Degradation,
     /// Whether the next update builds, whatever they have cost.
     must_build: bool,
@@ -116,7 +116,7 @@ impl Hierarchies {
             tasks: [Vec::new(), Vec::new()],
             face_edge_tasks: Vec::new(),
             task_tests: 0,
-            scratch: Scratch::new(),
+            stack: Vec::new(),
             degradation: Degradation::default(),
             must_build: true,
             statistics: MovingStatistics::default(),
@@ -324,11 +324,11 @@ impl Hierarchies {
             common: Common::Tree,
             are_filtered: self.filter.is_some(),
         };
-        let (level, scratch) = (self.level, &mut self.scratch);
+        let (level, stack) = (self.level, &mut self.stack);
         vertex_face.clear();
         edge_edge.clear();
-        self.task_tests = vertex_face_trees.tasks(level, TASK_LEVEL, scratch, vertex_face);
-        self.task_tests += edge_edge_trees.tasks(level, TASK_LEVEL, scratch, edge_edge);
+        self.task_tests = vertex_face_trees.tasks(level, TASK_LEVEL, stack, vertex_face);
+        self.task_tests += edge_edge_trees.tasks(level, TASK_LEVEL, stack, edge_edge);
         settle(vertex_face);
         settle(edge_edge);
     }
@@ -397,7 +397,7 @@ impl Hierarchies {
             are_filtered: self.filter.is_some(),
         };
         self.face_edge_tasks.clear();
-        trees.tasks(self.level, TASK_LEVEL, &mut self.scratch, &mut self.face_edge_tasks);
+        trees.tasks(self.level, TASK_LEVEL, &mut self.stack, &mut self.face_edge_tasks);
         settle(&mut self.face_edge_tasks);
     }
 

@@ -19,6 +19,7 @@ pub(crate) struct MeshHierarchy {
     moves: Vec<bool>,
     /// Those whose boxes are others than in the tree.
     are_changed: Vec<bool>,
+    stack: Vec<BlockPair>,
     tasks: Vec<BlockPair>,
     scratch: Scratch,
     degradation: Degradation,
@@ -33,6 +34,7 @@ impl MeshHierarchy {
             groups: Vec::new(),
             moves: Vec::new(),
             are_changed: Vec::new(),
+            stack: Vec::new(),
             tasks: Vec::new(),
             scratch: Scratch::new(),
             degradation: Degradation::default(),
@@ -81,7 +83,7 @@ impl MeshHierarchy {
         };
         self.tasks.clear();
         let level = best_level();
-        let above = trees.tasks(level, 0, &mut self.scratch, &mut self.tasks);
+        let above = trees.tasks(level, 0, &mut self.stack, &mut self.tasks);
         let mut near = Near {
             tree: &self.tree,
             groups: &self.groups,

@@ -47,11 +47,11 @@ impl<'a> Pairing<'a> {
     }
 
     /// Appends where to look for pairs to `tasks`. Returns the number of tests.
-    pub(crate) fn find_tasks(&self, scratch: &mut Scratch, tasks: &mut Vec<BlockPair>) -> u64 {
+    pub(crate) fn find_tasks(&self, stack: &mut Vec<BlockPair>, tasks: &mut Vec<BlockPair>) -> u64 {
         let level = self.meshes[0].level();
         match self.kind {
-            PairKind::VertexFace => self.vertex_face().tasks(level, TASK_LEVEL, scratch, tasks),
-            PairKind::EdgeEdge => self.edge_edge().tasks(level, TASK_LEVEL, scratch, tasks),
+            PairKind::VertexFace => self.vertex_face().tasks(level, TASK_LEVEL, stack, tasks),
+            PairKind::EdgeEdge => self.edge_edge().tasks(level, TASK_LEVEL, stack, tasks),
         }
     }
 

@@ -60,16 +60,15 @@ impl Scratch {
 impl<const N: usize, const M: usize> Trees<'_, N, M> {
     /// Appends to `tasks` the pairs of blocks of a level, or below, that are near each other, in the order in which a
     /// traversal of the whole comes to them. Returns the number of tests, each of one box against sixteen.
-    pub(super) fn tasks(&self, level: Level, floor: usize, scratch: &mut Scratch, tasks: &mut Vec<BlockPair>) -> u64 {
+    pub(super) fn tasks(&self, level: Level, floor: usize, stack: &mut Vec<BlockPair>, tasks: &mut Vec<BlockPair>) -> u64 {
         let (Some(top), Some(other_top)) = (self.first.top(), self.second.top()) else {
             return 0;
         };
-        scratch.stack.clear();
-        scratch.stack.push(BlockPair {
+        stack.clear();
+        stack.push(BlockPair {
             levels: [top as u8, other_top as u8],
             blocks: [0, 0],
         });
-        let stack = &mut scratch.stack;
         let down_to = DownTo {
             trees: self,
             floor,

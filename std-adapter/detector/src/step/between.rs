@@ -3,7 +3,7 @@
 use super::chunk::{ChunkSink, Found, Numbers, StepInput};
 use super::engine::{Space, own_space, shares, spaces_for_threads};
 use super::{Bound, Contact, Question, Stop};
-use crate::broad_phase::{BlockPair, Pairing, RowSlices, Scratch};
+use crate::broad_phase::{BlockPair, Pairing, RowSlices};
 use crate::buffer::settle;
 use crate::parallel;
 use std::sync::Mutex;
@@ -26,7 +26,7 @@ pub(crate) struct SourceEngine {
     tasks: Vec<BlockPair>,
     /// For each source where its tasks end, and in how many tests they were found.
     task_ends: Vec<(usize, u64)>,
-    scratch: Scratch,
+    stack: Vec<BlockPair>,
     pub(crate) stop: Stop,
 }
 
@@ -54,7 +54,7 @@ impl SourceEngine {
             spaces: Vec::new(),
             tasks: Vec::new(),
             task_ends: Vec::new(),
-            scratch: Scratch::new(),
+            stack: Vec::new(),
             stop: Stop::new(),
         }
     }
@@ -65,7 +65,7 @@ impl SourceEngine {
         self.tasks.clear();
         self.task_ends.clear();
         for source in sources {
-            let tests = source.pairing.find_tasks(&mut self.scratch, &mut self.tasks);
+            let tests = source.pairing.find_tasks(&mut self.stack, &mut self.tasks);
             self.task_ends.push((self.tasks.len(), tests));
         }
         settle(&mut self.tasks);

@@ -375,3 +375,70 @@ impl<P: Position> Checked<'_, P> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    fn sheet() -> (Arc<Topology>, Vec<DVec3>) {
+        let triangles = (0..98).map(|k| [k, k + 1, k + 2]).collect();
+        let vertex = |k: u32| DVec3::new(f64::from(k / 2), f64::from(k % 2), f64::from(k) * 0.01);
+        (
+            Arc::new(Topology::new(100, triangles).unwrap()),
+            (0..100).map(vertex).collect(),
+        )
+    }
+
+    /// How often each mesh's hierarchies were built, and where its rows are.
+    fn state(world: &World<DVec3>) -> BTreeMap<MeshHandle, (usize, Option<u32>)> {
+        let meshes = world.stage.meshes.iter();
+        let state = |mesh: &WorldMesh| {
+            let builds = mesh.hierarchies.statistics().builds;
+            (builds, mesh.rows_at.map(|place| place.first))
+        };
+        meshes.map(|(handle, mesh)| (handle, state(mesh))).collect()
+    }
+
+    #[test]
+    fn to_insert_and_remove_meshes_leaves_the_others_hierarchies_and_rows_as_they_are() {
+        let (topology, positions) = sheet();
+        let at = |z: f64| -> Vec<DVec3> { positions.iter().map(|&position| position + z * DVec3::Z).collect() };
+        let mut world = World::<DVec3>::new();
+        let insert = |world: &mut World<DVec3>, z| world.insert(Arc::clone(&topology), &at(z), Groups::ALL).unwrap();
+        let [first, second, cloth] = [0.0, 5.0, 9.0].map(|z| insert(&mut world, z));
+        let step = |world: &mut World<DVec3>| {
+            let (start, end) = (at(9.0), at(-1.0));
+            let falls = MeshMotion::Deforming {
+                start: &start,
+                end: &end,
+            };
+            let mut contacts = Vec::new();
+            world.contacts(&[(cloth, falls)], &mut contacts).unwrap();
+            let mut meshes: Vec<_> = contacts.iter().flat_map(|contact| contact.meshes).collect();
+            meshes.sort_unstable();
+            meshes.dedup();
+            meshes
+        };
+        assert_eq!(step(&mut world), [first, second, cloth]);
+        let before = state(&world);
+        assert!(before.values().all(|&(builds, row)| builds == 1 && row.is_some()));
+        let third = insert(&mut world, 7.0);
+        assert_eq!(step(&mut world), [first, second, cloth, third]);
+        let mut after = state(&world);
+        assert_eq!(after.remove(&third), Some((1, Some(300))));
+        assert_eq!(after, before);
+        // More rows of nobody than of meshes: places are given anew, and hierarchies stay.
+        for mesh in [first, second, third] {
+            world.remove(mesh).unwrap();
+        }
+        let last = insert(&mut world, 3.0);
+        assert_eq!(step(&mut world), [cloth, last]);
+        let rows = state(&world);
+        assert!(
+            rows.values()
+                .all(|&(builds, row)| builds == 1 && row.is_some_and(|row| row < 200)),
+            "{rows:?}"
+        );
+    }
+}
