@@ -386,7 +386,9 @@ fn what_is_out_of_order_is_told_and_nothing_is_lost() {
     world.contacts(&[falls], &mut expected).expect("in order");
     assert!(!expected.is_empty());
 
+    let many = Topology::new(u32::MAX as usize, vec![[0, 1, 2]]).expect("they can be numbered");
     let refused = [
+        world.insert(many, &CORNERS, Groups::ALL).map(|_| ()),
         world.insert(triangle(), &CORNERS[..2], Groups::ALL).map(|_| ()),
         world.insert(triangle(), &[DVec3::NAN; 3], Groups::ALL).map(|_| ()),
         world.remove(gone),
@@ -473,6 +475,30 @@ fn what_is_out_of_order_is_told_and_nothing_is_lost() {
     world.contacts(&[falls], &mut contacts).expect("as before");
     assert_eq!(contacts, expected);
     assert!(world.meshes().eq([floor, mesh]));
+}
+
+#[test]
+fn pairs_that_rest_or_that_groups_exclude_are_not_looked_at() {
+    let mut world = World::<DVec3>::new();
+    let touching = |mesh: DVec3| CORNERS.map(|corner| corner + mesh);
+    // Two that rest in one place, and a ghost that goes through both.
+    for _ in 0..2 {
+        world.insert(triangle(), &CORNERS, Groups::new(1, 1)).expect("in order");
+    }
+    let ghost = world.insert(triangle(), &CORNERS, Groups::new(2, 2)).expect("in order");
+    let [above, below] = [DVec3::Z, -DVec3::Z].map(touching);
+    let falls = |start, end| MeshMotion::Deforming { start, end };
+    let mut contacts = Vec::new();
+    world.set_pair_limit(Some(0));
+    world.contacts(&[], &mut contacts).expect("nothing is looked at");
+    let step = [(ghost, falls(&above, &below))];
+    world.contacts(&step, &mut contacts).expect("nothing is looked at");
+    world.set_groups(ghost, Groups::ALL).expect("it is there");
+    let limit = StepError::TooManyPairs { limit: 0 };
+    assert_eq!(world.contacts(&step, &mut contacts), Err(WorldError::Step(limit)));
+    world.set_pair_limit(None);
+    world.contacts(&step, &mut contacts).expect("as many as there are");
+    assert!(contacts.len() > 10 && contacts.iter().all(|contact| contact.meshes.contains(&ghost)));
 }
 
 /// A body's pose at the start and at the end, and what it makes of a point at a time: Rodrigues' formula.
