@@ -338,20 +338,22 @@ fn config(cases: u32) -> ProptestConfig {
     }
 }
 
+fn is_so_in<S: Scalar>(count: &Cell<Count>)
+where
+    [S; 3]: Position<Scalar = S>,
+{
+    let mut runner = proptest::test_runner::TestRunner::new(config(120));
+    let result = runner.run(&stories(), |story| is_as_one_detector::<S>(&story, count));
+    result.unwrap_or_else(|error| panic!("{error}"));
+}
+
 #[test]
 fn ten_thousand_changes_of_a_world_give_the_contacts_of_a_detector_built_anew() {
     let count = Cell::new(Count::default());
-    let run = |cases: u32, is_as: &dyn Fn(&[(Event, u64)]) -> Result<(), TestCaseError>| {
-        let mut runner = proptest::test_runner::TestRunner::new(config(cases));
-        runner
-            .run(&stories(), |story| is_as(&story))
-            .unwrap_or_else(|error| panic!("{error}"));
-    };
-    run(120, &|story| is_as_one_detector::<f32>(story, &count));
-    run(120, &|story| is_as_one_detector::<f64>(story, &count));
+    is_so_in::<f32>(&count);
+    is_so_in::<f64>(&count);
     let count = count.get();
     let changes = count.insertions + count.removals + count.moves;
-    eprintln!("{count:?}");
     assert!(
         changes >= 10_000 && count.contacts.iter().all(|&contacts| contacts > 2_000),
         "{count:?}"
@@ -663,7 +665,6 @@ fn no_contact_of_bodies_that_turn_is_missed() {
         .run(&any::<u64>(), |seed| turning_bodies_are_not_missed(seed, &count))
         .unwrap_or_else(|error| panic!("{error}"));
     let [apart, near, tight] = count.get();
-    eprintln!("{apart} {near} {tight}");
     assert!(
         apart > 5_000 && near > 2_000 && 100 * tight > 99 * near,
         "{apart} {near} {tight}"
