@@ -231,3 +231,17 @@ fn the_normal_of_two_particles_and_of_a_particle_at_an_edge_points_from_the_seco
         "{kinds:?}"
     );
 }
+
+/// No edge of the vertex is free of the loose edge's ends, and the two share no proper triangle's edge.
+#[test]
+fn at_rest_a_vertex_on_a_loose_edge_that_lies_on_the_opposite_edge_of_its_triangle_is_an_intersection() {
+    let topology = Topology::with_loose_features(3, vec![[2, 0, 1]], &[[0, 1]], &[]).unwrap();
+    let mut detector = CollisionDetector::<f64>::new(topology);
+    let mut positions = vec![[0.0, -3.0, 0.0], [-2.0, 1.0, 2.0], [-1.0, -1.0, 1.0]];
+    let mut found = Vec::new();
+    detector.intersections(&positions, &mut found).unwrap();
+    assert_eq!(found, [Intersection::VertexFace { vertex: 2, face: 1 }]);
+    assert!(detector.has_intersections(&positions).unwrap());
+    positions[2][0] += f64::EPSILON;
+    assert!(!detector.has_intersections(&positions).unwrap());
+}

@@ -18,6 +18,8 @@ pub(crate) struct Hinges {
     loose: Vec<[u32; 2]>,
     /// The vertices of those that name only one, in ascending order.
     points: Vec<u32>,
+    /// Loose edges that triangles have as well: a triangle's vertex opposite to it, and its ends, the smaller first. In ascending order.
+    opposite: Vec<[u32; 3]>,
 }
 
 impl Hinges {
@@ -38,10 +40,26 @@ impl Hinges {
         let mut loose: Vec<_> = ends.filter(|[a, b]| a != b).collect();
         loose.sort_unstable();
         loose.dedup();
+        let of_edges = Groups::new(topology.edges().len(), keyed);
+        let degenerate = topology.triangle_edges().iter().zip(triangles);
+        let named = degenerate
+            .filter(|(_, triangle)| is_degenerate(triangle))
+            .flat_map(|(edges, _)| edges);
+        let mut opposite: Vec<_> = named
+            .filter(|&&edge| edge != Topology::NO_EDGE)
+            .flat_map(|&edge| of_edges.of(edge as usize).iter().map(move |&triangle| [triangle, edge]))
+            .map(|[triangle, edge]| {
+                let ends @ [u, v] = topology.edges()[edge as usize];
+                [opposite_vertex(topology, triangle, ends), u, v]
+            })
+            .collect();
+        opposite.sort_unstable();
+        opposite.dedup();
         Self {
-            triangles: Groups::new(topology.edges().len(), keyed),
+            triangles: of_edges,
             loose,
             points,
+            opposite,
         }
     }
 
@@ -60,23 +78,34 @@ impl Hinges {
         !self.loose.is_empty() || !self.points.is_empty()
     }
 
-    /// Whether no edge of a vertex tells what of a triangle it touches: it is a point, or a loose edge joins it with one of the corners.
+    /// Whether no edge of a vertex, and no hinge, tells what of a triangle it touches: it is a point, a loose edge joins it with one of the
+    /// corners, or the triangle is a loose edge that lies on the opposite edge of a triangle of the vertex.
     pub(crate) fn must_be_looked_at(&self, vertex: u32, triangle: [u32; 3]) -> bool {
         let is_loose = |&corner: &u32| self.loose.binary_search(&[vertex, corner]).is_ok();
-        self.points.binary_search(&vertex).is_ok() || triangle.iter().any(is_loose)
+        let lies_opposite = || {
+            let (least, most) = triangle
+                .iter()
+                .fold((u32::MAX, 0), |(a, b), &corner| (a.min(corner), b.max(corner)));
+            is_degenerate(&triangle) && self.opposite.binary_search(&[vertex, least, most]).is_ok()
+        };
+        self.points.binary_search(&vertex).is_ok() || triangle.iter().any(is_loose) || lies_opposite()
     }
+}
+
+/// The vertex of a triangle that is not on one of its edges.
+#[inline(always)]
+fn opposite_vertex(topology: &Topology, triangle: u32, [u, v]: [u32; 2]) -> u32 {
+    let vertices = topology.triangles()[triangle as usize];
+    // Exactly: of three numbers, the one that is left when the edge's two are taken away.
+    vertices[0] ^ vertices[1] ^ vertices[2] ^ u ^ v
 }
 
 impl Hinge {
     /// The vertices of the edge, and the one opposite to it of each triangle; `None` if that is the same.
     #[inline(always)]
     pub(crate) fn vertices(&self, topology: &Topology) -> Option<[u32; 4]> {
-        let [u, v] = topology.edges()[self.edge as usize];
-        let [a, b] = self.triangles.map(|triangle| {
-            let vertices = topology.triangles()[triangle as usize];
-            // Exactly: of three numbers, the one that is left when the edge's two are taken away.
-            vertices[0] ^ vertices[1] ^ vertices[2] ^ u ^ v
-        });
+        let ends @ [u, v] = topology.edges()[self.edge as usize];
+        let [a, b] = self.triangles.map(|triangle| opposite_vertex(topology, triangle, ends));
         (a != b).then_some([u, v, a, b])
     }
 
