@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Builds the wheel and tries it in a virtual environment of its own: tests, types, stubs, the README's lines, the wheel's size.
+# Needs Python 3.10 or newer with venv, and a package index (PyPI). --present: says so and ends well where they are missing.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+say() { printf '\n== %s\n' "$*"; }
+missing() {
+    if [ "${present:-}" ]; then
+        say "skipped: $*"
+        exit 0
+    fi
+    printf 'check.sh: %s\n' "$*" >&2
+    exit 1
+}
+[ "${1:-}" != --present ] || present=yes
+
+python=${PYTHON:-python3}
+command -v "$python" >/dev/null 2>&1 || missing "Python is missing; install it, 3.10 or newer"
+"$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))' || missing "Python is too old: 3.10 or newer is needed"
+
+# A target folder of its own: another workspace, another profile.
+target=${CARGO_TARGET_DIR:-$PWD/target}/python
+export CARGO_TARGET_DIR=$target
+mkdir -p "$target"
+tools=$target/tools
+environment=$target/environment
+wheels=$target/wheels
+
+if [ ! -x "$tools/bin/maturin" ]; then
+    "$python" -m venv "$tools" || missing "Python's module venv is missing (Debian: apt install python3-venv)"
+    "$tools/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.16,<2" pytest mypy numpy ||
+        missing "no package index can be reached"
+fi
+
+say "Python: the wheel"
+rm -rf "$wheels"
+"$tools/bin/maturin" build --release --locked --interpreter "$tools/bin/python" --out "$wheels" </dev/null
+size=$(stat -c %s "$wheels"/*.whl 2>/dev/null || stat -f %z "$wheels"/*.whl)
+echo "$(basename "$wheels"/*.whl): $size bytes"
+# What users are told; issue a new figure with the reason if it has to grow.
+[ "$size" -le 1600000 ] || {
+    echo "check.sh: the wheel is larger than 1.6 MB" >&2
+    exit 1
+}
+
+say "Python: installed into an empty environment, the README's lines"
+rm -rf "$environment"
+"$python" -m venv "$environment"
+"$environment/bin/pip" install --quiet --disable-pip-version-check "$wheels"/*.whl
+sed -n '/^```python/,/^```/p' README.md | sed '/^```/d' >"$target/readme.py"
+(cd "$target" && environment/bin/python readme.py)
+
+say "Python: tests, types, stubs"
+"$tools/bin/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$wheels"/*.whl
+"$tools/bin/python" -m pytest -q --no-header -p no:cacheprovider
+"$tools/bin/python" -m mypy --strict --cache-dir "$target/mypy" python/selvedge
+(cd "$target" && "$tools/bin/python" -m mypy.stubtest selvedge --concise)
+say "Python: all as it should be"

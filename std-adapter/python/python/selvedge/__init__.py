@@ -1,0 +1,41 @@
+"""Which vertex–face and edge–edge pairs of a deforming triangle mesh collide during a time step: certified, none is ever missed.
+
+Start at :class:`Detector`: positions at the start and at the end of a step in, contacts out, as numpy arrays. :mod:`selvedge.ipc`
+has the names that users of ipctk know, :class:`Simulation` cloth.
+
+Positions are arrays of shape (vertex_count, 3) in any unit of length. float32 and float64 in C order are used where they are, others
+are copied. Times are in [0, 1] of the step. The interpreter is free for other threads while a question is answered; that nobody
+writes to the positions meanwhile is up to the caller.
+"""
+
+from . import errors
+from ._answers import (
+    CandidatePairs,
+    Contact,
+    Contacts,
+    ContactTimes,
+    Intersections,
+    IntersectionKind,
+    Kind,
+    Truncation,
+)
+from ._native import ARM_SLEEVE, EFFECTS, Detector, Simulation, __version__, time_of_impact, touches
+
+__all__ = [
+    "ARM_SLEEVE",
+    "EFFECTS",
+    "CandidatePairs",
+    "Contact",
+    "ContactTimes",
+    "Contacts",
+    "Detector",
+    "IntersectionKind",
+    "Intersections",
+    "Kind",
+    "Simulation",
+    "Truncation",
+    "__version__",
+    "errors",
+    "time_of_impact",
+    "touches",
+]

@@ -1,0 +1,118 @@
+"""What the detector answers: arrays with an entry, or a row, for each pair."""
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Kind(IntEnum):
+    """Of what a pair is made."""
+
+    VERTEX_FACE = 0
+    """A vertex and a face."""
+    EDGE_EDGE = 1
+    """Two edges."""
+
+
+class IntersectionKind(IntEnum):
+    """Which primitives of a mesh at rest meet."""
+
+    EDGE_FACE = 0
+    """An edge passes through a face, or touches it."""
+    VERTEX_FACE = 1
+    """A vertex touches a face of a neighbour, folded flat onto it."""
+    EDGE_EDGE = 2
+    """Two edges of neighbours touch, folded flat onto each other."""
+
+
+@dataclass(frozen=True, eq=False)
+class ContactTimes:
+    """Contacts of a step: an entry for each."""
+
+    kind: NDArray[np.uint8]
+    """(n,) a :class:`Kind`."""
+    pair: NDArray[np.uint32]
+    """(n, 2) the vertex and the face, or the two edges, the smaller number first."""
+    time: NDArray[Any]
+    """(n,) in [0, 1] of the step, in the format of the positions: never after the exact time."""
+    vertices: NDArray[np.uint32]
+    """(n, 4) the vertex and the corners of the face, or the ends of both edges."""
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts(ContactTimes):
+    """Contacts of a step and how the two sides lie to each other at the time of contact. All in float64."""
+
+    points: NDArray[np.float64]
+    """(n, 2, 3) the nearest points of the first and the second side, in the unit of the positions."""
+    weights: NDArray[np.float64]
+    """(n, 4) barycentric, of each side: the points are these weights times the vertices."""
+    normals: NDArray[np.float64]
+    """(n, 3) from the second side to the first as it was before contact, of length one. NaN where none can be shown: the pair touches
+    as the step begins, or is nearer than rounding can tell."""
+    distances: NDArray[np.float64]
+    """(n, 2) the distance of the two sides is in this range."""
+    speeds: NDArray[np.float64]
+    """(n,) how fast the first point moves away from the second along the normal, in lengths a step; negative as they approach."""
+    separated_at: NDArray[np.float64]
+    """(n,) when the sides were certainly apart along the normal: the time of contact, or a little before it."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """One contact of a step."""
+
+    kind: Kind
+    """Vertex and face, or two edges."""
+    pair: tuple[int, int]
+    """The vertex and the face, or the two edges, the smaller number first."""
+    time: float
+    """In [0, 1] of the step: never after the exact time."""
+    vertices: tuple[int, int, int, int]
+    """The vertex and the corners of the face, or the ends of both edges."""
+
+
+@dataclass(frozen=True, eq=False)
+class CandidatePairs:
+    """The pairs that boxes leave."""
+
+    vertex_face: NDArray[np.uint32]
+    """(n, 2) a vertex and a face."""
+    edge_edge: NDArray[np.uint32]
+    """(n, 2) two edges, the smaller number first."""
+
+    def __len__(self) -> int:
+        return len(self.vertex_face) + len(self.edge_edge)
+
+
+@dataclass(frozen=True, eq=False)
+class Intersections:
+    """Where a mesh at rest meets itself."""
+
+    kind: NDArray[np.uint8]
+    """(n,) an :class:`IntersectionKind`."""
+    pair: NDArray[np.uint32]
+    """(n, 2) an edge and a face, a vertex and a face, or two edges."""
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+
+@dataclass(frozen=True, eq=False)
+class Truncation:
+    """A step that was cut vertex by vertex until it is free of contact."""
+
+    positions: NDArray[Any]
+    """(vertex_count, 3) where the step ends, in the format of the positions."""
+    held_back: int
+    """Vertices that go less than the whole of their way."""
+    in_contact: int
+    """Pairs in contact at the start already; their vertices rest. With none, the step to ``positions`` is certainly free."""
+    rounds: int
+    """How often contacts were looked for."""

@@ -1,0 +1,69 @@
+"""What can go wrong, in the words of the library and its command.
+
+Every exception is an :class:`Error`, and the built-in one that says the same in general: code that knows nothing of Selvedge
+catches it too.
+"""
+
+
+class Error(Exception):
+    """Of Selvedge's own."""
+
+
+class InputError(Error, ValueError):
+    """A value cannot be taken: a shape, a count, an index, a coordinate that is not finite, a length that is negative."""
+
+
+class DataTypeError(Error, TypeError):
+    """Something is no array of numbers, or of numbers that would have to be rounded."""
+
+
+class SceneError(InputError):
+    """A scene says what cannot be; the text names file, line and field."""
+
+
+class CheckpointError(InputError):
+    """A checkpoint is of another scene, another version, or damaged."""
+
+
+class BusyError(Error, RuntimeError):
+    """Another thread is using the object. Nothing has changed."""
+
+
+class ForkedError(Error, RuntimeError):
+    """The object's threads stayed behind in a parent process: make one in the child, or start children by ``spawn``."""
+
+
+class CancelledError(Error, RuntimeError):
+    """Another thread has called ``cancel``. The object answers as ever."""
+
+
+class TooManyPairsError(Error, RuntimeError):
+    """More pairs are near each other than ``set_pair_limit`` allows to look at."""
+
+
+class BlockedError(Error, RuntimeError):
+    """A step of a simulation could not be certified, and the scene says to stop then."""
+
+
+class ThreadsError(Error, OSError):
+    """The operating system refuses threads, or there are more of them than any machine has use for."""
+
+
+class BrokenError(Error, RuntimeError):
+    """A fault of Selvedge's own, please report it. The object cannot be used any more."""
+
+
+__all__ = [
+    "BlockedError",
+    "BrokenError",
+    "BusyError",
+    "CancelledError",
+    "CheckpointError",
+    "DataTypeError",
+    "Error",
+    "ForkedError",
+    "InputError",
+    "SceneError",
+    "ThreadsError",
+    "TooManyPairsError",
+]

@@ -1,0 +1,144 @@
+//! Answers of the detector as arrays: columns are made without the interpreter, and handed to numpy without a copy.
+
+use numpy::{Element, IntoPyArray, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::PyModule;
+use selvedge::{Contact, ContactGeometry, Intersection, PairKind, Scalar, Topology};
+
+/// A class of `selvedge/_answers.py`.
+pub(crate) fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
+    let module = MODULE.get_or_try_init(py, || py.import("selvedge._answers").map(Bound::unbind))?;
+    module.bind(py).getattr(name)
+}
+
+/// As `selvedge.Kind` numbers it.
+const fn number(kind: PairKind) -> u8 {
+    match kind {
+        PairKind::VertexFace => 0,
+        PairKind::EdgeEdge => 1,
+    }
+}
+
+pub(crate) fn kind_of(number: u8) -> Option<PairKind> {
+    [PairKind::VertexFace, PairKind::EdgeEdge]
+        .into_iter()
+        .find(|&kind| self::number(kind) == number)
+}
+
+/// An array of one dimension.
+fn column<'py, T: Element>(py: Python<'py>, values: Vec<T>) -> Bound<'py, PyAny> {
+    values.into_pyarray(py).into_any()
+}
+
+/// An array of shape (n, N).
+pub(crate) fn rows<'py, T: Element, const N: usize>(py: Python<'py>, values: Vec<[T; N]>) -> PyResult<Bound<'py, PyAny>> {
+    let count = values.len();
+    Ok(values.into_flattened().into_pyarray(py).reshape([count, N])?.into_any())
+}
+
+/// Contacts, and what they are beyond their times where that is wanted.
+pub(crate) struct Columns<S> {
+    kind: Vec<u8>,
+    pair: Vec<[u32; 2]>,
+    time: Vec<S>,
+    vertices: Vec<[u32; 4]>,
+    geometry: Option<GeometryColumns>,
+}
+
+struct GeometryColumns {
+    points: Vec<[[f64; 3]; 2]>,
+    weights: Vec<[f64; 4]>,
+    normals: Vec<[f64; 3]>,
+    distances: Vec<[f64; 2]>,
+    speeds: Vec<f64>,
+    separated_at: Vec<f64>,
+}
+
+impl<S: Scalar + Element> Columns<S> {
+    pub(crate) fn of(contacts: &[Contact<S>], topology: &Topology, geometries: Option<&[ContactGeometry]>) -> Self {
+        let vertices = |contact: &Contact<S>| topology.vertices_of(contact.kind, contact.pair);
+        Self {
+            kind: contacts.iter().map(|contact| number(contact.kind)).collect(),
+            pair: contacts.iter().map(|contact| contact.pair).collect(),
+            time: contacts.iter().map(|contact| contact.time).collect(),
+            vertices: contacts.iter().map(vertices).collect(),
+            geometry: geometries.map(GeometryColumns::of),
+        }
+    }
+
+    /// Of a mesh at rest.
+    pub(crate) fn at_rest(near: &[ContactGeometry]) -> Self {
+        Self {
+            kind: near.iter().map(|pair| number(pair.kind)).collect(),
+            pair: near.iter().map(|pair| pair.pair).collect(),
+            time: vec![S::ZERO; near.len()],
+            vertices: near.iter().map(|pair| pair.vertices).collect(),
+            geometry: Some(GeometryColumns::of(near)),
+        }
+    }
+
+    pub(crate) fn show<'py>(self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let count = self.kind.len();
+        let (kind, pair) = (column(py, self.kind), rows(py, self.pair)?);
+        let (time, vertices) = (column(py, self.time), rows(py, self.vertices)?);
+        let Some(geometry) = self.geometry else {
+            return class(py, "ContactTimes")?.call1((kind, pair, time, vertices));
+        };
+        let points = geometry.points.into_flattened().into_flattened();
+        let points = points.into_pyarray(py).reshape([count, 2, 3])?;
+        class(py, "Contacts")?.call1((
+            kind,
+            pair,
+            time,
+            vertices,
+            points,
+            rows(py, geometry.weights)?,
+            rows(py, geometry.normals)?,
+            rows(py, geometry.distances)?,
+            column(py, geometry.speeds),
+            column(py, geometry.separated_at),
+        ))
+    }
+}
+
+impl GeometryColumns {
+    fn of(geometries: &[ContactGeometry]) -> Self {
+        let all = || geometries.iter().map(|found| &found.geometry);
+        Self {
+            points: all().map(|found| found.points.map(|point| point.to_array())).collect(),
+            weights: all().map(|found| found.weights).collect(),
+            normals: all()
+                .map(|found| found.normal.map_or([f64::NAN; 3], |normal| normal.to_array()))
+                .collect(),
+            distances: all().map(|found| found.distance).collect(),
+            speeds: all().map(|found| found.speed).collect(),
+            separated_at: all().map(|found| found.separated_at).collect(),
+        }
+    }
+}
+
+/// One contact.
+pub(crate) fn show_contact<'py, S: Scalar>(
+    py: Python<'py>,
+    contact: &Contact<S>,
+    topology: &Topology,
+) -> PyResult<Bound<'py, PyAny>> {
+    let kind = class(py, "Kind")?.call1((number(contact.kind),))?;
+    let [a, b] = contact.pair;
+    let [p, q, r, s] = topology.vertices_of(contact.kind, contact.pair);
+    class(py, "Contact")?.call1((kind, (a, b), contact.time.to_f64(), (p, q, r, s)))
+}
+
+pub(crate) fn show_intersections<'py>(py: Python<'py>, found: &[Intersection]) -> PyResult<Bound<'py, PyAny>> {
+    let (kinds, pairs): (Vec<u8>, Vec<[u32; 2]>) = found
+        .iter()
+        .map(|intersection| match *intersection {
+            Intersection::EdgeFace { edge, face } => (0, [edge, face]),
+            Intersection::VertexFace { vertex, face } => (1, [vertex, face]),
+            Intersection::EdgeEdge { edges } => (2, edges),
+        })
+        .unzip();
+    class(py, "Intersections")?.call1((column(py, kinds), rows(py, pairs)?))
+}

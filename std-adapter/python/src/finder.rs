@@ -1,0 +1,234 @@
+//! Detectors for both formats of positions, with the same settings.
+
+use numpy::Element;
+use selvedge::core::elementary::Limits;
+use selvedge::core::narrowing::rounded_up;
+use selvedge::{
+    CollisionDetector, CollisionFilter, Contact, ContactGeometry, Criterion, Groups, Scalar, StepError, ThreadError, Threads,
+    Topology,
+};
+use std::sync::Arc;
+
+/// How a detector is to look: what pickles.
+#[derive(Clone)]
+pub(crate) struct Settings {
+    pub(crate) threads: usize,
+    pub(crate) separation: f64,
+    pub(crate) tolerance: Option<f64>,
+    pub(crate) touching: bool,
+    pub(crate) moving: Option<Vec<bool>>,
+    pub(crate) groups: Option<Vec<[u32; 2]>>,
+    pub(crate) patches: Option<Vec<u32>>,
+    pub(crate) excluded: Vec<[u32; 2]>,
+    pub(crate) coherent: bool,
+    pub(crate) pair_limit: Option<u64>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            threads: 1,
+            separation: 0.0,
+            tolerance: None,
+            touching: false,
+            moving: None,
+            groups: None,
+            patches: None,
+            excluded: Vec::new(),
+            coherent: false,
+            pair_limit: None,
+        }
+    }
+}
+
+/// What is set at once.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Part {
+    Threads,
+    Limits,
+    Moving,
+    Filter,
+    Coherent,
+    PairLimit,
+}
+
+const PARTS: [Part; 6] = [
+    Part::Threads,
+    Part::Limits,
+    Part::Moving,
+    Part::Filter,
+    Part::Coherent,
+    Part::PairLimit,
+];
+
+pub(crate) enum SettingError {
+    Step(StepError),
+    Threads(ThreadError),
+}
+
+impl From<StepError> for SettingError {
+    fn from(error: StepError) -> Self {
+        Self::Step(error)
+    }
+}
+
+impl From<ThreadError> for SettingError {
+    fn from(error: ThreadError) -> Self {
+        Self::Threads(error)
+    }
+}
+
+/// A length in the format of the positions, not less than it was given: what is asked for is kept.
+pub(crate) fn length<S: Scalar>(given: f64) -> Result<S, StepError> {
+    if given >= 0.0 && given.is_finite() {
+        Ok(rounded_up(given))
+    } else {
+        Err(StepError::BadLimit { length: given })
+    }
+}
+
+pub(crate) fn limits<S: Scalar>(separation: f64, tolerance: Option<f64>) -> Result<Limits<S>, StepError> {
+    let tolerance = tolerance.map(length).transpose()?;
+    Ok(Limits {
+        separation: length(separation)?,
+        tolerance: tolerance.unwrap_or(Limits::default().tolerance),
+    })
+}
+
+/// A detector for one format of positions, and where its answers go first.
+pub(crate) struct Finder<S: Scalar> {
+    pub(crate) detector: CollisionDetector<S>,
+    pub(crate) contacts: Vec<Contact<S>>,
+    pub(crate) geometries: Vec<ContactGeometry>,
+}
+
+impl<S: Scalar> Finder<S> {
+    fn new(topology: Arc<Topology>, settings: &Settings) -> Result<Self, SettingError> {
+        let mut made = Self {
+            detector: CollisionDetector::new(topology),
+            contacts: Vec::new(),
+            geometries: Vec::new(),
+        };
+        PARTS.into_iter().try_for_each(|part| made.apply(settings, part))?;
+        Ok(made)
+    }
+
+    fn apply(&mut self, settings: &Settings, part: Part) -> Result<(), SettingError> {
+        let detector = &mut self.detector;
+        match part {
+            Part::Threads => detector.set_threads(Threads::from_count(settings.threads))?,
+            Part::Limits => {
+                let limits = limits(settings.separation, settings.tolerance)?;
+                let tolerance = limits.tolerance;
+                let criterion = if settings.touching {
+                    Criterion::Touching { tolerance }
+                } else {
+                    Criterion::Within(limits)
+                };
+                detector.set_criterion(criterion)?;
+            }
+            Part::Moving => detector.set_moving(settings.moving.as_deref())?,
+            Part::Filter => {
+                let mut filter = CollisionFilter::new();
+                if let Some(groups) = &settings.groups {
+                    let groups = groups.iter().map(|&[memberships, filter]| Groups::new(memberships, filter));
+                    filter = filter.with_groups(groups.collect());
+                }
+                if let Some(patches) = &settings.patches {
+                    filter = filter.with_patches(patches.clone());
+                }
+                detector.set_collision_filter(filter.without_vertex_pairs(settings.excluded.iter().copied()))?;
+            }
+            Part::Coherent => detector.set_coherent(settings.coherent),
+            Part::PairLimit => detector.set_pair_limit(settings.pair_limit),
+        }
+        Ok(())
+    }
+}
+
+/// The detectors that there are: that for `f64` always, that for `f32` once it was asked for.
+pub(crate) struct Finders {
+    topology: Arc<Topology>,
+    pub(crate) settings: Settings,
+    single: Option<Finder<f32>>,
+    double: Option<Finder<f64>>,
+    /// The process whose threads they have, if they have any of their own.
+    threads_of: Option<u32>,
+}
+
+/// A format of positions that there are detectors for.
+pub(crate) trait Format: Scalar + Element {
+    fn finder(finders: &mut Finders) -> &mut Option<Finder<Self>>;
+}
+
+impl Format for f32 {
+    fn finder(finders: &mut Finders) -> &mut Option<Finder<Self>> {
+        &mut finders.single
+    }
+}
+
+impl Format for f64 {
+    fn finder(finders: &mut Finders) -> &mut Option<Finder<Self>> {
+        &mut finders.double
+    }
+}
+
+impl Finders {
+    pub(crate) fn new(topology: Arc<Topology>, settings: Settings) -> Result<Self, SettingError> {
+        let mut made = Self {
+            topology,
+            threads_of: (settings.threads != 1).then(std::process::id),
+            settings,
+            single: None,
+            double: None,
+        };
+        made.of::<f64>()?;
+        Ok(made)
+    }
+
+    pub(crate) fn of<S: Format>(&mut self) -> Result<&mut Finder<S>, SettingError> {
+        if S::finder(self).is_none() {
+            let made = Finder::new(Arc::clone(&self.topology), &self.settings)?;
+            *S::finder(self) = Some(made);
+        }
+        Ok(S::finder(self).as_mut().expect("it was made"))
+    }
+
+    /// Whether their threads stayed behind in a parent process. To wait for them would be for ever.
+    pub(crate) fn is_forked(&self) -> bool {
+        self.threads_of.is_some_and(|process| process != std::process::id())
+    }
+
+    /// Changes a part of the settings, or nothing.
+    pub(crate) fn change(&mut self, part: Part, change: impl FnOnce(&mut Settings)) -> Result<(), SettingError> {
+        let mut settings = self.settings.clone();
+        change(&mut settings);
+        if let Err(error) = self.apply(&settings, part) {
+            // These were taken before; threads may be refused now, and then the detectors keep those that they have.
+            let former = self.settings.clone();
+            let _ = self.apply(&former, part);
+            return Err(error);
+        }
+        if part == Part::Threads {
+            self.threads_of = (settings.threads != 1).then(std::process::id);
+        }
+        self.settings = settings;
+        Ok(())
+    }
+
+    fn apply(&mut self, settings: &Settings, part: Part) -> Result<(), SettingError> {
+        if let Some(double) = &mut self.double {
+            double.apply(settings, part)?;
+        }
+        self.single.as_mut().map_or(Ok(()), |single| single.apply(settings, part))
+    }
+}
+
+impl Drop for Finders {
+    fn drop(&mut self) {
+        if self.is_forked() {
+            // The end would be told to threads that are not there. Their memory is the parent's.
+            std::mem::forget((self.single.take(), self.double.take()));
+        }
+    }
+}

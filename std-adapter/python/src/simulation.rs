@@ -1,0 +1,277 @@
+//! A scene in motion, step by step.
+
+use crate::answers::rows;
+use crate::call::{Length, interruptible};
+use crate::errors::{self, BlockedError, BrokenError, CheckpointError, ForkedError, SceneError};
+use numpy::{PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyType};
+use selvedge_cloth::{Scene, SetupError};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, TryLockError};
+
+/// In messages about a scene that is no file.
+const SCENE: &str = "scene.toml";
+
+/// See the stub, `_native.pyi`: what is promised stands there.
+#[pyclass(frozen, module = "selvedge")]
+pub(crate) struct Simulation {
+    simulation: Mutex<selvedge_cloth::Simulation>,
+    /// Written to after each call that does steps. What the caller sees of it cannot be written to.
+    written: Py<PyArray2<f64>>,
+    shown: Py<PyAny>,
+    of_scene: OfScene,
+    /// The process whose threads it has, if it has any of its own.
+    threads_of: Option<u32>,
+    is_broken: AtomicBool,
+}
+
+/// What a scene says, which the simulation of it does not.
+struct OfScene {
+    steps: u64,
+    steps_per_frame: u64,
+    time_step: f64,
+    settings: Vec<(String, String)>,
+}
+
+fn setup_error(error: &SetupError) -> PyErr {
+    match error {
+        SetupError::Threads(error) => errors::of_threads(error),
+        error => SceneError::new_err(error.to_string()),
+    }
+}
+
+impl Simulation {
+    fn of(py: Python<'_>, scene: PyResult<Scene>, threads: usize) -> PyResult<Self> {
+        let scene = scene?;
+        let of_scene = OfScene {
+            steps: scene.steps(),
+            steps_per_frame: scene.steps_per_frame(),
+            time_step: scene.time_step,
+            settings: scene.settings(),
+        };
+        let made = interruptible(py, Length::Long, || (), || selvedge_cloth::Simulation::new(scene, threads))?;
+        let simulation = made
+            .map_err(|words| errors::broken(&words))?
+            .map_err(|error| setup_error(&error))?;
+        let written = PyArray2::zeros(py, [simulation.positions().len(), 3], false);
+        let shown = written.call_method0("view")?;
+        shown.getattr("flags")?.setattr("writeable", false)?;
+        let made = Self {
+            simulation: Mutex::new(simulation),
+            written: written.unbind(),
+            shown: shown.unbind(),
+            of_scene,
+            threads_of: (threads != 1).then(std::process::id),
+            is_broken: AtomicBool::new(false),
+        };
+        let simulation = made.simulation()?;
+        made.show(py, &simulation)?;
+        drop(simulation);
+        Ok(made)
+    }
+
+    fn simulation(&self) -> PyResult<MutexGuard<'_, selvedge_cloth::Simulation>> {
+        if self.is_broken.load(Ordering::Relaxed) {
+            return Err(BrokenError::new_err(
+                "a step failed by a fault of Selvedge's: make the simulation anew",
+            ));
+        }
+        if self.threads_of.is_some_and(|process| process != std::process::id()) {
+            return Err(ForkedError::new_err(
+                "the simulation's threads are in the process that was forked: make one in the child, or start children by 'spawn'",
+            ));
+        }
+        match self.simulation.try_lock() {
+            Ok(simulation) => Ok(simulation),
+            Err(TryLockError::WouldBlock) => Err(errors::busy()),
+            // What panics is caught before it gets here, and marks the simulation.
+            Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+        }
+    }
+
+    fn show(&self, py: Python<'_>, simulation: &selvedge_cloth::Simulation) -> PyResult<()> {
+        let mut written = self.written.bind(py).try_readwrite()?;
+        let (rows, _) = written.as_slice_mut()?.as_chunks_mut::<3>();
+        for (row, position) in rows.iter_mut().zip(simulation.positions()) {
+            *row = position.to_array();
+        }
+        Ok(())
+    }
+}
+
+fn scene_error(error: &selvedge_cloth::SceneError) -> PyErr {
+    SceneError::new_err(error.to_string())
+}
+
+#[pymethods]
+impl Simulation {
+    #[new]
+    #[pyo3(signature = (scene, threads=1))]
+    fn new(py: Python<'_>, scene: PathBuf, threads: usize) -> PyResult<Self> {
+        Self::of(py, Scene::read(&scene).map_err(|error| scene_error(&error)), threads)
+    }
+
+    #[classmethod]
+    #[pyo3(signature = (text, threads=1, *, path=None))]
+    fn from_text(class: &Bound<'_, PyType>, text: &str, threads: usize, path: Option<PathBuf>) -> PyResult<Self> {
+        let path = path.unwrap_or_else(|| SCENE.into());
+        Self::of(
+            class.py(),
+            Scene::parse(text, &path).map_err(|error| scene_error(&error)),
+            threads,
+        )
+    }
+
+    #[classmethod]
+    #[pyo3(signature = (scene, threads=1, *, folder=None))]
+    fn from_dict(
+        class: &Bound<'_, PyType>,
+        scene: &Bound<'_, PyDict>,
+        threads: usize,
+        folder: Option<PathBuf>,
+    ) -> PyResult<Self> {
+        let text = class.py().import("selvedge._scenes")?.call_method1("text_of", (scene,))?;
+        let path = folder.unwrap_or_default().join(SCENE);
+        let scene = Scene::parse(text.extract()?, &path).map_err(|error| scene_error(&error));
+        Self::of(class.py(), scene, threads)
+    }
+
+    #[pyo3(signature = (count=1))]
+    fn step(&self, py: Python<'_>, count: u64) -> PyResult<()> {
+        let mut simulation = self.simulation()?;
+        let simulation = &mut *simulation;
+        let stop = AtomicBool::new(false);
+        let steps = || {
+            for _ in 0..count {
+                if stop.load(Ordering::Relaxed) {
+                    break;
+                }
+                simulation.step()?;
+            }
+            Ok::<_, selvedge_cloth::Blocked>(())
+        };
+        let done = interruptible(py, Length::Long, || stop.store(true, Ordering::Relaxed), steps);
+        if let Ok(Err(words)) = &done {
+            self.is_broken.store(true, Ordering::Relaxed);
+            return Err(errors::broken(words));
+        }
+        // What is done of the steps stays, and is shown, also when somebody has ended them.
+        self.show(py, simulation)?;
+        match done? {
+            Ok(Err(blocked)) => Err(BlockedError::new_err(blocked.to_string())),
+            _ => Ok(()),
+        }
+    }
+
+    #[getter]
+    fn positions(&self, py: Python<'_>) -> Py<PyAny> {
+        self.shown.clone_ref(py)
+    }
+
+    #[getter]
+    fn faces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        rows(py, self.simulation()?.triangles().to_vec())
+    }
+
+    #[getter]
+    fn cloth_vertex_count(&self) -> PyResult<usize> {
+        Ok(self.simulation()?.cloth_vertices())
+    }
+
+    #[getter]
+    fn cloth_face_count(&self) -> PyResult<usize> {
+        Ok(self.simulation()?.cloth_triangles())
+    }
+
+    #[getter]
+    fn name(&self) -> PyResult<String> {
+        Ok(self.simulation()?.name().to_owned())
+    }
+
+    #[getter]
+    const fn time_step(&self) -> f64 {
+        self.of_scene.time_step
+    }
+
+    #[getter]
+    const fn steps(&self) -> u64 {
+        self.of_scene.steps
+    }
+
+    #[getter]
+    const fn steps_per_frame(&self) -> u64 {
+        self.of_scene.steps_per_frame
+    }
+
+    #[getter]
+    fn settings(&self, py: Python<'_>) -> PyResult<Py<PyDict>> {
+        let settings = PyDict::new(py);
+        for (name, value) in &self.of_scene.settings {
+            settings.set_item(name, value)?;
+        }
+        Ok(settings.unbind())
+    }
+
+    #[getter]
+    fn steps_done(&self) -> PyResult<u64> {
+        Ok(self.simulation()?.steps_done())
+    }
+
+    #[getter]
+    fn time(&self) -> PyResult<f64> {
+        Ok(self.simulation()?.time())
+    }
+
+    #[getter]
+    fn lag(&self) -> PyResult<f64> {
+        Ok(self.simulation()?.lag())
+    }
+
+    #[getter]
+    fn is_certified(&self) -> PyResult<bool> {
+        Ok(self.simulation()?.is_certified())
+    }
+
+    #[getter]
+    fn blocked_steps(&self) -> PyResult<u64> {
+        Ok(self.simulation()?.blocked_steps())
+    }
+
+    #[getter]
+    fn edge_stretch(&self) -> PyResult<(f64, f64)> {
+        let stretch = self.simulation()?.edge_stretch();
+        Ok((stretch.percentile_99, stretch.largest))
+    }
+
+    #[getter]
+    fn effect_seconds(&self, py: Python<'_>) -> PyResult<Py<PyDict>> {
+        let seconds = PyDict::new(py);
+        for effect in self.simulation()?.effects() {
+            seconds.set_item(effect.name, effect.seconds)?;
+        }
+        Ok(seconds.unbind())
+    }
+
+    fn checkpoint<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
+        Ok(self.simulation()?.checkpoint().map(|bytes| PyBytes::new(py, &bytes)))
+    }
+
+    fn resume(&self, py: Python<'_>, checkpoint: &[u8]) -> PyResult<()> {
+        let mut simulation = self.simulation()?;
+        simulation
+            .resume(checkpoint)
+            .map_err(|error| CheckpointError::new_err(error.to_string()))?;
+        self.show(py, &simulation)
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        let simulation = self.simulation()?;
+        Ok(format!(
+            "<selvedge.Simulation '{}' at {:.6} s>",
+            simulation.name(),
+            simulation.time()
+        ))
+    }
+}
