@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use selvedge::verification::best_level;
 use selvedge_verification::campaign::exact::{self, Claim, Scenes};
 use selvedge_verification::campaign::{
-    AnotherRun, Chunks, Digest, FileError, Findings, Progress, Refusal, Shard, StateFile, false_culls, merge, read, run,
+    AnotherRun, Chunks, Digest, FileError, Findings, Progress, Refusal, Shard, StateFile, false_culls, merge, mutants, read, run,
 };
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -327,6 +327,27 @@ fn shards_of_every_campaign_in_rust_join_to_the_single_run() {
     assert_eq!(merge(parts.map(culls).into()), Ok(culls("1/1").1));
     let pairs = |part: &str| (PathBuf::from(part), kept(&run_exact(fresh_exact(part), 2, |_| {})));
     assert_eq!(merge(parts.map(pairs).into()), Ok(pairs("1/1").1));
+}
+
+/// What `verification/mutants/hunt.py` wrote of two mutants.
+const OF_MUTANTS: &str = r#"{"campaign": "mutants", "commit": "abc", "seed": 1, "chunks": 2, "cases_per_chunk": 1,
+    "depends_on": {"cases of a property": "4", "longest test": "1 s"}, "command": "hunt.py", "range": {"start": 0, "end": 2},
+    "done": [[0, 2]], "digest": "e60aed5d42c1a15ffdb4aecc5a97529c", "found": {
+        "0": {"name": "core/src/a.rs:1:1: delete -", "outcome": "unviable"},
+        "1": {"name": "core/src/filter/\u00e9.rs:3:5: replace < with <= in \"f\"", "outcome": "noticed"}}}"#;
+
+#[test]
+fn mutants_that_were_hunted_in_shards_join_and_have_the_digest_of_all_campaigns() {
+    let whole: mutants::Progress = serde_json::from_str(OF_MUTANTS).expect("a state");
+    let outcome = |chunk: u64| whole.found.mutants[&chunk].clone();
+    let half = |part: &str| {
+        let mut fresh = whole.clone().of_shard(shard(part), Some("abc"), "hunt.py");
+        fresh.done = Chunks::default();
+        fresh.digest = Digest::default();
+        fresh.found = mutants::Found::default();
+        (PathBuf::from(part), run(fresh, 1, outcome, |_| {}, || false))
+    };
+    assert_eq!(merge(vec![half("2/2"), half("1/2")]), Ok(whole.clone()));
 }
 
 /// Small chunks, thirteen of them: each kind of chunk.
