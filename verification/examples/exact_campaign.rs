@@ -1,11 +1,12 @@
 //! A billion pairs through the certified filters, box tests and the time of impact, every claim checked by exact arithmetic.
 //!
-//! `cargo run --release -p selvedge-verification --example exact_campaign -- [PAIRS] [--seed N] [--state FILE] [--threads N]
-//! [--mesh START END]...`
+//! `cargo run --release -p selvedge-verification --example exact_campaign -- [PAIRS] [--seed N] [--shard I/N] [--state FILE]
+//! [--threads N] [--mesh START END]...`
 //!
 //! PAIRS in all, by default a billion: of `f32` and `f64`, random, adversarial and from scenes in equal parts. Scenes are the built-in arm, and
 //! the steps between meshes that are named. State is kept in FILE (by default `exact_campaign.json` in the folder for temporary
-//! files): started again after a kill, the run goes on where it was. Exit status: 0 no claim is wrong, 1 one is, or a file is at
+//! files): started again after a kill, the run goes on where it was. With
+//! `--shard I/N`, I from 1 to N, and `--seed`, it is one of N parts of the run, which `--example merge` joins. Exit status: 0 no claim is wrong, 1 one is, or a file is at
 //! fault, 2 the command line is.
 
 mod campaign;
@@ -19,7 +20,7 @@ use selvedge_verification::campaign::exact::{Claim, Progress, Scenes, run};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: exact_campaign [PAIRS] [--seed N] [--state FILE] [--threads N] [--mesh START END]...";
+const USAGE: &str = "usage: exact_campaign [PAIRS] [--seed N] [--shard I/N] [--state FILE] [--threads N] [--mesh START END]...";
 const PAIRS_PER_CHUNK: u64 = 1 << 20;
 /// From each scene, evenly spaced runs.
 const SCENE_PAIRS: usize = 400_000;

@@ -1,9 +1,11 @@
 //! Counts the false culls of every tier over many pairs, random and adversarial, against exact arithmetic.
 //!
-//! `cargo run --release -p selvedge-verification --example false_culls -- [PAIRS] [--seed N] [--state FILE] [--threads N]`
+//! `cargo run --release -p selvedge-verification --example false_culls -- [PAIRS] [--seed N] [--shard I/N] [--state FILE]
+//! [--threads N]`
 //!
 //! PAIRS for each of f32 and f64, by default 100 million. State is kept in FILE (by default `false_culls.json` in the folder for
-//! temporary files): started again after a kill, the run goes on where it was. Exit status: 0 no certified tier has a false cull, 1
+//! temporary files): started again after a kill, the run goes on where it was. With
+//! `--shard I/N`, I from 1 to N, and `--seed`, it is one of N parts of the run, which `--example merge` joins. Exit status: 0 no certified tier has a false cull, 1
 //! one has, or the file is at fault, 2 the command line is.
 
 mod campaign;
@@ -12,7 +14,7 @@ use campaign::Options;
 use selvedge_verification::campaign::false_culls::{Progress, run};
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: false_culls [PAIRS] [--seed N] [--state FILE] [--threads N]";
+const USAGE: &str = "usage: false_culls [PAIRS] [--seed N] [--shard I/N] [--state FILE] [--threads N]";
 const PAIRS_PER_CHUNK: u64 = 50_000;
 
 fn main() -> ExitCode {

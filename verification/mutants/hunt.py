@@ -1,10 +1,12 @@
 """Which mutants of core does a test notice? Builds all of them into one program, then wakes one after the other.
 
 Every test is tried in order of the time it takes, those first that noticed something in the same file, until one fails, crashes or
-does not end; see README.md. What is known of a mutant is kept in results.jsonl: a run that is stopped goes on there.
+does not end; see README.md. What is known of a mutant is kept in results.jsonl: a run that is stopped goes on there. Beside it
+state.json says the same as the other campaigns do (verification/src/campaign/), so that their `merge` joins shards.
 """
 
 import argparse
+import hashlib
 import json
 import os
 import random
@@ -23,6 +25,8 @@ from tqdm import tqdm
 from schemata import load, rewrite
 
 ROOT = Path(__file__).resolve().parents[2]
+# Of the cases that properties are given.
+SEED = 1
 # They look at the text of the sources, or at no code of core.
 NOT_OF_CORE = re.compile(r"^(proofs_are_about_the_code|oracle_|generator_makes)")
 
@@ -34,6 +38,7 @@ class Work:
         self.folder = folder
         self.copy = folder / "sources"
         self.results = folder / "results.jsonl"
+        self.state = folder / "state.json"
         self.environment = os.environ | {
             "CARGO_TARGET_DIR": str(folder / "target"),
             "RUSTFLAGS": "-Awarnings",
@@ -45,8 +50,20 @@ class Work:
         """What `make` gives, computed once."""
         path = self.folder / name
         if not path.exists():
-            path.write_text(json.dumps(make()))
+            replace(path, make())
         return load(path)
+
+    def known(self):
+        """The last result of each mutant, by number."""
+        known = {}
+        for line in self.results.read_text().splitlines() if self.results.exists() else []:
+            try:
+                result = json.loads(line)
+            except json.JSONDecodeError:
+                # A run that was killed while it wrote: this mutant is asked about again.
+                continue
+            known[result["number"]] = result
+        return known
 
     def cargo(self, *arguments):
         """The compiler's messages, and whether it succeeded."""
@@ -55,16 +72,98 @@ class Work:
         return [json.loads(line) for line in done.stdout.splitlines()], done.returncode == 0
 
 
+def replace(path, value):
+    """In one step: a kill leaves the old file or the new one."""
+    following = path.with_suffix(".next")
+    with following.open("w") as file:
+        json.dump(value, file)
+        file.flush()
+        os.fsync(file.fileno())
+    following.replace(path)
+
+
+class Shard:
+    """One of `of` parts of the mutants, `number` from 1, and what is known of them, as verification/src/campaign/ keeps it.
+
+    A chunk is one mutant, in an order of its own: next to each other are often those of one function, which all take long or none.
+    """
+
+    def __init__(self, work, commit, mutants, fit, chosen):
+        self.work, self.mutants, self.fit, self.longest = work, mutants, fit, chosen.longest
+        self.order = list(range(1, len(mutants) + 1))
+        random.Random(1).shuffle(self.order)
+        number, of = chosen.shard
+        self.range = range((number - 1) * len(mutants) // of, number * len(mutants) // of)
+        self.numbers = [self.order[chunk] for chunk in self.range]
+        self.settings = {
+            "campaign": "mutants",
+            "commit": commit,
+            "seed": SEED,
+            "chunks": len(mutants),
+            "cases_per_chunk": 1,
+            "depends_on": {
+                "mutants": hashlib.sha256(json.dumps(mutants, sort_keys=True).encode()).hexdigest(),
+                "cases of a property": str(chosen.cases),
+                "longest test": f"{chosen.longest:g} s",
+            },
+        }
+
+        if chosen.shard != (1, 1) and work.state.exists():
+            state = load(work.state)
+            if any(state[name] != value for name, value in self.settings.items()) or state["range"] != self.state_range():
+                sys.exit(f"{work.state}: the state of another run or shard; name another folder")
+
+    def state_range(self):
+        return {"start": self.range.start, "end": self.range.stop}
+
+    def outcome(self, number, known):
+        """What became of a mutant, or None while that is open."""
+        if number in self.fit["unviable"]:
+            return "unviable"
+        if str(number) in self.fit["unplaced"]:
+            return "unplaced"
+        result = known.get(number)
+        if result and result["noticed"]:
+            return "noticed"
+        return "missed" if result and result["longest"] >= self.longest else None
+
+    def keep(self, known):
+        found, runs, digest = {}, [], 0
+        for chunk in self.range:
+            number = self.order[chunk]
+            outcome = self.outcome(number, known)
+            if outcome is None:
+                continue
+            found[chunk] = {"name": self.mutants[number - 1]["name"], "outcome": outcome}
+            # Of one chunk, added up, as verification/src/campaign/digest.rs says why.
+            text = json.dumps([chunk, found[chunk]], separators=(",", ":"), ensure_ascii=False)
+            digest += int.from_bytes(hashlib.sha256(text.encode()).digest()[:16], "big")
+            if runs and runs[-1][1] == chunk:
+                runs[-1][1] += 1
+            else:
+                runs.append([chunk, chunk + 1])
+        state = self.settings | {
+            "command": " ".join(sys.argv),
+            "range": self.state_range(),
+            "done": runs,
+            "digest": f"{digest % 2**128:032x}",
+            "found": found,
+        }
+        replace(self.work.state, state)
+
+
 def copy_of_sources(work):
+    """The commit that was copied."""
     work.copy.mkdir(parents=True, exist_ok=True)
-    files = subprocess.run(["git", "archive", "HEAD"], cwd=ROOT, check=True, stdout=subprocess.PIPE).stdout
+    head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout.strip()
+    files = subprocess.run(["git", "archive", head], cwd=ROOT, check=True, stdout=subprocess.PIPE).stdout
     subprocess.run(["tar", "x", "-C", work.copy], input=files, check=True)
     # Kernels with a condition in every operation take minutes at level 3; nobody needs the simplest failing case.
     manifest = work.copy / "Cargo.toml"
     manifest.write_text(re.sub(r"opt-level = 3", "opt-level = 1", manifest.read_text()))
     strategy = work.copy / "verification/src/generator/strategy.rs"
     strategy.write_text(strategy.read_text().replace("max_shrink_iters: 50_000", "max_shrink_iters: 0"))
-    return True
+    return head
 
 
 def all_mutants():
@@ -81,12 +180,15 @@ def fitted(work, mutants):
     subprocess.run(["cp", "-r", work.copy / "core", work.copy / "verification", original], check=True)
     while True:
         unplaced = rewrite(original, work.copy, mutants, left_out)
-        messages, succeeded = work.cargo("check", "-p", "selvedge-core")
-        if succeeded:
+        # As its own tests and as the promises have it: neither compiles all that the other does.
+        ways = (["--lib", "--profile", "test"], ["--features", "verification"])
+        checks = [work.cargo("check", "-p", "selvedge-core", *way) for way in ways]
+        if all(succeeded for _, succeeded in checks):
             return {"unviable": sorted(left_out), "unplaced": unplaced}
-        complaints = set().union(*(numbers_in(work.copy, message) for message in messages))
+        complaints = set().union(*(numbers_in(work.copy, message) for messages, _ in checks for message in messages))
         if complaints <= left_out:
-            sys.exit(f"core does not compile with its mutants: `cargo check -p selvedge-core` in {work.copy}")
+            commands = " or ".join(f"`cargo check -p selvedge-core {' '.join(way)}`" for way in ways)
+            sys.exit(f"core does not compile with its mutants: {commands} in {work.copy}")
         left_out |= complaints
 
 
@@ -96,6 +198,10 @@ def numbers_in(copy, message):
     found = set()
     if message.get("reason") != "compiler-message" or error["level"] != "error":
         return found
+    if (error["code"] or {}).get("code") == "E0015":
+        # A constant calls a function that its mutants no longer let be `const`: these are at fault, not those before the call.
+        places = [span for note in error["children"] for span in note["spans"]]
+        return set().union(*(numbers_in_function(copy, place) for place in places))
     for span in error["spans"]:
         if span["is_primary"] and (copy / span["file_name"]).exists():
             text = (copy / span["file_name"]).read_bytes()
@@ -105,6 +211,19 @@ def numbers_in(copy, message):
                 numbers = re.findall(r"is\((\d+)\)", text[: span["byte_start"]].decode(errors="ignore"))[-1:]
             found |= {int(number) for number in numbers}
     return found
+
+
+def numbers_in_function(copy, signature):
+    """The mutants of the function that begins there: up to the brace that stands as far to the left as its first line."""
+    path = copy / signature["file_name"]
+    if not path.exists():
+        return set()
+    text = path.read_bytes()
+    begin = text.rfind(b"\n", 0, signature["byte_start"]) + 1
+    line = text[begin:]
+    indent = line[: len(line) - len(line.lstrip(b" "))]
+    end = text.find(b"\n" + indent + b"}", begin)
+    return {int(number) for number in re.findall(rb"is\((\d+)\)", text[begin:end])}
 
 
 def callers_of_constant_functions(work):
@@ -149,7 +268,7 @@ class Tests:
         # The same cases each time: a test that passes with nothing awake, and fails now, does so for the mutant. With few cases some
         # that count what they saw fail for want of it. (The last is the switch by which the standard library's own tests allow
         # themselves the options above.)
-        few = {"PROPTEST_CASES": str(self.cases), "PROPTEST_RNG_SEED": "1"}
+        few = {"PROPTEST_CASES": str(self.cases), "PROPTEST_RNG_SEED": str(SEED)}
         environment = os.environ | few | {"MUTANT": str(mutant), "RUSTC_BOOTSTRAP": "1"}
         process = subprocess.Popen(
             command,
@@ -194,16 +313,20 @@ class Tests:
         return seconds
 
 
-def hunt(work, tests, times, mutants, numbers, longest):
-    """Asks the tests that take no longer than `longest` about each mutant."""
-    known = {}
-    if work.results.exists():
-        known = {result["number"]: result for result in map(json.loads, work.results.read_text().splitlines())}
+def hunt(work, tests, times, mutants, shard):
+    """Asks the tests that take no longer than the shard's longest about each of its mutants."""
+    longest = shard.longest
+    known = work.known()
+    if work.results.exists() and not work.results.read_text().endswith("\n"):
+        # The next result is not to be written behind half of one.
+        with work.results.open("a") as results:
+            results.write("\n")
     by_cost = sorted((cost, program, test) for program in times for test, cost in times[program].items() if cost <= longest)
     noticed_by = defaultdict(Counter)
     lock = threading.Lock()
-    numbers = [n for n in numbers if n not in known or known[n]["noticed"] is None and known[n]["longest"] < longest]
-    random.Random(1).shuffle(numbers)
+    numbers = [number for number in shard.numbers if shard.outcome(number, known) is None]
+    shard.keep(known)
+    outcomes = dict(known)
     bar = tqdm(total=len(numbers), unit="mutant")
 
     def ask(number):
@@ -228,6 +351,8 @@ def hunt(work, tests, times, mutants, numbers, longest):
             result = {"number": number, "name": mutant["name"], "noticed": noticed, "longest": longest}
             with work.results.open("a") as results:
                 results.write(json.dumps(result | {"seconds": round(time.monotonic() - begin, 1)}) + "\n")
+            outcomes[number] = result
+            shard.keep(outcomes)
             bar.update()
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -236,7 +361,7 @@ def hunt(work, tests, times, mutants, numbers, longest):
 
 
 def report(work, mutants, fit):
-    results = {result["number"]: result for result in map(json.loads, work.results.read_text().splitlines())}
+    results = work.known()
     rows = defaultdict(Counter)
     for result in results.values():
         rows[mutants[result["number"] - 1]["file"]]["noticed" if result["noticed"] else "missed"] += 1
@@ -253,17 +378,26 @@ def report(work, mutants, fit):
         print(f"not tried, {why}: {mutants[int(number) - 1]['name']}")
 
 
+def part(text):
+    """Of `--shard`."""
+    numbers = re.fullmatch(r"(\d+)/(\d+)", text)
+    if not numbers or not 1 <= int(numbers[1]) <= int(numbers[2]):
+        raise argparse.ArgumentTypeError(f"a shard is I/N, I from 1 to N, not {text!r}")
+    return int(numbers[1]), int(numbers[2])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="sources, programs and results (2 GB); a run in it goes on")
     parser.add_argument("--longest", type=float, default=1000, help="leave out tests that take more seconds than that")
     parser.add_argument("--cases", type=int, default=256, help="PROPTEST_CASES: 256 is what ./test.sh does")
+    parser.add_argument("--shard", type=part, default=(1, 1), help="I/N, I from 1 to N: one of N parts; in a folder of its own")
     parser.add_argument("--report", action="store_true", help="print what is known and end")
     chosen = parser.parse_args()
     work = Work(chosen.folder.resolve())
     work.folder.mkdir(parents=True, exist_ok=True)
     mutants = work.kept("mutants.json", all_mutants)
-    work.kept("copied.json", lambda: copy_of_sources(work))
+    commit = work.kept("copied.json", lambda: copy_of_sources(work))
     fit = work.kept("fit.json", lambda: fitted(work, mutants))
     work.kept("no-longer-constant.json", lambda: callers_of_constant_functions(work))
     if not chosen.report:
@@ -272,9 +406,7 @@ def main():
             f"times-{chosen.longest:g}-{chosen.cases}.json",
             lambda: {program: tests.times(program, chosen.longest) for program in tests.programs},
         )
-        left_out = set(fit["unviable"]) | {int(number) for number in fit["unplaced"]}
-        numbers = [number for number in range(1, len(mutants) + 1) if number not in left_out]
-        hunt(work, tests, times, mutants, numbers, chosen.longest)
+        hunt(work, tests, times, mutants, Shard(work, commit, mutants, fit, chosen))
     report(work, mutants, fit)
 
 

@@ -2,10 +2,10 @@
 # Mutations of core's decisions that no test notices: README.md here. Installs cargo-mutants and, in a folder of its own, what the
 # scripts need.
 #
-#   verification/mutants/run.sh FOLDER [--longest SECONDS] [--cases N] [--report]
+#   verification/mutants/run.sh FOLDER [--shard I/N] [--longest SECONDS] [--cases N] [--report]
 set -euo pipefail
 if [ $# -eq 0 ]; then
-    echo "usage: run.sh FOLDER [--longest SECONDS] [--cases N] [--report]" >&2
+    echo "usage: run.sh FOLDER [--shard I/N] [--longest SECONDS] [--cases N] [--report]" >&2
     exit 2
 fi
 folder=$(realpath -m "$1")

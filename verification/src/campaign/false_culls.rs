@@ -126,15 +126,24 @@ impl Progress {
         let rows = || vec![Tally::default(); Rule::all().len()];
         let found = Found { rows: [rows(), rows()] };
         let of_format = pairs.next_multiple_of(pairs_per_chunk);
-        Self::with_nothing_done(seed, 2 * of_format, pairs_per_chunk, found)
+        let rules: Vec<String> = Rule::all().iter().map(Rule::to_string).collect();
+        let depends_on = [("rules", rules.join("; "))];
+        Self::with_nothing_done(seed, 2 * of_format, pairs_per_chunk, &depends_on, found)
     }
 }
 
 impl Findings for Found {
+    const CAMPAIGN: &'static str = "false_culls";
     type OfChunk = Vec<Tally>;
 
     fn add(&mut self, chunk: u64, tallies: Vec<Tally>) {
         for (row, tally) in self.rows[format(chunk)].iter_mut().zip(&tallies) {
+            row.add(tally);
+        }
+    }
+
+    fn join(&mut self, other: Self) {
+        for (row, tally) in self.rows.iter_mut().flatten().zip(other.rows.iter().flatten()) {
             row.add(tally);
         }
     }
@@ -147,11 +156,6 @@ impl Findings for Found {
             certified.map(|(_, tally)| tally.false_culls).sum::<u64>()
         };
         self.rows.iter().map(of).sum()
-    }
-
-    fn looks_for_the_same(&self, other: &Self) -> bool {
-        let rules = |found: &Self| found.rows.each_ref().map(Vec::len);
-        rules(self) == rules(other)
     }
 }
 
@@ -204,7 +208,7 @@ pub fn run(
     after_chunk: impl Fn(&Progress) + Sync,
     stops: impl Fn() -> bool + Sync,
 ) -> Progress {
-    let (seed, pairs) = (progress.seed, progress.pairs_per_chunk);
+    let (seed, pairs) = (progress.settings.seed, progress.settings.cases_per_chunk);
     let look_at = |chunk| match format(chunk) {
         0 => look_at_chunk::<f32>(seed, chunk, pairs),
         _ => look_at_chunk::<f64>(seed, chunk, pairs),

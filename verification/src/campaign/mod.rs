@@ -1,73 +1,55 @@
-//! Long runs over many pairs, in chunks, each with random numbers of its own: what a run finds depends on neither threads nor
-//! interruptions.
+//! Long runs over many pairs, in chunks, each with random numbers of its own: what a run finds depends on neither threads,
+//! interruptions nor how many machines share it.
 //!
 //! | module | what it is |
 //! |---|---|
 //! | [`exact`] | a billion pairs, every cull and every "never" checked by exact arithmetic |
 //! | [`false_culls`] | every tier of the filter over random and adversarial pairs |
+//! | [`mutants`] | changes of core, and whether a test notices: `verification/mutants/` writes its states, which are joined here |
+//!
+//! # Beyond one machine
+//! A run has its chunks in one order; a [`Shard`] is a run of them. Its [`Progress`] says what run it is of ([`Settings`]), which chunks
+//! are its own, which of them are done, and what was found in those, with a [`Digest`]; a [`StateFile`] keeps it through kills. [`merge()`]
+//! joins shards that together have each chunk once, and refuses all others. No shard knows of the others, and nobody watches
+//! them: whatever starts them again until each is finished will do.
 
+mod chunks;
+mod digest;
 pub mod exact;
 pub mod false_culls;
+mod file;
+mod merge;
+pub mod mutants;
+mod progress;
+mod shard;
 
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+pub use chunks::Chunks;
+pub use digest::Digest;
+pub use file::{FileError, StateFile, read};
+pub use merge::{Refusal, merge};
+pub use progress::{AnotherRun, Progress, Settings};
+pub use shard::Shard;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::sync::Mutex;
 
 /// What a run looks for.
-pub trait Findings: Send {
+pub trait Findings: Send + Serialize + DeserializeOwned {
+    /// What the campaign is called, in states.
+    const CAMPAIGN: &'static str;
+
     /// What is found in one chunk.
-    type OfChunk: Send;
+    type OfChunk: Send + Serialize;
 
     /// Adds what was found in a chunk. In whichever order chunks come, the sum is the same.
     fn add(&mut self, chunk: u64, found: Self::OfChunk);
 
+    /// Adds what was found in other chunks of the same run. In whichever order, the sum is the same.
+    fn join(&mut self, other: Self);
+
     /// How many promises were found broken.
     fn wrong(&self) -> u64;
-
-    /// Whether a run with the findings of `other` looks for the same, in the same pairs if its seed is the same.
-    fn looks_for_the_same(&self, other: &Self) -> bool;
-}
-
-/// How far a run has come.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Progress<F> {
-    /// Where random numbers come from.
-    pub seed: u64,
-    /// Chunks in all.
-    pub chunks: u64,
-    /// Pairs a chunk.
-    pub pairs_per_chunk: u64,
-    /// Finished chunks.
-    pub done: BTreeSet<u64>,
-    /// What was found in them.
-    #[serde(flatten)]
-    pub found: F,
-}
-
-impl<F: Findings> Progress<F> {
-    /// Nothing done yet, and nothing found; whole chunks, at least `pairs` pairs in all.
-    fn with_nothing_done(seed: u64, pairs: u64, pairs_per_chunk: u64, nothing: F) -> Self {
-        Self {
-            seed,
-            chunks: pairs.div_ceil(pairs_per_chunk),
-            pairs_per_chunk,
-            done: BTreeSet::new(),
-            found: nothing,
-        }
-    }
-
-    /// Whether all chunks are done.
-    #[must_use]
-    pub fn is_finished(&self) -> bool {
-        self.done.len() as u64 == self.chunks
-    }
-
-    /// Whether it is the same run as `other`, however far either has come.
-    #[must_use]
-    pub fn is_of_the_same_run(&self, other: &Self) -> bool {
-        let key = |run: &Self| (run.seed, run.chunks, run.pairs_per_chunk);
-        key(self) == key(other) && self.found.looks_for_the_same(&other.found)
-    }
 }
 
 /// Does what is left, on as many threads, until `stops` says so: `look_at` a chunk of that index; `after_chunk` sees each state that
@@ -75,16 +57,15 @@ impl<F: Findings> Progress<F> {
 ///
 /// # Panics
 /// If a thread panics.
-fn run<F: Findings>(
+pub fn run<F: Findings>(
     progress: Progress<F>,
     threads: usize,
     look_at: impl Fn(u64) -> F::OfChunk + Sync,
     after_chunk: impl Fn(&Progress<F>) + Sync,
     stops: impl Fn() -> bool + Sync,
 ) -> Progress<F> {
-    let all = 0..progress.chunks;
-    let left: Vec<u64> = all.filter(|chunk| !progress.done.contains(chunk)).collect();
-    let left = Mutex::new(left.into_iter());
+    let done = progress.done.clone();
+    let left = Mutex::new(progress.range.clone().filter(|&chunk| !done.contains(chunk)));
     let progress = Mutex::new(progress);
     let take = || left.lock().expect("no panic").next();
     std::thread::scope(|scope| {
@@ -96,8 +77,7 @@ fn run<F: Findings>(
                     };
                     let found = look_at(chunk);
                     let mut progress = progress.lock().expect("no panic");
-                    progress.found.add(chunk, found);
-                    progress.done.insert(chunk);
+                    progress.add(chunk, found);
                     after_chunk(&progress);
                 }
             });

@@ -10,6 +10,7 @@ mod arm_scene_starts_free;
 mod baselines_are_no_straw_men;
 mod batches_agree_with_one_pair;
 mod box_tests_never_cull_what_touches;
+mod campaigns_join_from_shards;
 mod certified_filter_never_culls_coplanar;
 mod certified_in_every_floating_point_environment;
 mod closest_points_are_closest;

@@ -92,8 +92,6 @@ impl Tally {
 /// What a run found, by claim.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Found {
-    /// How many pairs of either kind the scenes have: with others the run would be another.
-    pub scene_pairs: [u64; 2],
     /// What is looked at.
     pub claims: Vec<Claim>,
     /// By format, source and claim.
@@ -109,17 +107,17 @@ impl Progress {
     pub fn new(seed: u64, pairs: u64, pairs_per_chunk: u64, scenes: &Scenes, claims: &[Claim]) -> Self {
         let nothing = || vec![Tally::default(); claims.len()];
         let of_format = || [nothing(), nothing(), nothing()];
-        let of_kind = |pairs: &[Points]| pairs.len() as u64;
         let found = Found {
-            scene_pairs: [of_kind(&scenes.vertex_face), of_kind(&scenes.edge_edge)],
             claims: claims.to_vec(),
             tallies: [of_format(), of_format()],
         };
-        Self::with_nothing_done(seed, pairs, pairs_per_chunk, found)
+        let depends_on = [("claims", format!("{claims:?}")), ("scenes", scenes.to_string())];
+        Self::with_nothing_done(seed, pairs, pairs_per_chunk, &depends_on, found)
     }
 }
 
 impl Findings for Found {
+    const CAMPAIGN: &'static str = "exact_campaign";
     type OfChunk = Vec<Tally>;
 
     fn add(&mut self, chunk: u64, tallies: Vec<Tally>) {
@@ -129,13 +127,16 @@ impl Findings for Found {
         }
     }
 
+    fn join(&mut self, other: Self) {
+        let tallies = other.tallies.into_iter().flatten().flatten();
+        for (sum, tally) in self.tallies.iter_mut().flatten().flatten().zip(tallies) {
+            sum.add(tally);
+        }
+    }
+
     fn wrong(&self) -> u64 {
         let all = self.tallies.iter().flatten().flatten();
         all.map(|tally| tally.wrong).sum()
-    }
-
-    fn looks_for_the_same(&self, other: &Self) -> bool {
-        (self.scene_pairs, &self.claims) == (other.scene_pairs, &other.claims)
     }
 }
 
@@ -168,7 +169,7 @@ impl fmt::Display for Progress {
                 }
             }
         }
-        let pairs = self.done.len() as u64 * self.pairs_per_chunk;
+        let pairs = self.cases();
         writeln!(f, "{pairs} pairs, {} wrong claims", self.found.wrong())?;
         examples.iter().try_for_each(|example| writeln!(f, "\n{example}"))
     }
@@ -186,7 +187,7 @@ pub fn run(
     after_chunk: impl Fn(&Progress) + Sync,
     stops: impl Fn() -> bool + Sync,
 ) -> Progress {
-    let (seed, pairs) = (progress.seed, progress.pairs_per_chunk);
+    let (seed, pairs) = (progress.settings.seed, progress.settings.cases_per_chunk);
     let claims = progress.found.claims.clone();
     let look_at = |index| {
         let chunk = Chunk {

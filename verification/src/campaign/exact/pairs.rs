@@ -1,7 +1,9 @@
 //! Pairs that cost little to make, and where they come from.
 
+use crate::campaign::Digest;
 use crate::generator::{Choices, Format, PairCase};
 use selvedge_core::PairKind;
+use std::fmt;
 
 /// Where pairs come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +30,17 @@ pub struct Scenes {
     pub vertex_face: Vec<Points>,
     /// Two edges.
     pub edge_edge: Vec<Points>,
+}
+
+impl fmt::Display for Scenes {
+    /// How many pairs there are, and a digest of them: machines whose scenes differ, by a file or by a rounding, do not look at the same.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kinds = [&self.vertex_face, &self.edge_edge];
+        let coordinates = kinds.into_iter().flatten().flatten().flatten().flatten();
+        let digest = Digest::of_bytes(coordinates.map(|x| x.to_le_bytes()));
+        let [vertex_face, edge_edge] = kinds.map(Vec::len);
+        write!(f, "{vertex_face} VF and {edge_edge} EE pairs, {digest}")
+    }
 }
 
 /// Makes the pairs of a chunk.

@@ -1,0 +1,180 @@
+//! How far a run has come.
+
+use super::{Chunks, Digest, Findings, Shard};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use thiserror::Error;
+
+/// What a run is: with equal settings two runs look at the same cases, ask the same of them, and find the same.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Settings {
+    /// Which campaign: [`Findings::CAMPAIGN`].
+    pub campaign: String,
+    /// The commit that the program was built from, where that is known.
+    pub commit: Option<String>,
+    /// Where random numbers come from.
+    pub seed: u64,
+    /// Chunks in all, of all shards.
+    pub chunks: u64,
+    /// Cases (pairs, mutants) a chunk.
+    pub cases_per_chunk: u64,
+    /// What else it depends on, by name.
+    pub depends_on: BTreeMap<String, String>,
+}
+
+impl Settings {
+    /// The first setting that differs: its name, ours and theirs.
+    #[must_use]
+    pub fn difference(&self, other: &Self) -> Option<[String; 3]> {
+        let (ours, theirs) = (self.by_name(), other.by_name());
+        let value = |of: &BTreeMap<String, String>, name: &String| of.get(name).cloned().unwrap_or_default();
+        let mut names = ours.keys().chain(theirs.keys());
+        let name = names.find(|name| ours.get(*name) != theirs.get(*name))?;
+        Some([name.clone(), value(&ours, name), value(&theirs, name)])
+    }
+
+    fn by_name(&self) -> BTreeMap<String, String> {
+        let own = [
+            ("campaign", self.campaign.clone()),
+            ("commit", self.commit.clone().unwrap_or_else(|| "unknown".to_owned())),
+            ("seed", self.seed.to_string()),
+            ("number of chunks", self.chunks.to_string()),
+            ("cases a chunk", self.cases_per_chunk.to_string()),
+        ];
+        let own = own.map(|(name, value)| (name.to_owned(), value));
+        own.into_iter().chain(self.depends_on.clone()).collect()
+    }
+}
+
+/// Why a state cannot be gone on from.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum AnotherRun {
+    /// A setting is not what it was.
+    #[error("the state of another run, whose {name} is {was}, not {is}")]
+    Setting {
+        /// Which.
+        name: String,
+        /// In the state.
+        was: String,
+        /// What is asked for.
+        is: String,
+    },
+    /// The same run, but not the same part of it.
+    #[error("the state of another shard, of chunks {} to {}, not {} to {}", .was.start, .was.end, .is.start, .is.end)]
+    Shard {
+        /// The chunks of the state.
+        was: Range<u64>,
+        /// Those that are asked for.
+        is: Range<u64>,
+    },
+}
+
+/// How far a run, or one shard of it, has come.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Progress<F> {
+    /// What run it is.
+    #[serde(flatten)]
+    pub settings: Settings,
+    /// The command that it was last started with: for who reads it, nothing depends on it.
+    pub command: String,
+    /// The chunks of this shard.
+    pub range: Range<u64>,
+    /// Finished chunks.
+    pub done: Chunks,
+    /// Of what was found in them.
+    pub digest: Digest,
+    /// What was found in them.
+    pub found: F,
+}
+
+impl<F: Findings> Progress<F> {
+    /// Nothing done yet, and nothing found, of the whole run; whole chunks, at least `cases` cases in all.
+    #[must_use]
+    pub fn with_nothing_done(seed: u64, cases: u64, cases_per_chunk: u64, depends_on: &[(&str, String)], nothing: F) -> Self {
+        let chunks = cases.div_ceil(cases_per_chunk);
+        let depends_on = depends_on.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
+        Self {
+            settings: Settings {
+                campaign: F::CAMPAIGN.to_owned(),
+                commit: None,
+                seed,
+                chunks,
+                cases_per_chunk,
+                depends_on: depends_on.collect(),
+            },
+            command: String::new(),
+            range: 0..chunks,
+            done: Chunks::default(),
+            digest: Digest::default(),
+            found: nothing,
+        }
+    }
+
+    /// The same of one shard, by a program that was built from that commit and started with that command.
+    #[must_use]
+    pub fn of_shard(mut self, shard: Shard, commit: Option<&str>, command: &str) -> Self {
+        self.range = shard.range(self.settings.chunks);
+        self.settings.commit = commit.map(str::to_owned);
+        command.clone_into(&mut self.command);
+        self
+    }
+
+    /// What was kept goes on as what is asked for, under its command.
+    ///
+    /// # Errors
+    /// If it is another run or another shard.
+    pub fn goes_on(self, asked: Self) -> Result<Self, AnotherRun> {
+        if let Some([name, was, is]) = self.settings.difference(&asked.settings) {
+            return Err(AnotherRun::Setting { name, was, is });
+        }
+        if self.range != asked.range {
+            return Err(AnotherRun::Shard {
+                was: self.range,
+                is: asked.range,
+            });
+        }
+        Ok(Self {
+            command: asked.command,
+            ..self
+        })
+    }
+
+    /// Whether all chunks of the shard are done.
+    #[must_use]
+    pub fn is_finished(&self) -> bool {
+        self.done.len() == self.range.end - self.range.start
+    }
+
+    /// Cases of finished chunks.
+    #[must_use]
+    pub fn cases(&self) -> u64 {
+        self.done.len() * self.settings.cases_per_chunk
+    }
+
+    /// Adds a chunk: what was found, that it is done, and both to the digest.
+    ///
+    /// # Panics
+    /// If it was done before: it would be counted twice.
+    pub(super) fn add(&mut self, chunk: u64, found: F::OfChunk) {
+        assert!(self.done.insert(chunk), "chunk {chunk} twice");
+        self.digest += Digest::of_chunk(chunk, &found);
+        self.found.add(chunk, found);
+    }
+
+    /// What in it contradicts itself: no program writes such a state.
+    pub(super) fn contradiction(&self) -> Option<&'static str> {
+        let Range { start, end } = self.range;
+        let done = self.done.runs();
+        let is_inside = |&[first, last]: &[u64; 2]| start <= first && last <= end;
+        if self.settings.campaign != F::CAMPAIGN {
+            Some("the state of another campaign")
+        } else if start > end || end > self.settings.chunks {
+            Some("a range that is not one of the run's chunks")
+        } else if !done.iter().all(is_inside) {
+            Some("chunks are done that are outside of its range")
+        } else {
+            None
+        }
+    }
+}
