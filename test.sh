@@ -69,10 +69,22 @@ cargo test --profile dev --package selvedge --test builds_without_optimisation
 say "the documentation's examples"
 cargo test --workspace --doc
 
+# Mostly one core's work, as are the proofs below.
+python_log=$(mktemp)
+std-adapter/python/check.sh --present >"$python_log" 2>&1 </dev/null &
+python_check=$!
+
 say "rounding constants: Gappa's proofs, where it is installed"
 verification/gappa/check.sh --present --gappa
 
 say "from rounding to geometry: Coq's proofs, where it is installed"
 verification/proofs/check.sh --present
+
+wait "$python_check" || {
+    cat "$python_log" >&2
+    give_up "the package for Python is not as it should be (std-adapter/python/check.sh)"
+}
+cat "$python_log"
+rm -f "$python_log"
 
 say "all tests passed in $SECONDS s"

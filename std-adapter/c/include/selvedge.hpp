@@ -112,7 +112,7 @@ class detector {
   /// How many threads steps are split between: 1 is the one that calls, 0 one for each core.
   void set_threads(std::size_t count) { check(selvedge_detector_set_threads(get(), count)); }
 
-  /// Contacts are pairs that may come closer than the separation, all that come within the tolerance of it among them.
+  /// Contacts are pairs that may come closer than the separation; those that only come within the tolerance of it may be among them.
   void set_within(double separation, double tolerance) { check(selvedge_detector_set_within(get(), separation, tolerance)); }
 
   /// Contacts are only pairs that truly touch.

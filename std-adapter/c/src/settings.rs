@@ -36,8 +36,8 @@ pub extern "C" fn selvedge_detector_set_threads(detector: *mut Handle, count: us
     })
 }
 
-/// Contacts are pairs that cannot be proven to stay farther apart than `separation`, all that come within `tolerance` of it among
-/// them. At first the separation is 0, the tolerance SELVEDGE_DEFAULT_TOLERANCE_F32 or _F64.
+/// Contacts are pairs that cannot be proven to stay farther apart than `separation`; those that only come within `tolerance` of it
+/// may be among them. At first the separation is 0, the tolerance SELVEDGE_DEFAULT_TOLERANCE_F32 or _F64.
 ///
 /// Both in the unit of the positions. For a detector for float they are rounded up to a float.
 #[unsafe(no_mangle)]

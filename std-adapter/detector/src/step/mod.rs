@@ -64,7 +64,8 @@ pub struct Contact<S> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Criterion<S> {
-    /// Pairs that cannot be proven to stay farther apart than the separation, all that come within the tolerance of it among them.
+    /// Pairs that cannot be proven to stay farther apart than the separation. Those that only come within the tolerance of it may be
+    /// among them.
     Within(Limits<S>),
     /// Only pairs that truly touch, by the [exact verdict](mod@selvedge_core::elementary::contact). Their times are those of
     /// [`Within`](Self::Within) this tolerance of touching.
@@ -386,7 +387,7 @@ impl<S: Scalar> CollisionDetector<S> {
     /// * **How early it may be.** At that time the distance of the pair is at most s + δ and a rounding error
     ///   ([bounded there](selvedge_core::elementary::advance#what-is-promised)). If it comes closer at a speed of v there,
     ///   in lengths a step, and goes on to come within s, the exact time is about δ/v later. But it need not: a pair that comes within
-    ///   s + δ and turns back, a near miss, is a contact as any other, and then the exact first contact is that of another pair, or
+    ///   s + δ and turns back, a near miss, may be a contact as any other, and then the exact first contact is that of another pair, or
     ///   there is none. A near miss at more than s + δ never is; the time may well come after it.
     /// * **The exception**: a pair too close for rounding to tell, within some 2⁻⁴⁸ of the size of its
     ///   differences, counts from when that cannot be excluded, which may be long before it touches, or though it never does. Of such pairs

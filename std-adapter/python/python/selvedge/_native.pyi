@@ -116,8 +116,8 @@ class Detector:
         """How many threads steps are split between: 1 is the one that calls, 0 one for each core."""
 
     def set_limits(self, separation: float = 0.0, tolerance: float | None = None, *, touching: bool = False) -> None:
-        """Contacts are pairs that cannot be proven to stay farther apart than ``separation``, all that come within ``tolerance`` of it
-        among them (at first 2^-30 for float64, 2^-20 for float32). Or, ``touching``, only pairs that truly touch, decided exactly. In
+        """Contacts are pairs that cannot be proven to stay farther apart than ``separation``; those that only come within ``tolerance`` of
+        it may be among them (at first 2^-30 for float64, 2^-20 for float32). Or, ``touching``, only pairs that truly touch, decided exactly. In
         the unit of the positions; for float32 rounded up."""
 
     def set_moving(self, moving: ArrayLike | None = None) -> None:

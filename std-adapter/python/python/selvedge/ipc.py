@@ -4,7 +4,7 @@
 
 * Every answer is certified: a step size is never too long, a free step never has a contact. Step sizes are those of first contact, not
   scaled back.
-* A pair that only comes within the tolerance of ``min_distance`` (a nanometre, if positions are in metres) counts as a contact.
+* A pair that only comes within the tolerance of ``min_distance`` (a nanometre, if positions are in metres) may count as a contact.
 * ``broad_phase`` and ``narrow_phase_ccd`` take None alone: there is one of each.
 * Three dimensions alone. Barriers, potentials, friction and distances' derivatives are not here: asking for them raises
   AttributeError, which says so.
