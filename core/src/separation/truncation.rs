@@ -10,6 +10,12 @@
 //! whatever the others' are. So the gap along d is at least m at the end, and more than m at the start; along straight ways it is linear in
 //! time ([`gap`](super::gap)). ∎
 //!
+//! **From a base.** Where the step begins at another place than x, which is then a *base* from which its points go on towards y, only the
+//! start is to be looked at in addition: if d keeps the pair more than m apart there too, the sets are at least m apart throughout the step
+//! from there to e. *Proof.* What was said of the end of the way from x to y is said of e alone, and straight ways from wherever the step
+//! begins are linear in time as well. ∎ So a step that cannot go from its start towards y goes at first to a base that is free, and
+//! from there as far as it can.
+//!
 //! A vertex takes the least of its shares over all of its pairs; the order in which they are asked for does not matter. Only d is shared by
 //! both ends, o belongs to the end: what moves together is not held back. Where d keeps the pair apart at y too, o is put so that nobody is.
 //! Else the room is shared in proportion to how far each set goes towards the other.
@@ -95,4 +101,35 @@ pub fn shares<P: Position>(
         }
     }
     Some(shares)
+}
+
+/// Of the [`shares`] along each of these directions, those that leave most to the point which has least, with the direction; of equals the
+/// first. `None` if none of the directions keeps the pair apart at the start.
+///
+/// ```
+/// use selvedge_core::{PairKind, glam::DVec3, separation::gap::GapError, separation::truncation::most_shares};
+/// // A vertex that slides along the triangle, and a little towards it.
+/// let start = [DVec3::new(0.2, 0.2, 0.5), DVec3::ZERO, DVec3::X, DVec3::Y];
+/// let wanted = [DVec3::new(3.0, 0.2, -0.1), start[1], start[2], start[3]];
+/// let directions = [DVec3::X, DVec3::new(0.0, 0.0, 1.0), DVec3::new(0.6, 0.0, 0.8)];
+/// let error = GapError::of_coordinates(3.0);
+/// let (direction, [vertex, ..]) = most_shares(PairKind::VertexFace, [start, wanted], directions, 0.1, error).unwrap();
+/// assert!(direction == DVec3::Z && vertex > 0.6);
+/// ```
+#[must_use]
+pub fn most_shares<P: Position>(
+    kind: PairKind,
+    ways: [[P; 4]; 2],
+    directions: impl IntoIterator<Item = P>,
+    separation: P::Scalar,
+    error: GapError<P::Scalar>,
+) -> Option<(P, [P::Scalar; 4])> {
+    let least = |shares: &[P::Scalar; 4]| {
+        let [a, b, c, d] = *shares;
+        a.smaller(b).smaller(c.smaller(d))
+    };
+    directions
+        .into_iter()
+        .filter_map(|direction| Some((direction, shares(kind, ways, direction, separation, error)?)))
+        .reduce(|a, b| if least(&b.1) > least(&a.1) { b } else { a })
 }

@@ -29,8 +29,8 @@ pub const FASTEST: f64 = 1000.0;
 /// the positions, which a resumed simulation does not know either.
 pub const CHECKPOINT_STEPS: u64 = 200;
 
-/// How often a step may be cut in half.
-const CUTS: u32 = 6;
+/// The shortest part of a step that is tried, in steps, or in parts of one in which nothing turns too far: so a step has an end.
+const SHORTEST: f64 = 1.0 / 64.0;
 
 /// A scene in motion.
 #[derive(Debug)]
@@ -335,10 +335,14 @@ impl Simulation {
     fn whole_step(&mut self) -> Result<(), Blocked> {
         let mut left = self.time_step;
         let mut was_blocked = false;
+        let mut longest = left;
+        let shortest = SHORTEST * self.without_large_turn(left);
         while left > 0.0 {
-            let blocker = match self.part(left) {
+            let blocker = match self.part(left.min(longest), shortest) {
                 Ok(h) => {
                     left = if h < left { left - h } else { 0.0 };
+                    // What follows is likely to need as short a part: tried with twice that, at most.
+                    longest = 2.0 * h;
                     continue;
                 }
                 Err(blocker) => blocker,
@@ -407,15 +411,14 @@ impl Simulation {
         Ok(())
     }
 
-    /// Goes on by as much of `left` seconds as possible: returns how much. Half of it if that fails, and so on.
-    fn part(&mut self, left: f64) -> Result<f64, Blocker> {
+    /// Goes on by as much of `left` seconds as possible: returns how much. Half of it if that fails, and so on, but not by less than
+    /// `shortest`.
+    fn part(&mut self, left: f64, shortest: f64) -> Result<f64, Blocker> {
         let mut h = self.without_large_turn(left);
-        let mut cuts = 0;
         loop {
             match self.attempt(h, h) {
-                Err(_) if cuts < CUTS => {
+                Err(_) if 0.5 * h >= shortest => {
                     h *= 0.5;
-                    cuts += 1;
                     if let Some(contact) = &mut self.contact {
                         contact.counts.cuts += 1;
                     }

@@ -6,7 +6,7 @@ use proptest::test_runner::TestRunner;
 use selvedge::{CollisionDetector, Criterion, Threads};
 use selvedge_core::elementary::Limits;
 use selvedge_core::glam::DVec3;
-use selvedge_core::separation::gap::GapError;
+use selvedge_core::separation::gap::{GapError, SeparatingDirection};
 use selvedge_core::separation::largest_coordinate;
 use selvedge_core::separation::truncation::shares;
 use selvedge_core::{Motion, PairKind};
@@ -109,10 +109,11 @@ fn what_is_left_of_a_step_is_free_but_for_what_is_in_contact_at_the_start_and_re
     assert!(met.get().into_iter().all(|steps| steps > 10), "{:?}", met.get());
 }
 
-/// The lemma itself, on the function itself: each point may go any part of its share, whatever the others do.
+/// The lemma itself, on the function itself: each point may go any part of its share, whatever the others do; and from wherever the
+/// direction keeps the pair apart as well, where the shares are of ways from a base.
 #[test]
 fn a_pair_keeps_its_separation_for_all_smaller_shares() {
-    let held = Cell::new(0);
+    let (held, from_a_base) = (Cell::new(0), Cell::new(0));
     let coordinates = || prop::array::uniform3(-1.0..1.0_f64);
     let points = || prop::array::uniform4(coordinates());
     let inputs = (
@@ -122,20 +123,23 @@ fn a_pair_keeps_its_separation_for_all_smaller_shares() {
         prop::array::uniform4(0.0..=1.0_f64),
         -40..40_i32,
         any::<bool>(),
+        points(),
     );
     let mut runner = TestRunner::new(ProptestConfig::with_cases(2000));
-    let result = runner.run(&inputs, |(start, wanted, direction, parts, exponent, is_edges)| {
+    let result = runner.run(&inputs, |(start, wanted, direction, parts, exponent, is_edges, before)| {
         let scale = 2_f64.powi(exponent);
         let points = |of: [[f64; 3]; 4]| of.map(|point| DVec3::from(point) * scale);
-        let (mut start, mut wanted) = (points(start), points(wanted));
+        let (mut start, mut wanted, mut before) = (points(start), points(wanted), points(before));
         let kind = if is_edges { PairKind::EdgeEdge } else { PairKind::VertexFace };
         // Apart at first, in most cases.
         let direction = DVec3::from(direction).normalize_or_zero();
         for corner in 0..if is_edges { 2 } else { 1 } {
             start[corner] += direction * scale;
             wanted[corner] += direction * (0.25 * scale);
+            before[corner] += direction * scale;
         }
-        let largest = largest_coordinate(&start).max(largest_coordinate(&wanted));
+        let all = [start, wanted, before].concat();
+        let largest = largest_coordinate(&all);
         let separation = 0.01 * scale;
         let Some(shares) = shares(
             kind,
@@ -152,11 +156,17 @@ fn a_pair_keeps_its_separation_for_all_smaller_shares() {
             prop_assert!((0.0..=1.0).contains(&shares[corner]));
             ends[corner] = Motion::new(start[corner], wanted[corner]).at(shares[corner] * parts[corner]);
         }
-        let motions = [0, 1, 2, 3].map(|corner| [start[corner].to_array(), ends[corner].to_array()]);
-        let question = PairCase::new(kind, motions).question();
-        prop_assert!(!within(&question, separation));
+        let error = GapError::of_coordinates(largest);
+        let others = SeparatingDirection::found(kind, direction, [before, start], separation, error).map(|_| before);
+        from_a_base.set(from_a_base.get() + usize::from(others.is_some()));
+        for from in [start].into_iter().chain(others) {
+            let motions = [0, 1, 2, 3].map(|corner| [from[corner].to_array(), ends[corner].to_array()]);
+            let question = PairCase::new(kind, motions).question();
+            prop_assert!(!within(&question, separation));
+        }
         Ok(())
     });
     result.unwrap();
     assert!(held.get() > 400, "{}", held.get());
+    assert!(from_a_base.get() > 100, "{}", from_a_base.get());
 }

@@ -1,241 +1,189 @@
-//! Impact zones: cloth that moves together so that a step can be accepted (Provot 1997, who moves each as a rigid body; Harmon et al.
-//! 2008, who let what is inside slide).
+//! Impact zones: cloth that is carried together (Provot 1997), so that there is a motion which is certainly free, from which each vertex
+//! then goes as far as it [may](super::truncation).
 //!
-//! The vertices of a zone follow a common motion D, and only their motion relative to it is scaled by s: x → x + D + s·(y − x − D).
-//! Two vertices of one zone keep the difference of their original motions on [0, s], plus a common translation; so a pair inside a
-//! zone is free exactly if s is before its time of impact on the path x → y − D. A zone's D is its mean motion, which keeps its
-//! momentum, or that of the body or pin (its carrier) that it touches, which keeps it on the body. With s = 0 a zone is carried
-//! rigidly.
+//! A zone's motion is its mean, which keeps its momentum, or that of the body or pin (its carrier) that it touches, which keeps it on the
+//! body. A zone that touches two carriers has none that would do for both.
 
-use super::candidate::{Candidate, time_of_impact_of};
-use crate::step::{Carrier, FREE};
+use super::candidate::Candidate;
+use crate::step::{Carrier, FREE, TimeStep};
 use selvedge_core::glam::DVec3;
 
-/// How much of a time of impact a zone takes up, level by level; at the last level nothing.
-const SHARES: [f64; 4] = [0.9, 0.45, 0.2, 0.0];
-const LAST_LEVEL: usize = SHARES.len() - 1;
+/// No carrier: two pull at the zone.
+const TORN: Carrier = FREE - 1;
+/// Of a vertex in no zone.
+const ALONE: u32 = u32::MAX;
 
-/// The step cannot be made: two carriers pull at one zone, or a zone that is carried rigidly is still not free.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cut;
-
-#[derive(Clone, Debug)]
-struct ImpactZone {
-    members: Vec<u32>,
-    scale: f64,
-    level: usize,
-    carrier: Carrier,
-    /// Its mean motion, if it has no carrier.
-    mean: DVec3,
-    changed: bool,
-    raised: bool,
-}
-
-/// The zones of one step; at first each vertex is its own.
+/// The zones of one step; at first there are none.
 #[derive(Debug, Default)]
 pub(super) struct ImpactZones {
-    /// Of each vertex; `u32::MAX` if it is still alone.
-    zone_of: Vec<u32>,
-    zones: Vec<ImpactZone>,
-}
-
-/// What zones are made from: the motion that was wanted.
-#[derive(Clone, Copy)]
-pub(super) struct Motions<'a> {
-    pub(super) start: &'a [DVec3],
-    pub(super) wanted: &'a [DVec3],
-    pub(super) inverse_masses: &'a [f64],
-    /// Of each vertex, with carriers that do not move in this step taken for one.
-    pub(super) carriers: &'a [Carrier],
-    /// Where a carrier takes a point in this step.
-    pub(super) carry: &'a dyn Fn(Carrier, DVec3) -> DVec3,
+    /// Of each vertex: another one of its zone, nearer to the root, itself if it is the root, [`ALONE`] if it is in none.
+    parents: Vec<u32>,
+    /// Of each root.
+    carriers: Vec<Carrier>,
+    /// Of all zones.
+    members: Vec<u32>,
+    /// Of each root: mass and momentum, in the unit of the wanted ways.
+    sums: Vec<(f64, DVec3)>,
 }
 
 impl ImpactZones {
     pub(super) fn reset(&mut self, vertices: usize) {
-        self.zone_of.clear();
-        self.zone_of.resize(vertices, u32::MAX);
-        self.zones.clear();
+        self.parents.clear();
+        self.parents.resize(vertices, ALONE);
+        self.carriers.clear();
+        self.carriers.resize(vertices, FREE);
+        self.members.clear();
     }
 
-    /// Vertices that do not get all of their motion.
-    pub(super) fn held(&self) -> usize {
-        let held = self.zones.iter().filter(|zone| zone.scale < 1.0);
-        held.map(|zone| zone.members.len()).sum()
-    }
-
-    fn zone(&mut self, vertex: u32) -> usize {
-        let zone = &mut self.zone_of[vertex as usize];
-        if *zone == u32::MAX {
-            *zone = self.zones.len() as u32;
-            self.zones.push(ImpactZone {
-                members: vec![vertex],
-                scale: 1.0,
-                level: 0,
-                carrier: FREE,
-                mean: DVec3::ZERO,
-                changed: false,
-                raised: false,
-            });
-        }
-        *zone as usize
-    }
-
-    /// Deals with the pairs that are not free, in order: merges their zones, or slows down the one that a pair is inside of.
-    /// Writes new positions of the vertices concerned to `end`.
-    pub(super) fn resolve(
-        &mut self,
-        pairs: &[&Candidate],
-        separation: impl Fn(&Candidate) -> f64,
-        motions: Motions<'_>,
-        end: &mut [DVec3],
-        scratch: &mut Vec<DVec3>,
-    ) -> Result<(), Cut> {
-        let inside: Vec<bool> = pairs.iter().map(|pair| self.is_inside(pair, motions.carriers)).collect();
-        for (pair, _) in pairs.iter().zip(&inside).filter(|(_, inside)| !**inside) {
-            self.merge(pair, motions.carriers)?;
-        }
-        for (pair, _) in pairs.iter().zip(&inside).filter(|(_, inside)| **inside) {
-            let zone = self.zone_of_pair(pair, motions.carriers).ok_or(Cut)?;
-            let zone = &mut self.zones[zone];
-            zone.changed = true;
-            if !zone.raised {
-                if zone.level == LAST_LEVEL {
-                    return Err(Cut);
-                }
-                zone.raised = true;
-                zone.level += 1;
-            }
-        }
-        self.find_means(motions);
-        for pair in pairs {
-            let Some(index) = self.zone_of_pair(pair, motions.carriers) else {
-                return Err(Cut);
-            };
-            if self.zones[index].level == LAST_LEVEL {
-                self.zones[index].scale = 0.0;
-                continue;
-            }
-            // The relative path. `scratch` is only right where this pair's vertices are.
-            scratch.resize(end.len(), DVec3::ZERO);
-            for vertex in pair.vertices.map(|v| v as usize) {
-                let common = self.common(vertex, index, motions);
-                scratch[vertex] = motions.wanted[vertex] - common;
-            }
-            if let Some(time) = time_of_impact_of(pair, [motions.start, scratch], separation(pair)) {
-                let zone = &mut self.zones[index];
-                zone.scale = zone.scale.min(SHARES[zone.level] * time);
-            }
-        }
-        for index in 0..self.zones.len() {
-            if !std::mem::take(&mut self.zones[index].changed) {
-                continue;
-            }
-            self.zones[index].raised = false;
-            let scale = self.zones[index].scale;
-            for &vertex in &self.zones[index].members {
-                let vertex = vertex as usize;
-                let start = motions.start[vertex];
-                let common = self.common(vertex, index, motions);
-                end[vertex] = (start + common) + (motions.wanted[vertex] - start - common) * scale;
-            }
-        }
-        Ok(())
-    }
-
-    /// D at a vertex, as zone `index` has it.
-    fn common(&self, vertex: usize, index: usize, motions: Motions<'_>) -> DVec3 {
-        let zone = &self.zones[index];
-        match zone.carrier {
-            FREE => zone.mean,
-            carrier => (motions.carry)(carrier, motions.start[vertex]) - motions.start[vertex],
-        }
-    }
-
-    /// Whether the pair's cloth is in one zone already, and that has the carrier of whatever else the pair touches.
-    fn is_inside(&mut self, pair: &Candidate, carriers: &[Carrier]) -> bool {
+    /// Lets the cloth of a pair be in one zone, with the carrier of whatever else the pair touches; `carriers` is of each vertex. Returns
+    /// whether that has changed anything.
+    ///
+    /// A change adds a vertex to a zone, makes one zone of two, or gives a zone a carrier, or one too many: there are fewer than four for
+    /// each vertex.
+    pub(super) fn join(&mut self, pair: &Candidate, carriers: &[Carrier]) -> bool {
+        let mut has_changed = false;
         let mut one = None;
-        for &vertex in &pair.vertices {
+        for vertex in pair.vertices {
             if carriers[vertex as usize] == FREE {
-                let zone = self.zone(vertex);
-                if *one.get_or_insert(zone) != zone {
-                    return false;
+                if self.parents[vertex as usize] == ALONE {
+                    self.parents[vertex as usize] = vertex;
+                    self.members.push(vertex);
+                    has_changed = true;
+                }
+                let root = self.root(vertex);
+                let other = *one.get_or_insert(root);
+                if root != other {
+                    let (low, high) = (root.min(other), root.max(other));
+                    self.parents[high as usize] = low;
+                    self.carriers[low as usize] = common(self.carriers[low as usize], self.carriers[high as usize]);
+                    one = Some(low);
+                    has_changed = true;
                 }
             }
         }
-        let Some(zone) = one else { return true };
-        let others = pair.vertices.iter().map(|&v| carriers[v as usize]);
-        let carrier = self.zones[zone].carrier;
-        others.filter(|&other| other != FREE).all(|other| other == carrier)
+        let Some(root) = one else { return has_changed };
+        let own = &mut self.carriers[root as usize];
+        let before = *own;
+        *own = pair
+            .vertices
+            .iter()
+            .fold(before, |own, &vertex| common(own, carriers[vertex as usize]));
+        has_changed | (*own != before)
     }
 
-    /// The zone of the pair's cloth; `None` if all of the pair is kinematic.
-    fn zone_of_pair(&self, pair: &Candidate, carriers: &[Carrier]) -> Option<usize> {
-        let mut free = pair.vertices.iter().filter(|&&v| carriers[v as usize] == FREE);
-        free.next().map(|&v| self.zone_of[v as usize] as usize)
+    /// Moves the members of each zone from the start of the step as the zone is carried: where two carriers pull at it, to where they are
+    /// wanted. Marks those that move.
+    pub(super) fn carry(&mut self, step: &TimeStep<'_>, wanted: &[DVec3], positions: &mut [DVec3], moved: &mut [bool]) {
+        self.members.sort_unstable();
+        let members = std::mem::take(&mut self.members);
+        self.sums.clear();
+        self.sums.resize(self.parents.len(), (0.0, DVec3::ZERO));
+        for &member in &members {
+            let root = self.root(member) as usize;
+            let mass = 1.0 / step.inverse_masses[member as usize];
+            let (all, momentum) = &mut self.sums[root];
+            *all += mass;
+            *momentum += (wanted[member as usize] - step.start[member as usize]) * mass;
+        }
+        for &member in &members {
+            let root = self.root(member) as usize;
+            let (start, wanted) = (step.start[member as usize], wanted[member as usize]);
+            let (mass, momentum) = self.sums[root];
+            let carried = match self.carriers[root] {
+                FREE => start + momentum / mass,
+                TORN => wanted,
+                carrier => {
+                    let [before, now] = &step.poses[carrier as usize];
+                    before.carry(now, start)
+                }
+            };
+            moved[member as usize] |= positions[member as usize] != carried;
+            positions[member as usize] = carried;
+        }
+        self.members = members;
     }
 
-    fn merge(&mut self, pair: &Candidate, carriers: &[Carrier]) -> Result<(), Cut> {
-        let mut into = None;
-        for &vertex in pair.vertices.iter().filter(|&&v| carriers[v as usize] == FREE) {
-            let zone = self.zone(vertex);
-            into = Some(match into {
-                None => zone,
-                Some(other) => self.union(other, zone)?,
-            });
+    fn root(&mut self, mut vertex: u32) -> u32 {
+        while self.parents[vertex as usize] != vertex {
+            let above = self.parents[self.parents[vertex as usize] as usize];
+            self.parents[vertex as usize] = above;
+            vertex = above;
         }
-        let Some(zone) = into else { return Err(Cut) };
-        for carrier in pair.vertices.map(|v| carriers[v as usize]) {
-            let own = &mut self.zones[zone].carrier;
-            *own = common_carrier(*own, carrier)?;
-        }
-        self.zones[zone].changed = true;
-        Ok(())
-    }
-
-    fn union(&mut self, a: usize, b: usize) -> Result<usize, Cut> {
-        if a == b {
-            return Ok(a);
-        }
-        let carrier = common_carrier(self.zones[a].carrier, self.zones[b].carrier)?;
-        let (large, small) = if self.zones[a].members.len() >= self.zones[b].members.len() {
-            (a, b)
-        } else {
-            (b, a)
-        };
-        let moved = std::mem::take(&mut self.zones[small].members);
-        for &vertex in &moved {
-            self.zone_of[vertex as usize] = large as u32;
-        }
-        let (scale, level) = (self.zones[small].scale, self.zones[small].level);
-        self.zones[small].changed = false;
-        let zone = &mut self.zones[large];
-        zone.members.extend(moved);
-        zone.scale = zone.scale.min(scale);
-        zone.level = zone.level.max(level);
-        zone.carrier = carrier;
-        Ok(large)
-    }
-
-    fn find_means(&mut self, motions: Motions<'_>) {
-        let changed = self.zones.iter_mut().filter(|zone| zone.changed && zone.carrier == FREE);
-        for zone in changed {
-            let (mut mass, mut momentum) = (0.0, DVec3::ZERO);
-            for vertex in zone.members.iter().map(|&v| v as usize) {
-                let own = 1.0 / motions.inverse_masses[vertex];
-                mass += own;
-                momentum += (motions.wanted[vertex] - motions.start[vertex]) * own;
-            }
-            zone.mean = momentum / mass;
-        }
+        vertex
     }
 }
 
 /// The carrier of a zone that touches both.
-fn common_carrier(a: Carrier, b: Carrier) -> Result<Carrier, Cut> {
+fn common(a: Carrier, b: Carrier) -> Carrier {
     match (a, b) {
-        (FREE, carrier) | (carrier, FREE) => Ok(carrier),
-        (a, b) if a == b => Ok(a),
-        _ => Err(Cut),
+        (FREE, carrier) | (carrier, FREE) => carrier,
+        (a, b) if a == b => a,
+        _ => TORN,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::candidate::OfPair;
+    use crate::world::RigidMotion;
+    use selvedge::PairKind;
+
+    fn pair(vertices: [u32; 4]) -> Candidate {
+        Candidate::new(
+            PairKind::EdgeEdge,
+            [0, 1],
+            vertices,
+            OfPair {
+                thickness: 0.0,
+                body: FREE,
+            },
+        )
+    }
+
+    /// Where zones of these pairs are carried: eight vertices of cloth, one of a body that rests, one of another.
+    fn carried(pairs: &[[u32; 4]]) -> Vec<DVec3> {
+        let start: Vec<DVec3> = (0..10).map(|vertex| DVec3::X * f64::from(vertex)).collect();
+        let wanted: Vec<DVec3> = (0..10).map(|vertex| start[vertex] + DVec3::Z * vertex as f64).collect();
+        let mut carriers = [FREE; 10];
+        (carriers[8], carriers[9]) = (0, 1);
+        let mut inverse_masses = [1.0; 10];
+        inverse_masses[8..].fill(0.0);
+        let rest = [RigidMotion::resting().pose(0.0); 2];
+        let step = TimeStep {
+            time: 0.0,
+            h: 1.0,
+            start: &start,
+            inverse_masses: &inverse_masses,
+            poses: &[rest, rest],
+        };
+        let mut zones = ImpactZones::default();
+        zones.reset(10);
+        for &vertices in pairs {
+            assert!(zones.join(&pair(vertices), &carriers));
+            assert!(!zones.join(&pair(vertices), &carriers), "all is as it was");
+        }
+        let (mut positions, mut moved) = (wanted.clone(), [false; 10]);
+        zones.carry(&step, &wanted, &mut positions, &mut moved);
+        for vertex in 0..10 {
+            assert_eq!(moved[vertex], positions[vertex] != wanted[vertex]);
+        }
+        positions
+            .iter()
+            .zip(&start)
+            .map(|(position, start)| position - start)
+            .collect()
+    }
+
+    #[test]
+    fn a_zone_moves_as_its_mean_and_as_its_carrier_and_where_two_pull_as_each_is_wanted() {
+        let along = |ways: [f64; 8]| ways.map(|way| DVec3::Z * way);
+        assert_eq!(carried(&[])[..8], along([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]));
+        assert_eq!(carried(&[[0, 1, 2, 3]])[..8], along([1.5, 1.5, 1.5, 1.5, 4.0, 5.0, 6.0, 7.0]));
+        assert_eq!(carried(&[[0, 1, 2, 3], [4, 5, 6, 7], [1, 2, 4, 5]])[..8], along([3.5; 8]));
+        let on_body = along([0.0, 0.0, 0.0, 0.0, 4.0, 5.0, 6.0, 7.0]);
+        assert_eq!(carried(&[[0, 1, 2, 3], [3, 2, 8, 8]])[..8], on_body);
+        let torn = along([0.0, 1.0, 2.0, 3.0, 5.5, 5.5, 5.5, 5.5]);
+        assert_eq!(carried(&[[0, 1, 8, 8], [2, 3, 9, 9], [4, 5, 6, 7], [1, 2, 1, 2]])[..8], torn);
     }
 }

@@ -6,7 +6,8 @@
 //! | `candidates` | which pairs are looked at, followed from step to step by the detector; `neighbours`: those near each other at rest |
 //! | `candidate` | one pair: what contact keeps of it, its certified time of impact |
 //! | `constraints` | contacts as constraints of the solver |
-//! | `pass`, `impact_zones` | no step is accepted that is not certified |
+//! | `pass` | no step is accepted that is not certified |
+//! | `relaxation`, `impact_zones`, `truncation` | what is done about a step that is not |
 //! | `solver` | all of it, as the simulation calls it |
 //! | `start` | whether triangles pass through each other where a simulation starts |
 //! | `report` | what was counted, what it took, what was in the way |
@@ -19,10 +20,12 @@ mod constraints;
 mod impact_zones;
 mod neighbours;
 mod pass;
+mod relaxation;
 mod report;
 mod settings;
 mod solver;
 mod start;
+mod truncation;
 
 pub(crate) use pass::LARGEST_TURN;
 pub use report::{Blocker, ContactCounts, ContactSeconds};

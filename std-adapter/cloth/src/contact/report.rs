@@ -13,9 +13,9 @@ pub struct ContactCounts {
     pub pushed: u64,
     /// Pairs that were not free on the motion that the solver wanted.
     pub violated: u64,
-    /// Rounds with zones.
+    /// Rounds in which zones were carried, where relaxation was not enough.
     pub zone_rounds: u64,
-    /// Vertices that did not get all of their motion.
+    /// Vertices that were held back: of their motion they lost more than a tenth.
     pub held: u64,
     /// Times the step was cut in half.
     pub cuts: u64,
@@ -38,7 +38,7 @@ impl ContactCounts {
         [
             ("pairs pushed apart", self.pushed),
             ("rounds with zones", self.zone_rounds),
-            ("vertices held", self.held),
+            ("vertices held back", self.held),
             ("times cut in half", self.cuts),
         ]
     }

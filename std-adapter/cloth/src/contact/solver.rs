@@ -4,6 +4,7 @@ use super::candidate::{Candidate, time_of_impact_of};
 use super::candidates::{Candidates, candidates};
 use super::constraints::{self, ContactConstraint};
 use super::impact_zones::ImpactZones;
+use super::relaxation::Relaxation;
 use super::report::{ContactCounts, ContactSeconds, described};
 use super::settings::ContactSettings;
 use crate::step::{Carrier, TimeStep, Touches};
@@ -27,6 +28,7 @@ pub(crate) struct ContactSolver {
     pub(super) error: GapError<f64>,
     constraints: Vec<ContactConstraint>,
     pub(super) moved: Vec<bool>,
+    pub(super) relaxation: Relaxation,
     pub(super) zones: ImpactZones,
     /// Bodies whose pairs have left the promise.
     pub(super) yielding: Vec<bool>,
@@ -55,6 +57,7 @@ impl ContactSolver {
             error: GapError::of_coordinates(0.0),
             constraints: Vec::new(),
             moved: vec![false; rest.len()],
+            relaxation: Relaxation::default(),
             zones: ImpactZones::default(),
             yielding: vec![false; bodies],
             counts: ContactCounts::default(),

@@ -6,6 +6,7 @@ use crate::PairKind;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::closest::Closest;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
+use selvedge_core::separation::truncation::most_shares;
 
 /// A vertex and a face, or two edges, that may come near each other.
 #[derive(Clone, Copy, Debug)]
@@ -129,5 +130,26 @@ impl<D: Copy> NearPair<D> {
             None => self.forget_gap(),
         }
         kept.is_some()
+    }
+
+    /// How far each of its vertices may go from `base` towards `wanted`, for the pair to keep `separation` on the way from `start` to where they
+    /// end ([core's truncation](selvedge_core::separation::truncation)): by the direction that the pair remembers or one of its closest points,
+    /// which it remembers then, without a gap. None of its way each if no direction keeps the pair apart both at `start` and at
+    /// `base`.
+    pub fn shares(&mut self, start: &[DVec3], [base, wanted]: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> [f64; 4] {
+        let (kind, [start, base, wanted]) = (self.kind, [start, base, wanted].map(|positions| self.points(positions)));
+        let directions = [start, base, wanted].map(|points| Closest::of(kind, points).direction);
+        let directions = directions.into_iter().chain([self.separating.direction()]);
+        let is_kept =
+            |&direction: &DVec3| SeparatingDirection::found(kind, direction, [start, base], separation, error).is_some();
+        let most = most_shares(kind, [base, wanted], directions.filter(is_kept), separation, error);
+        let Some((direction, shares)) = most else {
+            self.forget_gap();
+            return [0.0; 4];
+        };
+        self.separating = SeparatingDirection::NONE
+            .or_better(kind, direction, base, error)
+            .without_gap();
+        shares
     }
 }

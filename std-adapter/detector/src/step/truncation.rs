@@ -30,7 +30,7 @@ use selvedge_core::glam::DVec3;
 use selvedge_core::separation::closest::Closest;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
-use selvedge_core::separation::truncation::shares;
+use selvedge_core::separation::truncation::most_shares;
 use std::collections::BTreeSet;
 
 /// What came of a step that was [truncated](crate::CollisionDetector::truncate).
@@ -85,14 +85,9 @@ impl Held<'_> {
         for corner in 0..4 {
             met[corner] = Motion::new(start[corner], end[corner]).at(contact.time);
         }
-        let least = |shares: &[f64; 4]| shares.iter().copied().fold(1.0, f64::min);
-        let by = [start, met, wanted].map(|points| {
-            let direction = Closest::of(contact.kind, points).direction;
-            shares(contact.kind, [start, wanted], direction, self.distance, self.error)
-        });
-        by.into_iter()
-            .flatten()
-            .reduce(|a, b| if least(&b) > least(&a) { b } else { a })
+        let directions = [start, met, wanted].map(|points| Closest::of(contact.kind, points).direction);
+        let most = most_shares(contact.kind, [start, wanted], directions, self.distance, self.error);
+        most.map(|(_, shares)| shares)
     }
 }
 
