@@ -44,7 +44,7 @@ class Worker:
     def frame(self, path: Path) -> np.ndarray:
         try:
             faces, positions = read(path)
-        except Exception as error:  # meshio has an exception for each format, and others
+        except (Exception, SystemExit) as error:  # meshio has an exception for each format, and ends the program at times
             raise errors.InputError(f"{path}: cannot be read: {error}") from None
         if self.detector is None or self.faces is None:
             self.faces, self.detector = faces, Detector(faces, len(positions))
