@@ -29,7 +29,7 @@ wheels=$target/wheels
 
 if [ ! -x "$tools/bin/maturin" ]; then
     "$python" -m venv "$tools" || missing "Python's module venv is missing (Debian: apt install python3-venv)"
-    "$tools/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.16,<2" pytest mypy numpy ||
+    "$tools/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.16,<2" "pytest>=9,<10" "mypy>=2.4,<2.5" numpy ||
         missing "no package index can be reached"
 fi
 

@@ -318,9 +318,15 @@ impl Detector {
                 "touching is decided exactly, and at no distance: give a separation of 0, or touching=False",
             ));
         }
-        self.change(Part::Limits, |settings| {
-            (settings.separation, settings.tolerance, settings.touching) = (separation, tolerance, touching);
-        })
+        let limits = (separation, tolerance, touching);
+        let mut finders = self.finders()?;
+        let of = |settings: &Settings| (settings.separation, settings.tolerance, settings.touching);
+        // Said again before each question: what settings there are besides, one entry for each vertex, is not copied for that.
+        if of(&finders.settings) == limits {
+            return Ok(());
+        }
+        let change = |settings: &mut Settings| (settings.separation, settings.tolerance, settings.touching) = limits;
+        finders.change(Part::Limits, change).map_err(setting_error)
     }
 
     #[pyo3(signature = (moving=None))]

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -47,27 +48,9 @@ def test_ctrl_c_ends_a_long_call_and_leaves_the_detector_usable(threads):
     assert detector.is_free(FLAT, FLAT + 1.0)
 
 
-def test_cancel_ends_what_another_thread_asks():
-    detector, start, end = long_question()
-    ended: list[object] = []
-
-    def ask() -> None:
-        try:
-            detector.contacts(start, end)
-        except errors.CancelledError as error:
-            ended.append(error)
-
-    thread = threading.Thread(target=ask)
-    thread.start()
-    time.sleep(0.3)
-    detector.cancel()
-    thread.join()
-    assert len(ended) == 1
-    assert detector.is_free(FLAT, FLAT + 1.0)
-
-
-def test_the_interpreter_is_free_meanwhile_and_a_second_thread_is_refused():
-    detector, start, end = long_question()
+@contextmanager
+def asked_in_another_thread(detector: Detector, start: np.ndarray, end: np.ndarray):
+    """A long question that is being asked; it is to be cancelled."""
     ended: list[object] = []
 
     def ask() -> None:
@@ -80,13 +63,28 @@ def test_the_interpreter_is_free_meanwhile_and_a_second_thread_is_refused():
     thread.start()
     time.sleep(0.3)
     assert thread.is_alive()
-    with pytest.raises(errors.BusyError, match="another thread"):
-        detector.is_free(start, end)
-    with pytest.raises(errors.BusyError):
-        detector.set_limits(0.1)
-    detector.cancel()
-    thread.join()
-    assert ended
+    try:
+        yield
+    finally:
+        detector.cancel()
+        thread.join()
+    assert len(ended) == 1
+
+
+def test_cancel_ends_what_another_thread_asks():
+    detector, start, end = long_question()
+    with asked_in_another_thread(detector, start, end):
+        pass
+    assert detector.is_free(FLAT, FLAT + 1.0)
+
+
+def test_the_interpreter_is_free_meanwhile_and_a_second_thread_is_refused():
+    detector, start, end = long_question()
+    with asked_in_another_thread(detector, start, end):
+        with pytest.raises(errors.BusyError, match="another thread"):
+            detector.is_free(start, end)
+        with pytest.raises(errors.BusyError):
+            detector.set_limits(0.1)
 
 
 def test_cancelling_nothing_does_nothing():

@@ -158,6 +158,28 @@ def test_the_detector_looks_at_what_a_filter_means(one, other):
     assert found == wanted
 
 
+def test_components_are_of_the_faces_and_every_other_vertex_is_its_own():
+    filters = ipc.make_connected_components_filter([[0, 1, 2], [7, 8, 9]])
+    assert not filters(0, 2) and not filters(7, 9)
+    assert filters(0, 7) and filters(3, 4) and filters(0, 11) and filters(11, 12)
+    # Two ropes beside the triangles, of vertices that no face has.
+    start = np.random.default_rng(4).uniform(-1, 1, (14, 3))
+    mesh = ipc.CollisionMesh(start, [[10, 11], [12, 13]] + ipc.edges([[0, 1, 2], [7, 8, 9]]).tolist(), [[0, 1, 2], [7, 8, 9]])
+    mesh.can_collide = filters
+    candidates = ipc.Candidates()
+    candidates.build(mesh, start, 10.0)
+    pairs = {frozenset(map(tuple, np.sort(mesh.edges[pair], axis=1).tolist())) for pair in candidates.ee_candidates}
+    assert frozenset([(10, 11), (12, 13)]) in pairs and frozenset([(0, 1), (7, 8)]) in pairs
+
+
+def test_large_numbers_of_vertices_take_no_memory():
+    assert sorted(map(sorted, ipc.edges([[0, 1, 2**32 - 1]]).tolist())) == [[0, 1], [0, 2**32 - 1], [1, 2**32 - 1]]
+    assert ipc.make_connected_components_filter([[0, 1, 2**32 - 1]])(2, 3)
+    assert len(ipc.edges([])) == 0
+    with pytest.raises(ValueError, match="no triangles"):
+        ipc.make_connected_components_filter([])
+
+
 def test_a_filter_is_for_the_mesh():
     mesh = ipc.CollisionMesh(np.zeros((6, 3)), faces=[[0, 1, 2], [3, 4, 5]])
     with pytest.raises(ValueError, match="for 3 vertices, but the mesh has 6"):

@@ -85,10 +85,8 @@ impl<S: Scalar> Criterion<S> {
             },
         }
     }
-}
 
-impl<S: Scalar> Criterion<S> {
-    /// Both lengths must be such.
+    /// Both lengths must be finite, and not negative.
     pub(crate) fn check(&self) -> Result<(), StepError> {
         let limits = self.limits();
         check_length(limits.separation)?;
@@ -245,7 +243,7 @@ impl Bound {
 /// # What is promised
 /// * **No contact is missed** and no time is later than the exact one, rounding included, in every floating-point environment
 ///   ([`selvedge_core`](crate::core)). Pairs that come within the tolerance of the separation, or too close for
-///   rounding to tell, count as contacts.
+///   rounding to tell, may count as contacts.
 /// * Positions in `f32` are computed with in `f64` where `f32` leaves a pair open: contacts are as sharp, and times, rounded
 ///   down, as late as if they were given in `f64`. Positions in `f64` that are all `f32` numbers are as fast as those in `f32`.
 /// * The same contacts with the same times in the same order, on any number of threads and every instruction set. (The order is

@@ -48,7 +48,7 @@ impl Cancellation {
 pub(crate) struct Stop {
     pub(crate) cancellation: Cancellation,
     /// Most pairs to look at.
-    pub(crate) limit: u64,
+    limit: u64,
     looked_at: AtomicU64,
     is_cancelled: AtomicBool,
 }
@@ -81,6 +81,14 @@ impl Stop {
     /// Whether the traversal was cut short.
     pub(super) fn has_stopped(&self) -> bool {
         self.is_cancelled.load(Ordering::Relaxed) || self.looked_at.load(Ordering::Relaxed) > self.limit
+    }
+
+    /// Most pairs to look at from the next question on; `None`: as many as there are.
+    pub(crate) const fn set_limit(&mut self, limit: Option<u64>) {
+        self.limit = match limit {
+            Some(limit) => limit,
+            None => u64::MAX,
+        };
     }
 
     /// Why it was, if it was.
@@ -136,9 +144,6 @@ impl<S: Scalar> CollisionDetector<S> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub const fn set_pair_limit(&mut self, limit: Option<u64>) {
-        self.engine.stop.limit = match limit {
-            Some(limit) => limit,
-            None => u64::MAX,
-        };
+        self.engine.stop.set_limit(limit);
     }
 }

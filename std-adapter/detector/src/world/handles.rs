@@ -17,12 +17,6 @@ impl MeshHandle {
     pub const fn index(self) -> usize {
         self.index as usize
     }
-
-    /// How many meshes have had this place before.
-    #[must_use]
-    pub const fn generation(self) -> u32 {
-        self.generation
-    }
 }
 
 impl fmt::Display for MeshHandle {

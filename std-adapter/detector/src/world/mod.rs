@@ -159,7 +159,7 @@ impl From<StepError> for WorldError {
 /// # What is promised
 /// * **No contact is missed** and no time is later than the exact one, rounding included, of vertices on straight ways and on arcs, between
 ///   any two meshes of which one moves, and of a deforming mesh with itself. Times are as sharp as [those of a
-///   detector](crate::CollisionDetector::earliest); on arcs a pair within s + 3δ is a contact.
+///   detector](crate::CollisionDetector::earliest); on arcs a pair within s + 3δ may be a contact.
 /// * **What two meshes do does not depend on the others.** Of straight motions all contacts are those of a
 ///   [`CollisionDetector`](crate::CollisionDetector) for the two as one mesh, with the same times, bit for bit. (In `f64`, far from the origin
 ///   for its size, such a detector may leave out pairs between the separation and the tolerance beyond it that a world tells of: boxes of
@@ -228,10 +228,7 @@ impl<P: Position> World<P> {
 
     /// Most pairs that a step may look at, as for a [detector](crate::CollisionDetector::set_pair_limit).
     pub const fn set_pair_limit(&mut self, limit: Option<u64>) {
-        self.stage.engine.stop.limit = match limit {
-            Some(limit) => limit,
-            None => u64::MAX,
-        };
+        self.stage.engine.stop.set_limit(limit);
     }
 
     /// A new mesh that rests, at these positions. `groups` say which meshes it is looked at with, itself among them.

@@ -216,6 +216,7 @@ fn time_on_paths(
 ) -> Option<f64> {
     let [first, second] = contact.pair.map(|primitive| primitive as usize);
     let [mesh, other] = pairing.meshes.map(|hierarchies| hierarchies.topology());
+    // Of the arcs whose pieces the boxes and the sweeps had: an arc is at its start without rounding.
     let way = |side: usize, vertex: u32| {
         let straight = pairing.meshes[side].motion_of(vertex as usize).unwrap_or_default();
         motions[side].map_or(Way::Straight(straight), |motion| Way::Arc(motion.path(straight.start)))

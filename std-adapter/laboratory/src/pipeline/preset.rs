@@ -125,7 +125,7 @@ pub enum ElementaryTest {
     /// [`cubic`](crate::baselines::cubic): plain, misses contacts.
     Cubic,
     /// [`selvedge_core::elementary::advance`], with the default tolerance: certified; a contact's time is not after the exact
-    /// one, and a pair that comes within the tolerance, or too close to tell, counts as a contact.
+    /// one, and a pair that comes within the tolerance, or too close to tell, may count as a contact.
     TimeOfImpact,
     /// The same, and then [`selvedge_core::elementary::contact()`]: a contact is one exactly, and its time certified as before.
     Exact,

@@ -1,4 +1,7 @@
-"""A scene said in Python, as the text of a scene file."""
+"""A scene said in Python, as the text of a scene file.
+
+Some twenty lines, as the packages that write TOML know neither numpy's numbers nor which field they cannot write.
+"""
 
 import json
 from collections.abc import Mapping

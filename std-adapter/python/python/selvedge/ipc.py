@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -100,6 +100,8 @@ class _Data:
     """A filter that the detector has too."""
 
     patches: _Indices | None = None
+    # Vertices, ascending, and the component of each; any other vertex is one of its own.
+    components: tuple[_Indices, _Indices] | None = None
     dynamic: int | None = None
     excluded: _Indices | None = None
 
@@ -107,6 +109,8 @@ class _Data:
         allowed: _Flags = np.ones(i.shape, np.bool_)
         if self.patches is not None:
             allowed &= self.patches[i] != self.patches[j]
+        if self.components is not None:
+            allowed &= self._component(i) != self._component(j)
         if self.dynamic is not None:
             allowed &= (i < self.dynamic) | (j < self.dynamic)
         if self.excluded is not None:
@@ -114,6 +118,25 @@ class _Data:
             listed = self.excluded.min(1).astype(np.uint64) << np.uint64(32) | self.excluded.max(1)
             allowed &= ~np.isin(keys, listed)
         return allowed
+
+    @property
+    def has_patches(self) -> bool:
+        return self.patches is not None or self.components is not None
+
+    def patches_of(self, count: int) -> _Indices | None:
+        """For the detector: of each of so many vertices."""
+        if self.components is not None:
+            return self._component(np.arange(count, dtype=np.uint32))
+        if self.patches is not None and len(self.patches) != count:
+            raise InputError(f"the filter is for {len(self.patches)} vertices, but the mesh has {count}")
+        return self.patches
+
+    def _component(self, of: _Indices) -> _Indices:
+        assert self.components is not None
+        vertices, components = self.components
+        # A component is named by one of its vertices, so that others' numbers are free.
+        at = np.minimum(np.searchsorted(vertices, of), len(vertices) - 1)
+        return np.where(vertices[at] == of, components[at], of)
 
 
 def _each(can_collide: Callable[[int, int], bool]) -> _Rule:
@@ -158,8 +181,9 @@ def make_vertex_patches_filter(patch_ids: ArrayLike) -> CollisionFilter:
 
 def make_connected_components_filter(faces: ArrayLike) -> CollisionFilter:
     """Vertices of one connected component do not collide."""
-    rows = indices(faces, "faces", 3)
-    return _of_data(_Data(patches=Detector(rows, int(rows.max()) + 1).components))
+    vertices, corners = np.unique(indices(faces, "faces", 3), return_inverse=True)
+    components = Detector(corners.reshape(-1, 3), len(vertices)).components
+    return _of_data(_Data(components=(vertices, vertices[components])))
 
 
 class CollisionMesh:
@@ -182,8 +206,7 @@ class CollisionMesh:
         self._rest = positions(rest, "rest_positions", False).copy()
         own_faces = indices([] if faces is None else faces, "faces", 3)
         own_edges = indices([] if edges is None else edges, "edges", 2)
-        of_faces = globals()["edges"](own_faces) if len(own_faces) else np.zeros((0, 2), np.uint32)
-        loose = own_edges[~np.isin(_keys(own_edges), _keys(of_faces))]
+        loose = own_edges[~np.isin(_keys(own_edges), _keys(_edges_of(own_faces)))]
         self._detector = Detector(own_faces, len(self._rest), threads, edges=loose)
         self._face_count = len(own_faces)
         numbered = self._detector.edges
@@ -237,11 +260,9 @@ class CollisionMesh:
                 # Static ones are in group 2 alone, and collide with group 1 alone.
                 both[is_static] = (2, 1)
                 groups = both
-            if data.patches is not None:
-                if len(data.patches) != self.num_vertices:
-                    raise InputError(f"the filter is for {len(data.patches)} vertices, but the mesh has {self.num_vertices}")
-                # The traversal has one list of patches; further ones are asked for each candidate.
-                patches = data.patches if patches is None else patches
+            # The traversal has one list of patches; further ones are asked for each candidate.
+            of_data = data.patches_of(self.num_vertices)
+            patches = of_data if patches is None else patches
             if data.excluded is not None:
                 excluded.append(data.excluded)
         listed = np.concatenate(excluded) if excluded else None
@@ -250,7 +271,7 @@ class CollisionMesh:
 
     def _has_rules(self) -> bool:
         given = self._can_collide
-        return bool(given._rules) or sum(data.patches is not None for data in given._data) > 1
+        return bool(given._rules) or sum(data.has_patches for data in given._data) > 1
 
     def _allowed(self, pairs: CandidatePairs) -> CandidatePairs:
         """Those that rules of Python's leave."""
@@ -288,8 +309,15 @@ def _numbers(ours: _Indices, theirs: _Indices) -> _Indices:
 
 def edges(faces: ArrayLike) -> _Indices:
     """The edges of faces, each once."""
-    rows = indices(faces, "faces", 3)
-    return Detector(rows, int(rows.max()) + 1).edges if len(rows) else np.zeros((0, 2), np.uint32)
+    return _edges_of(indices(faces, "faces", 3))
+
+
+def _edges_of(faces: _Indices) -> _Indices:
+    if not len(faces):
+        return np.zeros((0, 2), np.uint32)
+    # Whatever their numbers are: no more vertices than there are corners.
+    vertices, corners = np.unique(faces, return_inverse=True)
+    return vertices[Detector(corners.reshape(-1, 3), len(vertices)).edges]
 
 
 _T = TypeVar("_T")
@@ -347,11 +375,10 @@ def has_intersections(mesh: CollisionMesh, vertices: ArrayLike, broad_phase: Non
     return _with_limits(mesh, 0.0, lambda detector: detector.has_intersections(vertices))
 
 
-@dataclass(frozen=True)
 class _Stencil:
     """A pair of a mesh."""
 
-    _kind: Kind
+    _kind: ClassVar[Kind]
 
     def _ids(self, edges: ArrayLike, faces: ArrayLike) -> _Indices:
         raise NotImplementedError
@@ -377,31 +404,25 @@ class _Stencil:
         return _found(time_of_impact(self._kind, start, end, separation=min_distance, until=tmax))
 
 
+@dataclass(frozen=True)
 class EdgeEdgeCandidate(_Stencil):
     """Two edges, by the mesh's numbers."""
 
-    def __init__(self, edge0_id: int, edge1_id: int) -> None:
-        super().__init__(Kind.EDGE_EDGE)
-        object.__setattr__(self, "edge0_id", int(edge0_id))
-        object.__setattr__(self, "edge1_id", int(edge1_id))
-
     edge0_id: int
     edge1_id: int
+    _kind: ClassVar[Kind] = Kind.EDGE_EDGE
 
     def _ids(self, edges: ArrayLike, faces: ArrayLike) -> _Indices:
         return indices(edges, "edges", 2)[[self.edge0_id, self.edge1_id]].reshape(4)
 
 
+@dataclass(frozen=True)
 class FaceVertexCandidate(_Stencil):
     """A face and a vertex, by the mesh's numbers."""
 
-    def __init__(self, face_id: int, vertex_id: int) -> None:
-        super().__init__(Kind.VERTEX_FACE)
-        object.__setattr__(self, "face_id", int(face_id))
-        object.__setattr__(self, "vertex_id", int(vertex_id))
-
     face_id: int
     vertex_id: int
+    _kind: ClassVar[Kind] = Kind.VERTEX_FACE
 
     def _ids(self, edges: ArrayLike, faces: ArrayLike) -> _Indices:
         return np.concatenate([np.array([self.vertex_id], np.uint32), indices(faces, "faces", 3)[self.face_id]])
@@ -431,12 +452,11 @@ class Candidates:
             end = vertices_t1
         find = _with_limits(mesh, 2.0 * inflation_radius, lambda detector: detector.candidates(vertices_t0, end, swept=True))
         self._pairs, self._numbers = mesh._allowed(find), mesh._numbers
-        self._face_count = mesh.num_faces
 
     def clear(self) -> None:
         """Leaves none."""
         none = np.zeros((0, 2), np.uint32)
-        self._pairs, self._numbers, self._face_count = CandidatePairs(none, none), np.zeros(0, np.uint32), 0
+        self._pairs, self._numbers = CandidatePairs(none, none), np.zeros(0, np.uint32)
 
     def empty(self) -> bool:
         """Whether there are none."""
@@ -451,12 +471,13 @@ class Candidates:
             raise IndexError(f"there are {len(self)} candidates, and none {index}")
         index %= len(self)
         if index < edge_edge:
-            return EdgeEdgeCandidate(*self.ee_candidates[index])
-        return FaceVertexCandidate(*self.fv_candidates[index - edge_edge])
+            return EdgeEdgeCandidate(*self._numbers[self._pairs.edge_edge[index]].tolist())
+        vertex, face = self._pairs.vertex_face[index - edge_edge].tolist()
+        return FaceVertexCandidate(face, vertex)
 
     def __iter__(self) -> Iterator[EdgeEdgeCandidate | FaceVertexCandidate]:
-        yield from (EdgeEdgeCandidate(*pair) for pair in self.ee_candidates)
-        yield from (FaceVertexCandidate(*pair) for pair in self.fv_candidates)
+        yield from (EdgeEdgeCandidate(*pair) for pair in self.ee_candidates.tolist())
+        yield from (FaceVertexCandidate(*pair) for pair in self.fv_candidates.tolist())
 
     @property
     def ee_candidates(self) -> _Indices:
