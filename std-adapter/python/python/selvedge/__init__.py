@@ -8,7 +8,7 @@ are copied. Times are in [0, 1] of the step. The interpreter is free for other t
 writes to the positions meanwhile is up to the caller.
 """
 
-from . import errors
+from . import errors, ipc
 from ._answers import (
     CandidatePairs,
     Contact,
@@ -36,6 +36,7 @@ __all__ = [
     "Truncation",
     "__version__",
     "errors",
+    "ipc",
     "time_of_impact",
     "touches",
 ]
