@@ -69,9 +69,9 @@ cargo test --profile dev --package selvedge --test builds_without_optimisation
 say "the documentation's examples"
 cargo test --workspace --doc
 
-# Mostly one core's work, as are the proofs below.
+# Mostly one core's work, as are the proofs below. The tests above have built the command.
 python_log=$(mktemp)
-std-adapter/python/check.sh --present >"$python_log" 2>&1 </dev/null &
+SELVEDGE_COMMAND=${CARGO_TARGET_DIR:-$PWD/target}/debug/selvedge std-adapter/python/check.sh --present >"$python_log" 2>&1 </dev/null &
 python_check=$!
 
 say "rounding constants: Gappa's proofs, where it is installed"

@@ -19,6 +19,13 @@ python=${PYTHON:-python3}
 command -v "$python" >/dev/null 2>&1 || missing "Python is missing; install it, 3.10 or newer"
 "$python" -c 'import sys; sys.exit(sys.version_info < (3, 10))' || missing "Python is too old: 3.10 or newer is needed"
 
+# The command, which the laboratory's functions ask: as tests have built it, or anew.
+if [ -z "${SELVEDGE_COMMAND:-}" ]; then
+    cargo build --release --package selvedge-command --manifest-path ../../Cargo.toml
+    SELVEDGE_COMMAND=${CARGO_TARGET_DIR:-$PWD/../../target}/release/selvedge
+fi
+export SELVEDGE_COMMAND
+
 # A target folder of its own: another workspace, another profile.
 target=${CARGO_TARGET_DIR:-$PWD/target}/python
 export CARGO_TARGET_DIR=$target
@@ -29,7 +36,7 @@ wheels=$target/wheels
 
 if [ ! -x "$tools/bin/maturin" ]; then
     "$python" -m venv "$tools" || missing "Python's module venv is missing (Debian: apt install python3-venv)"
-    "$tools/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.16,<2" "pytest>=9,<10" "mypy>=2.4,<2.5" numpy ||
+    "$tools/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.16,<2" "pytest>=9,<10" "mypy>=2.4,<2.5" numpy matplotlib ||
         missing "no package index can be reached"
 fi
 

@@ -25,7 +25,7 @@ pub(crate) type Failure = Box<dyn std::error::Error + Send + Sync>;
 /// Without a subcommand: simulates a sleeve on a bending arm, runs every published method on steps of it, prints the
 /// comparison, and writes it to a folder with a report to look at.
 #[derive(Debug, Parser)]
-#[command(version, max_term_width = 80, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
+#[command(name = "selvedge", version, max_term_width = 80, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,

@@ -45,6 +45,10 @@ class BlockedError(Error, RuntimeError):
     """A step of a simulation could not be certified, and the scene says to stop then."""
 
 
+class CommandError(Error, RuntimeError):
+    """The ``selvedge`` command, which studies need, is missing, of another version, or did not end well."""
+
+
 class ThreadsError(Error, OSError):
     """The operating system refuses threads, or there are more of them than any machine has use for."""
 
@@ -59,6 +63,7 @@ __all__ = [
     "BusyError",
     "CancelledError",
     "CheckpointError",
+    "CommandError",
     "DataTypeError",
     "Error",
     "ForkedError",
