@@ -28,7 +28,7 @@ pub fn scene(data: &[u8]) {
         }
     };
     let bodies = scene.bodies.iter().map(|body| body.mesh.triangles.len());
-    if scene.cloth.mesh.triangles.len() + bodies.sum::<usize>() > LARGEST {
+    if scene.cloth.mesh().triangles.len() + bodies.sum::<usize>() > LARGEST {
         return;
     }
     let mut simulation = match Simulation::new(scene, 1) {

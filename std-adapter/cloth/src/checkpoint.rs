@@ -2,7 +2,8 @@
 
 use super::contact::{ContactCounts, ContactSeconds};
 use super::state::State;
-use selvedge_core::glam::DVec3;
+use super::world::Placement;
+use selvedge_core::glam::{DQuat, DVec3};
 use selvedge_files::bytes::Reader;
 
 const MAGIC: &[u8; 16] = b"selvedge state 2";
@@ -29,6 +30,8 @@ pub(super) struct Checkpoint {
     pub(super) yielding: Vec<bool>,
     /// Seconds of each effect.
     pub(super) effects: Vec<f64>,
+    /// Of what the caller moves, unless it was moved point by point.
+    pub(super) placements: Vec<Option<Placement>>,
     /// All zero without contact.
     pub(super) counts: ContactCounts,
     /// All zero without contact.
@@ -41,6 +44,7 @@ pub(super) struct Sizes {
     pub(super) vertices: usize,
     pub(super) yielding: usize,
     pub(super) effects: usize,
+    pub(super) placements: usize,
 }
 
 impl Checkpoint {
@@ -54,6 +58,12 @@ impl Checkpoint {
         bytes.extend(numbers.flat_map(f64::to_le_bytes));
         bytes.extend(self.yielding.iter().map(|&yields| u8::from(yields)));
         bytes.extend(self.effects.iter().flat_map(|x| x.to_le_bytes()));
+        for placement in &self.placements {
+            bytes.push(u8::from(placement.is_some()));
+            let Placement { rotation, translation } = placement.unwrap_or_default();
+            let numbers = rotation.to_array().into_iter().chain(translation.to_array());
+            bytes.extend(numbers.flat_map(f64::to_le_bytes));
+        }
         let ContactCounts {
             candidates,
             looked_at,
@@ -101,7 +111,8 @@ impl Checkpoint {
         };
         let (positions, velocities) = (vectors()?, vectors()?);
         let yielding = reader.bytes(sizes.yielding)?;
-        let effects = (0..sizes.effects).map(|_| reader.f64());
+        let effects: Option<Vec<_>> = (0..sizes.effects).map(|_| reader.f64()).collect();
+        let placements: Option<Vec<_>> = (0..sizes.placements).map(|_| placement(reader)).collect();
         Some(Self {
             state: State {
                 step,
@@ -113,7 +124,8 @@ impl Checkpoint {
             yielding: { yielding.iter() }
                 .map(|&byte| (byte <= 1).then_some(byte == 1))
                 .collect::<Option<_>>()?,
-            effects: effects.collect::<Option<_>>()?,
+            effects: effects?,
+            placements: placements?,
             counts: ContactCounts {
                 candidates: reader.u64()?,
                 looked_at: reader.u64()?,
@@ -133,6 +145,26 @@ impl Checkpoint {
     }
 }
 
+/// Whether there is one, and its numbers.
+fn placement(reader: &mut Reader<'_>) -> Option<Option<Placement>> {
+    let is_there = match reader.bytes(1)? {
+        [is_there @ (0 | 1)] => *is_there == 1,
+        _ => return None,
+    };
+    let mut numbers = [0.0; 7];
+    for number in &mut numbers {
+        *number = reader.f64()?;
+    }
+    let [x, y, z, w, translation @ ..] = numbers;
+    let placement = Placement {
+        rotation: DQuat::from_xyzw(x, y, z, w),
+        translation: translation.into(),
+    };
+    // To normalise again would change bits.
+    placement.checked().ok()?;
+    Some(is_there.then_some(placement))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -141,6 +173,7 @@ mod tests {
         vertices: 2,
         yielding: 2,
         effects: 1,
+        placements: 2,
     };
 
     fn checkpoint() -> Checkpoint {
@@ -154,6 +187,7 @@ mod tests {
             },
             yielding: vec![true, false],
             effects: vec![0.25],
+            placements: vec![Some(Placement::at(DVec3::Y)), None],
             counts: ContactCounts {
                 candidates: 1,
                 looked_at: 2,

@@ -1,10 +1,10 @@
 //! Cloth simulation that pays only for the effects that its scene calls for.
 //!
-//! A [`Scene`] is read from a TOML file; a [`Simulation`] runs it, step by step. An effect that the scene does not name is not
-//! constructed, allocates nothing, runs nothing and is in no report.
+//! A [`Scene`] is made in code or read from a TOML file; a [`Simulation`] runs it, step by step. An effect that the scene does not name
+//! is not constructed, allocates nothing, runs nothing and is in no report.
 //!
 //! ```text
-//! scene file ──▶ Scene ──▶ effects register into a plan ──▶ Simulation
+//! code, or a scene file ──▶ Scene ──▶ effects register into a plan ──▶ Simulation ◀── each step: bodies, pins, wind
 //!                                                             │ each step
 //!                          forces ▸ prediction ▸ constraints ▸ contacts ▸ friction ▸ certified pass ▸ velocities
 //!
@@ -16,7 +16,8 @@
 //!
 //! | item | what it is |
 //! |---|---|
-//! | [`Scene`] | **start here**: what a scene file says, checked |
+//! | [`Scene`] | **start here**: what is to be simulated, from code or from a file |
+//! | [`Cloth`], [`Body`], [`effects`] | what a scene consists of |
 //! | [`Simulation`] | runs a scene: positions after each step, what each effect took, checkpoints |
 //! | [`effect_names`] | every effect that a scene may name |
 //! | [`sleeve`] | the paper's sleeve at any size, of which scenes can be made |
@@ -28,10 +29,11 @@
 
 mod checkpoint;
 mod contact;
-mod effects;
+pub mod effects;
 mod hierarchy;
 mod input;
 mod membrane;
+mod normals;
 mod plan;
 mod scene;
 mod schedule;
@@ -42,12 +44,15 @@ mod step;
 mod world;
 
 pub use checkpoint::CheckpointError;
-pub use contact::{Blocker, ContactCounts, ContactSeconds};
+pub use contact::{Blocker, ContactCounts, ContactSeconds, NearPair};
 pub use effects::effect_names;
-pub use input::SceneError;
+pub use input::{SceneError, ValueError};
+pub use normals::vertex_normals;
 pub use scene::{OnBlocked, Scene};
-pub use simulator::{Blocked, CHECKPOINT_STEPS, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation};
-pub use world::{Body, Cloth, RigidMotion};
+pub use selvedge::Mesh;
+pub use selvedge_core::glam;
+pub use simulator::{Blocked, CHECKPOINT_STEPS, DriveError, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation};
+pub use world::{Body, Cloth, Keyframe, Motion, Placement, RigidMotion};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
 pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");

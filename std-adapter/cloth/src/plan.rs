@@ -6,7 +6,7 @@
 use super::contact::ContactSettings;
 use super::hierarchy::{Hierarchy, Level};
 use super::step::{Carrier, Constraint, FREE, Force};
-use super::world::{Cloth, RigidMotion, World};
+use super::world::{Cloth, Kinematic, Motion, World};
 use std::sync::Arc;
 
 /// An entry of a phase and the effect that it belongs to.
@@ -19,14 +19,14 @@ pub(crate) struct Entry<T: ?Sized> {
 
 /// What the scene's effects say of the fabric before any of them registers.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Fabric {
+pub struct Fabric {
     /// How stiff the angle between warp and weft is, in N/m; `None`: no effect makes it so.
     pub(crate) shear: Option<f64>,
 }
 
-/// What the effects have registered.
+/// What a step consists of: effects put into it what they do.
 #[derive(Debug)]
-pub(crate) struct Plan<'a> {
+pub struct Plan<'a> {
     pub(crate) world: World<'a>,
     /// The effect that is registering.
     pub(crate) effect: usize,
@@ -36,7 +36,9 @@ pub(crate) struct Plan<'a> {
     /// Of all cloth vertices.
     pub(crate) carriers: Vec<Carrier>,
     /// Bodies' motions, then those of pins.
-    pub(crate) motions: Vec<RigidMotion>,
+    pub(crate) motions: Vec<Kinematic>,
+    /// Of each group of pins.
+    pub(crate) pins: Vec<Carrier>,
     pub(crate) forces: Vec<Entry<dyn Force>>,
     pub(crate) constraints: Vec<Entry<dyn Constraint>>,
     pub(crate) contact: ContactSettings,
@@ -48,14 +50,21 @@ pub(crate) struct Plan<'a> {
 impl<'a> Plan<'a> {
     /// A plan without any effect.
     pub(crate) fn new(world: World<'a>) -> Self {
+        let mut first = world.cloth.mesh.positions.len() as u32;
+        let motions = world.bodies.iter().map(|body| {
+            let vertices = first..first + body.mesh.positions.len() as u32;
+            first = vertices.end;
+            Kinematic::new(body.motion.clone(), vertices.collect())
+        });
         Self {
+            motions: motions.collect(),
+            pins: Vec::new(),
             world,
             effect: 0,
             fabric: Fabric::default(),
             hierarchy: None,
             inverse_masses: masses_of(world.cloth).into_iter().map(f64::recip).collect(),
             carriers: vec![FREE; world.cloth.mesh.positions.len()],
-            motions: world.bodies.iter().map(|body| body.motion.clone()).collect(),
             forces: Vec::new(),
             constraints: Vec::new(),
             contact: ContactSettings::default(),
@@ -70,11 +79,25 @@ impl<'a> Plan<'a> {
         }
     }
 
-    pub(crate) fn add_force(&mut self, force: impl Force + 'static) {
+    /// What it acts on.
+    #[must_use]
+    pub fn world(&self) -> World<'a> {
+        self.world
+    }
+
+    /// The mass of each vertex of the cloth, in kg: a third of its triangles'.
+    #[must_use]
+    pub fn masses(&self) -> Vec<f64> {
+        masses_of(self.world.cloth)
+    }
+
+    /// Forces act in the order in which effects put them here, before anything else.
+    pub fn add_force(&mut self, force: impl Force + 'static) {
         self.forces.push(self.entry(Box::new(force)));
     }
 
-    pub(crate) fn add_constraint(&mut self, constraint: impl Constraint + 'static) {
+    /// Constraints act in the order in which effects put them here, after forces and before contact.
+    pub fn add_constraint(&mut self, constraint: impl Constraint + 'static) {
         self.constraints.push(self.entry(Box::new(constraint)));
     }
 
@@ -86,7 +109,7 @@ impl<'a> Plan<'a> {
     /// The cloth's coarser levels, from fine to coarse, whose seeds are no farther apart than `coarsest`: the `most` finest of them.
     ///
     /// Pins are known: they register before.
-    pub(crate) fn levels(&mut self, coarsest: f64, most: Option<usize>) -> Vec<Arc<Level>> {
+    pub(crate) fn levels(&mut self, coarsest: f64, most: Option<u32>) -> Vec<Arc<Level>> {
         if most == Some(0) || coarsest <= 0.0 {
             return Vec::new();
         }
@@ -94,8 +117,14 @@ impl<'a> Plan<'a> {
         let pinned = || self.inverse_masses.iter().map(|&inverse| inverse == 0.0).collect();
         let make = || Hierarchy::new(world.cloth, masses_of(world.cloth), pinned());
         let mut levels = self.hierarchy.get_or_insert_with(make).levels_to(coarsest);
-        levels.truncate(most.unwrap_or(usize::MAX));
+        levels.truncate(most.map_or(usize::MAX, |most| most as usize));
         levels
+    }
+
+    /// Adds what moves these vertices.
+    pub(crate) fn add_motion(&mut self, motion: Motion, vertices: Vec<u32>) -> Carrier {
+        self.motions.push(Kinematic::new(motion, vertices));
+        self.motions.len() as Carrier - 1
     }
 
     /// Makes a cloth vertex kinematic.

@@ -1,4 +1,4 @@
-//! Scenes: what a TOML file calls for.
+//! Scenes: what is to be simulated, as a TOML file or code says it.
 //!
 //! ```
 //! use selvedge_cloth::Scene;
@@ -25,8 +25,8 @@
 //! # Ok::<(), selvedge_cloth::SceneError>(())
 //! ```
 
-use super::effects::{self, Named};
-use super::input::{ACCELERATION, FREQUENCY, LARGEST_TIME, SceneError, Source, TIME, Table};
+use super::effects::{self, Effect, Gravity};
+use super::input::{FREQUENCY, Field, LARGEST_TIME, SceneError, Source, TIME, Table, ValueError};
 use super::world::{Body, Cloth, World};
 use selvedge_core::glam::DVec3;
 use selvedge_files::excerpt::excerpt;
@@ -44,7 +44,30 @@ pub enum OnBlocked {
     Yield,
 }
 
-/// A scene, ready to be simulated.
+/// A scene: cloth, bodies and effects. Read from a file, or made in code:
+///
+/// ```
+/// use selvedge_cloth::effects::{Bend, BodyContact, Gravity, SelfCollision, Stretch, Thickness};
+/// use selvedge_cloth::{Body, Cloth, Motion, Placement, Scene, Simulation};
+/// use selvedge_cloth::glam::DVec3;
+///
+/// let cloth = Cloth::sheet(DVec3::new(-0.15, -0.15, 0.12), [DVec3::X * 0.3, DVec3::Y * 0.3], [12, 12], 0.2)?;
+/// let mut scene = Scene::new(cloth, 2e-3);
+/// let mut ball = Body::ball("ball", DVec3::ZERO, 0.1, 24)?;
+/// ball.motion = Motion::Driven(Placement::default());
+/// scene.bodies.push(ball);
+/// scene.add(Gravity::default()).add(Stretch::isotropic(1000.0)).add(Bend { stiffness: 1e-5 });
+/// scene.add(BodyContact(Thickness::of(4e-3))).add(SelfCollision(Thickness::of(4e-3)));
+///
+/// let mut simulation = Simulation::new(scene, 1)?;
+/// for step in 1..=50 {
+///     simulation.place_body(0, Placement::at(DVec3::Z * (0.001 * f64::from(step))))?;
+///     simulation.step()?;
+/// }
+/// let lowest = simulation.positions()[..169].iter().map(|p| p.z).fold(1.0, f64::min);
+/// assert!(lowest > 0.0 && simulation.is_certified());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Scene {
     /// `name`, or the file's.
@@ -61,17 +84,72 @@ pub struct Scene {
     pub frame_rate: f64,
     /// Against gravity, of any length; z where the scene names no gravity.
     pub up: DVec3,
-    /// The file's text.
+    /// The file's text; empty if there is no file.
     pub text: String,
     /// What to do when the cloth cannot go on.
     pub on_blocked: OnBlocked,
-    /// Tells checkpoints of this scene from others': from its text and all its meshes.
-    pub(crate) fingerprint: u64,
-    /// The effects called for, in the order of the registry.
-    pub(crate) effects: Vec<Named>,
+    /// The effects called for, in the order in which they run.
+    pub(crate) effects: Vec<Box<dyn Effect>>,
+}
+
+const TIME_STEP: Field = Field::new("time_step", TIME, 1e-6, 0.1);
+const FRAME_RATE: Field = Field::new("frames_per_second", FREQUENCY, 0.001, 1e6);
+
+/// As long as a time step, and up to a day and more.
+fn duration_field(time_step: f64) -> Field {
+    Field::new("duration", TIME, time_step, LARGEST_TIME)
 }
 
 impl Scene {
+    /// A cloth alone, and the length of a step in seconds; for as long as it is run, without any effect yet.
+    #[must_use]
+    pub fn new(cloth: Cloth, time_step: f64) -> Self {
+        Self {
+            name: "scene".to_owned(),
+            cloth,
+            bodies: Vec::new(),
+            time_step,
+            duration: LARGEST_TIME,
+            frame_rate: 60.0,
+            up: DVec3::Z,
+            text: String::new(),
+            on_blocked: OnBlocked::default(),
+            effects: Vec::new(),
+        }
+    }
+
+    /// Calls for an effect, instead of one of the same name if there is one. In which order they are added does not matter for ours; a
+    /// caller's own run after them, in the order in which they are added.
+    pub fn add(&mut self, effect: impl Effect + 'static) -> &mut Self {
+        let name = effect.name();
+        self.effects.retain(|other| other.name() != name);
+        let rank = effects::rank(name);
+        let place = self.effects.partition_point(|other| effects::rank(other.name()) <= rank);
+        self.effects.insert(place, Box::new(effect));
+        self
+    }
+
+    /// Whether all of it makes sense, alone and together. A scene from a file does; [`Simulation::new`](crate::Simulation::new) asks.
+    ///
+    /// # Errors
+    /// What does not, and what would.
+    pub fn check(&self) -> Result<(), ValueError> {
+        TIME_STEP.check(self.time_step)?;
+        duration_field(self.time_step).check(self.duration)?;
+        FRAME_RATE.check(self.frame_rate)?;
+        self.cloth.check()?;
+        for (index, body) in self.bodies.iter().enumerate() {
+            check_name(&self.bodies[..index], body)?;
+            body.check(self.time_step)?;
+        }
+        let world = World {
+            cloth: &self.cloth,
+            bodies: &self.bodies,
+            time_step: self.time_step,
+        };
+        effects::check(&self.effects, &world)
+    }
+
     /// Reads a scene file. Paths in it are relative to its folder.
     ///
     /// # Errors
@@ -104,8 +182,8 @@ impl Scene {
             "body",
             "effects",
         ])?;
-        let time_step = root.required_number("time_step", TIME, 1e-6..=0.1)?;
-        let duration = root.required_number("duration", TIME, time_step..=LARGEST_TIME)?;
+        let time_step = root.required_number(&TIME_STEP)?;
+        let duration = root.required_number(&duration_field(time_step))?;
         let cloth = Cloth::read(&root.required_table("cloth")?)?;
         let bodies = read_bodies(&root, time_step)?;
         let world = World {
@@ -118,11 +196,7 @@ impl Scene {
             None => Vec::new(),
         };
         let gravity = match root.table("effects")? {
-            Some(table) => table.table("gravity")?,
-            None => None,
-        };
-        let gravity = match gravity {
-            Some(table) => table.vector("acceleration", ACCELERATION, 1e4)?,
+            Some(table) => Gravity::read_acceleration(&table)?,
             None => None,
         };
         let choices = [
@@ -135,13 +209,12 @@ impl Scene {
             name: root
                 .text("name")?
                 .map_or_else(|| stem.unwrap_or_default().into_owned(), str::to_owned),
-            frame_rate: root.number("frames_per_second", FREQUENCY, 0.001..=1e6)?.unwrap_or(60.0),
+            frame_rate: root.number(&FRAME_RATE)?.unwrap_or(60.0),
             on_blocked: root.choice("on_blocked", &choices)?.unwrap_or_default(),
             up: gravity.map_or(DVec3::Z, |acceleration| -acceleration),
             text: text.to_owned(),
             time_step,
             duration,
-            fingerprint: fingerprint(text, &cloth, &bodies),
             cloth,
             bodies,
             effects,
@@ -151,16 +224,13 @@ impl Scene {
     /// The effects that the scene calls for, in the order in which they run.
     #[must_use]
     pub fn effect_names(&self) -> Vec<&'static str> {
-        self.effects.iter().map(|(name, _)| *name).collect()
+        self.effects.iter().map(|effect| effect.name()).collect()
     }
 
     /// Forgets all effects but the first `count`, in the order in which they run. What an effect needs runs before it, so that the
     /// rest is a scene as well. It is another scene for checkpoints.
     pub fn keep_first_effects(&mut self, count: usize) {
-        if count < self.effects.len() {
-            self.effects.truncate(count);
-            self.fingerprint = self.fingerprint.rotate_left(1 + count as u32);
-        }
+        self.effects.truncate(count);
     }
 
     /// What trades time for accuracy, by name, each with its value and unit: the time step, and settings of effects, those that the
@@ -168,9 +238,9 @@ impl Scene {
     #[must_use]
     pub fn settings(&self) -> Vec<(String, String)> {
         let mut settings = vec![("time step".to_owned(), TIME.written_short(self.time_step))];
-        for (effect, of_effect) in &self.effects {
-            let named = of_effect.settings().into_iter();
-            settings.extend(named.map(|(name, value)| (format!("{effect}: {name}"), value)));
+        for effect in &self.effects {
+            let named = effect.settings().into_iter();
+            settings.extend(named.map(|(name, value)| (format!("{}: {name}", effect.name()), value)));
         }
         settings
     }
@@ -187,32 +257,49 @@ impl Scene {
     pub fn steps_per_frame(&self) -> u64 {
         (1.0 / (self.frame_rate * self.time_step)).round().max(1.0) as u64
     }
+
+    /// Tells checkpoints of this scene from others': from its text and all that it was made into.
+    pub(crate) fn fingerprint(&self) -> u64 {
+        // FNV-1a: the same in every version of every compiler. Numbers are written so that they read back.
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+        let mut take = |bytes: &[u8]| {
+            for &byte in bytes {
+                hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+            }
+        };
+        take(self.text.as_bytes());
+        let Cloth {
+            density, velocity, warp, ..
+        } = &self.cloth;
+        let numbers = (self.time_step, self.on_blocked, density, velocity, warp, &self.effects);
+        take(format!("{numbers:?}").as_bytes());
+        for body in &self.bodies {
+            take(format!("{:?}", (&body.name, &body.motion)).as_bytes());
+        }
+        let meshes = std::iter::once(&self.cloth.mesh).chain(self.bodies.iter().map(|body| &body.mesh));
+        for mesh in meshes {
+            let coordinates = mesh.positions.iter().flat_map(|position| position.to_array());
+            coordinates.for_each(|x| take(&x.to_le_bytes()));
+            mesh.triangles.iter().flatten().for_each(|vertex| take(&vertex.to_le_bytes()));
+        }
+        hash
+    }
 }
 
-fn fingerprint(text: &str, cloth: &Cloth, bodies: &[Body]) -> u64 {
-    // FNV-1a: the same in every version of every compiler.
-    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-    let mut take = |bytes: &[u8]| {
-        for &byte in bytes {
-            hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-    };
-    take(text.as_bytes());
-    let meshes = std::iter::once(&cloth.mesh).chain(bodies.iter().map(|body| &body.mesh));
-    for position in meshes.flat_map(|mesh| &mesh.positions) {
-        position.to_array().iter().for_each(|x| take(&x.to_le_bytes()));
+/// No two bodies have one name, which messages and scenes tell them by.
+fn check_name(others: &[Body], body: &Body) -> Result<(), ValueError> {
+    if others.iter().any(|other| other.name == body.name) {
+        let message = format!("there are two bodies named '{}'", excerpt(&body.name, 40));
+        return Err(ValueError::new("name", message));
     }
-    hash
+    Ok(())
 }
 
 fn read_bodies(root: &Table<'_>, time_step: f64) -> Result<Vec<Body>, SceneError> {
     let mut bodies: Vec<Body> = Vec::new();
     for table in root.tables("body")? {
         let body = Body::read(&table, time_step)?;
-        if bodies.iter().any(|other| other.name == body.name) {
-            let message = format!("there are two bodies named '{}'", excerpt(&body.name, 40));
-            return Err(table.error("name", message));
-        }
+        check_name(&bodies, &body).map_err(|error| table.placed(&error))?;
         bodies.push(body);
     }
     Ok(bodies)

@@ -10,16 +10,19 @@
 //! [`FASTEST`].
 
 use super::checkpoint::{Checkpoint, CheckpointError, Sizes};
-use super::contact::{Blocker, ContactCounts, ContactSeconds, ContactSolver, LARGEST_TURN};
+use super::contact::{Blocker, ContactCounts, ContactSeconds, ContactSolver, LARGEST_TURN, NearPair};
+use super::effects::Wind;
+use super::input::{Field, LARGEST_COORDINATE, LENGTH, ValueError};
 use super::plan::{Entry, Plan};
 use super::scene::{OnBlocked, Scene};
 use super::state::State;
 use super::step::{Carrier, Constraint, FREE, Force, TimeStep, Touches};
-use super::world::{Pose, RigidMotion, World};
+use super::world::{Driven, Kinematic, Placement, Pose, World};
 use selvedge::verification::parallel::Workers;
 use selvedge::{Mesh, TopologyError};
 use selvedge::{ThreadError, Threads};
 use selvedge_core::glam::DVec3;
+use std::ops::Range;
 use std::time::Instant;
 
 /// In m/s: twice the speed of sound and more. What would move faster is slowed down to this.
@@ -47,7 +50,9 @@ pub struct Simulation {
     /// Of kinematic vertices, where they are when their motion is at rest.
     rest: Vec<DVec3>,
     /// Kinematic ones: bodies', then those of pins.
-    motions: Vec<RigidMotion>,
+    motions: Vec<Kinematic>,
+    /// Of each group of pins.
+    pins: Vec<Carrier>,
     forces: Vec<Entry<dyn Force>>,
     constraints: Vec<Entry<dyn Constraint>>,
     contact: Option<ContactSolver>,
@@ -55,6 +60,7 @@ pub struct Simulation {
     effects: Vec<EffectTime>,
     on_blocked: OnBlocked,
     body_names: Vec<String>,
+    body_vertices: Vec<Range<usize>>,
     threads: Workers,
     state: State,
     work: Work,
@@ -108,6 +114,9 @@ pub enum SetupError {
     /// Cloth and bodies together have too many triangles.
     #[error(transparent)]
     Topology(#[from] TopologyError),
+    /// Something in the scene cannot be.
+    #[error(transparent)]
+    Value(#[from] ValueError),
     /// The scene starts with an intersection, which no certificate can end.
     #[error("the scene starts with an intersection: {0} touches")]
     Touching(String),
@@ -116,12 +125,61 @@ pub enum SetupError {
     Threads(#[from] ThreadError),
 }
 
+/// What the clock of bodies and pins did in a step.
+enum Clock {
+    Went,
+    Waited,
+}
+
+/// Something cannot be moved as asked; nothing has changed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DriveError {
+    /// There is no such body.
+    #[error("there is no body {body}: the scene has {bodies}, from 0 on")]
+    NoBody {
+        /// What was asked for.
+        body: usize,
+        /// How many there are.
+        bodies: usize,
+    },
+    /// There is no such group of pins.
+    #[error("there is no group {group} of pins: the scene has {groups}, from 0 on")]
+    NoPins {
+        /// What was asked for.
+        group: usize,
+        /// How many there are.
+        groups: usize,
+    },
+    /// It follows keyframes, or a body.
+    #[error("{what} cannot be moved by hand: give it `Motion::Driven` in the scene")]
+    NotDriven {
+        /// In words.
+        what: String,
+    },
+    /// One position is needed for each vertex.
+    #[error("{found} positions were given for {expected} vertices")]
+    VertexCount {
+        /// How many vertices it has.
+        expected: usize,
+        /// How many positions were given.
+        found: usize,
+    },
+    /// A number is not finite, or beyond its range.
+    #[error(transparent)]
+    Value(#[from] ValueError),
+    /// The scene calls for no wind.
+    #[error("the scene has no wind: add the effect `Wind` to it")]
+    NoWind,
+}
+
 impl Simulation {
     /// Sets a scene up, on `threads` threads (0: one for each core). The number of threads changes no bit of the result.
     ///
     /// # Errors
-    /// If the operating system refuses the threads.
+    /// If something in the scene cannot be, it starts with an intersection, or the operating system refuses the threads.
     pub fn new(scene: Scene, threads: usize) -> Result<Self, SetupError> {
+        scene.check()?;
+        let fingerprint = scene.fingerprint();
         let threads = Workers::new(Threads::from_count(threads))?;
         let Scene {
             name,
@@ -130,7 +188,6 @@ impl Simulation {
             time_step,
             effects,
             on_blocked,
-            fingerprint,
             ..
         } = scene;
         let mut plan = Plan::new(World {
@@ -138,12 +195,15 @@ impl Simulation {
             bodies: &bodies,
             time_step,
         });
-        for (_, effect) in &effects {
+        for effect in &effects {
             effect.announce(&mut plan.fabric);
         }
         let mut times = Vec::with_capacity(effects.len());
-        for (index, (name, effect)) in effects.into_iter().enumerate() {
-            times.push(EffectTime { name, seconds: 0.0 });
+        for (index, effect) in effects.into_iter().enumerate() {
+            times.push(EffectTime {
+                name: effect.name(),
+                seconds: 0.0,
+            });
             plan.effect = index;
             effect.register(&mut plan);
         }
@@ -151,6 +211,7 @@ impl Simulation {
             mut inverse_masses,
             mut carriers,
             motions,
+            pins,
             forces,
             constraints,
             contact,
@@ -159,7 +220,9 @@ impl Simulation {
         } = plan;
         let mut rest = cloth.mesh.positions.clone();
         let mut triangles = cloth.mesh.triangles.clone();
+        let mut body_vertices = Vec::with_capacity(bodies.len());
         for (carrier, body) in bodies.iter().enumerate() {
+            body_vertices.push(rest.len()..rest.len() + body.mesh.positions.len());
             append(&mut rest, &mut triangles, &body.mesh);
             carriers.resize(rest.len(), carrier as Carrier);
         }
@@ -186,6 +249,8 @@ impl Simulation {
             name,
             time_step,
             on_blocked,
+            body_vertices,
+            pins,
             body_names: bodies.into_iter().map(|body| body.name).collect(),
             contact,
             fingerprint,
@@ -246,6 +311,97 @@ impl Simulation {
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
+    }
+
+    /// How fast each of the [`positions`](Self::positions) moves, in m/s.
+    #[must_use]
+    pub fn velocities(&self) -> &[DVec3] {
+        &self.state.velocities
+    }
+
+    /// The vertices of a body, among the [`positions`](Self::positions); `None` if there is no such body.
+    #[must_use]
+    pub fn body_vertices(&self, body: usize) -> Option<Range<usize>> {
+        self.body_vertices.get(body).cloned()
+    }
+
+    /// The pairs that came near each other in the last part of the last step, as contact saw them at its start. None without a contact
+    /// effect.
+    pub fn near_pairs(&self) -> impl Iterator<Item = NearPair> {
+        self.contact.iter().flat_map(|contact| contact.near_pairs())
+    }
+
+    /// Leads a [driven](crate::Motion::Driven) body to another placement in the next step: it turns about its origin, the shorter way
+    /// round, and moves along, both evenly. A step that is cut or has to wait leaves it on the way, where [`placement`](Self::placement)
+    /// says; unless it is told again it stays there.
+    ///
+    /// # Errors
+    /// If there is no such body, it is not driven, or the placement is none.
+    pub fn place_body(&mut self, body: usize, placement: Placement) -> Result<(), DriveError> {
+        let placement = placement.checked()?;
+        self.driven_body(body)?.lead_to(placement);
+        Ok(())
+    }
+
+    /// Leads each vertex of a [driven](crate::Motion::Driven) body straight to a position, in metres, in the next step: a body that
+    /// changes its shape, such as a skinned figure.
+    ///
+    /// # Errors
+    /// If there is no such body, it is not driven, or the positions are not one for each vertex, finite and within a kilometre.
+    pub fn move_body(&mut self, body: usize, positions: &[DVec3]) -> Result<(), DriveError> {
+        let driven = self.driven_body(body)?;
+        check_positions(positions, driven.vertices.len())?;
+        driven.lead_points_to(positions.to_vec());
+        Ok(())
+    }
+
+    /// The same for a group of pins, by its index in [`Pins`](crate::effects::Pins), whose motion is driven.
+    ///
+    /// # Errors
+    /// If there is no such group, it is not driven, or the positions are not one for each vertex, finite and within a kilometre.
+    pub fn move_pins(&mut self, group: usize, positions: &[DVec3]) -> Result<(), DriveError> {
+        let groups = self.pins.len();
+        let carrier = *self.pins.get(group).ok_or(DriveError::NoPins { group, groups })? as usize;
+        let own = (carrier >= self.body_names.len()).then(|| self.motions[carrier].driven_mut());
+        let driven = own.flatten().ok_or_else(|| DriveError::NotDriven {
+            what: format!("the group {group} of pins"),
+        })?;
+        check_positions(positions, driven.vertices.len())?;
+        driven.lead_points_to(positions.to_vec());
+        Ok(())
+    }
+
+    /// Where a [driven](crate::Motion::Driven) body stands now; `None` for any other, and for one that was moved vertex by vertex.
+    #[must_use]
+    pub fn placement(&self, body: usize) -> Option<Placement> {
+        let is_body = body < self.body_names.len();
+        let driven = is_body.then(|| self.motions[body].driven()).flatten();
+        driven.and_then(|driven| driven.placement)
+    }
+
+    /// Lets the [`Wind`](crate::effects::Wind) blow so from now on, in m/s.
+    ///
+    /// # Errors
+    /// If the scene calls for no wind, or no wind can blow so.
+    pub fn set_wind(&mut self, velocity: DVec3) -> Result<(), DriveError> {
+        Wind::check_velocity(velocity).map_err(|error| error.of("wind"))?;
+        let mut taken = self.forces.iter_mut().map(|force| force.action.set_wind(velocity));
+        if taken.any(|taken| taken) {
+            Ok(())
+        } else {
+            Err(DriveError::NoWind)
+        }
+    }
+
+    fn driven_body(&mut self, body: usize) -> Result<&mut Driven, DriveError> {
+        let bodies = self.body_names.len();
+        if body >= bodies {
+            return Err(DriveError::NoBody { body, bodies });
+        }
+        let Self { motions, body_names, .. } = self;
+        motions[body].driven_mut().ok_or_else(|| DriveError::NotDriven {
+            what: format!("the body '{}'", body_names[body]),
+        })
     }
 
     /// How many of the vertices are the cloth's.
@@ -327,13 +483,23 @@ impl Simulation {
     pub fn step(&mut self) -> Result<(), Blocked> {
         // Taken out so that they can run what borrows the rest.
         let threads = std::mem::take(&mut self.threads);
+        let clock = self.state.clock;
+        for driven in self.motions.iter_mut().filter_map(Kinematic::driven_mut) {
+            driven.begin(clock, self.time_step, &self.state.positions, &self.rest);
+        }
         let result = threads.run(|| self.whole_step());
+        let clock = self.state.clock;
+        let has_arrived = matches!(result, Ok(Clock::Went));
+        for driven in self.motions.iter_mut().filter_map(Kinematic::driven_mut) {
+            driven.end(clock, has_arrived);
+        }
         self.threads = threads;
-        result
+        result.map(drop)
     }
 
-    fn whole_step(&mut self) -> Result<(), Blocked> {
+    fn whole_step(&mut self) -> Result<Clock, Blocked> {
         let mut left = self.time_step;
+        let mut of_the_step = Clock::Went;
         let mut was_blocked = false;
         let mut longest = left;
         let shortest = SHORTEST * self.without_large_turn(left);
@@ -354,6 +520,7 @@ impl Simulation {
                     // Without anything that is forced to move a step can always be made.
                     self.attempt(left, 0.0).map_err(|blocker| self.described(blocker))?;
                     left = 0.0;
+                    of_the_step = Clock::Waited;
                 }
                 (OnBlocked::Stop, ..) => return Err(self.described(blocker)),
             }
@@ -366,11 +533,11 @@ impl Simulation {
                 contact.refresh(&self.state.positions);
             }
         }
-        Ok(())
+        Ok(of_the_step)
     }
 
     /// All that the rest of the simulation depends on, and what has been measured so far, every [`CHECKPOINT_STEPS`] steps;
-    /// `None` in between.
+    /// `None` in between. What the caller has said of the next step, and of the wind, is not in it.
     #[must_use]
     pub fn checkpoint(&self) -> Option<Vec<u8>> {
         if !self.state.step.is_multiple_of(CHECKPOINT_STEPS) {
@@ -379,6 +546,7 @@ impl Simulation {
         let mut checkpoint = Checkpoint {
             state: self.state.clone(),
             effects: self.effects.iter().map(|effect| effect.seconds).collect(),
+            placements: self.driven().map(|driven| driven.placement).collect(),
             ..Checkpoint::default()
         };
         if let Some(contact) = &self.contact {
@@ -397,6 +565,7 @@ impl Simulation {
             vertices: self.state.positions.len(),
             yielding: self.contact.as_ref().map_or(0, |c| c.yielding().len()),
             effects: self.effects.len(),
+            placements: self.driven().count(),
         };
         let checkpoint = Checkpoint::read(checkpoint, self.fingerprint, sizes)?;
         if let Some(contact) = &mut self.contact {
@@ -407,8 +576,16 @@ impl Simulation {
         for (effect, seconds) in self.effects.iter_mut().zip(checkpoint.effects) {
             effect.seconds = seconds;
         }
+        let driven = self.motions.iter_mut().filter_map(Kinematic::driven_mut);
+        for (driven, placement) in driven.zip(checkpoint.placements) {
+            driven.placement = placement;
+        }
         self.state = checkpoint.state;
         Ok(())
+    }
+
+    fn driven(&self) -> impl Iterator<Item = &Driven> {
+        self.motions.iter().filter_map(Kinematic::driven)
     }
 
     /// Goes on by as much of `left` seconds as possible: returns how much. Half of it if that fails, and so on, but not by less than
@@ -432,7 +609,7 @@ impl Simulation {
     fn without_large_turn(&self, mut h: f64) -> f64 {
         let clock = self.state.clock;
         let turns_too_far =
-            |motion: &RigidMotion, h: f64| (motion.pose(clock + h).angle - motion.pose(clock).angle).abs() > LARGEST_TURN;
+            |motion: &Kinematic, h: f64| (motion.pose(clock + h).angle - motion.pose(clock).angle).abs() > LARGEST_TURN;
         if self.contact.is_some() {
             while self.motions.iter().any(|motion| turns_too_far(motion, h)) {
                 h *= 0.5;
@@ -463,7 +640,7 @@ impl Simulation {
         } = self;
         let clock = state.clock;
         work.poses.clear();
-        let poses = |motion: &RigidMotion| [clock, clock + ticks].map(|time| motion.pose(time));
+        let poses = |motion: &Kinematic| [clock, clock + ticks].map(|time| motion.pose(time));
         work.poses.extend(self.motions.iter().map(poses));
         work.touches.list.clear();
         let step = TimeStep {
@@ -480,12 +657,16 @@ impl Simulation {
         }
         // Where inertia leads, and bodies and pins go.
         let predicted = |vertex: usize| match step.poses.get(carriers[vertex] as usize) {
-            Some([_, pose]) => pose.apply(rest[vertex]),
+            Some([_, pose]) if pose.is_rigid() => pose.apply(rest[vertex]),
+            Some(_) => step.start[vertex],
             None => step.start[vertex] + limited(velocities[vertex], FASTEST) * h,
         };
         let (positions, touches) = (&mut work.predicted, &mut work.touches);
         positions.clear();
         positions.extend((0..step.start.len()).map(predicted));
+        for driven in self.motions.iter().filter_map(Kinematic::driven) {
+            driven.put(clock + ticks, positions);
+        }
         for Entry { effect, action } in &mut self.constraints {
             timed(effects, *effect, || action.project(&step, positions, touches));
         }
@@ -517,6 +698,17 @@ impl Simulation {
         state.clock += ticks;
         Ok(())
     }
+}
+
+/// Whether there is one for each vertex, and all are within reach.
+fn check_positions(positions: &[DVec3], expected: usize) -> Result<(), DriveError> {
+    if positions.len() != expected {
+        let found = positions.len();
+        return Err(DriveError::VertexCount { expected, found });
+    }
+    let reach = Field::vector("positions", LENGTH, LARGEST_COORDINATE);
+    positions.iter().try_for_each(|&position| reach.check_vector(position))?;
+    Ok(())
 }
 
 /// Runs what an effect does, and adds the time to it.

@@ -8,26 +8,39 @@ use std::fmt::Debug;
 
 /// What all phases of a step, or of a part of one, read.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct TimeStep<'a> {
+pub struct TimeStep<'a> {
     /// The time at the start of the step, in seconds.
-    pub(crate) time: f64,
-    /// Its length in seconds.
-    pub(crate) h: f64,
-    /// Positions at the start.
-    pub(crate) start: &'a [DVec3],
+    pub time: f64,
+    /// Its length in seconds: a step may be done in parts.
+    pub h: f64,
+    /// Positions at the start, in metres: the cloth's vertices, then the bodies'.
+    pub start: &'a [DVec3],
     /// Per vertex, in 1/kg; zero where it is kinematic.
-    pub(crate) inverse_masses: &'a [f64],
+    pub inverse_masses: &'a [f64],
     /// Of each kinematic motion, at the start and at the end.
     pub(crate) poses: &'a [[Pose; 2]],
 }
 
 /// Changes velocities before positions are predicted.
-pub(crate) trait Force: Debug + Send {
+///
+/// A step that cannot be made is tried again in parts: what a force does must depend on its arguments alone.
+pub trait Force: Debug + Send {
+    /// Adds to `velocities`, in m/s, of all vertices; those of kinematic ones are not looked at.
     fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]);
+
+    /// Takes a new wind, in m/s; false: it knows of no wind.
+    #[doc(hidden)]
+    fn set_wind(&mut self, _velocity: DVec3) -> bool {
+        false
+    }
 }
 
 /// Moves predicted positions towards where they should be.
-pub(crate) trait Constraint: Debug + Send {
+///
+/// A step that cannot be made is tried again in parts: what a constraint does must depend on its arguments alone.
+pub trait Constraint: Debug + Send {
+    /// Moves `positions`, in metres, of all vertices whose inverse mass is not zero. `touches` is for effects that push things
+    /// apart.
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches);
 }
 
@@ -46,7 +59,7 @@ pub(crate) struct Touch {
 
 /// The contacts that pushed in this step, in order, if anybody wants to know.
 #[derive(Debug, Default)]
-pub(crate) struct Touches {
+pub struct Touches {
     /// Whether friction asks for them.
     pub(crate) wanted: bool,
     pub(crate) list: Vec<Touch>,

@@ -15,11 +15,21 @@ use selvedge_core::separation::gap::GapError;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ContactConstraint {
-    vertices: [u32; 4],
-    weights: [f64; 4],
-    normal: DVec3,
-    thickness: f64,
+    pair: NearPair,
     with_body: bool,
+}
+
+/// A pair that is near at the start of a step, and would come nearer than its thickness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearPair {
+    /// Vertex and face, or first edge and second edge; the cloth's vertices, then those of bodies.
+    pub vertices: [u32; 4],
+    /// Of each vertex in the way between the closest points: positive on the first side, where they add up to one, negative on the other.
+    pub weights: [f64; 4],
+    /// From the second side to the first, of length one.
+    pub normal: DVec3,
+    /// How far apart the pair is to be, in metres.
+    pub thickness: f64,
 }
 
 /// Replaces `constraints` by those of the pairs that are near at the start of the step, and that the direction which kept them apart
@@ -75,10 +85,12 @@ fn constraint(
         pair.data.thickness = thickness_of(pair, settings.neighbours, thickness, rest) as f32;
     }
     Some(ContactConstraint {
-        vertices: pair.vertices,
-        weights: closest.weights,
-        normal: closest.direction,
-        thickness: f64::from(pair.data.thickness).min(distance + RECOVERY * h),
+        pair: NearPair {
+            vertices: pair.vertices,
+            weights: closest.weights,
+            normal: closest.direction,
+            thickness: f64::from(pair.data.thickness).min(distance + RECOVERY * h),
+        },
         with_body: pair.data.is_with_body(),
     })
 }
@@ -96,6 +108,11 @@ fn thickness_of(pair: &Candidate, neighbours: Option<f64>, thickness: f64, rest:
     own.min(0.5 * pair.closest(rest).distance())
 }
 
+/// The pairs that constraints are on.
+pub(super) fn near_pairs(constraints: &[ContactConstraint]) -> impl Iterator<Item = NearPair> {
+    constraints.iter().map(|constraint| constraint.pair)
+}
+
 /// Pushes once along the constraints of bodies, or of the cloth with itself.
 pub(super) fn project(
     constraints: &[ContactConstraint],
@@ -105,7 +122,7 @@ pub(super) fn project(
     touches: &mut Touches,
 ) -> u64 {
     let mut pushed = 0;
-    for constraint in constraints.iter().filter(|constraint| constraint.with_body == with_body) {
+    for ContactConstraint { pair: constraint, .. } in constraints.iter().filter(|constraint| constraint.with_body == with_body) {
         let vertices = constraint.vertices.map(|v| v as usize);
         let mut mobility = 0.0;
         let mut distance = -constraint.thickness;

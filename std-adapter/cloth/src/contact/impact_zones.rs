@@ -8,8 +8,8 @@ use super::candidate::Candidate;
 use crate::step::{Carrier, FREE, TimeStep};
 use selvedge_core::glam::DVec3;
 
-/// No carrier: two pull at the zone.
-const TORN: Carrier = FREE - 1;
+/// No carrier: two pull at the zone, or one that does not keep its shape.
+pub(super) const TORN: Carrier = FREE - 1;
 /// Of a vertex in no zone.
 const ALONE: u32 = u32::MAX;
 

@@ -27,7 +27,9 @@ mod solver;
 mod start;
 mod truncation;
 
+pub use constraints::NearPair;
 pub(crate) use pass::LARGEST_TURN;
 pub use report::{Blocker, ContactCounts, ContactSeconds};
-pub(crate) use settings::{ContactSettings, RECOVERY, Thickness};
+pub use settings::Thickness;
+pub(crate) use settings::{ContactSettings, RECOVERY};
 pub(crate) use solver::ContactSolver;

@@ -13,11 +13,22 @@ pub(crate) struct ContactSettings {
 
 /// Two distances: one that contacts aim at, and a smaller one that every step is certified to keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Thickness {
+pub struct Thickness {
     /// In metres.
-    pub(crate) thickness: f64,
-    /// In metres. The gap between the two is what keeps repairs of a step rare.
-    pub(crate) separation: f64,
+    pub thickness: f64,
+    /// In metres, at most nine tenths of the thickness. The gap between the two is what keeps repairs of a step rare.
+    pub separation: f64,
+}
+
+impl Thickness {
+    /// A thickness in metres, of which every step is certified to keep a tenth.
+    #[must_use]
+    pub const fn of(thickness: f64) -> Self {
+        Self {
+            thickness,
+            separation: 0.1 * thickness,
+        }
+    }
 }
 
 impl ContactSettings {

@@ -2,7 +2,7 @@
 
 use super::candidate::{Candidate, time_of_impact_of};
 use super::candidates::{Candidates, candidates};
-use super::constraints::{self, ContactConstraint};
+use super::constraints::{self, ContactConstraint, NearPair};
 use super::impact_zones::ImpactZones;
 use super::relaxation::Relaxation;
 use super::report::{ContactCounts, ContactSeconds, described};
@@ -108,6 +108,11 @@ impl ContactSolver {
     /// Pushes apart what is too near: cloth and bodies, or cloth and cloth.
     pub(crate) fn push(&mut self, with_body: bool, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
         self.counts.pushed += constraints::project(&self.constraints, with_body, step, positions, touches);
+    }
+
+    /// The pairs that the last part of a step had constraints on.
+    pub(crate) fn near_pairs(&self) -> impl Iterator<Item = NearPair> {
+        constraints::near_pairs(&self.constraints)
     }
 
     /// Takes a body's pairs out of the promise until it is apart from the cloth.

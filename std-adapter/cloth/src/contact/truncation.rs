@@ -14,6 +14,7 @@
 //! vertex, or is the last one, with at most [`CLOSURES`] times [`ROUNDS`] rounds of relaxation. There are [`PASSES`] passes of shares. After
 //! them each round leaves at least one vertex at the base for good, or is the last one: where all vertices are at the base all pairs are free.
 
+use super::impact_zones::TORN;
 use super::report::Blocker;
 use super::solver::ContactSolver;
 use crate::step::{Carrier, FREE, TimeStep};
@@ -119,10 +120,13 @@ impl ContactSolver {
     fn carriers_of_the_step(&self, step: &TimeStep<'_>) -> Vec<Carrier> {
         let rests = |carrier: usize| step.poses[carrier][0] == step.poses[carrier][1];
         let first_at_rest = (0..step.poses.len()).find(|&carrier| rests(carrier));
-        let merged = |&carrier: &Carrier| match first_at_rest {
-            Some(first) if carrier != FREE && rests(carrier as usize) => first as Carrier,
+        let of_step = |&carrier: &Carrier| match first_at_rest {
+            _ if carrier == FREE => FREE,
+            Some(first) if rests(carrier as usize) => first as Carrier,
+            // Whose points go ways of their own carries nothing along.
+            _ if !step.poses[carrier as usize][1].is_rigid() => TORN,
             _ => carrier,
         };
-        self.carriers.iter().map(merged).collect()
+        self.carriers.iter().map(of_step).collect()
     }
 }

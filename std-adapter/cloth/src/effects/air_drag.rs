@@ -1,28 +1,40 @@
 //! Air drag: still air slows every vertex down at the same rate, v′ = −r·v. Solved exactly, so stable for any rate.
 
 use super::registration::{Effect, Registration};
-use crate::input::FREQUENCY;
+use crate::input::{FREQUENCY, Field, ValueError};
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
+use crate::world::World;
 use libm::exp;
 use selvedge_core::glam::DVec3;
+
+const RATE: Field = Field::new("rate", FREQUENCY, 0.0, 1e6);
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["rate"],
     needs: &[],
     read: |table, _| {
-        let rate = table.required_number("rate", FREQUENCY, 0.0..=1e6)?;
+        let rate = table.required_number(&RATE)?;
         Ok(Box::new(AirDrag { rate }))
     },
 };
 
-#[derive(Debug)]
-struct AirDrag {
-    /// Per second.
-    rate: f64,
+/// Air that slows everything down, still air where there is no [`Wind`](super::Wind).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AirDrag {
+    /// The share of its velocity that a vertex loses in a short time, per second.
+    pub rate: f64,
 }
 
 impl Effect for AirDrag {
+    fn name(&self) -> &'static str {
+        "air_drag"
+    }
+
+    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+        RATE.check(self.rate)
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         plan.add_force(*self);
     }

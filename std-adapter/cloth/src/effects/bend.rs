@@ -3,29 +3,40 @@
 //! constant, there is no trigonometry and no singular fold. Rest is flat.
 
 use super::registration::{Effect, Registration};
-use crate::input::BENDING_STIFFNESS;
+use crate::input::{BENDING_STIFFNESS, Field, ValueError};
 use crate::plan::Plan;
 use crate::schedule::{Local, On, Schedule};
-use crate::world::Cloth;
+use crate::world::{Cloth, World};
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
+
+const STIFFNESS: Field = Field::new("stiffness", BENDING_STIFFNESS, 1e-12, 10.0);
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["stiffness"],
     needs: &[],
     read: |table, _| {
-        let stiffness = table.required_number("stiffness", BENDING_STIFFNESS, 1e-12..=10.0)?;
+        let stiffness = table.required_number(&STIFFNESS)?;
         Ok(Box::new(Bend { stiffness }))
     },
 };
 
-#[derive(Debug)]
-struct Bend {
+/// Resistance to bending; flat at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bend {
     /// In N·m.
-    stiffness: f64,
+    pub stiffness: f64,
 }
 
 impl Effect for Bend {
+    fn name(&self) -> &'static str {
+        "bend"
+    }
+
+    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+        STIFFNESS.check(self.stiffness)
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
         let hinges = hinges(cloth, self.stiffness);

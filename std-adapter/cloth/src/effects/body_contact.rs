@@ -6,27 +6,35 @@
 use super::registration::{Effect, Registration};
 use super::thickness;
 use crate::contact::{RECOVERY, Thickness};
+use crate::input::ValueError;
 use crate::plan::Plan;
 use crate::step::{Constraint, TimeStep, Touch, Touches};
-use crate::world::Pose;
+use crate::world::{Pose, World};
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["thickness", "separation"],
     needs: &[],
-    read: |table, world| {
-        if world.bodies.is_empty() {
-            let message = "body contact has nothing to act on: the scene has no [[body]]";
-            return Err(table.error("", message.to_owned()));
-        }
-        Ok(Box::new(BodyContact(thickness::read(table)?)))
-    },
+    read: |table, _| Ok(Box::new(BodyContact(thickness::read(table)?))),
 };
 
-#[derive(Debug)]
-struct BodyContact(Thickness);
+/// The cloth keeps a thickness from bodies, and every step is certified not to pass through their triangles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyContact(pub Thickness);
 
 impl Effect for BodyContact {
+    fn name(&self) -> &'static str {
+        "body_contact"
+    }
+
+    fn check(&self, world: &World<'_>) -> Result<(), ValueError> {
+        if world.bodies.is_empty() {
+            let message = "body contact has nothing to act on: the scene has no [[body]]";
+            return Err(ValueError::new("", message));
+        }
+        thickness::check(&self.0)
+    }
+
     fn settings(&self) -> Vec<(&'static str, String)> {
         thickness::settings(&self.0)
     }
@@ -87,6 +95,9 @@ impl Constraint for Push {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
         for capsule in &self.capsules {
             let [before, now] = step.poses[capsule.carrier];
+            if !now.is_rigid() {
+                continue;
+            }
             let [from, to] = capsule.ends.map(|end| now.apply(end));
             let axis = to - from;
             let reach = capsule.radius + self.thickness;

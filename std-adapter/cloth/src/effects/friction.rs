@@ -3,26 +3,39 @@
 //! A contact that moved its two sides apart by p may undo up to μ·p of their sliding since the start of the step.
 
 use super::registration::{Effect, Registration};
-use crate::input::RATIO;
+use crate::input::{Field, RATIO, ValueError};
 use crate::plan::Plan;
 use crate::step::{Constraint, TimeStep, Touches};
+use crate::world::World;
 use selvedge_core::glam::DVec3;
+
+const COEFFICIENT: Field = Field::new("coefficient", RATIO, 0.0, 10.0);
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["coefficient"],
     needs: &["self_collision", "body_contact"],
     read: |table, _| {
-        let coefficient = table.required_number("coefficient", RATIO, 0.0..=10.0)?;
+        let coefficient = table.required_number(&COEFFICIENT)?;
         Ok(Box::new(Friction { coefficient }))
     },
 };
 
-#[derive(Debug)]
-struct Friction {
-    coefficient: f64,
+/// Friction in contacts: needs [`SelfCollision`](super::SelfCollision) or [`BodyContact`](super::BodyContact).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Friction {
+    /// Of Coulomb's law.
+    pub coefficient: f64,
 }
 
 impl Effect for Friction {
+    fn name(&self) -> &'static str {
+        "friction"
+    }
+
+    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+        COEFFICIENT.check(self.coefficient)
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         plan.add_friction(*self);
     }

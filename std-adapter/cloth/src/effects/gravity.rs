@@ -1,25 +1,58 @@
 //! Gravity: the same acceleration everywhere.
 
 use super::registration::{Effect, Registration};
-use crate::input::ACCELERATION;
+use crate::input::{ACCELERATION, Field, SceneError, Table, ValueError};
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
+use crate::world::World;
 use selvedge_core::glam::DVec3;
+
+const ACCELERATING: Field = Field::vector("acceleration", ACCELERATION, 1e4);
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["acceleration"],
     needs: &[],
     read: |table, _| {
-        let acceleration = table.vector("acceleration", ACCELERATION, 1e4)?;
-        Ok(Box::new(Gravity(acceleration.unwrap_or(DVec3::new(0.0, 0.0, -9.81)))))
+        let acceleration = table.vector(&ACCELERATING)?;
+        Ok(Box::new(
+            acceleration.map_or_else(Gravity::default, |acceleration| Gravity { acceleration }),
+        ))
     },
 };
 
-/// In m/s².
-#[derive(Debug)]
-struct Gravity(DVec3);
+/// The same acceleration everywhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gravity {
+    /// In m/s².
+    pub acceleration: DVec3,
+}
+
+impl Default for Gravity {
+    /// The Earth's, against z.
+    fn default() -> Self {
+        Self {
+            acceleration: DVec3::new(0.0, 0.0, -9.81),
+        }
+    }
+}
+
+impl Gravity {
+    /// What the table of a scene's effects says of it, if it does.
+    pub(crate) fn read_acceleration(effects: &Table<'_>) -> Result<Option<DVec3>, SceneError> {
+        let table = effects.table("gravity")?;
+        table.map_or(Ok(None), |table| table.vector(&ACCELERATING))
+    }
+}
 
 impl Effect for Gravity {
+    fn name(&self) -> &'static str {
+        "gravity"
+    }
+
+    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+        ACCELERATING.check_vector(self.acceleration)
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         plan.add_force(*self);
     }
@@ -27,7 +60,7 @@ impl Effect for Gravity {
 
 impl Force for Gravity {
     fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
-        let change = self.0 * step.h;
+        let change = self.acceleration * step.h;
         for (velocity, &inverse_mass) in velocities.iter_mut().zip(step.inverse_masses) {
             if inverse_mass > 0.0 {
                 *velocity += change;

@@ -24,7 +24,7 @@
 //! Masses of seeds are such that what conserves their momentum conserves that of the cloth ([`Level::inverse_masses`]).
 
 use crate::hierarchy::{CoarseTriangle, Level};
-use crate::input::{SceneError, Table};
+use crate::input::{Count, SceneError, Table, ValueError};
 use crate::membrane::{Membrane, SquaredStretch, all, image};
 use crate::schedule::{Local, Schedule};
 use crate::step::{Constraint, TimeStep, Touches};
@@ -191,12 +191,18 @@ impl Local<3> for Tension {
     }
 }
 
+const MOST: Count = Count::new("levels", 0, 32);
+
 /// `levels`: the most of them, from the finest; all that there are use for if it is not there. None at all: the effect on the mesh alone.
-pub(super) fn read_most(table: &Table<'_>) -> Result<Option<usize>, SceneError> {
-    Ok(table.count("levels", 0..=32)?.map(|most| most as usize))
+pub(super) fn read_most(table: &Table<'_>) -> Result<Option<u32>, SceneError> {
+    table.count(&MOST)
 }
 
-pub(super) fn settings(most: Option<usize>) -> Option<(&'static str, String)> {
+pub(super) fn check(most: Option<u32>) -> Result<(), ValueError> {
+    most.map_or(Ok(()), |most| MOST.check(most))
+}
+
+pub(super) fn settings(most: Option<u32>) -> Option<(&'static str, String)> {
     most.map(|most| ("levels", most.to_string()))
 }
 

@@ -1,4 +1,8 @@
-//! Effects: one file each. Adding one takes its own file, a `mod` line and a line of [`REGISTRY`].
+//! What acts on the cloth, one file each: settings as scene files have them, in SI units, for [`Scene::add`](crate::Scene::add).
+//!
+//! An effect of a caller's own implements [`Effect`], and puts [`Force`]s and [`Constraint`]s into the [`Plan`] of a step; they run after
+//! ours and before contact, so that every step is certified whatever they do. `examples/own_effect.rs` has one.
+// Adding one of ours takes its own file, a `mod` line, a `pub use` and a line of `REGISTRY`.
 
 mod air_drag;
 mod bend;
@@ -16,12 +20,26 @@ mod stretch;
 mod thickness;
 mod wind;
 
-use super::input::{SceneError, Table, suggestion};
-use super::world::World;
-use registration::{Effect, Registration};
+pub use super::contact::Thickness;
+pub use super::plan::Plan;
+pub use super::step::{Constraint, Force, TimeStep, Touches};
+pub use super::world::World;
+pub use air_drag::AirDrag;
+pub use bend::Bend;
+pub use body_contact::BodyContact;
+pub use friction::Friction;
+pub use gravity::Gravity;
+pub use pins::{PinGroup, PinMotion, Pins};
+pub use pressure::InternalPressure;
+pub use registration::Effect;
+pub use self_collision::SelfCollision;
+pub use shear::Shear;
+pub use strain_limit::StrainLimit;
+pub use stretch::Stretch;
+pub use wind::Wind;
 
-/// An effect and its name in scenes.
-pub(crate) type Named = (&'static str, Box<dyn Effect>);
+use super::input::{SceneError, Table, ValueError, suggestion};
+use registration::Registration;
 
 /// The registrations of these modules, but for those that `--cfg without_effect="NAME"` leaves out of the program: with it
 /// `std-adapter/cloth/instruction-counts/run.sh` shows that an effect costs nothing where it is not named.
@@ -52,7 +70,7 @@ const REGISTRY: &[(&str, Registration)] = registry![
 ];
 
 /// Reads the effects that `table` names, and constructs no other.
-pub(crate) fn read(table: &Table<'_>, world: &World<'_>) -> Result<Vec<Named>, SceneError> {
+pub(crate) fn read(table: &Table<'_>, world: &World<'_>) -> Result<Vec<Box<dyn Effect>>, SceneError> {
     for (name, place) in table.keys() {
         if !REGISTRY.iter().any(|(known, _)| *known == name) {
             let names = REGISTRY.iter().map(|(name, _)| *name);
@@ -65,18 +83,34 @@ pub(crate) fn read(table: &Table<'_>, world: &World<'_>) -> Result<Vec<Named>, S
         let Some(settings) = table.table(name)? else {
             continue;
         };
-        let needs = registration.needs;
-        if !needs.is_empty() && !needs.iter().any(|other| table.has(other)) {
-            let message = format!(
-                "'{name}' has nothing to act on: it needs [effects.{}] in the scene",
-                needs.join("] or [effects.")
-            );
-            return Err(table.error(name, message));
-        }
+        registration
+            .check_needs(name, |other| table.has(other))
+            .map_err(|error| table.error(name, error.message))?;
         settings.expect_keys(registration.keys)?;
-        effects.push((*name, (registration.read)(&settings, world)?));
+        let effect = (registration.read)(&settings, world)?;
+        debug_assert_eq!(effect.name(), *name);
+        effect.check(world).map_err(|error| settings.placed(&error))?;
+        effects.push(effect);
     }
     Ok(effects)
+}
+
+/// Whether the effects make sense, each alone and together.
+pub(crate) fn check(effects: &[Box<dyn Effect>], world: &World<'_>) -> Result<(), ValueError> {
+    for effect in effects {
+        let name = effect.name();
+        let is_there = |other: &str| effects.iter().any(|effect| effect.name() == other);
+        let needs = REGISTRY.iter().find(|(known, _)| *known == name);
+        needs.map_or(Ok(()), |(_, registration)| registration.check_needs(name, is_there))?;
+        effect.check(world).map_err(|error| error.of(name))?;
+    }
+    Ok(())
+}
+
+/// Its place in the order in which effects run; a caller's own come after ours.
+pub(crate) fn rank(name: &str) -> usize {
+    let place = REGISTRY.iter().position(|(known, _)| *known == name);
+    place.unwrap_or(REGISTRY.len())
 }
 
 /// The names of all effects.

@@ -1,82 +1,122 @@
-//! Pins: vertices that are kinematic, moved by keyframes of their own or by the body that they follow.
+//! Pins: vertices that are kinematic, moved by keyframes of their own, by the body that they follow, or by the caller.
 
 use super::registration::{Effect, Registration};
-use crate::input::{LARGEST_COORDINATE, LENGTH, SceneError, Table, suggestion};
+use crate::input::{Count, Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError, suggestion};
 use crate::plan::Plan;
 use crate::step::Carrier;
-use crate::world::{RigidMotion, World};
+use crate::world::{Motion, RigidMotion, World};
+use selvedge_core::glam::DVec3;
+
+const LOWER: Field = Field::vector("lower", LENGTH, LARGEST_COORDINATE);
+const UPPER: Field = Field::vector("upper", LENGTH, LARGEST_COORDINATE);
+const CENTRE: Field = Field::vector("centre", LENGTH, LARGEST_COORDINATE);
+const RADIUS: Field = Field::new("radius", LENGTH, 1e-6, LARGEST_COORDINATE);
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["group"],
     needs: &[],
     read: |table, world| {
-        let groups = table.tables("group")?;
-        if groups.is_empty() {
-            let message = "pins need at least one [[effects.pins.group]]".to_owned();
-            return Err(table.error("group", message));
-        }
+        let mut pins = Pins::default();
         let mut taken = vec![false; world.cloth.mesh.positions.len()];
-        let groups = groups.iter().map(|group| read_group(group, world, &mut taken));
-        Ok(Box::new(Pins {
-            groups: groups.collect::<Result<_, _>>()?,
-        }))
+        for table in table.tables("group")? {
+            let group = read_group(&table, world)?;
+            group.check(world, &mut taken).map_err(|error| match error.field {
+                "vertices" => table.error(way(&table), error.message),
+                _ => table.placed(&error),
+            })?;
+            pins.groups.push(group);
+        }
+        Ok(Box::new(pins))
     },
 };
 
-#[derive(Debug)]
-struct Pins {
-    groups: Vec<Group>,
+/// Vertices of the cloth that go where they are told, whatever pulls at them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pins {
+    /// Each vertex is in one of them at most.
+    pub groups: Vec<PinGroup>,
 }
 
-#[derive(Debug)]
-struct Group {
-    vertices: Vec<u32>,
-    follows: Follows,
+/// Pinned vertices that are moved together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PinGroup {
+    /// As the cloth's mesh numbers them; [`Cloth::part`](crate::Cloth::part) knows some by name.
+    pub vertices: Vec<u32>,
+    /// What moves them.
+    pub motion: PinMotion,
 }
 
-#[derive(Debug)]
-enum Follows {
+/// What moves pins.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PinMotion {
+    /// They are fixed to a body, by its index in the scene.
     Body(usize),
-    Own(RigidMotion),
+    /// They go on their own: a driven group by [`Simulation::move_pins`](crate::Simulation::move_pins).
+    Own(Motion),
+}
+
+impl PinGroup {
+    /// Vertices that stay where they are.
+    #[must_use]
+    pub fn resting(vertices: impl Into<Vec<u32>>) -> Self {
+        Self {
+            vertices: vertices.into(),
+            motion: PinMotion::Own(RigidMotion::resting().into()),
+        }
+    }
+
+    /// Marks its vertices as taken.
+    fn check(&self, world: &World<'_>, taken: &mut [bool]) -> Result<(), ValueError> {
+        let wrong = |message: String| Err(ValueError::new("vertices", message));
+        if self.vertices.is_empty() {
+            return wrong("no vertex of the cloth is in this group".to_owned());
+        }
+        for &vertex in &self.vertices {
+            match taken.get_mut(vertex as usize) {
+                None => return wrong(format!("the cloth has no vertex {vertex}: it has {}, from 0 on", taken.len())),
+                Some(true) => return wrong(format!("vertex {vertex} is pinned twice")),
+                Some(taken) => *taken = true,
+            }
+        }
+        match &self.motion {
+            PinMotion::Body(body) if *body < world.bodies.len() => Ok(()),
+            PinMotion::Body(body) => {
+                let message = format!("there is no body {body}: the scene has {}, from 0 on", world.bodies.len());
+                Err(ValueError::new("follow", message))
+            }
+            PinMotion::Own(motion) => motion.check(world.time_step),
+        }
+    }
+}
+
+/// How a table says which vertices.
+const WAYS: [&str; 4] = ["part", "vertices", "box", "ball"];
+
+fn way(table: &Table<'_>) -> &'static str {
+    WAYS.into_iter().rev().find(|way| table.has(way)).unwrap_or(WAYS[0])
 }
 
 /// Exactly one of `part`, `vertices`, `box` and `ball` says which vertices; `follow` or keyframes where they go.
-fn read_group(table: &Table<'_>, world: &World<'_>, taken: &mut [bool]) -> Result<Group, SceneError> {
-    let own = &["part", "vertices", "box", "ball", "follow", "pivot", "axis", "keyframes"];
-    table.expect_keys(own)?;
-    let count = taken.len() as u64;
-    let ways = ["part", "vertices", "box", "ball"].map(|key| table.has(key));
-    let vertices = match ways {
-        [true, false, false, false] => {
-            let part = table.text("part")?.unwrap_or_default();
-            let vertices = world.cloth.selection(part);
+fn read_group(table: &Table<'_>, world: &World<'_>) -> Result<PinGroup, SceneError> {
+    table.expect_keys(&[&WAYS[..], &["follow"], &RigidMotion::KEYS].concat())?;
+    if WAYS.into_iter().filter(|way| table.has(way)).count() != 1 {
+        let message = "pins need exactly one of `part`, `vertices`, `box` and `ball`".to_owned();
+        return Err(table.error("part", message));
+    }
+    let vertices = match way(table) {
+        "part" => {
+            let vertices = world.cloth.named_part(table.text("part")?.unwrap_or_default());
             vertices.map_err(|message| table.error("part", message))?.to_vec()
         }
-        [false, true, false, false] => {
-            let vertices = table.counts("vertices", 0..=count - 1)?.unwrap_or_default();
-            vertices.into_iter().map(|vertex| vertex as u32).collect()
+        "vertices" => {
+            let last = world.cloth.mesh.positions.len() as u32 - 1;
+            table.counts(&Count::new("vertices", 0, last))?.unwrap_or_default()
         }
-        [false, false, true, false] => in_box(&table.required_table("box")?, world)?,
-        [false, false, false, true] => in_ball(&table.required_table("ball")?, world)?,
-        _ => {
-            let message = "pins need exactly one of `part`, `vertices`, `box` and `ball`".to_owned();
-            return Err(table.error("part", message));
-        }
+        "box" => in_box(&table.required_table("box")?, world)?,
+        _ => in_ball(&table.required_table("ball")?, world)?,
     };
-    if vertices.is_empty() {
-        let message = "no vertex of the cloth is in this group".to_owned();
-        let ways = ["vertices", "box", "ball"];
-        let way = ways.into_iter().find(|key| table.has(key));
-        return Err(table.error(way.unwrap_or("part"), message));
-    }
-    for &vertex in &vertices {
-        if std::mem::replace(&mut taken[vertex as usize], true) {
-            let message = format!("vertex {vertex} is pinned twice");
-            return Err(table.error("vertices", message));
-        }
-    }
-    let follows = match table.text("follow")? {
-        None => Follows::Own(RigidMotion::read(table, world.time_step)?),
+    let motion = match table.text("follow")? {
+        None => PinMotion::Own(RigidMotion::read(table, world.time_step)?.into()),
         Some(_) if table.has("keyframes") => {
             let message = "pins that `follow` a body have no keyframes of their own".to_owned();
             return Err(table.error("keyframes", message));
@@ -87,40 +127,51 @@ fn read_group(table: &Table<'_>, world: &World<'_>, taken: &mut [bool]) -> Resul
                 let message = format!("there is no body '{name}'{}", suggestion(name, names()));
                 return Err(table.error("follow", message));
             };
-            Follows::Body(body)
+            PinMotion::Body(body)
         }
     };
-    Ok(Group { vertices, follows })
+    Ok(PinGroup { vertices, motion })
 }
 
 fn in_box(table: &Table<'_>, world: &World<'_>) -> Result<Vec<u32>, SceneError> {
     table.expect_keys(&["lower", "upper"])?;
-    let lower = table.required_vector("lower", LENGTH, LARGEST_COORDINATE)?;
-    let upper = table.required_vector("upper", LENGTH, LARGEST_COORDINATE)?;
-    let positions = world.cloth.mesh.positions.iter().enumerate();
-    let inside = positions.filter(|(_, p)| p.cmpge(lower).all() && p.cmple(upper).all());
-    Ok(inside.map(|(vertex, _)| vertex as u32).collect())
+    let [lower, upper] = [table.required_vector(&LOWER)?, table.required_vector(&UPPER)?];
+    Ok(vertices_where(world, |p| p.cmpge(lower).all() && p.cmple(upper).all()))
 }
 
 fn in_ball(table: &Table<'_>, world: &World<'_>) -> Result<Vec<u32>, SceneError> {
     table.expect_keys(&["centre", "radius"])?;
-    let centre = table.required_vector("centre", LENGTH, LARGEST_COORDINATE)?;
-    let radius = table.required_number("radius", LENGTH, 1e-6..=LARGEST_COORDINATE)?;
+    let centre = table.required_vector(&CENTRE)?;
+    let radius = table.required_number(&RADIUS)?;
+    Ok(vertices_where(world, |p| p.distance(centre) <= radius))
+}
+
+fn vertices_where(world: &World<'_>, is_inside: impl Fn(DVec3) -> bool) -> Vec<u32> {
     let positions = world.cloth.mesh.positions.iter().enumerate();
-    let inside = positions.filter(|(_, p)| p.distance(centre) <= radius);
-    Ok(inside.map(|(vertex, _)| vertex as u32).collect())
+    let inside = positions.filter(|(_, p)| is_inside(**p));
+    inside.map(|(vertex, _)| vertex as u32).collect()
 }
 
 impl Effect for Pins {
+    fn name(&self) -> &'static str {
+        "pins"
+    }
+
+    fn check(&self, world: &World<'_>) -> Result<(), ValueError> {
+        if self.groups.is_empty() {
+            return Err(ValueError::new("group", "pins need at least one [[effects.pins.group]]"));
+        }
+        let mut taken = vec![false; world.cloth.mesh.positions.len()];
+        self.groups.iter().try_for_each(|group| group.check(world, &mut taken))
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         for group in self.groups {
-            let carrier = match group.follows {
-                Follows::Body(body) => body as Carrier,
-                Follows::Own(motion) => {
-                    plan.motions.push(motion);
-                    plan.motions.len() as Carrier - 1
-                }
+            let carrier = match group.motion {
+                PinMotion::Body(body) => body as Carrier,
+                PinMotion::Own(motion) => plan.add_motion(motion, group.vertices.clone()),
             };
+            plan.pins.push(carrier);
             for vertex in group.vertices {
                 plan.pin(vertex, carrier);
             }

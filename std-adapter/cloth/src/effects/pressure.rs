@@ -4,48 +4,71 @@
 //! volume is taken relative to the first vertex, so that it does not depend on where the cloth is.
 
 use super::registration::{Effect, Registration};
-use crate::input::{PRESSURE, RATIO};
+use crate::input::{Field, PRESSURE, RATIO, ValueError};
 use crate::membrane::Incidence;
 use crate::plan::Plan;
 use crate::step::{Constraint, TimeStep, Touches};
+use crate::world::World;
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
+
+const VOLUME: Field = Field::new("volume", RATIO, 0.01, 10.0);
+const MODULUS: Field = Field::new("modulus", PRESSURE, 1e-3, 1e9);
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["volume", "modulus"],
     needs: &[],
-    read: |table, world| {
-        let statistics = world.cloth.topology.statistics();
-        if statistics.boundary_edges > 0 || statistics.non_manifold_edges > 0 {
-            let message = format!(
-                "internal pressure needs a closed cloth, but this one has {} open edges",
-                statistics.boundary_edges + statistics.non_manifold_edges
-            );
-            return Err(table.error("volume", message));
+    read: |table, _| {
+        let mut pressure = InternalPressure::of_volume(table.required_number(&VOLUME)?);
+        if let Some(modulus) = table.number(&MODULUS)? {
+            pressure.modulus = modulus;
         }
-        Ok(Box::new(Pressure {
-            ratio: table.required_number("volume", RATIO, 0.01..=10.0)?,
-            modulus: table.number("modulus", PRESSURE, 1e-3..=1e9)?.unwrap_or(1e5),
-        }))
+        Ok(Box::new(pressure))
     },
 };
 
-#[derive(Debug)]
-struct Pressure {
-    /// Of the volume aimed at to that at rest.
-    ratio: f64,
-    /// In Pa.
-    modulus: f64,
+/// A closed cloth keeps a volume, as if it were full of a gas.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InternalPressure {
+    /// The volume aimed at over that at rest.
+    pub volume: f64,
+    /// How hard the gas is to compress, in Pa.
+    pub modulus: f64,
 }
 
-impl Effect for Pressure {
+impl InternalPressure {
+    /// With air's modulus.
+    #[must_use]
+    pub const fn of_volume(volume: f64) -> Self {
+        Self { volume, modulus: 1e5 }
+    }
+}
+
+impl Effect for InternalPressure {
+    fn name(&self) -> &'static str {
+        "internal_pressure"
+    }
+
+    fn check(&self, world: &World<'_>) -> Result<(), ValueError> {
+        VOLUME.check(self.volume)?;
+        MODULUS.check(self.modulus)?;
+        let statistics = world.cloth.topology.statistics();
+        match statistics.boundary_edges + statistics.non_manifold_edges {
+            0 => Ok(()),
+            open => {
+                let message = format!("internal pressure needs a closed cloth, but this one has {open} open edges");
+                Err(ValueError::new(VOLUME.name, message))
+            }
+        }
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
         let triangles = cloth.mesh.triangles.clone();
         let rest = volume(&triangles, &cloth.mesh.positions);
         plan.add_constraint(Filling {
-            goal: self.ratio * rest,
-            compliance: self.ratio * rest.abs() / self.modulus,
+            goal: self.volume * rest,
+            compliance: self.volume * rest.abs() / self.modulus,
             triangles,
             incidence: Incidence::new(cloth),
             normals: Vec::new(),

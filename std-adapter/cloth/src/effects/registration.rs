@@ -1,16 +1,30 @@
 //! What an effect is to the rest: how its table is read, and what it puts into the plan.
 
-use crate::input::{SceneError, Table};
+use crate::input::{SceneError, Table, ValueError};
 use crate::plan::{Fabric, Plan};
 use crate::world::World;
 use std::fmt::Debug;
 
-/// What a scene's `[effects.NAME]` has been read into.
-pub(crate) trait Effect: Debug + Send {
+/// Something that acts on the cloth: one of [`effects`](crate::effects), or a caller's own.
+///
+/// `Debug` is to show every setting: checkpoints tell scenes apart by it.
+pub trait Effect: Debug + Send {
+    /// As scene files and reports call it.
+    fn name(&self) -> &'static str;
+
+    /// Whether its settings make sense, alone and with this cloth and these bodies.
+    ///
+    /// # Errors
+    /// Which of them does not, and what would.
+    fn check(&self, _world: &World<'_>) -> Result<(), ValueError> {
+        Ok(())
+    }
+
     /// Says what effects that register before it must know.
+    #[doc(hidden)]
     fn announce(&self, _fabric: &mut Fabric) {}
 
-    /// Puts what the effect does into the plan.
+    /// Puts what the effect does into the plan of a step.
     fn register(self: Box<Self>, plan: &mut Plan<'_>);
 
     /// What trades time for accuracy, with its unit.
@@ -19,7 +33,7 @@ pub(crate) trait Effect: Debug + Send {
     }
 }
 
-/// Reads an effect's table.
+/// Reads an effect's table; [`check`](Effect::check) follows.
 type Read = fn(&Table<'_>, &World<'_>) -> Result<Box<dyn Effect>, SceneError>;
 
 /// An effect that scenes can call for.
@@ -29,4 +43,18 @@ pub(crate) struct Registration {
     /// It makes no sense unless one of these is there too; if any are named.
     pub(crate) needs: &'static [&'static str],
     pub(crate) read: Read,
+}
+
+impl Registration {
+    /// Whether the effect `name` has something to act on, among the effects that are there.
+    pub(crate) fn check_needs(&self, name: &str, is_there: impl Fn(&str) -> bool) -> Result<(), ValueError> {
+        if self.needs.is_empty() || self.needs.iter().any(|other| is_there(other)) {
+            return Ok(());
+        }
+        let message = format!(
+            "'{name}' has nothing to act on: it needs [effects.{}] in the scene",
+            self.needs.join("] or [effects.")
+        );
+        Err(ValueError::new("", message))
+    }
 }

@@ -5,7 +5,9 @@
 use super::registration::{Effect, Registration};
 use super::thickness;
 use crate::contact::Thickness;
+use crate::input::ValueError;
 use crate::plan::Plan;
+use crate::world::World;
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["thickness", "separation"],
@@ -13,10 +15,19 @@ pub(super) const REGISTRATION: Registration = Registration {
     read: |table, _| Ok(Box::new(SelfCollision(thickness::read(table)?))),
 };
 
-#[derive(Debug)]
-struct SelfCollision(Thickness);
+/// The cloth keeps a thickness from itself, and every step is certified to be free of contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SelfCollision(pub Thickness);
 
 impl Effect for SelfCollision {
+    fn name(&self) -> &'static str {
+        "self_collision"
+    }
+
+    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+        thickness::check(&self.0)
+    }
+
     fn settings(&self) -> Vec<(&'static str, String)> {
         thickness::settings(&self.0)
     }

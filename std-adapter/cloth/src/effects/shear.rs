@@ -1,28 +1,40 @@
 //! Shear: C = w_u·w_v (Baraff and Witkin 1998), compliance 1/(k·A).
 
 use super::registration::{Effect, Registration};
-use crate::input::MEMBRANE_STIFFNESS;
+use crate::input::{Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::membrane::{Membrane, all, image, of_triangles};
 use crate::plan::{Fabric, Plan};
 use crate::schedule::{Local, Schedule};
+use crate::world::World;
 use selvedge_core::glam::DVec3;
+
+const STIFFNESS: Field = Field::new("stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["stiffness"],
     needs: &[],
     read: |table, _| {
-        let stiffness = table.required_number("stiffness", MEMBRANE_STIFFNESS, 1e-3..=1e9)?;
+        let stiffness = table.required_number(&STIFFNESS)?;
         Ok(Box::new(Shear { stiffness }))
     },
 };
 
-#[derive(Debug)]
-struct Shear {
+/// Resistance to the angle between warp and weft changing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shear {
     /// In N/m.
-    stiffness: f64,
+    pub stiffness: f64,
 }
 
 impl Effect for Shear {
+    fn name(&self) -> &'static str {
+        "shear"
+    }
+
+    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+        STIFFNESS.check(self.stiffness)
+    }
+
     fn announce(&self, fabric: &mut Fabric) {
         fabric.shear = Some(self.stiffness);
     }

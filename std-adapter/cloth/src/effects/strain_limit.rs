@@ -7,35 +7,65 @@
 
 use super::levels::{self, OnLevels, Tension};
 use super::registration::{Effect, Registration};
-use crate::input::RATIO;
+use crate::input::{Count, Field, RATIO, ValueError};
 use crate::membrane::{Membrane, SquaredStretch, all, image, of_triangles};
 use crate::plan::Plan;
 use crate::schedule::{Local, Schedule};
+use crate::world::World;
 use selvedge_core::glam::DVec3;
+
+const LIMIT: Field = Field::new("limit", RATIO, 1.0, 10.0);
+const SWEEPS: Count = Count::new("sweeps", 1, 100);
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["limit", "sweeps", "levels"],
     needs: &[],
     read: |table, _| {
         Ok(Box::new(StrainLimit {
-            limit: table.required_number("limit", RATIO, 1.0..=10.0)?,
-            sweeps: table.count("sweeps", 1..=100)?.unwrap_or(1),
-            most_levels: levels::read_most(table)?,
+            limit: table.required_number(&LIMIT)?,
+            sweeps: table.count(&SWEEPS)?.unwrap_or(1),
+            levels: levels::read_most(table)?,
         }))
     },
 };
 
-#[derive(Debug)]
-struct StrainLimit {
-    limit: f64,
-    sweeps: u64,
-    most_levels: Option<usize>,
+/// No triangle is stretched beyond a ratio.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrainLimit {
+    /// Of a length to that at rest, along any direction.
+    pub limit: f64,
+    /// How often all triangles are looked at in a step: more bring the last ones closer to the limit.
+    pub sweeps: u32,
+    /// On how many coarser levels of the cloth it holds as well, from the finest; `None`: on all.
+    pub levels: Option<u32>,
+}
+
+impl StrainLimit {
+    /// With one sweep, on all levels.
+    #[must_use]
+    pub const fn at(limit: f64) -> Self {
+        Self {
+            limit,
+            sweeps: 1,
+            levels: None,
+        }
+    }
 }
 
 impl Effect for StrainLimit {
+    fn name(&self) -> &'static str {
+        "strain_limit"
+    }
+
+    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+        LIMIT.check(self.limit)?;
+        SWEEPS.check(self.sweeps)?;
+        levels::check(self.levels)
+    }
+
     fn settings(&self) -> Vec<(&'static str, String)> {
         let mut settings = vec![("sweeps", self.sweeps.to_string())];
-        settings.extend(levels::settings(self.most_levels));
+        settings.extend(levels::settings(self.levels));
         settings
     }
 
@@ -43,9 +73,9 @@ impl Effect for StrainLimit {
         let cloth = plan.world.cloth;
         let limit = self.limit;
         // It does not give, so that a pull goes all the way at once.
-        let levels = plan.levels(f64::INFINITY, self.most_levels);
+        let levels = plan.levels(f64::INFINITY, self.levels);
         let limits = of_triangles(cloth, |membrane, _| Limit { membrane, limit });
-        let limits = Schedule::in_blocks(limits, &cloth.mesh.positions, self.sweeps);
+        let limits = Schedule::in_blocks(limits, &cloth.mesh.positions, self.sweeps.into());
         plan.add_constraint(OnLevels::new(levels, limits, |triangle| Tension::limit(triangle, limit)));
     }
 }

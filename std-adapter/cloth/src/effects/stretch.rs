@@ -11,55 +11,85 @@
 use super::levels::{self, OnLevels, Tension};
 use super::registration::{Effect, Registration};
 use crate::hierarchy::mesh_spacing;
-use crate::input::MEMBRANE_STIFFNESS;
+use crate::input::{Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::membrane::{Membrane, all, image, of_triangles};
 use crate::plan::Plan;
 use crate::schedule::{Local, Schedule};
+use crate::world::World;
 use selvedge_core::glam::DVec3;
+
+const WARP: Field = Field::new("stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
+const WEFT: Field = Field::new("weft_stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["stiffness", "weft_stiffness", "levels"],
     needs: &[],
     read: |table, _| {
-        let range = 1e-3..=1e9;
-        let warp = table.required_number("stiffness", MEMBRANE_STIFFNESS, range.clone())?;
-        let weft = table.number("weft_stiffness", MEMBRANE_STIFFNESS, range)?;
+        let warp = table.required_number(&WARP)?;
         Ok(Box::new(Stretch {
-            stiffness: [warp, weft.unwrap_or(warp)],
-            most_levels: levels::read_most(table)?,
+            weft_stiffness: table.number(&WEFT)?.unwrap_or(warp),
+            levels: levels::read_most(table)?,
+            stiffness: warp,
         }))
     },
 };
 
-#[derive(Debug)]
-struct Stretch {
-    /// Along warp and weft, in N/m.
-    stiffness: [f64; 2],
-    most_levels: Option<usize>,
+/// Resistance to being stretched, or pressed together, along warp and weft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// Along the warp, in N/m.
+    pub stiffness: f64,
+    /// Along the weft, in N/m.
+    pub weft_stiffness: f64,
+    /// On how many coarser levels of the cloth pulls go ahead of the mesh, from the finest; `None`: on all that there is use for.
+    pub levels: Option<u32>,
+}
+
+impl Stretch {
+    /// The same along warp and weft, in N/m.
+    #[must_use]
+    pub const fn isotropic(stiffness: f64) -> Self {
+        Self {
+            stiffness,
+            weft_stiffness: stiffness,
+            levels: None,
+        }
+    }
 }
 
 /// How many times as far as a pull goes in a step the seeds of the coarsest level are apart.
 const REACH: f64 = 4.0;
 
 impl Effect for Stretch {
+    fn name(&self) -> &'static str {
+        "stretch"
+    }
+
+    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+        WARP.check(self.stiffness)?;
+        WEFT.check(self.weft_stiffness)?;
+        levels::check(self.levels)
+    }
+
     fn settings(&self) -> Vec<(&'static str, String)> {
-        levels::settings(self.most_levels).into_iter().collect()
+        levels::settings(self.levels).into_iter().collect()
     }
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
+        let stiffness = [self.stiffness, self.weft_stiffness];
         let springs = of_triangles(cloth, |membrane, area| Spring {
             membrane,
-            compliance: self.stiffness.map(|k| 1.0 / (k * area)),
+            compliance: stiffness.map(|k| 1.0 / (k * area)),
         });
         let springs = Schedule::once(springs, cloth.mesh.positions.len());
-        let stiffest = self.stiffness[0].max(self.stiffness[1]);
+        let stiffest = self.stiffness.max(self.weft_stiffness);
         let way = plan.world.time_step * (stiffest / cloth.density).sqrt();
         let coarsest = if way > mesh_spacing(cloth) { REACH * way } else { 0.0 };
-        let levels = plan.levels(coarsest, self.most_levels);
+        let levels = plan.levels(coarsest, self.levels);
         // Each level and the mesh itself do their part of the work.
         let parts = (levels.len() + 1) as f64;
-        let [warp, weft] = self.stiffness;
+        let [warp, weft] = stiffness;
         let fabric = [Some(warp), Some(weft), plan.fabric.shear].map(|k| k.map(|k| k / parts));
         plan.add_constraint(OnLevels::new(levels, springs, |triangle| Tension::stretch(triangle, fabric)));
     }

@@ -1,17 +1,27 @@
 //! What both contact effects are told: the distance that contacts aim at, and the one that every step keeps.
 
 use crate::contact::Thickness;
-use crate::input::{LENGTH, SceneError, Table};
+use crate::input::{Field, LENGTH, SceneError, Table, ValueError};
+
+const THICKNESS: Field = Field::new("thickness", LENGTH, 1e-5, 0.1);
+const SEPARATION: Field = Field::new("separation", LENGTH, 1e-6, 0.1);
 
 pub(super) fn read(table: &Table<'_>) -> Result<Thickness, SceneError> {
-    let thickness = table.required_number("thickness", LENGTH, 1e-5..=0.1)?;
-    let separation = table.number("separation", LENGTH, 1e-6..=0.1)?;
-    let separation = separation.unwrap_or(0.1 * thickness);
-    if separation > 0.9 * thickness {
-        let message = format!("`separation` is {separation} m, but must be at most nine tenths of the thickness, {thickness} m");
-        return Err(table.error("separation", message));
+    let mut thickness = Thickness::of(table.required_number(&THICKNESS)?);
+    if let Some(separation) = table.number(&SEPARATION)? {
+        thickness.separation = separation;
     }
-    Ok(Thickness { thickness, separation })
+    Ok(thickness)
+}
+
+pub(super) fn check(Thickness { thickness, separation }: &Thickness) -> Result<(), ValueError> {
+    THICKNESS.check(*thickness)?;
+    SEPARATION.check(*separation)?;
+    if *separation <= 0.9 * thickness {
+        return Ok(());
+    }
+    let message = format!("`separation` is {separation} m, but must be at most nine tenths of the thickness, {thickness} m");
+    Err(ValueError::new(SEPARATION.name, message))
 }
 
 /// Both, as settings of an effect.

@@ -8,10 +8,11 @@
 //! Gusts: the wind's speed varies as 1 + g·sin(2πft − q·x) with x along the wind, q one wave in [`GUST_LENGTH`] metres.
 
 use super::registration::{Effect, Registration};
-use crate::input::{AIR_DENSITY, FREQUENCY, RATIO, SPEED};
+use crate::input::{AIR_DENSITY, FREQUENCY, Field, RATIO, SPEED, ValueError};
 use crate::membrane::Incidence;
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
+use crate::world::World;
 use libm::sin;
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
@@ -20,43 +21,92 @@ use std::f64::consts::TAU;
 /// From gust to gust, in metres.
 const GUST_LENGTH: f64 = 1.0;
 
+const VELOCITY: Field = Field::vector("velocity", SPEED, 1e3);
+const DENSITY: Field = Field::new("air_density", AIR_DENSITY, 0.0, 1e3);
+const DRAG: Field = Field::new("drag", RATIO, 0.0, 100.0);
+const GUST: Field = Field::new("gust", RATIO, 0.0, 1.0);
+const GUST_FREQUENCY: Field = Field::new("gust_frequency", FREQUENCY, 0.0, 1e3);
+
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["velocity", "air_density", "drag", "gust", "gust_frequency"],
     needs: &[],
     read: |table, _| {
-        let number = |key, quantity, range, default| table.number(key, quantity, range).map(|n| n.unwrap_or(default));
+        let number = |field, default| table.number(field).map(|n| n.unwrap_or(default));
+        let default = Wind::default();
         Ok(Box::new(Wind {
-            velocity: table.required_vector("velocity", SPEED, 1e3)?,
-            air_density: number("air_density", AIR_DENSITY, 0.0..=1e3, 1.2)?,
-            drag: number("drag", RATIO, 0.0..=100.0, 1.0)?,
-            gust: number("gust", RATIO, 0.0..=1.0, 0.0)?,
-            gust_frequency: number("gust_frequency", FREQUENCY, 0.0..=1e3, 1.0)?,
+            velocity: table.required_vector(&VELOCITY)?,
+            air_density: number(&DENSITY, default.air_density)?,
+            drag: number(&DRAG, default.drag)?,
+            gust: number(&GUST, default.gust)?,
+            gust_frequency: number(&GUST_FREQUENCY, default.gust_frequency)?,
         }))
     },
 };
 
-#[derive(Debug)]
-struct Wind {
-    velocity: DVec3,
-    air_density: f64,
-    drag: f64,
-    gust: f64,
-    gust_frequency: f64,
+/// Wind, the same everywhere but for gusts. [`Simulation::set_wind`](crate::Simulation::set_wind) changes it from step to step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wind {
+    /// In m/s.
+    pub velocity: DVec3,
+    /// In kg/m³.
+    pub air_density: f64,
+    /// The drag coefficient of a triangle that the wind meets head-on.
+    pub drag: f64,
+    /// By which share gusts change the speed; 0: none.
+    pub gust: f64,
+    /// Gusts a second.
+    pub gust_frequency: f64,
+}
+
+impl Default for Wind {
+    /// No wind yet, at sea level; no gusts.
+    fn default() -> Self {
+        Self {
+            velocity: DVec3::ZERO,
+            air_density: 1.2,
+            drag: 1.0,
+            gust: 0.0,
+            gust_frequency: 1.0,
+        }
+    }
+}
+
+impl Wind {
+    /// Whether a wind can blow so.
+    pub(crate) fn check_velocity(velocity: DVec3) -> Result<(), ValueError> {
+        VELOCITY.check_vector(velocity)
+    }
 }
 
 impl Effect for Wind {
+    fn name(&self) -> &'static str {
+        "wind"
+    }
+
+    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+        Self::check_velocity(self.velocity)?;
+        DENSITY.check(self.air_density)?;
+        DRAG.check(self.drag)?;
+        GUST.check(self.gust)?;
+        GUST_FREQUENCY.check(self.gust_frequency)
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.world.cloth;
-        let direction = self.velocity.normalize_or_zero();
         plan.add_force(Blow {
             factor: 0.5 * self.air_density * self.drag / cloth.density,
-            wave: direction * (TAU / GUST_LENGTH),
+            wave: wave(self.velocity),
             wind: *self,
             triangles: cloth.mesh.triangles.clone(),
             incidence: Incidence::new(cloth),
             changes: Vec::new(),
         });
     }
+}
+
+/// Phase per metre.
+fn wave(velocity: DVec3) -> DVec3 {
+    velocity.normalize_or_zero() * (TAU / GUST_LENGTH)
 }
 
 #[derive(Debug)]
@@ -73,6 +123,12 @@ struct Blow {
 }
 
 impl Force for Blow {
+    fn set_wind(&mut self, velocity: DVec3) -> bool {
+        self.wind.velocity = velocity;
+        self.wave = wave(velocity);
+        true
+    }
+
     fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
         let Self {
             wind,

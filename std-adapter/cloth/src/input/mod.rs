@@ -1,11 +1,14 @@
 //! What a scene file is made of: tables, quantities with units, and complaints that name the place.
 
 mod error;
+mod field;
 mod quantity;
 mod table;
 
 pub use error::SceneError;
 pub(crate) use error::suggestion;
+pub use field::ValueError;
+pub(crate) use field::{Count, Field};
 pub(crate) use quantity::{
     ACCELERATION, AIR_DENSITY, ANGLE, AREA_DENSITY, BENDING_STIFFNESS, FREQUENCY, LARGEST_COORDINATE, LARGEST_TIME, LENGTH,
     MEMBRANE_STIFFNESS, PRESSURE, RATIO, SPEED, TIME,

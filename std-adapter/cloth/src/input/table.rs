@@ -1,10 +1,10 @@
 //! A table of a scene file, read key by key. Every complaint names the place.
 
 use super::error::{SceneError, suggestion};
-use super::quantity::Quantity;
+use super::field::{Count, Field, ValueError};
 use selvedge_core::glam::DVec3;
 use selvedge_files::excerpt::excerpt;
-use std::ops::{Range, RangeInclusive};
+use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -67,64 +67,59 @@ impl<'a> Table<'a> {
     }
 
     /// A number in SI units, if the key is there.
-    pub(crate) fn number(&self, key: &str, quantity: Quantity, range: RangeInclusive<f64>) -> Result<Option<f64>, SceneError> {
-        self.get(key)
-            .map(|value| self.quantity(key, value, quantity, range))
-            .transpose()
+    pub(crate) fn number(&self, field: &Field) -> Result<Option<f64>, SceneError> {
+        self.get(field.name).map(|value| self.quantity(field, value)).transpose()
     }
 
     /// A number in SI units.
-    pub(crate) fn required_number(&self, key: &str, quantity: Quantity, range: RangeInclusive<f64>) -> Result<f64, SceneError> {
-        self.number(key, quantity, range)?
-            .ok_or_else(|| self.missing(key, &quantity.example()))
+    pub(crate) fn required_number(&self, field: &Field) -> Result<f64, SceneError> {
+        self.number(field)?
+            .ok_or_else(|| self.missing(field.name, &field.quantity.example()))
     }
 
     /// A whole number, if the key is there.
-    pub(crate) fn count(&self, key: &str, range: RangeInclusive<u64>) -> Result<Option<u64>, SceneError> {
-        self.get(key).map(|value| self.whole(key, value, &range)).transpose()
+    pub(crate) fn count(&self, count: &Count) -> Result<Option<u32>, SceneError> {
+        self.get(count.name).map(|value| self.whole(count, value)).transpose()
     }
 
     /// Two whole numbers.
-    pub(crate) fn two_counts(&self, key: &str, range: RangeInclusive<u64>) -> Result<[u64; 2], SceneError> {
+    pub(crate) fn two_counts(&self, count: &Count) -> Result<[u32; 2], SceneError> {
         let example = "[20, 20]";
-        let value = self.get(key).ok_or_else(|| self.missing(key, example))?;
+        let value = self.get(count.name).ok_or_else(|| self.missing(count.name, example))?;
         match value.get_ref() {
-            DeValue::Array(array) if array.len() == 2 => {
-                Ok([self.whole(key, &array[0], &range)?, self.whole(key, &array[1], &range)?])
-            }
-            _ => Err(self.wrong(key, value, &format!("two whole numbers, such as {example}"))),
+            DeValue::Array(array) if array.len() == 2 => Ok([self.whole(count, &array[0])?, self.whole(count, &array[1])?]),
+            _ => Err(self.wrong(count.name, value, &format!("two whole numbers, such as {example}"))),
         }
     }
 
     /// Any number of whole numbers, if the key is there.
-    pub(crate) fn counts(&self, key: &str, range: RangeInclusive<u64>) -> Result<Option<Vec<u64>>, SceneError> {
-        let Some(value) = self.get(key) else {
+    pub(crate) fn counts(&self, count: &Count) -> Result<Option<Vec<u32>>, SceneError> {
+        let Some(value) = self.get(count.name) else {
             return Ok(None);
         };
         let DeValue::Array(array) = value.get_ref() else {
-            return Err(self.wrong(key, value, "a list of whole numbers"));
+            return Err(self.wrong(count.name, value, "a list of whole numbers"));
         };
-        let whole = |value| self.whole(key, value, &range);
+        let whole = |value| self.whole(count, value);
         array.iter().map(whole).collect::<Result<_, _>>().map(Some)
     }
 
-    /// A vector of three quantities, none larger than `largest`, if the key is there.
-    pub(crate) fn vector(&self, key: &str, quantity: Quantity, largest: f64) -> Result<Option<DVec3>, SceneError> {
-        let Some(value) = self.get(key) else {
+    /// A vector of three quantities, if the key is there.
+    pub(crate) fn vector(&self, field: &Field) -> Result<Option<DVec3>, SceneError> {
+        let Some(value) = self.get(field.name) else {
             return Ok(None);
         };
         match value.get_ref() {
             DeValue::Array(array) if array.len() == 3 => {
-                let component = |k: usize| self.quantity(key, &array[k], quantity, -largest..=largest);
+                let component = |k: usize| self.quantity(field, &array[k]);
                 Ok(Some(DVec3::new(component(0)?, component(1)?, component(2)?)))
             }
-            _ => Err(self.wrong(key, value, "a list of three numbers, such as [0, 0, 1]")),
+            _ => Err(self.wrong(field.name, value, "a list of three numbers, such as [0, 0, 1]")),
         }
     }
 
-    pub(crate) fn required_vector(&self, key: &str, quantity: Quantity, largest: f64) -> Result<DVec3, SceneError> {
-        self.vector(key, quantity, largest)?
-            .ok_or_else(|| self.missing(key, "[0, 0, 1]"))
+    pub(crate) fn required_vector(&self, field: &Field) -> Result<DVec3, SceneError> {
+        self.vector(field)?.ok_or_else(|| self.missing(field.name, "[0, 0, 1]"))
     }
 
     /// Text in one line, if the key is there. It may be shown on a terminal, over which it must not be able to write.
@@ -211,6 +206,11 @@ impl<'a> Table<'a> {
         self.complain(span, message)
     }
 
+    /// An error about a value that code could have said as well.
+    pub(crate) fn placed(&self, error: &ValueError) -> SceneError {
+        self.error(error.field, error.message.clone())
+    }
+
     /// A complaint about a place.
     pub(crate) fn complain(&self, span: Range<usize>, message: String) -> SceneError {
         SceneError::at(self.source.path, self.source.text, &span, message)
@@ -264,41 +264,30 @@ impl<'a> Table<'a> {
         self.complain(value.span(), format!("`{key}` must be {expected}, but is {found}"))
     }
 
-    fn quantity(&self, key: &str, value: &Value<'_>, quantity: Quantity, range: RangeInclusive<f64>) -> Result<f64, SceneError> {
+    fn quantity(&self, field: &Field, value: &Value<'_>) -> Result<f64, SceneError> {
+        let Field { name, quantity, .. } = field;
         let complain = |message| self.complain(value.span(), message);
         let number = match value.get_ref() {
             DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
                 .map(|integer| integer as f64)
-                .map_err(|_| complain(format!("`{key}` is too large a number")))?,
+                .map_err(|_| complain(format!("`{name}` is too large a number")))?,
             DeValue::Float(float) => float.as_str().parse().unwrap_or(f64::NAN),
             DeValue::String(text) => quantity
                 .parse(text)
-                .map_err(|problem| complain(format!("`{key}` {problem}")))?,
-            _ => return Err(self.wrong(key, value, &quantity.example())),
+                .map_err(|problem| complain(format!("`{name}` {problem}")))?,
+            _ => return Err(self.wrong(name, value, &quantity.example())),
         };
-        if range.contains(&number) {
-            return Ok(number);
-        }
-        Err(complain(format!(
-            "`{key}` is {}, but must be from {} to {}",
-            quantity.written(number),
-            quantity.written(*range.start()),
-            quantity.written(*range.end())
-        )))
+        field.check(number).map_err(|error| complain(error.message))?;
+        Ok(number)
     }
 
-    fn whole(&self, key: &str, value: &Value<'_>, range: &RangeInclusive<u64>) -> Result<u64, SceneError> {
+    fn whole(&self, count: &Count, value: &Value<'_>) -> Result<u32, SceneError> {
         let DeValue::Integer(integer) = value.get_ref() else {
-            return Err(self.wrong(key, value, "a whole number"));
+            return Err(self.wrong(count.name, value, "a whole number"));
         };
-        let number = u64::from_str_radix(integer.as_str(), integer.radix()).ok();
-        number.filter(|number| range.contains(number)).ok_or_else(|| {
-            let message = format!(
-                "`{key}` is {}, but must be from {} to {}",
-                shortened(integer.as_str()),
-                range.start(),
-                range.end()
-            );
+        let number = u32::from_str_radix(integer.as_str(), integer.radix()).ok();
+        number.filter(|&number| count.check(number).is_ok()).ok_or_else(|| {
+            let message = count.complaint(&shortened(integer.as_str()));
             self.complain(value.span(), message)
         })
     }

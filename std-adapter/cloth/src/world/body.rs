@@ -1,20 +1,30 @@
 //! `[[body]]`: what the cloth meets.
 
-use super::motion::RigidMotion;
+use super::motion::{Motion, RigidMotion};
 use super::shapes;
-use crate::input::{LARGEST_COORDINATE, LENGTH, SceneError, Table};
+use crate::input::{Count, Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 
-/// A rigid, kinematic body: it follows a given motion.
+/// A kinematic body: it goes where it is told, whatever the cloth does.
+///
+/// ```
+/// use selvedge_cloth::{Body, Motion, Placement};
+/// use selvedge_cloth::glam::DVec3;
+///
+/// let mut ball = Body::ball("ball", DVec3::ZERO, 0.1, 24)?;
+/// ball.motion = Motion::Driven(Placement::at(DVec3::Z));
+/// assert!(Body::ball("ball", DVec3::ZERO, -0.1, 24).is_err());
+/// # Ok::<(), selvedge_cloth::ValueError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Body {
     /// Its name in the scene and in messages.
     pub name: String,
     /// Its surface at rest.
     pub mesh: Mesh,
-    /// Where it goes.
-    pub motion: RigidMotion,
+    /// Where it goes; it rests unless told otherwise.
+    pub motion: Motion,
     /// Two points and a radius if it is a capsule or a ball: then contact is with the smooth surface.
     pub(crate) capsule: Option<([DVec3; 2], f64)>,
 }
@@ -32,7 +42,54 @@ const SHAPES: [(&str, BodyShape); 3] = [
     ("file", BodyShape::File),
 ];
 
+const FROM: Field = Field::vector("from", LENGTH, LARGEST_COORDINATE);
+const TO: Field = Field::vector("to", LENGTH, LARGEST_COORDINATE);
+const CENTRE: Field = Field::vector("centre", LENGTH, LARGEST_COORDINATE);
+const RADIUS: Field = Field::new("radius", LENGTH, 1e-4, LARGEST_COORDINATE);
+const AROUND: Count = Count::new("around", 6, 1024);
+
 impl Body {
+    /// All points within `radius` of the line from one point to another, in metres, as a mesh with so many vertices `around`. The cloth
+    /// slides on the smooth surface.
+    ///
+    /// # Errors
+    /// If a number is beyond its range.
+    pub fn capsule(name: &str, [from, to]: [DVec3; 2], radius: f64, around: u32) -> Result<Self, ValueError> {
+        let checked = FROM.check_vector(from).and(TO.check_vector(to));
+        let checked = checked.and(RADIUS.check(radius)).and(AROUND.check(around));
+        checked.map_err(|error| error.of(name))?;
+        Ok(Self {
+            capsule: Some(([from, to], radius)),
+            ..Self::of_mesh(name, shapes::capsule([from, to], radius, around))
+        })
+    }
+
+    /// A ball, in metres, as a mesh with so many vertices `around`. The cloth slides on the smooth surface.
+    ///
+    /// # Errors
+    /// If a number is beyond its range.
+    pub fn ball(name: &str, centre: DVec3, radius: f64, around: u32) -> Result<Self, ValueError> {
+        CENTRE.check_vector(centre).map_err(|error| error.of(name))?;
+        Self::capsule(name, [centre; 2], radius, around)
+    }
+
+    /// Any surface, in metres.
+    #[must_use]
+    pub fn of_mesh(name: &str, mesh: Mesh) -> Self {
+        Self {
+            name: name.to_owned(),
+            mesh,
+            motion: Motion::Keyframes(RigidMotion::resting()),
+            capsule: None,
+        }
+    }
+
+    /// What the mesh and the motion may be.
+    pub(crate) fn check(&self, time_step: f64) -> Result<(), ValueError> {
+        let checked = shapes::check(&self.mesh).and_then(|()| self.motion.check(time_step));
+        checked.map_err(|error| error.of(&self.name))
+    }
+
     pub(crate) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         let own: &[&str] = match table.required_choice("shape", &SHAPES)? {
             BodyShape::Capsule => &["from", "to", "radius", "around"],
@@ -45,29 +102,18 @@ impl Body {
             let message = "[body] needs `name`, such as \"arm\"".to_owned();
             return Err(table.error("name", message));
         };
-        let radius = || table.required_number("radius", LENGTH, 1e-4..=LARGEST_COORDINATE);
-        let around = || table.count("around", 6..=1024).map(|n| n.unwrap_or(24) as u32);
-        let (mesh, capsule) = match table.required_choice("shape", &SHAPES)? {
+        let radius = || table.required_number(&RADIUS);
+        let around = || table.count(&AROUND).map(|n| n.unwrap_or(24));
+        let made = match table.required_choice("shape", &SHAPES)? {
             BodyShape::Capsule => {
-                let ends = [
-                    table.required_vector("from", LENGTH, LARGEST_COORDINATE)?,
-                    table.required_vector("to", LENGTH, LARGEST_COORDINATE)?,
-                ];
-                let radius = radius()?;
-                (shapes::capsule(ends, radius, around()?), Some((ends, radius)))
+                let ends = [table.required_vector(&FROM)?, table.required_vector(&TO)?];
+                Self::capsule(name, ends, radius()?, around()?)
             }
-            BodyShape::Ball => {
-                let ends = [table.required_vector("centre", LENGTH, LARGEST_COORDINATE)?; 2];
-                let radius = radius()?;
-                (shapes::capsule(ends, radius, around()?), Some((ends, radius)))
-            }
-            BodyShape::File => (shapes::of_file(table)?, None),
+            BodyShape::Ball => Self::ball(name, table.required_vector(&CENTRE)?, radius()?, around()?),
+            BodyShape::File => Ok(Self::of_mesh(name, shapes::of_file(table)?)),
         };
-        Ok(Self {
-            name: name.to_owned(),
-            mesh,
-            motion: RigidMotion::read(table, time_step)?,
-            capsule,
-        })
+        let mut body = made.map_err(|error| table.placed(&error))?;
+        body.motion = RigidMotion::read(table, time_step)?.into();
+        Ok(body)
     }
 }

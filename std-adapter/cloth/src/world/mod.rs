@@ -2,22 +2,28 @@
 
 mod body;
 mod cloth;
+mod driven;
 mod motion;
+mod placement;
 mod shapes;
 
 pub use body::Body;
 pub use cloth::Cloth;
-pub use motion::RigidMotion;
+pub use motion::{Keyframe, Motion, RigidMotion};
+pub use placement::Placement;
 
+pub(crate) use driven::{Driven, Kinematic};
 pub(crate) use motion::Pose;
 #[cfg(test)]
 pub(crate) use shapes::{capsule, sheet, tube};
 
-/// What effects are checked against.
+/// What effects act on.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct World<'a> {
-    pub(crate) cloth: &'a Cloth,
-    pub(crate) bodies: &'a [Body],
-    /// Seconds.
-    pub(crate) time_step: f64,
+pub struct World<'a> {
+    /// At rest.
+    pub cloth: &'a Cloth,
+    /// What it meets.
+    pub bodies: &'a [Body],
+    /// In seconds.
+    pub time_step: f64,
 }

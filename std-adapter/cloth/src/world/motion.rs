@@ -1,16 +1,45 @@
-//! Keyframed motion of bodies and pins.
+//! Where bodies and pins go: along keyframes, or wherever the caller says from step to step ([`driven`](super::driven)).
 
-use crate::input::{ANGLE, LARGEST_COORDINATE, LARGEST_TIME, LENGTH, RATIO, SceneError, TIME, Table};
+use super::Placement;
+use crate::input::{ANGLE, Field, LARGEST_COORDINATE, LARGEST_TIME, LENGTH, RATIO, SceneError, TIME, Table, ValueError};
 use libm::{cos, sin};
 use selvedge_core::glam::DVec3;
+
+/// What moves a body, or pins.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// Known ahead.
+    Keyframes(RigidMotion),
+    /// By the caller, from here on: each step may be told where it leads, and where it is told nothing, all stays. See
+    /// [`Simulation::place_body`](crate::Simulation::place_body).
+    Driven(Placement),
+}
+
+impl Motion {
+    /// # Errors
+    /// If something turns too far in a step, or a number is beyond its range.
+    pub(crate) fn check(&self, time_step: f64) -> Result<(), ValueError> {
+        match self {
+            Self::Keyframes(motion) => motion.check(time_step),
+            Self::Driven(placement) => placement.checked().map(drop),
+        }
+    }
+}
+
+impl From<RigidMotion> for Motion {
+    fn from(motion: RigidMotion) -> Self {
+        Self::Keyframes(motion)
+    }
+}
 
 /// A rigid motion: turns about an axis through a pivot, then moves along. Between keyframes both go smoothly, at rest at each
 /// keyframe; before the first and after the last nothing moves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidMotion {
     pivot: DVec3,
+    /// Of length one.
     axis: DVec3,
-    keys: Vec<Key>,
+    keyframes: Vec<Keyframe>,
 }
 
 /// In seconds: far above the resolution of the clock.
@@ -19,25 +48,65 @@ const CLOSEST_KEYS: f64 = 1e-6;
 /// In radians a time step, nearly a whole turn: steps with contact are cut until a part turns by a thousandth of it.
 const FASTEST_TURN: f64 = 6.0;
 
+const PIVOT: Field = Field::vector("pivot", LENGTH, LARGEST_COORDINATE);
+const AXIS: Field = Field::vector("axis", RATIO, LARGEST_COORDINATE);
+const KEY_TIME: Field = Field::new("time", TIME, 0.0, LARGEST_TIME);
+const KEY_ANGLE: Field = Field::new("angle", ANGLE, -1e4, 1e4);
+pub(super) const TRANSLATION: Field = Field::vector("translation", LENGTH, LARGEST_COORDINATE);
+
+/// Where a motion is at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Key {
-    time: f64,
-    angle: f64,
-    translation: DVec3,
+pub struct Keyframe {
+    /// In seconds of the simulation, zero or more.
+    pub time: f64,
+    /// How far it has turned since the start, in radians.
+    pub angle: f64,
+    /// How far it has moved since the start, in metres.
+    pub translation: DVec3,
 }
 
-/// Where a rigid motion has taken everything at one time.
+impl Keyframe {
+    /// Whether it can follow `last`.
+    fn check(&self, last: Option<&Self>, time_step: f64) -> Result<(), ValueError> {
+        KEY_TIME.check(self.time)?;
+        KEY_ANGLE.check(self.angle)?;
+        TRANSLATION.check_vector(self.translation)?;
+        let Some(last) = last else {
+            return Ok(());
+        };
+        if self.time < last.time + CLOSEST_KEYS {
+            let message = "keyframes must be in order: each `time` a microsecond or more later than the one before";
+            return Err(ValueError::new(KEY_TIME.name, message));
+        }
+        // Half-way it is half as fast again as on average.
+        let turn = (self.angle - last.angle).abs();
+        let in_a_step = turn.min(1.5 * turn * time_step / (self.time - last.time));
+        if in_a_step > FASTEST_TURN {
+            let message = format!(
+                "up to this keyframe it turns by {in_a_step:.1} rad in a time step, but must not by more than {FASTEST_TURN}; take a shorter `time_step`, or more time"
+            );
+            return Err(ValueError::new(KEY_ANGLE.name, message));
+        }
+        Ok(())
+    }
+}
+
+/// Where a motion has taken everything at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pose {
+    /// Ahead of all else.
+    base: Option<Placement>,
     pivot: DVec3,
     axis: DVec3,
     pub(crate) angle: f64,
     translation: DVec3,
+    /// How far its points are on straight ways of their own: then the rest says nothing.
+    pub(super) deformed: Option<f64>,
 }
 
 impl RigidMotion {
     /// Keys of a table that describes a motion.
-    pub(super) const KEYS: [&'static str; 3] = ["pivot", "axis", "keyframes"];
+    pub(crate) const KEYS: [&'static str; 3] = ["pivot", "axis", "keyframes"];
 
     /// No motion at all.
     #[must_use]
@@ -45,60 +114,71 @@ impl RigidMotion {
         Self {
             pivot: DVec3::ZERO,
             axis: DVec3::Z,
-            keys: Vec::new(),
+            keyframes: Vec::new(),
         }
+    }
+
+    /// Turns about `axis`, of any length but zero, through `pivot`, in metres, and moves, as `keyframes` say.
+    ///
+    /// # Errors
+    /// If the axis is zero. What else cannot be is found by [`Scene::check`](crate::Scene::check).
+    pub fn new(pivot: DVec3, axis: DVec3, keyframes: Vec<Keyframe>) -> Result<Self, ValueError> {
+        let Some(axis) = axis.try_normalize() else {
+            return Err(ValueError::new(
+                AXIS.name,
+                "`axis` must not be zero: it is the direction to turn about",
+            ));
+        };
+        Ok(Self { pivot, axis, keyframes })
+    }
+
+    /// Where it is at which time.
+    #[must_use]
+    pub fn keyframes(&self) -> &[Keyframe] {
+        &self.keyframes
+    }
+
+    fn check(&self, time_step: f64) -> Result<(), ValueError> {
+        PIVOT.check_vector(self.pivot)?;
+        let before = std::iter::once(None).chain(self.keyframes.iter().map(Some));
+        before
+            .zip(&self.keyframes)
+            .try_for_each(|(last, key)| key.check(last, time_step))
     }
 
     /// Reads `pivot`, `axis` and `[[keyframes]]`, each with a time and perhaps an angle and a translation.
     ///
     /// What turns by more than [`FASTEST_TURN`] in `time_step` seconds is refused.
     pub(crate) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
-        let pivot = table.vector("pivot", LENGTH, LARGEST_COORDINATE)?.unwrap_or_default();
-        let axis = table.vector("axis", RATIO, LARGEST_COORDINATE)?.unwrap_or(DVec3::Z);
-        let Some(axis) = axis.try_normalize() else {
-            let message = "`axis` must not be zero: it is the direction to turn about".to_owned();
-            return Err(table.error("axis", message));
-        };
-        let mut keys: Vec<Key> = Vec::new();
+        let pivot = table.vector(&PIVOT)?.unwrap_or_default();
+        let axis = table.vector(&AXIS)?.unwrap_or(DVec3::Z);
+        let mut motion = Self::new(pivot, axis, Vec::new()).map_err(|error| table.placed(&error))?;
         for key in table.tables("keyframes")? {
             key.expect_keys(&["time", "angle", "translation"])?;
-            let time = key.required_number("time", TIME, 0.0..=LARGEST_TIME)?;
-            if keys.last().is_some_and(|last| time < last.time + CLOSEST_KEYS) {
-                let message = "keyframes must be in order: each `time` a microsecond or more later than the one before";
-                return Err(key.error("time", message.to_owned()));
-            }
-            let next = Key {
-                time,
-                angle: key.number("angle", ANGLE, -1e4..=1e4)?.unwrap_or(0.0),
-                translation: key.vector("translation", LENGTH, LARGEST_COORDINATE)?.unwrap_or_default(),
+            let next = Keyframe {
+                time: key.required_number(&KEY_TIME)?,
+                angle: key.number(&KEY_ANGLE)?.unwrap_or(0.0),
+                translation: key.vector(&TRANSLATION)?.unwrap_or_default(),
             };
-            if let Some(last) = keys.last() {
-                // Half-way it is half as fast again as on average.
-                let turn = (next.angle - last.angle).abs();
-                let in_a_step = turn.min(1.5 * turn * time_step / (next.time - last.time));
-                if in_a_step > FASTEST_TURN {
-                    let message = format!(
-                        "up to this keyframe it turns by {in_a_step:.1} rad in a time step, but must not by more than {FASTEST_TURN}; take a shorter `time_step`, or more time"
-                    );
-                    return Err(key.error("angle", message));
-                }
-            }
-            keys.push(next);
+            let checked = next.check(motion.keyframes.last(), time_step);
+            checked.map_err(|error| key.placed(&error))?;
+            motion.keyframes.push(next);
         }
-        Ok(Self { pivot, axis, keys })
+        Ok(motion)
     }
 
     /// Where everything is at a time.
     pub(crate) fn pose(&self, time: f64) -> Pose {
-        let next = self.keys.partition_point(|key| key.time <= time);
-        let key = match (next.checked_sub(1).map(|k| self.keys[k]), self.keys.get(next)) {
-            (None, None) => Key::default(),
+        let keys = &self.keyframes;
+        let next = keys.partition_point(|key| key.time <= time);
+        let key = match (next.checked_sub(1).map(|k| keys[k]), keys.get(next)) {
+            (None, None) => Keyframe::default(),
             (Some(key), None) => key,
             (None, Some(&key)) => key,
             (Some(a), Some(b)) => {
                 let s = (time - a.time) / (b.time - a.time);
                 let s = s * s * (3.0 - 2.0 * s);
-                Key {
+                Keyframe {
                     time,
                     angle: a.angle + s * (b.angle - a.angle),
                     translation: a.translation + s * (b.translation - a.translation),
@@ -106,29 +186,67 @@ impl RigidMotion {
             }
         };
         Pose {
+            base: None,
             pivot: self.pivot,
             axis: self.axis,
             angle: key.angle,
             translation: key.translation,
+            deformed: None,
         }
     }
 }
 
 impl Pose {
-    /// Where a point of the body at rest is.
+    /// That of a body that stands so.
+    pub(super) fn standing(placement: Placement) -> Self {
+        Self {
+            base: Some(placement),
+            pivot: placement.translation,
+            axis: DVec3::Z,
+            angle: 0.0,
+            translation: DVec3::ZERO,
+            deformed: None,
+        }
+    }
+
+    /// The same, turned about an axis through where its origin is, and moved.
+    pub(super) fn turned_and_moved(self, axis: DVec3, angle: f64, translation: DVec3) -> Self {
+        Self {
+            axis,
+            angle,
+            translation,
+            ..self
+        }
+    }
+
+    /// That of points on straight ways of their own.
+    pub(super) fn deformed(share: f64) -> Self {
+        Self {
+            deformed: Some(share),
+            ..Self::standing(Placement::default())
+        }
+    }
+
+    /// Whether it is one of a body that keeps its shape.
+    pub(crate) fn is_rigid(&self) -> bool {
+        self.deformed.is_none()
+    }
+
+    /// Where a point of the body at rest is, if it is [rigid](Self::is_rigid).
     pub(crate) fn apply(&self, point: DVec3) -> DVec3 {
+        let point = self.base.map_or(point, |base| base.apply(point));
         if self.angle == 0.0 {
             return point + self.translation;
         }
         self.pivot + turned(point - self.pivot, self.axis, self.angle) + self.translation
     }
 
-    /// Where a point that is on the body now goes when the body takes the pose `later`.
+    /// Where a point that is on the body now goes when the body takes the pose `later`, if both are [rigid](Self::is_rigid).
     pub(crate) fn carry(&self, later: &Self, point: DVec3) -> DVec3 {
         if self == later {
             return point;
         }
-        // Both poses belong to one motion: they share pivot and axis.
+        // Both poses belong to one motion: they share all but angle and translation.
         let from_pivot = point - self.translation - self.pivot;
         let turned = turned(from_pivot, self.axis, later.angle - self.angle);
         self.pivot + turned + later.translation
@@ -150,12 +268,12 @@ mod tests {
         RigidMotion {
             pivot: DVec3::X,
             axis: DVec3::Z,
-            keys: vec![
-                Key {
+            keyframes: vec![
+                Keyframe {
                     time: 1.0,
-                    ..Key::default()
+                    ..Keyframe::default()
                 },
-                Key {
+                Keyframe {
                     time: 2.0,
                     angle: FRAC_PI_2,
                     translation: DVec3::Z,

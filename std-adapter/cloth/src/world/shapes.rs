@@ -1,6 +1,6 @@
 //! Meshes: of simple shapes, and of files. Positions of the former are the same bits on every platform: sines come from the `libm` crate.
 
-use crate::input::{LARGEST_COORDINATE, SceneError, Table};
+use crate::input::{LARGEST_COORDINATE, SceneError, Table, ValueError};
 use libm::{cos, sin};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
@@ -111,11 +111,23 @@ pub(super) fn of_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
     };
     let read = mesh::read(&table.folder().join(file));
     let mesh = read.map_err(|error| table.error("file", error.to_string()))?.mesh;
-    match mesh.positions.iter().find(|p| p.abs().max_element() > LARGEST_COORDINATE) {
-        None => Ok(mesh),
-        Some(far) => {
-            let message = format!("the mesh has a vertex at {far}, more than {LARGEST_COORDINATE} metres away");
-            Err(table.error("file", message))
+    check(&mesh).map_err(|error| table.error("file", error.message))?;
+    Ok(mesh)
+}
+
+/// Whether its vertices are within reach, and its triangles have vertices.
+pub(super) fn check(mesh: &Mesh) -> Result<(), ValueError> {
+    let is_near = |p: &DVec3| p.abs().cmple(DVec3::splat(LARGEST_COORDINATE)).all();
+    if let Some(far) = mesh.positions.iter().find(|p| !is_near(p)) {
+        let message = format!("the mesh has a vertex at {far}, more than {LARGEST_COORDINATE} metres away");
+        return Err(ValueError::new("mesh", message));
+    }
+    let count = mesh.positions.len();
+    match mesh.triangles.iter().flatten().find(|&&vertex| vertex as usize >= count) {
+        None => Ok(()),
+        Some(vertex) => {
+            let message = format!("a triangle of the mesh has the vertex {vertex}, but there are {count}, from 0 on");
+            Err(ValueError::new("mesh", message))
         }
     }
 }

@@ -4,6 +4,7 @@ mod blocked;
 mod determinism;
 mod drape;
 mod energy;
+mod from_code;
 mod paying_only;
 mod stability;
 mod stretch;

@@ -51,7 +51,7 @@ impl SimulatedSteps {
     pub fn new(scene: &Scene, count: usize) -> Self {
         Self {
             scene: scene.name.clone(),
-            topology: scene.cloth.topology.clone(),
+            topology: scene.cloth.topology().clone(),
             all: scene.steps(),
             count: scene.steps().min(count as u64),
             steps: Vec::new(),

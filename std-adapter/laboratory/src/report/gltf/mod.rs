@@ -8,13 +8,12 @@
 //! dependencies and no shorter. The tests read it back with the `gltf` crate, which validates it.
 
 mod binary;
-mod normals;
 #[cfg(test)]
 mod tests;
 
 use super::recording::{Frame, Part, PartKind, Recording};
 use binary::Binary;
-use normals::vertex_normals;
+use selvedge_cloth::vertex_normals;
 use selvedge_core::glam::{DQuat, DVec3};
 use serde_json::{Value, json};
 
@@ -106,7 +105,14 @@ fn mesh(
     later: impl Iterator<Item = (u64, Vec<[f32; 3]>)>,
     up: DVec3,
 ) -> Value {
-    let normals_of = |positions: &[[f32; 3]]| vertex_normals(positions, part.triangles(), up);
+    // What has no triangles to face anywhere faces up.
+    let mut facing = Vec::new();
+    let mut normals_of = |positions: &[[f32; 3]]| -> Vec<[f32; 3]> {
+        let positions: Vec<_> = positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
+        vertex_normals(&positions, part.triangles(), &mut facing);
+        let or_up = facing.iter().map(|&normal| if normal == DVec3::ZERO { up } else { normal });
+        or_up.map(|normal| normal.as_vec3().to_array()).collect()
+    };
     let normals = normals_of(rest);
     let (mut targets, mut names, mut weights) = (Vec::new(), Vec::new(), Vec::new());
     let indices = binary.add_indices(part.triangles());

@@ -38,7 +38,7 @@ impl Subject {
         let part = |name: &str, kind, mesh: &Mesh| Part::new(name, kind, mesh.positions.len(), mesh.triangles.clone());
         let bodies = scene.bodies.iter();
         let bodies = bodies.map(|body| part(&body.name, PartKind::Body, &body.mesh));
-        let mut parts = vec![part("cloth", PartKind::Cloth, &scene.cloth.mesh)];
+        let mut parts = vec![part("cloth", PartKind::Cloth, scene.cloth.mesh())];
         parts.extend(bodies);
         Self { about, parts }
     }

@@ -1,0 +1,100 @@
+//! What a number may be, said once: for scene files, which put a place to it, and for code.
+
+use super::quantity::Quantity;
+use selvedge_core::glam::DVec3;
+
+/// A value that cannot be: of what, which one, what is wrong and what would be right.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}{message}", if .of.is_empty() { String::new() } else { format!("{}: ", .of) })]
+pub struct ValueError {
+    /// Whose it is: the name of an effect or of a body, `cloth`; empty: the scene's own.
+    pub of: String,
+    /// As scene files call it.
+    pub field: &'static str,
+    /// What is wrong, and what would be right, with units.
+    pub message: String,
+}
+
+impl ValueError {
+    /// A field, and what is wrong with it. Whose it is is told by [`Scene::check`](crate::Scene::check).
+    pub fn new(field: &'static str, message: impl Into<String>) -> Self {
+        Self {
+            of: String::new(),
+            field,
+            message: message.into(),
+        }
+    }
+
+    /// The same, and whose it is.
+    pub(crate) fn of(self, of: &str) -> Self {
+        Self {
+            of: of.to_owned(),
+            ..self
+        }
+    }
+}
+
+/// A number with a name and a unit, and from where to where it may go.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Field {
+    pub(crate) name: &'static str,
+    pub(crate) quantity: Quantity,
+    pub(crate) least: f64,
+    pub(crate) most: f64,
+}
+
+impl Field {
+    pub(crate) const fn new(name: &'static str, quantity: Quantity, least: f64, most: f64) -> Self {
+        Self {
+            name,
+            quantity,
+            least,
+            most,
+        }
+    }
+
+    /// Three components, each up to `largest` either way.
+    pub(crate) const fn vector(name: &'static str, quantity: Quantity, largest: f64) -> Self {
+        Self::new(name, quantity, -largest, largest)
+    }
+
+    /// NaN is in no range.
+    pub(crate) fn check(&self, value: f64) -> Result<(), ValueError> {
+        if (self.least..=self.most).contains(&value) {
+            return Ok(());
+        }
+        let written = |value| self.quantity.written(value);
+        let [is, least, most] = [value, self.least, self.most].map(written);
+        let message = format!("`{}` is {is}, but must be from {least} to {most}", self.name);
+        Err(ValueError::new(self.name, message))
+    }
+
+    pub(crate) fn check_vector(&self, vector: DVec3) -> Result<(), ValueError> {
+        vector.to_array().into_iter().try_for_each(|component| self.check(component))
+    }
+}
+
+/// A whole number with a name, and from where to where it may go.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Count {
+    pub(crate) name: &'static str,
+    pub(crate) least: u32,
+    pub(crate) most: u32,
+}
+
+impl Count {
+    pub(crate) const fn new(name: &'static str, least: u32, most: u32) -> Self {
+        Self { name, least, most }
+    }
+
+    pub(crate) fn check(&self, value: u32) -> Result<(), ValueError> {
+        if (self.least..=self.most).contains(&value) {
+            return Ok(());
+        }
+        Err(ValueError::new(self.name, self.complaint(&value.to_string())))
+    }
+
+    pub(crate) fn complaint(&self, found: &str) -> String {
+        format!("`{}` is {found}, but must be from {} to {}", self.name, self.least, self.most)
+    }
+}

@@ -1,0 +1,663 @@
+//! Scenes that code makes, and drives from step to step.
+
+use selvedge::CollisionDetector;
+use selvedge_cloth::effects::{
+    AirDrag, Bend, BodyContact, Constraint, Effect, Force, Friction, Gravity, InternalPressure, PinGroup, PinMotion, Pins, Plan,
+    SelfCollision, Shear, StrainLimit, Stretch, Thickness, TimeStep, Touches, Wind,
+};
+use selvedge_cloth::glam::{DQuat, DVec3};
+use selvedge_cloth::{
+    Body, CHECKPOINT_STEPS, Cloth, DriveError, Keyframe, Motion, OnBlocked, Placement, RigidMotion, Scene, Simulation,
+};
+use std::f64::consts::PI;
+use std::path::Path;
+
+const CELLS: u32 = 12;
+
+/// A sheet that hangs level over the origin at a height, in metres.
+fn sheet(height: f64) -> Cloth {
+    let corner = DVec3::new(-0.15, -0.15, height);
+    Cloth::sheet(corner, [0.3 * DVec3::X, 0.3 * DVec3::Y], [CELLS; 2], 0.2).unwrap()
+}
+
+/// Its corners are pinned, and it keeps off a body and itself.
+fn scene_with(body: Body, height: f64) -> Scene {
+    let cloth = sheet(height);
+    let corners = ["bottom-left", "bottom-right", "top-left", "top-right"];
+    let corners: Vec<u32> = corners
+        .into_iter()
+        .flat_map(|name| cloth.part(name).unwrap().to_vec())
+        .collect();
+    let mut scene = Scene::new(cloth, 2e-3);
+    scene.bodies.push(body);
+    scene
+        .add(Gravity::default())
+        .add(Stretch::isotropic(200.0))
+        .add(Bend { stiffness: 1e-5 });
+    scene.add(Pins {
+        groups: vec![PinGroup::resting(corners)],
+    });
+    scene
+        .add(BodyContact(Thickness::of(4e-3)))
+        .add(SelfCollision(Thickness::of(4e-3)));
+    scene
+}
+
+fn driven(mut body: Body) -> Body {
+    body.motion = Motion::Driven(Placement::default());
+    body
+}
+
+fn ball() -> Body {
+    driven(Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap())
+}
+
+/// A bar through the origin, along x.
+fn bar() -> Body {
+    driven(Body::capsule("bar", [-0.1 * DVec3::X, 0.1 * DVec3::X], 0.02, 12).unwrap())
+}
+
+/// By the exact test, which shares nothing with the certificate.
+#[track_caller]
+fn assert_free(simulation: &Simulation) {
+    let positions = simulation.positions();
+    let topology = selvedge::Topology::new(positions.len(), simulation.triangles().to_vec()).unwrap();
+    let mut detector = CollisionDetector::<f64>::new(topology);
+    assert!(
+        !detector.has_intersections(positions).unwrap(),
+        "step {}",
+        simulation.steps_done()
+    );
+}
+
+fn bits(simulation: &Simulation) -> Vec<[u64; 3]> {
+    let positions = simulation.positions().iter();
+    positions.map(|p| p.to_array().map(f64::to_bits)).collect()
+}
+
+#[test]
+fn code_and_file_make_the_same_scene_to_the_last_bit() {
+    let text = r#"
+        time_step = "2 ms"
+        duration = "1 s"
+        on_blocked = "hold"
+        [cloth]
+        shape = "tube"
+        from = [-0.2, 0, 0]
+        to = [0.2, 0, 0]
+        radius = "10 cm"
+        cells = [16, 12]
+        density = "200 g/m2"
+        velocity = [0, 0.1, 0]
+        [[body]]
+        name = "arm"
+        shape = "capsule"
+        from = [-0.3, 0, 0]
+        to = [0.3, 0, 0]
+        radius = "5 cm"
+        pivot = [0, 0, 0.1]
+        axis = [0, 2, 0]
+        keyframes = [{ time = 0 }, { time = "0.2 s", angle = 0.3, translation = [0, 0, 0.02] }]
+        [effects.gravity]
+        [effects.wind]
+        velocity = [0, 3, 0]
+        gust = 0.5
+        [effects.air_drag]
+        rate = 0.2
+        [[effects.pins.group]]
+        part = "start"
+        follow = "arm"
+        [[effects.pins.group]]
+        vertices = [100]
+        [effects.stretch]
+        stiffness = 400
+        weft_stiffness = 300
+        [effects.shear]
+        stiffness = 50
+        [effects.bend]
+        stiffness = 1e-5
+        [effects.strain_limit]
+        limit = 1.1
+        [effects.body_contact]
+        thickness = "4 mm"
+        [effects.self_collision]
+        thickness = "4 mm"
+        separation = "1 mm"
+        [effects.friction]
+        coefficient = 0.3
+    "#;
+    let ends = |x: f64| [-x * DVec3::X, x * DVec3::X];
+    let mut cloth = Cloth::tube(ends(0.2), 0.1, [16, 12], 0.2).unwrap();
+    cloth.velocity = 0.1 * DVec3::Y;
+    let start = cloth.part("start").unwrap().to_vec();
+    let mut scene = Scene::new(cloth, 2e-3);
+    scene.on_blocked = OnBlocked::Hold;
+    let mut arm = Body::capsule("arm", ends(0.3), 0.05, 24).unwrap();
+    let later = Keyframe {
+        time: 0.2,
+        angle: 0.3,
+        translation: 0.02 * DVec3::Z,
+    };
+    let keyframes = vec![Keyframe::default(), later];
+    arm.motion = RigidMotion::new(0.1 * DVec3::Z, 2.0 * DVec3::Y, keyframes).unwrap().into();
+    scene.bodies.push(arm);
+    // In any order.
+    scene.add(Friction { coefficient: 0.3 });
+    let separation = 1e-3;
+    scene.add(SelfCollision(Thickness {
+        separation,
+        ..Thickness::of(4e-3)
+    }));
+    scene.add(BodyContact(Thickness::of(4e-3)));
+    scene
+        .add(Stretch {
+            weft_stiffness: 300.0,
+            ..Stretch::isotropic(400.0)
+        })
+        .add(StrainLimit::at(1.1));
+    scene.add(Shear { stiffness: 50.0 }).add(Bend { stiffness: 1e-5 });
+    let follows = PinGroup {
+        vertices: start,
+        motion: PinMotion::Body(0),
+    };
+    scene.add(Pins {
+        groups: vec![follows, PinGroup::resting([100])],
+    });
+    scene.add(AirDrag { rate: 0.2 }).add(Gravity::default());
+    scene.add(Wind {
+        velocity: 3.0 * DVec3::Y,
+        gust: 0.5,
+        ..Wind::default()
+    });
+
+    let of_file = Scene::parse(text, Path::new("s.toml")).unwrap();
+    assert_eq!(scene.effect_names(), of_file.effect_names());
+    let [mut code, mut file] = [scene, of_file].map(|scene| Simulation::new(scene, 1).unwrap());
+    for _ in 0..60 {
+        code.step().unwrap();
+        file.step().unwrap();
+    }
+    assert!(code.contact_counts().unwrap().pushed > 0, "a test of contact, too");
+    assert_eq!(bits(&code), bits(&file));
+}
+
+#[test]
+fn a_ball_that_code_moves_pushes_the_cloth_and_never_passes_it() {
+    let mut simulation = Simulation::new(scene_with(ball(), 0.075), 1).unwrap();
+    for step in 1..=150 {
+        let up = Placement::at(DVec3::Z * (5e-4 * f64::from(step)));
+        simulation.place_body(0, up).unwrap();
+        simulation.step().unwrap();
+        assert_eq!(simulation.placement(0), Some(up));
+        assert_free(&simulation);
+    }
+    let middle = (CELLS as usize + 1).pow(2) / 2;
+    let [middle, top] = [simulation.positions()[middle].z, 0.06 + 0.075];
+    assert!(middle > top && middle < top + 0.01, "{middle}");
+    assert!(simulation.is_certified() && simulation.near_pairs().next().is_some());
+}
+
+#[test]
+fn what_turns_half_round_in_a_step_meets_the_cloth_on_its_way() {
+    // The cloth hangs where the bar's ends pass; at the end of each step it lies as at its start.
+    let mut scene = scene_with(bar(), 0.04);
+    scene.on_blocked = OnBlocked::Hold;
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    for step in 1..=3 {
+        let rotation = DQuat::from_rotation_y(PI * f64::from(step));
+        simulation
+            .place_body(
+                0,
+                Placement {
+                    rotation,
+                    ..Placement::default()
+                },
+            )
+            .unwrap();
+        simulation.step().unwrap();
+        assert_free(&simulation);
+    }
+    let highest = simulation.positions()[..(CELLS as usize + 1).pow(2)].iter();
+    let highest = highest.map(|p| p.z).fold(f64::MIN, f64::max);
+    assert!(highest > 0.05 || simulation.blocked_steps() > 0, "it was passed: {highest}");
+}
+
+#[test]
+fn a_body_that_changes_its_shape_pushes_the_cloth_and_never_passes_it() {
+    let ball = ball();
+    let rest = ball.mesh.positions.clone();
+    let mut simulation = Simulation::new(scene_with(ball, 0.075), 1).unwrap();
+    for step in 1..=120 {
+        let swollen: Vec<_> = rest.iter().map(|p| *p * (1.0 + 0.005 * f64::from(step))).collect();
+        simulation.move_body(0, &swollen).unwrap();
+        simulation.step().unwrap();
+        assert_free(&simulation);
+        assert_eq!(simulation.positions()[simulation.body_vertices(0).unwrap()], swollen);
+    }
+    assert_eq!(simulation.placement(0), None, "it is no rigid body any more");
+    // Back to its own shape, elsewhere.
+    let placement = Placement::at(-0.01 * DVec3::Z);
+    simulation.place_body(0, placement).unwrap();
+    simulation.step().unwrap();
+    assert_eq!(simulation.placement(0), Some(placement));
+    assert_free(&simulation);
+}
+
+#[test]
+fn pins_go_where_code_leads_them() {
+    let cloth = sheet(0.0);
+    let pinned = cloth.part("left").unwrap().to_vec();
+    let start: Vec<_> = pinned.iter().map(|&v| cloth.mesh().positions[v as usize]).collect();
+    let mut scene = Scene::new(cloth, 2e-3);
+    let motion = PinMotion::Own(Motion::Driven(Placement::default()));
+    scene.add(Pins {
+        groups: vec![PinGroup {
+            vertices: pinned.clone(),
+            motion,
+        }],
+    });
+    scene
+        .add(Gravity::default())
+        .add(Stretch::isotropic(200.0))
+        .add(SelfCollision(Thickness::of(3e-3)));
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    for step in 1..=100 {
+        // Drawn together, as a curtain.
+        let share = 1.0 - 0.004 * f64::from(step);
+        let goals: Vec<_> = start.iter().map(|p| DVec3::new(p.x, p.y * share, 0.0)).collect();
+        simulation.move_pins(0, &goals).unwrap();
+        simulation.step().unwrap();
+        let there: Vec<_> = pinned.iter().map(|&v| simulation.positions()[v as usize]).collect();
+        assert_eq!(there, goals);
+    }
+    assert_free(&simulation);
+}
+
+#[test]
+fn a_body_that_has_to_wait_stands_where_it_is_said_to_stand_and_goes_on_from_there() {
+    // Between two balls the cloth has no way out.
+    let mut scene = scene_with(ball(), 0.065);
+    let mut above = ball();
+    above.name = "above".to_owned();
+    above.motion = Motion::Driven(Placement::at(0.14 * DVec3::Z));
+    scene.bodies.push(above);
+    scene.on_blocked = OnBlocked::Hold;
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let goal = Placement::at(0.09 * DVec3::Z);
+    for _ in 0..20 {
+        simulation.place_body(1, goal).unwrap();
+        simulation.step().unwrap();
+        assert_free(&simulation);
+    }
+    assert!(simulation.blocked_steps() > 0);
+    let stands = simulation.placement(1).unwrap();
+    assert!(
+        stands.translation.z > goal.translation.z && stands.translation.z < 0.14,
+        "{stands:?}"
+    );
+    let vertices = simulation.body_vertices(1).unwrap();
+    for (position, rest) in simulation.positions()[vertices].iter().zip(&ball().mesh.positions) {
+        assert!(position.distance(stands.apply(*rest)) < 1e-12);
+    }
+    simulation.place_body(1, Placement::at(0.2 * DVec3::Z)).unwrap();
+    simulation.step().unwrap();
+    assert_eq!(simulation.placement(1), Some(Placement::at(0.2 * DVec3::Z)));
+}
+
+/// Drives the ball and the wind, and does a step.
+fn drive(simulation: &mut Simulation) {
+    let time = simulation.time();
+    let rotation = DQuat::from_rotation_x(3.0 * time);
+    let translation = DVec3::Z * (0.02 + 0.02 * (9.0 * time).sin());
+    simulation.place_body(0, Placement { rotation, translation }).unwrap();
+    simulation.set_wind(DVec3::Y * (4.0 * time)).unwrap();
+    simulation.step().unwrap();
+}
+
+#[test]
+fn neither_threads_nor_a_resume_change_a_bit() {
+    let scene = || {
+        let mut scene = scene_with(bar(), 0.1);
+        scene.add(Wind::default()).add(Friction { coefficient: 0.4 });
+        scene
+    };
+    let [mut one, mut two, mut resumed] = [1, 2, 1].map(|threads| Simulation::new(scene(), threads).unwrap());
+    for _ in 0..CHECKPOINT_STEPS {
+        drive(&mut one);
+        drive(&mut two);
+    }
+    resumed.resume(&one.checkpoint().unwrap()).unwrap();
+    assert_eq!(resumed.placement(0), one.placement(0));
+    for _ in 0..20 {
+        [&mut one, &mut two, &mut resumed].into_iter().for_each(drive);
+    }
+    assert_eq!(bits(&one), bits(&two));
+    assert_eq!(bits(&one), bits(&resumed));
+    let mut other = scene();
+    other.cloth.density = 0.3;
+    let mut other = Simulation::new(other, 1).unwrap();
+    assert!(other.resume(&two.checkpoint().unwrap_or_default()).is_err());
+}
+
+#[test]
+fn the_wind_turns_when_it_is_told_to() {
+    let cloth = sheet(0.0);
+    let mut scene = Scene::new(cloth, 2e-3);
+    scene.add(Wind::default());
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let mean = |simulation: &Simulation| simulation.velocities().iter().map(|v| v.z).sum::<f64>();
+    simulation.step().unwrap();
+    assert_eq!(mean(&simulation), 0.0);
+    simulation.set_wind(5.0 * DVec3::Z).unwrap();
+    simulation.step().unwrap();
+    let up = mean(&simulation);
+    simulation.set_wind(-50.0 * DVec3::Z).unwrap();
+    simulation.step().unwrap();
+    assert!(up > 0.0 && mean(&simulation) < up);
+}
+
+/// A caller's own: pushes everything up, and keeps it below a ceiling.
+#[derive(Debug)]
+struct Balloon {
+    ceiling: f64,
+}
+
+impl Effect for Balloon {
+    fn name(&self) -> &'static str {
+        "balloon"
+    }
+
+    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+        assert_eq!(plan.masses().len(), plan.world().cloth.mesh().positions.len());
+        plan.add_force(Lift);
+        plan.add_constraint(*self);
+    }
+}
+
+#[derive(Debug)]
+struct Lift;
+
+impl Force for Lift {
+    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
+        for velocity in velocities {
+            velocity.z += 20.0 * step.h;
+        }
+    }
+}
+
+impl Constraint for Balloon {
+    fn project(&mut self, _: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
+        for position in positions {
+            position.z = position.z.min(self.ceiling);
+        }
+    }
+}
+
+#[test]
+fn an_effect_of_a_callers_own_acts_is_timed_and_runs_after_ours() {
+    let mut scene = Scene::new(sheet(0.0), 2e-3);
+    scene
+        .add(Balloon { ceiling: 0.05 })
+        .add(Gravity::default())
+        .add(Stretch::isotropic(100.0));
+    scene.add(SelfCollision(Thickness::of(3e-3)));
+    assert_eq!(scene.effect_names(), ["gravity", "stretch", "self_collision", "balloon"]);
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    for _ in 0..100 {
+        simulation.step().unwrap();
+    }
+    assert!(simulation.positions().iter().all(|p| p.z > 0.03 && p.z <= 0.05));
+    let balloon = simulation.effects().iter().find(|effect| effect.name == "balloon");
+    assert!(balloon.unwrap().seconds > 0.0);
+}
+
+/// What is wrong with a scene, if it is the sheet over the ball but for one change.
+#[track_caller]
+fn complaint(change: impl FnOnce(&mut Scene)) -> String {
+    let mut scene = scene_with(ball(), 0.1);
+    change(&mut scene);
+    Simulation::new(scene, 1).unwrap_err().to_string()
+}
+
+/// The same if the change is an effect more.
+#[track_caller]
+fn of(effect: impl Effect + 'static) -> String {
+    complaint(|scene| {
+        scene.add(effect);
+    })
+}
+
+fn pins(groups: Vec<PinGroup>) -> Pins {
+    Pins { groups }
+}
+
+#[test]
+fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_be_right() {
+    assert!(
+        Simulation::new(scene_with(ball(), 0.1), 1).is_ok(),
+        "the scene that the mistakes are made in"
+    );
+    let up = DVec3::Z;
+    let at = |time, angle| Keyframe {
+        time,
+        angle,
+        ..Keyframe::default()
+    };
+    let turning = |keyframes| RigidMotion::new(DVec3::ZERO, up, keyframes).unwrap().into();
+    let cases = [
+        (
+            complaint(|s| s.time_step = 0.0),
+            "`time_step` is 0 s, but must be from 1e-6 s to 0.1 s",
+        ),
+        (complaint(|s| s.time_step = f64::NAN), "`time_step` is NaN s"),
+        (
+            complaint(|s| s.duration = 1e-4),
+            "`duration` is 1e-4 s, but must be from 0.002 s",
+        ),
+        (complaint(|s| s.frame_rate = -1.0), "`frames_per_second` is -1 Hz"),
+        (
+            complaint(|s| s.cloth.density = 200.0),
+            "cloth: `density` is 200 kg/m2, but must be from 0.001 kg/m2 to 100 kg/m2",
+        ),
+        (complaint(|s| s.cloth.velocity = up * 1e4), "cloth: `velocity` is 10000 m/s"),
+        (complaint(|s| s.bodies.push(ball())), "there are two bodies named 'ball'"),
+        (
+            complaint(|s| s.bodies[0].mesh.positions[0].x = f64::INFINITY),
+            "ball: the mesh has a vertex at [inf",
+        ),
+        (
+            complaint(|s| s.bodies[0].mesh.triangles[0][1] = 9999),
+            "ball: a triangle of the mesh has the vertex 9999",
+        ),
+        (
+            complaint(|s| s.bodies[0].motion = turning(vec![at(1.0, 0.0), at(1.0, 1.0)])),
+            "ball: keyframes must be in order",
+        ),
+        (
+            complaint(|s| s.bodies[0].motion = turning(vec![at(-1.0, 0.0)])),
+            "ball: `time` is -1 s",
+        ),
+        (
+            complaint(|s| s.bodies[0].motion = turning(vec![at(0.0, 0.0), at(0.01, 1e3)])),
+            "ball: up to this keyframe it turns by",
+        ),
+        (
+            complaint(|s| s.bodies[0].motion = Motion::Driven(Placement::at(up * 1e9))),
+            "ball: `translation` is 1e9 m",
+        ),
+        (
+            of(Gravity {
+                acceleration: up * f64::NAN,
+            }),
+            "gravity: `acceleration` is NaN m/s2",
+        ),
+        (of(AirDrag { rate: -1.0 }), "air_drag: `rate` is -1 Hz"),
+        (
+            of(Wind {
+                drag: 1e3,
+                ..Wind::default()
+            }),
+            "wind: `drag` is 1000, but must be from 0 to 100",
+        ),
+        (
+            of(Stretch::isotropic(0.0)),
+            "stretch: `stiffness` is 0 N/m, but must be from 0.001 N/m to 1e9 N/m",
+        ),
+        (
+            of(Stretch {
+                levels: Some(99),
+                ..Stretch::isotropic(1.0)
+            }),
+            "stretch: `levels` is 99, but must be from 0 to 32",
+        ),
+        (of(Shear { stiffness: 1e10 }), "shear: `stiffness` is 1e10 N/m"),
+        (
+            of(Bend { stiffness: 100.0 }),
+            "bend: `stiffness` is 100 N m, but must be from 1e-12 N m to 10 N m",
+        ),
+        (
+            of(StrainLimit::at(0.9)),
+            "strain_limit: `limit` is 0.9, but must be from 1 to 10",
+        ),
+        (
+            of(StrainLimit {
+                sweeps: 0,
+                ..StrainLimit::at(1.1)
+            }),
+            "strain_limit: `sweeps` is 0",
+        ),
+        (
+            of(InternalPressure::of_volume(1.1)),
+            "internal_pressure: internal pressure needs a closed cloth, but this one has 48 open edges",
+        ),
+        (
+            of(SelfCollision(Thickness::of(0.0))),
+            "self_collision: `thickness` is 0 m, but must be from 1e-5 m to 0.1 m",
+        ),
+        (
+            of(BodyContact(Thickness {
+                thickness: 1e-3,
+                separation: 1e-3,
+            })),
+            "body_contact: `separation` is 0.001 m, but must be at most nine tenths",
+        ),
+        (
+            complaint(|s| s.bodies.clear()),
+            "body_contact: body contact has nothing to act on",
+        ),
+        (of(Friction { coefficient: -0.1 }), "friction: `coefficient` is -0.1"),
+        (of(pins(Vec::new())), "pins: pins need at least one"),
+        (
+            of(pins(vec![PinGroup::resting([])])),
+            "pins: no vertex of the cloth is in this group",
+        ),
+        (
+            of(pins(vec![PinGroup::resting([169])])),
+            "pins: the cloth has no vertex 169: it has 169, from 0 on",
+        ),
+        (
+            of(pins(vec![PinGroup::resting([3]), PinGroup::resting([2, 3])])),
+            "pins: vertex 3 is pinned twice",
+        ),
+        (
+            of(pins(vec![PinGroup {
+                vertices: vec![0],
+                motion: PinMotion::Body(4),
+            }])),
+            "pins: there is no body 4: the scene has 1, from 0 on",
+        ),
+        (
+            complaint(|s| s.bodies[0].motion = Motion::Driven(Placement::at(0.1 * up))),
+            "the scene starts with an intersection",
+        ),
+    ];
+    assert!(cases.len() >= 30);
+    for (found, expected) in &cases {
+        assert!(found.starts_with(expected), "{found}\nis not\n{expected}");
+    }
+    let without_contact = {
+        let mut scene = Scene::new(sheet(0.1), 2e-3);
+        scene.add(Friction { coefficient: 0.1 });
+        Simulation::new(scene, 1).unwrap_err().to_string()
+    };
+    assert!(
+        without_contact.contains("[effects.self_collision] or [effects.body_contact]"),
+        "{without_contact}"
+    );
+}
+
+#[test]
+fn shapes_that_cannot_be_are_refused_where_they_are_made() {
+    let [x, y] = [DVec3::X, DVec3::Y];
+    let error = |result: Result<Cloth, selvedge_cloth::ValueError>| result.unwrap_err().to_string();
+    assert!(error(Cloth::sheet(x, [x, 2.0 * x], [2, 2], 0.1)).contains("must not be parallel"));
+    assert!(error(Cloth::sheet(x, [x, y], [0, 2], 0.1)).contains("`cells` is 0, but must be from 1 to 2000"));
+    assert!(error(Cloth::tube([x, x], 0.1, [9, 9], 0.1)).contains("the same point"));
+    assert!(error(Cloth::tube([x, y], 0.1, [2, 9], 0.1)).contains("`cells` is 2, but must be from 3"));
+    assert!(error(Cloth::sleeve(0, 0.1)).contains("`refinement` is 0"));
+    let mut mesh = sheet(0.0).mesh().clone();
+    mesh.triangles[0] = [0, 1, 1];
+    assert!(error(Cloth::of_mesh(mesh.clone(), x, 0.1)).contains("must consist of proper triangles"));
+    mesh.triangles[0] = [0, 1, 5000];
+    assert!(error(Cloth::of_mesh(mesh, x, 0.1)).contains("the vertex 5000"));
+    assert!(
+        Body::capsule("arm", [x, y], 0.0, 24)
+            .unwrap_err()
+            .to_string()
+            .starts_with("arm: `radius` is 0 m")
+    );
+    assert!(
+        RigidMotion::new(x, DVec3::ZERO, Vec::new())
+            .unwrap_err()
+            .to_string()
+            .contains("`axis` must not be zero")
+    );
+}
+
+#[test]
+fn moving_what_cannot_be_moved_is_an_error_and_changes_nothing() {
+    let mut scene = scene_with(ball(), 0.1);
+    scene.bodies.push(Body::ball("fixed", DVec3::Y, 0.1, 12).unwrap());
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let [here, far] = [Placement::default(), Placement::at(DVec3::X * 1e6)];
+    assert_eq!(simulation.place_body(2, here), Err(DriveError::NoBody { body: 2, bodies: 2 }));
+    let fixed = simulation.place_body(1, here).unwrap_err().to_string();
+    assert!(fixed.starts_with("the body 'fixed' cannot be moved by hand"), "{fixed}");
+    assert!(
+        simulation
+            .place_body(0, far)
+            .unwrap_err()
+            .to_string()
+            .contains("`translation` is 1e6 m")
+    );
+    let zero = Placement {
+        rotation: DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0),
+        ..here
+    };
+    assert!(
+        simulation
+            .place_body(0, zero)
+            .unwrap_err()
+            .to_string()
+            .contains("`rotation` must be")
+    );
+    let expected = simulation.body_vertices(0).unwrap().len();
+    assert_eq!(
+        simulation.move_body(0, &[DVec3::ZERO]),
+        Err(DriveError::VertexCount { expected, found: 1 })
+    );
+    assert!(
+        simulation
+            .move_body(0, &vec![DVec3::NAN; expected])
+            .unwrap_err()
+            .to_string()
+            .contains("`positions` is NaN m")
+    );
+    assert_eq!(simulation.move_pins(1, &[]), Err(DriveError::NoPins { group: 1, groups: 1 }));
+    assert!(matches!(simulation.move_pins(0, &[]), Err(DriveError::NotDriven { .. })));
+    assert_eq!(simulation.set_wind(DVec3::X), Err(DriveError::NoWind));
+    assert_eq!((simulation.placement(1), simulation.body_vertices(2)), (None, None));
+    let before = bits(&simulation)[169..].to_vec();
+    simulation.step().unwrap();
+    assert_eq!(bits(&simulation)[169..], before, "bodies stay where they are");
+}
