@@ -319,6 +319,12 @@ impl Simulation {
         &self.state.velocities
     }
 
+    /// The bodies' names, in the order of the scene.
+    #[must_use]
+    pub fn body_names(&self) -> &[String] {
+        &self.body_names
+    }
+
     /// The vertices of a body, among the [`positions`](Self::positions); `None` if there is no such body.
     #[must_use]
     pub fn body_vertices(&self, body: usize) -> Option<Range<usize>> {

@@ -1,12 +1,14 @@
 //! A scene in motion, step by step.
 
 use crate::answers::rows;
+use crate::arrays::{Frames, with_frames};
 use crate::call::{Length, interruptible};
-use crate::errors::{self, BlockedError, BrokenError, CheckpointError, ForkedError, SceneError};
+use crate::errors::{self, BlockedError, BrokenError, CheckpointError, ForkedError, InputError, SceneError};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyType};
-use selvedge_cloth::{Scene, SetupError};
+use pyo3::types::{PyBytes, PyDict, PySlice, PyType};
+use selvedge_cloth::glam::{DQuat, DVec3};
+use selvedge_cloth::{DriveError, Placement, Scene, SetupError, vertex_normals};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, TryLockError};
@@ -101,6 +103,39 @@ impl Simulation {
     }
 }
 
+/// A body by its name, or by its index among the names.
+#[derive(FromPyObject)]
+enum Body {
+    Name(String),
+    Index(usize),
+}
+
+impl Body {
+    fn index(&self, simulation: &selvedge_cloth::Simulation) -> PyResult<usize> {
+        let names = simulation.body_names();
+        let found = match self {
+            Self::Name(name) => names.iter().position(|known| known == name),
+            Self::Index(index) => (*index < names.len()).then_some(*index),
+        };
+        found.ok_or_else(|| match self {
+            Self::Name(name) => InputError::new_err(format!("there is no body '{name}'; the scene has {names:?}")),
+            Self::Index(index) => InputError::new_err(format!("there is no body {index}; the scene has {}", names.len())),
+        })
+    }
+}
+
+fn drive_error(error: &DriveError) -> PyErr {
+    InputError::new_err(error.to_string())
+}
+
+/// Positions in either format, as the simulation has them.
+fn copied(positions: &Bound<'_, PyAny>) -> PyResult<Vec<DVec3>> {
+    with_frames!(Frames::of([("positions", positions)])?, [positions] => {
+        let rows = positions.rows()?.iter();
+        Ok(rows.map(|row| DVec3::from(row.map(f64::from))).collect())
+    })
+}
+
 fn scene_error(error: &selvedge_cloth::SceneError) -> PyErr {
     SceneError::new_err(error.to_string())
 }
@@ -163,6 +198,66 @@ impl Simulation {
             Ok(Err(blocked)) => Err(BlockedError::new_err(blocked.to_string())),
             _ => Ok(()),
         }
+    }
+
+    #[getter]
+    fn body_names(&self) -> PyResult<Vec<String>> {
+        Ok(self.simulation()?.body_names().to_vec())
+    }
+
+    fn body_vertices<'py>(&self, py: Python<'py>, body: Body) -> PyResult<Bound<'py, PySlice>> {
+        let simulation = self.simulation()?;
+        let vertices = simulation.body_vertices(body.index(&simulation)?).unwrap_or_default();
+        Ok(PySlice::new(py, vertices.start as isize, vertices.end as isize, 1))
+    }
+
+    #[pyo3(signature = (body, translation=[0.0; 3], rotation=[0.0, 0.0, 0.0, 1.0]))]
+    fn place_body(&self, body: Body, translation: [f64; 3], rotation: [f64; 4]) -> PyResult<()> {
+        let mut simulation = self.simulation()?;
+        let body = body.index(&simulation)?;
+        let placement = Placement {
+            rotation: DQuat::from_array(rotation),
+            translation: translation.into(),
+        };
+        simulation.place_body(body, placement).map_err(|error| drive_error(&error))
+    }
+
+    fn placement(&self, body: Body) -> PyResult<Option<([f64; 3], [f64; 4])>> {
+        let simulation = self.simulation()?;
+        let placement = simulation.placement(body.index(&simulation)?);
+        Ok(placement.map(|placement| (placement.translation.to_array(), placement.rotation.to_array())))
+    }
+
+    fn move_body(&self, body: Body, positions: &Bound<'_, PyAny>) -> PyResult<()> {
+        let positions = copied(positions)?;
+        let mut simulation = self.simulation()?;
+        let body = body.index(&simulation)?;
+        simulation.move_body(body, &positions).map_err(|error| drive_error(&error))
+    }
+
+    fn move_pins(&self, group: usize, positions: &Bound<'_, PyAny>) -> PyResult<()> {
+        let positions = copied(positions)?;
+        let moved = self.simulation()?.move_pins(group, &positions);
+        moved.map_err(|error| drive_error(&error))
+    }
+
+    fn set_wind(&self, velocity: [f64; 3]) -> PyResult<()> {
+        let set = self.simulation()?.set_wind(velocity.into());
+        set.map_err(|error| drive_error(&error))
+    }
+
+    #[getter]
+    fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let simulation = self.simulation()?;
+        rows(py, simulation.velocities().iter().map(DVec3::to_array).collect())
+    }
+
+    #[getter]
+    fn normals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let simulation = self.simulation()?;
+        let mut normals = Vec::new();
+        vertex_normals(simulation.positions(), simulation.triangles(), &mut normals);
+        rows(py, normals.iter().map(DVec3::to_array).collect())
     }
 
     #[getter]

@@ -102,3 +102,73 @@ def test_a_scene_said_in_python_is_that_of_its_file(tmp_path):
 def test_what_is_wrong_in_a_dict_is_named_by_its_line():
     with pytest.raises(errors.SceneError, match="scene.toml:2:.*parsec"):
         Simulation.from_dict({"name": "x", "time_step": "1 parsec"})
+
+
+def over_a_ball() -> dict:
+    """A sheet with pinned corners over a ball that Python moves."""
+    return {
+        "time_step": 0.002,
+        "duration": 10,
+        "cloth": {
+            "shape": "sheet",
+            "corner": [-0.15, -0.15, 0.075],
+            "sides": {"first": [0.3, 0, 0], "second": [0, 0.3, 0]},
+            "cells": [12, 12],
+            "density": 0.2,
+        },
+        "body": [{"name": "ball", "shape": "ball", "centre": [0, 0, 0], "radius": 0.06, "driven": True}],
+        "effects": {
+            "gravity": {},
+            "wind": {"velocity": [0, 0, 0]},
+            "stretch": {"stiffness": 200},
+            "pins": {"group": [{"part": "left", "driven": True}]},
+            "body_contact": {"thickness": 0.004},
+            "self_collision": {"thickness": 0.004},
+        },
+    }
+
+
+def test_bodies_pins_and_wind_go_where_python_leads_them():
+    simulation = Simulation.from_dict(over_a_ball())
+    assert simulation.body_names == ["ball"]
+    ball = simulation.body_vertices("ball")
+    rest = simulation.positions[ball].copy()
+    left = simulation.positions[0 : 13 * 13 : 13].copy()
+    for step in range(1, 41):
+        simulation.place_body("ball", [0, 0, 0.0005 * step], [0, 0, 1, 1])
+        simulation.move_pins(0, left + [0, 0, 0.001 * step])
+        simulation.set_wind(np.array([0, 1, 0]))
+        simulation.step()
+        assert simulation.is_certified
+    translation, rotation = simulation.placement(0)
+    assert translation == [0, 0, 0.02] and rotation == pytest.approx([0, 0, 0.5**0.5, 0.5**0.5])
+    turned = np.stack([-rest[:, 1], rest[:, 0], rest[:, 2] + 0.02], 1)
+    np.testing.assert_allclose(simulation.positions[ball], turned, atol=1e-14)
+    np.testing.assert_allclose(simulation.positions[0 : 13 * 13 : 13], left + [0, 0, 0.04], atol=1e-15)
+    assert simulation.velocities[: 13 * 13, 1].mean() != 0
+    np.testing.assert_allclose(np.linalg.norm(simulation.normals, axis=1), 1)
+    simulation.move_body(0, (turned * 1.01).astype(np.float32))
+    simulation.step()
+    assert simulation.placement("ball") is None
+    np.testing.assert_array_equal(simulation.positions[ball], (turned * 1.01).astype(np.float32))
+
+
+def test_what_cannot_be_moved_is_told(sleeve):
+    simulation = Simulation.from_dict(over_a_ball())
+    for action, words in [
+        (lambda: simulation.place_body("bal", [0, 0, 0]), "no body 'bal'"),
+        (lambda: simulation.place_body(3), "no body 3"),
+        (lambda: simulation.place_body(0, [0, 0, 1e9]), "`translation` is 1e9 m"),
+        (lambda: simulation.place_body(0, rotation=[0, 0, 0, 0]), "`rotation` must be a quaternion"),
+        (lambda: simulation.move_body(0, [[0, 0, 0]]), "1 positions were given for"),
+        (lambda: simulation.move_body(0, np.full((5, 2), 0.0)), "shape"),
+        (lambda: simulation.move_pins(1, [[0, 0, 0]]), "no group 1 of pins"),
+        (lambda: simulation.set_wind([0, 0, float("nan")]), "`velocity` is NaN"),
+        (lambda: sleeve.set_wind([0, 0, 1]), "no wind"),
+        (lambda: sleeve.place_body(0), "cannot be moved by hand"),
+    ]:
+        with pytest.raises(errors.InputError, match=words):
+            action()
+    for wrong in ([0, 0], "abc", None):
+        with pytest.raises((TypeError, ValueError)):
+            simulation.set_wind(wrong)

@@ -98,7 +98,7 @@ fn way(table: &Table<'_>) -> &'static str {
 
 /// Exactly one of `part`, `vertices`, `box` and `ball` says which vertices; `follow` or keyframes where they go.
 fn read_group(table: &Table<'_>, world: &World<'_>) -> Result<PinGroup, SceneError> {
-    table.expect_keys(&[&WAYS[..], &["follow"], &RigidMotion::KEYS].concat())?;
+    table.expect_keys(&[&WAYS[..], &["follow"], &Motion::KEYS].concat())?;
     if WAYS.into_iter().filter(|way| table.has(way)).count() != 1 {
         let message = "pins need exactly one of `part`, `vertices`, `box` and `ball`".to_owned();
         return Err(table.error("part", message));
@@ -116,7 +116,7 @@ fn read_group(table: &Table<'_>, world: &World<'_>) -> Result<PinGroup, SceneErr
         _ => in_ball(&table.required_table("ball")?, world)?,
     };
     let motion = match table.text("follow")? {
-        None => PinMotion::Own(RigidMotion::read(table, world.time_step)?.into()),
+        None => PinMotion::Own(Motion::read(table, world.time_step)?),
         Some(_) if table.has("keyframes") => {
             let message = "pins that `follow` a body have no keyframes of their own".to_owned();
             return Err(table.error("keyframes", message));

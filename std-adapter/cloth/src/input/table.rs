@@ -122,6 +122,17 @@ impl<'a> Table<'a> {
         self.vector(field)?.ok_or_else(|| self.missing(field.name, "[0, 0, 1]"))
     }
 
+    /// `true` or `false`; false if the key is not there.
+    pub(crate) fn flag(&self, key: &str) -> Result<bool, SceneError> {
+        match self.get(key) {
+            None => Ok(false),
+            Some(value) => match value.get_ref() {
+                DeValue::Boolean(flag) => Ok(*flag),
+                _ => Err(self.wrong(key, value, "true or false")),
+            },
+        }
+    }
+
     /// Text in one line, if the key is there. It may be shown on a terminal, over which it must not be able to write.
     pub(crate) fn text(&self, key: &str) -> Result<Option<&'a str>, SceneError> {
         match self.get(key) {

@@ -96,7 +96,7 @@ impl Body {
             BodyShape::Ball => &["centre", "radius", "around"],
             BodyShape::File => &["file"],
         };
-        let keys = [&["name", "shape"], &RigidMotion::KEYS[..], own].concat();
+        let keys = [&["name", "shape"], &Motion::KEYS[..], own].concat();
         table.expect_keys(&keys)?;
         let Some(name) = table.text("name")? else {
             let message = "[body] needs `name`, such as \"arm\"".to_owned();
@@ -113,7 +113,7 @@ impl Body {
             BodyShape::File => Ok(Self::of_mesh(name, shapes::of_file(table)?)),
         };
         let mut body = made.map_err(|error| table.placed(&error))?;
-        body.motion = RigidMotion::read(table, time_step)?.into();
+        body.motion = Motion::read(table, time_step)?;
         Ok(body)
     }
 }

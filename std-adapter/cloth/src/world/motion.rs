@@ -26,6 +26,22 @@ impl Motion {
     }
 }
 
+impl Motion {
+    /// Keys of a table that describes a motion.
+    pub(crate) const KEYS: [&'static str; 4] = ["pivot", "axis", "keyframes", "driven"];
+
+    /// Reads what a table says of a motion: keyframes, or that it is driven, from where it is at rest.
+    pub(crate) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
+        if !table.flag("driven")? {
+            return RigidMotion::read(table, time_step).map(Self::Keyframes);
+        }
+        match RigidMotion::KEYS.into_iter().find(|key| table.has(key)) {
+            None => Ok(Self::Driven(Placement::default())),
+            Some(key) => Err(table.error(key, format!("what is driven from step to step has no `{key}`"))),
+        }
+    }
+}
+
 impl From<RigidMotion> for Motion {
     fn from(motion: RigidMotion) -> Self {
         Self::Keyframes(motion)
@@ -105,8 +121,8 @@ pub(crate) struct Pose {
 }
 
 impl RigidMotion {
-    /// Keys of a table that describes a motion.
-    pub(crate) const KEYS: [&'static str; 3] = ["pivot", "axis", "keyframes"];
+    /// Of a table that describes keyframes.
+    const KEYS: [&'static str; 3] = ["pivot", "axis", "keyframes"];
 
     /// No motion at all.
     #[must_use]
@@ -149,7 +165,7 @@ impl RigidMotion {
     /// Reads `pivot`, `axis` and `[[keyframes]]`, each with a time and perhaps an angle and a translation.
     ///
     /// What turns by more than [`FASTEST_TURN`] in `time_step` seconds is refused.
-    pub(crate) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
+    fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         let pivot = table.vector(&PIVOT)?.unwrap_or_default();
         let axis = table.vector(&AXIS)?.unwrap_or(DVec3::Z);
         let mut motion = Self::new(pivot, axis, Vec::new()).map_err(|error| table.placed(&error))?;

@@ -615,6 +615,52 @@ fn shapes_that_cannot_be_are_refused_where_they_are_made() {
 }
 
 #[test]
+fn a_file_may_leave_bodies_and_pins_to_code() {
+    let text = r#"
+        time_step = 0.002
+        duration = 1
+        [cloth]
+        shape = "sheet"
+        sides = { first = [0.3, 0, 0], second = [0, 0.3, 0] }
+        cells = [4, 4]
+        density = 0.2
+        [[body]]
+        name = "ball"
+        shape = "ball"
+        centre = [0, 0, -1]
+        radius = 0.1
+        driven = true
+        [effects.body_contact]
+        thickness = 0.003
+        [[effects.pins.group]]
+        part = "left"
+        driven = true
+    "#;
+    let parsed = |text: &str| Scene::parse(text, Path::new("s.toml"));
+    let mut simulation = Simulation::new(parsed(text).unwrap(), 1).unwrap();
+    assert_eq!(simulation.body_names(), ["ball"]);
+    simulation.place_body(0, Placement::at(0.01 * DVec3::X)).unwrap();
+    let goals: Vec<_> = (0..5).map(|k| DVec3::new(0.0, 0.075 * f64::from(k), 0.001)).collect();
+    simulation.move_pins(0, &goals).unwrap();
+    simulation.step().unwrap();
+    assert_eq!(simulation.placement(0), Some(Placement::at(0.01 * DVec3::X)));
+    assert_eq!(simulation.positions()[5], goals[1]);
+    let both = text.replace("radius = 0.1", "radius = 0.1\n axis = [1, 0, 0]");
+    let message = parsed(&both).unwrap_err().to_string();
+    assert!(
+        message.ends_with("what is driven from step to step has no `axis`"),
+        "{message}"
+    );
+    let neither = text.replace("driven = true", "driven = 1");
+    assert!(
+        parsed(&neither)
+            .unwrap_err()
+            .to_string()
+            .contains("`driven` must be true or false")
+    );
+}
+
+#[test]
 fn moving_what_cannot_be_moved_is_an_error_and_changes_nothing() {
     let mut scene = scene_with(ball(), 0.1);
     scene.bodies.push(Body::ball("fixed", DVec3::Y, 0.1, 12).unwrap());

@@ -90,6 +90,8 @@ pub(crate) struct Hierarchies {
     task_tests: u64,
     stack: Vec<BlockPair>,
     degradation: Degradation,
+    /// Whether the last update has built them.
+    is_new: bool,
     /// Whether the next update builds, whatever they have cost.
     must_build: bool,
     statistics: MovingStatistics,
@@ -118,6 +120,7 @@ impl Hierarchies {
             task_tests: 0,
             stack: Vec::new(),
             degradation: Degradation::default(),
+            is_new: false,
             must_build: true,
             statistics: MovingStatistics::default(),
         }
@@ -199,7 +202,8 @@ impl Hierarchies {
     /// Takes the positions of a step.
     pub(crate) fn fit_boxes(&mut self, motions: &dyn Motions, fit: &Fit) {
         let items = self.edges.len();
-        if self.must_build || self.degradation.is_worth_a_build(PRICES, items) {
+        self.is_new = self.must_build || self.degradation.is_worth_a_build(PRICES, items);
+        if self.is_new {
             self.build(motions);
         }
         let mapping = motions.mapping(&self.extent, fit);
@@ -402,9 +406,9 @@ impl Hierarchies {
     }
 
     /// Gives `sink` the faces and edges that are near each other and have no vertex in common, by their positions: a share of them
-    /// out of so many. Returns false if it has had enough. (Faces first, each of which is tested against sixteen edges at once: they
+    /// out of so many. Returns the tests that it took; `None` if it has had enough. (Faces first, each of which is tested against sixteen edges at once: they
     /// are fewer.)
-    pub(crate) fn visit_face_edge(&self, share: usize, shares: usize, scratch: &mut Scratch, sink: &mut dyn Sink) -> bool {
+    pub(crate) fn visit_face_edge(&self, share: usize, shares: usize, scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
         let tasks = &self.face_edge_tasks;
         let bound = |index: usize| tasks.len() * index / shares;
         let tasks = &tasks[bound(share)..bound(share + 1)];
@@ -414,7 +418,7 @@ impl Hierarchies {
             common: Common::Mesh,
             are_filtered: self.filter.is_some(),
         };
-        trees.pairs(self.level, tasks, scratch, sink).is_some()
+        trees.pairs(self.level, tasks, scratch, sink)
     }
 
     /// A share of the vertices and faces, out of so many.
@@ -462,12 +466,24 @@ impl Hierarchies {
     /// The candidates were found in so many tests, besides those of [`update`](Self::update).
     pub(crate) fn observe(&mut self, tests: u64, candidates: usize) {
         let tests = tests + self.task_tests;
+        let items = self.edges.len();
         // Boxes of another kind cost something else.
         if self.fit.until == 1.0 && !self.fit.is_swept {
-            self.degradation.observe(PRICES, tests, self.edges.len(), candidates);
+            self.degradation.observe(PRICES, tests, items, candidates, self.is_new);
+        } else {
+            self.degradation
+                .observe_another(PRICES, tests, items, candidates, self.is_new);
         }
         self.statistics.box_tests = tests;
         self.statistics.candidates = candidates;
+    }
+
+    /// The same of faces and edges.
+    pub(crate) fn observe_face_edge(&mut self, tests: u64, candidates: usize) {
+        let tests = tests + self.task_tests;
+        let items = self.edges.len();
+        self.degradation
+            .observe_another(PRICES, tests, items, candidates, self.is_new);
     }
 
     /// The positions of a pair's four vertices: vertex, face; or two edges, the one with the mesh's smaller number first, so that

@@ -90,7 +90,9 @@ impl MeshHierarchy {
             pairs,
         };
         let tests = trees.pairs(level, &self.tasks, &mut self.scratch, &mut near).unwrap_or(0);
-        self.degradation.observe(PRICES, above + tests, self.boxes.len(), pairs.len());
+        // Every search is observed: the first one just after the build.
+        self.degradation
+            .observe(PRICES, above + tests, self.boxes.len(), pairs.len(), true);
         pairs.sort_unstable();
     }
 

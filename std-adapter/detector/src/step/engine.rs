@@ -102,7 +102,7 @@ pub(super) struct Space {
 pub(super) struct Worker {
     pub(super) found: Found,
     kind: PairKind,
-    tests: u64,
+    pub(super) tests: u64,
     seconds: f64,
 }
 
@@ -239,8 +239,9 @@ impl Engine {
         self.count(begin, update);
         let tests = self.workers.iter().map(|worker| worker.tests).sum();
         let candidates = self.tally.candidates.total() as usize;
-        // A traversal that ended early, or of a part of the step, tells nothing of how good the hierarchies are.
-        if question.wanted == Wanted::All && !self.stop.has_stopped() {
+        // Where a traversal ends early depends on which thread is first.
+        let is_whole = question.wanted != Wanted::Any || !bound.is_lowered();
+        if is_whole && !self.stop.has_stopped() {
             self.broad_phase.hierarchies.observe(tests, candidates);
         }
     }

@@ -1,5 +1,7 @@
 //! A mesh's contacts, step by step: what an engine asks, put to the stages.
 
+#[cfg(test)]
+mod ageing;
 mod between;
 mod chunk;
 mod engine;

@@ -172,19 +172,29 @@ impl Engine {
             hinges,
         };
         let parts = [Part::FacesAndEdges, Part::Hinges, Part::LooseFeatures];
+        let (mut tests, mut candidates) = (0, 0);
         for part in parts {
             let shares = shares();
             self.workers.resize_with(shares, Worker::new);
             let spaces = &self.spaces;
             parallel::for_each(&mut self.workers, |share, worker| {
                 worker.found.clear();
+                worker.tests = 0;
                 if !look.has_enough() {
-                    look.at(part, [share, shares], &mut own_space(spaces), &mut worker.found);
+                    worker.tests = look.at(part, [share, shares], &mut own_space(spaces), &mut worker.found);
                 }
             });
             for worker in &self.workers {
+                if matches!(part, Part::FacesAndEdges) {
+                    tests += worker.tests;
+                    candidates += worker.found.tally.candidates.total();
+                }
                 found.extend(worker.found.contacts.iter().map(|contact| part.intersection(contact)));
             }
+        }
+        // Where a traversal ends early depends on which thread is first.
+        if !look.has_enough() {
+            self.broad_phase.hierarchies.observe_face_edge(tests, candidates as usize);
         }
         found.sort_unstable();
         found.dedup();
@@ -249,11 +259,11 @@ impl Look<'_> {
         is_answered || !self.step.stop.goes_on(0)
     }
 
-    /// A share of a part, out of so many.
-    fn at(&self, part: Part, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) {
+    /// A share of a part, out of so many. Returns the tests that hierarchies took.
+    fn at(&self, part: Part, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) -> u64 {
         space.chunk.clear();
         match part {
-            Part::FacesAndEdges => self.faces_and_edges([share, shares], space, found),
+            Part::FacesAndEdges => return self.faces_and_edges([share, shares], space, found),
             Part::Hinges => {
                 let edges = self.hierarchies.topology().edges().len();
                 let bound = |share: usize| (edges * share / shares) as u32;
@@ -262,9 +272,10 @@ impl Look<'_> {
             Part::LooseFeatures if self.hinges.has_loose_features() => self.loose_features([share, shares], space, found),
             Part::LooseFeatures => {}
         }
+        0
     }
 
-    fn faces_and_edges(&self, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) {
+    fn faces_and_edges(&self, [share, shares]: [usize; 2], space: &mut Space, found: &mut Found) -> u64 {
         let Space { scratch, chunk, .. } = space;
         let kind = PairKind::VertexFace;
         let step = &self.step;
@@ -274,9 +285,11 @@ impl Look<'_> {
             step,
             kind,
         };
-        if self.hierarchies.visit_face_edge(share, shares, scratch, &mut sink) {
+        let tests = self.hierarchies.visit_face_edge(share, shares, scratch, &mut sink);
+        if tests.is_some() {
             chunk.finish(step, kind, found);
         }
+        tests.unwrap_or_default()
     }
 
     /// Those of some edges.

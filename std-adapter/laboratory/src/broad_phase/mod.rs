@@ -132,7 +132,7 @@ impl BroadPhase {
         let block_tests = self.traversal.run(&self.hierarchy, &self.everything);
         output::concatenate(&self.hierarchy, &self.traversal, &mut self.offsets, pairs);
         self.degradation
-            .observe(PRICES, block_tests, self.hierarchy.len(), pairs.len());
+            .observe(PRICES, block_tests, self.hierarchy.len(), pairs.len(), true);
         self.statistics.block_tests = block_tests;
         self.statistics.pairs = pairs.len();
     }

@@ -1,7 +1,7 @@
 """What is native. Positions are anything that numpy makes an array of shape (vertex_count, 3) of: float32 and float64 in C order are
 used where they are, others copied; whole numbers and mixed formats become float64."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal, final, overload
 
@@ -179,6 +179,39 @@ class Simulation:
     def positions(self) -> NDArray[np.float64]:
         """(n, 3) in metres: the cloth's vertices, then the bodies'. Always the same array, which shows where they are now: copy it to
         keep it. It cannot be written to."""
+    @property
+    def velocities(self) -> NDArray[np.float64]:
+        """(n, 3) in m/s, of :attr:`positions`; a copy."""
+    @property
+    def normals(self) -> NDArray[np.float64]:
+        """(n, 3): the mean direction of the faces at each vertex, of length one; zero where they have none."""
+    @property
+    def body_names(self) -> list[str]: ...
+    def body_vertices(self, body: str | int) -> slice:
+        """The part of :attr:`positions` that is a body's."""
+
+    def place_body(
+        self,
+        body: str | int,
+        translation: Sequence[float] | NDArray[np.floating[Any]] = ...,
+        rotation: Sequence[float] | NDArray[np.floating[Any]] = ...,
+    ) -> None:
+        """Leads a body that the scene calls ``driven`` to where its points at rest are turned by ``rotation``, a quaternion (x, y, z, w)
+        as scipy has it, then moved, both at first not at all, in the next step: it turns the shorter way round. Where it would leave the cloth no way out, it stops
+        on the way, or the step fails, as the scene's ``on_blocked`` says."""
+
+    def placement(self, body: str | int) -> tuple[list[float], list[float]] | None:
+        """Translation and rotation of a driven body now; None for any other, and for one that was moved vertex by vertex."""
+
+    def move_body(self, body: str | int, positions: ArrayLike) -> None:
+        """Leads each vertex of a driven body straight to a position, in metres, in the next step: a skinned figure."""
+
+    def move_pins(self, group: int, positions: ArrayLike) -> None:
+        """The same for a group of pins that the scene calls ``driven``, by its index."""
+
+    def set_wind(self, velocity: Sequence[float] | NDArray[np.floating[Any]]) -> None:
+        """Lets the scene's wind blow so from now on, in m/s."""
+
     @property
     def faces(self) -> NDArray[np.uint32]:
         """(n, 3): the cloth's, then the bodies'."""
