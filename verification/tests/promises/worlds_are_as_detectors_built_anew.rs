@@ -98,6 +98,20 @@ fn told<S: Scalar>(contacts: &[WorldContact<S>]) -> Told<S> {
     told
 }
 
+/// The other questions to a world have the answers that its contacts make.
+fn agrees<P: Position>(
+    world: &mut World<P>,
+    motions: &[(MeshHandle, MeshMotion<'_, P>)],
+    contacts: &[WorldContact<P::Scalar>],
+) -> Result<(), TestCaseError> {
+    prop_assert_eq!(world.is_free(motions), Ok(contacts.is_empty()));
+    let earliest = world.earliest(motions);
+    let first = contacts.iter().map(|contact| contact.time.to_f64()).min_by(f64::total_cmp);
+    prop_assert_eq!(earliest.map(|found| found.map(|found| found.time.to_f64())), Ok(first));
+    prop_assert!(earliest.is_ok_and(|found| found.is_none_or(|found| contacts.contains(&found))));
+    Ok(())
+}
+
 /// The contacts of some of the meshes, by a detector for all their triangles as one mesh.
 fn by_one_detector<S: Scalar>(models: &[(&Model<S>, &Way<S>)], criterion: Criterion<S>) -> Told<S>
 where
@@ -296,6 +310,9 @@ where
                 }
                 let [found, on_two_threads] = found;
                 prop_assert_eq!(&found, &on_two_threads, "on one thread and on two");
+                for world in &mut worlds {
+                    agrees(world, &motions, &found)?;
+                }
                 let all: Vec<_> = models.iter().zip(&ways).collect();
                 let found = told(&found);
                 if S::UNIT_ROUNDOFF.to_f64() > f64::EPSILON {
@@ -593,6 +610,7 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<
     world.set_threads(Threads::from_count(2)).expect("two threads");
     prop_assert_eq!(world.contacts(&motions, &mut again), Ok(()));
     prop_assert_eq!(&contacts, &again);
+    agrees(&mut world, &motions, &contacts)?;
 
     let found = |kind, meshes, pair| {
         let own = contacts.iter().find(|c| (c.kind, c.meshes, c.pair) == (kind, meshes, pair));

@@ -2,7 +2,7 @@
 
 use super::chunk::{ChunkSink, Found, Numbers, StepInput};
 use super::engine::{Space, own_space, shares, spaces_for_threads};
-use super::{Bound, Contact, Question, Stop};
+use super::{Bound, Contact, Question, Stop, Wanted};
 use crate::broad_phase::{BlockPair, Pairing, RowSlices};
 use crate::buffer::settle;
 use crate::parallel;
@@ -59,8 +59,15 @@ impl SourceEngine {
         }
     }
 
-    /// Finds the contacts of all sources. `refine` is asked about each, and says when it is, or that it is none.
-    pub(crate) fn run(&mut self, sources: &[Source<'_>], refine: &(dyn Fn(usize, &Contact<f64>) -> Option<f64> + Sync)) {
+    /// Finds the contacts of all sources, or those of them that are `wanted`. `refine` is asked about each, and says when it is, or that it is
+    /// none; the question of a source of which it may say none is to want them all, as contacts that are none hide no other. Returns false if
+    /// it has ended early, as one contact was enough: where depends on which thread was first.
+    pub(crate) fn run(
+        &mut self,
+        sources: &[Source<'_>],
+        wanted: Wanted,
+        refine: &(dyn Fn(usize, &Contact<f64>) -> Option<f64> + Sync),
+    ) -> bool {
         self.stop.begin();
         self.tasks.clear();
         self.task_ends.clear();
@@ -76,8 +83,8 @@ impl SourceEngine {
         });
         let (tasks, task_ends, stop) = (&self.tasks[..], &self.task_ends[..], &self.stop);
         let spaces = spaces_for_threads(&mut self.spaces);
-        // Every contact is wanted, of the whole step.
         let bound = Bound::new(1.0);
+        let has_enough = || wanted == Wanted::Any && bound.is_lowered();
         parallel::for_each(&mut self.workers, |index, worker| {
             let SourceWorker { found, visits } = worker;
             found.clear();
@@ -85,7 +92,7 @@ impl SourceEngine {
             let Space { scratch, chunk, .. } = &mut *own_space(spaces);
             let place = |share: usize| tasks.len() * share / shares;
             let (mut begin, end) = (place(index), place(index + 1));
-            while begin < end && stop.goes_on(0) {
+            while begin < end && !has_enough() && stop.goes_on(0) {
                 let number = task_ends.partition_point(|&(of_source, _)| of_source <= begin);
                 let own = begin..end.min(task_ends[number].0);
                 begin = own.end;
@@ -112,14 +119,15 @@ impl SourceEngine {
                     step: &step,
                     kind,
                 };
-                let Some(tests) = source.pairing.visit(&tasks[own], scratch, &mut sink) else {
-                    return;
-                };
-                chunk.finish(&step, kind, found);
+                let tests = source.pairing.visit(&tasks[own], scratch, &mut sink);
+                if tests.is_some() {
+                    chunk.finish(&step, kind, found);
+                }
                 let mut kept = first;
                 for read in first..found.contacts.len() {
                     let contact = found.contacts[read];
                     if let Some(time) = refine(number, &contact) {
+                        bound.lower(wanted, time);
                         found.contacts[kept] = Contact { time, ..contact };
                         kept += 1;
                     }
@@ -128,11 +136,15 @@ impl SourceEngine {
                 visits.push(Visit {
                     source: number,
                     end: kept,
-                    tests,
+                    tests: tests.unwrap_or_default(),
                     candidates: found.tally.candidates.total() - before,
                 });
+                if tests.is_none() {
+                    return;
+                }
             }
         });
+        !has_enough()
     }
 
     /// The contacts of the last run with their sources, in order.

@@ -12,11 +12,11 @@ use crate::mesh::Topology;
 use crate::parallel::Workers;
 #[cfg(feature = "parallel")]
 use crate::parallel::{ThreadError, Threads};
-use crate::step::{Cancellation, Criterion, Question, Wanted, rounded};
+use crate::step::{Cancellation, Contact, Criterion, Question, Wanted, rounded};
 use mesh::{Frames, Moves, WorldMesh, between_poses};
 use selvedge_core::glam::{DQuat, DVec3};
 use selvedge_core::narrowing::{rounded_down, widened};
-use selvedge_core::{PairKind, Position};
+use selvedge_core::{PairKind, Position, Scalar};
 use stage::{Given, MOST_VERTICES, Stage};
 use std::fmt;
 use std::sync::Arc;
@@ -307,25 +307,52 @@ impl<P: Position> World<P> {
         motions: &[(MeshHandle, MeshMotion<'_, P>)],
         contacts: &mut Vec<WorldContact<P::Scalar>>,
     ) -> Result<(), WorldError> {
+        self.run(motions, Wanted::All)??;
+        contacts.clear();
+        let stage = &self.stage;
+        for (source, found) in stage.engine.contacts() {
+            contacts.extend(found.iter().map(|contact| of_meshes(stage.sources[source], contact)));
+        }
+        Ok(())
+    }
+
+    /// The earliest contact of such a step: the step is certainly free of contact until its time, and free altogether if there is none. Of
+    /// several at the same time the first by kind, meshes and pair.
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts).
+    pub fn earliest(
+        &mut self,
+        motions: &[(MeshHandle, MeshMotion<'_, P>)],
+    ) -> Result<Option<WorldContact<P::Scalar>>, WorldError> {
+        self.run(motions, Wanted::Earliest)??;
+        let earliest = self.stage.earliest();
+        Ok(earliest.map(|(source, contact)| of_meshes(self.stage.sources[source], contact)))
+    }
+
+    /// Whether such a step is certainly free of contact.
+    ///
+    /// # Errors
+    /// As [`contacts`](Self::contacts).
+    pub fn is_free(&mut self, motions: &[(MeshHandle, MeshMotion<'_, P>)]) -> Result<bool, WorldError> {
+        let ended = self.run(motions, Wanted::Any)?;
+        if self.stage.engine.contacts().any(|(_, found)| !found.is_empty()) {
+            return Ok(false);
+        }
+        ended?;
+        Ok(true)
+    }
+
+    /// Does a step, if it is in order; then whether it was cut short.
+    fn run(&mut self, motions: &[(MeshHandle, MeshMotion<'_, P>)], wanted: Wanted) -> Result<Result<(), StepError>, WorldError> {
         self.stage.engine.stop.admits()?;
         self.check_once(motions)?;
         let checked = || motions.iter().map(|&(mesh, motion)| self.checked(mesh, motion)).collect();
         let checked: Vec<_> = self.workers.run::<Result<_, _>>(checked)?;
         let given: Vec<Given<'_>> = checked.iter().map(Checked::given).collect();
-        let question = Question::new(&self.criterion, Wanted::All);
+        let question = Question::new(&self.criterion, wanted);
         let Self { stage, workers, .. } = self;
-        workers.run(|| stage.run(&given, &question))?;
-        contacts.clear();
-        for (source, found) in stage.engine.contacts() {
-            let meshes = stage.sources[source];
-            contacts.extend(found.iter().map(|contact| WorldContact {
-                kind: contact.kind,
-                meshes,
-                pair: contact.pair,
-                time: rounded_down(contact.time),
-            }));
-        }
-        Ok(())
+        Ok(workers.run(|| stage.run(&given, &question)))
     }
 
     fn mesh(&self, mesh: MeshHandle) -> Result<&WorldMesh, WorldError> {
@@ -355,6 +382,16 @@ impl<P: Position> World<P> {
                 Ok(Checked::Rigid(handle, frames, moves))
             }
         }
+    }
+}
+
+/// A contact as callers see it.
+fn of_meshes<S: Scalar>(meshes: [MeshHandle; 2], contact: &Contact<f64>) -> WorldContact<S> {
+    WorldContact {
+        kind: contact.kind,
+        meshes,
+        pair: contact.pair,
+        time: rounded_down(contact.time),
     }
 }
 

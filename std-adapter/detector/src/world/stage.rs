@@ -4,10 +4,11 @@ use super::handles::{MeshHandle, Places};
 use super::mesh::{Moves, RowsAt, WorldMesh};
 use crate::broad_phase::{MeshHierarchy, Pairing, Rows};
 use crate::frame::{Motions, StepError};
-use crate::step::{Contact, Question, Source, SourceEngine};
+use crate::step::{Contact, Question, Source, SourceEngine, Wanted};
 use selvedge_core::elementary::Limits;
 use selvedge_core::paths::{Arc, Path, Piece, RigidMotion, separation_of_pieces, time_of_impact};
 use selvedge_core::{Motion, PairKind};
+use std::cmp::Ordering;
 
 /// Most vertices of all meshes: rows are numbered, with as many places unused as used.
 pub(super) const MOST_VERTICES: usize = u32::MAX as usize / 2;
@@ -101,9 +102,21 @@ impl Stage {
             None => Some(contact.time),
             Some(motions) => time_on_paths(&sources[source].pairing, motions, &question.limits, contact),
         };
-        self.engine.run(&sources, &refine);
-        self.observe();
+        if self.engine.run(&sources, question.wanted, &refine) {
+            self.observe();
+        }
         self.engine.stop.result()
+    }
+
+    /// The earliest contact of the last step, with its source.
+    pub(super) fn earliest(&self) -> Option<(usize, &Contact<f64>)> {
+        let all = self.engine.contacts();
+        let all = all.flat_map(|(source, found)| found.iter().map(move |contact| (source, contact)));
+        all.min_by(|(a_source, a), (b_source, b)| {
+            let by_time = a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal);
+            let place = |source: &usize, contact: &Contact<f64>| (contact.kind, self.sources[*source], contact.pair);
+            by_time.then_with(|| place(a_source, a).cmp(&place(b_source, b)))
+        })
     }
 
     /// Refits what moves, and what has come to rest.
@@ -202,6 +215,8 @@ fn question_on_pieces(question: &Question, meshes: [&WorldMesh; 2]) -> Question 
                 ..limits
             },
             is_exact: false,
+            // What is near on the pieces may be none on the ways.
+            wanted: Wanted::All,
             ..*question
         },
     }
