@@ -1,0 +1,48 @@
+//! Contacts of moving meshes in Bevy, none of which is ever missed, as messages.
+//!
+//! Add [`SelvedgePlugin`], give entities with a `Mesh3d` a [`CollisionBody`], and read [`BodyContact`]s.
+
+mod body;
+mod collisions;
+mod error;
+mod place;
+mod shape;
+
+pub use body::{CollisionBody, CollisionGroups, CollisionMesh};
+pub use collisions::{BodyContact, CollisionSettings};
+pub use error::{SelvedgeError, SelvedgeProblem};
+pub use selvedge;
+pub use selvedge::core::elementary::Limits;
+pub use selvedge::{Criterion, Groups, PairKind, Threads};
+pub use shape::MeshError;
+
+use bevy_app::{App, FixedPostUpdate, Plugin};
+use bevy_asset::{AssetEvent, Assets};
+use bevy_ecs::schedule::{IntoScheduleConfigs, SystemSet};
+use bevy_mesh::Mesh;
+
+/// What the plugin does in each fixed step, in `FixedPostUpdate`, in this order.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SelvedgeSystems {
+    /// Contacts of the step are found and written.
+    Contacts,
+}
+
+/// Finds the contacts of all [`CollisionBody`]s in each fixed step.
+///
+/// Needs `TransformPlugin`, `TimePlugin`, `AssetPlugin` and `MeshPlugin`, which are among Bevy's default plugins.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SelvedgePlugin;
+
+impl Plugin for SelvedgePlugin {
+    fn build(&self, app: &mut App) {
+        // Where `MeshPlugin` is missing there are no meshes, but nothing breaks.
+        app.init_resource::<Assets<Mesh>>()
+            .add_message::<AssetEvent<Mesh>>()
+            .init_resource::<CollisionSettings>()
+            .init_resource::<collisions::Collisions>()
+            .add_message::<BodyContact>()
+            .add_message::<SelvedgeProblem>()
+            .add_systems(FixedPostUpdate, collisions::find_contacts.in_set(SelvedgeSystems::Contacts));
+    }
+}
