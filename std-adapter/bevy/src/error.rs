@@ -4,6 +4,7 @@ use crate::MeshError;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::message::{Message, MessageWriter};
 use selvedge::WorldError;
+use selvedge_cloth::{Blocked, DriveError};
 
 /// Something that could not be done, and to whom it happened. It is logged as a warning as well; everything else goes on.
 #[derive(Message, Clone, Debug, PartialEq)]
@@ -18,8 +19,8 @@ pub struct SelvedgeProblem {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SelvedgeError {
-    /// A body's mesh cannot collide. It is looked at again when the asset changes.
-    #[error("its mesh cannot collide: {0}")]
+    /// The mesh of a body cannot collide, or that of a cloth cannot be written. It is looked at again when the asset changes.
+    #[error("its mesh cannot be used: {0}")]
     Mesh(#[from] MeshError),
     /// A body or one of its ancestors has no `Transform`. It stays out, or where it is, until that changes.
     #[error("it cannot be placed: entity {entity} has no Transform; give it one")]
@@ -36,6 +37,47 @@ pub enum SelvedgeError {
     /// A step's contacts were not found: there are more pairs than the limit, say. Bodies are where they would have ended.
     #[error("this step's contacts are not known: {0}")]
     Step(WorldError),
+    /// A cloth's scene cannot be simulated. It never starts.
+    #[error("the scene cannot be simulated: {0}")]
+    Setup(String),
+    /// A cloth cannot go on without an intersection, and its scene wants to stop then: see `Scene::on_blocked`.
+    #[error("the cloth ends: {0}")]
+    Blocked(Blocked),
+    /// An entity leads a body that the scene does not have.
+    #[error("there is no body {body} to be led: the scene has {bodies}, from 0 on")]
+    NoBody {
+        /// Which body.
+        body: usize,
+        /// How many there are.
+        bodies: usize,
+    },
+    /// A body cannot be led to where its entity is; it stays.
+    #[error("a body cannot be led to where its entity is: {0}")]
+    Lead(DriveError),
+    /// An entity that leads a body has a scale, which the body would not follow. It stays.
+    #[error("entity {entity} leads a body, but has a scale: give the body that size instead")]
+    ScaledLeader {
+        /// Which entity.
+        entity: Entity,
+    },
+    /// The fixed time step was changed after the cloth had started: it goes on with its own, slower or faster than the rest.
+    #[error("the fixed time step is {fixed} s now, but the cloth has started with steps of {step} s")]
+    TimeStep {
+        /// The cloth's, in seconds.
+        step: f64,
+        /// Bevy's, in seconds.
+        fixed: f64,
+    },
+    /// The mesh that is seen is not the cloth's.
+    #[error(
+        "its Mesh3d has {seen} vertices, but the cloth has {cloth}: give it the mesh that the cloth was made of, or `mesh_of`"
+    )]
+    OtherMesh {
+        /// Vertices of the mesh.
+        seen: usize,
+        /// Vertices of the cloth.
+        cloth: usize,
+    },
     /// A setting was not taken; the one before holds.
     #[error("a setting was not taken: {0}")]
     Setting(String),

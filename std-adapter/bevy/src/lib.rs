@@ -3,27 +3,33 @@
 //! Add [`SelvedgePlugin`], give entities with a `Mesh3d` a [`CollisionBody`], and read [`BodyContact`]s.
 
 mod body;
+mod cloth;
 mod collisions;
 mod error;
 mod place;
 mod shape;
 
 pub use body::{CollisionBody, CollisionGroups, CollisionMesh};
+pub use cloth::{ClothMeshError, ClothSimulation, body_of_mesh, cloth_of_mesh, mesh_of};
 pub use collisions::{BodyContact, CollisionSettings};
 pub use error::{SelvedgeError, SelvedgeProblem};
 pub use selvedge;
 pub use selvedge::core::elementary::Limits;
 pub use selvedge::{Criterion, Groups, PairKind, Threads};
+pub use selvedge_cloth;
 pub use shape::MeshError;
 
 use bevy_app::{App, FixedPostUpdate, Plugin};
 use bevy_asset::{AssetEvent, Assets};
 use bevy_ecs::schedule::{IntoScheduleConfigs, SystemSet};
 use bevy_mesh::Mesh;
+use bevy_time::{Fixed, Time};
 
 /// What the plugin does in each fixed step, in `FixedPostUpdate`, in this order.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SelvedgeSystems {
+    /// Cloths do their steps, and their meshes are written.
+    Cloth,
     /// Contacts of the step are found and written.
     Contacts,
 }
@@ -43,6 +49,9 @@ impl Plugin for SelvedgePlugin {
             .init_resource::<collisions::Collisions>()
             .add_message::<BodyContact>()
             .add_message::<SelvedgeProblem>()
+            .init_resource::<Time<Fixed>>()
+            .configure_sets(FixedPostUpdate, (SelvedgeSystems::Cloth, SelvedgeSystems::Contacts).chain())
+            .add_systems(FixedPostUpdate, cloth::step_cloths.in_set(SelvedgeSystems::Cloth))
             .add_systems(FixedPostUpdate, collisions::find_contacts.in_set(SelvedgeSystems::Contacts));
     }
 }

@@ -60,6 +60,10 @@ impl Place {
         (self.rotation, self.translation)
     }
 
+    pub(crate) fn linear(&self) -> DMat3 {
+        DMat3::from_quat(self.rotation) * self.form
+    }
+
     /// A position that the pose is still to move.
     pub(crate) fn formed(&self, position: [f32; 3]) -> DVec3 {
         self.form * widened(position)

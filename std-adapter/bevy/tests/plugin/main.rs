@@ -1,8 +1,12 @@
 //! The plugin as an app meets it: without a window, and without the rest of Bevy.
 
 mod bodies;
+mod cloth;
 mod contacts;
 mod problems;
+
+#[path = "../../example/src/figure.rs"]
+mod figure;
 
 use bevy_app::{App, FixedLast, TaskPoolPlugin};
 use bevy_asset::{AssetPlugin, Assets, Handle, RenderAssetUsages};
