@@ -18,6 +18,8 @@ pub enum CollisionBody {
     /// Moves as one body, with its `Transform` and those of its ancestors: in a step from where it was at the end of the step before to where it is
     /// now, on arcs if it turns. Its pivot, the mesh's origin, moves straight.
     ///
+    /// To put it elsewhere without a way in between let it be `Fixed` for a step.
+    ///
     /// While its scale changes its vertices move straight, and its hierarchies are built anew each step.
     Rigid,
     /// Each vertex moves straight from where it was to where it is now: the mesh's positions may change each step, and so may its `Transform`.

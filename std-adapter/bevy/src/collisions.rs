@@ -218,8 +218,8 @@ impl Collisions {
         };
         if !self.bodies.get(&entity).is_some_and(stays) {
             let last = self.remove(entity);
-            // A rigid body that has another form now goes on from where it was.
-            let last = last.filter(|body| [kind, body.source.kind] == [CollisionBody::Rigid; 2] && body.source.mesh == id);
+            // A rigid body that has another form or mesh now goes on from where it was.
+            let last = last.filter(|body| [kind, body.source.kind] == [CollisionBody::Rigid; 2]);
             let shape = self.shape(id, mesh)?;
             let start = last.map_or(place, |body| body.place);
             let positions = positions_of(mesh)?.iter().map(|&position| match kind {
@@ -246,7 +246,7 @@ impl Collisions {
         }
         match kind {
             CollisionBody::Fixed => Ok(None),
-            CollisionBody::Rigid => Ok(body.rigid_way(place, positions_of(mesh)?)),
+            CollisionBody::Rigid => Ok(body.rigid_way(place, mesh)?),
             CollisionBody::Deforming => self.deforming_way(entity, place, positions_of(mesh)?),
         }
     }
@@ -256,7 +256,9 @@ impl Collisions {
         if let Some(error) = self.refused.get(&id) {
             return Err(error.clone());
         }
-        if let Some(shape) = self.shapes.get(&id).and_then(Weak::upgrade) {
+        // Of a mesh that has changed Bevy tells in the next frame.
+        let has_all = |shape: &Arc<Shape>| positions_of(mesh).is_ok_and(|positions| positions.len() == shape.points.len());
+        if let Some(shape) = self.shapes.get(&id).and_then(Weak::upgrade).filter(has_all) {
             return Ok(shape);
         }
         let shape = Shape::of(mesh).map(Arc::new);
@@ -299,7 +301,7 @@ impl Collisions {
             return Ok(None);
         };
         if ends.len() != body.shape.points.len() {
-            // Of another shape. That comes to be known by an event, from the next frame on.
+            // Of another shape, which is known in the next frame.
             return Ok(None);
         }
         if body.positions == ends && !body.is_new {
@@ -403,22 +405,27 @@ impl Collisions {
 }
 
 impl Body {
-    fn rigid_way(&self, place: Place, mesh: &[[f32; 3]]) -> Option<Way> {
+    fn rigid_way(&self, place: Place, mesh: &Mesh) -> Result<Option<Way>, MeshError> {
         if place == self.place && !self.is_new {
-            return None;
+            return Ok(None);
         }
         if place.has_form_of(&self.inserted) {
-            return Some(Way::Rigid(place));
+            return Ok(Some(Way::Rigid(place)));
+        }
+        let mesh = positions_of(mesh)?;
+        if mesh.len() != self.shape.points.len() {
+            // Of another shape: it goes all the way once that is known, by an event in the next frame.
+            return Ok(None);
         }
         let points = [self.place, place].map(|place| {
             let vertices = self.shape.vertices.iter();
             vertices.map(|&vertex| place.apply(mesh[vertex as usize])).collect()
         });
-        Some(Way::Straight {
+        Ok(Some(Way::Straight {
             points,
             place,
             positions: Vec::new(),
-        })
+        }))
     }
 
     /// The first vertex of a point.

@@ -1,6 +1,12 @@
-//! Contacts of moving meshes in Bevy, none of which is ever missed, as messages.
+//! Contacts of moving meshes in Bevy as messages, none of which is ever missed; and cloth that entities lead.
 //!
-//! Add [`SelvedgePlugin`], give entities with a `Mesh3d` a [`CollisionBody`], and read [`BodyContact`]s.
+//! **Start at [`SelvedgePlugin`]**: entities with a [`CollisionBody`] and a mesh take part, and each [`BodyContact`] is a message. A
+//! [`ClothSimulation`] moves the mesh of its entity. The readme says when what happens.
+//!
+//! ```text
+//! Transforms, meshes ──▶ place, shape ──▶ collisions: bodies of a World ──▶ BodyContact
+//!                                     └─▶ cloth: bodies of a Simulation ──▶ meshes
+//! ```
 
 mod body;
 mod cloth;
@@ -34,7 +40,7 @@ pub enum SelvedgeSystems {
     Contacts,
 }
 
-/// Finds the contacts of all [`CollisionBody`]s in each fixed step.
+/// Finds the contacts of all [`CollisionBody`]s, and moves all [`ClothSimulation`]s, in each fixed step.
 ///
 /// Needs `TransformPlugin`, `TimePlugin`, `AssetPlugin` and `MeshPlugin`, which are among Bevy's default plugins.
 #[derive(Clone, Copy, Debug, Default)]
@@ -55,3 +61,8 @@ impl Plugin for SelvedgePlugin {
             .add_systems(FixedPostUpdate, collisions::find_contacts.in_set(SelvedgeSystems::Contacts));
     }
 }
+
+/// The readme's examples are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

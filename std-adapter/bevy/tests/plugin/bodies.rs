@@ -150,6 +150,31 @@ fn a_rigid_body_whose_scale_or_mesh_changes_goes_on_from_where_it_was() {
 }
 
 #[test]
+fn a_mesh_may_shrink_or_grow_before_bevy_tells_of_it() {
+    let meshes = [2, 3, 5].map(sheet);
+    for body in [CollisionBody::Fixed, CollisionBody::Rigid, CollisionBody::Deforming] {
+        for (positions, triangles) in &meshes {
+            let mut app = app();
+            let (other, changing) = (sheet_mesh(&mut app), sheet_mesh(&mut app));
+            let mover = spawn(&mut app, &other, CollisionBody::Rigid, 9.0);
+            let first = spawn(&mut app, &changing, body, 0.0);
+            step(&mut app);
+            let new = crate::mesh(positions.clone(), triangles);
+            app.world_mut().resource_mut::<Assets<Mesh>>().insert(&changing, new).unwrap();
+            // One of the new mesh, and one that moves and changes its scale.
+            let second = spawn(&mut app, &changing, body, 1.0);
+            app.world_mut().get_mut::<Transform>(first).unwrap().scale = Vec3::new(1.0, 2.0, 1.0);
+            move_to(&mut app, first, -1.0);
+            assert_eq!(step(&mut app).problems, []);
+            assert_eq!(step(&mut app).problems, []);
+            let mut others = [first, second];
+            others.sort_unstable();
+            assert_eq!(met(&mut app, mover), others);
+        }
+    }
+}
+
+#[test]
 fn vertices_that_bevy_parts_for_normals_are_one() {
     let mut app = app();
     // Three vertices in each corner.
