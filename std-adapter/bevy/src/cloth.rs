@@ -212,7 +212,7 @@ pub(crate) fn step_cloths(
 ) {
     let fixed = time.timestep().as_secs_f64();
     for (entity, mut cloth, seen) in &mut cloths {
-        let mut met = Vec::new();
+        let mut met = Met::new();
         let leading = cloth.leading(&places, &mut met);
         cloth.advance(&leading, fixed, &mut met);
         if let (Some(_), Some(seen)) = (cloth.simulation(), seen) {
@@ -220,7 +220,7 @@ pub(crate) fn step_cloths(
                 Some(mut mesh) => cloth.write(place, &mut mesh),
                 None => Ok(()),
             });
-            met.push((Part::Seen, written));
+            met.insert(Part::Seen, written);
         }
         for (part, result) in met {
             if let Some(error) = cloth.is_new(part, result) {
@@ -231,7 +231,7 @@ pub(crate) fn step_cloths(
 }
 
 /// What was asked for or tried, and what came of it.
-type Met = Vec<(Part, Result<(), SelvedgeError>)>;
+type Met = BTreeMap<Part, Result<(), SelvedgeError>>;
 
 impl ClothSimulation {
     /// Where bodies are to go.
@@ -253,7 +253,7 @@ impl ClothSimulation {
                 let (rotation, translation) = place.pose();
                 leading.insert(body, Placement { rotation, translation });
             });
-            met.push((Part::Body(body), result));
+            met.insert(Part::Body(body), result);
         }
         leading
     }
@@ -262,7 +262,7 @@ impl ClothSimulation {
     fn advance(&mut self, leading: &BTreeMap<usize, Placement>, fixed: f64, met: &mut Met) {
         if matches!(self.state, State::Planned(_)) && leading.len() == self.leaders.len() {
             let result = self.start(leading, fixed);
-            met.push((Part::Whole, result));
+            met.insert(Part::Whole, result);
         }
         let State::Running(simulation) = &mut self.state else {
             return;
@@ -275,16 +275,16 @@ impl ClothSimulation {
         } else {
             Err(SelvedgeError::TimeStep { step, fixed })
         };
-        met.push((Part::TimeStep, result));
+        met.insert(Part::TimeStep, result);
         for left in (1..=steps).rev() {
             for (&body, &goal) in leading {
                 let result = lead(simulation, body, goal, left);
                 if result.is_err() {
-                    met.push((Part::Body(body), result));
+                    met.insert(Part::Body(body), result);
                 }
             }
             if let Err(blocked) = simulation.step() {
-                met.push((Part::Whole, Err(SelvedgeError::Blocked(blocked))));
+                met.insert(Part::Whole, Err(SelvedgeError::Blocked(blocked)));
                 let State::Running(simulation) = std::mem::replace(&mut self.state, State::Ended(None)) else {
                     return;
                 };

@@ -51,7 +51,7 @@ pub enum SelvedgeError {
         /// How many there are.
         bodies: usize,
     },
-    /// A body cannot be led to where its entity is; it stays.
+    /// A body cannot be led to where its entity is: that is beyond a kilometre, say. It stops on the way.
     #[error("a body cannot be led to where its entity is: {0}")]
     Lead(DriveError),
     /// An entity that leads a body has a scale, which the body would not follow. It stays.

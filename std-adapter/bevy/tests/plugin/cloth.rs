@@ -276,6 +276,34 @@ fn a_leader_that_is_despawned_or_scaled_is_told_once_and_its_body_stays() {
 }
 
 #[test]
+fn a_leader_beyond_a_kilometre_is_told_once_and_its_body_stays_until_it_is_back() {
+    let mut app = app();
+    let ball = app.world_mut().spawn(Transform::default()).id();
+    let cloth = app
+        .world_mut()
+        .spawn(ClothSimulation::new(over_a_ball()).led_by(0, ball))
+        .id();
+    assert_eq!(step(&mut app).problems, []);
+    let height = |app: &mut App, y: f32| app.world_mut().get_mut::<Transform>(ball).unwrap().translation.y = y;
+    for away in [-1e5, -2e5] {
+        height(&mut app, away);
+        let told = step(&mut app).problems;
+        assert!(
+            matches!(&told[..], [SelvedgeProblem { entity: Some(own), error: SelvedgeError::Lead(_) }] if *own == cloth),
+            "{told:?}"
+        );
+        height(&mut app, away);
+        assert_eq!(step(&mut app).problems, []);
+        height(&mut app, -0.01);
+        assert_eq!(step(&mut app).problems, []);
+        assert_eq!(
+            simulation(&app, cloth).placement(0),
+            Some(Placement::at(wide([0.0, -0.01, 0.0])))
+        );
+    }
+}
+
+#[test]
 fn what_cannot_be_simulated_is_told_once_and_the_app_runs_on() {
     let cloth = |change: fn(&mut Scene)| {
         let mut scene = over_a_ball();
