@@ -82,7 +82,7 @@ pub(crate) fn spawn(world: &mut World, cells: [u32; 2]) -> Result<Figure, ValueE
             capsule("shoulders", [-0.16, 1.42, 0.0], [0.16, 1.42, 0.0], 0.06)?,
             still([0.0; 3]),
         ),
-        (Body::ball("head", DVec3::ZERO, 0.11, 24)?, still([0.0, 1.66, 0.02])),
+        (Body::ball("head", DVec3::ZERO, 0.11, 24)?, still([0.0, 1.61, 0.02])),
         (
             capsule("left leg", [0.0; 3], [0.0, -0.78, 0.0], 0.075)?,
             swing([0.08, 0.92, 0.0], 0.45),
