@@ -282,13 +282,14 @@ impl Collisions {
         let handle = self.world.insert(Arc::clone(&shape.topology), &points, source.groups);
         let handle = handle.map_err(SelvedgeError::World)?;
         self.entities.insert(handle, entity);
+        let is_deforming = source.kind == CollisionBody::Deforming;
         let body = Body {
             handle,
             source,
             shape,
             inserted: place,
             place,
-            positions,
+            positions: if is_deforming { positions } else { Vec::new() },
             is_new: true,
         };
         self.bodies.insert(entity, body);
