@@ -47,8 +47,10 @@ pub struct Simulation {
     inverse_masses: Vec<f64>,
     /// Of each vertex: whose motion it follows.
     carriers: Vec<Carrier>,
-    /// Of kinematic vertices, where they are when their motion is at rest.
+    /// Where all vertices are at rest: the cloth's in the scene, bodies' as their meshes have them.
     rest: Vec<DVec3>,
+    /// Of kinematic vertices, where what carries them takes them from.
+    carried: Vec<DVec3>,
     /// Kinematic ones: bodies', then those of pins.
     motions: Vec<Kinematic>,
     /// Of each group of pins.
@@ -228,7 +230,15 @@ impl Simulation {
         }
         inverse_masses.resize(rest.len(), 0.0);
         let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
-        let start = rest
+        let mut carried = rest.clone();
+        for (point, &carrier) in carried[..cloth.mesh.positions.len()].iter_mut().zip(&carriers) {
+            // Pins that follow a driven body start where the cloth is, wherever that body stands.
+            let body = motions.get(carrier as usize).filter(|_| (carrier as usize) < bodies.len());
+            if let Some(standing) = body.and_then(Kinematic::driven).and_then(|driven| driven.placement) {
+                *point = standing.apply_inverse(*point);
+            }
+        }
+        let start = carried
             .iter()
             .zip(&carriers)
             .map(|(&point, &carrier)| poses.get(carrier as usize).map_or(point, |pose| pose.apply(point)));
@@ -280,6 +290,7 @@ impl Simulation {
             friction,
             carriers,
             rest,
+            carried,
         })
     }
 
@@ -491,7 +502,7 @@ impl Simulation {
         let threads = std::mem::take(&mut self.threads);
         let clock = self.state.clock;
         for driven in self.motions.iter_mut().filter_map(Kinematic::driven_mut) {
-            driven.begin(clock, self.time_step, &self.state.positions, &self.rest);
+            driven.begin(clock, self.time_step, &self.state.positions, &self.carried);
         }
         let result = threads.run(|| self.whole_step());
         let clock = self.state.clock;
@@ -639,7 +650,7 @@ impl Simulation {
             work,
             inverse_masses,
             carriers,
-            rest,
+            carried,
             effects,
             contact,
             ..
@@ -663,7 +674,7 @@ impl Simulation {
         }
         // Where inertia leads, and bodies and pins go.
         let predicted = |vertex: usize| match step.poses.get(carriers[vertex] as usize) {
-            Some([_, pose]) if pose.is_rigid() => pose.apply(rest[vertex]),
+            Some([_, pose]) if pose.is_rigid() => pose.apply(carried[vertex]),
             Some(_) => step.start[vertex],
             None => step.start[vertex] + limited(velocities[vertex], FASTEST) * h,
         };

@@ -24,7 +24,7 @@ pub struct TimeStep<'a> {
 /// Changes velocities before positions are predicted.
 ///
 /// A step that cannot be made is tried again in parts: what a force does must depend on its arguments alone.
-pub trait Force: Debug + Send {
+pub trait Force: Debug + Send + Sync {
     /// Adds to `velocities`, in m/s, of all vertices; those of kinematic ones are not looked at.
     fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]);
 
@@ -38,7 +38,7 @@ pub trait Force: Debug + Send {
 /// Moves predicted positions towards where they should be.
 ///
 /// A step that cannot be made is tried again in parts: what a constraint does must depend on its arguments alone.
-pub trait Constraint: Debug + Send {
+pub trait Constraint: Debug + Send + Sync {
     /// Moves `positions`, in metres, of all vertices whose inverse mass is not zero. `touches` is for effects that push things
     /// apart.
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches);

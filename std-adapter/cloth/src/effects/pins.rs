@@ -49,7 +49,7 @@ pub struct PinGroup {
 /// What moves pins.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PinMotion {
-    /// They are fixed to a body, by its index in the scene.
+    /// They are fixed to a body, by its index in the scene, where both are at the start.
     Body(usize),
     /// They go on their own: a driven group by [`Simulation::move_pins`](crate::Simulation::move_pins).
     Own(Motion),

@@ -8,7 +8,7 @@ use std::fmt::Debug;
 /// Something that acts on the cloth: one of [`effects`](crate::effects), or a caller's own.
 ///
 /// `Debug` is to show every setting: checkpoints tell scenes apart by it.
-pub trait Effect: Debug + Send {
+pub trait Effect: Debug + Send + Sync {
     /// As scene files and reports call it.
     fn name(&self) -> &'static str;
 

@@ -38,6 +38,11 @@ impl Placement {
         self.rotation * point + self.translation
     }
 
+    /// The point at rest that is there: the same bits where it is neither turned nor moved.
+    pub(crate) fn apply_inverse(&self, place: DVec3) -> DVec3 {
+        self.rotation.inverse() * (place - self.translation)
+    }
+
     /// The same, its rotation of length one.
     pub(crate) fn checked(&self) -> Result<Self, ValueError> {
         TRANSLATION.check_vector(self.translation)?;

@@ -182,6 +182,41 @@ fn code_and_file_make_the_same_scene_to_the_last_bit() {
 }
 
 #[test]
+fn pins_that_follow_a_driven_body_start_where_the_cloth_is() {
+    let standing = Placement {
+        rotation: DQuat::from_rotation_x(0.8),
+        translation: DVec3::new(3.0, -2.0, 5.0),
+    };
+    let mut ball = Body::ball("ball", DVec3::Z, 0.01, 12).unwrap();
+    ball.motion = Motion::Driven(standing);
+    let mut scene = scene_with(ball, 0.0);
+    let vertices = scene.cloth.part("left").unwrap().to_vec();
+    let rest = scene.cloth.mesh().positions.clone();
+    scene.add(Pins {
+        groups: vec![PinGroup {
+            vertices: vertices.clone(),
+            motion: PinMotion::Body(0),
+        }],
+    });
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let next = Placement {
+        rotation: DQuat::from_rotation_x(0.8) * DQuat::from_rotation_y(1e-3),
+        translation: standing.translation + DVec3::splat(1e-4),
+    };
+    for (now, leads) in [(standing, false), (next, true)] {
+        if leads {
+            simulation.place_body(0, now).unwrap();
+            simulation.step().unwrap();
+        }
+        for &vertex in &vertices {
+            // As if they had been fixed to the ball where it stood.
+            let fixed = standing.rotation.inverse() * (rest[vertex as usize] - standing.translation);
+            assert!(simulation.positions()[vertex as usize].distance(now.apply(fixed)) < 1e-12);
+        }
+    }
+}
+
+#[test]
 fn a_ball_that_code_moves_pushes_the_cloth_and_never_passes_it() {
     let mut simulation = Simulation::new(scene_with(ball(), 0.075), 1).unwrap();
     for step in 1..=150 {

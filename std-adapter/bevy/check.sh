@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# The plugin: formatting, lints, documentation, tests, without a window. Needs Rust 1.95 or newer, and crates.io for what is not there yet.
+# --present: says so and ends well where they are missing. example/ is built by hand.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+say() { printf '\n== %s\n' "$*"; }
+missing() {
+    if [ "${present:-}" ]; then
+        say "skipped: $*"
+        exit 0
+    fi
+    printf 'check.sh: %s\n' "$*" >&2
+    exit 1
+}
+[ "${1:-}" != --present ] || present=yes
+
+# As in Cargo.toml.
+least=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
+rust=$(rustc --version | cut -d ' ' -f 2)
+[ "$(printf '%s\n' "$least" "$rust" | sort -V | head -n 1)" = "$least" ] || missing "Rust $rust is too old: Bevy needs $least"
+cargo fetch --locked </dev/null || missing "crates.io cannot be reached"
+
+# A target folder of its own: another workspace, other features.
+export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$PWD/target}/bevy
+
+say "Bevy: formatting, lints, documentation"
+cargo fmt --check
+cargo fmt --check --manifest-path example/Cargo.toml
+cargo clippy --locked --all-targets -- -D warnings
+RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps
+
+say "Bevy: tests"
+cargo test --locked
+say "Bevy: all as it should be"

@@ -1,0 +1,399 @@
+//! Cloth: a simulation that entities lead, and that moves the mesh of another.
+
+use crate::error::tell;
+use crate::place::{Place, Places};
+use crate::shape::{MeshError, Shape, positions_of};
+use crate::{SelvedgeError, SelvedgeProblem};
+use bevy_asset::{Assets, RenderAssetUsages};
+use bevy_ecs::component::Component;
+use bevy_ecs::entity::Entity;
+use bevy_ecs::message::MessageWriter;
+use bevy_ecs::system::{Query, Res, ResMut};
+use bevy_mesh::{Indices, Mesh, Mesh3d, PrimitiveTopology, VertexAttributeValues};
+use bevy_time::{Fixed, Time};
+use bevy_transform::components::Transform;
+use selvedge::glam::{DMat3, DVec3};
+use selvedge_cloth::{Body, Cloth, Motion, Placement, Scene, Simulation, ValueError, vertex_normals};
+use std::collections::BTreeMap;
+
+/// A cloth that is simulated in each fixed step, by a [`Scene`] made in code or read from a file.
+///
+/// The scene is in the world's coordinates, in metres. Bodies of it that are [led by](Self::led_by) an entity go where that entity goes, as its
+/// mesh would. The positions and normals of the cloth are written into the entity's own `Mesh3d`, if it has one: that of
+/// [`mesh_of`] the cloth, or the one that [`cloth_of_mesh`] was made of. No other entity should have the same mesh. The entity's `Transform` does
+/// not move the cloth.
+///
+/// The scene's time step is made to fit: the nearest whole part of the fixed time step.
+///
+/// ```
+/// use bevy_ecs::world::World;
+/// use bevy_transform::components::Transform;
+/// use selvedge_bevy::ClothSimulation;
+/// use selvedge_bevy::selvedge_cloth::{Body, Cloth, OnBlocked, Scene, effects::*, glam::DVec3};
+///
+/// let mut world = World::new();
+/// let ball = world.spawn(Transform::default()).id();
+/// let corner = DVec3::new(-0.15, 0.12, -0.15);
+/// let mut scene = Scene::new(Cloth::sheet(corner, [DVec3::Z * 0.3, DVec3::X * 0.3], [20, 20], 0.2)?, 4e-3);
+/// scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.1, 24)?);
+/// scene.add(Gravity { acceleration: DVec3::NEG_Y * 9.81 }).add(Stretch::isotropic(1000.0));
+/// scene.add(BodyContact(Thickness::of(4e-3))).add(SelfCollision(Thickness::of(4e-3)));
+/// scene.on_blocked = OnBlocked::Yield;
+/// world.spawn(ClothSimulation::new(scene).led_by(0, ball));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Component, Debug)]
+#[require(Transform)]
+pub struct ClothSimulation {
+    state: State,
+    /// Of bodies of the scene, by their index.
+    leaders: BTreeMap<usize, Entity>,
+    threads: usize,
+    /// Of the simulation, in seconds.
+    step: f64,
+    /// Of each vertex of the mesh that is seen, the cloth's.
+    vertices: Option<Vec<u32>>,
+    normals: Vec<DVec3>,
+    told: BTreeMap<Part, SelvedgeError>,
+}
+
+#[derive(Debug)]
+enum State {
+    /// Until the first step.
+    Planned(Box<Scene>),
+    Running(Box<Simulation>),
+    /// What it was at last, if it ever ran.
+    Ended(Option<Box<Simulation>>),
+}
+
+/// What a problem is about: each is told once until it is mended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Part {
+    Whole,
+    TimeStep,
+    Seen,
+    Body(usize),
+}
+
+impl ClothSimulation {
+    /// Of this scene, on one thread. It starts in the first fixed step in which all entities that lead bodies have a place; what is wrong with it
+    /// is told then.
+    #[must_use]
+    pub fn new(scene: Scene) -> Self {
+        Self {
+            state: State::Planned(Box::new(scene)),
+            leaders: BTreeMap::new(),
+            threads: 1,
+            step: 0.0,
+            vertices: None,
+            normals: Vec::new(),
+            told: BTreeMap::new(),
+        }
+    }
+
+    /// A body of the scene, by its index, goes where an entity goes: its `Motion` is [`Driven`](Motion::Driven) from where the entity is at
+    /// the start.
+    ///
+    /// In a fixed step it goes from where it stands to where the entity is, evenly, and turns about the entity's origin the shorter way. Once
+    /// the entity has no `Transform`, or is despawned, the body stays where it is.
+    #[must_use]
+    pub fn led_by(mut self, body: usize, entity: Entity) -> Self {
+        self.leaders.insert(body, entity);
+        self
+    }
+
+    /// On so many threads (0: one for each core), which change no bit of the result.
+    #[must_use]
+    pub const fn on_threads(mut self, threads: usize) -> Self {
+        self.threads = threads;
+        self
+    }
+
+    /// What is simulated; `None` until it has started, and if it could not.
+    #[must_use]
+    pub fn simulation(&self) -> Option<&Simulation> {
+        match &self.state {
+            State::Planned(_) => None,
+            State::Running(simulation) => Some(simulation),
+            State::Ended(simulation) => simulation.as_deref(),
+        }
+    }
+
+    /// To turn the wind, or to lead pins and bodies that change their shape. Steps are the plugin's.
+    #[must_use]
+    pub fn simulation_mut(&mut self) -> Option<&mut Simulation> {
+        match &mut self.state {
+            State::Planned(_) => None,
+            State::Running(simulation) => Some(simulation),
+            State::Ended(simulation) => simulation.as_deref_mut(),
+        }
+    }
+
+    /// Whether it does no more steps: it could not be set up, or is blocked and its scene wants to stop then.
+    #[must_use]
+    pub const fn has_ended(&self) -> bool {
+        matches!(self.state, State::Ended(_))
+    }
+
+    /// Whether this differs from what was last told of that part.
+    fn is_new(&mut self, part: Part, result: Result<(), SelvedgeError>) -> Option<SelvedgeError> {
+        match result {
+            Ok(()) => {
+                self.told.remove(&part);
+                None
+            }
+            Err(error) if self.told.get(&part) == Some(&error) => None,
+            Err(error) => {
+                self.told.insert(part, error.clone());
+                Some(error)
+            }
+        }
+    }
+}
+
+/// A Bevy mesh to be seen, of [`Cloth::mesh`] or a body's: positions, smooth normals and triangles. A cloth's material should be double-sided.
+#[must_use]
+pub fn mesh_of(mesh: &selvedge::Mesh) -> Mesh {
+    let mut normals = Vec::new();
+    vertex_normals(&mesh.positions, &mesh.triangles, &mut normals);
+    let rounded = |all: &[DVec3]| -> Vec<[f32; 3]> { all.iter().map(|own| own.as_vec3().to_array()).collect() };
+    Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::all())
+        .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, rounded(&mesh.positions))
+        .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, rounded(&normals))
+        .with_inserted_indices(Indices::U32(mesh.triangles.as_flattened().to_vec()))
+}
+
+/// A cloth of a Bevy mesh, as it is at rest, in metres and in the world's coordinates: with one vertex where the mesh has several at one position,
+/// in the order of the first of each. `warp` and `density` as [`Cloth::of_mesh`] has them.
+///
+/// # Errors
+/// If the mesh is not of triangles with positions, or cannot be cloth.
+pub fn cloth_of_mesh(mesh: &Mesh, warp: DVec3, density: f64) -> Result<Cloth, ClothMeshError> {
+    Ok(Cloth::of_mesh(joined(mesh)?, warp, density)?)
+}
+
+/// A body of a Bevy mesh, which the entity with that mesh may [lead](ClothSimulation::led_by).
+///
+/// # Errors
+/// If the mesh is not of triangles with positions.
+pub fn body_of_mesh(name: &str, mesh: &Mesh) -> Result<Body, MeshError> {
+    Ok(Body::of_mesh(name, joined(mesh)?))
+}
+
+/// Why a Bevy mesh is no cloth.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ClothMeshError {
+    /// It cannot be read.
+    #[error("the mesh cannot be cloth: {0}")]
+    Mesh(#[from] MeshError),
+    /// It has triangles without area, say.
+    #[error(transparent)]
+    Value(#[from] ValueError),
+}
+
+fn joined(mesh: &Mesh) -> Result<selvedge::Mesh, MeshError> {
+    let shape = Shape::of(mesh)?;
+    let positions = positions_of(mesh)?
+        .iter()
+        .map(|position| DVec3::from_array(position.map(f64::from)));
+    Ok(selvedge::Mesh {
+        positions: shape.of_points(&positions.collect::<Vec<_>>()),
+        triangles: shape.topology.triangles().to_vec(),
+    })
+}
+
+/// Leads bodies to where their entities are, does the steps, and writes meshes.
+pub(crate) fn step_cloths(
+    mut cloths: Query<'_, '_, (Entity, &mut ClothSimulation, Option<&Mesh3d>)>,
+    places: Places<'_, '_>,
+    time: Res<'_, Time<Fixed>>,
+    mut meshes: ResMut<'_, Assets<Mesh>>,
+    mut problems: MessageWriter<'_, SelvedgeProblem>,
+) {
+    let fixed = time.timestep().as_secs_f64();
+    for (entity, mut cloth, seen) in &mut cloths {
+        let mut met = Met::new();
+        let leading = cloth.leading(&places, &mut met);
+        cloth.advance(&leading, fixed, &mut met);
+        if let (Some(_), Some(seen)) = (cloth.simulation(), seen) {
+            let written = places.of(entity).and_then(|place| match meshes.get_mut(&seen.0) {
+                Some(mut mesh) => cloth.write(place, &mut mesh),
+                None => Ok(()),
+            });
+            met.insert(Part::Seen, written);
+        }
+        for (part, result) in met {
+            if let Some(error) = cloth.is_new(part, result) {
+                tell(&mut problems, Some(entity), error);
+            }
+        }
+    }
+}
+
+/// What was asked for or tried, and what came of it.
+type Met = BTreeMap<Part, Result<(), SelvedgeError>>;
+
+impl ClothSimulation {
+    /// Where bodies are to go.
+    fn leading(&self, places: &Places<'_, '_>, met: &mut Met) -> BTreeMap<usize, Placement> {
+        let mut leading = BTreeMap::new();
+        for (&body, &leader) in &self.leaders {
+            let place = places.of(leader).and_then(|place| {
+                let is_unscaled = place.has_form_of(&Place {
+                    form: DMat3::IDENTITY,
+                    ..place
+                });
+                if is_unscaled {
+                    Ok(place)
+                } else {
+                    Err(SelvedgeError::ScaledLeader { entity: leader })
+                }
+            });
+            let result = place.map(|place| {
+                let (rotation, translation) = place.pose();
+                leading.insert(body, Placement { rotation, translation });
+            });
+            met.insert(Part::Body(body), result);
+        }
+        leading
+    }
+
+    /// Through a fixed step, of so many seconds.
+    fn advance(&mut self, leading: &BTreeMap<usize, Placement>, fixed: f64, met: &mut Met) {
+        if matches!(self.state, State::Planned(_)) && leading.len() == self.leaders.len() {
+            let result = self.start(leading, fixed);
+            met.insert(Part::Whole, result);
+        }
+        let State::Running(simulation) = &mut self.state else {
+            return;
+        };
+        let step = self.step;
+        let steps = parts(fixed, step);
+        let fits = (fixed - f64::from(steps) * step).abs() <= 1e-6 * fixed;
+        let result = if fits {
+            Ok(())
+        } else {
+            Err(SelvedgeError::TimeStep { step, fixed })
+        };
+        met.insert(Part::TimeStep, result);
+        for left in (1..=steps).rev() {
+            for (&body, &goal) in leading {
+                let result = lead(simulation, body, goal, left);
+                if result.is_err() {
+                    met.insert(Part::Body(body), result);
+                }
+            }
+            if let Err(blocked) = simulation.step() {
+                met.insert(Part::Whole, Err(SelvedgeError::Blocked(blocked)));
+                let State::Running(simulation) = std::mem::replace(&mut self.state, State::Ended(None)) else {
+                    return;
+                };
+                self.state = State::Ended(Some(simulation));
+                return;
+            }
+        }
+    }
+
+    fn start(&mut self, leading: &BTreeMap<usize, Placement>, fixed: f64) -> Result<(), SelvedgeError> {
+        let State::Planned(mut scene) = std::mem::replace(&mut self.state, State::Ended(None)) else {
+            return Ok(());
+        };
+        self.step = fixed / f64::from(parts(fixed, scene.time_step));
+        scene.time_step = self.step;
+        let bodies = scene.bodies.len();
+        for (&body, &placement) in leading {
+            let Some(own) = scene.bodies.get_mut(body) else {
+                return Err(SelvedgeError::NoBody { body, bodies });
+            };
+            own.motion = Motion::Driven(placement);
+        }
+        let simulation = Simulation::new(*scene, self.threads).map_err(|error| SelvedgeError::Setup(error.to_string()))?;
+        self.state = State::Running(Box::new(simulation));
+        Ok(())
+    }
+
+    /// Writes the cloth into the mesh that is seen, which is at `place`.
+    fn write(&mut self, place: Place, mesh: &mut Mesh) -> Result<(), SelvedgeError> {
+        let Self {
+            state,
+            vertices,
+            normals,
+            ..
+        } = self;
+        let (State::Running(simulation) | State::Ended(Some(simulation))) = state else {
+            return Ok(());
+        };
+        let cloth = &simulation.positions()[..simulation.cloth_vertices()];
+        let seen = positions_of(mesh)?.len();
+        if vertices.as_ref().is_none_or(|vertices| vertices.len() != seen) {
+            *vertices = None;
+            let own = if seen == cloth.len() {
+                (0..seen as u32).collect()
+            } else {
+                let shape = Shape::of(mesh)?;
+                if shape.vertices.len() != cloth.len() {
+                    return Err(SelvedgeError::OtherMesh {
+                        seen,
+                        cloth: cloth.len(),
+                    });
+                }
+                shape.points
+            };
+            *vertices = Some(own);
+        }
+        let of_vertices = vertices.as_deref().unwrap_or_default();
+        vertex_normals(cloth, &simulation.triangles()[..simulation.cloth_triangles()], normals);
+        let linear = place.linear();
+        let inverse = linear.inverse();
+        if !inverse.is_finite() {
+            return Err(SelvedgeError::BadTransform);
+        }
+        let (_, translation) = place.pose();
+        let position = |vertex: u32| (inverse * (cloth[vertex as usize] - translation)).as_vec3().to_array();
+        let normal = |vertex: u32| {
+            (linear.transpose() * normals[vertex as usize])
+                .normalize_or_zero()
+                .as_vec3()
+                .to_array()
+        };
+        put(mesh, true, of_vertices.iter().map(|&vertex| position(vertex)));
+        put(mesh, false, of_vertices.iter().map(|&vertex| normal(vertex)));
+        Ok(())
+    }
+}
+
+/// Where the mesh has room for them nothing is allocated.
+fn put(mesh: &mut Mesh, are_positions: bool, values: impl Iterator<Item = [f32; 3]>) {
+    let attribute = if are_positions {
+        Mesh::ATTRIBUTE_POSITION
+    } else {
+        Mesh::ATTRIBUTE_NORMAL
+    };
+    match mesh.try_attribute_mut(attribute) {
+        Ok(VertexAttributeValues::Float32x3(all)) => {
+            all.clear();
+            all.extend(values);
+        }
+        // Its positions have been read, so that it takes attributes.
+        _ => drop(mesh.try_insert_attribute(attribute, values.collect::<Vec<_>>())),
+    }
+}
+
+/// How many steps a fixed step has.
+fn parts(fixed: f64, step: f64) -> u32 {
+    // What is no number is refused when the scene is checked.
+    (fixed / step).round().clamp(1.0, 1e6) as u32
+}
+
+/// The first of so many steps that are left of the way from where the body stands to its goal.
+fn lead(simulation: &mut Simulation, body: usize, goal: Placement, left: u32) -> Result<(), SelvedgeError> {
+    let share = f64::from(left).recip();
+    let next = match simulation.placement(body) {
+        Some(now) if left > 1 => Placement {
+            rotation: now.rotation.slerp(goal.rotation, share),
+            translation: now.translation + (goal.translation - now.translation) * share,
+        },
+        _ => goal,
+    };
+    simulation.place_body(body, next).map_err(SelvedgeError::Lead)
+}

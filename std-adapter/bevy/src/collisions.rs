@@ -1,0 +1,436 @@
+//! Contacts: the entities of a Bevy world as meshes of the detector's.
+
+use crate::error::tell;
+use crate::place::{Place, Places};
+use crate::shape::{Shape, positions_of, triangles_of};
+use crate::{CollisionBody, CollisionGroups, CollisionMesh, MeshError, SelvedgeError, SelvedgeProblem};
+use bevy_asset::{AssetEvent, AssetId, Assets};
+use bevy_ecs::change_detection::DetectChanges;
+use bevy_ecs::entity::Entity;
+use bevy_ecs::message::{Message, MessageReader, MessageWriter};
+use bevy_ecs::resource::Resource;
+use bevy_ecs::system::{Query, Res, ResMut};
+use bevy_mesh::{Mesh, Mesh3d};
+use selvedge::glam::DVec3;
+use selvedge::{Criterion, Groups, MeshHandle, MeshMotion, PairKind, Threads, World, WorldContact, WorldError};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::sync::{Arc, Weak};
+
+/// What counts as a contact, and how contacts are looked for. May be changed at any time.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub struct CollisionSettings {
+    /// At first bodies that touch, in the unit of Bevy's positions.
+    pub criterion: Criterion<f64>,
+    /// At first the one that runs the system. The same contacts in the same order on any number of threads.
+    pub threads: Threads,
+    /// Most pairs that a step may look at; at first any number.
+    pub pair_limit: Option<u64>,
+}
+
+/// Contact of two bodies, or of one with itself, in this fixed step, that is not excluded: no contact is missed.
+///
+/// A touch is often several of these: one for each pair of a vertex and a face, or of two edges, that meet.
+#[derive(Message, Clone, Copy, Debug, PartialEq)]
+pub struct BodyContact {
+    /// Vertex–face or edge–edge.
+    pub kind: PairKind,
+    /// The body of the vertex and that of the face, or those of the two edges. Either may have been despawned since.
+    pub entities: [Entity; 2],
+    /// The vertex and the corners of the face, or the ends of both edges, as their meshes number them. Where a mesh has several vertices at one
+    /// position it is the first of them.
+    pub vertices: [u32; 4],
+    /// When, in [0, 1] of the step: not after the exact time, and hardly before it.
+    pub time: f64,
+}
+
+/// The bodies that take part.
+#[derive(Resource, Default)]
+pub(crate) struct Collisions {
+    world: World<DVec3>,
+    /// In the order in which they are moved, which is to be the same on each run.
+    bodies: BTreeMap<Entity, Body>,
+    entities: HashMap<MeshHandle, Entity>,
+    /// What was told last about those that are out, or stay behind.
+    problems: BTreeMap<Entity, SelvedgeError>,
+    /// Meshes that were read and found wanting.
+    refused: HashMap<AssetId<Mesh>, MeshError>,
+    /// One for all bodies of a mesh.
+    shapes: HashMap<AssetId<Mesh>, Weak<Shape>>,
+    found: Vec<WorldContact<f64>>,
+}
+
+struct Body {
+    handle: MeshHandle,
+    source: Source,
+    shape: Arc<Shape>,
+    /// Where it was inserted: the form that its shape has in the world of meshes.
+    inserted: Place,
+    /// At the end of the last step.
+    place: Place,
+    /// Where each vertex was at the end of the last step, of a deforming body.
+    positions: Vec<DVec3>,
+    /// Whether the world of meshes is to be told where it is, even if it does not move.
+    is_new: bool,
+}
+
+/// What a body was made of.
+#[derive(Clone, Copy)]
+struct Source {
+    kind: CollisionBody,
+    mesh: AssetId<Mesh>,
+    groups: Groups,
+}
+
+/// A body's way through a step.
+enum Way {
+    /// As one, to there.
+    Rigid(Place),
+    /// Each point straight from one position to another, while the body goes to a place, and its mesh's vertices to positions.
+    Straight {
+        points: [Vec<DVec3>; 2],
+        place: Place,
+        positions: Vec<DVec3>,
+    },
+}
+
+/// A body as its entity has it.
+type Wanted<'a> = (
+    Entity,
+    &'a CollisionBody,
+    &'a CollisionGroups,
+    Option<&'a CollisionMesh>,
+    Option<&'a Mesh3d>,
+);
+
+/// Lets bodies in and out, moves them from where they were to where they are, and writes the contacts.
+pub(crate) fn find_contacts(
+    mut collisions: ResMut<'_, Collisions>,
+    settings: Res<'_, CollisionSettings>,
+    meshes: Res<'_, Assets<Mesh>>,
+    mut changes: MessageReader<'_, '_, AssetEvent<Mesh>>,
+    wanted: Query<'_, '_, Wanted<'static>>,
+    places: Places<'_, '_>,
+    (mut contacts, mut problems): (MessageWriter<'_, BodyContact>, MessageWriter<'_, SelvedgeProblem>),
+) {
+    let collisions = &mut *collisions;
+    if settings.is_changed() {
+        for error in collisions.set(&settings) {
+            tell(&mut problems, None, SelvedgeError::Setting(error));
+        }
+    }
+    let changed = changes.read().filter_map(|event| match *event {
+        AssetEvent::Added { id } | AssetEvent::Modified { id } | AssetEvent::Removed { id } => Some(id),
+        AssetEvent::Unused { .. } | AssetEvent::LoadedWithDependencies { .. } => None,
+    });
+    let changed: HashSet<AssetId<Mesh>> = changed.collect();
+    collisions.forget(&changed);
+
+    // Bevy's order of entities depends on what else was spawned.
+    let mut all: Vec<Wanted<'_>> = wanted.iter().collect();
+    all.sort_unstable_by_key(|&(entity, ..)| entity);
+    collisions.keep_only(&all);
+
+    let mut ways = Vec::new();
+    let mut met: BTreeMap<Entity, SelvedgeError> = BTreeMap::new();
+    for &wanted in &all {
+        let entity = wanted.0;
+        let place = places.of(entity);
+        match place.and_then(|place| collisions.way(wanted, place, &meshes, &changed)) {
+            Ok(Some(way)) => ways.push((entity, way)),
+            Ok(None) => {}
+            Err(error) => {
+                met.insert(entity, error);
+            }
+        }
+    }
+    let result = collisions.run(&mut ways, &mut met);
+    collisions.settle(ways);
+    for (&entity, error) in &met {
+        // It is met again in each step until it is mended, but told once.
+        if collisions.problems.get(&entity) != Some(error) {
+            tell(&mut problems, Some(entity), error.clone());
+        }
+    }
+    collisions.problems = met;
+    match result {
+        Ok(()) => drop(contacts.write_batch(collisions.contacts())),
+        Err(error) => tell(&mut problems, None, SelvedgeError::Step(error)),
+    }
+}
+
+impl Collisions {
+    /// Why a setting was not taken.
+    fn set(&mut self, settings: &CollisionSettings) -> Vec<String> {
+        self.world.set_pair_limit(settings.pair_limit);
+        let criterion = self
+            .world
+            .set_criterion(settings.criterion)
+            .err()
+            .map(|error| error.to_string());
+        let threads = self.world.set_threads(settings.threads).err().map(|error| error.to_string());
+        criterion.into_iter().chain(threads).collect()
+    }
+
+    /// Meshes that have changed are read anew.
+    fn forget(&mut self, changed: &HashSet<AssetId<Mesh>>) {
+        self.refused.retain(|mesh, _| !changed.contains(mesh));
+        self.shapes
+            .retain(|mesh, shape| !changed.contains(mesh) && shape.strong_count() > 0);
+    }
+
+    /// Those that were despawned, or have lost a component, leave.
+    fn keep_only(&mut self, wanted: &[Wanted<'_>]) {
+        let is_wanted = |entity: &Entity| wanted.binary_search_by_key(entity, |&(own, ..)| own).is_ok();
+        let gone: Vec<Entity> = self.bodies.keys().filter(|entity| !is_wanted(entity)).copied().collect();
+        for entity in gone {
+            self.remove(entity);
+        }
+    }
+
+    fn remove(&mut self, entity: Entity) -> Option<Body> {
+        let body = self.bodies.remove(&entity)?;
+        self.entities.remove(&body.handle);
+        // It is there: only here are meshes removed.
+        let _ = self.world.remove(body.handle);
+        Some(body)
+    }
+
+    /// How a body that is at `place` now has come there; `None` if it rests, or its mesh is not there, or not yet.
+    fn way(
+        &mut self,
+        (entity, &kind, groups, own, seen): Wanted<'_>,
+        place: Place,
+        meshes: &Assets<Mesh>,
+        changed: &HashSet<AssetId<Mesh>>,
+    ) -> Result<Option<Way>, SelvedgeError> {
+        let id = own.map(|mesh| mesh.0.id()).or(seen.map(|mesh| mesh.0.id()));
+        let Some((id, mesh)) = id.and_then(|id| Some((id, meshes.get(id)?))) else {
+            self.remove(entity);
+            return Ok(None);
+        };
+        let stays = |body: &Body| {
+            let is_as_it_was = || match kind {
+                CollisionBody::Fixed => body.place == place && !changed.contains(&id),
+                CollisionBody::Rigid => body.place.has_form_of(&body.inserted) && !changed.contains(&id),
+                CollisionBody::Deforming => !changed.contains(&id) || triangles_of(mesh).as_ref() == Ok(&body.shape.triangles),
+            };
+            body.source.kind == kind && body.source.mesh == id && is_as_it_was()
+        };
+        if !self.bodies.get(&entity).is_some_and(stays) {
+            let last = self.remove(entity);
+            // A rigid body that has another form or mesh now goes on from where it was.
+            let last = last.filter(|body| [kind, body.source.kind] == [CollisionBody::Rigid; 2]);
+            let shape = self.shape(id, mesh)?;
+            let start = last.map_or(place, |body| body.place);
+            let positions = positions_of(mesh)?.iter().map(|&position| match kind {
+                CollisionBody::Rigid => start.formed(position),
+                CollisionBody::Fixed | CollisionBody::Deforming => start.apply(position),
+            });
+            self.insert(
+                entity,
+                Source {
+                    kind,
+                    mesh: id,
+                    groups: groups.0,
+                },
+                shape,
+                positions.collect(),
+                start,
+            )?;
+        }
+        let Some(body) = self.bodies.get_mut(&entity) else {
+            return Ok(None);
+        };
+        if body.source.groups != groups.0 && self.world.set_groups(body.handle, groups.0).is_ok() {
+            body.source.groups = groups.0;
+        }
+        match kind {
+            CollisionBody::Fixed => Ok(None),
+            CollisionBody::Rigid => Ok(body.rigid_way(place, mesh)?),
+            CollisionBody::Deforming => self.deforming_way(entity, place, positions_of(mesh)?),
+        }
+    }
+
+    /// The shape of a mesh, which all its bodies share.
+    fn shape(&mut self, id: AssetId<Mesh>, mesh: &Mesh) -> Result<Arc<Shape>, MeshError> {
+        if let Some(error) = self.refused.get(&id) {
+            return Err(error.clone());
+        }
+        // Of a mesh that has changed Bevy tells in the next frame.
+        let has_all = |shape: &Arc<Shape>| positions_of(mesh).is_ok_and(|positions| positions.len() == shape.points.len());
+        if let Some(shape) = self.shapes.get(&id).and_then(Weak::upgrade).filter(has_all) {
+            return Ok(shape);
+        }
+        let shape = Shape::of(mesh).map(Arc::new);
+        match &shape {
+            Ok(shape) => drop(self.shapes.insert(id, Arc::downgrade(shape))),
+            Err(error) => drop(self.refused.insert(id, error.clone())),
+        }
+        shape
+    }
+
+    /// Takes a body in, with its vertices at these positions.
+    fn insert(
+        &mut self,
+        entity: Entity,
+        source: Source,
+        shape: Arc<Shape>,
+        positions: Vec<DVec3>,
+        place: Place,
+    ) -> Result<(), SelvedgeError> {
+        let points = shape.of_points(&positions);
+        let handle = self.world.insert(Arc::clone(&shape.topology), &points, source.groups);
+        let handle = handle.map_err(SelvedgeError::World)?;
+        self.entities.insert(handle, entity);
+        let is_deforming = source.kind == CollisionBody::Deforming;
+        let body = Body {
+            handle,
+            source,
+            shape,
+            inserted: place,
+            place,
+            positions: if is_deforming { positions } else { Vec::new() },
+            is_new: true,
+        };
+        self.bodies.insert(entity, body);
+        Ok(())
+    }
+
+    fn deforming_way(&mut self, entity: Entity, place: Place, mesh: &[[f32; 3]]) -> Result<Option<Way>, SelvedgeError> {
+        let ends: Vec<DVec3> = mesh.iter().map(|&position| place.apply(position)).collect();
+        let Some(body) = self.bodies.get(&entity) else {
+            return Ok(None);
+        };
+        if ends.len() != body.shape.points.len() {
+            // Of another shape, which is known in the next frame.
+            return Ok(None);
+        }
+        if body.positions == ends && !body.is_new {
+            return Ok(None);
+        }
+        if !body.shape.is_together(&ends) {
+            // What was one point opens.
+            let Some(last) = self.remove(entity) else { return Ok(None) };
+            let keys = last.shape.points.iter().zip(&ends);
+            let keys = keys.map(|(&point, end)| (point, (end + DVec3::ZERO).to_array().map(f64::to_bits)));
+            let shape = Shape::new(last.shape.triangles.clone(), keys)?;
+            self.insert(entity, last.source, Arc::new(shape), last.positions, last.place)?;
+        }
+        Ok(self.bodies.get(&entity).map(|body| Way::Straight {
+            points: [body.shape.of_points(&body.positions), body.shape.of_points(&ends)],
+            place,
+            positions: ends,
+        }))
+    }
+
+    /// Finds the contacts. What the world of meshes does not take as it moves stays where it is, and is among those `met`.
+    fn run(&mut self, ways: &mut Vec<(Entity, Way)>, met: &mut BTreeMap<Entity, SelvedgeError>) -> Result<(), WorldError> {
+        loop {
+            let motions = ways.iter().filter_map(|(entity, way)| {
+                let body = self.bodies.get(entity)?;
+                let motion = match way {
+                    Way::Rigid(place) => MeshMotion::Rigid {
+                        start: body.place.pose(),
+                        end: place.pose(),
+                    },
+                    Way::Straight {
+                        points: [start, end], ..
+                    } => MeshMotion::Deforming { start, end },
+                };
+                Some((body.handle, motion))
+            });
+            let motions: Vec<_> = motions.collect();
+            let Err(error) = self.world.contacts(&motions, &mut self.found) else {
+                return Ok(());
+            };
+            let at_fault = match error {
+                WorldError::BadPositions { mesh, .. } | WorldError::BadPose { mesh } => self.entities.get(&mesh).copied(),
+                _ => None,
+            };
+            let Some(entity) = at_fault else {
+                self.found.clear();
+                return Err(error);
+            };
+            ways.retain(|&(own, _)| own != entity);
+            met.insert(entity, SelvedgeError::World(error));
+            if self.bodies.get(&entity).is_some_and(|body| body.is_new) {
+                // It is not where it was inserted.
+                self.remove(entity);
+            }
+        }
+    }
+
+    /// Where a step ends the next one starts.
+    fn settle(&mut self, ways: Vec<(Entity, Way)>) {
+        for (entity, way) in ways {
+            let Some(body) = self.bodies.get_mut(&entity) else { continue };
+            body.is_new = false;
+            match way {
+                Way::Rigid(place) => body.place = place,
+                Way::Straight { place, positions, .. } => (body.place, body.positions) = (place, positions),
+            }
+        }
+    }
+
+    fn contacts(&self) -> impl Iterator<Item = BodyContact> {
+        self.found.iter().filter_map(|contact| {
+            let [first, second] = contact.meshes.map(|mesh| self.entities.get(&mesh));
+            let entities = [*first?, *second?];
+            let [first, second] = entities.map(|entity| self.bodies.get(&entity));
+            let bodies = [first?, second?];
+            // While its scale changes a rigid body has the motion of a deforming one.
+            if entities[0] == entities[1] && bodies[0].source.kind != CollisionBody::Deforming {
+                return None;
+            }
+            let [first, second] = contact.pair;
+            let vertices = match contact.kind {
+                PairKind::VertexFace => {
+                    let [a, b, c] = bodies[1].shape.topology.triangles()[second as usize].map(|point| bodies[1].vertex(point));
+                    [bodies[0].vertex(first), a, b, c]
+                }
+                PairKind::EdgeEdge => {
+                    let ends =
+                        |body: &Body, edge: u32| body.shape.topology.edges()[edge as usize].map(|point| body.vertex(point));
+                    let ([a, b], [c, d]) = (ends(bodies[0], first), ends(bodies[1], second));
+                    [a, b, c, d]
+                }
+            };
+            Some(BodyContact {
+                kind: contact.kind,
+                entities,
+                vertices,
+                time: contact.time,
+            })
+        })
+    }
+}
+
+impl Body {
+    fn rigid_way(&self, place: Place, mesh: &Mesh) -> Result<Option<Way>, MeshError> {
+        if place == self.place && !self.is_new {
+            return Ok(None);
+        }
+        if place.has_form_of(&self.inserted) {
+            return Ok(Some(Way::Rigid(place)));
+        }
+        let mesh = positions_of(mesh)?;
+        if mesh.len() != self.shape.points.len() {
+            // Of another shape: it goes all the way once that is known, by an event in the next frame.
+            return Ok(None);
+        }
+        let points = [self.place, place].map(|place| {
+            let vertices = self.shape.vertices.iter();
+            vertices.map(|&vertex| place.apply(mesh[vertex as usize])).collect()
+        });
+        Ok(Some(Way::Straight {
+            points,
+            place,
+            positions: Vec::new(),
+        }))
+    }
+
+    /// The first vertex of a point.
+    fn vertex(&self, point: u32) -> u32 {
+        self.shape.vertices[point as usize]
+    }
+}

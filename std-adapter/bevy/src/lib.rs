@@ -1,0 +1,68 @@
+//! Contacts of moving meshes in Bevy as messages, none of which is ever missed; and cloth that entities lead.
+//!
+//! **Start at [`SelvedgePlugin`]**: entities with a [`CollisionBody`] and a mesh take part, and each [`BodyContact`] is a message. A
+//! [`ClothSimulation`] moves the mesh of its entity. The readme says when what happens.
+//!
+//! ```text
+//! Transforms, meshes ──▶ place, shape ──▶ collisions: bodies of a World ──▶ BodyContact
+//!                                     └─▶ cloth: bodies of a Simulation ──▶ meshes
+//! ```
+
+mod body;
+mod cloth;
+mod collisions;
+mod error;
+mod place;
+mod shape;
+
+pub use body::{CollisionBody, CollisionGroups, CollisionMesh};
+pub use cloth::{ClothMeshError, ClothSimulation, body_of_mesh, cloth_of_mesh, mesh_of};
+pub use collisions::{BodyContact, CollisionSettings};
+pub use error::{SelvedgeError, SelvedgeProblem};
+pub use selvedge;
+pub use selvedge::core::elementary::Limits;
+pub use selvedge::{Criterion, Groups, PairKind, Threads};
+pub use selvedge_cloth;
+pub use shape::MeshError;
+
+use bevy_app::{App, FixedPostUpdate, Plugin};
+use bevy_asset::{AssetEvent, Assets};
+use bevy_ecs::schedule::{IntoScheduleConfigs, SystemSet};
+use bevy_mesh::Mesh;
+use bevy_time::{Fixed, Time};
+
+/// What the plugin does in each fixed step, in `FixedPostUpdate`, in this order.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SelvedgeSystems {
+    /// Cloths do their steps, and their meshes are written.
+    Cloth,
+    /// Contacts of the step are found and written.
+    Contacts,
+}
+
+/// Finds the contacts of all [`CollisionBody`]s, and moves all [`ClothSimulation`]s, in each fixed step.
+///
+/// Needs `TransformPlugin`, `TimePlugin`, `AssetPlugin` and `MeshPlugin`, which are among Bevy's default plugins.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SelvedgePlugin;
+
+impl Plugin for SelvedgePlugin {
+    fn build(&self, app: &mut App) {
+        // Where `MeshPlugin` is missing there are no meshes, but nothing breaks.
+        app.init_resource::<Assets<Mesh>>()
+            .add_message::<AssetEvent<Mesh>>()
+            .init_resource::<CollisionSettings>()
+            .init_resource::<collisions::Collisions>()
+            .add_message::<BodyContact>()
+            .add_message::<SelvedgeProblem>()
+            .init_resource::<Time<Fixed>>()
+            .configure_sets(FixedPostUpdate, (SelvedgeSystems::Cloth, SelvedgeSystems::Contacts).chain())
+            .add_systems(FixedPostUpdate, cloth::step_cloths.in_set(SelvedgeSystems::Cloth))
+            .add_systems(FixedPostUpdate, collisions::find_contacts.in_set(SelvedgeSystems::Contacts));
+    }
+}
+
+/// The readme's examples are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

@@ -1,0 +1,389 @@
+//! Cloth that entities lead.
+
+use crate::figure::{self, DURATION};
+use crate::{add, app, mesh, sheet, step};
+use bevy_app::{App, FixedUpdate};
+use bevy_asset::Assets;
+use bevy_ecs::entity::Entity;
+use bevy_math::{Quat, Vec3};
+use bevy_mesh::primitives::Meshable;
+use bevy_mesh::{Mesh, Mesh3d, VertexAttributeValues};
+use bevy_time::{Fixed, Time};
+use bevy_transform::components::Transform;
+use selvedge_bevy::selvedge::{CollisionDetector, Intersection, Topology};
+use selvedge_bevy::selvedge_cloth::effects::{BodyContact, Gravity, SelfCollision, Stretch, Thickness};
+use selvedge_bevy::selvedge_cloth::glam::{DQuat, DVec3};
+use selvedge_bevy::selvedge_cloth::{Body, Cloth, Motion, OnBlocked, Placement, Scene, Simulation};
+use selvedge_bevy::{ClothSimulation, SelvedgeError, SelvedgeProblem, body_of_mesh, cloth_of_mesh, mesh_of};
+use std::time::Duration;
+
+fn wide(position: [f32; 3]) -> DVec3 {
+    DVec3::from_array(position.map(f64::from))
+}
+
+fn attribute(app: &App, entity: Entity, attribute: bevy_mesh::MeshVertexAttribute) -> Vec<[f32; 3]> {
+    let handle = &app.world().get::<Mesh3d>(entity).unwrap().0;
+    match app
+        .world()
+        .resource::<Assets<Mesh>>()
+        .get(handle)
+        .unwrap()
+        .attribute(attribute)
+    {
+        Some(VertexAttributeValues::Float32x3(values)) => values.clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn simulation(app: &App, entity: Entity) -> &Simulation {
+    app.world().get::<ClothSimulation>(entity).unwrap().simulation().unwrap()
+}
+
+/// A sheet above a ball, without the ball's motion.
+fn over_a_ball() -> Scene {
+    let cloth = Cloth::sheet(
+        DVec3::new(-0.15, 0.12, -0.15),
+        [DVec3::Z * 0.3, DVec3::X * 0.3],
+        [12, 12],
+        0.2,
+    )
+    .unwrap();
+    let mut scene = Scene::new(cloth, 4e-3);
+    scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.1, 16).unwrap());
+    scene
+        .add(Gravity {
+            acceleration: DVec3::NEG_Y * 9.81,
+        })
+        .add(Stretch::isotropic(500.0));
+    scene
+        .add(BodyContact(Thickness::of(4e-3)))
+        .add(SelfCollision(Thickness::of(4e-3)));
+    scene.on_blocked = OnBlocked::Yield;
+    scene
+}
+
+fn problem(entity: Entity, error: SelvedgeError) -> SelvedgeProblem {
+    SelvedgeProblem {
+        entity: Some(entity),
+        error,
+    }
+}
+
+#[test]
+fn a_cape_on_a_moving_figure_stays_free_of_intersections() {
+    let mut app = app();
+    app.add_systems(FixedUpdate, figure::walk);
+    let figure = figure::spawn(app.world_mut(), [12, 24]).unwrap();
+    let mut detector = None;
+    let (mut found, mut overlaps) = (Vec::new(), 0);
+    let (mut lowest, mut highest) = (f32::MAX, f32::MIN);
+    while app.world().resource::<Time<Fixed>>().elapsed_secs() < DURATION {
+        let told = step(&mut app);
+        assert_eq!(told.problems, []);
+        let simulation = simulation(&app, figure.cape);
+        let (positions, cloth) = (simulation.positions(), simulation.cloth_vertices());
+        assert!(simulation.is_certified() && simulation.blocked_steps() == 0);
+        // What is seen is what is simulated.
+        let seen = attribute(&app, figure.cape, Mesh::ATTRIBUTE_POSITION);
+        assert!(
+            seen.iter()
+                .map(|&position| Vec3::from(position))
+                .eq(positions[..cloth].iter().map(|p| Vec3::from(p.as_vec3().to_array())))
+        );
+        let detector = detector.get_or_insert_with(|| {
+            let topology = Topology::new(positions.len(), simulation.triangles().to_vec()).unwrap();
+            CollisionDetector::<f32>::new(topology)
+        });
+        let rounded: Vec<[f32; 3]> = positions.iter().map(|position| position.as_vec3().to_array()).collect();
+        detector.intersections(&rounded, &mut found).unwrap();
+        // Parts of the figure overlap; the cape meets none of them, nor itself.
+        let topology = detector.topology();
+        let is_figures = |vertices: &[u32]| vertices.iter().all(|&vertex| vertex as usize >= cloth);
+        let (edge, face) = (
+            |edge: u32| &topology.edges()[edge as usize],
+            |face: u32| &topology.triangles()[face as usize],
+        );
+        overlaps += found.len();
+        found.retain(|found| match *found {
+            Intersection::EdgeFace { edge: own, face: other } => !(is_figures(edge(own)) && is_figures(face(other))),
+            Intersection::VertexFace { vertex, face: other } => !(is_figures(&[vertex]) && is_figures(face(other))),
+            Intersection::EdgeEdge { edges: [own, other] } => !(is_figures(edge(own)) && is_figures(edge(other))),
+        });
+        assert_eq!(found, []);
+        lowest = seen.iter().map(|position| position[2]).fold(lowest, f32::min);
+        highest = seen.iter().map(|position| position[2]).fold(highest, f32::max);
+    }
+    assert!(overlaps > 0, "the figure's own");
+    assert!(
+        lowest < -0.3 && highest > 2.5,
+        "it hung on the back, and on the other side after the turn: {lowest} {highest}"
+    );
+    // The bodies were where their entities are.
+    let simulation = simulation(&app, figure.cape);
+    for (body, &entity) in figure.parts.iter().enumerate() {
+        let drawn = app
+            .world()
+            .get::<bevy_transform::components::GlobalTransform>(entity)
+            .unwrap();
+        let mesh = attribute(&app, entity, Mesh::ATTRIBUTE_POSITION);
+        for (vertex, position) in simulation.body_vertices(body).unwrap().zip(mesh) {
+            let drawn = drawn.transform_point(position.into());
+            assert!(wide(drawn.to_array()).distance(simulation.positions()[vertex]) < 1e-5);
+        }
+    }
+}
+
+#[test]
+fn a_cloth_is_that_of_a_simulation_driven_by_hand_bit_for_bit() {
+    let mut app = app();
+    let ball = app.world_mut().spawn(Transform::default()).id();
+    let scene = over_a_ball();
+    let handle = add(&mut app, mesh_of(scene.cloth.mesh()));
+    let cloth = app
+        .world_mut()
+        .spawn((ClothSimulation::new(scene).led_by(0, ball), Mesh3d(handle)))
+        .id();
+
+    let mut scene = over_a_ball();
+    // A fixed step of 1/64 s has four of about 4 ms.
+    scene.time_step = 1.0 / 256.0;
+    scene.bodies[0].motion = Motion::Driven(Placement::default());
+    let mut expected = Simulation::new(scene, 1).unwrap();
+    for k in 0..40 {
+        let height = 0.002 * k as f32;
+        app.world_mut().get_mut::<Transform>(ball).unwrap().translation.y = height;
+        assert_eq!(step(&mut app).problems, []);
+        for left in [4.0, 3.0, 2.0, 1.0] {
+            let now = expected.placement(0).unwrap();
+            let goal = DVec3::Y * f64::from(height);
+            let translation = if left > 1.0 {
+                now.translation + (goal - now.translation) * (1.0 / left)
+            } else {
+                goal
+            };
+            expected
+                .place_body(
+                    0,
+                    Placement {
+                        translation,
+                        rotation: DQuat::IDENTITY,
+                    },
+                )
+                .unwrap();
+            expected.step().unwrap();
+        }
+        assert_eq!(simulation(&app, cloth).positions(), expected.positions());
+    }
+    assert!(expected.contact_counts().is_some());
+}
+
+#[test]
+fn a_cloths_own_transform_does_not_move_it_and_its_mesh_is_seen_where_it_is() {
+    let mut app = app();
+    let ball = app.world_mut().spawn(Transform::default()).id();
+    let handle = add(&mut app, mesh_of(over_a_ball().cloth.mesh()));
+    let transform = Transform::from_xyz(1.0, -2.0, 0.5)
+        .with_rotation(Quat::from_rotation_x(0.7))
+        .with_scale(Vec3::new(2.0, 1.0, 0.5));
+    let cloth = app
+        .world_mut()
+        .spawn((ClothSimulation::new(over_a_ball()).led_by(0, ball), Mesh3d(handle), transform))
+        .id();
+    for _ in 0..20 {
+        assert_eq!(step(&mut app).problems, []);
+    }
+    let simulated = simulation(&app, cloth);
+    let seen = attribute(&app, cloth, Mesh::ATTRIBUTE_POSITION);
+    let normals = attribute(&app, cloth, Mesh::ATTRIBUTE_NORMAL);
+    let mut expected = Vec::new();
+    selvedge_bevy::selvedge_cloth::vertex_normals(
+        &simulated.positions()[..seen.len()],
+        &simulated.triangles()[..simulated.cloth_triangles()],
+        &mut expected,
+    );
+    for (vertex, (position, normal)) in seen.iter().zip(&normals).enumerate() {
+        let drawn = wide(transform.transform_point((*position).into()).to_array());
+        assert!(drawn.distance(simulated.positions()[vertex]) < 1e-5);
+        // As Bevy transforms normals.
+        let drawn = transform.rotation * (Vec3::from(*normal) / transform.scale);
+        assert!(wide(drawn.normalize().to_array()).distance(expected[vertex]) < 1e-5);
+    }
+}
+
+#[test]
+fn a_cloth_may_be_made_of_a_mesh_whose_vertices_bevy_parts() {
+    let mut app = app();
+    // Each triangle of the tube has vertices of its own.
+    let ball = bevy_shape::Sphere::new(0.1).mesh().ico(3).unwrap();
+    let tube = Cloth::tube([DVec3::Y * 0.15, DVec3::NEG_Y * 0.15], 0.15, [24, 6], 0.2).unwrap();
+    let mut parted = mesh_of(tube.mesh());
+    parted.duplicate_vertices();
+    let tube_cloth = cloth_of_mesh(&parted, DVec3::Y, 0.2).unwrap();
+    assert_eq!(tube_cloth.mesh().positions.len(), tube.mesh().positions.len());
+    assert_eq!(parted.count_vertices(), 3 * tube.mesh().triangles.len());
+    let mut scene = Scene::new(tube_cloth, 4e-3);
+    scene.bodies.push(body_of_mesh("ball", &ball).unwrap());
+    scene
+        .add(Gravity {
+            acceleration: DVec3::NEG_Y * 9.81,
+        })
+        .add(Stretch::isotropic(500.0));
+    scene.add(BodyContact(Thickness::of(4e-3)));
+    let handles = [add(&mut app, ball), add(&mut app, parted)];
+    let [ball, tube] = handles.map(Mesh3d);
+    let ball = app.world_mut().spawn(ball).id();
+    let cloth = app
+        .world_mut()
+        .spawn((ClothSimulation::new(scene).led_by(0, ball), tube))
+        .id();
+    let before = attribute(&app, cloth, Mesh::ATTRIBUTE_POSITION);
+    for _ in 0..10 {
+        assert_eq!(step(&mut app).problems, []);
+    }
+    let after = attribute(&app, cloth, Mesh::ATTRIBUTE_POSITION);
+    for (vertex, other) in (0..before.len()).flat_map(|vertex| (0..vertex).map(move |other| (vertex, other))) {
+        assert_eq!(before[vertex] == before[other], after[vertex] == after[other]);
+    }
+    assert!(
+        after.iter().zip(&before).all(|(after, before)| after[1] < before[1] - 0.05),
+        "it falls"
+    );
+}
+
+#[test]
+fn a_leader_that_is_despawned_or_scaled_is_told_once_and_its_body_stays() {
+    let mut app = app();
+    let ball = app.world_mut().spawn(Transform::default()).id();
+    let cloth = app
+        .world_mut()
+        .spawn(ClothSimulation::new(over_a_ball()).led_by(0, ball))
+        .id();
+    assert_eq!(step(&mut app).problems, []);
+    *app.world_mut().get_mut::<Transform>(ball).unwrap() = Transform::from_xyz(0.0, 0.5, 0.0).with_scale(Vec3::splat(2.0));
+    assert_eq!(
+        step(&mut app).problems,
+        [problem(cloth, SelvedgeError::ScaledLeader { entity: ball })]
+    );
+    app.world_mut().despawn(ball);
+    assert_eq!(
+        step(&mut app).problems,
+        [problem(cloth, SelvedgeError::NoTransform { entity: ball })]
+    );
+    assert_eq!(step(&mut app).problems, []);
+    let simulation = simulation(&app, cloth);
+    assert_eq!(simulation.steps_done(), 16);
+    assert_eq!(simulation.placement(0), Some(Placement::default()));
+}
+
+#[test]
+fn a_leader_beyond_a_kilometre_is_told_once_and_its_body_stays_until_it_is_back() {
+    let mut app = app();
+    let ball = app.world_mut().spawn(Transform::default()).id();
+    let cloth = app
+        .world_mut()
+        .spawn(ClothSimulation::new(over_a_ball()).led_by(0, ball))
+        .id();
+    assert_eq!(step(&mut app).problems, []);
+    let height = |app: &mut App, y: f32| app.world_mut().get_mut::<Transform>(ball).unwrap().translation.y = y;
+    for away in [-1e5, -2e5] {
+        height(&mut app, away);
+        let told = step(&mut app).problems;
+        assert!(
+            matches!(&told[..], [SelvedgeProblem { entity: Some(own), error: SelvedgeError::Lead(_) }] if *own == cloth),
+            "{told:?}"
+        );
+        height(&mut app, away);
+        assert_eq!(step(&mut app).problems, []);
+        height(&mut app, -0.01);
+        assert_eq!(step(&mut app).problems, []);
+        assert_eq!(
+            simulation(&app, cloth).placement(0),
+            Some(Placement::at(wide([0.0, -0.01, 0.0])))
+        );
+    }
+}
+
+#[test]
+fn what_cannot_be_simulated_is_told_once_and_the_app_runs_on() {
+    let cloth = |change: fn(&mut Scene)| {
+        let mut scene = over_a_ball();
+        change(&mut scene);
+        ClothSimulation::new(scene)
+    };
+    let cases: [(ClothSimulation, &str); 4] = [
+        (cloth(|scene| scene.cloth.density = f64::NAN), "density"),
+        (cloth(|scene| scene.time_step = f64::NAN), "time_step"),
+        (cloth(|scene| _ = scene.add(Stretch::isotropic(0.0))), "stiffness"),
+        (
+            cloth(|scene| scene.bodies[0].motion = Motion::Driven(Placement::at(DVec3::Y * 0.12))),
+            "touches",
+        ),
+    ];
+    for (cloth, what) in cases {
+        let mut app = app();
+        let entity = app.world_mut().spawn(cloth).id();
+        let told = step(&mut app).problems;
+        assert!(
+            matches!(&told[..], [SelvedgeProblem { entity: Some(own), error: SelvedgeError::Setup(text) }] if *own == entity && text.contains(what)),
+            "{told:?}"
+        );
+        assert_eq!(step(&mut app).problems, []);
+        assert!(app.world().get::<ClothSimulation>(entity).unwrap().has_ended());
+    }
+    // A body that the scene does not have.
+    let mut app = app();
+    let leader = app.world_mut().spawn(Transform::default()).id();
+    let entity = app
+        .world_mut()
+        .spawn(ClothSimulation::new(over_a_ball()).led_by(7, leader))
+        .id();
+    assert_eq!(
+        step(&mut app).problems,
+        [problem(entity, SelvedgeError::NoBody { body: 7, bodies: 1 })]
+    );
+}
+
+#[test]
+fn a_cloth_that_is_blocked_ends_if_its_scene_says_so_and_tells() {
+    let mut app = app();
+    let mut scene = over_a_ball();
+    scene.on_blocked = OnBlocked::Stop;
+    // Pins that a ball is driven into.
+    let pins = selvedge_bevy::selvedge_cloth::effects::PinGroup::resting((0..169).collect::<Vec<u32>>());
+    scene.add(selvedge_bevy::selvedge_cloth::effects::Pins { groups: vec![pins] });
+    let ball = app.world_mut().spawn(Transform::default()).id();
+    let entity = app.world_mut().spawn(ClothSimulation::new(scene).led_by(0, ball)).id();
+    assert_eq!(step(&mut app).problems, []);
+    app.world_mut().get_mut::<Transform>(ball).unwrap().translation.y = 0.2;
+    let told = step(&mut app).problems;
+    assert!(
+        matches!(&told[..], [SelvedgeProblem { error: SelvedgeError::Blocked(blocked), .. }] if blocked.body.as_deref() == Some("ball")),
+        "{told:?}"
+    );
+    assert_eq!(step(&mut app).problems, []);
+    assert!(app.world().get::<ClothSimulation>(entity).unwrap().has_ended());
+}
+
+#[test]
+fn a_mesh_that_is_not_the_cloths_and_a_time_step_that_changes_are_told() {
+    let mut app = app();
+    let (positions, triangles) = sheet(3);
+    let handle = add(&mut app, mesh(positions, &triangles));
+    let cloth = app
+        .world_mut()
+        .spawn((ClothSimulation::new(over_a_ball()), Mesh3d(handle)))
+        .id();
+    assert_eq!(
+        step(&mut app).problems,
+        [problem(cloth, SelvedgeError::OtherMesh { seen: 16, cloth: 169 })]
+    );
+    app.world_mut()
+        .resource_mut::<Time<Fixed>>()
+        .set_timestep(Duration::from_millis(11));
+    let told = step(&mut app).problems;
+    let error = SelvedgeError::TimeStep {
+        step: 1.0 / 256.0,
+        fixed: 0.011,
+    };
+    assert_eq!(told, [problem(cloth, error)]);
+}
