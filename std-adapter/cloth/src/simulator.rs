@@ -361,7 +361,7 @@ impl Simulation {
     }
 
     /// Leads each vertex of a [driven](crate::Motion::Driven) body straight to a position, in metres, in the next step: a body that
-    /// changes its shape, such as a skinned figure.
+    /// changes its shape, such as a skinned figure. Pins that follow it know no way to go then, and stay: move them on their own.
     ///
     /// # Errors
     /// If there is no such body, it is not driven, or the positions are not one for each vertex, finite and within a kilometre.
