@@ -34,7 +34,8 @@ tools=$target/tools
 environment=$target/environment
 wheels=$target/wheels
 
-if [ ! -x "$tools/bin/maturin" ]; then
+# Anew where one is missing, as after a change of this list.
+if ! "$tools/bin/python" -c 'import maturin, pytest, mypy, numpy, matplotlib' 2>/dev/null; then
     "$python" -m venv "$tools" || missing "Python's module venv is missing (Debian: apt install python3-venv)"
     "$tools/bin/pip" install --quiet --disable-pip-version-check "maturin>=1.16,<2" "pytest>=9,<10" "mypy>=2.4,<2.5" numpy matplotlib ||
         missing "no package index can be reached"
