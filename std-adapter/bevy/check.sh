@@ -4,16 +4,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
-say() { printf '\n== %s\n' "$*"; }
-missing() {
-    if [ "${present:-}" ]; then
-        say "skipped: $*"
-        exit 0
-    fi
-    printf 'check.sh: %s\n' "$*" >&2
-    exit 1
-}
-[ "${1:-}" != --present ] || present=yes
+# shellcheck source=std-adapter/checks.bash
+source ../checks.bash
 
 # As in Cargo.toml.
 least=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)

@@ -4,16 +4,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
-say() { printf '\n== %s\n' "$*"; }
-missing() {
-    if [ "${present:-}" ]; then
-        say "skipped: $*"
-        exit 0
-    fi
-    printf 'check.sh: %s\n' "$*" >&2
-    exit 1
-}
-[ "${1:-}" != --present ] || present=yes
+# shellcheck source=std-adapter/checks.bash
+source ../checks.bash
 
 python=${PYTHON:-python3}
 command -v "$python" >/dev/null 2>&1 || missing "Python is missing; install it, 3.10 or newer"

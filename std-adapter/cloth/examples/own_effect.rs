@@ -5,7 +5,7 @@
 //! ```
 
 use selvedge_cloth::effects::{
-    Bend, Effect, Force, Gravity, PinGroup, Pins, Plan, SelfCollision, Stretch, Thickness, TimeStep, World,
+    Bend, Effect, Force, Gravity, PinGroup, Pins, Plan, SceneParts, SelfCollision, Stretch, Thickness, TimeStep,
 };
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Cloth, Scene, Simulation, ValueError};
@@ -27,7 +27,7 @@ impl Effect for Magnet {
         "magnet"
     }
 
-    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         if self.at.is_finite() && self.strength.is_finite() {
             return Ok(());
         }

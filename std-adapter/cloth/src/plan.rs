@@ -6,7 +6,7 @@
 use super::contact::ContactSettings;
 use super::hierarchy::{Hierarchy, Level};
 use super::step::{Carrier, Constraint, FREE, Force};
-use super::world::{Cloth, Kinematic, Motion, World};
+use super::world::{Cloth, Kinematic, Motion, SceneParts};
 use std::sync::Arc;
 
 /// An entry of a phase and the effect that it belongs to.
@@ -27,7 +27,7 @@ pub struct Fabric {
 /// What a step consists of: effects put into it what they do.
 #[derive(Debug)]
 pub struct Plan<'a> {
-    pub(crate) world: World<'a>,
+    pub(crate) scene: SceneParts<'a>,
     /// The effect that is registering.
     pub(crate) effect: usize,
     pub(crate) fabric: Fabric,
@@ -49,9 +49,9 @@ pub struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     /// A plan without any effect.
-    pub(crate) fn new(world: World<'a>) -> Self {
-        let mut first = world.cloth.mesh.positions.len() as u32;
-        let motions = world.bodies.iter().map(|body| {
+    pub(crate) fn new(scene: SceneParts<'a>) -> Self {
+        let mut first = scene.cloth.mesh.positions.len() as u32;
+        let motions = scene.bodies.iter().map(|body| {
             let vertices = first..first + body.mesh.positions.len() as u32;
             first = vertices.end;
             Kinematic::new(body.motion.clone(), vertices.collect())
@@ -59,12 +59,12 @@ impl<'a> Plan<'a> {
         Self {
             motions: motions.collect(),
             pins: Vec::new(),
-            world,
+            scene,
             effect: 0,
             fabric: Fabric::default(),
             hierarchy: None,
-            inverse_masses: masses_of(world.cloth).into_iter().map(f64::recip).collect(),
-            carriers: vec![FREE; world.cloth.mesh.positions.len()],
+            inverse_masses: masses_of(scene.cloth).into_iter().map(f64::recip).collect(),
+            carriers: vec![FREE; scene.cloth.mesh.positions.len()],
             forces: Vec::new(),
             constraints: Vec::new(),
             contact: ContactSettings::default(),
@@ -81,14 +81,14 @@ impl<'a> Plan<'a> {
 
     /// What it acts on.
     #[must_use]
-    pub fn world(&self) -> World<'a> {
-        self.world
+    pub fn scene(&self) -> SceneParts<'a> {
+        self.scene
     }
 
     /// The mass of each vertex of the cloth, in kg: a third of its triangles'.
     #[must_use]
     pub fn masses(&self) -> Vec<f64> {
-        masses_of(self.world.cloth)
+        masses_of(self.scene.cloth)
     }
 
     /// Forces act in the order in which effects put them here, before anything else.
@@ -113,9 +113,9 @@ impl<'a> Plan<'a> {
         if most == Some(0) || coarsest <= 0.0 {
             return Vec::new();
         }
-        let world = self.world;
+        let scene = self.scene;
         let pinned = || self.inverse_masses.iter().map(|&inverse| inverse == 0.0).collect();
-        let make = || Hierarchy::new(world.cloth, masses_of(world.cloth), pinned());
+        let make = || Hierarchy::new(scene.cloth, masses_of(scene.cloth), pinned());
         let mut levels = self.hierarchy.get_or_insert_with(make).levels_to(coarsest);
         levels.truncate(most.map_or(usize::MAX, |most| most as usize));
         levels

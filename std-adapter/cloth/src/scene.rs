@@ -27,7 +27,7 @@
 
 use super::effects::{self, Effect, Gravity};
 use super::input::{FREQUENCY, Field, LARGEST_TIME, SceneError, Source, TIME, Table, ValueError};
-use super::world::{Body, Cloth, World};
+use super::world::{Body, Cloth, SceneParts};
 use selvedge_core::glam::DVec3;
 use selvedge_files::excerpt::excerpt;
 use std::path::Path;
@@ -142,7 +142,7 @@ impl Scene {
             check_name(&self.bodies[..index], body)?;
             body.check(self.time_step)?;
         }
-        let world = World {
+        let world = SceneParts {
             cloth: &self.cloth,
             bodies: &self.bodies,
             time_step: self.time_step,
@@ -186,7 +186,7 @@ impl Scene {
         let duration = root.required_number(&duration_field(time_step))?;
         let cloth = Cloth::read(&root.required_table("cloth")?)?;
         let bodies = read_bodies(&root, time_step)?;
-        let world = World {
+        let world = SceneParts {
             cloth: &cloth,
             bodies: &bodies,
             time_step,

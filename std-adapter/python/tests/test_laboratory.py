@@ -45,11 +45,11 @@ def test_every_method_runs_on_a_step_of_ones_own() -> None:
 
 
 def test_only_the_methods_asked_for_run() -> None:
-    tables = laboratory.compare(two_steps(), pipelines=["selvedge", "lv_2014"], rounds=1)
+    tables = laboratory.compare(small_step(), pipelines=["selvedge", "lv_2014"], rounds=1)
     assert list(tables["methods"]["pipeline"]) == ["selvedge", "lv_2014"]
 
 
-def two_steps() -> laboratory.Step:
+def small_step() -> laboratory.Step:
     faces, start = two_sheets(4)
     return faces, start.astype(np.float32), start + [0.0, 0.0, 0.01]
 
@@ -67,7 +67,7 @@ def test_filters_are_measured_in_both_formats() -> None:
 
 
 def test_elementary_tests_are_measured_on_a_step_of_ones_own_too() -> None:
-    tables = laboratory.accuracy(two_steps(), only="elementary", pairs=20, repeat=1)
+    tables = laboratory.accuracy(small_step(), only="elementary", pairs=20, repeat=1)
     assert set(tables) == {"elementary", "elementary_sets"}
     elementary = tables["elementary"]
     assert "start to end" in set(elementary["set"])
@@ -88,7 +88,7 @@ def test_what_the_command_refuses_is_told_in_its_words() -> None:
     with pytest.raises(InputError, match="no hard case has `nonsense` in its name"):
         laboratory.hard_cases("nonsense")
     with pytest.raises(InputError, match="lv_2013"):
-        laboratory.compare(two_steps(), pipelines=["lv_2013"])
+        laboratory.compare(small_step(), pipelines=["lv_2013"])
     with pytest.raises(InputError, match="--help"):
         laboratory.hard_cases("--help")
     with pytest.raises(InputError, match="pairs"):
@@ -98,7 +98,7 @@ def test_what_the_command_refuses_is_told_in_its_words() -> None:
 
 
 def test_a_step_that_is_none_is_refused_before_the_command_runs() -> None:
-    faces, start, end = two_steps()
+    faces, start, end = small_step()
     with pytest.raises(InputError, match="three arrays"):
         laboratory.compare((faces, start))  # type: ignore[arg-type]
     with pytest.raises(InputError, match="start"):

@@ -35,6 +35,13 @@ fn attribute(app: &App, entity: Entity, attribute: bevy_mesh::MeshVertexAttribut
     }
 }
 
+/// An entity that leads the ball, and the cloth above it.
+fn spawn_over_a_ball(app: &mut App) -> [Entity; 2] {
+    let ball = app.world_mut().spawn(Transform::default()).id();
+    let cloth = ClothSimulation::new(over_a_ball()).led_by(0, ball);
+    [ball, app.world_mut().spawn(cloth).id()]
+}
+
 fn simulation(app: &App, entity: Entity) -> &Simulation {
     app.world().get::<ClothSimulation>(entity).unwrap().simulation().unwrap()
 }
@@ -253,11 +260,7 @@ fn a_cloth_may_be_made_of_a_mesh_whose_vertices_bevy_parts() {
 #[test]
 fn a_leader_that_is_despawned_or_scaled_is_told_once_and_its_body_stays() {
     let mut app = app();
-    let ball = app.world_mut().spawn(Transform::default()).id();
-    let cloth = app
-        .world_mut()
-        .spawn(ClothSimulation::new(over_a_ball()).led_by(0, ball))
-        .id();
+    let [ball, cloth] = spawn_over_a_ball(&mut app);
     assert_eq!(step(&mut app).problems, []);
     *app.world_mut().get_mut::<Transform>(ball).unwrap() = Transform::from_xyz(0.0, 0.5, 0.0).with_scale(Vec3::splat(2.0));
     assert_eq!(
@@ -278,11 +281,7 @@ fn a_leader_that_is_despawned_or_scaled_is_told_once_and_its_body_stays() {
 #[test]
 fn a_leader_beyond_a_kilometre_is_told_once_and_its_body_stays_until_it_is_back() {
     let mut app = app();
-    let ball = app.world_mut().spawn(Transform::default()).id();
-    let cloth = app
-        .world_mut()
-        .spawn(ClothSimulation::new(over_a_ball()).led_by(0, ball))
-        .id();
+    let [ball, cloth] = spawn_over_a_ball(&mut app);
     assert_eq!(step(&mut app).problems, []);
     let height = |app: &mut App, y: f32| app.world_mut().get_mut::<Transform>(ball).unwrap().translation.y = y;
     for away in [-1e5, -2e5] {

@@ -4,7 +4,7 @@ use super::registration::{Effect, Registration};
 use crate::input::{FREQUENCY, Field, ValueError};
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
-use crate::world::World;
+use crate::world::SceneParts;
 use libm::exp;
 use selvedge_core::glam::DVec3;
 
@@ -31,7 +31,7 @@ impl Effect for AirDrag {
         "air_drag"
     }
 
-    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         RATE.check(self.rate)
     }
 

@@ -6,7 +6,7 @@ use super::registration::{Effect, Registration};
 use crate::input::{BENDING_STIFFNESS, Field, ValueError};
 use crate::plan::Plan;
 use crate::schedule::{Local, On, Schedule};
-use crate::world::{Cloth, World};
+use crate::world::{Cloth, SceneParts};
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 
@@ -33,12 +33,12 @@ impl Effect for Bend {
         "bend"
     }
 
-    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         STIFFNESS.check(self.stiffness)
     }
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
-        let cloth = plan.world.cloth;
+        let cloth = plan.scene.cloth;
         let hinges = hinges(cloth, self.stiffness);
         plan.add_constraint(Schedule::once(hinges, cloth.mesh.positions.len()));
     }

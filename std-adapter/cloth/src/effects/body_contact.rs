@@ -9,7 +9,7 @@ use crate::contact::{RECOVERY, Thickness};
 use crate::input::ValueError;
 use crate::plan::Plan;
 use crate::step::{Constraint, TimeStep, Touch, Touches};
-use crate::world::{Pose, World};
+use crate::world::{Pose, SceneParts};
 use selvedge_core::glam::DVec3;
 
 pub(super) const REGISTRATION: Registration = Registration {
@@ -27,7 +27,7 @@ impl Effect for BodyContact {
         "body_contact"
     }
 
-    fn check(&self, world: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
         if world.bodies.is_empty() {
             let message = "body contact has nothing to act on: the scene has no [[body]]";
             return Err(ValueError::new("", message));
@@ -41,8 +41,8 @@ impl Effect for BodyContact {
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         plan.contact.bodies = Some((plan.effect, self.0));
-        let cloth_vertices = plan.world.cloth.mesh.positions.len();
-        let bodies = plan.world.bodies.iter().enumerate();
+        let cloth_vertices = plan.scene.cloth.mesh.positions.len();
+        let bodies = plan.scene.bodies.iter().enumerate();
         let capsules: Vec<_> = bodies
             .filter_map(|(carrier, body)| {
                 let (ends, radius) = body.capsule?;

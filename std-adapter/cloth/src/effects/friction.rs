@@ -6,7 +6,7 @@ use super::registration::{Effect, Registration};
 use crate::input::{Field, RATIO, ValueError};
 use crate::plan::Plan;
 use crate::step::{Constraint, TimeStep, Touches};
-use crate::world::World;
+use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 
 const COEFFICIENT: Field = Field::new("coefficient", RATIO, 0.0, 10.0);
@@ -32,7 +32,7 @@ impl Effect for Friction {
         "friction"
     }
 
-    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         COEFFICIENT.check(self.coefficient)
     }
 

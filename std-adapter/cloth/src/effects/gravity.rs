@@ -4,7 +4,7 @@ use super::registration::{Effect, Registration};
 use crate::input::{ACCELERATION, Field, SceneError, Table, ValueError};
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
-use crate::world::World;
+use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 
 const ACCELERATING: Field = Field::vector("acceleration", ACCELERATION, 1e4);
@@ -49,7 +49,7 @@ impl Effect for Gravity {
         "gravity"
     }
 
-    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         ACCELERATING.check_vector(self.acceleration)
     }
 

@@ -23,7 +23,7 @@ mod wind;
 pub use super::contact::Thickness;
 pub use super::plan::Plan;
 pub use super::step::{Constraint, Force, TimeStep, Touches};
-pub use super::world::World;
+pub use super::world::SceneParts;
 pub use air_drag::AirDrag;
 pub use bend::Bend;
 pub use body_contact::BodyContact;
@@ -70,7 +70,7 @@ const REGISTRY: &[(&str, Registration)] = registry![
 ];
 
 /// Reads the effects that `table` names, and constructs no other.
-pub(crate) fn read(table: &Table<'_>, world: &World<'_>) -> Result<Vec<Box<dyn Effect>>, SceneError> {
+pub(crate) fn read(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Vec<Box<dyn Effect>>, SceneError> {
     for (name, place) in table.keys() {
         if !REGISTRY.iter().any(|(known, _)| *known == name) {
             let names = REGISTRY.iter().map(|(name, _)| *name);
@@ -96,7 +96,7 @@ pub(crate) fn read(table: &Table<'_>, world: &World<'_>) -> Result<Vec<Box<dyn E
 }
 
 /// Whether the effects make sense, each alone and together.
-pub(crate) fn check(effects: &[Box<dyn Effect>], world: &World<'_>) -> Result<(), ValueError> {
+pub(crate) fn check(effects: &[Box<dyn Effect>], world: &SceneParts<'_>) -> Result<(), ValueError> {
     for effect in effects {
         let name = effect.name();
         let is_there = |other: &str| effects.iter().any(|effect| effect.name() == other);

@@ -4,7 +4,7 @@ use super::registration::{Effect, Registration};
 use crate::input::{Count, Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError, suggestion};
 use crate::plan::Plan;
 use crate::step::Carrier;
-use crate::world::{Motion, RigidMotion, World};
+use crate::world::{Motion, RigidMotion, SceneParts};
 use selvedge_core::glam::DVec3;
 
 const LOWER: Field = Field::vector("lower", LENGTH, LARGEST_COORDINATE);
@@ -66,7 +66,7 @@ impl PinGroup {
     }
 
     /// Marks its vertices as taken.
-    fn check(&self, world: &World<'_>, taken: &mut [bool]) -> Result<(), ValueError> {
+    fn check(&self, world: &SceneParts<'_>, taken: &mut [bool]) -> Result<(), ValueError> {
         let wrong = |message: String| Err(ValueError::new("vertices", message));
         if self.vertices.is_empty() {
             return wrong("no vertex of the cloth is in this group".to_owned());
@@ -97,7 +97,7 @@ fn way(table: &Table<'_>) -> &'static str {
 }
 
 /// Exactly one of `part`, `vertices`, `box` and `ball` says which vertices; `follow` or keyframes where they go.
-fn read_group(table: &Table<'_>, world: &World<'_>) -> Result<PinGroup, SceneError> {
+fn read_group(table: &Table<'_>, world: &SceneParts<'_>) -> Result<PinGroup, SceneError> {
     table.expect_keys(&[&WAYS[..], &["follow"], &Motion::KEYS].concat())?;
     if WAYS.into_iter().filter(|way| table.has(way)).count() != 1 {
         let message = "pins need exactly one of `part`, `vertices`, `box` and `ball`".to_owned();
@@ -133,20 +133,20 @@ fn read_group(table: &Table<'_>, world: &World<'_>) -> Result<PinGroup, SceneErr
     Ok(PinGroup { vertices, motion })
 }
 
-fn in_box(table: &Table<'_>, world: &World<'_>) -> Result<Vec<u32>, SceneError> {
+fn in_box(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Vec<u32>, SceneError> {
     table.expect_keys(&["lower", "upper"])?;
     let [lower, upper] = [table.required_vector(&LOWER)?, table.required_vector(&UPPER)?];
     Ok(vertices_where(world, |p| p.cmpge(lower).all() && p.cmple(upper).all()))
 }
 
-fn in_ball(table: &Table<'_>, world: &World<'_>) -> Result<Vec<u32>, SceneError> {
+fn in_ball(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Vec<u32>, SceneError> {
     table.expect_keys(&["centre", "radius"])?;
     let centre = table.required_vector(&CENTRE)?;
     let radius = table.required_number(&RADIUS)?;
     Ok(vertices_where(world, |p| p.distance(centre) <= radius))
 }
 
-fn vertices_where(world: &World<'_>, is_inside: impl Fn(DVec3) -> bool) -> Vec<u32> {
+fn vertices_where(world: &SceneParts<'_>, is_inside: impl Fn(DVec3) -> bool) -> Vec<u32> {
     let positions = world.cloth.mesh.positions.iter().enumerate();
     let inside = positions.filter(|(_, p)| is_inside(**p));
     inside.map(|(vertex, _)| vertex as u32).collect()
@@ -157,7 +157,7 @@ impl Effect for Pins {
         "pins"
     }
 
-    fn check(&self, world: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
         if self.groups.is_empty() {
             return Err(ValueError::new("group", "pins need at least one [[effects.pins.group]]"));
         }

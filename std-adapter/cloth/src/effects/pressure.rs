@@ -8,7 +8,7 @@ use crate::input::{Field, PRESSURE, RATIO, ValueError};
 use crate::membrane::Incidence;
 use crate::plan::Plan;
 use crate::step::{Constraint, TimeStep, Touches};
-use crate::world::World;
+use crate::world::SceneParts;
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 
@@ -49,7 +49,7 @@ impl Effect for InternalPressure {
         "internal_pressure"
     }
 
-    fn check(&self, world: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
         VOLUME.check(self.volume)?;
         MODULUS.check(self.modulus)?;
         let statistics = world.cloth.topology.statistics();
@@ -63,7 +63,7 @@ impl Effect for InternalPressure {
     }
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
-        let cloth = plan.world.cloth;
+        let cloth = plan.scene.cloth;
         let triangles = cloth.mesh.triangles.clone();
         let rest = volume(&triangles, &cloth.mesh.positions);
         plan.add_constraint(Filling {

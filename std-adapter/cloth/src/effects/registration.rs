@@ -2,7 +2,7 @@
 
 use crate::input::{SceneError, Table, ValueError};
 use crate::plan::{Fabric, Plan};
-use crate::world::World;
+use crate::world::SceneParts;
 use std::fmt::Debug;
 
 /// Something that acts on the cloth: one of [`effects`](crate::effects), or a caller's own.
@@ -16,7 +16,7 @@ pub trait Effect: Debug + Send + Sync {
     ///
     /// # Errors
     /// Which of them does not, and what would.
-    fn check(&self, _world: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, _world: &SceneParts<'_>) -> Result<(), ValueError> {
         Ok(())
     }
 
@@ -34,7 +34,7 @@ pub trait Effect: Debug + Send + Sync {
 }
 
 /// Reads an effect's table; [`check`](Effect::check) follows.
-type Read = fn(&Table<'_>, &World<'_>) -> Result<Box<dyn Effect>, SceneError>;
+type Read = fn(&Table<'_>, &SceneParts<'_>) -> Result<Box<dyn Effect>, SceneError>;
 
 /// An effect that scenes can call for.
 pub(crate) struct Registration {

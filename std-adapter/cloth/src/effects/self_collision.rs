@@ -7,7 +7,7 @@ use super::thickness;
 use crate::contact::Thickness;
 use crate::input::ValueError;
 use crate::plan::Plan;
-use crate::world::World;
+use crate::world::SceneParts;
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["thickness", "separation"],
@@ -24,7 +24,7 @@ impl Effect for SelfCollision {
         "self_collision"
     }
 
-    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         thickness::check(&self.0)
     }
 

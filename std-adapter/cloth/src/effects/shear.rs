@@ -5,7 +5,7 @@ use crate::input::{Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::membrane::{Membrane, all, image, of_triangles};
 use crate::plan::{Fabric, Plan};
 use crate::schedule::{Local, Schedule};
-use crate::world::World;
+use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 
 const STIFFNESS: Field = Field::new("stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
@@ -31,7 +31,7 @@ impl Effect for Shear {
         "shear"
     }
 
-    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         STIFFNESS.check(self.stiffness)
     }
 
@@ -40,7 +40,7 @@ impl Effect for Shear {
     }
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
-        let cloth = plan.world.cloth;
+        let cloth = plan.scene.cloth;
         let angles = of_triangles(cloth, |membrane, area| Angle {
             membrane,
             compliance: 1.0 / (self.stiffness * area),

@@ -11,7 +11,7 @@ use crate::input::{Count, Field, RATIO, ValueError};
 use crate::membrane::{Membrane, SquaredStretch, all, image, of_triangles};
 use crate::plan::Plan;
 use crate::schedule::{Local, Schedule};
-use crate::world::World;
+use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 
 const LIMIT: Field = Field::new("limit", RATIO, 1.0, 10.0);
@@ -57,7 +57,7 @@ impl Effect for StrainLimit {
         "strain_limit"
     }
 
-    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         LIMIT.check(self.limit)?;
         SWEEPS.check(self.sweeps)?;
         levels::check(self.levels)
@@ -70,7 +70,7 @@ impl Effect for StrainLimit {
     }
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
-        let cloth = plan.world.cloth;
+        let cloth = plan.scene.cloth;
         let limit = self.limit;
         // It does not give, so that a pull goes all the way at once.
         let levels = plan.levels(f64::INFINITY, self.levels);

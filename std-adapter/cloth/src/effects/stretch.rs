@@ -15,7 +15,7 @@ use crate::input::{Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::membrane::{Membrane, all, image, of_triangles};
 use crate::plan::Plan;
 use crate::schedule::{Local, Schedule};
-use crate::world::World;
+use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 
 const WARP: Field = Field::new("stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
@@ -65,7 +65,7 @@ impl Effect for Stretch {
         "stretch"
     }
 
-    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         WARP.check(self.stiffness)?;
         WEFT.check(self.weft_stiffness)?;
         levels::check(self.levels)
@@ -76,7 +76,7 @@ impl Effect for Stretch {
     }
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
-        let cloth = plan.world.cloth;
+        let cloth = plan.scene.cloth;
         let stiffness = [self.stiffness, self.weft_stiffness];
         let springs = of_triangles(cloth, |membrane, area| Spring {
             membrane,
@@ -84,7 +84,7 @@ impl Effect for Stretch {
         });
         let springs = Schedule::once(springs, cloth.mesh.positions.len());
         let stiffest = self.stiffness.max(self.weft_stiffness);
-        let way = plan.world.time_step * (stiffest / cloth.density).sqrt();
+        let way = plan.scene.time_step * (stiffest / cloth.density).sqrt();
         let coarsest = if way > mesh_spacing(cloth) { REACH * way } else { 0.0 };
         let levels = plan.levels(coarsest, self.levels);
         // Each level and the mesh itself do their part of the work.

@@ -12,7 +12,7 @@ use crate::input::{AIR_DENSITY, FREQUENCY, Field, RATIO, SPEED, ValueError};
 use crate::membrane::Incidence;
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
-use crate::world::World;
+use crate::world::SceneParts;
 use libm::sin;
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
@@ -83,7 +83,7 @@ impl Effect for Wind {
         "wind"
     }
 
-    fn check(&self, _: &World<'_>) -> Result<(), ValueError> {
+    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         Self::check_velocity(self.velocity)?;
         DENSITY.check(self.air_density)?;
         DRAG.check(self.drag)?;
@@ -92,7 +92,7 @@ impl Effect for Wind {
     }
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
-        let cloth = plan.world.cloth;
+        let cloth = plan.scene.cloth;
         plan.add_force(Blow {
             factor: 0.5 * self.air_density * self.drag / cloth.density,
             wave: wave(self.velocity),

@@ -1,4 +1,5 @@
-//! What a scene file is made of: tables, quantities with units, and complaints that name the place.
+//! What a number of a scene may be ([`Field`]), and what a scene file is made of: tables, quantities with units, and complaints that name
+//! the place.
 
 mod error;
 mod field;

@@ -55,13 +55,17 @@ impl Kinematic {
     pub(crate) fn new(motion: Motion, vertices: Vec<u32>) -> Self {
         match motion {
             Motion::Keyframes(motion) => Self::Keyframes(motion),
-            Motion::Driven(placement) => Self::Driven(Box::new(Driven {
-                vertices,
-                placement: Some(placement),
-                goal: None,
-                leg: Leg::standing(placement),
-                clock: [0.0; 2],
-            })),
+            Motion::Driven(placement) => {
+                // Scenes are checked before.
+                let placement = placement.checked().unwrap_or(placement);
+                Self::Driven(Box::new(Driven {
+                    vertices,
+                    placement: Some(placement),
+                    goal: None,
+                    leg: Leg::standing(placement),
+                    clock: [0.0; 2],
+                }))
+            }
         }
     }
 

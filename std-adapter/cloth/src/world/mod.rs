@@ -17,9 +17,9 @@ pub(crate) use motion::Pose;
 #[cfg(test)]
 pub(crate) use shapes::{capsule, sheet, tube};
 
-/// What effects act on.
+/// What effects act on: a scene but for its effects.
 #[derive(Clone, Copy, Debug)]
-pub struct World<'a> {
+pub struct SceneParts<'a> {
     /// At rest.
     pub cloth: &'a Cloth,
     /// What it meets.

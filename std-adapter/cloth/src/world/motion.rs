@@ -148,12 +148,6 @@ impl RigidMotion {
         Ok(Self { pivot, axis, keyframes })
     }
 
-    /// Where it is at which time.
-    #[must_use]
-    pub fn keyframes(&self) -> &[Keyframe] {
-        &self.keyframes
-    }
-
     fn check(&self, time_step: f64) -> Result<(), ValueError> {
         PIVOT.check_vector(self.pivot)?;
         let before = std::iter::once(None).chain(self.keyframes.iter().map(Some));

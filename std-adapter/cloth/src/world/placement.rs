@@ -16,7 +16,7 @@ use selvedge_core::glam::{DQuat, DVec3};
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placement {
-    /// Of any length but zero.
+    /// Of length one; where a simulation is told of it, any but zero will do.
     pub rotation: DQuat,
     /// In metres.
     pub translation: DVec3,

@@ -229,7 +229,56 @@ fn a_ball_that_code_moves_pushes_the_cloth_and_never_passes_it() {
     let middle = (CELLS as usize + 1).pow(2) / 2;
     let [middle, top] = [simulation.positions()[middle].z, 0.06 + 0.075];
     assert!(middle > top && middle < top + 0.01, "{middle}");
-    assert!(simulation.is_certified() && simulation.near_pairs().next().is_some());
+    assert!(simulation.is_certified());
+    let mut near = 0;
+    for pair in simulation.near_pairs() {
+        // One or two vertices are the first side, and have all of its weight; the other side's is the same, less than zero.
+        let of_first: f64 = pair.weights.iter().filter(|weight| **weight > 0.0).sum();
+        let of_other: f64 = pair.weights.iter().filter(|weight| **weight < 0.0).sum();
+        assert!((of_first - 1.0).abs() < 1e-12 && (of_other + 1.0).abs() < 1e-12, "{pair:?}");
+        assert!(
+            (pair.normal.length() - 1.0).abs() < 1e-12 && pair.thickness <= 4.001e-3,
+            "{pair:?}"
+        );
+        let positions = pair.vertices.map(|vertex| simulation.positions()[vertex as usize]);
+        let way: DVec3 = positions
+            .into_iter()
+            .zip(pair.weights)
+            .map(|(position, weight)| position * weight)
+            .sum();
+        // From the second side to the first, in a motion of half a millimetre a step.
+        assert!(way.dot(pair.normal) > 0.0 && way.dot(pair.normal) < 8e-3, "{pair:?}");
+        near += 1;
+    }
+    assert!(near > 0);
+}
+
+#[test]
+fn a_rotation_of_any_length_turns_and_does_not_scale() {
+    let rotation = DQuat::from_rotation_z(0.5);
+    let [unit, longer] = [1.0, 3.0].map(|length| {
+        let mut scene = scene_with(bar(), 0.1);
+        scene.bodies[0].motion = Motion::Driven(Placement {
+            rotation: rotation * length,
+            translation: DVec3::ZERO,
+        });
+        let mut simulation = Simulation::new(scene, 1).unwrap();
+        let start = simulation.positions()[simulation.body_vertices(0).unwrap()].to_vec();
+        simulation
+            .place_body(
+                0,
+                Placement {
+                    rotation: DQuat::IDENTITY * length,
+                    translation: DVec3::ZERO,
+                },
+            )
+            .unwrap();
+        simulation.step().unwrap();
+        [start, simulation.positions()[simulation.body_vertices(0).unwrap()].to_vec()]
+    });
+    for (unit, longer) in unit.iter().flatten().zip(longer.iter().flatten()) {
+        assert!(unit.distance(*longer) < 1e-15, "{unit} {longer}");
+    }
 }
 
 #[test]
@@ -403,7 +452,7 @@ impl Effect for Balloon {
     }
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
-        assert_eq!(plan.masses().len(), plan.world().cloth.mesh().positions.len());
+        assert_eq!(plan.masses().len(), plan.scene().cloth.mesh().positions.len());
         plan.add_force(Lift);
         plan.add_constraint(*self);
     }
