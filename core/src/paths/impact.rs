@@ -47,6 +47,17 @@ pub fn separation_of_pieces(separation: f64, deviation: f64) -> f64 {
     (separation + deviation) * (1.0 + 16.0 * u())
 }
 
+/// The largest of what the points of each side deviate, added up; NaN if one is.
+pub(super) fn of_both_sides(kind: PairKind, [a, b, c, d]: [f64; 4]) -> f64 {
+    // A maximum may drop NaN.
+    let unknown = 0.0 * (a + b + c + d);
+    let (first, second) = match kind {
+        PairKind::VertexFace => (a, b.max(c).max(d)),
+        PairKind::EdgeEdge => (a.max(b), c.max(d)),
+    };
+    first + second + unknown
+}
+
 /// The same of a part of the step, from its first time to its second: [`Impact::Never`] is said of that part only.
 ///
 /// Not in [0, 1], or not ascending: nothing is excluded from time 0 on.
@@ -62,14 +73,7 @@ pub(super) fn between(kind: PairKind, paths: [&dyn Path; 4], limits: &Limits<f64
             return possible(from, Reason::WithinError);
         }
         let pieces = paths.map(|path| path.piece(from, to));
-        let [a, b, c, d] = pieces.map(|piece| piece.deviation);
-        // A maximum may drop NaN.
-        let unknown = 0.0 * (a + b + c + d);
-        let (first, second) = match kind {
-            PairKind::VertexFace => (a, b.max(c).max(d)),
-            PairKind::EdgeEdge => (a.max(b), c.max(d)),
-        };
-        let deviation = first + second + unknown;
+        let deviation = of_both_sides(kind, pieces.map(|piece| piece.deviation));
         let straight = Limits {
             separation: separation_of_pieces(limits.separation, deviation),
             ..*limits

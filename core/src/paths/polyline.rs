@@ -1,6 +1,6 @@
 //! Several straight pieces.
 
-use super::{Path, Piece, largest, length_above, u};
+use super::{Moment, Path, Piece, largest, length_above, u};
 use crate::lanes::Rounding;
 use crate::motion::Motion;
 use glam::DVec3;
@@ -42,10 +42,15 @@ impl<'a> Polyline<'a> {
         })
     }
 
-    fn at(&self, time: f64) -> DVec3 {
-        let after = self.times.partition_point(|&knot| knot <= time);
+    /// The last knot for which `is_before` holds, as it does for the first knots, and the one after it.
+    fn knots(&self, is_before: impl Fn(f64) -> bool) -> [Option<(f64, DVec3)>; 2] {
+        let after = self.times.partition_point(|&knot| is_before(knot));
         let knot = |index: usize| Some((*self.times.get(index)?, *self.positions.get(index)?));
-        match (after.checked_sub(1).and_then(knot), knot(after)) {
+        [after.checked_sub(1).and_then(knot), knot(after)]
+    }
+
+    fn at(&self, time: f64) -> DVec3 {
+        match self.knots(|knot| knot <= time).into() {
             (Some((begin, from)), Some((end, to))) => {
                 let share = ((time - begin) / (end - begin)).clamp(0.0, 1.0);
                 Motion::<f64>::new(from, to).at(share)
@@ -72,6 +77,21 @@ impl Path for Polyline<'_> {
             motion,
             // The ends are off, and so is the place at the time of a knot: by as much at most. Two roundings.
             deviation: (bent + 2.0 * self.rounding) * (1.0 + 16.0 * u()),
+        }
+    }
+
+    fn moment(&self, time: f64) -> Moment {
+        // At a knot the way that leads to it.
+        let (velocity, lasts) = match self.knots(|knot| knot < time || knot == 0.0).into() {
+            (Some((begin, from)), Some((end, to))) => ((to - from) / (end - begin), end - begin),
+            _ => (DVec3::NAN, f64::NAN),
+        };
+        Moment {
+            position: self.at(time),
+            position_error: self.rounding,
+            velocity,
+            // Three operations, of a way of at most 2B along each axis: 21u of it over the time, and the quotient.
+            velocity_error: self.rounding / lasts,
         }
     }
 }

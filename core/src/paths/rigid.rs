@@ -23,9 +23,12 @@
 //!   nested series by 4k + 7 operations of its term with the power 2k: 164ε of cosh(3.2), and 0.1u for what is left out.
 //! * **Place.** The three parts, 77.7εH; the sine and cosine, 3.5κH; products and sums, 14εH and u(4C + 6T + 3.5H). Times √3: less than
 //!   u((3500 + 25|θ|)H + 16(C + T)). [`Arc`] allows u((4096 + 32|θ|)H + 16(C + T)) + η: flushed numbers are covered by η and by uH.
+//! * **Velocity**: τ and θ times a place's parts, of which sine and cosine take the other's place. θ times the place's error, 3500uH without the
+//!   centre and the translation, and the operations: 4u(T + 3.5H|θ|) of product and sum along each axis, 7uT + 25uH|θ| in all. [`Arc`] allows |θ|
+//!   times what it allows a place, and 16uT + η.
 //! * **Radius.** The part sideways, 15.6εH along each coordinate, 54u·H in all: 64u·H is added to its length.
 
-use super::{Path, Piece, largest, length_above, u};
+use super::{Moment, Path, Piece, largest, length_above, u};
 use crate::lanes::Rounding;
 use crate::motion::Motion;
 use glam::{DQuat, DVec3};
@@ -145,7 +148,7 @@ pub struct Arc {
 }
 
 impl Arc {
-    /// Where the point is at a time in [0, 1], within [`rounding`](Self::rounding) of it.
+    /// Where the point is at a time in [0, 1], within the [error](Moment::position_error) of it.
     #[must_use]
     pub fn at(&self, time: f64) -> DVec3 {
         if time == 0.0 {
@@ -154,12 +157,6 @@ impl Arc {
         let [sine, cosine] = sine_and_cosine(time * self.angle);
         let turned = self.along + (self.across * cosine + self.sideways * sine);
         (self.centre + self.translation * time) + turned
-    }
-
-    /// How far [`at`](Self::at) may be off, in the unit of the positions.
-    #[must_use]
-    pub const fn rounding(&self) -> f64 {
-        self.rounding
     }
 }
 
@@ -172,6 +169,18 @@ impl Path for Arc {
             motion: Motion::new(self.at(from), self.at(to)),
             // Eight roundings.
             deviation: (self.radius * bent + self.rounding) * (1.0 + 32.0 * u()),
+        }
+    }
+
+    fn moment(&self, time: f64) -> Moment {
+        let [sine, cosine] = sine_and_cosine(time * self.angle);
+        let turning = self.sideways * cosine - self.across * sine;
+        let of_translation = 16.0 * u() * largest(self.translation) + <f64 as Rounding>::UNDERFLOW;
+        Moment {
+            position: self.at(time),
+            position_error: self.rounding,
+            velocity: self.translation + turning * self.angle,
+            velocity_error: (self.angle.abs() * self.rounding + of_translation) * (1.0 + 16.0 * u()),
         }
     }
 }

@@ -84,49 +84,97 @@ pub fn geometry(pair: &PrimitivePair<f64>, time: f64) -> Geometry {
     let [origin, ..] = pair.motions;
     let from_origin = |motion: Motion<f64>| Motion::new(motion.start - origin.start, motion.end - origin.end);
     let motions = pair.motions.map(from_origin);
-    let at = |time: f64| motions.map(|motion| motion.at(time));
-    let points = at(time);
-    let closest = Closest::of(kind, points);
-    let weights = barycentric(kind, closest.weights);
-    let met = both(kind, weights, points);
-
     let ends = motions.map(|motion| [motion.start, motion.end]);
     let largest = largest_coordinate(ends.as_flattened());
-    let error = GapError::of_coordinates(2.0 * largest);
-    let across = across(kind, points);
+    let at = |time: f64| Instant {
+        origin: origin.at(time),
+        points: motions.map(|motion| motion.at(time)),
+        velocities: motions.map(|motion| motion.end - motion.start),
+        largest,
+        error: 0.0,
+    };
+    of_instants(kind, is_time.then_some(time), at)
+}
+
+/// Four points at some time.
+pub(crate) struct Instant {
+    /// Where the first is.
+    pub origin: DVec3,
+    /// From the first.
+    pub points: [DVec3; 4],
+    pub velocities: [DVec3; 4],
+    /// The largest coordinate that any of `points` may have.
+    pub largest: f64,
+    /// By how much the two sides may be off, added up, beyond what is rounded of [straight motion](self).
+    pub error: f64,
+}
+
+/// The geometry of four points that move somehow, at a time in [0, 1].
+pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) -> Instant) -> Geometry {
+    let (is_time, time) = (time.is_some(), time.unwrap_or(0.0));
+    let now = at(time);
+    let closest = Closest::of(kind, now.points);
+    let weights = barycentric(kind, closest.weights);
+    let met = both(kind, weights, now.points);
+
+    let across = across(kind, now.points);
     let found = BEFORE.iter().filter(|_| is_time).find_map(|&share| {
         let earlier = time * (1.0 - share);
         let before = at(earlier);
-        let own = if share == 0.0 { closest } else { Closest::of(kind, before) };
-        let gap = |direction| distance_from_below(kind, before, direction, error);
+        let own = if share == 0.0 {
+            closest
+        } else {
+            Closest::of(kind, before.points)
+        };
         let directions = [own.direction, across, -across].map(|direction| {
             // Once more: the length of a tiny vector is not known to its last digit.
             let direction = direction.normalize_or_zero();
-            (direction, gap(direction))
+            (direction, before.distance_from_below(kind, direction))
         });
         // The nearest points are what keeps two sets farthest apart.
         let farther = |a: (DVec3, f64), b: (DVec3, f64)| if b.1 > a.1 { b } else { a };
         let (direction, gap) = directions.into_iter().fold((DVec3::ZERO, 0.0), farther);
         (gap > 0.0).then_some((direction, earlier))
     });
+    let largest = now.largest;
     let apart = length(met[0] - met[1]) * (1.0 + 16.0 * u()) + (96.0 * u() * largest + <f64 as Rounding>::UNDERFLOW);
+    let apart = if now.error == 0.0 {
+        apart
+    } else {
+        (apart + now.error) * (1.0 + 8.0 * u())
+    };
     let mut geometry = Geometry {
         weights,
-        points: met.map(|point| origin.at(time) + point),
+        points: met.map(|point| now.origin + point),
         normal: None,
         separated_at: 0.0,
         distance: [0.0, if is_time && !apart.is_nan() { apart } else { f64::INFINITY }],
         speed: 0.0,
     };
     if let Some((normal, separated_at)) = found {
-        let ways = motions.map(|motion| motion.end - motion.start);
-        let [first, second] = both(kind, weights, ways);
+        let [first, second] = both(kind, weights, now.velocities);
         geometry.normal = Some(normal);
         geometry.separated_at = separated_at;
-        geometry.distance[0] = distance_from_below(kind, points, normal, error);
+        geometry.distance[0] = now.distance_from_below(kind, normal);
         geometry.speed = (first - second).dot(normal);
     }
     geometry
+}
+
+impl Instant {
+    /// A lower bound of the distance of the two sides, as they truly are, by a direction from the second to the first; zero if it shows none.
+    fn distance_from_below(&self, kind: PairKind, direction: DVec3) -> f64 {
+        let error = GapError::of_coordinates(2.0 * self.largest);
+        let computed = distance_from_below(kind, self.points, direction, error);
+        if self.error == 0.0 {
+            computed
+        } else if computed > self.error {
+            // Two roundings.
+            (computed - self.error) * (1.0 - 8.0 * u())
+        } else {
+            0.0
+        }
+    }
 }
 
 /// Half the distance from 1 to the next number.

@@ -53,7 +53,7 @@ pub use selvedge_core::glam;
 pub use selvedge_core::separation::geometry::Geometry;
 pub use selvedge_core::{PairKind, ParsePairKindError, Position, Scalar};
 pub use step::{Cancellation, CandidateBoxes, CollisionDetector, Contact, ContactGeometry, Criterion, Intersection, Truncation};
-pub use world::{MeshHandle, MeshMotion, World, WorldContact, WorldError};
+pub use world::{MeshHandle, MeshMotion, World, WorldContact, WorldContactGeometry, WorldError};
 
 /// The readme's examples are tests.
 #[cfg(doctest)]

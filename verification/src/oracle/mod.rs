@@ -10,7 +10,7 @@
 //! | are four moving points coplanar at some time in \[0, 1\]? | [`coplanar`] |
 //! | does a primitive pair collide, and when first? | [`collides`] |
 //! | does it come within a distance, and when first? | [`within`], [`first_within`] |
-//! | is it within a distance at some time? | [`within_at`] |
+//! | is it within a distance at some time, or where it rests? | [`within_at`], [`within_at_rest`] |
 //! | do two triangles at rest intersect? | [`triangles_intersect`] |
 //! | which triangles of a mesh intersect? | [`mesh_self_intersections`], [`mesh_intersections`] |
 //!
@@ -34,5 +34,5 @@ pub use collision::{collides, coplanar, touches_at};
 pub use mesh::{mesh_intersections, mesh_self_intersections, triangles_intersect};
 pub use motion::{Pair, PairKind};
 pub use polynomial::Polynomial;
-pub use separation::{first_within, within, within_at};
+pub use separation::{first_within, within, within_at, within_at_rest};
 pub use signs::triangles_intersect_by_signs;

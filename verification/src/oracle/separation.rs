@@ -58,6 +58,29 @@ pub fn within_at(pair: &Pair, t: &Rational, separation: f64) -> bool {
     Question::new(pair, separation).is_near_at(t)
 }
 
+/// Is the distance of the vertex and the face, or of the two edges, `separation` or less where these four points are?
+///
+/// # Panics
+/// If the separation is NaN, infinite or negative.
+#[must_use]
+pub fn within_at_rest(kind: PairKind, points: &[[Rational; 3]; 4], separation: f64) -> bool {
+    assert!(separation >= 0.0, "the separation must not be negative, but is {separation}");
+    let separation = Rational::from_f64(separation).expect("a finite separation");
+    let mut scale = separation.denom().clone();
+    for x in points.iter().flatten() {
+        scale.lcm_mut(x.denom());
+    }
+    let scaled = |x: &Rational| (x * Rational::from(&scale)).into_numer_denom().0;
+    let points = points.each_ref().map(|point| point.each_ref().map(scaled));
+    is_near_at_rest(kind, &points, &scaled(&separation).square())
+}
+
+fn is_near_at_rest(kind: PairKind, points: &[Point<Integer>; 4], squared: &Integer) -> bool {
+    features(kind, points, squared)
+        .iter()
+        .any(|feature| feature.is_near(&mut AtRest))
+}
+
 /// A pair and a distance, at a common scale.
 struct Question {
     kind: PairKind,
@@ -84,9 +107,7 @@ impl Question {
     fn is_near_at(&self, t: &Rational) -> bool {
         // The positions are those at `t` times its denominator.
         let squared = Integer::from(&self.separation * t.denom()).square();
-        features(self.kind, &self.motion.at(t), &squared)
-            .iter()
-            .any(|feature| feature.is_near(&mut AtRest))
+        is_near_at_rest(self.kind, &self.motion.at(t), &squared)
     }
 
     /// Whether `accept` agrees with one of the times at which the distance, more than the separation at first, may have come down

@@ -1,9 +1,12 @@
 //! Points, weights, distance and normal of a contact, against rational numbers.
 
+use crate::support::at;
 use crate::support::environment::Environment;
+use crate::support::geometry::{Truth, exact};
 use proptest::prelude::*;
 use rug::Rational;
 use selvedge::{CollisionDetector, PairKind, StepError, Topology};
+use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::geometry::{Geometry, geometry};
 use selvedge_core::separation::largest_coordinate;
@@ -12,108 +15,30 @@ use selvedge_verification::generator::{Moment, PairCase, check, extraordinary_pa
 use selvedge_verification::oracle::within_at;
 use std::cell::Cell;
 
-type Exact = [Rational; 3];
-
-fn exact(number: f64) -> Rational {
-    Rational::from_f64(number).expect("a finite number")
-}
-
-fn exactly(point: DVec3) -> Exact {
-    point.to_array().map(exact)
-}
-
-/// Where the four points are at a time, without rounding.
-fn positions(case: &PairCase<f64>, time: f64) -> [Exact; 4] {
-    case.pair().motions.map(|motion| {
-        [0, 1, 2].map(|axis| {
-            let (from, to) = (exact(motion.start[axis]), exact(motion.end[axis]));
-            (to - &from) * exact(time) + from
-        })
-    })
-}
-
-fn dot(a: &Exact, b: &Exact) -> Rational {
-    let products = a.iter().zip(b).map(|(a, b)| Rational::from(a * b));
-    products.fold(Rational::new(), |sum, product| sum + product)
-}
-
-fn first_of(kind: PairKind) -> usize {
-    match kind {
-        PairKind::VertexFace => 1,
-        PairKind::EdgeEdge => 2,
-    }
-}
-
 /// Everything that is promised, at one time. Whether there is a normal.
 fn keeps_promises(case: &PairCase<f64>, time: f64) -> Result<bool, TestCaseError> {
     are_kept(case, time, &geometry(&case.pair(), time))
 }
 
 fn are_kept(case: &PairCase<f64>, time: f64, found: &Geometry) -> Result<bool, TestCaseError> {
-    let pair = case.pair();
-    let ends: Vec<DVec3> = pair.motions.iter().flat_map(|motion| [motion.start, motion.end]).collect();
-    let largest = exact(largest_coordinate(&ends));
-    let unit = exact(f64::EPSILON / 2.0);
-    let first = first_of(pair.kind);
-
-    let at = positions(case, time);
-    for (side, corners) in [0..first, first..4].into_iter().enumerate() {
-        let weights = &found.weights[corners.clone()];
-        prop_assert!(weights.iter().all(|weight| (0.0..=1.0).contains(weight)), "{:?}", weights);
-        let sum: Rational = weights.iter().map(|&weight| exact(weight)).sum();
-        prop_assert!((sum - 1_u32).abs() <= Rational::from(&unit * 4), "{:?}", weights);
-        let mut way = exactly(found.points[side]);
-        for corner in corners {
-            for axis in 0..3 {
-                way[axis] -= exact(found.weights[corner]) * &at[corner][axis];
-            }
-        }
-        let bound = Rational::from(&largest * &unit) * 96_u32 + exact(f64::MIN_POSITIVE) * 512_u32;
-        prop_assert!(dot(&way, &way) <= Rational::from(&bound * &bound), "a point of side {}", side);
-    }
-
-    let (question, now) = (case.question(), exact(time));
-    let [from, to] = found.distance;
-    prop_assert!(
-        from <= 0.0 || !within_at(&question, &now, from.next_down()),
-        "nearer than {}",
-        from
-    );
-    prop_assert!(to.is_infinite() || within_at(&question, &now, to), "farther than {}", to);
-
-    let Some(normal) = found.normal else {
-        prop_assert!(found.speed == 0.0 && from == 0.0);
-        return Ok(false);
+    let motions = case.pair().motions;
+    let ends: Vec<DVec3> = motions.iter().flat_map(|motion| [motion.start, motion.end]).collect();
+    let velocity = |motion: Motion<f64>| [0, 1, 2].map(|axis| exact(motion.end[axis]) - exact(motion.start[axis]));
+    let from_first = motions.iter().flat_map(|motion| {
+        let of_one = |end: DVec3, first: DVec3| [0, 1, 2].map(|axis| (exact(end[axis]) - exact(first[axis])).abs());
+        [of_one(motion.start, motions[0].start), of_one(motion.end, motions[0].end)]
+    });
+    let truth = Truth {
+        kind: case.kind,
+        time,
+        at: &|time| motions.map(|motion| at(motion.start.to_array(), motion.end.to_array(), &exact(time))),
+        velocities: motions.map(velocity),
+        largest: exact(largest_coordinate(&ends)),
+        of_speed: from_first.flatten().max().expect("eight points"),
+        position_errors: [0.0; 2],
+        velocity_errors: 0.0,
     };
-    let exact_normal = exactly(normal);
-    let squared = dot(&exact_normal, &exact_normal);
-    let [least, most] = [-16, 16].map(|share| Rational::from(&unit * share) + 1_u32);
-    prop_assert!(squared >= least.square() && squared <= most.square(), "of length one");
-    prop_assert!((0.0..=time).contains(&found.separated_at));
-    // The speed of the points with these weights along this normal.
-    let first_point = case.pair().motions[0];
-    let mut largest_difference = Rational::new();
-    let mut speed = Rational::new();
-    for (corner, motion) in case.pair().motions.iter().enumerate() {
-        let sign = if corner < first { 1 } else { -1 };
-        for axis in 0..3 {
-            let (from, to) = (exact(motion.start[axis]), exact(motion.end[axis]));
-            let (other_from, other_to) = (exact(first_point.start[axis]), exact(first_point.end[axis]));
-            for difference in [Rational::from(&from - &other_from), Rational::from(&to - &other_to)] {
-                largest_difference = largest_difference.max(difference.abs());
-            }
-            // Of differences, as weights add up to one but for rounding.
-            let way = (to - other_to) - (from - other_from);
-            speed += way * exact(found.weights[corner]) * &exact_normal[axis] * sign;
-        }
-    }
-    let bound = largest_difference * &unit * 256_u32 + exact(f64::MIN_POSITIVE) * 512_u32;
-    prop_assert!((speed - exact(found.speed)).abs() <= bound, "the speed");
-    let then = positions(case, found.separated_at);
-    let heights = then.each_ref().map(|point| dot(&exact_normal, point));
-    let lowest = heights[..first].iter().min();
-    prop_assert!(lowest > heights[first..].iter().max(), "apart along the normal");
-    Ok(true)
+    truth.is_promised(found)
 }
 
 fn is_in_range(case: &PairCase<f64>) -> bool {

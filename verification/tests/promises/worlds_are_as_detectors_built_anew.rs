@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use selvedge::core::elementary::Limits;
 use selvedge::glam::{DQuat, DVec3};
 use selvedge::{
-    CollisionDetector, CollisionFilter, Criterion, Groups, MeshHandle, MeshMotion, PairKind, Position, Scalar, StepError,
-    Threads, Topology, World, WorldContact, WorldError,
+    CollisionDetector, CollisionFilter, Criterion, Geometry, Groups, MeshHandle, MeshMotion, PairKind, Position, Scalar,
+    StepError, Threads, Topology, World, WorldContact, WorldContactGeometry, WorldError,
 };
 use selvedge_core::separation::closest::Closest;
 use std::cell::Cell;
@@ -90,12 +90,46 @@ impl<S: Scalar> Model<S> {
     }
 }
 
-type Told<S> = Vec<(PairKind, [MeshHandle; 2], [u32; 2], S)>;
+/// A contact, and what it is beyond its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Told<S> {
+    kind: PairKind,
+    meshes: [MeshHandle; 2],
+    pair: [u32; 2],
+    time: S,
+    vertices: [u32; 4],
+    geometry: Geometry,
+}
 
-fn told<S: Scalar>(contacts: &[WorldContact<S>]) -> Told<S> {
-    let mut told: Told<S> = contacts.iter().map(|c| (c.kind, c.meshes, c.pair, c.time)).collect();
-    told.sort_by_key(|&(kind, meshes, pair, _)| (kind, meshes, pair));
+fn sorted<S>(mut told: Vec<Told<S>>) -> Vec<Told<S>> {
+    told.sort_by_key(|own| (own.kind, own.meshes, own.pair));
     told
+}
+
+fn told<P: Position>(world: &World<P>, contacts: &[WorldContact<P::Scalar>]) -> Result<Vec<Told<P::Scalar>>, TestCaseError> {
+    let mut geometries = Vec::new();
+    prop_assert_eq!(world.contact_geometries(contacts, &mut geometries), Ok(()));
+    let mut told = Vec::new();
+    for (contact, own) in contacts.iter().zip(&geometries) {
+        let &WorldContact {
+            kind,
+            meshes,
+            pair,
+            time,
+        } = contact;
+        prop_assert_eq!((own.kind, own.meshes, own.pair), (kind, meshes, pair));
+        prop_assert_eq!(world.contact_geometry(contact), Ok(*own));
+        let &WorldContactGeometry { vertices, geometry, .. } = own;
+        told.push(Told {
+            kind,
+            meshes,
+            pair,
+            time,
+            vertices,
+            geometry,
+        });
+    }
+    Ok(sorted(told))
 }
 
 /// The other questions to a world have the answers that its contacts make.
@@ -113,7 +147,7 @@ fn agrees<P: Position>(
 }
 
 /// The contacts of some of the meshes, by a detector for all their triangles as one mesh.
-fn by_one_detector<S: Scalar>(models: &[(&Model<S>, &Way<S>)], criterion: Criterion<S>) -> Told<S>
+fn by_one_detector<S: Scalar>(models: &[(&Model<S>, &Way<S>)], criterion: Criterion<S>) -> Vec<Told<S>>
 where
     [S; 3]: Position<Scalar = S>,
 {
@@ -155,8 +189,11 @@ where
         .expect("no lists");
     let mut contacts = Vec::new();
     detector.contacts(&start, &end, &mut contacts).expect("finite positions");
+    let mut geometries = Vec::new();
+    let found = detector.contact_geometries(&start, &end, &contacts, &mut geometries);
+    found.expect("contacts of the step");
     let mut told = Vec::new();
-    for contact in contacts {
+    for (contact, geometry) in contacts.iter().zip(geometries) {
         let of = |item: u32, what: usize| firsts.iter().rposition(|first| first[what] <= item).expect("from zero on");
         let whats = match contact.kind {
             PairKind::VertexFace => [0, 2],
@@ -164,10 +201,17 @@ where
         };
         let meshes = [0, 1].map(|side| of(contact.pair[side], whats[side]));
         let pair = [0, 1].map(|side| contact.pair[side] - firsts[meshes[side]][whats[side]]);
-        told.push((contact.kind, meshes.map(|index| models[index].0.handle), pair, contact.time));
+        let vertices = [0, 1, 2, 3].map(|corner| geometry.vertices[corner] - firsts[meshes[side_of(contact.kind, corner)]][0]);
+        told.push(Told {
+            kind: contact.kind,
+            meshes: meshes.map(|index| models[index].0.handle),
+            pair,
+            time: contact.time,
+            vertices,
+            geometry: geometry.geometry,
+        });
     }
-    told.sort_by_key(|&(kind, meshes, pair, _)| (kind, meshes, pair));
-    told
+    sorted(told)
 }
 
 /// What happens to a world, one after the other.
@@ -314,7 +358,7 @@ where
                     agrees(world, &motions, &found)?;
                 }
                 let all: Vec<_> = models.iter().zip(&ways).collect();
-                let found = told(&found);
+                let found = told(&worlds[0], &found)?;
                 if S::UNIT_ROUNDOFF.to_f64() > f64::EPSILON {
                     prop_assert_eq!(&found, &by_one_detector(&all, criterion));
                 } else {
@@ -324,14 +368,13 @@ where
                         expected.extend(by_one_detector(&[one], criterion));
                         for &other in &all[index + 1..] {
                             let both = by_one_detector(&[one, other], criterion);
-                            expected.extend(both.into_iter().filter(|(_, meshes, ..)| meshes[0] != meshes[1]));
+                            expected.extend(both.into_iter().filter(|own| own.meshes[0] != own.meshes[1]));
                         }
                     }
-                    expected.sort_by_key(|&(kind, meshes, pair, _)| (kind, meshes, pair));
-                    prop_assert_eq!(&found, &expected);
+                    prop_assert_eq!(&found, &sorted(expected));
                 }
-                for (_, meshes, ..) in &found {
-                    done.contacts[usize::from(meshes[0] != meshes[1])] += 1;
+                for own in &found {
+                    done.contacts[usize::from(own.meshes[0] != own.meshes[1])] += 1;
                 }
                 for (model, way) in models.iter_mut().zip(&ways) {
                     model.at = model.frames(way)[1].clone();
@@ -497,6 +540,56 @@ fn what_is_out_of_order_is_told_and_nothing_is_lost() {
 }
 
 #[test]
+fn geometry_of_what_the_last_step_does_not_have_is_an_error() {
+    let mut world = World::<DVec3>::new();
+    // The last vertex is of no triangle.
+    let loose = Topology::new(4, vec![[0, 1, 2]]).expect("a triangle");
+    let corners = [CORNERS[0], CORNERS[1], CORNERS[2], DVec3::Z];
+    let floor = world.insert(loose, &corners, Groups::ALL).expect("in order");
+    let above = CORNERS.map(|corner| corner + DVec3::new(0.1, 0.1, 1.0));
+    let mesh = world.insert(triangle(), &above, Groups::ALL).expect("in order");
+    let start = (DQuat::IDENTITY, DVec3::ZERO);
+    let falls = MeshMotion::Rigid {
+        start,
+        end: (DQuat::IDENTITY, -2.0 * DVec3::Z),
+    };
+    let contact = world.earliest(&[(mesh, falls)]).expect("in order").expect("it goes through");
+    let found = world.contact_geometry(&contact).expect("a contact of the step");
+    assert_eq!(found.geometry.normal.map(|normal| normal.z.abs()), Some(1.0));
+
+    let mut kept = vec![found];
+    for (kind, pair) in [
+        (PairKind::VertexFace, [0, 1]),
+        (PairKind::VertexFace, [3, 0]),
+        (PairKind::EdgeEdge, [3, 0]),
+        (PairKind::EdgeEdge, [0, u32::MAX]),
+    ] {
+        let meshes = [floor, mesh];
+        let strange = WorldContact {
+            kind,
+            meshes,
+            pair,
+            ..contact
+        };
+        let error = WorldError::Step(StepError::NoSuchPair { kind, pair });
+        assert_eq!(world.contact_geometry(&strange), Err(error));
+        assert_eq!(world.contact_geometries(&[contact, strange], &mut kept), Err(error));
+    }
+    for time in [-0.1, 1.1, f64::NAN] {
+        let at_no_time = WorldContact { time, ..contact };
+        let refused = world.contact_geometry(&at_no_time);
+        assert!(matches!(refused, Err(WorldError::Step(StepError::BadTime { .. }))));
+    }
+    // Of another step it is told as of that one: all rest, a unit below.
+    world.contacts(&[], &mut Vec::new()).expect("in order");
+    let at_rest = world.contact_geometry(&contact).expect("they are still there");
+    assert_eq!((at_rest.geometry.speed, at_rest.geometry.distance[1] > 0.9), (0.0, true));
+    world.remove(mesh).expect("it is there");
+    assert_eq!(world.contact_geometry(&contact), Err(WorldError::NoSuchMesh { mesh }));
+    assert_eq!(kept, [found], "what was told before is kept");
+}
+
+#[test]
 fn pairs_that_rest_or_that_groups_exclude_are_not_looked_at() {
     let mut world = World::<DVec3>::new();
     let touching = |mesh: DVec3| CORNERS.map(|corner| corner + mesh);
@@ -558,6 +651,14 @@ impl Turn {
         let (sine, cosine) = (-self.angle * time).sin_cos();
         let along = self.axis * self.axis.dot(way);
         self.start.0.inverse() * (along + (way - along) * cosine + self.axis.cross(way) * sine)
+    }
+}
+
+/// Of a corner of a pair.
+fn side_of(kind: PairKind, corner: usize) -> usize {
+    match kind {
+        PairKind::VertexFace => usize::from(corner > 0),
+        PairKind::EdgeEdge => corner / 2,
     }
 }
 
@@ -627,6 +728,44 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<
         _ => sheet_end[0][vertex].lerp(sheet_end[1][vertex], time),
     };
     let edges = world.topology(a).expect("it is there").edges().to_vec();
+    // What is told of each contact beyond its time, but for what the places are rounded by.
+    world.set_threads(Threads::Calling).expect("no threads");
+    let told = told(&world, &contacts)?;
+    for own in &told {
+        let at = |time: f64| [0, 1, 2, 3].map(|k| place(own.meshes[side_of(own.kind, k)], own.vertices[k] as usize, time));
+        let geometry = own.geometry;
+        let distance = Closest::of(own.kind, at(own.time)).distance();
+        let [from, to] = geometry.distance;
+        prop_assert!(
+            from <= distance + 1e-10 && distance - 1e-10 <= to && to < distance + 1e-9,
+            "{own:?}: {distance}"
+        );
+        let weighed = |side: usize, time: f64| {
+            let points = (0..4)
+                .filter(|&k| side_of(own.kind, k) == side)
+                .map(|k| at(time)[k] * geometry.weights[k]);
+            points.sum::<DVec3>()
+        };
+        for side in [0, 1] {
+            prop_assert!(weighed(side, own.time).distance(geometry.points[side]) < 1e-10, "{own:?}");
+        }
+        let Some(normal) = geometry.normal else {
+            prop_assert!(own.time < 1e-3, "{own:?}: without a normal");
+            continue;
+        };
+        let heights = at(geometry.separated_at).map(|point| point.dot(normal));
+        let of_side = |side: usize| (0..4).filter(move |&k| side_of(own.kind, k) == side).map(|k| heights[k]);
+        let [lowest, highest] = [
+            of_side(0).fold(f64::INFINITY, f64::min),
+            of_side(1).fold(f64::NEG_INFINITY, f64::max),
+        ];
+        prop_assert!(lowest > highest - 1e-10, "{own:?}: {lowest} {highest}");
+        let apart = |time: f64| (weighed(0, time) - weighed(1, time)).dot(normal);
+        let (before, after) = (own.time - 1e-6, own.time + 1e-6);
+        let speed = (apart(after) - apart(before)) / (after - before);
+        prop_assert!((speed - geometry.speed).abs() < 1e-4, "{own:?}: {speed}");
+    }
+
     let [mut apart, mut near, mut tight] = count.get();
     for [one, other] in [[a, b], [a, c], [b, c]] {
         for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {

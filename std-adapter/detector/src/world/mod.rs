@@ -1,9 +1,12 @@
 //! Several meshes that come and go, and move as they like.
 
+mod contact;
 mod handles;
 mod mesh;
 mod stage;
+mod way;
 
+pub use contact::{WorldContact, WorldContactGeometry};
 pub use handles::MeshHandle;
 
 use crate::collision_filter::Groups;
@@ -12,11 +15,12 @@ use crate::mesh::Topology;
 use crate::parallel::Workers;
 #[cfg(feature = "parallel")]
 use crate::parallel::{ThreadError, Threads};
-use crate::step::{Cancellation, Contact, Criterion, Question, Wanted, rounded};
+use crate::step::{Cancellation, Criterion, Question, Wanted, rounded};
+use contact::of_meshes;
 use mesh::{Frames, Moves, WorldMesh, between_poses};
+use selvedge_core::Position;
 use selvedge_core::glam::{DQuat, DVec3};
-use selvedge_core::narrowing::{rounded_down, widened};
-use selvedge_core::{PairKind, Position, Scalar};
+use selvedge_core::narrowing::widened;
 use stage::{Given, MOST_VERTICES, Stage};
 use std::fmt;
 use std::sync::Arc;
@@ -42,19 +46,6 @@ pub enum MeshMotion<'a, P> {
         /// At the end.
         end: (DQuat, DVec3),
     },
-}
-
-/// A pair of a [`World`] for which contact during the step is not excluded.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WorldContact<S> {
-    /// Vertex–face or edge–edge.
-    pub kind: PairKind,
-    /// The mesh of the vertex and that of the face; or those of the two edges, the smaller handle first. One mesh twice, if it meets itself.
-    pub meshes: [MeshHandle; 2],
-    /// The vertex and the face, or the two edges, as their own meshes number them; of one mesh the edge with the smaller number first.
-    pub pair: [u32; 2],
-    /// When, in [0, 1] of the step: not after the exact time, and hardly before it, as [`Contact::time`](crate::Contact::time).
-    pub time: S,
 }
 
 /// Why a world could not do what it was asked. Nothing was lost: it can be asked again.
@@ -382,16 +373,6 @@ impl<P: Position> World<P> {
                 Ok(Checked::Rigid(handle, frames, moves))
             }
         }
-    }
-}
-
-/// A contact as callers see it.
-fn of_meshes<S: Scalar>(meshes: [MeshHandle; 2], contact: &Contact<f64>) -> WorldContact<S> {
-    WorldContact {
-        kind: contact.kind,
-        meshes,
-        pair: contact.pair,
-        time: rounded_down(contact.time),
     }
 }
 

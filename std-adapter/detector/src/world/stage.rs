@@ -2,12 +2,12 @@
 
 use super::handles::{MeshHandle, Places};
 use super::mesh::{Moves, RowsAt, WorldMesh};
+use super::way::{vertices_of, ways};
 use crate::broad_phase::{MeshHierarchy, Pairing, Rows};
 use crate::frame::{Motions, StepError};
 use crate::step::{Contact, Question, Source, SourceEngine, Wanted};
 use selvedge_core::elementary::Limits;
-use selvedge_core::paths::{Arc, Path, Piece, RigidMotion, separation_of_pieces, time_of_impact};
-use selvedge_core::{Motion, PairKind};
+use selvedge_core::paths::{Path, RigidMotion, separation_of_pieces, time_of_impact};
 use std::cmp::Ordering;
 
 /// Most vertices of all meshes: rows are numbered, with as many places unused as used.
@@ -229,40 +229,13 @@ fn time_on_paths(
     limits: &Limits<f64>,
     contact: &Contact<f64>,
 ) -> Option<f64> {
-    let [first, second] = contact.pair.map(|primitive| primitive as usize);
-    let [mesh, other] = pairing.meshes.map(|hierarchies| hierarchies.topology());
-    // Of the arcs whose pieces the boxes and the sweeps had: an arc is at its start without rounding.
-    let way = |side: usize, vertex: u32| {
-        let straight = pairing.meshes[side].motion_of(vertex as usize).unwrap_or_default();
-        motions[side].map_or(Way::Straight(straight), |motion| Way::Arc(motion.path(straight.start)))
+    let vertices = vertices_of(pairing.meshes, contact.kind, contact.pair);
+    let ways = vertices.and_then(|vertices| ways(pairing.meshes, motions, contact.kind, vertices));
+    let Some(ways) = ways else {
+        // Not one of these meshes' pairs, so that nothing is known of it.
+        return Some(0.0);
     };
-    let ways = match contact.kind {
-        PairKind::VertexFace => {
-            let [a, b, c] = other.triangles()[second];
-            [way(0, contact.pair[0]), way(1, a), way(1, b), way(1, c)]
-        }
-        PairKind::EdgeEdge => {
-            let ([a, b], [c, d]) = (mesh.edges()[first], other.edges()[second]);
-            [way(0, a), way(0, b), way(1, c), way(1, d)]
-        }
-    };
-    let paths = ways.each_ref().map(|way| way as &dyn Path);
-    time_of_impact(contact.kind, paths, limits).time()
-}
-
-/// Of a vertex.
-enum Way {
-    Straight(Motion<f64>),
-    Arc(Arc),
-}
-
-impl Path for Way {
-    fn piece(&self, from: f64, to: f64) -> Piece {
-        match self {
-            Self::Straight(motion) => motion.piece(from, to),
-            Self::Arc(arc) => arc.piece(from, to),
-        }
-    }
+    time_of_impact(contact.kind, ways.each_ref().map(|way| way as &dyn Path), limits).time()
 }
 
 /// The rows of meshes that are, or were, near others: each keeps its place as long as there is room, so that what rests is put there once.

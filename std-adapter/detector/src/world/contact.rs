@@ -1,0 +1,152 @@
+//! Contacts between meshes of a world, and what they are beyond their times.
+
+use super::handles::MeshHandle;
+use super::way::{Way, vertices_of, ways};
+use super::{World, WorldError};
+use crate::frame::StepError;
+use crate::parallel;
+use crate::step::Contact;
+use selvedge_core::narrowing::rounded_down;
+use selvedge_core::paths::{self, Path};
+use selvedge_core::separation::geometry::{Geometry, geometry};
+use selvedge_core::{PairKind, Position, PrimitivePair, Scalar};
+
+/// A pair of a [`World`] for which contact during the step is not excluded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorldContact<S> {
+    /// Vertex–face or edge–edge.
+    pub kind: PairKind,
+    /// The mesh of the vertex and that of the face; or those of the two edges, the smaller handle first. One mesh twice, if it meets itself.
+    pub meshes: [MeshHandle; 2],
+    /// The vertex and the face, or the two edges, as their own meshes number them; of one mesh the edge with the smaller number first.
+    pub pair: [u32; 2],
+    /// When, in [0, 1] of the step: not after the exact time, and hardly before it, as [`Contact::time`](crate::Contact::time).
+    pub time: S,
+}
+
+/// Two primitives of a [`World`], their vertices, and how they lie to each other at some time. Computed in `f64`, whatever the format of the
+/// positions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorldContactGeometry {
+    /// Vertex–face or edge–edge.
+    pub kind: PairKind,
+    /// As the [contact](WorldContact::meshes) has them.
+    pub meshes: [MeshHandle; 2],
+    /// As the [contact](WorldContact::pair) has them.
+    pub pair: [u32; 2],
+    /// The vertex and the corners of the face, or the ends of both edges, as their own meshes number them.
+    pub vertices: [u32; 4],
+    /// Points, weights, normal, distance, speed: with what is promised of [straight ways](selvedge_core::separation::geometry), and if one of
+    /// the meshes turns, of [arcs](selvedge_core::paths::geometry).
+    pub geometry: Geometry,
+}
+
+/// A contact as callers see it.
+pub(super) fn of_meshes<S: Scalar>(meshes: [MeshHandle; 2], contact: &Contact<f64>) -> WorldContact<S> {
+    WorldContact {
+        kind: contact.kind,
+        meshes,
+        pair: contact.pair,
+        time: rounded_down(contact.time),
+    }
+}
+
+impl<P: Position> World<P> {
+    /// The geometry of a contact of the last step, at its time.
+    ///
+    /// The step is the last one that this world was asked about, or its end where a mesh has rested since: the geometry of an earlier
+    /// step's contacts is not known any more. Of straight motions it is what a [detector](crate::CollisionDetector::contact_geometry)
+    /// tells of the two meshes as one, bit for bit.
+    ///
+    /// ```
+    /// use selvedge::glam::{DQuat, DVec3};
+    /// use selvedge::{Groups, MeshMotion, Topology, World};
+    ///
+    /// // A plank tips over, and its tip comes down on a floor.
+    /// let mut world = World::<DVec3>::new();
+    /// let floor = [DVec3::new(-9.0, -9.0, 0.0), DVec3::new(9.0, -9.0, 0.0), DVec3::new(0.0, 9.0, 0.0)];
+    /// let floor = world.insert(Topology::new(3, vec![[0, 1, 2]])?, &floor, Groups::ALL)?;
+    /// let plank = [DVec3::new(-2.0, 0.1, 0.0), DVec3::new(-2.0, -0.1, 0.0), DVec3::new(2.0, 0.0, 0.0)];
+    /// let plank = world.insert(Topology::new(3, vec![[0, 1, 2]])?, &plank, Groups::ALL)?;
+    /// let start = (DQuat::IDENTITY, DVec3::Z);
+    /// let end = (DQuat::from_rotation_y(1.0), DVec3::Z);
+    ///
+    /// let first = world.earliest(&[(plank, MeshMotion::Rigid { start, end })])?.expect("a contact");
+    /// let found = world.contact_geometry(&first)?;
+    /// assert_eq!((found.meshes, found.vertices), ([plank, floor], [2, 0, 1, 2]));
+    /// // Straight up from the floor, where the tip is: at √3 from the middle, with a speed of as much.
+    /// assert_eq!(found.geometry.normal, Some(DVec3::Z));
+    /// assert!((found.geometry.points[0] - 3.0_f64.sqrt() * DVec3::X).length() < 1e-5);
+    /// assert!((found.geometry.speed + 3.0_f64.sqrt()).abs() < 1e-5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If a mesh is not there any more, the pair is none of the two, or the time is not in [0, 1].
+    pub fn contact_geometry(&self, contact: &WorldContact<P::Scalar>) -> Result<WorldContactGeometry, WorldError> {
+        let &WorldContact {
+            kind,
+            meshes,
+            pair,
+            time,
+        } = contact;
+        let (vertices, ways) = self.pair_of(contact)?;
+        let time = time.to_f64();
+        let geometry = match ways.each_ref().map(Way::straight) {
+            [Some(a), Some(b), Some(c), Some(d)] => geometry(
+                &PrimitivePair {
+                    kind,
+                    motions: [a, b, c, d],
+                },
+                time,
+            ),
+            _ => paths::geometry(kind, ways.each_ref().map(|way| way as &dyn Path), time),
+        };
+        Ok(WorldContactGeometry {
+            kind,
+            meshes,
+            pair,
+            vertices,
+            geometry,
+        })
+    }
+
+    /// Replaces `geometries` by those of many contacts of the last step, in their order, on the world's threads.
+    ///
+    /// Nothing is allocated if `geometries` has room.
+    ///
+    /// # Errors
+    /// As [`contact_geometry`](Self::contact_geometry), of the first contact that is not in order. Then `geometries` is as it was.
+    pub fn contact_geometries(
+        &self,
+        contacts: &[WorldContact<P::Scalar>],
+        geometries: &mut Vec<WorldContactGeometry>,
+    ) -> Result<(), WorldError> {
+        let is_known = |contact| self.pair_of(contact).map(drop);
+        contacts.iter().try_for_each(is_known)?;
+        let known = |contact: &WorldContact<P::Scalar>| self.contact_geometry(contact).expect("looked at above");
+        self.workers.run(|| parallel::fill(geometries, contacts, known));
+        Ok(())
+    }
+
+    /// The vertices of a contact and their ways, if it is in order.
+    fn pair_of(&self, contact: &WorldContact<P::Scalar>) -> Result<([u32; 4], [Way; 4]), WorldError> {
+        let &WorldContact {
+            kind,
+            meshes,
+            pair,
+            time,
+        } = contact;
+        let time = time.to_f64();
+        if !(0.0..=1.0).contains(&time) {
+            return Err(StepError::BadTime { time }.into());
+        }
+        let [first, second] = meshes.map(|mesh| self.mesh(mesh));
+        let meshes = [first?, second?];
+        let hierarchies = meshes.map(|mesh| &mesh.hierarchies);
+        let motions = meshes.map(|mesh| mesh.moves.turning());
+        let vertices = vertices_of(hierarchies, kind, pair);
+        let found = vertices.and_then(|vertices| Some((vertices, ways(hierarchies, &motions, kind, vertices)?)));
+        found.ok_or(WorldError::Step(StepError::NoSuchPair { kind, pair }))
+    }
+}

@@ -1,0 +1,69 @@
+//! The ways of a pair's vertices in the last step.
+
+use crate::PairKind;
+use crate::broad_phase::Hierarchies;
+use selvedge_core::Motion;
+use selvedge_core::paths::{Arc, Moment, Path, Piece, RigidMotion};
+
+/// Of a vertex.
+pub(super) enum Way {
+    Straight(Motion<f64>),
+    Arc(Arc),
+}
+
+impl Way {
+    pub(super) const fn straight(&self) -> Option<Motion<f64>> {
+        match self {
+            Self::Straight(motion) => Some(*motion),
+            Self::Arc(_) => None,
+        }
+    }
+}
+
+impl Path for Way {
+    fn piece(&self, from: f64, to: f64) -> Piece {
+        match self {
+            Self::Straight(motion) => motion.piece(from, to),
+            Self::Arc(arc) => arc.piece(from, to),
+        }
+    }
+
+    fn moment(&self, time: f64) -> Moment {
+        match self {
+            Self::Straight(motion) => motion.moment(time),
+            Self::Arc(arc) => arc.moment(time),
+        }
+    }
+}
+
+/// The vertices of a pair, of which the first primitive is of the first mesh, and the second of the second; `None` if there is no such pair.
+pub(super) fn vertices_of([first, second]: [&Hierarchies; 2], kind: PairKind, pair: [u32; 2]) -> Option<[u32; 4]> {
+    let index = pair[1] as usize;
+    match kind {
+        PairKind::VertexFace => {
+            let &[a, b, c] = second.topology().triangles().get(index)?;
+            ((pair[0] as usize) < first.topology().vertex_count()).then_some([pair[0], a, b, c])
+        }
+        PairKind::EdgeEdge => {
+            let &[a, b] = first.topology().edges().get(pair[0] as usize)?;
+            let &[c, d] = second.topology().edges().get(index)?;
+            Some([a, b, c, d])
+        }
+    }
+}
+
+/// The ways of such a pair's vertices, on arcs where their mesh turns; `None` if a vertex is of no primitive.
+pub(super) fn ways(
+    meshes: [&Hierarchies; 2],
+    motions: &[Option<RigidMotion>; 2],
+    kind: PairKind,
+    [a, b, c, d]: [u32; 4],
+) -> Option<[Way; 4]> {
+    let way = |side: usize, vertex: u32| {
+        let straight = meshes[side].motion_of(vertex as usize)?;
+        // Of the arcs whose pieces the boxes and the sweeps had: an arc is at its start without rounding.
+        Some(motions[side].map_or(Way::Straight(straight), |motion| Way::Arc(motion.path(straight.start))))
+    };
+    let second = usize::from(kind == PairKind::VertexFace);
+    Some([way(0, a)?, way(second, b)?, way(1, c)?, way(1, d)?])
+}
