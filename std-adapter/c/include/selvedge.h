@@ -79,11 +79,11 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_NO_SUCH_DETECTOR = 5,
   /**
-   * Another thread is using the detector.
+   * Another thread is using the detector or world.
    */
   SELVEDGE_STATUS_BUSY = 6,
   /**
-   * The detector is for positions in the other format.
+   * The detector or world is for positions in the other format.
    */
   SELVEDGE_STATUS_WRONG_SCALAR = 7,
   /**
@@ -123,11 +123,11 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_NO_MEMORY = 16,
   /**
-   * The process was forked after the detector has started threads; they are not in the child.
+   * The process was forked after the detector or world has started threads; they are not in the child.
    */
   SELVEDGE_STATUS_FORKED = 17,
   /**
-   * The detector is cancelled.
+   * The detector or world is cancelled.
    */
   SELVEDGE_STATUS_CANCELLED = 18,
   /**
@@ -139,9 +139,25 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_BAD_TIME = 20,
   /**
-   * A fault of the library's own. The detector can only be freed from now on.
+   * A fault of the library's own. The detector or world can only be freed from now on.
    */
   SELVEDGE_STATUS_INTERNAL = 21,
+  /**
+   * There is no such world: it was freed, or never made.
+   */
+  SELVEDGE_STATUS_NO_SUCH_WORLD = 22,
+  /**
+   * The world has no such mesh: it was removed, or is of another world.
+   */
+  SELVEDGE_STATUS_NO_SUCH_MESH = 23,
+  /**
+   * Two motions are given for one mesh.
+   */
+  SELVEDGE_STATUS_MOVED_TWICE = 24,
+  /**
+   * A pose is none: a number is not finite, the quaternion is zero, or the mesh would be out of the range of numbers.
+   */
+  SELVEDGE_STATUS_BAD_POSE = 25,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -262,6 +278,13 @@ typedef uint32_t selvedge_intersection_kind;
  * Detectors do not know of each other: each may be used by a thread of its own.
  */
 typedef struct selvedge_detector selvedge_detector;
+
+/**
+ * Meshes that come and go, and move as they like. Only pointers to it exist; they are numbers, and nothing is behind them.
+ *
+ * One thread at a time, as for a detector.
+ */
+typedef struct selvedge_world selvedge_world;
 
 /**
  * What a vertex belongs to, and what it collides with, a bit for each group: two vertices collide if each is in a group that the
@@ -395,6 +418,119 @@ typedef struct selvedge_truncation {
    */
   size_t rounds;
 } selvedge_truncation;
+
+/**
+ * A mesh of a world, as a number that is never 0. It stays its name for good: no other mesh of the world gets the same one.
+ */
+typedef uint64_t selvedge_mesh;
+
+/**
+ * A mesh of a world whose vertices move, each straight and at constant velocity: cloth, soft bodies. Such a mesh can also meet
+ * itself.
+ */
+typedef struct selvedge_deforming_f64 {
+  /**
+   * Which mesh.
+   */
+  selvedge_mesh mesh;
+  /**
+   * 3 * `vertex_count` numbers: the positions at the start.
+   */
+  const double *start;
+  /**
+   * And at the end.
+   */
+  const double *end;
+  /**
+   * As many as the mesh has.
+   */
+  size_t vertex_count;
+} selvedge_deforming_f64;
+
+/**
+ * Where a body is: what its shape, which is that it was inserted with, is turned and moved by.
+ */
+typedef struct selvedge_pose {
+  /**
+   * A quaternion, x y z w. Of any length but zero.
+   */
+  double rotation[4];
+  /**
+   * Where the shape's origin is.
+   */
+  double origin[3];
+} selvedge_pose;
+
+/**
+ * A mesh of a world that moves as one body, of the shape that it was inserted with, from one pose to another. It turns the short way at a
+ * constant rate, about an axis through its origin, which moves straight.
+ *
+ * With two rotations that are equal every vertex moves straight; else on arcs, of which no contact is missed.
+ */
+typedef struct selvedge_rigid {
+  /**
+   * Which mesh.
+   */
+  selvedge_mesh mesh;
+  /**
+   * Where it is at the start.
+   */
+  struct selvedge_pose start;
+  /**
+   * And at the end.
+   */
+  struct selvedge_pose end;
+} selvedge_rigid;
+
+/**
+ * A pair of a world for which contact during the step is not excluded.
+ */
+typedef struct selvedge_world_contact {
+  /**
+   * The mesh of the vertex and that of the face; or those of the two edges. One mesh twice, if it meets itself.
+   */
+  selvedge_mesh meshes[2];
+  /**
+   * When, and which primitives. They and their vertices are numbered as by their own meshes.
+   */
+  struct selvedge_contact contact;
+} selvedge_world_contact;
+
+/**
+ * selvedge_deforming_f64 for float.
+ */
+typedef struct selvedge_deforming_f32 {
+  /**
+   * Which mesh.
+   */
+  selvedge_mesh mesh;
+  /**
+   * 3 * `vertex_count` numbers: the positions at the start.
+   */
+  const float *start;
+  /**
+   * And at the end.
+   */
+  const float *end;
+  /**
+   * As many as the mesh has.
+   */
+  size_t vertex_count;
+} selvedge_deforming_f32;
+
+/**
+ * Two primitives of a world and how they lie to each other at the time of a contact.
+ */
+typedef struct selvedge_world_geometry {
+  /**
+   * As the contact has them.
+   */
+  selvedge_mesh meshes[2];
+  /**
+   * How they lie. Primitives and vertices are numbered as by their own meshes.
+   */
+  struct selvedge_geometry geometry;
+} selvedge_world_geometry;
 
 #ifdef __cplusplus
 extern "C" {
@@ -838,6 +974,321 @@ selvedge_status selvedge_detector_truncate_f32(struct selvedge_detector *detecto
                                                size_t vertex_count,
                                                float *end,
                                                struct selvedge_truncation *truncation);
+
+/**
+ * A world without meshes. `scalar` is a selvedge_scalar: the format that its positions will have. On the calling thread at first,
+ * contacts within the default tolerance of that format.
+ *
+ * `*world` becomes the handle; selvedge_world_free gives back what it takes.
+ *
+ * The caller promises:
+ * `world` points to a pointer.
+ */
+selvedge_status selvedge_world_new(uint32_t scalar,
+                                   struct selvedge_world **world);
+
+/**
+ * Frees a world, its meshes and all that it has shown. NULL is well. One that another thread is using goes when that call has ended.
+ */
+selvedge_status selvedge_world_free(struct selvedge_world *world);
+
+/**
+ * As selvedge_detector_set_cancelled, for a world. A step that is cut short has begun: what was to move rests where it would have
+ * ended unless it is told to move again.
+ */
+selvedge_status selvedge_world_set_cancelled(struct selvedge_world *world,
+                                             int32_t cancelled);
+
+/**
+ * How many threads steps are split between, as of a detector.
+ */
+selvedge_status selvedge_world_set_threads(struct selvedge_world *world, size_t count);
+
+/**
+ * Contacts are pairs that cannot be proven to stay farther apart than `separation`, as of a detector. The next step fits all boxes
+ * anew if the separation is another one.
+ */
+selvedge_status selvedge_world_set_within(struct selvedge_world *world,
+                                          double separation,
+                                          double tolerance);
+
+/**
+ * Contacts are only pairs that truly touch, decided exactly, as of a detector; of bodies that turn those within the tolerance.
+ */
+selvedge_status selvedge_world_set_touching(struct selvedge_world *world,
+                                            double tolerance);
+
+/**
+ * Most pairs that a step may look at, as of a detector; UINT64_MAX, as at first: as many as there are.
+ */
+selvedge_status selvedge_world_set_pair_limit(struct selvedge_world *world, uint64_t limit);
+
+/**
+ * A new mesh that rests at these positions. `groups` say which meshes it is looked at with, itself among them; NULL: with all.
+ * `*mesh` becomes its number.
+ *
+ * Triangles and positions are copied. Edges and points of ropes, hair and particles are triangles that name a vertex twice or three times,
+ * as of a detector.
+ *
+ * The caller promises:
+ * `triangles` points to 3 * `triangle_count` vertex numbers, `positions` to 3 * `vertex_count` numbers, `groups` to one entry unless it is
+ * NULL, `mesh` to a number.
+ */
+selvedge_status selvedge_world_insert_f64(struct selvedge_world *world,
+                                          size_t vertex_count,
+                                          const uint32_t *triangles,
+                                          size_t triangle_count,
+                                          const double *positions,
+                                          const struct selvedge_groups *groups,
+                                          selvedge_mesh *mesh);
+
+/**
+ * selvedge_world_insert_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_world_insert_f64.
+ */
+selvedge_status selvedge_world_insert_f32(struct selvedge_world *world,
+                                          size_t vertex_count,
+                                          const uint32_t *triangles,
+                                          size_t triangle_count,
+                                          const float *positions,
+                                          const struct selvedge_groups *groups,
+                                          selvedge_mesh *mesh);
+
+/**
+ * Takes a mesh out. Its number then names nothing, for good.
+ */
+selvedge_status selvedge_world_remove(struct selvedge_world *world, selvedge_mesh mesh);
+
+/**
+ * Which meshes this one is looked at with from now on, itself among them; NULL: with all.
+ *
+ * The caller promises:
+ * `groups` points to one entry unless it is NULL.
+ */
+selvedge_status selvedge_world_set_groups(struct selvedge_world *world,
+                                          selvedge_mesh mesh,
+                                          const struct selvedge_groups *groups);
+
+/**
+ * The edges of a mesh by their numbers, each as its vertices, the smaller first; `count` becomes how many there are.
+ *
+ * They stay where they are until the mesh is removed, or the world freed.
+ *
+ * The caller promises:
+ * `edges` points to a pointer, `count` to a number.
+ */
+selvedge_status selvedge_world_edges(const struct selvedge_world *world,
+                                     selvedge_mesh mesh,
+                                     const struct selvedge_pair **edges,
+                                     size_t *count);
+
+/**
+ * All contacts of a step in which these meshes move, each listed once, and all others rest: those that have moved rest where their last
+ * motion ended. The contacts stay where they are until this world's contacts are asked for again, or it is freed. If there are none
+ * they are at NULL.
+ *
+ * If the question is refused nothing has changed; for one that is cut short see selvedge_world_set_cancelled.
+ *
+ * The caller promises:
+ * `deforming` and `rigid` point to so many entries, each frame to 3 * `vertex_count` numbers, `contacts` to a pointer, `count` to a
+ * number.
+ */
+selvedge_status selvedge_world_contacts_f64(struct selvedge_world *world,
+                                            const struct selvedge_deforming_f64 *deforming,
+                                            size_t deforming_count,
+                                            const struct selvedge_rigid *rigid,
+                                            size_t rigid_count,
+                                            const struct selvedge_world_contact **contacts,
+                                            size_t *count);
+
+/**
+ * selvedge_world_contacts_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_world_contacts_f64.
+ */
+selvedge_status selvedge_world_contacts_f32(struct selvedge_world *world,
+                                            const struct selvedge_deforming_f32 *deforming,
+                                            size_t deforming_count,
+                                            const struct selvedge_rigid *rigid,
+                                            size_t rigid_count,
+                                            const struct selvedge_world_contact **contacts,
+                                            size_t *count);
+
+/**
+ * The earliest contact of such a step, before which it is free of contact. `*found` becomes whether there is one; if there is none the
+ * whole step is free, and nothing is written to `contact`.
+ *
+ * The caller promises:
+ * As selvedge_world_contacts_f64; `found` and `contact` point to one each.
+ */
+selvedge_status selvedge_world_earliest_f64(struct selvedge_world *world,
+                                            const struct selvedge_deforming_f64 *deforming,
+                                            size_t deforming_count,
+                                            const struct selvedge_rigid *rigid,
+                                            size_t rigid_count,
+                                            bool *found,
+                                            struct selvedge_world_contact *contact);
+
+/**
+ * selvedge_world_earliest_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_world_earliest_f64.
+ */
+selvedge_status selvedge_world_earliest_f32(struct selvedge_world *world,
+                                            const struct selvedge_deforming_f32 *deforming,
+                                            size_t deforming_count,
+                                            const struct selvedge_rigid *rigid,
+                                            size_t rigid_count,
+                                            bool *found,
+                                            struct selvedge_world_contact *contact);
+
+/**
+ * Whether such a step is certainly free of contact.
+ *
+ * The caller promises:
+ * As selvedge_world_contacts_f64; `is_free` points to one.
+ */
+selvedge_status selvedge_world_is_free_f64(struct selvedge_world *world,
+                                           const struct selvedge_deforming_f64 *deforming,
+                                           size_t deforming_count,
+                                           const struct selvedge_rigid *rigid,
+                                           size_t rigid_count,
+                                           bool *is_free);
+
+/**
+ * selvedge_world_is_free_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_world_is_free_f64.
+ */
+selvedge_status selvedge_world_is_free_f32(struct selvedge_world *world,
+                                           const struct selvedge_deforming_f32 *deforming,
+                                           size_t deforming_count,
+                                           const struct selvedge_rigid *rigid,
+                                           size_t rigid_count,
+                                           bool *is_free);
+
+/**
+ * How the two of each contact of the last step lie to each other at its time, in their order. They stay where they are until this
+ * world's contact geometries are asked for again, or it is freed. The contacts may be the world's own.
+ *
+ * The last step is that of the last question: of an earlier step's contacts nothing is known any more.
+ *
+ * The caller promises:
+ * `contacts` points to `contact_count` contacts, `geometries` to a pointer, `count` to a number.
+ */
+selvedge_status selvedge_world_contact_geometries(struct selvedge_world *world,
+                                                  const struct selvedge_world_contact *contacts,
+                                                  size_t contact_count,
+                                                  const struct selvedge_world_geometry **geometries,
+                                                  size_t *count);
+
+/**
+ * All contacts of a step in which these meshes move, each listed once, and all others rest: those that have moved rest where their last
+ * motion ended. The contacts stay where they are until this world's contacts are asked for again, or it is freed. If there are none
+ * they are at NULL.
+ *
+ * If the question is refused nothing has changed; for one that is cut short see selvedge_world_set_cancelled.
+ *
+ * The caller promises:
+ * `deforming` and `rigid` point to so many entries, each frame to 3 * `vertex_count` numbers, `contacts` to a pointer, `count` to a
+ * number.
+ */
+selvedge_status selvedge_world_contacts_f64(struct selvedge_world *world,
+                                            const struct selvedge_deforming_f64 *deforming,
+                                            size_t deforming_count,
+                                            const struct selvedge_rigid *rigid,
+                                            size_t rigid_count,
+                                            const struct selvedge_world_contact **contacts,
+                                            size_t *count);
+
+/**
+ * selvedge_world_contacts_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_world_contacts_f64.
+ */
+selvedge_status selvedge_world_contacts_f32(struct selvedge_world *world,
+                                            const struct selvedge_deforming_f32 *deforming,
+                                            size_t deforming_count,
+                                            const struct selvedge_rigid *rigid,
+                                            size_t rigid_count,
+                                            const struct selvedge_world_contact **contacts,
+                                            size_t *count);
+
+/**
+ * The earliest contact of such a step, before which it is free of contact. `*found` becomes whether there is one; if there is none the
+ * whole step is free, and nothing is written to `contact`.
+ *
+ * The caller promises:
+ * As selvedge_world_contacts_f64; `found` and `contact` point to one each.
+ */
+selvedge_status selvedge_world_earliest_f64(struct selvedge_world *world,
+                                            const struct selvedge_deforming_f64 *deforming,
+                                            size_t deforming_count,
+                                            const struct selvedge_rigid *rigid,
+                                            size_t rigid_count,
+                                            bool *found,
+                                            struct selvedge_world_contact *contact);
+
+/**
+ * selvedge_world_earliest_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_world_earliest_f64.
+ */
+selvedge_status selvedge_world_earliest_f32(struct selvedge_world *world,
+                                            const struct selvedge_deforming_f32 *deforming,
+                                            size_t deforming_count,
+                                            const struct selvedge_rigid *rigid,
+                                            size_t rigid_count,
+                                            bool *found,
+                                            struct selvedge_world_contact *contact);
+
+/**
+ * Whether such a step is certainly free of contact.
+ *
+ * The caller promises:
+ * As selvedge_world_contacts_f64; `is_free` points to one.
+ */
+selvedge_status selvedge_world_is_free_f64(struct selvedge_world *world,
+                                           const struct selvedge_deforming_f64 *deforming,
+                                           size_t deforming_count,
+                                           const struct selvedge_rigid *rigid,
+                                           size_t rigid_count,
+                                           bool *is_free);
+
+/**
+ * selvedge_world_is_free_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_world_is_free_f64.
+ */
+selvedge_status selvedge_world_is_free_f32(struct selvedge_world *world,
+                                           const struct selvedge_deforming_f32 *deforming,
+                                           size_t deforming_count,
+                                           const struct selvedge_rigid *rigid,
+                                           size_t rigid_count,
+                                           bool *is_free);
+
+/**
+ * How the two of each contact of the last step lie to each other at its time, in their order. They stay where they are until this
+ * world's contact geometries are asked for again, or it is freed. The contacts may be the world's own.
+ *
+ * The last step is that of the last question: of an earlier step's contacts nothing is known any more.
+ *
+ * The caller promises:
+ * `contacts` points to `contact_count` contacts, `geometries` to a pointer, `count` to a number.
+ */
+selvedge_status selvedge_world_contact_geometries(struct selvedge_world *world,
+                                                  const struct selvedge_world_contact *contacts,
+                                                  size_t contact_count,
+                                                  const struct selvedge_world_geometry **geometries,
+                                                  size_t *count);
 
 #ifdef __cplusplus
 }  // extern "C"

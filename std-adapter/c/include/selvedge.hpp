@@ -11,8 +11,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace selvedge {
 
@@ -316,6 +318,160 @@ class detector {
   }
 
   std::unique_ptr<selvedge_detector, freed> handle_;
+};
+
+/// What moves in a step of a world, and how; all else rests. `Scalar` is the world's. The positions are the caller's, and have to stay
+/// until the question is answered.
+template <class Scalar>
+class motions {
+ public:
+  using deforming_type = std::conditional_t<std::is_same_v<Scalar, float>, selvedge_deforming_f32, selvedge_deforming_f64>;
+
+  /// Vertices go straight from their positions at the start to those at the end.
+  motions &deforms(selvedge_mesh mesh, triples<Scalar> start, triples<Scalar> end) {
+    if (start.size() != end.size()) {
+      throw error(SELVEDGE_STATUS_WRONG_LENGTH, "the start frame has " + std::to_string(start.size()) +
+                                                    " positions, the end frame " + std::to_string(end.size()));
+    }
+    deforming_.push_back({mesh, start.data(), end.data(), start.size()});
+    return *this;
+  }
+
+  /// The mesh goes as one body from one pose to another, and turns the short way.
+  motions &goes(selvedge_mesh mesh, const selvedge_pose &start, const selvedge_pose &end) {
+    rigid_.push_back({mesh, start, end});
+    return *this;
+  }
+
+  /// To be filled anew for another step.
+  void clear() noexcept {
+    deforming_.clear();
+    rigid_.clear();
+  }
+
+  const std::vector<deforming_type> &deforming() const noexcept { return deforming_; }
+  const std::vector<selvedge_rigid> &rigid() const noexcept { return rigid_; }
+
+ private:
+  std::vector<deforming_type> deforming_;
+  std::vector<selvedge_rigid> rigid_;
+};
+
+/// Meshes that come and go, and move as they like. `Scalar` is float or double, the format of the positions.
+///
+/// Can be moved, not copied. One thread at a time, as for a detector. All functions throw `error`.
+template <class Scalar>
+class world {
+  static_assert(std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>, "positions are float or double");
+  static constexpr bool is_single = std::is_same_v<Scalar, float>;
+
+ public:
+  world() {
+    selvedge_world *made = nullptr;
+    check(selvedge_world_new(is_single ? SELVEDGE_SCALAR_F32 : SELVEDGE_SCALAR_F64, &made));
+    handle_.reset(made);
+  }
+
+  /// How many threads steps are split between: 1 is the one that calls, 0 one for each core.
+  void set_threads(std::size_t count) { check(selvedge_world_set_threads(get(), count)); }
+
+  /// Contacts are pairs that may come closer than the separation; those that only come within the tolerance of it may be among them.
+  void set_within(double separation, double tolerance) { check(selvedge_world_set_within(get(), separation, tolerance)); }
+
+  /// Contacts are only pairs that truly touch.
+  void set_touching(double tolerance) { check(selvedge_world_set_touching(get(), tolerance)); }
+
+  /// Most pairs that a step may look at; UINT64_MAX: as many as there are.
+  void set_pair_limit(std::uint64_t limit) { check(selvedge_world_set_pair_limit(get(), limit)); }
+
+  /// Cuts short the step that another thread is asking about, and each one until it is taken back. For any thread at any time.
+  void set_cancelled(bool cancelled) { check(selvedge_world_set_cancelled(get(), cancelled ? 1 : 0)); }
+
+  /// A new mesh that rests at these positions. Its groups say which meshes it is looked at with, itself among them.
+  selvedge_mesh insert(triples<std::uint32_t> triangles, triples<Scalar> positions,
+                       const selvedge_groups &groups = {UINT32_MAX, UINT32_MAX}) {
+    selvedge_mesh mesh = 0;
+    if constexpr (is_single) {
+      check(selvedge_world_insert_f32(get(), positions.size(), triangles.data(), triangles.size(), positions.data(), &groups, &mesh));
+    } else {
+      check(selvedge_world_insert_f64(get(), positions.size(), triangles.data(), triangles.size(), positions.data(), &groups, &mesh));
+    }
+    return mesh;
+  }
+
+  /// Takes a mesh out. Its number then names nothing, for good.
+  void remove(selvedge_mesh mesh) { check(selvedge_world_remove(get(), mesh)); }
+
+  /// Which meshes this one is looked at with from now on, itself among them.
+  void set_groups(selvedge_mesh mesh, const selvedge_groups &groups) { check(selvedge_world_set_groups(get(), mesh, &groups)); }
+
+  /// The edges of a mesh by their numbers, each as its two vertices. They stay until the mesh is removed, or the world is gone.
+  list<selvedge_pair> edges(selvedge_mesh mesh) const {
+    const selvedge_pair *first = nullptr;
+    std::size_t count = 0;
+    check(selvedge_world_edges(get(), mesh, &first, &count));
+    return {first, count};
+  }
+
+  /// All contacts of a step in which these meshes move, and all others rest. They stay until this world's contacts are asked for
+  /// again, or it is gone.
+  list<selvedge_world_contact> contacts(const motions<Scalar> &moving) {
+    const selvedge_world_contact *first = nullptr;
+    std::size_t count = 0;
+    const auto &[deforming, rigid] = parts(moving);
+    if constexpr (is_single) {
+      check(selvedge_world_contacts_f32(get(), deforming.data(), deforming.size(), rigid.data(), rigid.size(), &first, &count));
+    } else {
+      check(selvedge_world_contacts_f64(get(), deforming.data(), deforming.size(), rigid.data(), rigid.size(), &first, &count));
+    }
+    return {first, count};
+  }
+
+  /// The earliest contact of such a step, before which it is free; none if the whole step is.
+  std::optional<selvedge_world_contact> earliest(const motions<Scalar> &moving) {
+    bool found = false;
+    selvedge_world_contact contact{};
+    const auto &[deforming, rigid] = parts(moving);
+    if constexpr (is_single) {
+      check(selvedge_world_earliest_f32(get(), deforming.data(), deforming.size(), rigid.data(), rigid.size(), &found, &contact));
+    } else {
+      check(selvedge_world_earliest_f64(get(), deforming.data(), deforming.size(), rigid.data(), rigid.size(), &found, &contact));
+    }
+    return found ? std::optional<selvedge_world_contact>(contact) : std::nullopt;
+  }
+
+  /// Whether such a step is certainly free of contact.
+  bool is_free(const motions<Scalar> &moving) {
+    bool free = false;
+    const auto &[deforming, rigid] = parts(moving);
+    if constexpr (is_single) {
+      check(selvedge_world_is_free_f32(get(), deforming.data(), deforming.size(), rigid.data(), rigid.size(), &free));
+    } else {
+      check(selvedge_world_is_free_f64(get(), deforming.data(), deforming.size(), rigid.data(), rigid.size(), &free));
+    }
+    return free;
+  }
+
+  /// How the two of each contact of the last step lie to each other at its time, in their order. They stay until this world's
+  /// contact geometries are asked for again, or it is gone.
+  list<selvedge_world_geometry> contact_geometries(list<selvedge_world_contact> contacts) {
+    const selvedge_world_geometry *first = nullptr;
+    std::size_t count = 0;
+    check(selvedge_world_contact_geometries(get(), contacts.data(), contacts.size(), &first, &count));
+    return {first, count};
+  }
+
+  /// For functions of selvedge.h; still owned here.
+  selvedge_world *get() const noexcept { return handle_.get(); }
+
+ private:
+  struct freed {
+    void operator()(selvedge_world *handle) const noexcept { selvedge_world_free(handle); }
+  };
+
+  static auto parts(const motions<Scalar> &moving) { return std::tie(moving.deforming(), moving.rigid()); }
+
+  std::unique_ptr<selvedge_world, freed> handle_;
 };
 
 }  // namespace selvedge

@@ -4,7 +4,7 @@ use crate::detector::Finder;
 use crate::input::unknown;
 use crate::status::Failure;
 use selvedge::core::narrowing::rounded_down;
-use selvedge::{Contact, ContactGeometry, Intersection, PairKind, Scalar, Topology, Truncation};
+use selvedge::{Contact, ContactGeometry, Geometry, Intersection, PairKind, Scalar, Topology, Truncation};
 
 /// Which primitives a pair is made of.
 #[repr(u32)]
@@ -75,15 +75,19 @@ impl ContactRow {
         }
     }
 
+    /// What primitives they are.
+    pub(crate) fn kind(&self) -> Result<PairKind, Failure> {
+        match self.kind {
+            number if number == Kind::VertexFace as u32 => Ok(PairKind::VertexFace),
+            number if number == Kind::EdgeEdge as u32 => Ok(PairKind::EdgeEdge),
+            number => Err(unknown("selvedge_kind", number)),
+        }
+    }
+
     /// As the detector knows it, which looks whether the mesh has such a pair, and the step such a time.
     pub(crate) fn contact<S: Scalar>(&self) -> Result<Contact<S>, Failure> {
-        let kind = match self.kind {
-            number if number == Kind::VertexFace as u32 => PairKind::VertexFace,
-            number if number == Kind::EdgeEdge as u32 => PairKind::EdgeEdge,
-            number => return Err(unknown("selvedge_kind", number)),
-        };
         Ok(Contact {
-            kind,
+            kind: self.kind()?,
             pair: [self.pair.first, self.pair.second],
             time: rounded_down(self.time),
         })
@@ -121,11 +125,16 @@ pub struct GeometryRow {
 
 impl From<&ContactGeometry> for GeometryRow {
     fn from(found: &ContactGeometry) -> Self {
-        let geometry = &found.geometry;
+        Self::new(found.kind, found.pair, found.vertices, &found.geometry)
+    }
+}
+
+impl GeometryRow {
+    pub(crate) fn new(kind: PairKind, pair: [u32; 2], vertices: [u32; 4], geometry: &Geometry) -> Self {
         Self {
-            kind: Kind::from(found.kind) as u32,
-            pair: found.pair.into(),
-            vertices: found.vertices,
+            kind: Kind::from(kind) as u32,
+            pair: pair.into(),
+            vertices,
             has_normal: geometry.normal.is_some(),
             weights: geometry.weights,
             points: geometry.points.map(Into::into),

@@ -4,8 +4,9 @@
 //! status     what becomes of a call: codes, texts, the last error of a thread
 //! guard      one call: panics are caught
 //! input      what comes from C: pointers, counts, numbers; nearly all that is unsafe
-//! detector   the detectors that live, by their handles, which are numbers and never followed
-//! settings, questions, answers    the functions, by what they are for
+//! handles    what lives, by its handles, which are numbers and never followed
+//! detector   detectors; settings, questions, answers    their functions, by what they are for
+//! world      worlds, and their functions
 //! version    macros and functions
 //! ```
 //!
@@ -22,6 +23,7 @@ compile_error!("build the C interface with panic = \"unwind\": otherwise a fault
 mod answers;
 mod detector;
 mod guard;
+mod handles;
 mod input;
 mod questions;
 mod settings;
@@ -29,3 +31,4 @@ mod status;
 #[cfg(test)]
 mod tests;
 mod version;
+mod world;

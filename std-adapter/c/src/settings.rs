@@ -1,7 +1,8 @@
 //! How a detector is to look, and what it knows of its mesh.
 
 use crate::answers::Pair;
-use crate::detector::{Handle, on, on_kept, with_either};
+use crate::detector::{Detector, Handle, on, with_either};
+use crate::handles;
 use crate::input::{Out, OutList, view};
 use crate::status::{Failure, Status};
 use selvedge::core::elementary::Limits;
@@ -29,7 +30,7 @@ pub(crate) fn length<S: Scalar>(given: f64) -> Result<S, Failure> {
 /// each core. Answers are the same bit for bit. More than four for each core, and more than 256, are refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_threads(detector: *mut Handle, count: usize) -> Status {
-    on_kept(detector, |kept, it| {
+    handles::on::<Detector>(detector, |kept, it| {
         with_either!(&mut it.finder, finder => finder.detector.set_threads(Threads::from_count(count)))?;
         kept.set_has_threads(count != 1);
         Ok(())

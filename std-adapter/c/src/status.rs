@@ -1,6 +1,6 @@
 //! What becomes of a call.
 
-use selvedge::{StepError, ThreadError, TopologyError};
+use selvedge::{StepError, ThreadError, TopologyError, WorldError};
 use std::cell::Cell;
 use std::ffi::{CStr, c_char};
 use std::fmt::Display;
@@ -21,9 +21,9 @@ pub enum Status {
     UnknownConstant = 4,
     /// There is no such detector: it was freed, or never made.
     NoSuchDetector = 5,
-    /// Another thread is using the detector.
+    /// Another thread is using the detector or world.
     Busy = 6,
-    /// The detector is for positions in the other format.
+    /// The detector or world is for positions in the other format.
     WrongScalar = 7,
     /// The mesh has no triangles.
     NoTriangles = 8,
@@ -43,20 +43,28 @@ pub enum Status {
     NoThreads = 15,
     /// The operating system refuses memory.
     NoMemory = 16,
-    /// The process was forked after the detector has started threads; they are not in the child.
+    /// The process was forked after the detector or world has started threads; they are not in the child.
     Forked = 17,
-    /// The detector is cancelled.
+    /// The detector or world is cancelled.
     Cancelled = 18,
     /// More pairs are near each other than may be looked at.
     TooManyPairs = 19,
     /// A contact's time is not in [0, 1].
     BadTime = 20,
-    /// A fault of the library's own. The detector can only be freed from now on.
+    /// A fault of the library's own. The detector or world can only be freed from now on.
     Internal = 21,
+    /// There is no such world: it was freed, or never made.
+    NoSuchWorld = 22,
+    /// The world has no such mesh: it was removed, or is of another world.
+    NoSuchMesh = 23,
+    /// Two motions are given for one mesh.
+    MovedTwice = 24,
+    /// A pose is none: a number is not finite, the quaternion is zero, or the mesh would be out of the range of numbers.
+    BadPose = 25,
 }
 
 impl Status {
-    const ALL: [Self; 22] = [
+    const ALL: [Self; 26] = [
         Self::Ok,
         Self::NullPointer,
         Self::MisalignedPointer,
@@ -79,6 +87,10 @@ impl Status {
         Self::TooManyPairs,
         Self::BadTime,
         Self::Internal,
+        Self::NoSuchWorld,
+        Self::NoSuchMesh,
+        Self::MovedTwice,
+        Self::BadPose,
     ];
 
     const fn text(self) -> &'static CStr {
@@ -89,8 +101,8 @@ impl Status {
             Self::BadCount => c"count too large",
             Self::UnknownConstant => c"unknown constant",
             Self::NoSuchDetector => c"no such detector",
-            Self::Busy => c"detector in use by another thread",
-            Self::WrongScalar => c"detector for the other format",
+            Self::Busy => c"in use by another thread",
+            Self::WrongScalar => c"for the other format",
             Self::NoTriangles => c"no triangles",
             Self::VertexOutOfRange => c"vertex out of range",
             Self::TooLarge => c"mesh too large",
@@ -100,11 +112,15 @@ impl Status {
             Self::NoSuchPair => c"no such pair",
             Self::NoThreads => c"threads refused",
             Self::NoMemory => c"memory refused",
-            Self::Forked => c"detector of a parent process",
+            Self::Forked => c"of a parent process",
             Self::Cancelled => c"cancelled",
             Self::TooManyPairs => c"too many pairs",
             Self::BadTime => c"time not in [0, 1]",
             Self::Internal => c"internal error",
+            Self::NoSuchWorld => c"no such world",
+            Self::NoSuchMesh => c"no such mesh",
+            Self::MovedTwice => c"moved twice",
+            Self::BadPose => c"bad pose",
         }
     }
 }
@@ -145,6 +161,21 @@ impl From<StepError> for Failure {
             StepError::BadTime { .. } => Status::BadTime,
             StepError::Cancelled => Status::Cancelled,
             StepError::TooManyPairs { .. } => Status::TooManyPairs,
+            // One that this crate does not know yet.
+            _ => Status::Internal,
+        };
+        Self::new(status, error)
+    }
+}
+
+impl From<WorldError> for Failure {
+    fn from(error: WorldError) -> Self {
+        let status = match error {
+            WorldError::NoSuchMesh { .. } => Status::NoSuchMesh,
+            WorldError::MovedTwice { .. } => Status::MovedTwice,
+            WorldError::BadPositions { error, .. } | WorldError::Step(error) => Self::from(error).status,
+            WorldError::BadPose { .. } => Status::BadPose,
+            WorldError::TooLarge { .. } => Status::TooLarge,
             // One that this crate does not know yet.
             _ => Status::Internal,
         };

@@ -4,7 +4,16 @@ use std::path::Path;
 use std::{env, fs};
 
 /// In the order that the header has.
-const SOURCES: [&str; 6] = ["version", "status", "answers", "detector", "settings", "questions"];
+const SOURCES: [&str; 8] = [
+    "version",
+    "status",
+    "answers",
+    "detector",
+    "settings",
+    "questions",
+    "world/mod",
+    "world/steps",
+];
 
 #[test]
 fn the_header_is_that_of_the_sources() {

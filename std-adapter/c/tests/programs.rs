@@ -188,30 +188,28 @@ fn a_forked_child_is_refused_what_has_threads() {
 }
 
 #[test]
-fn the_programs_of_the_readme_find_three_contacts() {
+fn the_programs_of_the_readme_print_what_it_says() {
     let readme = fs::read_to_string(format!("{FOLDER}/README.md")).unwrap();
     let folder = TempDir::new().unwrap();
-    for language in [Language::C, Language::Cpp] {
+    let times = [
+        "3 meets face 0 at time 0.5",
+        "4 meets face 0 at time 0.75",
+        "5 meets face 0 at time 1",
+    ];
+    let first = times.map(|line| format!("vertex {line}\n")).concat();
+    let second = "vertex 2 comes down at x = 1.7321\n".to_owned();
+    for (language, expected) in [(Language::C, vec![&first]), (Language::Cpp, vec![&first, &second])] {
         let suffix = language.suffix();
-        let program = readme
-            .split(&format!("```{suffix}\n"))
-            .nth(1)
-            .unwrap()
-            .split("```")
-            .next()
-            .unwrap();
-        let source = folder.path().join("first");
-        fs::write(source.with_extension(suffix), program).unwrap();
-        let Some(program) = build(language, source.to_str().unwrap()) else {
-            continue;
-        };
-        let output = succeed(&mut Command::new(program));
-        let times = [
-            "3 meets face 0 at time 0.5",
-            "4 meets face 0 at time 0.75",
-            "5 meets face 0 at time 1",
-        ];
-        let expected = times.map(|line| format!("vertex {line}\n")).concat();
-        assert_eq!(String::from_utf8_lossy(&output.stdout), expected);
+        let programs: Vec<&str> = readme.split(&format!("```{suffix}\n")).skip(1).collect();
+        assert_eq!(programs.len(), expected.len(), "programs in {suffix}");
+        for (number, (program, expected)) in programs.iter().zip(expected).enumerate() {
+            let source = folder.path().join(format!("readme-{number}"));
+            fs::write(source.with_extension(suffix), program.split("```").next().unwrap()).unwrap();
+            let Some(program) = build(language, source.to_str().unwrap()) else {
+                continue;
+            };
+            let output = succeed(&mut Command::new(program));
+            assert_eq!(&String::from_utf8_lossy(&output.stdout), expected);
+        }
     }
 }

@@ -109,8 +109,62 @@ static void try_all() {
   expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_DETECTOR, [&] { second.set_threads(1); });
 }
 
+template <class Scalar>
+static void try_worlds() {
+  using world = selvedge::world<Scalar>;
+  using motions = selvedge::motions<Scalar>;
+  static_assert(!std::is_copy_constructible_v<world> && std::is_nothrow_move_constructible_v<world>);
+  const std::vector<std::uint32_t> triangle = {0, 1, 2};
+  const std::vector<Scalar> floor = {-5, -5, 0, 5, -5, 0, 0, 5, 0}, above = {0, 0, 1, 1, 0, 1, 0, 1, 1}, below = {0, 0, -1, 1, 0, -1, 0, 1, -1};
+  world first;
+  const auto ground = first.insert(triangle, floor), sheet = first.insert(triangle, above), gone = first.insert(triangle, above);
+  first.remove(gone);
+  expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_MESH, [&] { first.remove(gone); });
+  expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_MESH, [&] { first.edges(gone); });
+  expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_MESH, [&] { first.set_groups(gone, {1, 1}); });
+  expect(__LINE__, SELVEDGE_STATUS_VERTEX_OUT_OF_RANGE, [&] { first.insert(std::vector<std::uint32_t>{0, 1, 3}, floor); });
+  expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { motions().deforms(sheet, above, {below.data(), 2}); });
+  expect(__LINE__, SELVEDGE_STATUS_BAD_LIMIT, [&] { first.set_within(-1, 0); });
+  holds(__LINE__, first.edges(ground).size() == 3 && first.is_free({}));
+
+  const auto falls = motions().deforms(sheet, above, below);
+  const auto contacts = first.contacts(falls);
+  holds(__LINE__, contacts.size() == 3 && contacts[0].meshes[0] == sheet && contacts[0].meshes[1] == ground);
+  const auto geometries = first.contact_geometries(contacts);
+  holds(__LINE__, geometries.size() == 3 && geometries[0].geometry.normal[2] == 1 && geometries[0].geometry.speed == -2);
+  holds(__LINE__, !first.is_free(falls) && first.earliest(falls)->contact.time <= 0.5);
+
+  const selvedge_pose here = {{0, 0, 0, 1}, {0, 0, 0}}, down = {{0, 0, 0, 1}, {0, 0, -2}}, none = {{0, 0, 0, 0}, {0, 0, 0}};
+  auto goes = motions().goes(sheet, here, down);
+  holds(__LINE__, first.contacts(goes).size() == 3);
+  expect(__LINE__, SELVEDGE_STATUS_MOVED_TWICE, [&] { first.contacts(goes.deforms(sheet, above, below)); });
+  goes.clear();
+  expect(__LINE__, SELVEDGE_STATUS_BAD_POSE, [&] { first.is_free(goes.goes(sheet, here, none)); });
+
+  first.set_groups(sheet, {2, 2});
+  first.set_groups(ground, {1, 1});
+  holds(__LINE__, first.is_free(falls));
+  first.set_groups(ground, {UINT32_MAX, UINT32_MAX});
+  first.set_groups(sheet, {UINT32_MAX, UINT32_MAX});
+  first.set_threads(2);
+  first.set_touching(1e-7);
+  first.set_pair_limit(0);
+  expect(__LINE__, SELVEDGE_STATUS_TOO_MANY_PAIRS, [&] { first.contacts(falls); });
+  first.set_pair_limit(UINT64_MAX);
+  first.set_cancelled(true);
+  expect(__LINE__, SELVEDGE_STATUS_CANCELLED, [&] { first.contacts(falls); });
+  first.set_cancelled(false);
+  world second = std::move(first);
+  holds(__LINE__, second.contacts(falls).size() == 3);
+  expect(__LINE__, SELVEDGE_STATUS_NULL_POINTER, [&] { first.remove(sheet); });
+  selvedge_world_free(second.get());
+  expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_WORLD, [&] { second.set_threads(1); });
+}
+
 int main() {
   try_all<float>();
   try_all<double>();
+  try_worlds<float>();
+  try_worlds<double>();
   return faults == 0 ? 0 : 1;
 }

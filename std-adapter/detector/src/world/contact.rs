@@ -111,6 +111,17 @@ impl<P: Position> World<P> {
         })
     }
 
+    /// The vertices of a contact, as their own meshes number them: the vertex and the corners of the face, or the ends of both edges.
+    ///
+    /// # Errors
+    /// If a mesh is not there any more, or the pair is none of the two.
+    pub fn vertices_of(&self, contact: &WorldContact<P::Scalar>) -> Result<[u32; 4], WorldError> {
+        let [first, second] = contact.meshes.map(|mesh| self.mesh(mesh));
+        let hierarchies = [&first?.hierarchies, &second?.hierarchies];
+        let &WorldContact { kind, pair, .. } = contact;
+        vertices_of(hierarchies, kind, pair).ok_or(WorldError::Step(StepError::NoSuchPair { kind, pair }))
+    }
+
     /// Replaces `geometries` by those of many contacts of the last step, in their order, on the world's threads.
     ///
     /// Nothing is allocated if `geometries` has room.
@@ -137,6 +148,7 @@ impl<P: Position> World<P> {
             pair,
             time,
         } = contact;
+        let vertices = self.vertices_of(contact)?;
         let time = time.to_f64();
         if !(0.0..=1.0).contains(&time) {
             return Err(StepError::BadTime { time }.into());
@@ -145,8 +157,8 @@ impl<P: Position> World<P> {
         let meshes = [first?, second?];
         let hierarchies = meshes.map(|mesh| &mesh.hierarchies);
         let motions = meshes.map(|mesh| mesh.moves.turning());
-        let vertices = vertices_of(hierarchies, kind, pair);
-        let found = vertices.and_then(|vertices| Some((vertices, ways(hierarchies, &motions, kind, vertices)?)));
-        found.ok_or(WorldError::Step(StepError::NoSuchPair { kind, pair }))
+        let ways = ways(hierarchies, &motions, kind, vertices);
+        ways.map(|ways| (vertices, ways))
+            .ok_or(WorldError::Step(StepError::NoSuchPair { kind, pair }))
     }
 }

@@ -17,6 +17,25 @@ impl MeshHandle {
     pub const fn index(self) -> usize {
         self.index as usize
     }
+
+    /// The handle as one number, never zero, for callers who keep numbers: [`from_bits`](Self::from_bits) gives it back.
+    #[must_use]
+    pub const fn to_bits(self) -> u64 {
+        // Indices end before the last number.
+        (self.generation as u64) << 32 | (self.index as u64 + 1)
+    }
+
+    /// The handle that this number [stands for](Self::to_bits), of a mesh that a world has or not; `None` if it stands for none.
+    #[must_use]
+    pub const fn from_bits(bits: u64) -> Option<Self> {
+        match (bits as u32).checked_sub(1) {
+            Some(index) => Some(Self {
+                index,
+                generation: (bits >> 32) as u32,
+            }),
+            None => None,
+        }
+    }
 }
 
 impl fmt::Display for MeshHandle {
@@ -52,7 +71,7 @@ impl<T> Places<T> {
         let index = match self.free.pop() {
             Some(index) => index,
             None => {
-                let index = u32::try_from(self.places.len()).ok()?;
+                let index = u32::try_from(self.places.len()).ok().filter(|&index| index < u32::MAX)?;
                 self.places.push(Place {
                     generation: 0,
                     item: None,
@@ -112,6 +131,17 @@ mod tests {
         assert_eq!((places.get(first), places.get(second)), (None, Some(&"second")));
         assert_eq!(places.remove(first), None);
         assert!(places.iter().eq([(second, &"second")]));
+    }
+
+    #[test]
+    fn a_handle_is_a_number_that_is_not_zero_and_back() {
+        for (index, generation) in [(0, 0), (7, 1), (u32::MAX - 1, u32::MAX)] {
+            let handle = MeshHandle { index, generation };
+            assert_ne!(handle.to_bits(), 0);
+            assert_eq!(MeshHandle::from_bits(handle.to_bits()), Some(handle));
+        }
+        assert_eq!(MeshHandle::from_bits(0), None);
+        assert_eq!(MeshHandle::from_bits(5 << 32), None);
     }
 
     #[test]
