@@ -1,4 +1,4 @@
-//! Joins the shards of a campaign (`exact_campaign`, `false_culls`, mutants) to the state that one run would have, and prints it.
+//! Joins the shards of a campaign (`exact_campaign`, `false_culls`, `screw_motions`, mutants) to the state that one run would have, and prints it.
 //!
 //! `cargo run --release -p selvedge-verification --example merge -- SHARD... --state FILE`
 //!
@@ -6,7 +6,7 @@
 //! Refused are gaps, overlaps, unfinished shards, different commits and different settings; the message names the files. Exit
 //! status: 0 nothing is wrong, 1 shards are refused, or a promise was found broken, 2 the command line is at fault.
 
-use selvedge_verification::campaign::{Findings, Progress, StateFile, exact, false_culls, merge, mutants, read};
+use selvedge_verification::campaign::{Findings, Progress, StateFile, exact, false_culls, merge, mutants, read, screw_motions};
 use serde::Deserialize;
 use std::error::Error;
 use std::fmt::Display;
@@ -49,6 +49,7 @@ fn join(shards: &[PathBuf], state: &Path) -> Result<u64, Box<dyn Error>> {
     match campaign(&shards[0])?.as_str() {
         exact::Found::CAMPAIGN => join_of::<exact::Found>(shards, state),
         false_culls::Found::CAMPAIGN => join_of::<false_culls::Found>(shards, state),
+        screw_motions::Found::CAMPAIGN => join_of::<screw_motions::Found>(shards, state),
         mutants::Found::CAMPAIGN => join_of::<mutants::Found>(shards, state),
         other => Err(format!("{}: there is no campaign {other:?}", shards[0].display()).into()),
     }

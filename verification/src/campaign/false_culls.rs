@@ -11,7 +11,6 @@ use crate::campaign::{self, Findings};
 use crate::generator::{Choices, Format, PairCase};
 use crate::oracle::{self, PairKind};
 use proptest::prelude::Rng;
-use proptest::test_runner::{RngAlgorithm, TestRng};
 use selvedge_core::PrimitivePair;
 use selvedge_core::boxes::relative;
 use selvedge_core::filter::{Filter, Tier};
@@ -217,14 +216,8 @@ pub fn run(
 }
 
 fn look_at_chunk<S: Format>(seed: u64, chunk: u64, pairs: u64) -> Vec<Tally> {
-    let mut bytes = [0; 16];
-    bytes[..8].copy_from_slice(&seed.to_le_bytes());
-    // Never all zero, with which this generator would be stuck.
-    bytes[8..].copy_from_slice(&(chunk + 1).to_le_bytes());
-    let mut random = TestRng::from_seed(RngAlgorithm::XorShift, &bytes);
-    // Seeds that differ in a few bits begin alike.
+    let mut random = campaign::random(seed, chunk);
     let mut bytes = [0; Choices::ENOUGH];
-    random.fill_bytes(&mut bytes);
 
     let rules = Rule::all();
     let mut tallies = vec![Tally::default(); rules.len()];

@@ -5,6 +5,7 @@
 //! |---|---|
 //! | [`exact`] | a billion pairs, every cull and every "never" checked by exact arithmetic |
 //! | [`false_culls`] | every tier of the filter over random and adversarial pairs |
+//! | [`screw_motions`] | bodies that turn and meet, against enclosures of their arcs |
 //! | [`mutants`] | changes of core, and whether a test notices: `verification/mutants/` writes its states, which are joined here |
 //!
 //! # Beyond one machine
@@ -21,6 +22,7 @@ mod file;
 mod merge;
 pub mod mutants;
 mod progress;
+pub mod screw_motions;
 mod shard;
 
 pub use chunks::Chunks;
@@ -30,6 +32,9 @@ pub use merge::{Refusal, merge};
 pub use progress::{AnotherRun, Progress, Settings};
 pub use shard::Shard;
 
+use crate::generator::Choices;
+use proptest::prelude::Rng;
+use proptest::test_runner::{RngAlgorithm, TestRng};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::sync::Mutex;
@@ -50,6 +55,18 @@ pub trait Findings: Send + Serialize + DeserializeOwned {
 
     /// How many promises were found broken.
     fn wrong(&self) -> u64;
+}
+
+/// The random numbers of a chunk.
+fn random(seed: u64, chunk: u64) -> TestRng {
+    let mut bytes = [0; 16];
+    bytes[..8].copy_from_slice(&seed.to_le_bytes());
+    // Never all zero, with which this generator would be stuck.
+    bytes[8..].copy_from_slice(&(chunk + 1).to_le_bytes());
+    let mut random = TestRng::from_seed(RngAlgorithm::XorShift, &bytes);
+    // Seeds that differ in a few bits begin alike.
+    random.fill_bytes(&mut [0; Choices::ENOUGH]);
+    random
 }
 
 /// Does what is left, on as many threads, until `stops` says so: `look_at` a chunk of that index; `after_chunk` sees each state that

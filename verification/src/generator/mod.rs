@@ -14,6 +14,7 @@ mod mesh;
 mod moment;
 mod numbers;
 mod pairs;
+mod screw;
 mod strategy;
 
 pub use case::PairCase;
@@ -22,6 +23,7 @@ pub use mesh::MeshCase;
 pub use moment::{Meeting, Moment};
 pub use numbers::Format;
 pub(crate) use numbers::power_of_two;
+pub use screw::{Screw, vector};
 pub use strategy::{FromChoices, Simplification, Simplify, check, from_choices};
 
 use proptest::prelude::Strategy;

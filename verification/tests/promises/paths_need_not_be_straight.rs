@@ -8,9 +8,9 @@ use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::glam::DVec3;
 use selvedge_core::paths::{Arc, Moment, Path, Piece, Polyline, RigidMotion, geometry, time_of_impact};
 use selvedge_core::{Motion, PairKind};
-use selvedge_verification::generator::{Choices, Simplify, check, from_choices};
+use selvedge_verification::generator::{Choices, Screw, Simplify, check, from_choices};
 use std::cell::Cell;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 const BITS: u32 = 256;
 
@@ -52,36 +52,15 @@ fn distance(a: &Place, b: &Place) -> Float {
     dot(&way, &way).sqrt()
 }
 
-/// A rigid motion's numbers.
-#[derive(Clone, Copy, Debug)]
-struct Turn {
-    centre: DVec3,
-    axis: DVec3,
-    angle: f64,
-    translation: DVec3,
+/// What a screw motion does, in so many bits.
+trait Exactly {
+    fn rotated(&self, way: &Place, angle: &Float) -> Place;
+    fn at(&self, start: DVec3, time: f64) -> Place;
+    fn velocity(&self, start: DVec3, time: f64) -> Place;
+    fn start_of(&self, there: &Place, time: f64) -> DVec3;
 }
 
-impl Turn {
-    fn choose(choices: &mut Choices<'_>) -> Self {
-        let mut unit = || choices.word() as f64 / u64::MAX as f64 * 2.0 - 1.0;
-        let mut vector = || DVec3::new(unit(), unit(), unit());
-        let (centre, axis, translation) = (vector(), vector(), vector());
-        let share = unit();
-        let centre = centre * choices.pick(&[0.0, 1.0, 1e3, 1e6]);
-        let angle = share * choices.pick(&[0.0, 1e-9, 0.01, 1.0, PI, TAU, 20.0, 1e6]);
-        let axis = choices.pick(&[axis, DVec3::Z, axis * 1e-12, axis * 1e200]);
-        Self {
-            centre,
-            axis: if axis == DVec3::ZERO { DVec3::X } else { axis },
-            angle,
-            translation: translation * choices.pick(&[0.0, 1.0, 1e3]),
-        }
-    }
-
-    fn motion(&self) -> RigidMotion {
-        RigidMotion::new(self.centre, self.axis, self.angle, self.translation).expect("numbers in range")
-    }
-
+impl Exactly for Screw {
     /// Turned by an angle about the axis, which is nowhere zero.
     fn rotated(&self, way: &Place, angle: &Float) -> Place {
         let axis = place(self.axis);
@@ -126,7 +105,7 @@ impl Turn {
 /// A motion and points of its body.
 #[derive(Clone, Debug)]
 struct Turning {
-    turns: [Turn; 2],
+    turns: [Screw; 2],
     /// Near the centre of the first.
     points: [DVec3; 4],
     time: f64,
@@ -144,7 +123,7 @@ impl Simplify for Turning {
 
 fn turning() -> impl Strategy<Value = Turning> + Clone {
     from_choices(|choices: &mut Choices<'_>| {
-        let turns = [Turn::choose(choices), Turn::choose(choices)];
+        let turns = [(); 2].map(|()| Screw::choose(&Screw::ANGLES, choices));
         let size = choices.pick(&[1.0, 1e-3, 10.0]);
         let mut unit = || choices.word() as f64 / u64::MAX as f64 * 2.0 - 1.0;
         let points = [(); 4].map(|()| turns[0].centre + size * DVec3::new(unit(), unit(), unit()));
@@ -161,7 +140,7 @@ fn a_point_of_a_body_that_turns_is_where_it_is_said_to_be_and_as_fast() {
             for time in [0.0, case.time, 1.0] {
                 let exact = (turn.at(start, time), turn.velocity(start, time));
                 for environment in Environment::all() {
-                    let ask = |&(turn, start, time): &(&Turn, DVec3, f64)| turn.motion().path(start).moment(time);
+                    let ask = |&(turn, start, time): &(&Screw, DVec3, f64)| turn.motion().path(start).moment(time);
                     is_as_told(&environment.run(&(turn, start, time), ask), &exact)
                         .map_err(|error| TestCaseError::fail(format!("{environment:?} at {time}: {error}")))?;
                 }
@@ -318,7 +297,7 @@ fn contacts_are_found(case: &Turning, count: &Cell<[usize; 2]>) -> Result<(), Te
 /// At the time of impact of a pair as above, and at any other: everything that is promised of its geometry. How often there was a normal when
 /// bodies that begin apart meet.
 fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usize; 2]>) -> Result<(), TestCaseError> {
-    let motions = case.turns.each_ref().map(Turn::motion);
+    let motions = case.turns.each_ref().map(Screw::motion);
     for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
         let sides = sides_that_touch(case, kind);
         let on = |side: usize, start: &DVec3| (side, *start);
@@ -343,7 +322,8 @@ fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usiz
                 of_side.map(|(_, moment)| error(moment)).fold(0.0, f64::max)
             };
             let exact = |place: Place| place.map(|x| x.to_rational().expect("a finite number"));
-            let all = |of: &dyn Fn(&Turn, DVec3) -> Place| [0, 1, 2, 3].map(|k| exact(of(&case.turns[starts[k].0], starts[k].1)));
+            let all =
+                |of: &dyn Fn(&Screw, DVec3) -> Place| [0, 1, 2, 3].map(|k| exact(of(&case.turns[starts[k].0], starts[k].1)));
             let at = |time: f64| all(&|turn, start| turn.at(start, time));
             let velocities = all(&|turn, start| turn.velocity(start, time));
             let from_first = velocities.iter().flat_map(|velocity| velocity.iter().zip(&velocities[0]));

@@ -828,6 +828,13 @@ fn no_contact_of_bodies_that_turn_is_missed() {
     );
 }
 
+/// Three pairs meet at one time, but for the last digits. A time on arcs was told some roundings before the same pair's on straight pieces, by
+/// which pairs after the earliest are left out: the earliest contact was not the first of all, and which it was depended on threads.
+#[test]
+fn the_earliest_of_pairs_that_meet_at_nearly_one_time_is_the_first_of_all() {
+    turning_bodies_are_not_missed(4_840_163_733_660_535_301, &Cell::new([0; 3])).unwrap_or_else(|error| panic!("{error}"));
+}
+
 /// As in parry's issue 317, of whole meshes: straight ways would lead past each other.
 #[test]
 fn a_plank_that_spins_hits_the_post_beside_it() {

@@ -235,7 +235,10 @@ fn time_on_paths(
         // Not one of these meshes' pairs, so that nothing is known of it.
         return Some(0.0);
     };
-    time_of_impact(contact.kind, ways.each_ref().map(|way| way as &dyn Path), limits).time()
+    let time = time_of_impact(contact.kind, ways.each_ref().map(|way| way as &dyn Path), limits).time();
+    // Neither is after the exact time. A pair is left out by its time on pieces: one that is told a rounding earlier would be told or not by
+    // who was first.
+    time.map(|time| time.max(contact.time))
 }
 
 /// The rows of meshes that are, or were, near others: each keeps its place as long as there is room, so that what rests is put there once.

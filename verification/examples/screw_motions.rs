@@ -1,0 +1,28 @@
+//! Bodies in screw motion that meet, and whether any of their times of impact is late, against enclosures of their arcs.
+//!
+//! `cargo run --release -p selvedge-verification --example screw_motions -- [CASES] [--seed N] [--shard I/N] [--state FILE] [--threads N]`
+//!
+//! CASES in all, by default 100 million, of both kinds of pairs. State is kept in FILE (by default `screw_motions.json` in the folder for
+//! temporary files): started again after a kill, the run goes on where it was. With `--shard I/N`, I from 1 to N, and `--seed`, it is one of N
+//! parts of the run, which `--example merge` joins. Exit status: 0 none is late, 1 one is, or the file is at fault, 2 the command line is.
+
+mod campaign;
+
+use campaign::Options;
+use selvedge_verification::campaign::screw_motions::{Progress, Ways, run};
+use std::process::ExitCode;
+
+const USAGE: &str = "usage: screw_motions [CASES] [--seed N] [--shard I/N] [--state FILE] [--threads N]";
+const CASES_PER_CHUNK: u64 = 50_000;
+
+fn main() -> ExitCode {
+    let Some(options) = Options::parse("screw_motions", 100_000_000, |_, _| Some(false)) else {
+        eprintln!("{USAGE}");
+        return ExitCode::from(2);
+    };
+    campaign::exit(
+        &options,
+        |seed| Progress::new(seed, options.pairs, CASES_PER_CHUNK, Ways::Arcs),
+        |progress, after_chunk| run(progress, Ways::Arcs, options.threads, after_chunk, || false),
+    )
+}
