@@ -12,7 +12,9 @@ use bevy_ecs::resource::Resource;
 use bevy_ecs::system::{Query, Res, ResMut};
 use bevy_mesh::{Mesh, Mesh3d};
 use selvedge::glam::DVec3;
-use selvedge::{Criterion, Groups, MeshHandle, MeshMotion, PairKind, Threads, World, WorldContact, WorldError};
+use selvedge::{
+    Criterion, Geometry, Groups, MeshHandle, MeshMotion, PairKind, Threads, World, WorldContact, WorldContactGeometry, WorldError,
+};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::{Arc, Weak};
 
@@ -41,6 +43,10 @@ pub struct BodyContact {
     pub vertices: [u32; 4],
     /// When, in [0, 1] of the step: not after the exact time, and hardly before it.
     pub time: f64,
+    /// Where, in Bevy's world at that time: the points of both sides that meet, their weights of the four vertices, the unit normal from the second
+    /// side to the first, how fast they approach each other along it, in lengths a fixed step; with [what is promised
+    /// of each](selvedge::core::separation::geometry).
+    pub geometry: Geometry,
 }
 
 /// The bodies that take part.
@@ -57,6 +63,8 @@ pub(crate) struct Collisions {
     /// One for all bodies of a mesh.
     shapes: HashMap<AssetId<Mesh>, Weak<Shape>>,
     found: Vec<WorldContact<f64>>,
+    /// Of each that was found.
+    geometries: Vec<WorldContactGeometry>,
 }
 
 struct Body {
@@ -341,7 +349,7 @@ impl Collisions {
             });
             let motions: Vec<_> = motions.collect();
             let Err(error) = self.world.contacts(&motions, &mut self.found) else {
-                return Ok(());
+                return self.world.contact_geometries(&self.found, &mut self.geometries);
             };
             let at_fault = match error {
                 WorldError::BadPositions { mesh, .. } | WorldError::BadPose { mesh } => self.entities.get(&mesh).copied(),
@@ -349,6 +357,7 @@ impl Collisions {
             };
             let Some(entity) = at_fault else {
                 self.found.clear();
+                self.geometries.clear();
                 return Err(error);
             };
             ways.retain(|&(own, _)| own != entity);
@@ -373,7 +382,7 @@ impl Collisions {
     }
 
     fn contacts(&self) -> impl Iterator<Item = BodyContact> {
-        self.found.iter().filter_map(|contact| {
+        self.found.iter().zip(&self.geometries).filter_map(|(contact, found)| {
             let [first, second] = contact.meshes.map(|mesh| self.entities.get(&mesh));
             let entities = [*first?, *second?];
             let [first, second] = entities.map(|entity| self.bodies.get(&entity));
@@ -382,24 +391,15 @@ impl Collisions {
             if entities[0] == entities[1] && bodies[0].source.kind != CollisionBody::Deforming {
                 return None;
             }
-            let [first, second] = contact.pair;
-            let vertices = match contact.kind {
-                PairKind::VertexFace => {
-                    let [a, b, c] = bodies[1].shape.topology.triangles()[second as usize].map(|point| bodies[1].vertex(point));
-                    [bodies[0].vertex(first), a, b, c]
-                }
-                PairKind::EdgeEdge => {
-                    let ends =
-                        |body: &Body, edge: u32| body.shape.topology.edges()[edge as usize].map(|point| body.vertex(point));
-                    let ([a, b], [c, d]) = (ends(bodies[0], first), ends(bodies[1], second));
-                    [a, b, c, d]
-                }
-            };
+            let [a, b, c, d] = found.vertices;
+            // The second point is the other side's of a vertex and a face.
+            let second = bodies[usize::from(contact.kind == PairKind::VertexFace)];
             Some(BodyContact {
                 kind: contact.kind,
                 entities,
-                vertices,
+                vertices: [bodies[0].vertex(a), second.vertex(b), bodies[1].vertex(c), bodies[1].vertex(d)],
                 time: contact.time,
+                geometry: found.geometry,
             })
         })
     }

@@ -21,7 +21,7 @@ pub use collisions::{BodyContact, CollisionSettings};
 pub use error::{SelvedgeError, SelvedgeProblem};
 pub use selvedge;
 pub use selvedge::core::elementary::Limits;
-pub use selvedge::{Criterion, Groups, PairKind, Threads};
+pub use selvedge::{Criterion, Geometry, Groups, PairKind, Threads};
 pub use selvedge_cloth;
 pub use shape::MeshError;
 

@@ -67,7 +67,14 @@ impl<D: Copy> NearPair<D> {
     /// Where its vertices are.
     #[inline(always)]
     pub fn points(&self, positions: &[DVec3]) -> [DVec3; 4] {
-        self.vertices.map(|v| positions[v as usize])
+        // Written out: `map` with a closure is not always inlined.
+        let [a, b, c, d] = self.vertices;
+        [
+            positions[a as usize],
+            positions[b as usize],
+            positions[c as usize],
+            positions[d as usize],
+        ]
     }
 
     /// Its closest points at rest.
@@ -118,7 +125,7 @@ impl<D: Copy> NearPair<D> {
     /// than `separation` apart on the way from `start` to `end`. Remembers the one that does.
     #[inline]
     pub fn keeps_apart(&mut self, [start, end]: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
-        let (kind, points) = (self.kind, [start, end].map(|positions| self.points(positions)));
+        let (kind, points) = (self.kind, [self.points(start), self.points(end)]);
         let found = |positions: &[DVec3]| {
             let direction = self.closest(positions).direction;
             SeparatingDirection::found(kind, direction, points, separation, error)
@@ -137,7 +144,7 @@ impl<D: Copy> NearPair<D> {
     /// which it remembers then, without a gap. None of its way each if no direction keeps the pair apart both at `start` and at
     /// `base`.
     pub fn shares(&mut self, start: &[DVec3], [base, wanted]: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> [f64; 4] {
-        let (kind, [start, base, wanted]) = (self.kind, [start, base, wanted].map(|positions| self.points(positions)));
+        let (kind, [start, base, wanted]) = (self.kind, [self.points(start), self.points(base), self.points(wanted)]);
         let directions = [start, base, wanted].map(|points| Closest::of(kind, points).direction);
         let directions = directions.into_iter().chain([self.separating.direction()]);
         let is_kept =
