@@ -397,7 +397,12 @@ impl Collisions {
             Some(BodyContact {
                 kind: contact.kind,
                 entities,
-                vertices: [bodies[0].vertex(a), second.vertex(b), bodies[1].vertex(c), bodies[1].vertex(d)],
+                vertices: [
+                    bodies[0].vertex(a),
+                    second.vertex(b),
+                    bodies[1].vertex(c),
+                    bodies[1].vertex(d),
+                ],
                 time: contact.time,
                 geometry: found.geometry,
             })

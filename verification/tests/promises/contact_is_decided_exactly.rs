@@ -226,7 +226,7 @@ property!(
 // More than that each is right: what floating point leaves open may differ.
 property!(
     verdicts_are_the_same_in_every_floating_point_environment,
-    10_000,
+    4_000,
     pairs_of_any_kind(),
     |pair| {
         let answers = |pair: &PairCase<S>| (touches(pair), verdict(pair).0);

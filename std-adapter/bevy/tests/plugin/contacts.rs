@@ -200,7 +200,12 @@ fn contacts_of_bodies_that_turn_are_those_of_a_world_of_meshes_bit_for_bit() {
         texts
     };
     assert_eq!(
-        sorted(told.contacts.iter().map(|contact| format!("{:?}", contact.geometry)).collect()),
+        sorted(
+            told.contacts
+                .iter()
+                .map(|contact| format!("{:?}", contact.geometry))
+                .collect()
+        ),
         sorted(geometries.iter().map(|found| format!("{:?}", found.geometry)).collect())
     );
 }
@@ -212,7 +217,10 @@ fn a_contact_says_where_and_along_which_normal() {
     let floor = mesh(vec![[-5.0, -5.0, 0.0], [5.0, -5.0, 0.0], [0.0, 5.0, 0.0]], &[[0, 1, 2]]);
     let corner = mesh(vec![[0.0, 0.0, 0.0], [0.5, 0.0, 1.0], [0.0, 0.5, 1.0]], &[[0, 1, 2]]);
     let (floor, corner) = (add(&mut app, floor), add(&mut app, corner));
-    let floor = app.world_mut().spawn((Mesh3d(floor), CollisionBody::Fixed, at(0.0, 0.0, 7.0))).id();
+    let floor = app
+        .world_mut()
+        .spawn((Mesh3d(floor), CollisionBody::Fixed, at(0.0, 0.0, 7.0)))
+        .id();
     let corner = app
         .world_mut()
         .spawn((Mesh3d(corner), CollisionBody::Rigid, at(1.0, -2.0, 7.5)))
@@ -224,7 +232,11 @@ fn a_contact_says_where_and_along_which_normal() {
     assert_eq!((contact.entities, contact.vertices), ([corner, floor], [0, 0, 1, 2]));
     let met = &contact.geometry;
     assert_eq!((met.normal, met.speed), (Some(DVec3::Z), -1.0));
-    assert!(met.points.iter().all(|point| point.distance(DVec3::new(1.0, -2.0, 7.0)) < 1e-6));
+    assert!(
+        met.points
+            .iter()
+            .all(|point| point.distance(DVec3::new(1.0, -2.0, 7.0)) < 1e-6)
+    );
 }
 
 #[test]
