@@ -14,9 +14,14 @@
 #    a product: 9 half roundings of it, so 9 of its square.
 # 6. A speed: two differences, the way between them, weighed; the difference of both sides, each at most 2; its product with the normal, of
 #    which components add up to no more than R of its length.
-# 7. Underflow: each operation above flushes at most lambda, and weights are at most 1: less than 200 of them in all.
+# 7. On paths (core/src/paths/geometry.rs) the sides are off by an error beside all that: a distance from above is a sum and a product, one from
+#    below a difference and a product.
+# 8. Underflow: each operation above flushes at most lambda, and weights are at most 1: less than 200 of them in all.
 
 of_distance = 96; #! core/src/separation/geometry.rs: (96.0 * u() * largest + <f64 as Rounding>::UNDERFLOW)
+#~ core/src/separation/geometry.rs: (apart + now.error) * (1.0 + 8.0 * u())
+#~ core/src/separation/geometry.rs: (computed - self.error) * (1.0 - 8.0 * u())
+of_error = 8;
 of_length = 16; #! core/src/separation/geometry.rs: length(met[0] - met[1]) * (1.0 + 16.0 * u())
 doubled = 2; #! core/src/separation/geometry.rs: let error = GapError::of_coordinates(2.0 * self.largest);
 # Promised beyond: 96u B of a point, 16u of a normal's length, 256u D of a speed.
@@ -47,4 +52,6 @@ Weighed = Sum * (f7 - 1) * Exact;
 /\ (f9 - 1) / 1b@u@ in [-31.9, 31.9]
 /\ R * 1.01 * (2 * Sum * (2 * Exact * (f2 - 1) * f3 + 2 * Exact * (f3 - 1)) * f + 4 * Exact * (f - 1)) * f3 / 1b@u@ in [-150, 150]
 /\ R * 1.01 * 4 * Exact * 1.01 * (f3 - 1) / 1b@u@ in [-50, 50]
+/\ (1 + of_error * 1b@u@) * f2 >= 1
+/\ (1 - of_error * 1b@u@) * f2 <= 1
 /\ eta * f2 - 200 * lambda >= 0 }

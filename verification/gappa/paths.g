@@ -10,11 +10,15 @@
 #    remainder of the angle is off by 17. What is left out is 3.2^30 / 30!.
 # 4. The radius: R times what the part sideways is off.
 # 5. A piece's deviation passes through 8 operations.
+# 6. A velocity: theta times the parts of a place, which are off as those of 2 without centre and translation, and a product and a sum; the
+#    translation, T = 1, through that sum. Its error passes through 4 operations.
 
 #~ core/src/paths/rigid.rs: u() * ((4096.0 + 32.0 * angle.abs()) * size + 16.0 * (largest(centre) + largest(translation)))
 #~ core/src/paths/rigid.rs: radius: length_above(sideways) + 64.0 * u() * size,
 #~ core/src/paths/rigid.rs: deviation: (self.radius * bent + self.rounding) * (1.0 + 32.0 * u()),
 #~ core/src/paths/rigid.rs: for k in (1..=14).rev() {
+#~ core/src/paths/rigid.rs: let of_translation = 16.0 * u() * largest(self.translation) + <f64 as Rounding>::UNDERFLOW;
+#~ core/src/paths/rigid.rs: velocity_error: (self.angle.abs() * self.rounding + of_translation) * (1.0 + 16.0 * u()),
 R = 1.7321;
 Cosh = 12.29;
 Sinh = 12.25;
@@ -36,6 +40,9 @@ Angle = 4;
 /\ R * (2 * (Along / 1b@u@ + Across / 1b@u@ + Sideways / 1b@u@) + 2.01 * R * Constant + (2 * R + 6.1 * R + 1.1 * R) * 2) - 4096 <= 0
 /\ R * 2.01 * R * Angle - 32 <= 0
 /\ R * (4 + 4.1) - 16 <= 0
+/\ R * (2 * (Along / 1b@u@ + Across / 1b@u@ + Sideways / 1b@u@) + 2.01 * R * Constant + (2 * R + 6.1 * R) * 2) + R * 2 * R * (f2 - 1) / 1b@u@ - 4096 <= 0
+/\ R * (f - 1) / 1b@u@ - 16 <= 0
+/\ f4 * (1 + 16b@u@) >= 1
 /\ R * Sideways / 1b@u@ - 64 <= 0
 /\ R * Sideways / 1b@u@ + 64 >= 0
 /\ f8 * (1 + 32b@u@) >= 1 }
