@@ -1,6 +1,6 @@
 use super::message;
 use selvedge::Mesh;
-use selvedge_files::mesh::{FileFormat, PlyEncoding, read_bytes, write_bytes};
+use selvedge_files::mesh::{FileFormat, PlyEncoding, read_bytes, read_bytes_with_loose_features, write_bytes};
 
 const FORMATS: [FileFormat; 4] = [
     FileFormat::Obj,
@@ -20,8 +20,17 @@ pub fn ply(data: &[u8]) {
 }
 
 /// A file is refused with a readable message, or read as a mesh whose triangles exist and whose coordinates are finite;
-/// written in any format that mesh is read back bit for bit.
+/// written in any format that mesh is read back bit for bit. With its loose edges and points it is read, or refused, as well.
 fn check(data: &[u8], format: FileFormat) {
+    match read_bytes_with_loose_features(data, format) {
+        Ok(loose) => {
+            assert!(!loose.topology.triangles().is_empty());
+            assert!(loose.positions.iter().all(|position| position.is_finite()));
+            let vertices = loose.topology.triangles().as_flattened();
+            assert!(vertices.iter().all(|&vertex| (vertex as usize) < loose.positions.len()));
+        }
+        Err(problem) => message::check(&problem),
+    }
     let file = match read_bytes(data, format) {
         Ok(file) => file,
         Err(problem) => return message::check(&problem),

@@ -4,7 +4,7 @@ use super::Failure;
 use super::options::Threads;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
-use selvedge::{CollisionDetector, Mesh, Topology};
+use selvedge::{CollisionDetector, Topology};
 use selvedge_files::mesh;
 use selvedge_laboratory::report::{Tangle, intersections_csv, intersections_json, tangle_ply, tangles, tangles_json};
 use std::collections::BTreeMap;
@@ -16,7 +16,8 @@ use std::time::Instant;
 /// Tells whether meshes pass through themselves, exactly.
 ///
 /// Reads meshes (OBJ or PLY), one after the other, and looks at each as it stands: which edges pass through faces or touch them, and which
-/// neighbours are folded flat onto each other. Frames of a sequence, with the same triangles, share their hierarchies. Primitives with a
+/// neighbours are folded flat onto each other. Edges and points of no triangle, of ropes and particles, are looked at as well: lines `l` and `p`
+/// of an OBJ file, the element `edge` of a PLY file, and all vertices of one without faces. Frames of a sequence, with the same triangles, share their hierarchies. Primitives with a
 /// common vertex meet there, which is no intersection.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -27,7 +28,8 @@ Examples:
   selvedge check tangled.ply --ply out/      writes out/tangled-intersections.ply
 
 The list has mesh,kind,i0,i1,i2,i3,i4: the two vertices of the edge and the three of
-the face, numbered from 0 in the order of the file.
+the face, numbered from 0 in the order of the file. A loose edge is a face that
+names its second vertex twice, a point one that names it three times.
 
 Exit status: 0 all are free, 3 there are intersections, 1 the input is at fault,
 2 the command line is at fault.")]
@@ -103,12 +105,12 @@ impl Check {
         let mut found = Vec::with_capacity(self.meshes.len());
         let mut intersections = Vec::new();
         for (index, path) in self.meshes.iter().enumerate() {
-            let mesh = mesh::read(path)?.mesh;
-            let is_next = |(topology, _): &(Arc<Topology>, _)| is_frame_of(topology, &mesh);
+            let mesh = mesh::read_with_loose_features(path)?;
+            let is_next = |(topology, _): &(Arc<Topology>, _)| is_frame_of(topology, &mesh.topology);
             let (topology, mut detector) = match before.take().filter(is_next) {
                 Some(before) => before,
                 None => {
-                    let topology = Arc::new(mesh.topology()?);
+                    let topology = Arc::new(mesh.topology);
                     let mut detector = CollisionDetector::new(Arc::clone(&topology));
                     detector.set_threads(selvedge::Threads::from_count(self.threads.get()))?;
                     (topology, detector)
@@ -126,7 +128,9 @@ impl Check {
                 found.push(Tangle::new(name, &topology, &intersections, seconds));
             }
             if let Some(path) = coloured.get(index).filter(|_| !intersections.is_empty()) {
-                files.add(path.clone(), |out| tangle_ply(&mesh, &topology, &intersections, out))?;
+                files.add(path.clone(), |out| {
+                    tangle_ply(&mesh.positions, &topology, &intersections, out)
+                })?;
             }
             before = Some((topology, detector));
             progress.set_steps(index as u64 + 1);
@@ -161,6 +165,6 @@ impl Check {
 }
 
 /// Whether it is another frame of the mesh.
-fn is_frame_of(topology: &Topology, mesh: &Mesh) -> bool {
-    topology.vertex_count() == mesh.positions.len() && topology.triangles() == mesh.triangles
+fn is_frame_of(topology: &Topology, frame: &Topology) -> bool {
+    topology.vertex_count() == frame.vertex_count() && topology.triangles() == frame.triangles()
 }

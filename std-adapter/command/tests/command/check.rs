@@ -159,3 +159,30 @@ fn what_cannot_be_read_or_written_is_refused_with_its_name() {
     place.write("again/on.obj", ABOVE);
     refused(1, &["on.obj", "again/on.obj", "--ply", "out"], "would both be written");
 }
+
+/// A rope through a triangle, and a cloud of points of which two are at one place.
+#[test]
+fn ropes_and_clouds_of_points_are_looked_at() {
+    let place = Workplace::new();
+    let rope = |x: f64| format!("v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv {x} 1 1\nv {x} 1 -1\nv {x} 1 -2\nl 4 5 6\n");
+    place.write("through.obj", rope(1.0));
+    place.write("beside.obj", rope(3.5));
+    let cloud = |last: &str| {
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n1 0 0\n{last}\n"
+        )
+    };
+    place.write("cloud.ply", cloud("0 1 0"));
+    place.write("twice.ply", cloud("1 0 0"));
+    let free = place.stdout(&["check", "beside.obj", "cloud.ply"]);
+    assert!(free.contains("free of intersections"), "{free}");
+
+    let arguments = ["check", "through.obj", "twice.ply", "--list", "list.csv", "--ply", "red"];
+    let text = tangled(&place, &arguments);
+    assert!(text.contains("2 of 2 meshes intersect themselves"), "{text}");
+    let list = std::fs::read_to_string(place.path("list.csv")).unwrap();
+    assert!(list.contains("through.obj,edge-face,3,4,0,1,2\n"), "{list}");
+    assert!(list.contains("twice.ply,vertex-face,1,2,2,2,\n"), "{list}");
+    let coloured = mesh::read_with_loose_features(&place.path("red/through-intersections.ply")).unwrap();
+    assert_eq!(coloured.topology.triangles(), [[0, 1, 2], [3, 4, 4], [4, 5, 5]]);
+}

@@ -161,6 +161,9 @@ impl From<StepError> for WorldError {
 /// * Where an error is told, no mesh has been lost. Only a step that was cut short has begun: what was to move rests where it would have ended
 ///   unless it is told to move again.
 ///
+/// Who moves meshes in several straight pieces asks for a step for each of them. Of a single pair core takes them
+/// [all at once](selvedge_core::paths::Polyline), also where its points have theirs at different times.
+///
 /// Where one step ends and the next begins, a body that turns is put at its pose anew: a few roundings away from where the arcs of the
 /// step before end.
 #[derive(Debug)]

@@ -2,8 +2,9 @@
 //!
 //! Positions keep their order and their number, and every bit that the file holds: a vertex that
 //! no face names is kept, several objects in one file are one mesh, nothing is merged. Polygons
-//! are split into triangles, as a fan from their first vertex. Whatever else a file holds
-//! (normals, colours, texture coordinates, lines, materials) is left out.
+//! are split into triangles, as a fan from their first vertex. Edges and points that belong to no triangle are left out by [`read`],
+//! which reads triangles, and kept by [`read_with_loose_features`]. Whatever else a file holds (normals, colours, texture coordinates,
+//! materials) is left out.
 
 mod error;
 mod obj;
@@ -91,6 +92,53 @@ pub fn read(path: &Path) -> Result<MeshFile, MeshError> {
     })
 }
 
+/// What a file says of ropes, hair and particles: positions, and the topology of triangles, then
+/// [loose edges and points](Topology::with_loose_features).
+#[derive(Clone, Debug, PartialEq)]
+pub struct LooseMesh {
+    /// One for each vertex, all finite.
+    pub positions: Vec<DVec3>,
+    /// Of triangles, loose edges and points: at least one of them.
+    pub topology: Topology,
+}
+
+/// Reads the mesh file at `path` like [`read`], and with it edges and points that belong to no triangle: the lines `l` (each piece of it an
+/// edge) and `p` of an OBJ file, the element `edge` (`vertex1`, `vertex2`) of a PLY file. A PLY file with neither faces nor edges is a cloud of
+/// points: all its vertices.
+///
+/// # Errors
+/// Those of [`read`], but for a file without faces that has edges or points; and if one of these names a vertex that does not exist.
+pub fn read_with_loose_features(path: &Path) -> Result<LooseMesh, MeshError> {
+    let loose = || -> Result<LooseMesh, FileProblem> {
+        let (bytes, format) = bytes_at(path)?;
+        loose_of(parsed(&bytes, format, Features::All)?)
+    };
+    loose().map_err(|problem| MeshError::file(path, problem))
+}
+
+/// Reads such a mesh from the bytes of a file, as [`read_bytes`].
+///
+/// # Errors
+/// Those of [`read_with_loose_features`], without the file's name.
+///
+/// ```
+/// use selvedge_files::mesh::{FileFormat, read_bytes_with_loose_features};
+///
+/// // A rope of two pieces, and a particle.
+/// let rope = read_bytes_with_loose_features(b"v 0 0 0\nv 1 0 0\nv 2 0 0\nv 1 1 0\nl 1 2 3\np 4\n", FileFormat::Obj)?;
+/// assert_eq!(rope.topology.triangles(), [[0, 1, 1], [1, 2, 2], [3, 3, 3]]);
+/// # Ok::<(), selvedge_files::mesh::FileProblem>(())
+/// ```
+pub fn read_bytes_with_loose_features(bytes: &[u8], format: FileFormat) -> Result<LooseMesh, FileProblem> {
+    loose_of(parsed(bytes, format, Features::All)?)
+}
+
+fn loose_of(parsed: Parsed) -> Result<LooseMesh, FileProblem> {
+    let Mesh { positions, triangles } = parsed.mesh;
+    let topology = Topology::with_loose_features(positions.len(), triangles, &parsed.loose_edges, &parsed.points)?;
+    Ok(LooseMesh { positions, topology })
+}
+
 /// Reads a mesh from the bytes of a file. For [`FileFormat::Ply`] the header decides on the
 /// encoding, not the argument. Never panics, whatever the bytes, and asks for memory only in
 /// proportion to them.
@@ -167,6 +215,9 @@ pub fn write_bytes(mesh: &Mesh, format: FileFormat) -> Result<Vec<u8>, FileProbl
 #[derive(Default)]
 struct Parsed {
     mesh: Mesh,
+    /// Of no triangle, if they are wanted.
+    loose_edges: Vec<[u32; 2]>,
+    points: Vec<u32>,
     polygons_triangulated: usize,
 }
 
@@ -189,26 +240,43 @@ impl Parsed {
     }
 }
 
+/// What is wanted of a file.
+#[derive(Clone, Copy, PartialEq)]
+enum Features {
+    Triangles,
+    /// Edges and points as well.
+    All,
+}
+
 fn load(path: &Path) -> Result<(Parsed, Topology), FileProblem> {
+    let (bytes, format) = bytes_at(path)?;
+    parse(&bytes, format)
+}
+
+fn bytes_at(path: &Path) -> Result<(Vec<u8>, FileFormat), FileProblem> {
     let metadata = std::fs::metadata(path).map_err(FileProblem::from_read)?;
     if metadata.is_dir() {
         return Err(FileProblem::Folder);
     }
     let format = FileFormat::from_path(path).ok_or(FileProblem::UnknownExtension)?;
     let bytes = std::fs::read(path).map_err(FileProblem::from_read)?;
-    parse(&bytes, format)
+    Ok((bytes, format))
 }
 
 fn parse(bytes: &[u8], format: FileFormat) -> Result<(Parsed, Topology), FileProblem> {
+    let parsed = parsed(bytes, format, Features::Triangles)?;
+    let topology = parsed.mesh.topology()?;
+    Ok((parsed, topology))
+}
+
+fn parsed(bytes: &[u8], format: FileFormat, features: Features) -> Result<Parsed, FileProblem> {
     if bytes.is_empty() {
         return Err(FileProblem::Empty);
     }
-    let parsed = match format {
-        FileFormat::Obj => obj::parse(bytes)?,
-        FileFormat::Ply(_) => ply::parse(bytes)?,
-    };
-    let topology = parsed.mesh.topology()?;
-    Ok((parsed, topology))
+    match format {
+        FileFormat::Obj => obj::parse(bytes, features),
+        FileFormat::Ply(_) => ply::parse(bytes, features),
+    }
 }
 
 /// Refuses what could not be read again.

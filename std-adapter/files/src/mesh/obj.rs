@@ -1,4 +1,4 @@
-//! Wavefront OBJ: the `v` and `f` lines of it.
+//! Wavefront OBJ: the `v` and `f` lines of it, and `l` and `p` where they are wanted.
 //!
 //! This reader is our own because a collision pair is reported by the numbers of its vertices, so
 //! they must be the file's, and its positions must be exact. No crate keeps both (looked at in
@@ -8,7 +8,7 @@
 //! negative indices and needs a newer compiler than we promise.
 
 use super::error::FileProblem;
-use super::{Parsed, check_finite};
+use super::{Features, Parsed, check_finite};
 use crate::excerpt::excerpt;
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
@@ -16,7 +16,7 @@ use std::borrow::Cow;
 use std::io::{self, Write};
 use std::str::Lines;
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, FileProblem> {
+pub(super) fn parse(bytes: &[u8], features: Features) -> Result<Parsed, FileProblem> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let valid = &bytes[..error.valid_up_to()];
         FileProblem::NotUtf8 {
@@ -29,7 +29,9 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, FileProblem> {
         match fields.next() {
             Some("v") => reader.vertex(line, fields)?,
             Some("f") => reader.face(line, fields)?,
-            // Normals, texture coordinates, groups, materials, lines, points, free-form surfaces.
+            Some("l") if features == Features::All => reader.edges(line, fields)?,
+            Some("p") if features == Features::All => reader.points(line, fields)?,
+            // Normals, texture coordinates, groups, materials, free-form surfaces.
             _ => {}
         }
     }
@@ -54,7 +56,25 @@ struct Reader {
     faces: usize,
     corners: Vec<u32>,
     /// Line, face and vertex where a face names a vertex that comes later, if it comes at all.
-    forward: Vec<(usize, usize, i64)>,
+    forward: Vec<(usize, Owner, i64)>,
+}
+
+/// What names a vertex.
+#[derive(Clone, Copy)]
+enum Owner {
+    Face(usize),
+    Edges,
+    Points,
+}
+
+impl Owner {
+    fn words(self) -> String {
+        match self {
+            Self::Face(face) => format!("face {face}"),
+            Self::Edges => "an edge".to_owned(),
+            Self::Points => "a point".to_owned(),
+        }
+    }
 }
 
 impl Reader {
@@ -85,7 +105,7 @@ impl Reader {
     fn face<'a>(&mut self, line: usize, fields: impl Iterator<Item = &'a str>) -> Result<(), FileProblem> {
         self.corners.clear();
         for field in fields {
-            let corner = self.corner(line, field)?;
+            let corner = self.corner(line, field, Owner::Face(self.faces))?;
             self.corners.push(corner);
         }
         if self.corners.len() < 3 {
@@ -100,15 +120,40 @@ impl Reader {
         Ok(())
     }
 
+    /// `l a b …`, from vertex to vertex, each perhaps with `/texture`, which is left out.
+    fn edges<'a>(&mut self, line: usize, fields: impl Iterator<Item = &'a str>) -> Result<(), FileProblem> {
+        self.corners.clear();
+        for field in fields {
+            let vertex = self.corner(line, field, Owner::Edges)?;
+            self.corners.push(vertex);
+        }
+        if self.corners.len() < 2 {
+            let reason = format!("a line needs two vertices or more, but names {}", self.corners.len());
+            return Err(FileProblem::Line { line, reason });
+        }
+        let edges = self.corners.windows(2).map(|ends| [ends[0], ends[1]]);
+        self.parsed.loose_edges.extend(edges);
+        Ok(())
+    }
+
+    /// `p a …`.
+    fn points<'a>(&mut self, line: usize, fields: impl Iterator<Item = &'a str>) -> Result<(), FileProblem> {
+        for field in fields {
+            let vertex = self.corner(line, field, Owner::Points)?;
+            self.parsed.points.push(vertex);
+        }
+        Ok(())
+    }
+
     /// The vertex that a corner names: from 1 for the file's first, or from −1 for the one just
     /// above the face.
-    fn corner(&mut self, line: usize, field: &str) -> Result<u32, FileProblem> {
+    fn corner(&mut self, line: usize, field: &str, owner: Owner) -> Result<u32, FileProblem> {
         let name = field.split('/').next().unwrap_or_default();
         let vertex: i64 = name.parse().map_err(|_| FileProblem::Line {
             line,
             reason: format!(
-                "face {} names a vertex '{}', which is not a whole number",
-                self.faces,
+                "{} names a vertex '{}', which is not a whole number",
+                owner.words(),
                 quoted(field)
             ),
         })?;
@@ -121,29 +166,39 @@ impl Reader {
         match index.map(u32::try_from) {
             Some(Ok(index)) => {
                 if index as usize >= count {
-                    self.forward.push((line, self.faces, vertex));
+                    self.forward.push((line, owner, vertex));
                 }
                 Ok(index)
             }
-            _ => Err(self.out_of_range(line, self.faces, vertex)),
+            _ => Err(self.out_of_range(line, owner, vertex)),
         }
     }
 
     fn finish(self) -> Result<Parsed, FileProblem> {
         let count = self.parsed.mesh.positions.len() as i64;
         match self.forward.iter().find(|&&(_, _, vertex)| vertex > count) {
-            Some(&(line, face, vertex)) => Err(self.out_of_range(line, face, vertex)),
+            Some(&(line, owner, vertex)) => Err(self.out_of_range(line, owner, vertex)),
             None => Ok(self.parsed),
         }
     }
 
-    fn out_of_range(&self, line: usize, face: usize, vertex: i64) -> FileProblem {
-        FileProblem::IndexOutOfRange {
-            line: Some(line),
-            face,
-            vertex,
-            first: 1,
-            vertex_count: self.parsed.mesh.positions.len(),
+    fn out_of_range(&self, line: usize, owner: Owner, vertex: i64) -> FileProblem {
+        let vertex_count = self.parsed.mesh.positions.len();
+        match owner {
+            Owner::Face(face) => FileProblem::IndexOutOfRange {
+                line: Some(line),
+                face,
+                vertex,
+                first: 1,
+                vertex_count,
+            },
+            Owner::Edges | Owner::Points => FileProblem::Line {
+                line,
+                reason: format!(
+                    "{} names vertex {vertex}, but there are {vertex_count} vertices, numbered from 1",
+                    owner.words()
+                ),
+            },
         }
     }
 }

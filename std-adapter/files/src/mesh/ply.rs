@@ -5,7 +5,7 @@
 //! nothing is left over.
 
 use super::error::FileProblem;
-use super::{Parsed, check_finite};
+use super::{Features, Parsed, check_finite};
 use crate::excerpt::excerpt;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{
@@ -32,8 +32,10 @@ pub enum PlyEncoding {
 const COORDINATES: [&str; 3] = ["x", "y", "z"];
 /// Both names are in use for the list of a face's vertices.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
+/// Of an edge.
+const ENDS: [&str; 2] = ["vertex1", "vertex2"];
 
-pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, FileProblem> {
+pub(super) fn parse(bytes: &[u8], features: Features) -> Result<Parsed, FileProblem> {
     let mut reader = Reader::new(bytes);
     let header = Parser::<Row>::new()
         .read_header(&mut reader)
@@ -41,7 +43,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, FileProblem> {
     let line = reader.line();
     let rest = reader.into_inner();
     check_unique_names(&bytes[..bytes.len() - rest.len()])?;
-    let vertex_count = check_layout(&header)?;
+    let vertex_count = check_layout(&header, features)?;
 
     let mut parsed = Parsed::default();
     let mut body = Body {
@@ -85,10 +87,36 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, FileProblem> {
                     Ok(())
                 })?;
             }
+            "edge" if features == Features::All => body.read(element, |edge, row, line| {
+                let named = |end: i64| u32::try_from(end).ok().filter(|&end| (end as usize) < vertex_count);
+                match row.ends.map(named) {
+                    [Some(from), Some(to)] => parsed.loose_edges.push([from, to]),
+                    [first, _] => {
+                        let vertex = row.ends[usize::from(first.is_some())];
+                        let reason = format!("names vertex {vertex}, but there are {vertex_count} vertices, numbered from 0");
+                        return Err(match line {
+                            Some(line) => FileProblem::Line {
+                                line,
+                                reason: format!("'edge' element {edge} {reason}"),
+                            },
+                            None => FileProblem::Element {
+                                element: "edge".to_owned(),
+                                index: edge,
+                                reason,
+                            },
+                        });
+                    }
+                }
+                Ok(())
+            })?,
             _ => body.read(element, |_, _, _| Ok(()))?,
         }
     }
     body.finish()?;
+    if features == Features::All && parsed.mesh.triangles.is_empty() && parsed.loose_edges.is_empty() {
+        // As many as the file holds, which were read.
+        parsed.points = (0..vertex_count as u32).collect();
+    }
     Ok(parsed)
 }
 
@@ -160,6 +188,7 @@ impl PropertyAccess for Written {
 struct Row {
     coordinates: [f64; 3],
     corners: Vec<i64>,
+    ends: [i64; 2],
     /// How many numbers the element is written with.
     numbers: usize,
 }
@@ -173,7 +202,12 @@ impl PropertyAccess for Row {
         self.numbers += 1;
         match (scalar(&property), COORDINATES.iter().position(|c| *c == name)) {
             (Some(value), Some(coordinate)) => self.coordinates[coordinate] = value,
-            (Some(_), None) => {}
+            (Some(value), None) => {
+                if let Some(end) = ENDS.iter().position(|end| *end == name) {
+                    // All of them are whole numbers: the header was looked at.
+                    self.ends[end] = value as i64;
+                }
+            }
             (None, _) => {
                 let (list, length) = integers(property);
                 self.numbers += length;
@@ -367,8 +401,8 @@ fn smallest_size(property: &PropertyType) -> usize {
     }
 }
 
-/// Refuses a header without vertices or faces as we need them; otherwise how many vertices.
-fn check_layout(header: &Header) -> Result<usize, FileProblem> {
+/// Refuses a header without vertices, faces or edges as we need them; otherwise how many vertices.
+fn check_layout(header: &Header, features: Features) -> Result<usize, FileProblem> {
     let missing = |what: &str| FileProblem::Header(format!("declares no {what}"));
     let vertex = header.elements.get("vertex").ok_or_else(|| missing("element 'vertex'"))?;
     for name in COORDINATES {
@@ -379,10 +413,20 @@ fn check_layout(header: &Header) -> Result<usize, FileProblem> {
             }
         }
     }
-    let face = header
-        .elements
-        .get("face")
-        .ok_or_else(|| missing("element 'face', so there are no triangles"))?;
+    if let Some(edge) = header.elements.get("edge").filter(|_| features == Features::All) {
+        for name in ENDS {
+            match edge.properties.get(name).map(|p| &p.data_type) {
+                Some(PropertyType::Scalar(number)) if !is_float(number) => {}
+                _ => return Err(missing(&format!("integer '{name}' for the element 'edge'"))),
+            }
+        }
+    }
+    let Some(face) = header.elements.get("face") else {
+        return match features {
+            Features::Triangles => Err(missing("element 'face', so there are no triangles")),
+            Features::All => Ok(vertex.count),
+        };
+    };
     match CORNERS
         .iter()
         .find_map(|name| face.properties.get(*name))

@@ -95,15 +95,23 @@ proptest! {
         for (index, byte) in damage {
             *index.get_mut(&mut bytes) = byte;
         }
-        let _ = read_bytes(&bytes, format);
-        let _ = read_bytes(&bytes[..cut.index(bytes.len())], format);
+        let part = &bytes[..cut.index(bytes.len())];
+        for bytes in [&bytes, part] {
+            let _ = read_bytes(bytes, format);
+            let _ = read_bytes_with_loose_features(bytes, format);
+        }
     }
 
     #[test]
     fn a_header_that_claims_anything_never_panics(vertices: u64, faces: u64, count in "char|uchar|short|int|uint|float", number in "char|ushort|int|uint|double", body: Vec<u8>) {
         let vertex = format!("element vertex {vertices}\nproperty char x\nproperty char y\nproperty char z");
+        let edges = format!("element edge {faces}\nproperty {number} vertex1\nproperty {number} vertex2");
         let faces = format!("element face {faces}\nproperty list {count} {number} vertex_index");
-        let _ = read_bytes(&ply_binary(&vertex, &faces, &body), PLY);
+        for element in [faces, edges] {
+            let bytes = ply_binary(&vertex, &element, &body);
+            let _ = read_bytes(&bytes, PLY);
+            let _ = read_bytes_with_loose_features(&bytes, PLY);
+        }
     }
 
     #[test]
@@ -550,4 +558,97 @@ fn a_step_with_a_bad_second_file_names_that_file() {
     write(&start, &triangle()).unwrap();
     let error = read_step(&start, &end).unwrap_err().to_string();
     assert_eq!(error, format!("{}: there is no such file", end.display()));
+}
+
+fn loose(text: &str, format: FileFormat) -> LooseMesh {
+    read_bytes_with_loose_features(text.as_bytes(), format).unwrap()
+}
+
+fn loose_problem(text: &str, format: FileFormat) -> String {
+    let read = read_bytes_with_loose_features(text.as_bytes(), format);
+    read.unwrap_err().to_string()
+}
+
+/// A header and its lines, in text.
+fn ply_of(elements: &str, body: &str) -> String {
+    format!(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n{elements}end_header\n0 0 0\n1 0 0\n0 1 0\n{body}"
+    )
+}
+
+#[test]
+fn edges_and_points_of_no_triangle_are_kept_where_they_are_wanted() {
+    let text = "p -1 4\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 0 0 1\nl 1/7 2 \\\n-1\np 4\n";
+    let text = text.replace("p -1 4\n", "l 4 1\n");
+    let mesh = loose(&text, FileFormat::Obj);
+    assert_eq!(mesh.positions.len(), 4);
+    let expected = [[0, 1, 2], [3, 0, 0], [0, 1, 1], [1, 3, 3], [3, 3, 3]];
+    assert_eq!(mesh.topology.triangles(), expected);
+    assert_eq!(
+        (mesh.topology.statistics().loose_edges, mesh.topology.statistics().points),
+        (3, 1)
+    );
+    // Where triangles are asked for, there are no others.
+    assert_eq!(read_obj(&text).mesh.triangles, [[0, 1, 2]]);
+
+    let edges = "element edge 2\nproperty int vertex1\nproperty uchar weight\nproperty int vertex2\n";
+    let rope = ply_of(edges, "0 9 1\n1 9 2\n");
+    assert_eq!(loose(&rope, PLY).topology.triangles(), [[0, 1, 1], [1, 2, 2]]);
+    let face = "element face 1\nproperty list uchar int vertex_indices\n";
+    let both = ply_of(&format!("{face}{edges}"), "3 0 1 2\n0 9 1\n1 9 2\n");
+    assert_eq!(loose(&both, PLY).topology.triangles(), [[0, 1, 2], [0, 1, 1], [1, 2, 2]]);
+    assert_eq!(read_bytes(both.as_bytes(), PLY).unwrap().mesh.triangles, [[0, 1, 2]]);
+    for elements in ["", "element face 0\nproperty list uchar int vertex_indices\n"] {
+        let cloud = loose(&ply_of(elements, ""), PLY);
+        assert_eq!(cloud.topology.triangles(), [[0, 0, 0], [1, 1, 1], [2, 2, 2]]);
+    }
+    // What `read` makes of all meshes is what this makes of them.
+    for format in FORMATS {
+        let mesh = triangle();
+        let read = read_bytes_with_loose_features(&bytes_of(&mesh, format), format).unwrap();
+        assert_eq!(
+            (read.positions, read.topology),
+            (mesh.positions.clone(), mesh.topology().unwrap())
+        );
+    }
+}
+
+#[test]
+fn edges_and_points_that_are_none_are_errors_that_name_their_line() {
+    let three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (line, expected) in [
+        ("l 1", "line 4: a line needs two vertices or more, but names 1"),
+        (
+            "l 1 4",
+            "line 4: an edge names vertex 4, but there are 3 vertices, numbered from 1",
+        ),
+        (
+            "l 1 0",
+            "line 4: an edge names vertex 0, but there are 3 vertices, numbered from 1",
+        ),
+        (
+            "p -4",
+            "line 4: a point names vertex -4, but there are 3 vertices, numbered from 1",
+        ),
+        ("p x", "line 4: a point names a vertex 'x', which is not a whole number"),
+    ] {
+        let text = format!("{three}{line}\n");
+        assert_eq!(loose_problem(&text, FileFormat::Obj), expected);
+        // Nobody asks for them.
+        assert!(read_bytes(format!("{text}f 1 2 3\n").as_bytes(), FileFormat::Obj).is_ok());
+    }
+    assert_eq!(loose_problem(three, FileFormat::Obj), problem(three, FileFormat::Obj));
+    let edges = |kind: &str| format!("element edge 1\nproperty {kind} vertex1\nproperty int vertex2\n");
+    assert_eq!(
+        loose_problem(&ply_of(&edges("int"), "0 3\n"), PLY),
+        "line 14: 'edge' element 0 names vertex 3, but there are 3 vertices, numbered from 0"
+    );
+    assert_eq!(
+        loose_problem(&ply_of(&edges("int"), "-1 0\n"), PLY),
+        "line 14: 'edge' element 0 names vertex -1, but there are 3 vertices, numbered from 0"
+    );
+    assert_eq!(
+        loose_problem(&ply_of(&edges("float"), "0 1\n"), PLY),
+        "the header declares no integer 'vertex1' for the element 'edge'"
+    );
 }

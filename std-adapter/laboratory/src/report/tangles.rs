@@ -2,7 +2,8 @@
 
 use super::{number, tables};
 use ::csv::Writer;
-use selvedge::{Intersection, Mesh, Topology};
+use selvedge::glam::DVec3;
+use selvedge::{Intersection, Topology};
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -162,10 +163,20 @@ const GREY: [u8; 3] = [200, 200, 200];
 ///
 /// # Errors
 /// Those of `out`.
-pub fn tangle_ply(mesh: &Mesh, topology: &Topology, intersections: &[Intersection], mut out: impl Write) -> io::Result<()> {
+pub fn tangle_ply(
+    positions: &[DVec3],
+    topology: &Topology,
+    intersections: &[Intersection],
+    mut out: impl Write,
+) -> io::Result<()> {
     let triangles = is_tangled(topology, intersections);
-    let mut vertices = vec![GREY; mesh.positions.len()];
-    for (corners, _) in mesh.triangles.iter().zip(&triangles).filter(|(_, is_tangled)| **is_tangled) {
+    let mut vertices = vec![GREY; positions.len()];
+    for (corners, _) in topology
+        .triangles()
+        .iter()
+        .zip(&triangles)
+        .filter(|(_, is_tangled)| **is_tangled)
+    {
         corners.iter().for_each(|&vertex| vertices[vertex as usize] = RED);
     }
     let colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
@@ -177,13 +188,13 @@ pub fn tangle_ply(mesh: &Mesh, topology: &Topology, intersections: &[Intersectio
         vertices.len(),
         triangles.len(),
     )?;
-    for (position, colour) in mesh.positions.iter().zip(vertices) {
+    for (position, colour) in positions.iter().zip(vertices) {
         for coordinate in position.to_array() {
             out.write_all(&coordinate.to_le_bytes())?;
         }
         out.write_all(&colour)?;
     }
-    for (corners, is_tangled) in mesh.triangles.iter().zip(triangles) {
+    for (corners, is_tangled) in topology.triangles().iter().zip(triangles) {
         out.write_all(&[3])?;
         for vertex in corners {
             out.write_all(&vertex.to_le_bytes())?;
