@@ -13,11 +13,13 @@
 //!
 //! All is computed in `f64`. A caller's own path is as good as its bound.
 
+#[cfg(feature = "batch")]
 mod geometry;
 mod impact;
 mod polyline;
 mod rigid;
 
+#[cfg(feature = "batch")]
 pub use geometry::geometry;
 pub use impact::{separation_of_pieces, time_of_impact};
 pub use polyline::Polyline;
