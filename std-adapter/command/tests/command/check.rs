@@ -177,6 +177,10 @@ fn ropes_and_clouds_of_points_are_looked_at() {
     let free = place.stdout(&["check", "beside.obj", "cloud.ply"]);
     assert!(free.contains("free of intersections"), "{free}");
 
+    let json: Value = serde_json::from_str(&place.stdout(&["check", "--json", "beside.obj", "cloud.ply"])).unwrap();
+    let counts = [0, 1].map(|mesh| [&json["meshes"][mesh]["vertices"], &json["meshes"][mesh]["triangles"]]);
+    assert_eq!(counts, [[&json!(6), &json!(1)], [&json!(3), &json!(0)]]);
+
     let arguments = ["check", "through.obj", "twice.ply", "--list", "list.csv", "--ply", "red"];
     let text = tangled(&place, &arguments);
     assert!(text.contains("2 of 2 meshes intersect themselves"), "{text}");

@@ -14,7 +14,7 @@ pub struct Tangle {
     pub name: String,
     /// Its vertices.
     pub vertices: usize,
-    /// Its triangles.
+    /// Its triangles; loose edges and points are none.
     pub triangles: usize,
     /// Whether it is free of intersections.
     pub is_free: bool,
@@ -49,10 +49,13 @@ impl Tangle {
     /// Of a mesh of that name, of which it is known alone whether there is any.
     #[must_use]
     pub fn of_any(name: String, topology: &Topology, is_tangled: bool, seconds: f64) -> Self {
+        // These are faces as well, after the triangles.
+        let statistics = topology.statistics();
+        let loose = statistics.loose_edges + statistics.points;
         Self {
             name,
             vertices: topology.vertex_count(),
-            triangles: topology.triangles().len(),
+            triangles: topology.triangles().len() - loose,
             is_free: !is_tangled,
             intersections: None,
             seconds,
