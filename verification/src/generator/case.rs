@@ -18,6 +18,15 @@ pub struct PairCase<S> {
     pub points: [[[S; 3]; 2]; 4],
 }
 
+/// Which of the two sets one of the four points belongs to, 0 or 1.
+#[must_use]
+pub const fn side_of(kind: PairKind, point: usize) -> usize {
+    match kind {
+        PairKind::VertexFace => (point > 0) as usize,
+        PairKind::EdgeEdge => point / 2,
+    }
+}
+
 impl<S: Format> PairCase<S> {
     /// From the two positions of each point.
     #[must_use]

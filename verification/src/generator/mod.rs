@@ -17,7 +17,7 @@ mod pairs;
 mod screw;
 mod strategy;
 
-pub use case::PairCase;
+pub use case::{PairCase, side_of};
 pub use choices::Choices;
 pub use mesh::MeshCase;
 pub use moment::{Meeting, Moment};

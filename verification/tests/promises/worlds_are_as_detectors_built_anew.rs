@@ -8,6 +8,7 @@ use selvedge::{
     StepError, Threads, Topology, World, WorldContact, WorldContactGeometry, WorldError,
 };
 use selvedge_core::separation::closest::Closest;
+use selvedge_verification::generator::side_of;
 use std::cell::Cell;
 use std::f64::consts::PI;
 
@@ -651,14 +652,6 @@ impl Turn {
         let (sine, cosine) = (-self.angle * time).sin_cos();
         let along = self.axis * self.axis.dot(way);
         self.start.0.inverse() * (along + (way - along) * cosine + self.axis.cross(way) * sine)
-    }
-}
-
-/// Of a corner of a pair.
-fn side_of(kind: PairKind, corner: usize) -> usize {
-    match kind {
-        PairKind::VertexFace => usize::from(corner > 0),
-        PairKind::EdgeEdge => corner / 2,
     }
 }
 

@@ -28,12 +28,12 @@ pub struct WorldHandle {
 pub type Mesh = u64;
 
 /// A world for one format of positions, and where its contacts go first.
-pub(crate) struct Scene<S: Scalar> {
+pub(crate) struct Finder<S: Scalar> {
     world: World<[S; 3]>,
     contacts: Vec<WorldContact<S>>,
 }
 
-impl<S: Scalar> Scene<S> {
+impl<S: Scalar> Finder<S> {
     fn new() -> Self {
         Self {
             world: World::new(),
@@ -42,17 +42,17 @@ impl<S: Scalar> Scene<S> {
     }
 }
 
-pub(crate) enum AnyScene {
-    F32(Scene<f32>),
-    F64(Scene<f64>),
+pub(crate) enum AnyFinder {
+    F32(Finder<f32>),
+    F64(Finder<f64>),
 }
 
 /// Does the same with a world of either format.
 macro_rules! with_either {
-    ($any:expr, $scene:ident => $action:expr) => {
+    ($any:expr, $finder:ident => $action:expr) => {
         match $any {
-            AnyScene::F32($scene) => $action,
-            AnyScene::F64($scene) => $action,
+            AnyFinder::F32($finder) => $action,
+            AnyFinder::F64($finder) => $action,
         }
     };
 }
@@ -60,30 +60,30 @@ use with_either;
 
 /// A format of positions that there are worlds for.
 pub(crate) trait Format: Scalar + Plain {
-    fn of(any: &mut AnyScene) -> Option<&mut Scene<Self>>;
+    fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>>;
 }
 
 impl Format for f32 {
-    fn of(any: &mut AnyScene) -> Option<&mut Scene<Self>> {
+    fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>> {
         match any {
-            AnyScene::F32(scene) => Some(scene),
-            AnyScene::F64(_) => None,
+            AnyFinder::F32(finder) => Some(finder),
+            AnyFinder::F64(_) => None,
         }
     }
 }
 
 impl Format for f64 {
-    fn of(any: &mut AnyScene) -> Option<&mut Scene<Self>> {
+    fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>> {
         match any {
-            AnyScene::F32(_) => None,
-            AnyScene::F64(scene) => Some(scene),
+            AnyFinder::F32(_) => None,
+            AnyFinder::F64(finder) => Some(finder),
         }
     }
 }
 
 /// What a call works on.
-pub(crate) struct Whole {
-    scene: AnyScene,
+pub(crate) struct HandledWorld {
+    finder: AnyFinder,
     answers: Answers,
 }
 
@@ -96,37 +96,37 @@ struct Answers {
     geometries: Vec<WorldGeometryRow>,
 }
 
-impl Handled for Whole {
+impl Handled for HandledWorld {
     type Handle = WorldHandle;
     const NAME: &'static str = "world";
     const NO_SUCH: Status = Status::NoSuchWorld;
 
     fn living() -> &'static Living<Self> {
-        static LIVING: Living<Whole> = Living::new();
+        static LIVING: Living<HandledWorld> = Living::new();
         &LIVING
     }
 
     fn cancellation(&self) -> Cancellation {
-        with_either!(&self.scene, scene => scene.world.cancellation())
+        with_either!(&self.finder, finder => finder.world.cancellation())
     }
 }
 
 /// Does something with a world.
-fn on(handle: *const WorldHandle, action: impl FnOnce(&mut Whole) -> Result<(), Failure>) -> Status {
-    handles::on(handle, |_, whole| action(whole))
+fn on(handle: *const WorldHandle, action: impl FnOnce(&mut HandledWorld) -> Result<(), Failure>) -> Status {
+    handles::on(handle, |_, world| action(world))
 }
 
 /// Does something with a world for positions of this format.
 fn on_format<S: Format>(
     handle: *const WorldHandle,
-    action: impl FnOnce(&mut Scene<S>, &mut Answers) -> Result<(), Failure>,
+    action: impl FnOnce(&mut Finder<S>, &mut Answers) -> Result<(), Failure>,
 ) -> Status {
     on(handle, |it| {
-        let Some(scene) = S::of(&mut it.scene) else {
+        let Some(finder) = S::of(&mut it.finder) else {
             let text = format!("the world is not for positions in {}", S::NAME);
             return Err(Failure::new(Status::WrongScalar, text));
         };
-        action(scene, &mut it.answers)
+        action(finder, &mut it.answers)
     })
 }
 
@@ -147,13 +147,13 @@ pub unsafe extern "C" fn selvedge_world_new(scalar: u32, world: *mut *mut WorldH
     guarded(|| {
         // SAFETY: the caller's promise.
         let out = unsafe { Out::new("where the world goes", world) }?;
-        let scene = match scalar {
-            number if number == ScalarFormat::F32 as u32 => AnyScene::F32(Scene::new()),
-            number if number == ScalarFormat::F64 as u32 => AnyScene::F64(Scene::new()),
+        let finder = match scalar {
+            number if number == ScalarFormat::F32 as u32 => AnyFinder::F32(Finder::new()),
+            number if number == ScalarFormat::F64 as u32 => AnyFinder::F64(Finder::new()),
             number => return Err(unknown("selvedge_scalar", number)),
         };
-        out.set(handles::keep(Whole {
-            scene,
+        out.set(handles::keep(HandledWorld {
+            finder,
             answers: Answers::default(),
         })?);
         Ok(())
@@ -163,21 +163,21 @@ pub unsafe extern "C" fn selvedge_world_new(scalar: u32, world: *mut *mut WorldH
 /// Frees a world, its meshes and all that it has shown. NULL is well. One that another thread is using goes when that call has ended.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_free(world: *mut WorldHandle) -> Status {
-    handles::free::<Whole>(world)
+    handles::free::<HandledWorld>(world)
 }
 
 /// As selvedge_detector_set_cancelled, for a world. A step that is cut short has begun: what was to move rests where it would have
 /// ended unless it is told to move again.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_set_cancelled(world: *mut WorldHandle, cancelled: i32) -> Status {
-    handles::set_cancelled::<Whole>(world, cancelled)
+    handles::set_cancelled::<HandledWorld>(world, cancelled)
 }
 
 /// How many threads steps are split between, as of a detector.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_set_threads(world: *mut WorldHandle, count: usize) -> Status {
-    handles::on::<Whole>(world, |kept, it| {
-        with_either!(&mut it.scene, scene => scene.world.set_threads(Threads::from_count(count)))?;
+    handles::on::<HandledWorld>(world, |kept, it| {
+        with_either!(&mut it.finder, finder => finder.world.set_threads(Threads::from_count(count)))?;
         kept.set_has_threads(count != 1);
         Ok(())
     })
@@ -188,9 +188,9 @@ pub extern "C" fn selvedge_world_set_threads(world: *mut WorldHandle, count: usi
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_set_within(world: *mut WorldHandle, separation: f64, tolerance: f64) -> Status {
     on(world, |it| {
-        with_either!(&mut it.scene, scene => {
+        with_either!(&mut it.finder, finder => {
             let (separation, tolerance) = (length(separation)?, length(tolerance)?);
-            scene.world.set_criterion(Criterion::Within(Limits { tolerance, separation }))?;
+            finder.world.set_criterion(Criterion::Within(Limits { tolerance, separation }))?;
         });
         Ok(())
     })
@@ -200,9 +200,9 @@ pub extern "C" fn selvedge_world_set_within(world: *mut WorldHandle, separation:
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_set_touching(world: *mut WorldHandle, tolerance: f64) -> Status {
     on(world, |it| {
-        with_either!(&mut it.scene, scene => {
+        with_either!(&mut it.finder, finder => {
             let tolerance = length(tolerance)?;
-            scene.world.set_criterion(Criterion::Touching { tolerance })?;
+            finder.world.set_criterion(Criterion::Touching { tolerance })?;
         });
         Ok(())
     })
@@ -213,7 +213,7 @@ pub extern "C" fn selvedge_world_set_touching(world: *mut WorldHandle, tolerance
 pub extern "C" fn selvedge_world_set_pair_limit(world: *mut WorldHandle, limit: u64) -> Status {
     on(world, |it| {
         let limit = Some(limit).filter(|&limit| limit != u64::MAX);
-        with_either!(&mut it.scene, scene => scene.world.set_pair_limit(limit));
+        with_either!(&mut it.finder, finder => finder.world.set_pair_limit(limit));
         Ok(())
     })
 }
@@ -231,7 +231,7 @@ impl<S: Format> Inserted<S> {
     /// # Safety
     /// As selvedge_world_insert_f64.
     unsafe fn into(self, world: *mut WorldHandle) -> Status {
-        on_format::<S>(world, |scene, _| {
+        on_format::<S>(world, |finder, _| {
             let (triangles, count) = self.triangles;
             // SAFETY: the caller's promises.
             let (out, topology, positions, groups) = unsafe {
@@ -242,7 +242,7 @@ impl<S: Format> Inserted<S> {
                     groups_at(self.groups)?,
                 )
             };
-            let handle = scene.world.insert(topology, positions, groups)?;
+            let handle = finder.world.insert(topology, positions, groups)?;
             out.set(handle.to_bits());
             Ok(())
         })
@@ -324,7 +324,7 @@ pub unsafe extern "C" fn selvedge_world_insert_f32(
 pub extern "C" fn selvedge_world_remove(world: *mut WorldHandle, mesh: Mesh) -> Status {
     on(world, |it| {
         let mesh = self::mesh(mesh)?;
-        Ok(with_either!(&mut it.scene, scene => scene.world.remove(mesh))?)
+        Ok(with_either!(&mut it.finder, finder => finder.world.remove(mesh))?)
     })
 }
 
@@ -338,7 +338,7 @@ pub unsafe extern "C" fn selvedge_world_set_groups(world: *mut WorldHandle, mesh
         // SAFETY: the caller's promise.
         let groups = unsafe { groups_at(groups) }?;
         let mesh = self::mesh(mesh)?;
-        Ok(with_either!(&mut it.scene, scene => scene.world.set_groups(mesh, groups))?)
+        Ok(with_either!(&mut it.finder, finder => finder.world.set_groups(mesh, groups))?)
     })
 }
 
@@ -359,7 +359,7 @@ pub unsafe extern "C" fn selvedge_world_edges(
         // SAFETY: the caller's promise.
         let out = unsafe { OutList::new("edges", edges, count) }?;
         let mesh = self::mesh(mesh)?;
-        let topology: Result<_, WorldError> = with_either!(&it.scene, scene => scene.world.topology(mesh));
+        let topology: Result<_, WorldError> = with_either!(&it.finder, finder => finder.world.topology(mesh));
         out.set_pairs(topology?.edges());
         Ok(())
     })

@@ -1,6 +1,6 @@
 //! What a world can be asked of a step: thin functions for each format over one that is generic.
 
-use super::{Answers, AnyScene, Format, Mesh, Scene, Whole, WorldHandle, mesh, on, on_format, with_either};
+use super::{Answers, AnyFinder, Finder, Format, HandledWorld, Mesh, WorldHandle, mesh, on, on_format, with_either};
 use crate::answers::{ContactRow, GeometryRow, Kind};
 use crate::input::{Out, OutList, Plain, view};
 use crate::status::{Failure, Status};
@@ -80,18 +80,13 @@ pub struct WorldContactRow {
 
 impl WorldContactRow {
     fn new<S: Scalar>(contact: &WorldContact<S>, world: &World<[S; 3]>) -> Self {
-        let &WorldContact {
-            kind,
-            meshes,
-            pair,
-            time,
-        } = contact;
         Self {
-            meshes: meshes.map(MeshHandle::to_bits),
+            meshes: contact.meshes.map(MeshHandle::to_bits),
             contact: ContactRow {
-                time: time.to_f64(),
-                kind: Kind::from(kind) as u32,
-                pair: pair.into(),
+                time: contact.time.to_f64(),
+                kind: Kind::from(contact.kind) as u32,
+                pair: contact.pair.into(),
+                // The world's own contact: they are there.
                 vertices: world.vertices_of(contact).unwrap_or_default(),
             },
         }
@@ -160,18 +155,22 @@ struct Asked<D> {
 }
 
 impl<D> Asked<D> {
+    const fn new(world: *mut WorldHandle, deforming: (*const D, usize), rigid: (*const Rigid, usize)) -> Self {
+        Self { world, deforming, rigid }
+    }
+
     /// Puts the question, with the motions.
     ///
     /// # Safety
     /// As selvedge_world_contacts_f64.
     unsafe fn ask<S: Format>(
         self,
-        question: impl FnOnce(&mut Scene<S>, &mut Answers, &[(MeshHandle, MeshMotion<'_, [S; 3]>)]) -> Result<(), Failure>,
+        question: impl FnOnce(&mut Finder<S>, &mut Answers, &[(MeshHandle, MeshMotion<'_, [S; 3]>)]) -> Result<(), Failure>,
     ) -> Status
     where
         D: Deforming<S>,
     {
-        on_format::<S>(self.world, |scene, answers| {
+        on_format::<S>(self.world, |finder, answers| {
             // SAFETY: the caller's promises.
             let (deforming, rigid) = unsafe {
                 (
@@ -183,7 +182,7 @@ impl<D> Asked<D> {
             for [row] in deforming {
                 let (bits, [start, end], count) = row.parts();
                 let mesh = mesh(bits)?;
-                let expected = scene.world.topology(mesh)?.vertex_count();
+                let expected = finder.world.topology(mesh)?.vertex_count();
                 if count != expected {
                     // Before one of them is looked at.
                     let (frame, found) = (Frame::Start, count);
@@ -198,7 +197,7 @@ impl<D> Asked<D> {
                 let [start, end] = [row.start, row.end].map(|pose| (DQuat::from_array(pose.rotation), DVec3::from(pose.origin)));
                 motions.push((mesh(row.mesh)?, MeshMotion::Rigid { start, end }));
             }
-            question(scene, answers, &motions)
+            question(finder, answers, &motions)
         })
     }
 }
@@ -210,14 +209,14 @@ unsafe fn find_contacts<S: Format, D: Deforming<S>>(
 ) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask::<S>(|scene, answers, motions| {
+        asked.ask::<S>(|finder, answers, motions| {
             let out = OutList::new("contacts", contacts, count)?;
-            scene.world.contacts(motions, &mut scene.contacts)?;
+            finder.world.contacts(motions, &mut finder.contacts)?;
             answers.contacts.clear();
-            let rows = scene
+            let rows = finder
                 .contacts
                 .iter()
-                .map(|contact| WorldContactRow::new(contact, &scene.world));
+                .map(|contact| WorldContactRow::new(contact, &finder.world));
             answers.contacts.extend(rows);
             out.set(&answers.contacts);
             Ok(())
@@ -228,12 +227,12 @@ unsafe fn find_contacts<S: Format, D: Deforming<S>>(
 unsafe fn find_earliest<S: Format, D: Deforming<S>>(asked: Asked<D>, found: *mut bool, contact: *mut WorldContactRow) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask::<S>(|scene, _, motions| {
+        asked.ask::<S>(|finder, _, motions| {
             let (found, out) = (Out::new("found", found)?, Out::new("contact", contact)?);
-            let earliest = scene.world.earliest(motions)?;
+            let earliest = finder.world.earliest(motions)?;
             found.set(earliest.is_some());
             if let Some(earliest) = earliest {
-                out.set(WorldContactRow::new(&earliest, &scene.world));
+                out.set(WorldContactRow::new(&earliest, &finder.world));
             }
             Ok(())
         })
@@ -243,9 +242,9 @@ unsafe fn find_earliest<S: Format, D: Deforming<S>>(asked: Asked<D>, found: *mut
 unsafe fn tell_free<S: Format, D: Deforming<S>>(asked: Asked<D>, is_free: *mut bool) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
-        asked.ask::<S>(|scene, _, motions| {
+        asked.ask::<S>(|finder, _, motions| {
             let out = Out::new("is_free", is_free)?;
-            out.set(scene.world.is_free(motions)?);
+            out.set(finder.world.is_free(motions)?);
             Ok(())
         })
     }
@@ -270,11 +269,7 @@ pub unsafe extern "C" fn selvedge_world_contacts_f64(
     contacts: *mut *const WorldContactRow,
     count: *mut usize,
 ) -> Status {
-    let asked = Asked {
-        world,
-        deforming: (deforming, deforming_count),
-        rigid: (rigid, rigid_count),
-    };
+    let asked = Asked::new(world, (deforming, deforming_count), (rigid, rigid_count));
     // SAFETY: the caller's promises.
     unsafe { find_contacts::<f64, _>(asked, contacts, count) }
 }
@@ -293,11 +288,7 @@ pub unsafe extern "C" fn selvedge_world_contacts_f32(
     contacts: *mut *const WorldContactRow,
     count: *mut usize,
 ) -> Status {
-    let asked = Asked {
-        world,
-        deforming: (deforming, deforming_count),
-        rigid: (rigid, rigid_count),
-    };
+    let asked = Asked::new(world, (deforming, deforming_count), (rigid, rigid_count));
     // SAFETY: the caller's promises.
     unsafe { find_contacts::<f32, _>(asked, contacts, count) }
 }
@@ -317,11 +308,7 @@ pub unsafe extern "C" fn selvedge_world_earliest_f64(
     found: *mut bool,
     contact: *mut WorldContactRow,
 ) -> Status {
-    let asked = Asked {
-        world,
-        deforming: (deforming, deforming_count),
-        rigid: (rigid, rigid_count),
-    };
+    let asked = Asked::new(world, (deforming, deforming_count), (rigid, rigid_count));
     // SAFETY: the caller's promises.
     unsafe { find_earliest::<f64, _>(asked, found, contact) }
 }
@@ -340,11 +327,7 @@ pub unsafe extern "C" fn selvedge_world_earliest_f32(
     found: *mut bool,
     contact: *mut WorldContactRow,
 ) -> Status {
-    let asked = Asked {
-        world,
-        deforming: (deforming, deforming_count),
-        rigid: (rigid, rigid_count),
-    };
+    let asked = Asked::new(world, (deforming, deforming_count), (rigid, rigid_count));
     // SAFETY: the caller's promises.
     unsafe { find_earliest::<f32, _>(asked, found, contact) }
 }
@@ -362,11 +345,7 @@ pub unsafe extern "C" fn selvedge_world_is_free_f64(
     rigid_count: usize,
     is_free: *mut bool,
 ) -> Status {
-    let asked = Asked {
-        world,
-        deforming: (deforming, deforming_count),
-        rigid: (rigid, rigid_count),
-    };
+    let asked = Asked::new(world, (deforming, deforming_count), (rigid, rigid_count));
     // SAFETY: the caller's promises.
     unsafe { tell_free::<f64, _>(asked, is_free) }
 }
@@ -384,17 +363,13 @@ pub unsafe extern "C" fn selvedge_world_is_free_f32(
     rigid_count: usize,
     is_free: *mut bool,
 ) -> Status {
-    let asked = Asked {
-        world,
-        deforming: (deforming, deforming_count),
-        rigid: (rigid, rigid_count),
-    };
+    let asked = Asked::new(world, (deforming, deforming_count), (rigid, rigid_count));
     // SAFETY: the caller's promises.
     unsafe { tell_free::<f32, _>(asked, is_free) }
 }
 
 unsafe fn find_geometries<S: Format>(
-    scene: &Scene<S>,
+    finder: &Finder<S>,
     answers: &mut Answers,
     contacts: (*const WorldContactRow, usize),
 ) -> Result<(), Failure> {
@@ -402,7 +377,7 @@ unsafe fn find_geometries<S: Format>(
     let rows = unsafe { view::<_, 1>("contacts", contacts.0, contacts.1) }?;
     let given = rows.iter().map(|[row]| row.contact());
     let given: Vec<WorldContact<S>> = given.collect::<Result<_, _>>()?;
-    scene.world.contact_geometries(&given, &mut answers.found_geometries)?;
+    finder.world.contact_geometries(&given, &mut answers.found_geometries)?;
     Ok(())
 }
 
@@ -424,9 +399,9 @@ pub unsafe extern "C" fn selvedge_world_contact_geometries(
     on(world, |it| {
         // SAFETY: the caller's promises.
         let out = unsafe { OutList::new("geometries", geometries, count) }?;
-        let Whole { scene, answers } = it;
+        let HandledWorld { finder, answers } = it;
         // SAFETY: the caller's promises.
-        with_either!(scene, scene => unsafe { find_geometries(scene, answers, (contacts, contact_count)) })?;
+        with_either!(finder, finder => unsafe { find_geometries(finder, answers, (contacts, contact_count)) })?;
         answers.geometries.clear();
         answers
             .geometries

@@ -84,22 +84,18 @@ impl<P: Position> World<P> {
     /// # Errors
     /// If a mesh is not there any more, the pair is none of the two, or the time is not in [0, 1].
     pub fn contact_geometry(&self, contact: &WorldContact<P::Scalar>) -> Result<WorldContactGeometry, WorldError> {
-        let &WorldContact {
-            kind,
-            meshes,
-            pair,
-            time,
-        } = contact;
-        let (vertices, ways) = self.pair_of(contact)?;
-        let time = time.to_f64();
+        let vertices = self.vertices_in_step(contact)?;
+        let &WorldContact { kind, meshes, pair, .. } = contact;
+        let [first, second] = meshes.map(|mesh| self.mesh(mesh));
+        let both = [first?, second?];
+        let turning = both.map(|mesh| mesh.moves.turning());
+        let ways = ways(both.map(|mesh| &mesh.hierarchies), &turning, kind, vertices);
+        let time = contact.time.to_f64();
         let geometry = match ways.each_ref().map(Way::straight) {
-            [Some(a), Some(b), Some(c), Some(d)] => geometry(
-                &PrimitivePair {
-                    kind,
-                    motions: [a, b, c, d],
-                },
-                time,
-            ),
+            [Some(a), Some(b), Some(c), Some(d)] => {
+                let motions = [a, b, c, d];
+                geometry(&PrimitivePair { kind, motions }, time)
+            }
             _ => paths::geometry(kind, ways.each_ref().map(|way| way as &dyn Path), time),
         };
         Ok(WorldContactGeometry {
@@ -133,32 +129,21 @@ impl<P: Position> World<P> {
         contacts: &[WorldContact<P::Scalar>],
         geometries: &mut Vec<WorldContactGeometry>,
     ) -> Result<(), WorldError> {
-        let is_known = |contact| self.pair_of(contact).map(drop);
-        contacts.iter().try_for_each(is_known)?;
+        contacts
+            .iter()
+            .try_for_each(|contact| self.vertices_in_step(contact).map(drop))?;
         let known = |contact: &WorldContact<P::Scalar>| self.contact_geometry(contact).expect("looked at above");
         self.workers.run(|| parallel::fill(geometries, contacts, known));
         Ok(())
     }
 
-    /// The vertices of a contact and their ways, if it is in order.
-    fn pair_of(&self, contact: &WorldContact<P::Scalar>) -> Result<([u32; 4], [Way; 4]), WorldError> {
-        let &WorldContact {
-            kind,
-            meshes,
-            pair,
-            time,
-        } = contact;
+    /// The vertices of a contact, if its time is one of the step as well.
+    fn vertices_in_step(&self, contact: &WorldContact<P::Scalar>) -> Result<[u32; 4], WorldError> {
         let vertices = self.vertices_of(contact)?;
-        let time = time.to_f64();
+        let time = contact.time.to_f64();
         if !(0.0..=1.0).contains(&time) {
             return Err(StepError::BadTime { time }.into());
         }
-        let [first, second] = meshes.map(|mesh| self.mesh(mesh));
-        let meshes = [first?, second?];
-        let hierarchies = meshes.map(|mesh| &mesh.hierarchies);
-        let motions = meshes.map(|mesh| mesh.moves.turning());
-        let ways = ways(hierarchies, &motions, kind, vertices);
-        ways.map(|ways| (vertices, ways))
-            .ok_or(WorldError::Step(StepError::NoSuchPair { kind, pair }))
+        Ok(vertices)
     }
 }

@@ -229,12 +229,11 @@ fn time_on_paths(
     limits: &Limits<f64>,
     contact: &Contact<f64>,
 ) -> Option<f64> {
-    let vertices = vertices_of(pairing.meshes, contact.kind, contact.pair);
-    let ways = vertices.and_then(|vertices| ways(pairing.meshes, motions, contact.kind, vertices));
-    let Some(ways) = ways else {
+    let Some(vertices) = vertices_of(pairing.meshes, contact.kind, contact.pair) else {
         // Not one of these meshes' pairs, so that nothing is known of it.
         return Some(0.0);
     };
+    let ways = ways(pairing.meshes, motions, contact.kind, vertices);
     let time = time_of_impact(contact.kind, ways.each_ref().map(|way| way as &dyn Path), limits).time();
     // Neither is after the exact time. A pair is left out by its time on pieces: one that is told a rounding earlier would be told or not by
     // who was first.

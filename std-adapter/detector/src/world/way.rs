@@ -36,13 +36,15 @@ impl Path for Way {
     }
 }
 
-/// The vertices of a pair, of which the first primitive is of the first mesh, and the second of the second; `None` if there is no such pair.
+/// The vertices of a pair, of which the first primitive is of the first mesh, and the second of the second; `None` if there is no such pair, or
+/// the vertex is of no primitive, and so not known to the hierarchies.
 pub(super) fn vertices_of([first, second]: [&Hierarchies; 2], kind: PairKind, pair: [u32; 2]) -> Option<[u32; 4]> {
     let index = pair[1] as usize;
     match kind {
         PairKind::VertexFace => {
             let &[a, b, c] = second.topology().triangles().get(index)?;
-            ((pair[0] as usize) < first.topology().vertex_count()).then_some([pair[0], a, b, c])
+            first.motion_of(pair[0] as usize)?;
+            Some([pair[0], a, b, c])
         }
         PairKind::EdgeEdge => {
             let &[a, b] = first.topology().edges().get(pair[0] as usize)?;
@@ -52,18 +54,18 @@ pub(super) fn vertices_of([first, second]: [&Hierarchies; 2], kind: PairKind, pa
     }
 }
 
-/// The ways of such a pair's vertices, on arcs where their mesh turns; `None` if a vertex is of no primitive.
+/// The ways of [such a pair's vertices](vertices_of), on arcs where their mesh turns.
 pub(super) fn ways(
     meshes: [&Hierarchies; 2],
     motions: &[Option<RigidMotion>; 2],
     kind: PairKind,
     [a, b, c, d]: [u32; 4],
-) -> Option<[Way; 4]> {
+) -> [Way; 4] {
     let way = |side: usize, vertex: u32| {
-        let straight = meshes[side].motion_of(vertex as usize)?;
+        let straight = meshes[side].motion_of(vertex as usize).unwrap_or_default();
         // Of the arcs whose pieces the boxes and the sweeps had: an arc is at its start without rounding.
-        Some(motions[side].map_or(Way::Straight(straight), |motion| Way::Arc(motion.path(straight.start))))
+        motions[side].map_or(Way::Straight(straight), |motion| Way::Arc(motion.path(straight.start)))
     };
     let second = usize::from(kind == PairKind::VertexFace);
-    Some([way(0, a)?, way(second, b)?, way(1, c)?, way(1, d)?])
+    [way(0, a), way(second, b), way(1, c), way(1, d)]
 }

@@ -1,7 +1,7 @@
 //! Two bodies in screw motion, and a set of points on each that meet at a known time but for rounding.
 
 use super::interval::Interval;
-use crate::generator::{Choices, Screw, vector};
+use crate::generator::{Choices, Screw, side_of, vector};
 use selvedge_core::PairKind;
 use selvedge_core::elementary::Limits;
 use selvedge_core::glam::DVec3;
@@ -100,7 +100,7 @@ pub(super) struct Case {
 }
 
 impl Case {
-    /// `None` where rounding leaves no distance to speak of, compared with the bodies.
+    /// `None` where rounding leaves the two sets apart by more than a billionth of the coordinates.
     pub(super) fn choose(choices: &mut Choices<'_>) -> Option<Self> {
         let kind = choices.pick(&[PairKind::VertexFace, PairKind::EdgeEdge]);
         let screws = [Screw::choose(&ANGLES, choices), Screw::choose(&ANGLES, choices)];
@@ -131,10 +131,7 @@ impl Case {
                 [a, b, second, second + way]
             }
         };
-        let side = |corner: usize| match kind {
-            PairKind::VertexFace => usize::from(corner > 0),
-            PairKind::EdgeEdge => corner / 2,
-        };
+        let side = |corner: usize| side_of(kind, corner);
         let corners = [0, 1, 2, 3];
         let starts = corners.map(|corner| start_of(&screws[side(corner)], places[corner], time));
         if !starts.iter().all(|start| start.is_finite()) {
@@ -170,13 +167,7 @@ impl Case {
     }
 
     fn arcs(&self) -> [Arc; 4] {
-        [0, 1, 2, 3].map(|corner| {
-            let side = match self.kind {
-                PairKind::VertexFace => usize::from(corner > 0),
-                PairKind::EdgeEdge => corner / 2,
-            };
-            self.screws[side].motion().path(self.starts[corner])
-        })
+        [0, 1, 2, 3].map(|corner| self.screws[side_of(self.kind, corner)].motion().path(self.starts[corner]))
     }
 
     /// When core says that the two may first be as near as they certainly are at [`time`](Self::time): on their arcs, or on the chords
