@@ -10,13 +10,13 @@
 #    less than what it is compared with, so at most 1.001 of the larger.
 
 levels = 12;
-of_size = 32; #! core/src/filter/subdivided.rs: let roundoff = S::small(32) * S::UNIT_ROUNDOFF;
+of_size = 32; #! core/src/filter/subdivided.rs: let bound = error + roundoffs(size, 32) * size + constant(L::Scalar::UNDERFLOW);
 outer = 16;
-of_coordinates = 12; #~ core/src/filter/subdivided.rs: let roundoff = S::small(12) * S::UNIT_ROUNDOFF * start.abs().larger(end.abs());
-#~ core/src/filter/subdivided.rs: volume_bound: error + roundoff * size + S::UNDERFLOW + clearance,
-#~ core/src/filter/subdivided.rs: let mean = |a: S, b: S| S::HALF * (a + b);
-#~ core/src/filter/subdivided.rs: let value = (S::ONE - time) * start + time * end;
-#~ core/src/filter/subdivided.rs: let bound = roundoff + self.separation + S::UNDERFLOW;
+of_coordinates = 12; #~ core/src/filter/subdivided.rs: let roundoff = roundoffs(start, 12) * start.abs().larger(end.abs());
+#~ core/src/filter/subdivided.rs: Some(separation) => bound + three * (separation * tetrahedron.largest_normal(P::KIND)),
+#~ core/src/filter/subdivided.rs: let mean = |a: L, b: L| a.splat(L::Scalar::HALF) * (a + b);
+#~ core/src/filter/subdivided.rs: let at = |time: L| (time.splat(L::Scalar::ONE) - time) * start + time * end;
+#~ core/src/filter/subdivided.rs: Some(separation) => roundoff + separation,
 eta = 1b@eta@;
 lambda = 1b@lambda@;
 

@@ -32,7 +32,7 @@ Record reasonable f : Prop := {
   tiny : (underflow f <= -60)%Z;
   apart : (least_exponent f + precision f - 1 + 40 <= - precision f)%Z;
   edges : (0 <= largest_edge f)%Z;
-  room : (3 * largest_edge f + 32 <= greatest_exponent f)%Z }.
+  room : (3 * largest_edge f + 38 <= greatest_exponent f)%Z }.
 
 Section Operations.
 Variable f : format.

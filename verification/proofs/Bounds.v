@@ -5,6 +5,9 @@ Open Scope R_scope.
 
 Section Polynomials.
 Variable f : format.
+Context {component : Type}.
+Notation expr := (expr_of component).
+Implicit Types e : expr.
 Hypothesis ok : reasonable f.
 Let e1 := eps f.
 Let l := lam f.
@@ -154,7 +157,7 @@ End Exactly.
 Lemma counts_real e : 1 <= IZR (monomials e) /\ 0 <= IZR (of_steps e) /\ 0 <= IZR (of_differences e).
 Proof. pose proof (counts_pos e). repeat split; apply IZR_le; lia. Qed.
 
-Lemma steps_bounded a : polynomial a = true ->
+Lemma steps_bounded (a : expr) : polynomial a = true ->
   (of_steps a <= 4096)%Z /\ (monomials a <= 64)%Z /\ (depth a <= 16)%nat /\ (of_differences a <= 4096)%Z.
 Proof. intro h. destruct a; parts h; auto. Qed.
 
@@ -170,7 +173,7 @@ Theorem error_of_differences computed exactly :
     (q (degree e) - 1) * permanent computed e + l * IZR (of_differences e) * m ^ pred (degree e).
 Proof.
   intros small off e. pose proof l_pos as l0. pose proof m1.
-  assert (sums : forall a b (op : R -> R -> R), (op = Rplus \/ op = Rminus) -> (Nat.max (degree a) (degree b) <= 16)%nat ->
+  assert (sums : forall (a b : expr) (op : R -> R -> R), (op = Rplus \/ op = Rminus) -> (Nat.max (degree a) (degree b) <= 16)%nat ->
     Rabs (exact exactly a - exact computed a) <= (q (degree a) - 1) * permanent computed a + l * IZR (of_differences a) * m ^ pred (degree a) ->
     Rabs (exact exactly b - exact computed b) <= (q (degree b) - 1) * permanent computed b + l * IZR (of_differences b) * m ^ pred (degree b) ->
     Rabs (op (exact exactly a) (exact exactly b) - op (exact computed a) (exact computed b)) <=
@@ -234,14 +237,14 @@ Qed.
 Variables from to : component -> R.
 Variable value_of : expr -> value.
 Hypothesis run : execution f from to value_of.
-Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= power (largest_edge f).
+Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= reach f.
 Notation val := (val value_of).
 Definition computed c := val (Difference c).
 Hypothesis computed_m : forall c, Rabs (computed c) <= m.
 Notation E := (exact computed).
 Notation p := (permanent computed).
 
-Lemma operand a x a_exact n w M : counts_as f (val a) x -> 1 <= M -> Rabs (val a - a_exact) <= (q n - 1) * p a + l * w * M ->
+Lemma operand (a : expr) x a_exact n w M : counts_as f (val a) x -> 1 <= M -> Rabs (val a - a_exact) <= (q n - 1) * p a + l * w * M ->
   Rabs (x - a_exact) <= (q n - 1) * p a + l * (w + 1) * M.
 Proof.
   intros c M1 d. apply counts_error in c. fold l in c. pose proof l_pos.
@@ -252,7 +255,7 @@ Qed.
 Definition within e := Rabs (val e - E e) <= (q (depth e) - 1) * p e + l * IZR (of_steps e) * m ^ pred (degree e).
 
 (* A sum before its rounding. *)
-Lemma sum_before_rounding a b x y (op : R -> R -> R) : op = Rplus \/ op = Rminus ->
+Lemma sum_before_rounding (a : expr) b x y (op : R -> R -> R) : op = Rplus \/ op = Rminus ->
   counts_as f (val a) x -> counts_as f (val b) y -> within a -> within b ->
   Rabs (op x y - op (E a) (E b)) <= (q (Nat.max (depth a) (depth b)) - 1) * (p a + p b)
     + l * ((IZR (of_steps a) + 1 + (IZR (of_steps b) + 1)) * m ^ pred (Nat.max (degree a) (degree b))).

@@ -6,11 +6,14 @@ Open Scope R_scope.
 
 Section Decisions.
 Variable f : format.
+Context {component : Type} {known : Distinguished component}.
+Notation expr := (expr_of component).
+Implicit Types e a b : expr.
 Hypothesis ok : reasonable f.
 Variables from to : component -> R.
 Variable value_of : expr -> value.
 Hypothesis run : execution f from to value_of.
-Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= power (largest_edge f).
+Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= reach f.
 Notation val := (val value_of).
 Notation d := (computed value_of).
 Notation D := (exactly from to).
@@ -39,6 +42,10 @@ Lemma fits_product a b : fits (Product a b) = true -> fits a = true /\ fits b = 
 Proof. apply fits_parts. auto. Qed.
 Lemma fits_sum a b : fits (Sum a b) = true -> fits a = true /\ fits b = true.
 Proof. apply fits_parts. auto. Qed.
+Lemma fits_larger a b : fits (Larger a b) = true -> fits a = true /\ fits b = true.
+Proof. apply fits_parts. auto. Qed.
+Lemma fits_smaller a b : fits (Smaller a b) = true -> fits a = true /\ fits b = true.
+Proof. apply fits_parts. auto. Qed.
 Lemma constant c : val (Constant c) = constant_value f c.
 Proof. unfold Errors.val. pose proof (run (Constant c)) as v. simpl in v. now rewrite v. Qed.
 Lemma eta_large : 512 * l <= power (Arithmetic.underflow f).
@@ -52,7 +59,7 @@ Qed.
 Lemma u_small : u <= / 16777216. Proof. pose proof e_small. pose proof (eps_twice f). lra. Qed.
 
 Definition more := Sum M (Constant (Small 1)).
-Definition margin := Product (Product more more) (Constant Underflow).
+Definition margin : expr := Product (Product more more) (Constant Underflow).
 Lemma rounds_below' z r : rounds f z r -> 0 <= z -> (1 - e1) * z - l <= r.
 Proof. exact (rounds_below f ok z r). Qed.
 Lemma margin_large : fits margin = true -> 510 * l * m ^ 2 <= val margin.
@@ -84,7 +91,7 @@ Proof.
 Qed.
 
 (* A bound: a constant number of roundoffs times a size, and the margin. *)
-Definition roundoffs n size_ := Product (Product (Constant UnitRoundoff) (Constant (Small n))) size_.
+Definition roundoffs n (size_ : expr) := Product (Product (Constant UnitRoundoff) (Constant (Small n))) size_.
 Lemma roundoffs_large n size_ t : fits (roundoffs n size_) = true -> (1 <= n <= 100)%Z -> 0 <= t ->
   (1 - sigma) * t - 400 * l * m ^ 2 <= val size_ ->
   (1 - 2 * sigma) * (IZR n * u) * t - 3 * l * m ^ 2 <= val (roundoffs n size_).
@@ -153,17 +160,17 @@ Proof.
   lra.
 Qed.
 
-(* The sign of a control value, a sum, from a bound. *)
+(* How near a control value, a sum, is to the exact one before its last rounding; and its sign, from a bound. *)
 Definition losses a b := (of_steps a + 1 + (of_steps b + 1) + of_differences (Sum a b))%Z.
-Theorem sign a b bound n : polynomial (Sum a b) = true -> signed (Sum a b) = true -> fits (Sum a b) = true ->
-  degree (Sum a b) = 3%nat -> (depth a <= n)%nat -> (depth b <= n)%nat -> representable f bound -> 0 <= bound ->
-  (q f n + q f 3 - 2) * permanent d (Sum a b) + l * IZR (losses a b) * m ^ 2 <= bound ->
-  (bound < val (Sum a b) -> 0 < exact D (Sum a b)) /\ (val (Sum a b) < - bound -> exact D (Sum a b) < 0).
+Theorem near a b n : polynomial (Sum a b) = true -> signed (Sum a b) = true -> fits (Sum a b) = true ->
+  degree (Sum a b) = 3%nat -> (depth a <= n)%nat -> (depth b <= n)%nat ->
+  exists z, rounds f z (val (Sum a b)) /\
+    Rabs (z - exact D (Sum a b)) <= (q f n + q f 3 - 2) * permanent d (Sum a b) + l * IZR (losses a b) * m ^ 2.
 Proof.
-  intros poly sig fit deg da db rep pos enough.
+  intros poly sig fit deg da db.
   destruct (fits_parts a b (Sum a b) ltac:(auto) fit) as [fa fb]. pose proof poly as h. cbn [polynomial] in h.
   apply andb_prop in h as [_ h]. apply andb_prop in h as [pa pb].
-  destruct (step_of _ fit) as (x & y & cx & cy & rounded).
+  destruct (step_of _ fit) as (x & y & cx & cy & rounded). exists (x + y). split; [exact rounded|].
   pose proof (error_of_steps f ok m m1 from to value_of run in_range d_m a pa fa) as wa.
   pose proof (error_of_steps f ok m m1 from to value_of run in_range d_m b pb fb) as wb.
   pose proof (sum_before_rounding f m m1 value_of a b x y Rplus ltac:(auto) cx cy wa wb) as S_.
@@ -173,16 +180,14 @@ Proof.
   pose proof (q_mono f (Nat.max (depth a) (depth b)) n ltac:(lia)) as qn.
   assert ((q f (Nat.max (depth a) (depth b)) - 1) * (permanent d a + permanent d b) <= (q f n - 1) * (permanent d a + permanent d b))
     by (apply Rmult_le_compat_r; lra).
-  unfold losses in enough. rewrite !plus_IZR in enough.
-  apply Rabs_le_inv in S_. apply Rabs_le_inv in X_. destruct S_ as [S1 S2]. destruct X_ as [X1 X2].
-  change (Init.Nat.pred 3) with 2%nat in *.
-  clear - S1 S2 X1 X2 enough H rounded rep pos ok.
-  set (P_ := permanent d a + permanent d b) in *. set (qd := q f (Nat.max (depth a) (depth b))) in *. set (N := m ^ 2) in *.
-  set (w := IZR (of_steps a)) in *. set (v := IZR (of_steps b)) in *. set (k := IZR (of_differences (Sum a b))) in *.
-  set (ed := exact d a + exact d b) in *. set (eD := exact D a + exact D b) in *. set (r := val (Sum a b)) in *.
-  clearbody P_ qd N w v k ed eD r. split; intro beyond_.
-  - pose proof (above_before_rounding f ok _ _ _ rounded rep pos beyond_) as z. clear rounded rep. lra.
-  - pose proof (below_before_rounding f ok _ _ _ rounded rep pos beyond_) as z. clear rounded rep. lra.
+  unfold losses. rewrite !plus_IZR. apply Rabs_le_inv in S_. apply Rabs_le_inv in X_.
+  change (Init.Nat.pred 3) with 2%nat in *. apply Rabs_le. lra.
+Qed.
+Theorem sign_of (z k e b : R) : rounds f z k -> Rabs (z - e) <= b -> representable f b -> (b < k -> 0 < e) /\ (k < - b -> e < 0).
+Proof.
+  intros rounded close rep. pose proof (Rabs_pos (z - e)). apply Rabs_le_inv in close. split; intro beyond_.
+  - pose proof (above_before_rounding f ok _ _ _ rounded rep ltac:(lra) beyond_). lra.
+  - pose proof (below_before_rounding f ok _ _ _ rounded rep ltac:(lra) beyond_). lra.
 Qed.
 
 Lemma q3 : q f 3 <= 1 + 3.001 * e1.

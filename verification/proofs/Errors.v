@@ -4,26 +4,35 @@ From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions.
 Open Scope R_scope.
 
+(* What differences may be at most: four times the largest edge, since those of corners in range are. *)
+Definition reach f := 4 * power (largest_edge f).
+
 Section Errors.
 Variable f : format.
+Context {component : Type}.
+Notation expr := (expr_of component).
+Implicit Types e : expr.
 Hypothesis ok : reasonable f.
 Variables from to : component -> R.
 Variable value_of : expr -> value.
 Hypothesis run : execution f from to value_of.
 
 Definition val e := match value_of e with Number x => x | _ => 0 end.
-Let L := power (largest_edge f).
+Let L := reach f.
 Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= L.
 
 Lemma L_ge_1 : 1 <= L.
-Proof. unfold L, power. change 1 with (bpow radix2 0). apply bpow_le. destruct ok; lia. Qed.
+Proof.
+  unfold L, reach, power. assert (bpow radix2 0 <= bpow radix2 (largest_edge f)) by (apply bpow_le; destruct ok; lia). simpl in H. lra.
+Qed.
 Lemma omega_large : IZR (2 ^ 30) * L ^ 3 <= omega f.
 Proof.
-  unfold omega, L, power. change (IZR (2 ^ 30)) with (bpow radix2 30).
+  unfold omega, L, reach, power. replace (IZR (2 ^ 30) * (4 * bpow radix2 (largest_edge f)) ^ 3) with
+    (bpow radix2 36 * bpow radix2 (largest_edge f) ^ 3) by (change (IZR (2 ^ 30)) with 1073741824; simpl; lra).
   replace (bpow radix2 (largest_edge f) ^ 3) with (bpow radix2 (3 * largest_edge f)).
   2: { replace (3 * largest_edge f)%Z with (largest_edge f + (largest_edge f + largest_edge f))%Z by ring. rewrite !bpow_plus. ring. }
   rewrite <- bpow_plus.
-  assert (bpow radix2 (30 + 3 * largest_edge f) <= bpow radix2 (greatest_exponent f - 1)) by (apply bpow_le; destruct ok; lia).
+  assert (bpow radix2 (36 + 3 * largest_edge f) <= bpow radix2 (greatest_exponent f - 1)) by (apply bpow_le; destruct ok; lia).
   assert (bpow radix2 (greatest_exponent f - precision f) <= bpow radix2 (greatest_exponent f - 1)) by (apply bpow_le; destruct ok; lia).
   assert (bpow radix2 (greatest_exponent f) = 2 * bpow radix2 (greatest_exponent f - 1)).
   { replace (greatest_exponent f) with (1 + (greatest_exponent f - 1))%Z at 1 by ring. rewrite bpow_plus. reflexivity. }
@@ -83,12 +92,13 @@ Proof.
     apply andb_prop in here; destruct here as [s_le d_le]; apply Z.leb_le in s_le; apply Nat.leb_le in d_le.
   - destruct (in_range c) as (x & -> & small). exists x. split; [reflexivity|]. simpl. split; [lra|exact I].
   - pose proof (run (Constant c)) as v. simpl in v. rewrite v. eexists. split; [reflexivity|]. split; [|exact I]. simpl.
-    assert (one : forall e, (e <= 0)%Z -> Rabs (power e) <= 1).
+    assert (one : forall e : Z, (e <= 0)%Z -> Rabs (power e) <= 1).
     { intros e neg. rewrite Rabs_pos_eq by apply bpow_ge_0. change 1 with (bpow radix2 0). now apply bpow_le. }
-    destruct c as [| | |n]; simpl.
+    destruct c as [| | | |n]; simpl.
     + assert (Rabs (unit_roundoff f) <= 1) by (apply one; destruct ok; lia). lra.
     + assert (Rabs (power (Arithmetic.underflow f)) <= 1) by (apply one; destruct ok; lia). lra.
     + discriminate.
+    + rewrite Rabs_pos_eq; lra.
     + apply Z.leb_le in below_. rewrite Rabs_pos_eq by (now apply IZR_le). rewrite Rmult_1_r. apply IZR_le. lia.
   - apply andb_prop in below_ as [fa fb]. destruct (IHa fa) as (x & vx & bx & _). destruct (IHb fb) as (y & vy & by_ & _).
     destruct (run (Sum a b) x y vx vy) as (x' & y' & cx & cy & res).
@@ -153,7 +163,7 @@ Qed.
 Lemma is_number e : fits e = true -> value_of e = Number (val e).
 Proof. intro fit. destruct (sizes e fit) as (x & vx & _). unfold val. now rewrite vx. Qed.
 
-Lemma fits_parts a b e : e = Sum a b \/ e = Minus a b \/ e = Product a b \/ e = Larger a b \/ e = Smaller a b ->
+Lemma fits_parts (a : expr) b e : e = Sum a b \/ e = Minus a b \/ e = Product a b \/ e = Larger a b \/ e = Smaller a b ->
   fits e = true -> fits a = true /\ fits b = true.
 Proof. intros [->|[->|[->|[->| ->]]]] fit; cbn [fits] in fit; apply andb_prop in fit as [_ fit]; now apply andb_prop in fit. Qed.
 

@@ -4,6 +4,7 @@ From Coq Require Import Reals ZArith Lra Lia Bool Psatz.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Filter Permanent.
 Open Scope R_scope.
+Implicit Types e : expr.
 
 Section Leaves.
 Variables leaf leaf' : component -> R.
@@ -21,7 +22,7 @@ Hypothesis ok : reasonable f.
 Variables from to : component -> R.
 Variable value_of : expr -> Expressions.value.
 Hypothesis run : execution f from to value_of.
-Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= power (largest_edge f).
+Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= reach f.
 Notation val := (val value_of).
 Notation d := (computed value_of).
 Notation l := (lam f).
@@ -241,7 +242,7 @@ End Magnitudes.
 (* Of the code. *)
 Definition part_by_edge c := match c with Component B _ _ => First | Component C _ _ => Second | Component P _ _ => Third end.
 Definition part_by_axis c := match c with Component _ _ X => First | Component _ _ Y => Second | Component _ _ Z_ => Third end.
-Definition eight k0 k1 k2 k3 outer_ inner_ := Either
+Definition eight (k0 k1 k2 k3 outer_ inner_ : expr) := Either
   (Both (Both (Greater k0 outer_) (Greater k1 inner_)) (Both (Greater k2 inner_) (Greater k3 outer_)))
   (Both (Both (Greater (Negative outer_) k0) (Greater (Negative inner_) k1)) (Both (Greater (Negative inner_) k2) (Greater (Negative outer_) k3))).
 Definition eight_of := eight control_value_0 control_value_1 control_value_2 control_value_3.
@@ -299,7 +300,7 @@ Lemma counts_by_axis X_ Y_ Z_ :
 Proof. revert X_ Y_ Z_. intros X_ Y_ Z_. repeat split; revert X_ Y_ Z_; count. Qed.
 
 Section InRange.
-Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= power (largest_edge f).
+Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= reach f.
 Ltac three_by M all part occ counts x y z k n which_count :=
   apply (by_three f ok from to value_of run in_range M eq_refl all eq_refl x y z eq_refl part occ (first_of k) (second_of k) n which_count);
   [vm_compute; reflexivity | | intros; apply counts | ].

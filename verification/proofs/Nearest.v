@@ -6,6 +6,11 @@ From Selvedge Require Import Arithmetic Expressions.
 Open Scope R_scope.
 
 Section Nearest.
+Context {component : Type}.
+Notation expr := (expr_of component).
+Notation mask := (mask_of component).
+
+Implicit Types m : mask.
 Variables prec emax : Z.
 Context (prec_gt_0_ : Prec_gt_0 prec) (prec_lt_emax_ : Prec_lt_emax prec emax).
 Variables underflow_ largest_ : Z.
@@ -13,7 +18,7 @@ Definition format_of := Format prec (3 - emax - prec) emax underflow_ largest_.
 Notation f := format_of.
 Hypothesis ok : reasonable f.
 Lemma facts : (24 <= prec /\ prec < emax /\ 2 - emax <= -60 /\ 2 - emax + 9 <= underflow_ /\ underflow_ <= -60 /\ 2 - emax + 40 <= - prec /\
-  0 <= largest_ /\ 3 * largest_ + 32 <= emax)%Z.
+  0 <= largest_ /\ 3 * largest_ + 38 <= emax)%Z.
 Proof.
   destruct ok as [a b c d e g h]. unfold format_of in *. cbn [precision least_exponent greatest_exponent underflow largest_edge] in *.
   assert (prec < emax)%Z by exact prec_lt_emax_. lia.
@@ -33,7 +38,7 @@ Definition is_below v w : bool := match v, w with
   | Number x, Number y => if Rle_dec x y then true else false
   | Infinite false, _ | _, Infinite true => true
   | _, _ => false end.
-Fixpoint nearest e : value := match e with
+Fixpoint nearest (e : expr) : value := match e with
   | Difference c => lifted Rminus (Number (to c)) (Number (from c))
   | Constant c => Number (constant_value f c)
   | Sum a b => lifted Rplus (nearest a) (nearest b)
@@ -81,8 +86,9 @@ Definition constant_number c := match c with
   | UnitRoundoff => Some (power_of_two (- prec))
   | Underflow => Some (power_of_two underflow_)
   | LargestEdge => Some (power_of_two largest_)
+  | Half => Some (power_of_two (-1))
   | Small n => if ((0 <=? n) && (n <? 256))%Z then Some (binary_normalize prec emax _ _ mode_NE n 0 false) else None end.
-Fixpoint run e : option number := match e with
+Fixpoint run (e : expr) : option number := match e with
   | Difference c => finite (Bminus mode_NE (to_ c) (from_ c))
   | Constant c => constant_number c
   | Sum a b => both (Bplus mode_NE) (run a) (run b)
@@ -92,10 +98,11 @@ Fixpoint run e : option number := match e with
   | Magnitude a => option_map (@Babs prec emax) (run a)
   | Larger a b => match run a, run b with Some x, Some y => Some (if Bltb x y then y else x) | _, _ => None end
   | Smaller a b => match run a, run b with Some x, Some y => Some (if Bltb y x then y else x) | _, _ => None end end.
-Fixpoint holds m : bool := match m with
+Fixpoint holds (m : mask) : bool := match m with
   | Greater a b => match run a, run b with Some x, Some y => Bltb y x | _, _ => false end
   | Both a b => holds a && holds b
-  | Either a b => holds a || holds b end.
+  | Either a b => holds a || holds b
+  | Finite => true end.
 
 Lemma finite_is_small (x : number) : Rabs (B2R x) <= omega f.
 Proof. exact (abs_B2R_le_emax_minus_prec prec emax _ x). Qed.
@@ -120,7 +127,7 @@ Proof.
   - unfold F2R; simpl. rewrite Rmult_1_l. apply generic_format_bpow. change (Z.max (e + 1 - prec) (3 - emax - prec) <= e)%Z. assert (24 <= prec)%Z by (destruct ok; assumption). lia.
   - unfold F2R; simpl. rewrite Rmult_1_l, Rabs_pos_eq by apply bpow_ge_0. apply bpow_lt. lia.
 Qed.
-Lemma run_is_nearest e : forall x, run e = Some x -> nearest e = Number (B2R x) /\ is_finite x = true.
+Lemma run_is_nearest (e : expr) : forall x, run e = Some x -> nearest e = Number (B2R x) /\ is_finite x = true.
 Proof.
   assert (op_is : forall (op : number -> number -> number) opR x y, (is_finite x = true -> is_finite y = true -> forall out, finite (op x y) = Some out ->
       B2R out = to_nearest (opR (B2R x) (B2R y))) -> is_finite x = true -> is_finite y = true -> forall out, finite (op x y) = Some out ->
@@ -145,10 +152,11 @@ Proof.
     try (unfold both in h; destruct (run a) as [x|]; [|discriminate]; destruct (IHa x eq_refl) as [va fx]; rewrite va);
     try (destruct (run b) as [y|]; [|discriminate]; destruct (IHb y eq_refl) as [vb fy]; rewrite vb).
   - rewrite same_from, same_to. apply (op_is (Bminus mode_NE) Rminus); auto.
-  - destruct c as [| | |n]; cbn [constant_number] in h; try injection h as <-.
+  - destruct c as [| | | |n]; cbn [constant_number] in h; try injection h as <-.
     + destruct (exact_power (- prec)) as [-> fin]; [pose proof facts; lia|]. now rewrite fin.
     + destruct (exact_power underflow_) as [-> fin]; [pose proof facts; lia|]. now rewrite fin.
     + destruct (exact_power largest_) as [-> fin]; [pose proof facts; lia|]. now rewrite fin.
+    + destruct (exact_power (-1)) as [-> fin]; [pose proof facts; lia|]. rewrite fin. split; reflexivity.
     + destruct (_ && _)%bool eqn:range; [|discriminate]. injection h as <-. apply andb_prop in range as [lo hi].
       apply Z.leb_le in lo. apply Z.ltb_lt in hi.
       destruct (exact_constant n 0) as [E fin].
@@ -176,5 +184,6 @@ Proof.
     rewrite (Bltb_correct _ _ y x fy fx) in h. revert h. case Rlt_bool_spec; [lra|discriminate].
   - apply andb_prop in h as [? ?]. auto.
   - apply orb_prop in h as [?|?]; auto.
+  - exact I.
 Qed.
 End Nearest.

@@ -3,6 +3,7 @@ From Coq Require Import Reals ZArith Lra Lia Bool Psatz.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Filter.
 Open Scope R_scope.
+Implicit Types a b e : expr.
 
 Section Proof.
 Variable f : format.
@@ -18,9 +19,11 @@ Notation e1 := (eps f).
 Notation u := (unit_roundoff f).
 
 Definition proves (k : expr) bound := l <= bound /\ (bound < val k -> 0 < exact D k) /\ (val k < - bound -> exact D k < 0).
+(* And some of the bound is left over, for what is computed from the value. *)
+Definition is_near (k : expr) bound := exists z, rounds f z (val k) /\ Rabs (z - exact D k) <= 0.985 * bound.
 
 Section InRange.
-Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= power (largest_edge f).
+Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= reach f.
 Variable M : expr.
 Hypothesis M_maxima : maxima M = true.
 Hypothesis M_all : forall c, occurs c M = true.
@@ -35,16 +38,17 @@ Let small c : Rabs (d c) <= m := d_m f ok from to value_of run in_range M M_maxi
 Definition fine a b n := (polynomial (Sum a b) && signed (Sum a b) && fits (Sum a b) && (degree (Sum a b) =? 3)%nat
   && (depth a <=? n)%nat && (depth b <=? n)%nat && (losses a b <=? 490)%Z)%bool.
 Lemma sign' a b bound n : fine a b n = true -> representable f bound -> l <= bound ->
-  (q f n + q f 3 - 2) * permanent d (Sum a b) + 490 * (l * m ^ 2) <= bound -> proves (Sum a b) bound.
+  (q f n + q f 3 - 2) * permanent d (Sum a b) + 490 * (l * m ^ 2) <= 0.985 * bound -> proves (Sum a b) bound /\ is_near (Sum a b) bound.
 Proof.
-  unfold fine. intros h rep big enough. split; [exact big|].
+  unfold fine. intros h rep big enough.
   apply andb_prop in h as [h lo]. apply andb_prop in h as [h db]. apply andb_prop in h as [h da].
   apply andb_prop in h as [h dg]. apply andb_prop in h as [h fi]. apply andb_prop in h as [po si].
   apply Z.leb_le in lo. apply Nat.leb_le in da. apply Nat.leb_le in db. apply Nat.eqb_eq in dg.
   pose proof (lam_pos f). assert (1 <= m ^ 2) by (simpl; nra).
-  apply (sign f ok from to value_of run in_range M M_maxima M_all M_fits a b bound n); auto; [lra|].
+  destruct (near f ok from to value_of run in_range M M_maxima M_all M_fits a b n) as (z & rounded & close); auto.
   assert (IZR (losses a b) <= 490) by (now apply IZR_le).
-  assert (l * m ^ 2 * IZR (losses a b) <= l * m ^ 2 * 490) by (apply Rmult_le_compat_l; [apply Rmult_le_pos; lra|assumption]). lra.
+  assert (l * m ^ 2 * IZR (losses a b) <= l * m ^ 2 * 490) by (apply Rmult_le_compat_l; [apply Rmult_le_pos; lra|assumption]).
+  split; [split; [exact big|]|exists z; split; [exact rounded|lra]]. apply (sign_of f ok z _ _ bound rounded); [lra|exact rep].
 Qed.
 
 Lemma coefficient4 : q f 4 + q f 3 - 2 <= (1 - 4 * sigma) * (15 * u).
@@ -61,7 +65,8 @@ Proof. intro h. destruct (step_of _ h) as (x & y & _ & _ & r). exact (result_is_
 Theorem by_permanent a b n p count : fine a b n = true -> polynomial p = true -> fits p = true ->
   fits (Sum (roundoffs count p) margin) = true -> degree p = 3%nat -> (of_steps p <= 400)%Z ->
   exact d p = permanent d (Sum a b) -> permanent d p = permanent d (Sum a b) ->
-  (n = 4%nat /\ count = 16%Z) \/ (n = 6%nat /\ count = 20%Z) -> proves (Sum a b) (val (Sum (roundoffs count p) margin)).
+  (n = 4%nat /\ count = 16%Z) \/ (n = 6%nat /\ count = 20%Z) ->
+  proves (Sum a b) (val (Sum (roundoffs count p) margin)) /\ is_near (Sum a b) (val (Sum (roundoffs count p) margin)).
 Proof.
   intros h poly fit fit_b deg steps ex pe which. pose proof (permanent_pos d (Sum a b)) as t0. set (t := permanent d (Sum a b)) in *.
   pose proof (error_of_steps f ok m m_1 from to value_of run in_range small p poly fit) as E. unfold within in E.
@@ -94,7 +99,7 @@ Definition largest := s139.
 Definition first_of e := match e with Sum a _ => a | _ => e end.
 Definition second_of e := match e with Sum _ b => b | _ => e end.
 (* From (16u P) + margin. *)
-Definition permanent_of bound := match bound with Sum (Product _ p) _ => p | _ => bound end.
+Definition permanent_of (bound : expr) := match bound with Sum (Product _ p) _ => p | _ => bound end.
 
 (* What the filter compares in its last part, by the permanent. *)
 Definition last_part := Both
@@ -119,19 +124,23 @@ Lemma all_occur c : occurs c largest = true.
 Proof. destruct c as [[| |] [|] [| |]]; vm_compute; reflexivity. Qed.
 
 Section InRange.
-Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= power (largest_edge f).
+Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ Rabs x <= reach f.
 Ltac prove_bound k b n count :=
   apply (by_permanent f ok from to value_of run in_range largest eq_refl all_occur eq_refl
     (first_of k) (second_of k) n (permanent_of b) count);
   [vm_compute; reflexivity | vm_compute; reflexivity | vm_compute; reflexivity | vm_compute; reflexivity | vm_compute; reflexivity
   | vm_compute; discriminate | cbv -[Rplus Rminus Rmult Ropp Rabs computed]; ring | cbv -[Rplus Rminus Rmult Ropp Rabs computed]; ring | auto].
-Lemma bound_0 : proves f from to value_of control_value_0 (val value_of error_bound_0).
+Lemma bound_0 : proves f from to value_of control_value_0 (val value_of error_bound_0) /\
+  is_near f from to value_of control_value_0 (val value_of error_bound_0).
 Proof. prove_bound control_value_0 error_bound_0 4%nat 16%Z. Qed.
-Lemma bound_1 : proves f from to value_of control_value_1 (val value_of error_bound_1).
+Lemma bound_1 : proves f from to value_of control_value_1 (val value_of error_bound_1) /\
+  is_near f from to value_of control_value_1 (val value_of error_bound_1).
 Proof. prove_bound control_value_1 error_bound_1 6%nat 20%Z. Qed.
-Lemma bound_2 : proves f from to value_of control_value_2 (val value_of error_bound_2).
+Lemma bound_2 : proves f from to value_of control_value_2 (val value_of error_bound_2) /\
+  is_near f from to value_of control_value_2 (val value_of error_bound_2).
 Proof. prove_bound control_value_2 error_bound_2 6%nat 20%Z. Qed.
-Lemma bound_3 : proves f from to value_of control_value_3 (val value_of error_bound_3).
+Lemma bound_3 : proves f from to value_of control_value_3 (val value_of error_bound_3) /\
+  is_near f from to value_of control_value_3 (val value_of error_bound_3).
 Proof. prove_bound control_value_3 error_bound_3 4%nat 16%Z. Qed.
 Notation val := (val value_of).
 Lemma value e : fits e = true -> value_of e = Number (val e).
@@ -159,9 +168,9 @@ Proof.
   destruct signs as [[[A B] [C D]]|[[A B] [C D]]]; [left|right].
   - repeat split; [eapply (above in_range _ error_bound_0)|eapply (above in_range _ error_bound_1)|
       eapply (above in_range _ error_bound_2)|eapply (above in_range _ error_bound_3)];
-    first [assumption | now apply bound_0 | now apply bound_1 | now apply bound_2 | now apply bound_3 | vm_compute; reflexivity].
+    first [assumption | apply bound_0; assumption | apply bound_1; assumption | apply bound_2; assumption | apply bound_3; assumption | vm_compute; reflexivity].
   - repeat split; [eapply (below_ in_range _ error_bound_0)|eapply (below_ in_range _ error_bound_1)|
       eapply (below_ in_range _ error_bound_2)|eapply (below_ in_range _ error_bound_3)];
-    first [assumption | now apply bound_0 | now apply bound_1 | now apply bound_2 | now apply bound_3 | vm_compute; reflexivity].
+    first [assumption | apply bound_0; assumption | apply bound_1; assumption | apply bound_2; assumption | apply bound_3; assumption | vm_compute; reflexivity].
 Qed.
 End OfTheCode.

@@ -1,10 +1,10 @@
 (* What is proven, for a reader who reads nothing else. Words are defined in Geometry.v (contact, volume), Arithmetic.v (one operation),
    Expressions.v (an execution), and generated/Filter.v (what the code of the certified filter computes); for boxes in Orders.v (an
-   execution) and generated/Boxes.v. *)
+   execution) and generated/Boxes.v; for tests on corners in Direction.v (one environment) and generated/Corners.v. *)
 From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes.
-From Selvedge Require Orders Boxes Apart Nearest Witnesses Integers.
+From Selvedge Require Orders Boxes Apart Certificates Nearest Corners Direction Parts Halves Witnesses Integers.
 Open Scope R_scope.
 
 (* 1. Both formats are ones that the theorems below hold for. *)
@@ -70,7 +70,7 @@ Definition culled_by decision := match decision with
   | MagnitudesByAxis => culled_by_axis
   | PermanentOfNoLane => culled_by_permanent_alone
   | PermanentOfSomeLane => culled_by_permanent end.
-Definition executed f of := execution f (fun c => place (snd (of c))) (fun c => place (fst (of c))).
+Definition executed {component : Type} f (of : component -> coordinate * coordinate) := execution f (fun c => place (snd (of c))) (fun c => place (fst (of c))).
 Lemma culled_has_one_sign f of tier value_of : reasonable f -> executed f of value_of -> says f value_of (culled_by tier) -> have_one_sign of.
 Proof.
   intros ok run culled. destruct tier.
@@ -140,17 +140,66 @@ Proof.
   - exact (Apart.three_axes_of_two_edges place f environment (power g) value_of run culled).
   - exact (Apart.nine_directions_of_two_edges place f environment (power g) value_of run ok numbers g eq_refl wide_ culled).
 Qed.
+
+(* 8. A fixed direction, the pair's normal in the middle of the step, as the code rounds it. `products_alike`: an operand below the normal
+      numbers counts as zero in all products of the pair, or in none, as `flushes` says. *)
+Definition difference_of := Direction.difference_of.
+Theorem a_direction_excludes_contact_of_a_vertex_and_a_face f flushes value_of t : reasonable f ->
+  executed f (difference_of Corners.a_vertex_and_a_face.ends) value_of -> Direction.products_alike f flushes value_of ->
+  says f value_of Corners.a_vertex_and_a_face.culled_by_normal -> 0 <= t <= 1 ->
+  ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
+Proof. intros ok run alike culled. exact (Direction.a_direction_between_a_vertex_and_a_face place f ok value_of flushes alike run culled t). Qed.
+Theorem a_direction_excludes_contact_of_two_edges f flushes value_of t : reasonable f ->
+  executed f (difference_of Corners.two_edges.ends) value_of -> Direction.products_alike f flushes value_of ->
+  says f value_of Corners.two_edges.culled_by_normal -> 0 <= t <= 1 ->
+  ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
+Proof. intros ok run alike culled. exact (Direction.a_direction_between_two_edges place f ok value_of flushes alike run culled t). Qed.
+
+(* 9. The filter in parts of the step: 2, 4, 8 or 16. *)
+Inductive parts := Two | Four | Eight | Sixteen.
+Definition parts_of_a_vertex_and_a_face n := match n with
+  | Two => Corners.a_vertex_and_a_face.culled_in_2_parts
+  | Four => Corners.a_vertex_and_a_face.culled_in_4_parts
+  | Eight => Corners.a_vertex_and_a_face.culled_in_8_parts
+  | Sixteen => Corners.a_vertex_and_a_face.culled_in_16_parts end.
+Definition parts_of_two_edges n := match n with
+  | Two => Corners.two_edges.culled_in_2_parts
+  | Four => Corners.two_edges.culled_in_4_parts
+  | Eight => Corners.two_edges.culled_in_8_parts
+  | Sixteen => Corners.two_edges.culled_in_16_parts end.
+Theorem clear_parts_exclude_contact_of_a_vertex_and_a_face f n value_of t : reasonable f ->
+  executed f (difference_of Corners.a_vertex_and_a_face.ends) value_of -> says f value_of (parts_of_a_vertex_and_a_face n) -> 0 <= t <= 1 ->
+  ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
+Proof.
+  intros ok run culled. revert t. destruct Parts.the_code_of_a_vertex_and_a_face as (two & four & eight & sixteen).
+  assert (any : forall halvings, (halvings <= 4)%nat -> says f value_of (Parts.clear_in_parts Parts.names_of_a_vertex_and_a_face
+    Direction.corners_of_a_vertex_and_a_face halvings) -> Apart.never_touch_vertex_and_face place)
+    by (intros h few; exact (Halves.parts_of_a_vertex_and_a_face place f ok value_of h few run)).
+  destruct n; cbn [parts_of_a_vertex_and_a_face] in culled; [rewrite two in culled|rewrite four in culled|rewrite eight in culled|rewrite sixteen in culled];
+    (eapply any; [|exact culled]; lia).
+Qed.
+Theorem clear_parts_exclude_contact_of_two_edges f n value_of t : reasonable f ->
+  executed f (difference_of Corners.two_edges.ends) value_of -> says f value_of (parts_of_two_edges n) -> 0 <= t <= 1 ->
+  ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
+Proof.
+  intros ok run culled. revert t. destruct Parts.the_code_of_two_edges as (two & four & eight & sixteen).
+  assert (any : forall halvings, (halvings <= 4)%nat -> says f value_of (Parts.clear_in_parts Parts.names_of_two_edges
+    Direction.corners_of_two_edges halvings) -> Apart.never_touch_edges place)
+    by (intros h few; exact (Halves.parts_of_two_edges place f ok value_of h few run)).
+  destruct n; cbn [parts_of_two_edges] in culled; [rewrite two in culled|rewrite four in culled|rewrite eight in culled|rewrite sixteen in culled];
+    (eapply any; [|exact culled]; lia).
+Qed.
 End OfAPair.
 
-(* 8. None of this is empty. Executions exist, whatever the coordinates (to nearest is one); and there are coordinates that each decision
+(* 10. None of this is empty. Executions exist, whatever the coordinates (to nearest is one); and there are coordinates that each decision
       culls in one, vertex and face or two edges, in both formats: computed in Coq with Flocq's binary numbers. *)
-Theorem executions_exist place of : (exists value_of, executed place binary32 of value_of) /\ (exists value_of, executed place binary64 of value_of).
+Theorem executions_exist place (of : component -> coordinate * coordinate) : (exists value_of, executed place binary32 of value_of) /\ (exists value_of, executed place binary64 of value_of).
 Proof.
   destruct formats_are_reasonable as [a b]. split; eexists.
   - exact (Nearest.an_execution_exists 24 128 Witnesses.gt24 (-117) 30 a _ _).
   - exact (Nearest.an_execution_exists 53 1024 Witnesses.gt53 (-1000) 250 b _ _).
 Qed.
-Definition culls_some_pair f of culled := exists place value_of, (forall c, representable f (place (fst (of c))) /\
+Definition culls_some_pair {component : Type} f (of : component -> coordinate * coordinate) culled := exists place value_of, (forall c, representable f (place (fst (of c))) /\
   representable f (place (snd (of c)))) /\ executed place f of value_of /\ says f value_of culled.
 Theorem every_decision_culls_some_pair tier f : f = binary32 \/ f = binary64 ->
   culls_some_pair f vertex_face (culled_by tier) /\ culls_some_pair f edge_edge (culled_by tier).
@@ -167,10 +216,75 @@ Proof.
   split; [exact run|]. split; [destruct test; assumption|]. split; [exact run'|]. destruct test; assumption.
 Qed.
 
-(* 9. Whole numbers of the exact signs, in words of 64 bits: from what the code documents, not from the code. *)
+Theorem a_direction_culls_some_pair f : f = binary32 \/ f = binary64 ->
+  Witnesses.culls_some_alike f (difference_of Corners.a_vertex_and_a_face.ends) Corners.a_vertex_and_a_face.culled_by_normal /\
+  Witnesses.culls_some_alike f (difference_of Corners.two_edges.ends) Corners.two_edges.culled_by_normal.
+Proof. exact (Witnesses.a_direction_culls_some f). Qed.
+Theorem parts_cull_some_pair n f : f = binary32 \/ f = binary64 ->
+  culls_some_pair f (difference_of Corners.a_vertex_and_a_face.ends) (parts_of_a_vertex_and_a_face n) /\
+  culls_some_pair f (difference_of Corners.two_edges.ends) (parts_of_two_edges n).
+Proof.
+  intro which. destruct Parts.the_code_of_a_vertex_and_a_face as (a & b & c & d). destruct Parts.the_code_of_two_edges as (a' & b' & c' & d').
+  destruct n; cbn [parts_of_a_vertex_and_a_face parts_of_two_edges]; rewrite ?a, ?b, ?c, ?d, ?a', ?b', ?c', ?d'; exact (Witnesses.parts_cull_some _ f which).
+Qed.
+
+(* 11. Exact signs: whole numbers in words of 64 bits. Written after the code by hand (`Integers.v`), not traced from it. A coordinate is
+       a significand and a shift, of at most 64 n - 3 bits; b, c, p are differences of such; along each axis they count in a unit of their own,
+       a power of two. What the words of a control value say is that value in those units, so that its sign is that of their top word. *)
+Theorem coordinates_are_exact n significand shift : (- 2 ^ 63 <= significand < 2 ^ 63)%Z -> (0 <= shift)%Z -> Integers.fits n (significand * 2 ^ shift) ->
+  Integers.is n (Integers.shifted n significand shift) (significand * 2 ^ shift).
+Proof. exact (Integers.shifted_is_exact n significand shift). Qed.
+Section Units.
+Variables ux uy uz : R.
+Hypothesis units : 0 < ux /\ 0 < uy /\ 0 < uz.
+Definition placed v := Point (ux * IZR (Integers.x_ v)) (uy * IZR (Integers.y_ v)) (uz * IZR (Integers.z_ v)).
+Definition says_the_sign_of ws value := (Z.lt (Integers.signed ws) 0 <-> value < 0) /\ (Z.lt 0 (Integers.signed ws) <-> 0 < value).
+Lemma in_units ws k value : Integers.signed ws = k -> value = ux * uy * uz * IZR k -> says_the_sign_of ws value.
+Proof.
+  intros E1 E2. unfold says_the_sign_of. rewrite E1, E2. destruct units as (a & b & c).
+  assert (0 < ux * uy * uz) by (repeat apply Rmult_lt_0_compat; assumption).
+  split; split; intro h; try (apply lt_IZR; apply Rmult_lt_reg_l with (ux * uy * uz); [assumption|]; lra).
+  - apply IZR_lt in h. replace 0 with (ux * uy * uz * 0) by ring. now apply Rmult_lt_compat_l.
+  - apply IZR_lt in h. now apply Rmult_lt_0_compat.
+Qed.
+Variable n : nat.
+Hypothesis some_words : (0 < n)%nat.
+(* A vector in words, and that each component is the number that `v` has, and small enough. *)
+Definition stands_for ws v := Integers.all_are n ws v /\ Integers.all_below (2 ^ (64 * Z.of_nat n - 2)) v.
+Theorem outer_signs_are_exact p b c vp vb vc : stands_for p vp -> stands_for b vb -> stands_for c vc ->
+  says_the_sign_of (Integers.outer_of Integers.plus Integers.minus Integers.times p b c) (k0 (placed vb) (placed vc) (placed vp)).
+Proof.
+  intros [hp sp] [hb sb] [hc sc]. destruct (Integers.outer_control_values_are_exact n some_words p b c vp vb vc hp hb hc sp sb sc) as [_ E].
+  apply (in_units _ _ _ E). unfold Integers.outer_of, Integers.dot_of, Integers.cross_of, k0, dot, cross, placed; cbn [Integers.x_ Integers.y_ Integers.z_ x y z].
+  rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR, ?plus_IZR, ?mult_IZR, ?minus_IZR. ring.
+Qed.
+Theorem inner_signs_are_exact p0 p1 b0 b1 c0 c1 vp0 vp1 vb0 vb1 vc0 vc1 : stands_for p0 vp0 -> stands_for p1 vp1 -> stands_for b0 vb0 ->
+  stands_for b1 vb1 -> stands_for c0 vc0 -> stands_for c1 vc1 ->
+  says_the_sign_of (Integers.inner_of Integers.plus Integers.minus Integers.times p0 b0 b1 c1 c0 p1 b0 c0)
+    (k1 (placed vb0) (placed vb1) (placed vc0) (placed vc1) (placed vp0) (placed vp1)) /\
+  says_the_sign_of (Integers.inner_of Integers.plus Integers.minus Integers.times p1 b0 b1 c1 c0 p0 b1 c1)
+    (k2 (placed vb0) (placed vb1) (placed vc0) (placed vc1) (placed vp0) (placed vp1)).
+Proof.
+  intros [hp0 sp0] [hp1 sp1] [hb0 sb0] [hb1 sb1] [hc0 sc0] [hc1 sc1]. split.
+  - destruct (Integers.inner_control_values_are_exact n some_words p0 b0 b1 c1 c0 p1 b0 c0 vp0 vb0 vb1 vc1 vc0 vp1 vb0 vc0) as [_ E]; try assumption.
+    apply (in_units _ _ _ E). unfold Integers.inner_of, Integers.dot_of, Integers.sum_of, Integers.cross_of, k1, h, dot, cross, plus, placed; cbn [Integers.x_ Integers.y_ Integers.z_ x y z].
+    repeat rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR. ring.
+  - destruct (Integers.inner_control_values_are_exact n some_words p1 b0 b1 c1 c0 p0 b1 c1 vp1 vb0 vb1 vc1 vc0 vp0 vb1 vc1) as [_ E]; try assumption.
+    apply (in_units _ _ _ E). unfold Integers.inner_of, Integers.dot_of, Integers.sum_of, Integers.cross_of, k2, h, dot, cross, plus, placed; cbn [Integers.x_ Integers.y_ Integers.z_ x y z].
+    repeat rewrite ?plus_IZR, ?mult_IZR, ?minus_IZR. ring.
+Qed.
+End Units.
+(* For two edges the code takes b = v - u, c = l - k, p = u - k; the control values are the same. *)
+Theorem edges_have_the_same_control_values u v k l : let of f := f (minus (start v) (start u)) (minus (finish v) (finish u)) (minus (start l) (start k))
+    (minus (finish l) (finish k)) (minus (start u) (start k)) (minus (finish u) (finish k)) in
+  (of (fun b0 _ c0 _ p0 _ => k0 b0 c0 p0), of k1, of k2, of (fun _ b1 _ c1 _ p1 => k3 b1 c1 p1)) = control k u v l.
+Proof. cbv beta zeta. unfold control. repeat apply f_equal2; cbv -[Rplus Rminus Rmult Ropp]; ring. Qed.
 Theorem control_values_fit_three_times_the_words n x : (1 <= n)%Z -> (Z.abs x <= 18 * (2 ^ (64 * n - 2) * (2 ^ (64 * n - 2) * 2 ^ (64 * n - 2))))%Z ->
   (- Integers.word ^ (3 * n) <= 2 * x < Integers.word ^ (3 * n))%Z.
 Proof. intro h. exact (Integers.three_words_suffice n h x). Qed.
+
+(* 12. What the certificates of the time of impact, of a separation, of truncation and the inside functions rest on stands in Certificates.v, in
+       exact numbers: a direction held or turning over a part of the step, the volume there, shares of ways, turns around the origin. *)
 
 Print Assumptions formats_are_reasonable.
 Print Assumptions an_operation_is_nearly_exact.
@@ -183,11 +297,33 @@ Print Assumptions widened_culls_no_edges_that_touch.
 Print Assumptions gaps_are_wide.
 Print Assumptions boxes_apart_exclude_contact_of_a_vertex_and_a_face.
 Print Assumptions boxes_apart_exclude_contact_of_two_edges.
+Print Assumptions a_direction_excludes_contact_of_a_vertex_and_a_face.
+Print Assumptions a_direction_excludes_contact_of_two_edges.
+Print Assumptions clear_parts_exclude_contact_of_a_vertex_and_a_face.
+Print Assumptions clear_parts_exclude_contact_of_two_edges.
 Print Assumptions executions_exist.
 Print Assumptions every_decision_culls_some_pair.
 Print Assumptions the_permanent_culls_some_pair.
 Print Assumptions every_box_test_culls_some_pair.
+Print Assumptions a_direction_culls_some_pair.
+Print Assumptions parts_cull_some_pair.
+Print Assumptions coordinates_are_exact.
+Print Assumptions outer_signs_are_exact.
+Print Assumptions inner_signs_are_exact.
+Print Assumptions edges_have_the_same_control_values.
+Print Assumptions Integers.differences_are_exact.
+Print Assumptions Integers.products_are_exact.
+Print Assumptions Integers.the_top_word_has_the_sign.
 Print Assumptions control_values_fit_three_times_the_words.
 Print Assumptions Integers.carries_are_right.
 Print Assumptions Integers.what_fits_is_exact.
 Print Assumptions Integers.control_values_have_room.
+Print Assumptions Certificates.a_product_bounds_the_distance.
+Print Assumptions Certificates.ahead_of_the_triangle.
+Print Assumptions Certificates.between_two_ahead.
+Print Assumptions Certificates.held_direction.
+Print Assumptions Certificates.turning_direction.
+Print Assumptions Certificates.one_sign_on_a_part.
+Print Assumptions Certificates.truncated_ways_keep_the_gap.
+Print Assumptions Certificates.turns_of_a_triangle.
+Print Assumptions Certificates.turns_of_a_parallelogram.

@@ -2,7 +2,7 @@
 From Coq Require Import Reals ZArith Lra Lia Bool List.
 From Flocq Require Import Core BinarySingleNaN.
 From Selvedge Require Import Arithmetic Expressions Filter Permanent Magnitudes Nearest.
-From Selvedge Require Orders Boxes.
+From Selvedge Require Orders Boxes Corners Direction Parts.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -26,28 +26,36 @@ Variables prec emax underflow_ largest_ : Z.
 Context (p0 : Prec_gt_0 prec) (pe : Prec_lt_emax prec emax).
 Notation f := (format_of prec emax underflow_ largest_).
 Hypothesis ok : reasonable f.
+Context {component : Type}.
 Definition binary n h roles c : binary_float prec emax := binary_normalize prec emax _ _ mode_NE (whole n h roles c) 0 false.
 Definition placed n h roles c := B2R (binary n h roles c).
 Definition holds_of n h roles (of : component -> coordinate * coordinate) :=
   holds prec emax p0 pe underflow_ largest_ (fun c => binary n h roles (snd (of c))) (fun c => binary n h roles (fst (of c))).
 Definition all_finite n h roles (of : component -> coordinate * coordinate) := forall c,
   is_finite (binary n h roles (fst (of c))) = true /\ is_finite (binary n h roles (snd (of c))) = true.
+(* To nearest with nothing flushed; so products take their operands as they are. *)
+Theorem witness_alike n h roles (of : component -> coordinate * coordinate) m : all_finite n h roles of -> holds_of n h roles of m = true ->
+  exists value_of, execution f (fun c => placed n h roles (snd (of c))) (fun c => placed n h roles (fst (of c))) value_of /\
+  (forall a b x y, value_of a = Number x -> value_of b = Number y -> result f (x * y) (value_of (Product a b))) /\ says f value_of m.
+Proof.
+  intros fin h_. exists (nearest prec emax underflow_ largest_ (fun c => placed n h roles (snd (of c))) (fun c => placed n h roles (fst (of c)))).
+  split; [|split].
+  - apply an_execution_exists; assumption.
+  - intros a b x y va vb. cbn [nearest]. rewrite va, vb. cbn [lifted]. apply settled_result; assumption.
+  - eapply what_holds_is_said; [exact ok|reflexivity|reflexivity|apply fin|apply fin|exact h_].
+Qed.
 Theorem witness n h roles of m : all_finite n h roles of -> holds_of n h roles of m = true ->
   exists value_of, execution f (fun c => placed n h roles (snd (of c))) (fun c => placed n h roles (fst (of c))) value_of /\
   says f value_of m.
-Proof.
-  intros fin h_. eexists. split.
-  - apply an_execution_exists; assumption.
-  - eapply what_holds_is_said; [exact ok|reflexivity|reflexivity|apply fin|apply fin|exact h_].
-Qed.
+Proof. intros fin h_. destruct (witness_alike n h roles of m fin h_) as (value_of & run & _ & culled). exists value_of. auto. Qed.
 End InAFormat.
 
 #[global] Instance gt24 : Prec_gt_0 24. Proof. reflexivity. Qed.
 #[global] Instance lt24 : Prec_lt_emax 24 128. Proof. reflexivity. Qed.
 #[global] Instance gt53 : Prec_gt_0 53. Proof. reflexivity. Qed.
 #[global] Instance lt53 : Prec_lt_emax 53 1024. Proof. reflexivity. Qed.
-Definition single := holds_of 24 128 (-117) 30 gt24 lt24.
-Definition double := holds_of 53 1024 (-1000) 250 gt53 lt53.
+Definition single {component : Type} := holds_of (component := component) 24 128 (-117) 30 gt24 lt24.
+Definition double {component : Type} := holds_of (component := component) 53 1024 (-1000) 250 gt53 lt53.
 
 (* At rest far above, all tiers cull, in both formats; close above only the permanent itself, the last part of the decision, does. *)
 Definition decisions := [culled_by_edge; culled_by_axis; culled_by_permanent_alone; culled_by_permanent].
@@ -60,7 +68,7 @@ Lemma the_permanent_culls_what_is_close :
   single 1048576 32 in_edge_edge edge_edge first_part = false /\ single 1048576 32 in_edge_edge edge_edge last_part = true.
 Proof. repeat split; vm_compute; reflexivity. Qed.
 
-Definition culls_some f of m := exists (place : coordinate -> R) value_of, (forall c, representable f (place (fst (of c))) /\
+Definition culls_some {component : Type} f (of : component -> coordinate * coordinate) m := exists (place : coordinate -> R) value_of, (forall c, representable f (place (fst (of c))) /\
   representable f (place (snd (of c)))) /\
   execution f (fun c => place (snd (of c))) (fun c => place (fst (of c))) value_of /\ says f value_of m.
 Lemma binary_is_representable prec emax (p0 : Prec_gt_0 prec) (x : binary_float prec emax) :
@@ -86,6 +94,50 @@ Proof.
   destruct the_permanent_culls_what_is_close as (_ & a & _ & b). split.
   - culls_by 24%Z 128%Z (-117)%Z 30%Z single_is_reasonable 1048576%Z 32%Z in_vertex_face vertex_face a.
   - culls_by 24%Z 128%Z (-117)%Z 30%Z single_is_reasonable 1048576%Z 32%Z in_edge_edge edge_edge b.
+Qed.
+
+(* The same for the tests on corners. In parts, what is clear as a whole is clear in all tiers. *)
+Definition culls_some_alike f (of : span_component -> coordinate * coordinate) m := exists (place : coordinate -> R) value_of,
+  (forall c, representable f (place (fst (of c))) /\ representable f (place (snd (of c)))) /\
+  execution f (fun c => place (snd (of c))) (fun c => place (fst (of c))) value_of /\ Direction.products_alike f false value_of /\ says f value_of m.
+Definition ends_vertex_face := Direction.difference_of Corners.a_vertex_and_a_face.ends.
+Definition ends_edges := Direction.difference_of Corners.two_edges.ends.
+Definition clear_as_a_whole names := Both (Both (Greater (Constant LargestEdge) (Parts.k_ names Permanent.largest)) (Both (Both Finite Finite) (Both Finite Finite)))
+  (Parts.flat_nowhere (Parts.volume_bound names) (Parts.volumes names)).
+Lemma clear_in_all_parts f value_of names corner n : says f value_of (clear_as_a_whole names) -> says f value_of (Parts.clear_in_parts names corner n).
+Proof. intros [range_ flat]. split; [exact range_|]. destruct n; [left|left; left]; exact flat. Qed.
+Lemma tests_on_corners_cull_what_is_far :
+  (single 4 4 in_vertex_face ends_vertex_face Corners.a_vertex_and_a_face.culled_by_normal = true /\
+  double 4 4 in_vertex_face ends_vertex_face Corners.a_vertex_and_a_face.culled_by_normal = true /\
+  single 4 4 in_edge_edge ends_edges Corners.two_edges.culled_by_normal = true /\
+  double 4 4 in_edge_edge ends_edges Corners.two_edges.culled_by_normal = true) /\
+  (single 4 4 in_vertex_face ends_vertex_face (clear_as_a_whole Parts.names_of_a_vertex_and_a_face) = true /\
+  double 4 4 in_vertex_face ends_vertex_face (clear_as_a_whole Parts.names_of_a_vertex_and_a_face) = true /\
+  single 4 4 in_edge_edge ends_edges (clear_as_a_whole Parts.names_of_two_edges) = true /\
+  double 4 4 in_edge_edge ends_edges (clear_as_a_whole Parts.names_of_two_edges) = true).
+Proof. repeat split; vm_compute; reflexivity. Qed.
+Ltac culls_alike prec emax underflow_ largest_ ok n h roles of proof :=
+  destruct (witness_alike prec emax underflow_ largest_ _ _ ok n h roles of _ ltac:(intros [[| | | |] [|] [| |]]; split; vm_compute; reflexivity) proof)
+    as (value_of & run & alike & culled); clear - run alike culled; exists (placed prec emax _ _ n h roles), value_of;
+  split; [intro c; split; apply binary_is_representable; exact _|].
+Theorem a_direction_culls_some f : f = binary32 \/ f = binary64 ->
+  culls_some_alike f ends_vertex_face Corners.a_vertex_and_a_face.culled_by_normal /\ culls_some_alike f ends_edges Corners.two_edges.culled_by_normal.
+Proof.
+  destruct tests_on_corners_cull_what_is_far as [(a & b & c & d) _]. intros [-> | ->]; split.
+  - culls_alike 24%Z 128%Z (-117)%Z 30%Z single_is_reasonable 4%Z 4%Z in_vertex_face ends_vertex_face a. auto.
+  - culls_alike 24%Z 128%Z (-117)%Z 30%Z single_is_reasonable 4%Z 4%Z in_edge_edge ends_edges c. auto.
+  - culls_alike 53%Z 1024%Z (-1000)%Z 250%Z double_is_reasonable 4%Z 4%Z in_vertex_face ends_vertex_face b. auto.
+  - culls_alike 53%Z 1024%Z (-1000)%Z 250%Z double_is_reasonable 4%Z 4%Z in_edge_edge ends_edges d. auto.
+Qed.
+Theorem parts_cull_some n f : f = binary32 \/ f = binary64 ->
+  culls_some f ends_vertex_face (Parts.clear_in_parts Parts.names_of_a_vertex_and_a_face Direction.corners_of_a_vertex_and_a_face n) /\
+  culls_some f ends_edges (Parts.clear_in_parts Parts.names_of_two_edges Direction.corners_of_two_edges n).
+Proof.
+  destruct tests_on_corners_cull_what_is_far as [_ (a & b & c & d)]. intros [-> | ->]; split.
+  - culls_alike 24%Z 128%Z (-117)%Z 30%Z single_is_reasonable 4%Z 4%Z in_vertex_face ends_vertex_face a. split; [exact run|now apply clear_in_all_parts].
+  - culls_alike 24%Z 128%Z (-117)%Z 30%Z single_is_reasonable 4%Z 4%Z in_edge_edge ends_edges c. split; [exact run|now apply clear_in_all_parts].
+  - culls_alike 53%Z 1024%Z (-1000)%Z 250%Z double_is_reasonable 4%Z 4%Z in_vertex_face ends_vertex_face b. split; [exact run|now apply clear_in_all_parts].
+  - culls_alike 53%Z 1024%Z (-1000)%Z 250%Z double_is_reasonable 4%Z 4%Z in_edge_edge ends_edges d. split; [exact run|now apply clear_in_all_parts].
 Qed.
 
 (* Boxes: one set at x = 2 and the other at 0, to nearest with nothing flushed. *)

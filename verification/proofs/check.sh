@@ -26,9 +26,11 @@ fi
 
 # In the order in which they build on each other; the last one prints what its theorems assume. mutations.py reads what stands above the
 # generated files:
-# above Filter: Permanent Magnitudes Witnesses Theorems
-# above Boxes: Apart Witnesses Theorems
-files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Gaps Boxes Apart Nearest Witnesses Integers Theorems)
+# above Filter: Permanent Magnitudes Parts Halves Witnesses Theorems
+# above Boxes: Apart Certificates Direction Parts Halves Witnesses Theorems
+# above Corners: Direction Parts Halves Witnesses Theorems
+files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Gaps Boxes Apart Certificates
+    Corners Direction Parts Halves Nearest Witnesses Integers Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp ./*.v generated/*.v "$folder"
@@ -42,23 +44,27 @@ if grep -nwE 'Admitted|Axiom|Axioms|Parameter|Parameters|Conjecture|Abort|admit|
     echo "proofs: something is taken for granted" >&2
     exit 1
 fi
-for file in "${files[@]}"; do
-    coqc -q -Q . Selvedge "$file.v" >"$file.says" || {
-        echo "proofs: Coq does not accept $file.v" >&2
-        exit 1
-    }
-done
+last=${files[-1]}
+unset "files[-1]"
+coq_makefile -Q . Selvedge "${files[@]/%/.v}" -o Makefile >/dev/null
+make --no-print-directory --silent --jobs="$(nproc)" >/dev/null || {
+    echo "proofs: Coq does not accept what make names above" >&2
+    exit 1
+}
+coqc -q -Q . Selvedge "$last.v" >says || {
+    echo "proofs: Coq does not accept $last.v" >&2
+    exit 1
+}
 
 # Coq's real numbers, and the logic that they are built with.
 known='ClassicalDedekindReals.sig_forall_dec|ClassicalDedekindReals.sig_not_dec|FunctionalExtensionality.functional_extensionality_dep|Classical_Prop.classic'
-says=${files[-1]}.says
-if ! grep -q '^Axioms:' "$says"; then
-    echo "proofs: ${files[-1]}.v does not print what it assumes" >&2
+if ! grep -q '^Axioms:' says; then
+    echo "proofs: $last.v does not print what it assumes" >&2
     exit 1
 fi
 # Whatever does not stand in the list of what may stand there is refused; types go on in lines that are indented.
-if grep -vE "^( |Axioms:\$|Closed under the global context\$|($known)( |\$))" "$says"; then
+if grep -vE "^( |Axioms:\$|Closed under the global context\$|($known)( |\$))" says; then
     echo "proofs: something is assumed that is not of the real numbers" >&2
     exit 1
 fi
-echo "proofs: ${#files[@]} files accepted by Coq in $SECONDS s, $(grep -c '^Axioms:' "$says") theorems on the axioms of the real numbers alone"
+echo "proofs: $((${#files[@]} + 1)) files accepted by Coq in $SECONDS s, $(grep -c '^Axioms:' says) theorems on the axioms of the real numbers alone"

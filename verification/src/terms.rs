@@ -1,4 +1,4 @@
-//! What the certified filter and the box tests compute, as terms of Coq, written from core's kernels themselves.
+//! What the certified filter, the box tests and the tests on corners compute, as terms of Coq, written from core's kernels themselves.
 //!
 //! `verification/proofs` speaks of them: what they compute, and what its signs prove. The files are kept in
 //! `verification/proofs/generated/`; a test demands that they are what the code gives.
@@ -6,6 +6,7 @@
 use crate::proofs::tetrahedron;
 use crate::traced::{Mask, MaskStep, Step, Trace, Traced, if_any, trace};
 use selvedge_core::Scalar;
+use selvedge_core::filter::Depth;
 use selvedge_core::verification::coplanarity::{Bound, MovingTetrahedron};
 use selvedge_core::verification::lanes::Rounding;
 use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
@@ -31,10 +32,22 @@ From Selvedge Require Import Expressions Orders.
 
 ";
 
+const CORNERS_HEAD: &str = "\
+(* What a fixed direction and the filter in parts of the step ask: core/src/boxes/direction.rs, core/src/filter/subdivided.rs,
+   core/src/kernels/coplanarity.rs, core/src/kernels/points.rs.
+   Written from the code by verification/src/terms.rs; a test demands that it is what the code gives.
+   UPDATE_PROOFS=1 cargo test -p selvedge-verification --test promises proofs_are_about *)
+From Coq Require Import ZArith.
+From Selvedge Require Import Arithmetic Expressions.
+Notation number := (expr_of span_component).
+Notation test := (mask_of span_component).
+
+";
+
 /// The files of `generated/`, each with its text.
 #[must_use]
-pub fn files() -> [(&'static str, String); 2] {
-    [("Filter.v", filter()), ("Boxes.v", boxes())]
+pub fn files() -> [(&'static str, String); 3] {
+    [("Filter.v", filter()), ("Boxes.v", boxes()), ("Corners.v", corners())]
 }
 
 fn filter() -> String {
@@ -56,7 +69,7 @@ fn filter() -> String {
         ];
         (points.control_values().0, points.error_bounds(), masks)
     });
-    let mut terms = Terms::new(&steps);
+    let mut terms = Terms::new("expr", &steps);
     for (index, value) in values.into_iter().enumerate() {
         terms.define(&format!("control_value_{index}"), value);
     }
@@ -65,7 +78,7 @@ fn filter() -> String {
     }
     for (name, mask) in masks {
         let formula = terms.mask(mask);
-        writeln!(terms.text, "Definition culled_{name} := {formula}.").expect("a string");
+        writeln!(terms.text, "Definition culled_{name} : mask := {formula}.").expect("a string");
     }
     text + &terms.text
 }
@@ -90,13 +103,49 @@ fn box_tests<P: PairShape>(of: &str, text: &mut String) {
             ("nine_directions", points.are_apart_along_nine_directions::<P>()),
         ]
     });
-    let mut terms = Terms::new(&steps);
+    let mut terms = Terms::new("number", &steps);
     let formulas = masks.map(|(name, mask)| (name, terms.mask(mask)));
     writeln!(text, "Module {of}.\n{}", terms.text.trim_end()).expect("a string");
     for (name, formula) in formulas {
         writeln!(text, "Definition culled_by_{name} := {formula}.").expect("a string");
     }
     writeln!(text, "End {of}.\n").expect("a string");
+}
+
+fn corners() -> String {
+    let mut text = String::from(CORNERS_HEAD);
+    tests_on_corners::<VertexFace>("a_vertex_and_a_face", "vertex, a, b, c", &mut text);
+    tests_on_corners::<EdgeEdge>("two_edges", "u, v, k, l", &mut text);
+    text
+}
+
+fn tests_on_corners<P: PairShape>(of: &str, order: &str, text: &mut String) {
+    let (masks, steps) = trace(|| {
+        let points = coordinates();
+        let in_parts = |depth| if_any(|| points.never_touch_in_parts::<P>(None, depth));
+        [
+            ("by_normal", points.are_apart_along_normal::<P>()),
+            ("in_2_parts", in_parts(Depth::One)),
+            ("in_4_parts", in_parts(Depth::Two)),
+            ("in_8_parts", in_parts(Depth::Three)),
+            ("in_16_parts", in_parts(Depth::Four)),
+        ]
+    });
+    let mut terms = Terms::of_spans(&steps);
+    for (name, mask) in masks {
+        let formula = terms.mask(mask);
+        writeln!(terms.text, "Definition culled_{name} : test := {formula}.").expect("a string");
+    }
+    writeln!(
+        text,
+        "Module {of}.\n(* Points 0 to 3 are {order}; of these two each span is the difference. *)"
+    )
+    .expect("a string");
+    writeln!(text, "Definition ends span := match span with").expect("a string");
+    for (index, [to, from]) in terms.spans.iter().flatten().enumerate() {
+        writeln!(text, "| S{index} => ({to}, {from})").expect("a string");
+    }
+    writeln!(text, "end.\n{}End {of}.\n", terms.text).expect("a string");
 }
 
 /// A pair's 24 coordinates.
@@ -167,36 +216,90 @@ fn step(number: Traced, trace: &Trace) -> &Step {
 struct Terms<'a> {
     trace: &'a Trace,
     names: BTreeMap<String, String>,
+    /// The type of a term, and of a mask where masks have names too.
+    kinds: [Option<&'static str>; 2],
+    /// Pairs of points whose differences are leaves, in the order in which they are met; without them leaves have names.
+    spans: Option<Vec<[usize; 2]>>,
     text: String,
 }
 
 impl<'a> Terms<'a> {
-    fn new(trace: &'a Trace) -> Self {
+    fn new(kind: &'static str, trace: &'a Trace) -> Self {
         Self {
             trace,
             names: BTreeMap::new(),
+            kinds: [Some(kind), None],
+            spans: None,
             text: String::new(),
+        }
+    }
+
+    /// From differences of coordinates on; masks have names.
+    fn of_spans(trace: &'a Trace) -> Self {
+        Self {
+            kinds: [Some("number"), Some("test")],
+            spans: Some(Vec::new()),
+            ..Self::new("", trace)
         }
     }
 
     fn define(&mut self, name: &str, number: Traced) {
         let term = self.number(number);
-        writeln!(self.text, "Definition {name} := {term}.").expect("a string");
+        writeln!(self.text, "Definition {name} : expr := {term}.").expect("a string");
+    }
+
+    /// The name of a term, which is defined if it has none.
+    fn named(&mut self, letter: char, kind: &str, term: String) -> String {
+        if let Some(name) = self.names.get(&term) {
+            return name.clone();
+        }
+        let name = format!("{letter}{}", self.names.len());
+        writeln!(self.text, "Definition {name} : {kind} := {term}.").expect("a string");
+        self.names.insert(term, name.clone());
+        name
+    }
+
+    /// A difference of two points' coordinates as a leaf, if leaves are such.
+    fn span(&mut self, to: Traced, from: Traced) -> Option<String> {
+        let spans = self.spans.as_mut()?;
+        let coordinate = |number| match number {
+            Traced::Step(index) => match &self.trace.steps[index] {
+                Step::Input(name) => name.strip_prefix("Coordinate ")?.split_once(' '),
+                _ => None,
+            },
+            _ => None,
+        };
+        let ((to, place), (from, same_place)) = (coordinate(to)?, coordinate(from)?);
+        if place != same_place {
+            return None;
+        }
+        let ends = [to, from].map(|point| point.parse().expect("a point's number"));
+        let index = spans.iter().position(|span| *span == ends).unwrap_or_else(|| {
+            spans.push(ends);
+            spans.len() - 1
+        });
+        Some(format!("Difference (Span S{index} {place})"))
     }
 
     fn number(&mut self, number: Traced) -> String {
         let Traced::Step(index) = number else {
             return match number {
-                Traced::UnitRoundoff | Traced::Underflow | Traced::LargestEdge => format!("(Constant {number:?})"),
+                Traced::UnitRoundoff | Traced::Underflow | Traced::LargestEdge | Traced::Half => {
+                    format!("(Constant {number:?})")
+                }
                 Traced::SumGap => "Gap".to_owned(),
                 Traced::Small(count) => format!("(Constant (Small {count}))"),
                 other => panic!("{other:?} is not known to the proof"),
             };
         };
         let term = match self.trace.steps[index].clone() {
+            Step::Input(name) if self.spans.is_some() => panic!("{name} alone is not known to the proof"),
             Step::Input(name) => leaf(&name),
             Step::Sum(a, b) => self.operation("Sum", a, b),
-            Step::Difference(a, b) => self.operation("Minus", a, b),
+            Step::Difference(a, b) => match self.span(a, b) {
+                Some(leaf) => leaf,
+                None => self.operation("Minus", a, b),
+            },
             Step::Product(a, b) => self.operation("Product", a, b),
             Step::Larger(a, b) => self.operation("Larger", a, b),
             Step::Smaller(a, b) => self.operation("Smaller", a, b),
@@ -204,13 +307,8 @@ impl<'a> Terms<'a> {
             Step::Magnitude(a) => format!("Magnitude {}", self.number(a)),
             other => panic!("{other:?} is not known to the proof"),
         };
-        if let Some(name) = self.names.get(&term) {
-            return name.clone();
-        }
-        let name = format!("s{}", self.names.len());
-        writeln!(self.text, "Definition {name} := {term}.").expect("a string");
-        self.names.insert(term, name.clone());
-        name
+        let [kind, _] = self.kinds;
+        self.named('s', kind.expect("a type of numbers"), term)
     }
 
     fn operation(&mut self, name: &str, a: Traced, b: Traced) -> String {
@@ -219,12 +317,12 @@ impl<'a> Terms<'a> {
     }
 
     fn mask(&mut self, mask: Mask) -> String {
-        match self.trace.masks[mask.index] {
-            // Of finite coordinates the proof says nothing but that.
-            MaskStep::Greater(Traced::Infinity, _) => "Finite".to_owned(),
+        let term = match self.trace.masks[mask.index] {
+            // Of finite numbers the proof says nothing but that.
+            MaskStep::Greater(Traced::Infinity, _) => return "Finite".to_owned(),
             MaskStep::Greater(a, b) => {
                 let (a, b) = (self.number(a), self.number(b));
-                format!("(Greater {a} {b})")
+                return format!("(Greater {a} {b})");
             }
             MaskStep::And(a, b) => {
                 let (a, b) = (self.mask(a), self.mask(b));
@@ -235,6 +333,10 @@ impl<'a> Terms<'a> {
                 format!("(Either {a} {b})")
             }
             other => panic!("{other:?} is not known to the proof"),
+        };
+        match self.kinds[1] {
+            Some(kind) => self.named('m', kind, term),
+            None => term,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! One choice for all non-coplanarity filters.
 
-use super::subdivided::{self, Depth};
+use super::subdivided::Depth;
 use super::widened;
 use crate::coplanarity::{Bound, MovingTetrahedron, is_in_range};
 use crate::exact;
@@ -157,7 +157,7 @@ impl<S: Scalar> Filter<S> {
             Tier::Widened => S::UNIT_ROUNDOFF.to_f64() > f64::UNIT_ROUNDOFF && widened::culls(pair, self.positive_separation()),
             Tier::Subdivided(depth) => {
                 let points = PairPoints::from(pair);
-                of_kind!(pair.kind, P => subdivided::never_touches::<P, S>(&points, self.separation, depth))
+                of_kind!(pair.kind, P => points.never_touch_in_parts::<P>(self.positive_separation(), depth))
             }
             Tier::Exact => self.culls_exactly(pair),
         }
