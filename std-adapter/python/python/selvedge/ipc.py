@@ -206,8 +206,12 @@ class CollisionMesh:
         self._rest = positions(rest, "rest_positions", False).copy()
         own_faces = indices([] if faces is None else faces, "faces", 3)
         own_edges = indices([] if edges is None else edges, "edges", 2)
-        loose = own_edges[~np.isin(_keys(own_edges), _keys(_edges_of(own_faces)))]
-        self._detector = Detector(own_faces, len(self._rest), threads, edges=loose)
+        detector = Detector(own_faces, len(self._rest), threads)
+        # As many edges as faces have, if each of those is among them, are the faces' alone: `_numbers` looks whether.
+        if len(own_edges) > 0 and len(own_edges) != len(detector.edges):
+            loose = own_edges[~np.isin(_keys(own_edges), _keys(detector.edges))]
+            detector = Detector(own_faces, len(self._rest), threads, edges=loose)
+        self._detector = detector
         self._face_count = len(own_faces)
         numbered = self._detector.edges
         if edges is None:
@@ -292,17 +296,20 @@ def _any_allows(given: CollisionFilter, ones: _Indices, others: _Indices) -> _Fl
 
 
 def _keys(pairs: _Indices) -> NDArray[np.uint64]:
-    low, high = pairs.min(1, initial=0xFFFF_FFFF), pairs.max(1, initial=0)
-    keys: NDArray[np.uint64] = low.astype(np.uint64) << np.uint64(32) | high
+    first, second = pairs[:, 0], pairs[:, 1]
+    keys: NDArray[np.uint64] = np.minimum(first, second).astype(np.uint64) << np.uint64(32) | np.maximum(first, second)
     return keys
 
 
 def _numbers(ours: _Indices, theirs: _Indices) -> _Indices:
     """For each of our edges the caller's number."""
-    order = np.argsort(_keys(theirs), kind="stable")
-    at = np.searchsorted(_keys(theirs), _keys(ours), sorter=order)
+    keys, wanted = _keys(theirs), _keys(ours)
+    if np.array_equal(keys, wanted):
+        return np.arange(len(ours), dtype=np.uint32)
+    order = np.argsort(keys, kind="stable")
+    at = np.searchsorted(keys, wanted, sorter=order)
     found = order[np.minimum(at, len(order) - 1)] if len(order) else np.zeros(0, np.intp)
-    if len(found) != len(ours) or np.any(_keys(theirs)[found] != _keys(ours)):
+    if len(found) != len(ours) or np.any(keys[found] != wanted):
         raise InputError("edges: an edge of the faces is not among them; leave edges out, or make them by ipc.edges(faces)")
     return found.astype(np.uint32)
 
