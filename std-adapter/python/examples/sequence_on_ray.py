@@ -116,17 +116,24 @@ def main() -> int:
     running: dict[Any, tuple[int, Any]] = {}
     failed: dict[int, str] = {}
     began, done = time.monotonic(), 0
-    while waiting or running:
+
+    def hand_out() -> None:
         while waiting and idle:
             first, worker = waiting.pop(0), idle.pop()
             attempts[first] += 1
             running[worker.contacts.remote(first, frames[first : first + given.chunk + 1])] = first, worker
+
+    while waiting or running:
+        hand_out()
         [ready], _ = ray.wait(list(running))
         first, worker = running.pop(ready)
         try:
-            write(pa.table(ray.get(ready)), parts[first])
-            done += 1
+            rows = ray.get(ready)
+            # The next piece first: a worker is not to wait for the disk.
             idle.append(worker)
+            hand_out()
+            write(pa.table(rows), parts[first])
+            done += 1
             print(f"steps {first} to {first + given.chunk}: done ({done} in {time.monotonic() - began:.1f} s)", flush=True)
         except ray.exceptions.RayTaskError as error:
             failed[first] = str(error.cause)
