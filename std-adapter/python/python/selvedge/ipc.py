@@ -206,12 +206,13 @@ class CollisionMesh:
         self._rest = positions(rest, "rest_positions", False).copy()
         own_faces = indices([] if faces is None else faces, "faces", 3)
         own_edges = indices([] if edges is None else edges, "edges", 2)
-        detector = Detector(own_faces, len(self._rest), threads)
-        # As many edges as faces have, if each of those is among them, are the faces' alone: `_numbers` looks whether.
-        if len(own_edges) > 0 and len(own_edges) != len(detector.edges):
-            loose = own_edges[~np.isin(_keys(own_edges), _keys(detector.edges))]
-            detector = Detector(own_faces, len(self._rest), threads, edges=loose)
-        self._detector = detector
+        of_faces = Detector(own_faces, len(self._rest), threads) if len(own_faces) else None
+        # As many edges as the faces have are theirs alone, if all of theirs are among them: `_numbers` looks whether.
+        if of_faces is not None and len(own_edges) in (0, len(of_faces.edges)):
+            self._detector = of_faces
+        else:
+            loose = own_edges if of_faces is None else own_edges[~np.isin(_keys(own_edges), _keys(of_faces.edges))]
+            self._detector = Detector(own_faces, len(self._rest), threads, edges=loose)
         self._face_count = len(own_faces)
         numbered = self._detector.edges
         if edges is None:
