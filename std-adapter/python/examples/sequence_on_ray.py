@@ -1,18 +1,19 @@
 """All contacts of a sequence of frames, found by many workers on a Ray cluster, in one table.
 
     pip install selvedge ray meshio pyarrow
-    python sequence_on_ray.py FRAMES OUT.parquet [--address auto] [--workers 2] [--chunk 50] [--separation 0.0]
+    python sequence_on_ray.py FRAMES OUT.parquet [--address auto] [--workers 2] [--chunk 100] [--separation 0.0]
 
-FRAMES is a folder of OBJ or PLY files with the same triangles, in the order of their names. Workers keep a detector; each gets so many
-steps in a row. The state is a folder beside the table, one file for each piece that is done: started
-again, the work goes on. A piece whose worker is lost is done again by another, three times at most; one whose frames are at fault is named,
-and the others go on. The table is sorted by step, kind and pair: the same for any number of workers, losses and starts.
+FRAMES is a folder of OBJ or PLY files with the same triangles, in the order of their names; all machines see it and OUT's folder under the
+same names. Workers keep a detector; each gets so many steps in a row and writes what it found itself. The state is a folder beside the
+table, one file for each piece that is done: started again, the work goes on. A piece whose worker is lost is done again by another, three
+times at most; one whose frames are at fault is named, and the others go on. The table is sorted by step, kind and pair: the same for any number of workers, losses and starts.
 """
 
 import argparse
 import os
 import sys
 import time
+import uuid
 from pathlib import Path
 from typing import Any
 
@@ -80,10 +81,13 @@ class Worker:
             start = end
         return {name: np.concatenate([rows[name] for rows in found]) for name in found[0]}
 
+    def write_contacts(self, first: int, paths: list[Path], part: Path) -> None:
+        write(pa.table(self.contacts(first, paths)), part)
+
 
 def write(table: pa.Table, path: Path) -> None:
-    """Whole, or not at all."""
-    beside = path.with_suffix(".writing")
+    """Whole, or not at all, also where a worker that was taken for lost writes the same."""
+    beside = path.with_suffix(f".{uuid.uuid4().hex}.writing")
     pq.write_table(table, beside)
     os.replace(beside, path)
 
@@ -94,7 +98,7 @@ def main() -> int:
     parser.add_argument("table", type=Path)
     parser.add_argument("--address", help="of a cluster that runs; without it, one on this machine")
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--chunk", type=int, default=50, help="steps that a worker gets at once")
+    parser.add_argument("--chunk", type=int, default=100, help="steps that a worker gets at once")
     parser.add_argument("--separation", type=float, default=0.0, help="in the unit of the positions")
     given = parser.parse_args()
 
@@ -103,7 +107,7 @@ def main() -> int:
         print(f"{given.frames}: at least two OBJ or PLY files, one worker and one step a piece are needed", file=sys.stderr)
         return 2
     # What pieces depend on is in the name of their folder, so that another question does not find them.
-    state = given.table.with_name(f"{given.table.name}.state-{len(frames)}-{given.chunk}-{given.separation!r}")
+    state = given.table.resolve().with_name(f"{given.table.name}.state-{len(frames)}-{given.chunk}-{given.separation!r}")
     state.mkdir(parents=True, exist_ok=True)
     firsts = range(0, len(frames) - 1, given.chunk)
     parts = {first: state / f"{first:09}.parquet" for first in firsts}
@@ -111,40 +115,40 @@ def main() -> int:
     print(f"{len(frames) - 1} steps in {len(parts)} pieces, {len(parts) - len(waiting)} of them done before", flush=True)
 
     ray.init(address=given.address, log_to_driver=False, include_dashboard=False)
-    attempts = dict.fromkeys(waiting, 0)
-    idle: list[Any] = [Worker.remote(given.separation) for _ in range(min(given.workers, len(waiting)))]
-    running: dict[Any, tuple[int, Any]] = {}
+    workers: list[Any] = [Worker.remote(given.separation) for _ in range(min(given.workers, len(waiting)))]
+    # Two pieces each: while one is told to be done, the worker has the other.
+    idle = list(range(len(workers))) * 2
+    running: dict[Any, tuple[int, int, Any]] = {}
+    losses = dict.fromkeys(waiting, 0)
     failed: dict[int, str] = {}
     began, done = time.monotonic(), 0
 
-    def hand_out() -> None:
-        while waiting and idle:
-            first, worker = waiting.pop(0), idle.pop()
-            attempts[first] += 1
-            running[worker.contacts.remote(first, frames[first : first + given.chunk + 1])] = first, worker
-
     while waiting or running:
-        hand_out()
+        while waiting and idle:
+            first, number = waiting.pop(0), idle.pop(0)
+            worker = workers[number]
+            piece = worker.write_contacts.remote(first, frames[first : first + given.chunk + 1], parts[first])
+            running[piece] = first, number, worker
         [ready], _ = ray.wait(list(running))
-        first, worker = running.pop(ready)
+        first, number, worker = running[ready]
         try:
-            rows = ray.get(ready)
-            # The next piece first: a worker is not to wait for the disk.
-            idle.append(worker)
-            hand_out()
-            write(pa.table(rows), parts[first])
+            ray.get(ready)
             done += 1
             print(f"steps {first} to {first + given.chunk}: done ({done} in {time.monotonic() - began:.1f} s)", flush=True)
         except ray.exceptions.RayTaskError as error:
             failed[first] = str(error.cause)
-            idle.append(worker)
         except ray.exceptions.RayError as error:
-            print(f"steps {first} to {first + given.chunk}: worker lost, attempt {attempts[first]} ({type(error).__name__})", flush=True)
-            idle.append(Worker.remote(given.separation))
-            if attempts[first] < ATTEMPTS:
+            if workers[number] is worker:
+                # It does its pieces in order: the older one was on, the other is not to blame.
+                losses[next(first for first, _, lost in running.values() if lost is worker)] += 1
+                workers[number] = Worker.remote(given.separation)
+            print(f"steps {first} to {first + given.chunk}: worker lost ({type(error).__name__})", flush=True)
+            if losses[first] < ATTEMPTS:
                 waiting.append(first)
             else:
                 failed[first] = f"{ATTEMPTS} workers were lost: {type(error).__name__}"
+        del running[ready]
+        idle.append(number)
     ray.shutdown()
     if failed:
         for first, reason in sorted(failed.items()):

@@ -14,7 +14,7 @@ const POLL: Duration = Duration::from_millis(50);
 /// Whether a call may take long enough that somebody wants to end it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Length {
-    /// As long as another thread takes to start, or a few times that.
+    /// A second at the very worst.
     Short,
     /// Any.
     Long,
