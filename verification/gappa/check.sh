@@ -4,6 +4,7 @@
 #   check.sh            installs the tools where they are missing (Debian's gappa, coq, libcoq-gappa, libcoq-flocq)
 #   check.sh --present  does not: what is missing is skipped, with a line that says so (./test.sh)
 #   check.sh --gappa    without Coq
+#   check.sh --install  installs the tools, and that is all
 #
 # A script's constants that are marked `#!` are halved one by one as well: then Gappa must fail.
 set -euo pipefail
@@ -11,12 +12,14 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 install=true
 coq=true
+check=true
 for option in "$@"; do
     case $option in
     --present) install=false ;;
     --gappa) coq=false ;;
+    --install) check=false ;;
     *)
-        echo "usage: check.sh [--present] [--gappa]" >&2
+        echo "usage: check.sh [--present] [--gappa] [--install]" >&2
         exit 2
         ;;
     esac
@@ -51,6 +54,8 @@ if $coq && ! { is_there coqc && library; }; then
         coq=false
     fi
 fi
+
+$check || exit 0
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
