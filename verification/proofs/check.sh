@@ -45,8 +45,8 @@ if grep -nwE 'Admitted|Axiom|Axioms|Parameter|Parameters|Conjecture|Abort|admit|
     exit 1
 fi
 last=${files[-1]}
-unset "files[-1]"
-coq_makefile -Q . Selvedge "${files[@]/%/.v}" -o Makefile >/dev/null
+before=("${files[@]::${#files[@]}-1}")
+coq_makefile -Q . Selvedge "${before[@]/%/.v}" -o Makefile >/dev/null
 make --no-print-directory --silent --jobs="$(nproc)" >/dev/null || {
     echo "proofs: Coq does not accept what make names above" >&2
     exit 1
@@ -67,4 +67,4 @@ if grep -vE "^( |Axioms:\$|Closed under the global context\$|($known)( |\$))" sa
     echo "proofs: something is assumed that is not of the real numbers" >&2
     exit 1
 fi
-echo "proofs: $((${#files[@]} + 1)) files accepted by Coq in $SECONDS s, $(grep -c '^Axioms:' says) theorems on the axioms of the real numbers alone"
+echo "proofs: ${#files[@]} files accepted by Coq in $SECONDS s, $(grep -c '^Axioms:' says) theorems on the axioms of the real numbers alone"

@@ -216,19 +216,21 @@ fn step(number: Traced, trace: &Trace) -> &Step {
 struct Terms<'a> {
     trace: &'a Trace,
     names: BTreeMap<String, String>,
-    /// The type of a term, and of a mask where masks have names too.
-    kinds: [Option<&'static str>; 2],
+    number_type: &'static str,
+    /// Where masks have names too.
+    mask_type: Option<&'static str>,
     /// Pairs of points whose differences are leaves, in the order in which they are met; without them leaves have names.
     spans: Option<Vec<[usize; 2]>>,
     text: String,
 }
 
 impl<'a> Terms<'a> {
-    fn new(kind: &'static str, trace: &'a Trace) -> Self {
+    fn new(number_type: &'static str, trace: &'a Trace) -> Self {
         Self {
             trace,
             names: BTreeMap::new(),
-            kinds: [Some(kind), None],
+            number_type,
+            mask_type: None,
             spans: None,
             text: String::new(),
         }
@@ -237,9 +239,9 @@ impl<'a> Terms<'a> {
     /// From differences of coordinates on; masks have names.
     fn of_spans(trace: &'a Trace) -> Self {
         Self {
-            kinds: [Some("number"), Some("test")],
+            mask_type: Some("test"),
             spans: Some(Vec::new()),
-            ..Self::new("", trace)
+            ..Self::new("number", trace)
         }
     }
 
@@ -307,8 +309,7 @@ impl<'a> Terms<'a> {
             Step::Magnitude(a) => format!("Magnitude {}", self.number(a)),
             other => panic!("{other:?} is not known to the proof"),
         };
-        let [kind, _] = self.kinds;
-        self.named('s', kind.expect("a type of numbers"), term)
+        self.named('s', self.number_type, term)
     }
 
     fn operation(&mut self, name: &str, a: Traced, b: Traced) -> String {
@@ -334,8 +335,8 @@ impl<'a> Terms<'a> {
             }
             other => panic!("{other:?} is not known to the proof"),
         };
-        match self.kinds[1] {
-            Some(kind) => self.named('m', kind, term),
+        match self.mask_type {
+            Some(mask_type) => self.named('m', mask_type, term),
             None => term,
         }
     }

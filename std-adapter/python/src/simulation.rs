@@ -177,17 +177,17 @@ impl Simulation {
     fn step(&self, py: Python<'_>, count: u64) -> PyResult<()> {
         let mut simulation = self.simulation()?;
         let simulation = &mut *simulation;
-        let stop = AtomicBool::new(false);
-        let steps = || {
-            for _ in 0..count {
-                if stop.load(Ordering::Relaxed) {
-                    break;
-                }
-                simulation.step()?;
+        // On the caller's own thread: a step is not ended midway by anything, and signals are asked for after each.
+        let mut done = Ok(Ok(Ok(())));
+        for _ in 0..count {
+            done = interruptible(py, Length::Short, || (), || simulation.step());
+            if let Ok(Ok(Ok(()))) = done {
+                done = py.check_signals().map(|()| Ok(Ok(())));
             }
-            Ok::<_, selvedge_cloth::Blocked>(())
-        };
-        let done = interruptible(py, Length::Long, || stop.store(true, Ordering::Relaxed), steps);
+            if !matches!(done, Ok(Ok(Ok(())))) {
+                break;
+            }
+        }
         if let Ok(Err(words)) = &done {
             self.is_broken.store(true, Ordering::Relaxed);
             return Err(errors::broken(words));
