@@ -77,7 +77,7 @@ cargo test --profile dev --package selvedge --test builds_without_optimisation
 say "the documentation's examples"
 cargo test --workspace --doc
 
-# .ci/run has them checked itself, by more, and not twice.
+# .ci/run has them checked at its end, by Coq as well, and not twice.
 if [ "${PROOFS:-}" != later ]; then
     say "rounding constants: Gappa's proofs, where it is installed"
     verification/gappa/check.sh --present --gappa

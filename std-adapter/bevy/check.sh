@@ -20,13 +20,11 @@ say "Bevy: formatting, lints, documentation"
 cargo fmt --check
 cargo fmt --check --manifest-path example/Cargo.toml
 # Clippy as the compiler: Bevy's crates are built once for both, not checked for the one and compiled for the other.
-export RUSTC_WORKSPACE_WRAPPER=clippy-driver
 export RUSTFLAGS="-D warnings"
-cargo test --locked --all-targets --no-run
-unset RUSTC_WORKSPACE_WRAPPER
+test_with_clippy() { RUSTC_WORKSPACE_WRAPPER=clippy-driver cargo test --locked "$@"; }
+test_with_clippy --all-targets --no-run
 RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps
-export RUSTC_WORKSPACE_WRAPPER=clippy-driver
 
 say "Bevy: tests"
-cargo test --locked
+test_with_clippy
 say "Bevy: all as it should be"

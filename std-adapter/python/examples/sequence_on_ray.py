@@ -6,7 +6,8 @@
 FRAMES is a folder of OBJ or PLY files with the same triangles, in the order of their names; all machines see it and OUT's folder under the
 same names. Workers keep a detector; each gets so many steps in a row and writes what it found itself. The state is a folder beside the
 table, one file for each piece that is done: started again, the work goes on. A piece whose worker is lost is done again by another, three
-times at most; one whose frames are at fault is named, and the others go on. The table is sorted by step, kind and pair: the same for any number of workers, losses and starts.
+times at most; one whose frames are at fault is named, and the others go on. The table is sorted by step, kind
+and pair: the same for any number of workers, losses and starts.
 """
 
 import argparse

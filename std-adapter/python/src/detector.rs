@@ -60,17 +60,26 @@ impl Detector {
         self.asked.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Puts a question to the detector of a format, without the interpreter.
+    /// Puts a question about the whole mesh to the detector of a format, without the interpreter.
     fn ask<S: Format, T: Send>(
         &self,
         py: Python<'_>,
+        question: impl FnOnce(&mut Finder<S>) -> Result<T, StepError> + Send,
+    ) -> PyResult<T> {
+        self.ask_at_length(py, self.length, question)
+    }
+
+    fn ask_at_length<S: Format, T: Send>(
+        &self,
+        py: Python<'_>,
+        length: Length,
         question: impl FnOnce(&mut Finder<S>) -> Result<T, StepError> + Send,
     ) -> PyResult<T> {
         let mut finders = self.finders()?;
         let finder = finders.of::<S>().map_err(setting_error)?;
         let cancellation = finder.detector.cancellation();
         *self.asked() = Some(cancellation.clone());
-        let answer = interruptible(py, self.length, || cancellation.cancel(), || question(finder));
+        let answer = interruptible(py, length, || cancellation.cancel(), || question(finder));
         *self.asked() = None;
         // For the next question. Nobody else has it any more.
         cancellation.reset();
@@ -90,12 +99,13 @@ impl Detector {
     fn columns<S: Format>(
         &self,
         py: Python<'_>,
+        length: Length,
         [start, end]: [&[[S; 3]]; 2],
         geometry: bool,
         find: impl FnOnce(&mut Finder<S>) -> Result<(), StepError> + Send,
     ) -> PyResult<Columns<S>> {
         let topology = &*self.topology;
-        self.ask(py, |finder: &mut Finder<S>| {
+        self.ask_at_length(py, length, |finder: &mut Finder<S>| {
             find(finder)?;
             let Finder {
                 detector,
@@ -130,6 +140,10 @@ fn length_of(topology: &Topology) -> Length {
     let (vertices, faces) = (topology.vertex_count(), topology.triangles().len());
     let edges = topology.edges().len();
     let pairs = vertices.saturating_mul(faces).saturating_add(edges.saturating_mul(edges) / 2);
+    length_of_pairs(pairs)
+}
+
+fn length_of_pairs(pairs: usize) -> Length {
     if pairs <= FEW_PAIRS { Length::Short } else { Length::Long }
 }
 
@@ -186,7 +200,7 @@ impl Detector {
         with_frames!(step(start, end)?, [start, end] => {
             let (start, end) = (start.rows()?, end.rows()?);
             let find = |finder: &mut Finder<_>| finder.detector.contacts(start, end, &mut finder.contacts);
-            self.columns(py, [start, end], geometry, find)?.show(py)
+            self.columns(py, self.length, [start, end], geometry, find)?.show(py)
         })
     }
 
@@ -202,12 +216,14 @@ impl Detector {
     ) -> PyResult<Bound<'py, PyAny>> {
         let vertex_face = indices::<2>(vertex_face, "vertex_face")?;
         let edge_edge = indices::<2>(edge_edge, "edge_edge")?;
+        // The list may be longer than what the mesh has: pairs may stand in it often.
+        let length = length_of_pairs(vertex_face.len() + edge_edge.len());
         with_frames!(step(start, end)?, [start, end] => {
             let (start, end) = (start.rows()?, end.rows()?);
             let find = |finder: &mut Finder<_>| {
                 finder.detector.contacts_of(start, end, &vertex_face, &edge_edge, &mut finder.contacts)
             };
-            self.columns(py, [start, end], geometry, find)?.show(py)
+            self.columns(py, length, [start, end], geometry, find)?.show(py)
         })
     }
 
