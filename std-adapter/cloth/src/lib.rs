@@ -27,6 +27,7 @@
     reason = "a comparison is false with NaN, which must then take the side that does nothing"
 )]
 
+mod bending;
 mod checkpoint;
 mod contact;
 pub mod effects;

@@ -56,7 +56,7 @@ pub enum OnBlocked {
 /// let mut ball = Body::ball("ball", DVec3::ZERO, 0.1, 24)?;
 /// ball.motion = Motion::Driven(Placement::default());
 /// scene.bodies.push(ball);
-/// scene.add(Gravity::default()).add(Stretch::isotropic(1000.0)).add(Bend { stiffness: 1e-5 });
+/// scene.add(Gravity::default()).add(Stretch::isotropic(1000.0)).add(Bend::isotropic(1e-5));
 /// scene.add(BodyContact(Thickness::of(4e-3))).add(SelfCollision(Thickness::of(4e-3)));
 ///
 /// let mut simulation = Simulation::new(scene, 1)?;

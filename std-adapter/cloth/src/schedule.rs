@@ -71,6 +71,14 @@ impl<C: Local<N>, const N: usize> Schedule<C, N> {
         Self::of(vec![constraints], vertex_count, 1)
     }
 
+    /// So many times, on vertices that are at `rest` at rest.
+    pub(crate) fn times(constraints: Vec<On<C, N>>, rest: &[DVec3], sweeps: u32) -> Self {
+        match sweeps {
+            1 => Self::once(constraints, rest.len()),
+            _ => Self::in_blocks(constraints, rest, sweeps.into()),
+        }
+    }
+
     /// Several times, in blocks of constraints that are near each other, on vertices that are at `rest` at rest.
     pub(crate) fn in_blocks(constraints: Vec<On<C, N>>, rest: &[DVec3], sweeps: u64) -> Self {
         let centre = |(vertices, _): &On<C, N>| vertices.iter().map(|&v| rest[v as usize]).sum();

@@ -147,7 +147,7 @@ fn cape(cells: [u32; 2]) -> Result<Scene, ValueError> {
     scene
         .add(Stretch::isotropic(400.0))
         .add(Shear { stiffness: 60.0 })
-        .add(Bend { stiffness: 2e-5 });
+        .add(Bend::isotropic(2e-5));
     scene
         .add(StrainLimit::at(1.08))
         .add(AirDrag { rate: 1.0 })

@@ -3,6 +3,9 @@
 //! Extended position-based dynamics (Macklin et al. 2016) with one iteration a step: Δx = −C·W∇C / (∇C·W∇C + α/h²). Where w
 //! vanishes it has no direction, and nothing is done.
 //!
+//! More `sweeps` leave less for the next step (an accuracy–time choice): on the sheet of `drop.toml` with 10 thousand triangles 99 % of the edges
+//! are stretched by up to 3.5 % with one, 3.0 % with two (means of the second half of a second), in 1.1 times the time.
+//!
 //! One iteration moves a pull by one edge, so that a cloth would be the softer the finer its mesh: before it come coarse
 //! [`levels`](super::levels). In a step of h the equations themselves carry a pull by some h·√(k/ρ), ρ being the mass of an area: they
 //! are those of ∂²x/∂t² = (k/ρ)·∂²x/∂s² in one implicit step, x − h²(k/ρ)·x″ = what inertia predicts, in which a pull fades by e
@@ -11,7 +14,7 @@
 use super::levels::{self, OnLevels, Tension};
 use super::registration::{Effect, Registration};
 use crate::hierarchy::mesh_spacing;
-use crate::input::{Field, MEMBRANE_STIFFNESS, ValueError};
+use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::membrane::{Membrane, all, image, of_triangles};
 use crate::plan::Plan;
 use crate::schedule::{Local, Schedule};
@@ -20,14 +23,16 @@ use selvedge_core::glam::DVec3;
 
 const WARP: Field = Field::new("stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
 const WEFT: Field = Field::new("weft_stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
+const SWEEPS: Count = Count::new("sweeps", 1, 100);
 
 pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["stiffness", "weft_stiffness", "levels"],
+    keys: &["stiffness", "weft_stiffness", "sweeps", "levels"],
     needs: &[],
     read: |table, _| {
         let warp = table.required_number(&WARP)?;
         Ok(Box::new(Stretch {
             weft_stiffness: table.number(&WEFT)?.unwrap_or(warp),
+            sweeps: table.count(&SWEEPS)?.unwrap_or(1),
             levels: levels::read_most(table)?,
             stiffness: warp,
         }))
@@ -41,17 +46,20 @@ pub struct Stretch {
     pub stiffness: f64,
     /// Along the weft, in N/m.
     pub weft_stiffness: f64,
+    /// How often all triangles of the mesh are looked at in a step.
+    pub sweeps: u32,
     /// On how many coarser levels of the cloth pulls go ahead of the mesh, from the finest; `None`: on all that there is use for.
     pub levels: Option<u32>,
 }
 
 impl Stretch {
-    /// The same along warp and weft, in N/m.
+    /// The same along warp and weft, in N/m, in one sweep.
     #[must_use]
     pub const fn isotropic(stiffness: f64) -> Self {
         Self {
             stiffness,
             weft_stiffness: stiffness,
+            sweeps: 1,
             levels: None,
         }
     }
@@ -68,11 +76,13 @@ impl Effect for Stretch {
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         WARP.check(self.stiffness)?;
         WEFT.check(self.weft_stiffness)?;
+        SWEEPS.check(self.sweeps)?;
         levels::check(self.levels)
     }
 
     fn settings(&self) -> Vec<(&'static str, String)> {
-        levels::settings(self.levels).into_iter().collect()
+        let sweeps = (self.sweeps > 1).then(|| ("sweeps", self.sweeps.to_string()));
+        sweeps.into_iter().chain(levels::settings(self.levels)).collect()
     }
 
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
@@ -82,7 +92,7 @@ impl Effect for Stretch {
             membrane,
             compliance: stiffness.map(|k| 1.0 / (k * area)),
         });
-        let springs = Schedule::once(springs, cloth.mesh.positions.len());
+        let springs = Schedule::times(springs, &cloth.mesh.positions, self.sweeps);
         let stiffest = self.stiffness.max(self.weft_stiffness);
         let way = plan.scene.time_step * (stiffest / cloth.density).sqrt();
         let coarsest = if way > mesh_spacing(cloth) { REACH * way } else { 0.0 };

@@ -33,7 +33,7 @@ fn scene_with(body: Body, height: f64) -> Scene {
     scene
         .add(Gravity::default())
         .add(Stretch::isotropic(200.0))
-        .add(Bend { stiffness: 1e-5 });
+        .add(Bend::isotropic(1e-5));
     scene.add(Pins {
         groups: vec![PinGroup::resting(corners)],
     });
@@ -155,7 +155,7 @@ fn code_and_file_make_the_same_scene_to_the_last_bit() {
             ..Stretch::isotropic(400.0)
         })
         .add(StrainLimit::at(1.1));
-    scene.add(Shear { stiffness: 50.0 }).add(Bend { stiffness: 1e-5 });
+    scene.add(Shear { stiffness: 50.0 }).add(Bend::isotropic(1e-5));
     let follows = PinGroup {
         vertices: start,
         motion: PinMotion::Body(0),
@@ -596,7 +596,7 @@ fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_b
         ),
         (of(Shear { stiffness: 1e10 }), "shear: `stiffness` is 1e10 N/m"),
         (
-            of(Bend { stiffness: 100.0 }),
+            of(Bend::isotropic(100.0)),
             "bend: `stiffness` is 100 N m, but must be from 1e-12 N m to 10 N m",
         ),
         (

@@ -1,5 +1,6 @@
 //! Cloth simulation as a library's user meets it.
 
+mod bending;
 mod blocked;
 mod determinism;
 mod drape;
@@ -9,6 +10,9 @@ mod paying_only;
 mod stability;
 mod stretch;
 mod wrong_scenes;
+
+#[path = "../../src/hierarchy/irregular.rs"]
+mod irregular;
 
 use selvedge_cloth::{Scene, Simulation};
 use std::path::{Path, PathBuf};

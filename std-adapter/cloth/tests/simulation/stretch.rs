@@ -1,9 +1,6 @@
 //! Cloth is as stiff as its fabric, whatever its mesh.
 
-#[path = "../../src/hierarchy/irregular.rs"]
-mod irregular;
-
-use crate::set_up;
+use crate::{irregular, set_up};
 use selvedge::Mesh;
 use selvedge::glam::DVec3;
 use selvedge_cloth::{Scene, Simulation};
@@ -17,6 +14,7 @@ duration = "5 s"
 rate = "0.5 1/s"
 [effects.stretch]
 stiffness = "400 N/m"
+sweeps = 2
 [effects.shear]
 stiffness = "80 N/m"
 [effects.bend]

@@ -1,0 +1,83 @@
+//! The forces of all hinges at once, −Q·x: a sparse symmetric matrix, by rows.
+
+use super::hinge::Hinge;
+use crate::schedule::On;
+use selvedge::verification::parallel;
+use selvedge_core::glam::DVec3;
+
+/// Rows of Q without the diagonal: a row sums to zero.
+#[derive(Debug)]
+pub(super) struct Forces {
+    starts: Vec<u32>,
+    /// Of each row, sorted.
+    entries: Vec<(u32, f64)>,
+}
+
+impl Forces {
+    pub(super) fn new(hinges: &[On<Hinge, 4>], vertex_count: usize) -> Self {
+        let mut starts = vec![0_u32; vertex_count + 1];
+        hinges
+            .iter()
+            .flat_map(|(own, _)| own)
+            .for_each(|&v| starts[v as usize + 1] += 3);
+        for vertex in 0..vertex_count {
+            starts[vertex + 1] += starts[vertex];
+        }
+        let mut entries = vec![(0, 0.0); starts[vertex_count] as usize];
+        let mut next = starts.clone();
+        for (vertices, hinge) in hinges {
+            for k in 0..4 {
+                for l in (0..4).filter(|&l| l != k) {
+                    let place = &mut next[vertices[k] as usize];
+                    entries[*place as usize] = (vertices[l], hinge.coefficient * hinge.weights[k] * hinge.weights[l]);
+                    *place += 1;
+                }
+            }
+        }
+        let mut forces = Self {
+            starts: vec![0],
+            entries: Vec::new(),
+        };
+        for own in starts.windows(2) {
+            let row = &mut entries[own[0] as usize..own[1] as usize];
+            // Stable, so that sums are the same bits every time.
+            row.sort_by_key(|(other, _)| *other);
+            for same in row.chunk_by(|a, b| a.0 == b.0) {
+                forces.entries.push((same[0].0, same.iter().map(|(_, value)| value).sum()));
+            }
+            forces.starts.push(forces.entries.len() as u32);
+        }
+        forces
+    }
+
+    /// Vertices.
+    pub(super) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    fn row(&self, vertex: usize) -> &[(u32, f64)] {
+        &self.entries[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+    }
+
+    /// The largest sum of absolute values of a row of M⁻¹Q.
+    pub(super) fn fastest(&self, inverse_masses: &[f64]) -> f64 {
+        let sum = |vertex: usize| {
+            let row = self.row(vertex).iter().map(|(_, value)| *value);
+            let diagonal = row.clone().sum::<f64>().abs();
+            inverse_masses[vertex] * (diagonal + row.map(f64::abs).sum::<f64>())
+        };
+        (0..self.len()).map(sum).fold(0.0, f64::max)
+    }
+
+    /// Calls `action` with each vertex, the force on it and its place in `results`.
+    pub(super) fn for_each(&self, positions: &[DVec3], results: &mut [DVec3], action: impl Fn(usize, DVec3, &mut DVec3) + Sync) {
+        parallel::for_each(results, |vertex, result| {
+            let own = positions[vertex];
+            let mut force = DVec3::ZERO;
+            for &(other, value) in self.row(vertex) {
+                force += (own - positions[other as usize]) * value;
+            }
+            action(vertex, force, result);
+        });
+    }
+}
