@@ -131,7 +131,12 @@ impl ContactSolver {
             let Some(separation) = self.separation(&self.candidates.list[index]) else {
                 continue;
             };
-            if !is_free(&mut self.candidates.list[index], [start, end], separation, self.error) {
+            let pair = &mut self.candidates.list[index];
+            // What it remembers was right for the way to where its vertices were before: its gap at the start is large enough.
+            if pair.stays_apart(end, separation, self.error) {
+                continue;
+            }
+            if !is_free(pair, [start, end], separation, self.error) {
                 still_open.push(index);
             }
         }

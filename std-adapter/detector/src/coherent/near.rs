@@ -249,7 +249,11 @@ impl<I: Interest> NearPairs<I> {
 
 /// Adds to `pairs` those of `found` that are not there yet. Both ascend by key, and do so afterwards.
 fn add<D: Copy>(pairs: &mut Vec<NearPair<D>>, found: &mut Vec<NearPair<D>>) {
-    found.retain(|new| pairs.binary_search_by_key(&new.key(), NearPair::key).is_err());
+    let mut left = &pairs[..];
+    found.retain(|new| {
+        left = &left[before(left, new)..];
+        left.first().is_none_or(|known| known.key() != new.key())
+    });
     // From the end, so that every pair is moved at most once, and those before the first new one not at all.
     let mut known = pairs.len();
     pairs.extend_from_slice(found);
@@ -263,6 +267,17 @@ fn add<D: Copy>(pairs: &mut Vec<NearPair<D>>, found: &mut Vec<NearPair<D>>) {
             found.pop();
         }
     }
+}
+
+/// How many of `pairs` come before `pair`; soon found where they are few.
+fn before<D: Copy>(pairs: &[NearPair<D>], pair: &NearPair<D>) -> usize {
+    let comes_before = |other: &NearPair<D>| other.key() < pair.key();
+    let mut end = 1;
+    while pairs.get(end - 1).is_some_and(comes_before) {
+        end *= 2;
+    }
+    let start = end / 2;
+    start + pairs[start..pairs.len().min(end)].partition_point(comes_before)
 }
 
 #[cfg(test)]
