@@ -73,4 +73,10 @@ impl Local<3> for Angle {
         }
         gradients
     }
+
+    /// ½k·A·C².
+    fn energy(&self, x: [DVec3; 3]) -> Option<f64> {
+        let c = image(self.membrane.a, x).dot(image(self.membrane.b, x));
+        Some(0.5 * c * c / self.compliance)
+    }
 }

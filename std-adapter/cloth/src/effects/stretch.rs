@@ -123,4 +123,11 @@ impl Local<3> for Spring {
         }
         moves
     }
+
+    /// ½k·A·C² for each of the two.
+    fn energy(&self, x: [DVec3; 3]) -> Option<f64> {
+        let [warp, weft] = self.compliance;
+        let of = |c: [f64; 2], compliance: f64| 0.5 * (image(c, x).length() - 1.0).powi(2) / compliance;
+        Some(of(self.membrane.a, warp) + of(self.membrane.b, weft))
+    }
 }

@@ -64,16 +64,17 @@ fn split(saved: &[u8]) -> Option<(&[u8], &[u8])> {
     rest.split_at_checked(usize::try_from(u64::from_le_bytes(length)).ok()?)
 }
 
-/// Runs a simulation up to step `steps`, and shows it to `then` after each step.
+/// Runs a simulation up to step `steps`, and shows it to `then` after each step, with the seconds that the step took.
 pub(super) fn run_steps(
     simulation: &mut Simulation,
     steps: u64,
-    mut then: impl FnMut(&Simulation) -> Result<(), Failure>,
+    mut then: impl FnMut(&Simulation, f64) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let progress = Progress::steps("simulating", steps);
     while simulation.steps_done() < steps {
+        let begin = Instant::now();
         simulation.step()?;
-        then(simulation)?;
+        then(simulation, begin.elapsed().as_secs_f64())?;
         progress.set_steps(simulation.steps_done());
     }
     Ok(())
@@ -118,8 +119,8 @@ impl Simulate {
         let begin = Instant::now();
         let seconds = || earlier + begin.elapsed().as_secs_f64();
         let mut last_checkpoint: Option<Instant> = None;
-        let result = run_steps(&mut simulation, steps, |simulation| {
-            recorder.step(simulation);
+        let result = run_steps(&mut simulation, steps, |simulation, taken| {
+            recorder.step(simulation, taken);
             let step = simulation.steps_done();
             if step.is_multiple_of(steps_per_frame) || step == steps {
                 recorder.frame(simulation)?;
@@ -155,13 +156,13 @@ impl Simulate {
         files.publish()?;
         // What has been simulated is written and told all the same.
         let printed = if self.json {
-            let mut document = json::simulation(&simulation, seconds);
+            let mut document = json::simulation(&simulation, &recording);
             if self.effects_one_by_one {
                 document["effects_one_by_one"] = json::effects_one_by_one(&costs);
             }
             output::print_json(&document)
         } else {
-            let mut text = tables::simulation(&simulation, seconds);
+            let mut text = tables::simulation(&simulation, &recording);
             if self.effects_one_by_one {
                 text += "\n";
                 text += &tables::effects_one_by_one(&costs);

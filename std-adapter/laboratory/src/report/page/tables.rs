@@ -38,7 +38,9 @@ fn counts(recording: &Recording, series: &Series) -> [String; 3] {
 pub(super) fn times(recording: &Recording) -> Markup {
     let is_time = |kind| matches!(kind, SeriesKind::Effect | SeriesKind::Stage);
     let sum: f64 = recording.series_of(is_time).map(|series| series.total).sum();
-    let whole = recording.wall_seconds.map_or(sum, |wall| wall.max(sum));
+    let steps = recording.step_times();
+    let wall = steps.map(|steps| steps.total).or(recording.wall_seconds);
+    let whole = wall.map_or(sum, |wall| wall.max(sum));
     let row = |name: &str, seconds: f64, largest: f64| {
         let of_whole = if whole > 0.0 { seconds / whole } else { 0.0 };
         html! { tr {
@@ -62,9 +64,9 @@ pub(super) fn times(recording: &Recording) -> Markup {
             (head(&["", "a step", "share", "most in a step", "all steps"]))
             (group("effects", SeriesKind::Effect))
             (group("stages that effects share", SeriesKind::Stage))
-            @if let Some(wall) = recording.wall_seconds { tbody {
+            @if let Some(wall) = wall { tbody {
                 @if wall > sum { (row("everything else", wall - sum, NONE)) }
-                (row("whole step, by the clock on the wall", wall, NONE))
+                (row("whole step, by the clock on the wall", wall, steps.map_or(NONE, |steps| steps.largest)))
             } }
         } }
     }
@@ -109,7 +111,7 @@ pub(super) fn knobs(recording: &Recording) -> Markup {
 }
 
 /// Rows with a name each.
-fn table<'a, const H: usize, const N: usize, C: maud::Render>(
+pub(super) fn table<'a, const H: usize, const N: usize, C: maud::Render>(
     headings: [&str; H],
     rows: impl Iterator<Item = (&'a str, [C; N])>,
 ) -> Markup {
