@@ -7,7 +7,7 @@ use super::progress::Progress;
 use selvedge::Mesh;
 use selvedge_cloth::{CheckpointError, Scene, SceneError, Simulation};
 use selvedge_files::mesh;
-use selvedge_laboratory::report::{SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, tables};
+use selvedge_laboratory::report::{SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, still, tables};
 use selvedge_laboratory::study::{EffectCost, effects_one_by_one};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -24,6 +24,7 @@ Examples:
   selvedge simulate scene.toml --frames gltf --output out    for Blender
   selvedge simulate scene.toml --effects-one-by-one          what each costs
   selvedge simulate scene.toml --resume                      after an interruption
+  selvedge simulate scene.toml --picture fold.png --at 0.8   a still picture, without a browser
 
 Scenes that come with the program are in std-adapter/cloth/scenes.")]
 pub(crate) struct Simulate {
@@ -41,6 +42,12 @@ pub(crate) struct Simulate {
     /// Go on from the last checkpoint in the output folder
     #[arg(long)]
     resume: bool,
+    /// Write a still picture (PNG) of the last frame to this file, in the folder of the others unless it names one
+    #[arg(long, value_name = "FILE")]
+    picture: Option<PathBuf>,
+    /// Of the frame nearest to this time instead
+    #[arg(long, value_name = "SECONDS", requires = "picture", value_parser = time)]
+    at: Option<f64>,
     #[command(flatten)]
     threads: Threads,
     /// Print one JSON document instead of a table
@@ -56,6 +63,15 @@ enum Frames {
     Obj,
     /// One animated file, which Blender opens
     Gltf,
+}
+
+/// A time in seconds.
+fn time(text: &str) -> Result<f64, String> {
+    let seconds = text
+        .parse()
+        .ok()
+        .filter(|seconds: &f64| seconds.is_finite() && *seconds >= 0.0);
+    seconds.ok_or_else(|| "a time in seconds, zero or more, is needed".to_owned())
 }
 
 /// The two parts of a checkpoint file: the simulation's state, and what was recorded.
@@ -152,6 +168,12 @@ impl Simulate {
         files.add_bytes(self.file("html"), page::html(&recording).as_bytes())?;
         if self.frames == Some(Frames::Gltf) {
             files.add_bytes(self.file("glb"), &gltf::binary(&recording)?)?;
+        }
+        if let Some(picture) = &self.picture {
+            let frame = self
+                .at
+                .map_or(recording.frames.len() - 1, |seconds| recording.frame_at(seconds));
+            files.add_bytes(self.output.join(picture), &still::png(&recording, frame, still::STILL_SIZE)?)?;
         }
         files.publish()?;
         // What has been simulated is written and told all the same.

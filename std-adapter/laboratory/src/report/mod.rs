@@ -16,6 +16,7 @@ mod paper;
 mod plot;
 mod recording;
 mod step;
+pub mod still;
 pub mod tables;
 mod tangles;
 

@@ -276,6 +276,19 @@ impl Recording {
         self.end_of(frame.step)
     }
 
+    /// The frame that is nearest to a time, in seconds: the first of two.
+    ///
+    /// # Panics
+    /// If the recording has no frames, which a [`Recorder`] does not make.
+    #[must_use]
+    pub fn frame_at(&self, seconds: f64) -> usize {
+        let away = |&frame: &usize| (self.time(&self.frames[frame]) - seconds).abs();
+        let frames = 0..self.frames.len();
+        frames
+            .min_by(|a, b| away(a).total_cmp(&away(b)))
+            .expect("a recording has frames")
+    }
+
     /// How long the recorded steps are together, in simulated seconds.
     #[must_use]
     pub fn duration(&self) -> f64 {
