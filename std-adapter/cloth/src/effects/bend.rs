@@ -37,6 +37,10 @@ impl Effect for Bend {
         STIFFNESS.check(self.stiffness)
     }
 
+    fn fabric(&self) -> Vec<(&'static str, String)> {
+        vec![("bending stiffness", BENDING_STIFFNESS.written_short(self.stiffness))]
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
         let hinges = hinges(cloth, self.stiffness);

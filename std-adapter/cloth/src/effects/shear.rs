@@ -35,6 +35,10 @@ impl Effect for Shear {
         STIFFNESS.check(self.stiffness)
     }
 
+    fn fabric(&self) -> Vec<(&'static str, String)> {
+        vec![("shear stiffness", MEMBRANE_STIFFNESS.written_short(self.stiffness))]
+    }
+
     fn announce(&self, fabric: &mut Fabric) {
         fabric.shear = Some(self.stiffness);
     }

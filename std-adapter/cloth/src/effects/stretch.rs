@@ -71,6 +71,15 @@ impl Effect for Stretch {
         levels::check(self.levels)
     }
 
+    fn fabric(&self) -> Vec<(&'static str, String)> {
+        let [warp, weft] = [self.stiffness, self.weft_stiffness].map(|k| MEMBRANE_STIFFNESS.written_short(k));
+        if warp == weft {
+            vec![("stiffness along warp and weft", warp)]
+        } else {
+            vec![("stiffness along the warp", warp), ("stiffness along the weft", weft)]
+        }
+    }
+
     fn settings(&self) -> Vec<(&'static str, String)> {
         levels::settings(self.levels).into_iter().collect()
     }

@@ -7,7 +7,9 @@ use super::progress::Progress;
 use selvedge::Mesh;
 use selvedge_cloth::{CheckpointError, Scene, SceneError, Simulation};
 use selvedge_files::mesh;
-use selvedge_laboratory::report::{SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, still, tables};
+use selvedge_laboratory::report::{
+    Recording, SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, side_by_side, still, tables,
+};
 use selvedge_laboratory::study::{EffectCost, effects_one_by_one};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -24,6 +26,7 @@ Examples:
   selvedge simulate scene.toml --frames gltf --output out    for Blender
   selvedge simulate scene.toml --effects-one-by-one          what each costs
   selvedge simulate scene.toml --resume                      after an interruption
+  selvedge simulate scene.toml --against other.toml          two scenes, side by side on one page
   selvedge simulate scene.toml --picture fold.png --at 0.8   a still picture, without a browser
 
 Scenes that come with the program are in std-adapter/cloth/scenes.")]
@@ -48,6 +51,9 @@ pub(crate) struct Simulate {
     /// Of the frame nearest to this time instead
     #[arg(long, value_name = "SECONDS", requires = "picture", value_parser = time)]
     at: Option<f64>,
+    /// Run this scene as well, in the same way, and write a page that shows both side by side
+    #[arg(long, value_name = "SCENE", conflicts_with_all = ["frames", "effects_one_by_one", "resume", "picture"])]
+    against: Option<PathBuf>,
     #[command(flatten)]
     threads: Threads,
     /// Print one JSON document instead of a table
@@ -106,11 +112,78 @@ pub(super) fn effect_costs(
     effects_one_by_one(read, steps, threads, &mut |share| progress.set(share))
 }
 
+/// A scene that was run, as far as it went.
+struct Run {
+    simulation: Simulation,
+    recording: Recording,
+    result: Result<(), Failure>,
+}
+
 /// Between two checkpoints, at least; the first is written as soon as it can be.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(5);
 
 impl Simulate {
     pub(crate) fn run(&self) -> Result<(), Failure> {
+        match &self.against {
+            Some(other) => self.run_both(other),
+            None => self.run_one(),
+        }
+    }
+
+    /// Both scenes one after the other in one process, so that their times can be compared. Nothing is written of them but reports.
+    fn run_both(&self, other: &Path) -> Result<(), Failure> {
+        OutputFiles::check_folder(&self.output)?;
+        let [first, second] = [self.recorded(&self.scene)?, self.recorded(other)?];
+        let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = format!("{}-against-{}.html", stem(&self.scene), stem(other));
+        let mut files = OutputFiles::default();
+        files.add_bytes(
+            self.output.join(name),
+            side_by_side::html(&first.recording, &second.recording)?.as_bytes(),
+        )?;
+        files.publish()?;
+        let printed = if self.json {
+            let mut document = json::simulation(&first.simulation, &first.recording);
+            document["against"] = json::simulation(&second.simulation, &second.recording);
+            output::print_json(&document)
+        } else {
+            let texts = [&first, &second].map(|run| tables::simulation(&run.simulation, &run.recording));
+            output::print(&texts.join("\n"))
+        };
+        first.result.and(second.result).and(printed)
+    }
+
+    /// Runs a scene and keeps nothing but what is recorded of it.
+    fn recorded(&self, path: &Path) -> Result<Run, Failure> {
+        let scene = Scene::read(path)?;
+        let path = path.display();
+        let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
+        let subject = Subject::new(&scene);
+        let mut simulation = Simulation::new(scene, self.threads.get()).map_err(|error| format!("{path}: {error}"))?;
+        let mut recorder = SimulationRecorder::new(subject, &simulation)?;
+        let begin = Instant::now();
+        let result = run_steps(&mut simulation, steps, |simulation, taken| {
+            recorder.step(simulation, taken);
+            let step = simulation.steps_done();
+            if step.is_multiple_of(steps_per_frame) || step == steps {
+                recorder.frame(simulation)?;
+            }
+            Ok(())
+        });
+        let seconds = begin.elapsed().as_secs_f64();
+        let result = result.map_err(|failure| Failure::from(format!("{path}: {failure}")));
+        if let Err(failure) = &result {
+            recorder.frame(&simulation)?;
+            recorder.remark(failure.to_string());
+        }
+        Ok(Run {
+            recording: recorder.finish(seconds),
+            simulation,
+            result,
+        })
+    }
+
+    fn run_one(&self) -> Result<(), Failure> {
         let scene = Scene::read(&self.scene)?;
         let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
         let subject = Subject::new(&scene);

@@ -15,6 +15,7 @@ pub mod page;
 mod paper;
 mod plot;
 mod recording;
+pub mod side_by_side;
 mod step;
 pub mod still;
 pub mod tables;
@@ -45,6 +46,16 @@ fn distributed(row: &ComparisonRow) -> Option<MeanCounts> {
 fn mesh_size(vertices: usize, edges: usize, triangles: usize) -> String {
     let [vertices, edges, triangles] = [vertices, edges, triangles].map(number::grouped);
     format!("{vertices} vertices, {edges} edges, {triangles} triangles")
+}
+
+/// An effect as people call it, who write no underscores.
+fn label(name: &str) -> String {
+    name.replace("self_collision", "self-collision").replace('_', " ")
+}
+
+/// A value with its unit, as it is printed: `15 µN·m` for `15 uN m`.
+fn printed(value: &str) -> String {
+    value.replace("uN", "µN").replace("N m", "N·m").replace("m2", "m²")
 }
 
 /// Without control characters, which XML and HTML have no way to write and a file's name may hold.

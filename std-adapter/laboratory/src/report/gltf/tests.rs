@@ -11,6 +11,7 @@ fn recording(frames: u64, up: DVec3) -> Recording {
         scene: String::new(),
         up,
         time_step: 0.02,
+        fabric: Vec::new(),
         knobs: Vec::new(),
     };
     let parts = vec![

@@ -14,6 +14,7 @@
 //! So a position is off by at most half a 65,535th of the frame's extent, and by the rounding of f32.
 
 use super::measures::Shown;
+use crate::report::label;
 use crate::report::recording::{Frame, PartKind, Recording, SeriesKind};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -79,10 +80,11 @@ fn header(recording: &Recording, measures: &[Shown<'_>]) -> Value {
             SeriesKind::Step => ("step", "s"),
             SeriesKind::Gauge(unit) => ("gauge", unit),
         };
-        json!({"name": series.name, "kind": kind, "unit": unit})
+        json!({"name": series.name, "label": label(&series.name), "kind": kind, "unit": unit})
     });
     let measures = measures.iter();
-    let measures = measures.map(|shown| json!({"name": shown.name, "kind": shown.kind(), "unit": shown.unit()}));
+    let measures = measures
+        .map(|shown| json!({"name": shown.name, "label": label(shown.name), "kind": shown.kind_name(), "unit": shown.unit()}));
     let frame_steps = recording.frames.iter().map(|frame| frame.step);
     json!({
         "up": recording.up().to_array(),

@@ -6,15 +6,15 @@ use crate::report::recording::{GRAVITATIONAL, Measure, MeasureKind, Recording};
 use maud::{Markup, html};
 
 /// A measure as the page shows it.
-pub(super) struct Shown<'a> {
-    pub(super) name: &'a str,
-    kind: MeasureKind,
-    pub(super) values: Vec<f64>,
+pub(in crate::report) struct Shown<'a> {
+    pub(in crate::report) name: &'a str,
+    pub(in crate::report) kind: MeasureKind,
+    pub(in crate::report) values: Vec<f64>,
 }
 
 impl<'a> Shown<'a> {
     /// All of a recording.
-    pub(super) fn all(recording: &'a Recording) -> Vec<Self> {
+    pub(in crate::report) fn all(recording: &'a Recording) -> Vec<Self> {
         recording.measures.iter().map(Self::new).collect()
     }
 
@@ -29,7 +29,7 @@ impl<'a> Shown<'a> {
         }
     }
 
-    pub(super) const fn kind(&self) -> &'static str {
+    pub(super) const fn kind_name(&self) -> &'static str {
         match self.kind {
             MeasureKind::Energy => "energy",
             MeasureKind::EffectEnergy => "effect-energy",

@@ -9,6 +9,7 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
+pub(super) use self::measures::Shown;
 pub(super) use self::tables::bar;
 use super::number::{counted, figures, grouped, ordinal, time};
 use super::recording::{LONGEST_EDGE, Measure, PartKind, Recording, Series, SeriesKind};
@@ -77,10 +78,16 @@ pub fn html(recording: &Recording) -> String {
                     (tables::gauges(recording))
                 }
             }
+            @if !about.fabric.is_empty() {
+                section {
+                    h2 { "The fabric" }
+                    (tables::knobs(["property", "value"], &about.fabric))
+                }
+            }
             @if !about.knobs.is_empty() {
                 section {
                     h2 { "What trades time for accuracy" }
-                    (tables::knobs(recording))
+                    (tables::knobs(["setting", "value"], &about.knobs))
                 }
             }
             @if !about.scene.is_empty() {
@@ -148,6 +155,9 @@ fn summary(recording: &Recording) -> String {
     summary
 }
 
+/// Events that no simulation wants: steps that could not be made as they were.
+const TOLD: [&str; 3] = ["vertices held back", "times cut in half", "steps blocked"];
+
 /// The numbers that are asked for first.
 fn tiles(recording: &Recording) -> Markup {
     let effects = recording.series_of(|kind| kind == SeriesKind::Effect);
@@ -165,7 +175,8 @@ fn tiles(recording: &Recording) -> Markup {
     tiles.extend(longest.map(|longest| (format!("{:.3}", longest.largest), when(longest))));
     if recording.steps > 0 {
         let events = recording.series_of(|kind| kind == SeriesKind::Events);
-        tiles.extend(events.map(|event| (grouped(event.total as u64), event.name.clone())));
+        let told = events.filter(|event| TOLD.contains(&&*event.name));
+        tiles.extend(told.map(|event| (grouped(event.total as u64), event.name.clone())));
     }
     tiles.push((grouped(effects.count()), "effects ran".to_owned()));
     html! {

@@ -1,7 +1,8 @@
 //! What the charts show, in numbers.
 
+use super::super::label;
 use super::super::number::{few, mean, share, signed_time, time};
-use super::super::recording::{Recording, Series, SeriesKind};
+use super::super::recording::{Knob, Recording, Series, SeriesKind};
 use maud::{Markup, html};
 
 /// What is not there: a dash in every format.
@@ -56,7 +57,7 @@ pub(super) fn times(recording: &Recording) -> Markup {
         rows.sort_by(|a, b| b.total.total_cmp(&a.total));
         html! { @if !rows.is_empty() { tbody {
             tr.group { th colspan="5" scope="rowgroup" { (title) } }
-            @for series in rows { (row(&series.name, series.total, series.largest)) }
+            @for series in rows { (row(&label(&series.name), series.total, series.largest)) }
         } } }
     };
     html! {
@@ -105,9 +106,9 @@ pub(super) fn gauges(recording: &Recording) -> Markup {
 }
 
 /// Settings.
-pub(super) fn knobs(recording: &Recording) -> Markup {
-    let knobs = recording.about.knobs.iter();
-    html! { div.knobs { (table(["setting", "value"], knobs.map(|knob| (&*knob.name, [&*knob.value])))) } }
+pub(super) fn knobs(headings: [&str; 2], knobs: &[Knob]) -> Markup {
+    let knobs = knobs.iter();
+    html! { div.knobs { (table(headings, knobs.map(|knob| (&*knob.name, [&*knob.value])))) } }
 }
 
 /// Rows with a name each.

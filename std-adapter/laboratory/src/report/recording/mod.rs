@@ -11,6 +11,7 @@
 //!     scene: "duration = \"20 ms\"\n".to_owned(),
 //!     up: DVec3::Z,
 //!     time_step: 0.01,
+//!     fabric: vec![Knob::new("weight", "150 g/m²")],
 //!     knobs: vec![Knob::new("time step", "10 ms")],
 //! };
 //! let cloth = Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]]);
@@ -89,6 +90,8 @@ pub struct About {
     pub up: DVec3,
     /// The time step, in seconds.
     pub time_step: f64,
+    /// What the cloth is made of.
+    pub fabric: Vec<Knob>,
     /// What trades time for accuracy.
     pub knobs: Vec<Knob>,
 }
@@ -102,7 +105,7 @@ pub struct Added {
     pub seconds: f64,
 }
 
-/// A setting that trades time for accuracy: the time step, a thickness, a tolerance.
+/// A setting: one that trades time for accuracy, such as the time step, a thickness or a tolerance; or a property of the fabric.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Knob {
     /// What it is called.

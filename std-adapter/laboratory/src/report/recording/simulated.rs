@@ -2,6 +2,7 @@
 
 use super::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, PartKind, Recorder, Recording, SeriesKind};
 use super::{EDGES_99, GRAVITATIONAL, LONGEST_EDGE};
+use crate::report::{label, printed};
 use crate::study::EffectCost;
 use selvedge::Mesh;
 use selvedge_cloth::{Scene, Simulation};
@@ -17,7 +18,7 @@ pub struct Subject {
 #[must_use]
 pub fn costs_of_added_effects(costs: &[EffectCost]) -> Vec<Added> {
     let named = |cost: &EffectCost| Added {
-        name: cost.added.unwrap_or("no effect").to_owned(),
+        name: label(cost.added.unwrap_or("no effect")),
         seconds: cost.seconds,
     };
     costs.iter().map(named).collect()
@@ -32,8 +33,13 @@ impl Subject {
             scene: scene.text.clone(),
             up: scene.up,
             time_step: scene.time_step,
+            fabric: scene
+                .fabric()
+                .into_iter()
+                .map(|(name, value)| Knob::new(name, printed(&value)))
+                .collect(),
             knobs: { scene.settings().into_iter() }
-                .map(|(name, value)| Knob::new(name, value))
+                .map(|(name, value)| Knob::new(label(&name), value))
                 .collect(),
         };
         let part = |name: &str, kind, mesh: &Mesh| Part::new(name, kind, mesh.positions.len(), mesh.triangles.clone());

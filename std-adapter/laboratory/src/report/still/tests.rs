@@ -10,6 +10,7 @@ fn recording(up: DVec3, unit: f64) -> Recording {
         scene: String::new(),
         up,
         time_step: 0.1,
+        fabric: Vec::new(),
         knobs: Vec::new(),
     };
     let triangles = vec![[0, 1, 2], [2, 1, 3]];

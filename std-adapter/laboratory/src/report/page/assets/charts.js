@@ -34,10 +34,10 @@ function createChart(place, recording, kind, series, onPick) {
   const figure = place.appendChild(document.createElement("figure"));
   const heading = figure.appendChild(document.createElement("figcaption"));
   const unit = series[0].unit ? `, in ${series[0].unit}` : "";
-  heading.textContent = kind === "gauge" ? series[0].name + unit : caption;
+  heading.textContent = kind === "gauge" ? series[0].label + unit : caption;
   const svg = figure.appendChild(document.createElementNS(NAMESPACE, "svg"));
   svg.setAttribute("role", "img");
-  svg.setAttribute("aria-label", `${heading.textContent}: ${series.map((one) => one.name).join(", ")}; the table below has the numbers`);
+  svg.setAttribute("aria-label", `${heading.textContent}: ${series.map((one) => one.label).join(", ")}; the table below has the numbers`);
   const note = figure.appendChild(document.createElement("p"));
   note.className = "note";
   const legend = figure.appendChild(document.createElement("ul"));
@@ -46,7 +46,7 @@ function createChart(place, recording, kind, series, onPick) {
     const item = legend.appendChild(document.createElement("li"));
     const swatch = item.appendChild(document.createElement("i"));
     swatch.style.background = colour(i);
-    item.append(one.name, " ");
+    item.append(one.label, " ");
     return item.appendChild(document.createElement("b"));
   });
 
