@@ -127,8 +127,8 @@ fn a_thrown_sheet_never_moves_faster_than_it_was_thrown() {
 
 /// The pins have done work, and stop: motion dies down, however many contacts push.
 ///
-/// It does not end: the twisted cloth slips here and there, with a tenth of the energy of motion that it had, as a rule (at commit 1e1d156, in
-/// six tubes of slightly different weights, 22 to 141 of 511 within two seconds).
+/// It does not end: one sweep of stretch and one of contacts in each step do not finish their argument (`docs/simulation.md` has the energies).
+/// A tenth of the energy of motion stays, as a rule.
 #[test]
 fn a_twisted_tube_calms_down_when_its_pins_stop() {
     calms_down(TWISTED);

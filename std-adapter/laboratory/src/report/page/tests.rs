@@ -1,5 +1,5 @@
 use super::*;
-use crate::report::{About, Knob, Part, Recorder};
+use crate::report::{About, Knob, MeasureKind, Part, Recorder};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use proptest::prelude::*;

@@ -36,7 +36,8 @@ fn parsed(html: &str) -> Html {
 }
 
 fn texts(page: &Html, selector: &str) -> Vec<String> {
-    let found = page.select(&Selector::parse(selector).unwrap());
+    let selector = Selector::parse(selector).unwrap();
+    let found = page.select(&selector);
     found.map(|element| element.text().collect()).collect()
 }
 

@@ -1,10 +1,10 @@
 //! The sheet that falls on a ball, in Rapier: see `../sheet_on_ball.py`, which runs this and reads what it writes.
 //!
 //! ```text
-//! selvedge-peer-rapier CELLS TIME_STEP SECONDS MOST_PROCESSOR_SECONDS FOLDER
+//! selvedge-peer-rapier CELLS RADIUS TIME_STEP SECONDS MOST_PROCESSOR_SECONDS FOLDER
 //! ```
 //!
-//! Writes `triangles.u32` and, of every 50 ms, the positions in `states.f32` (little endian) to the folder, and prints how many steps
+//! RADIUS is that of the sheet's particles, in metres. Writes `triangles.u32` and, of every 50 ms, the positions in `states.f32` (little endian) to the folder, and prints how many steps
 //! were done, and the processor time that they took.
 
 use rapier3d::prelude::*;
@@ -29,10 +29,12 @@ fn processor_seconds() -> Result<f64, Box<dyn Error>> {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [cells, time_step, seconds, most, folder] = &arguments[..] else {
-        return Err("usage: selvedge-peer-rapier CELLS TIME_STEP SECONDS MOST_PROCESSOR_SECONDS FOLDER".into());
+    let [cells, radius, time_step, seconds, most, folder] = &arguments[..] else {
+        return Err("usage: selvedge-peer-rapier CELLS RADIUS TIME_STEP SECONDS MOST_PROCESSOR_SECONDS FOLDER".into());
     };
-    let (cells, time_step, seconds, most): (usize, f32, f32, f64) = (cells.parse()?, time_step.parse()?, seconds.parse()?, most.parse()?);
+    let cells: usize = cells.parse()?;
+    let [radius, time_step, seconds]: [f32; 3] = [radius.parse()?, time_step.parse()?, seconds.parse()?];
+    let most: f64 = most.parse()?;
 
     let mut world = PhysicsWorld::new();
     world.gravity = Vector::new(0.0, 0.0, -9.81);
@@ -51,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .mass(MASS)
         .material(material)
         .self_contacts(true)
-        .particle_radius(0.0015)
+        .particle_radius(radius)
         .linear_damping(0.5)
         .can_sleep(false)
         .surface_collider(ColliderBuilder::ball(0.01).friction(FRICTION));
