@@ -96,17 +96,17 @@ def selvedge(options: argparse.Namespace, folder: Path) -> Run:
     return Run("selvedge", 1e-3, report["steps"], taken, states, triangles)
 
 
-def mujoco(options: argparse.Namespace, _: Path, barrier: bool) -> Run:
-    """A flexible sheet of triangles; `barrier`: with incremental potential contact, which has no friction yet."""
+def mujoco(options: argparse.Namespace, _: Path, ipc: bool) -> Run:
+    """A flexible sheet of triangles; `ipc`: with incremental potential contact, which has no friction yet."""
     import mujoco as engine
 
     time_step, n = 1e-3, options.cells
     spacing = SIDE / n
-    contact = 'selfcollide="auto" condim="1"' if barrier else f'selfcollide="auto" condim="3" friction="{FRICTION}"'
+    contact = 'selfcollide="auto" condim="1"' if ipc else f'selfcollide="auto" condim="3" friction="{FRICTION}"'
     # Young's modulus and a thickness with which a membrane is as stiff as the fabric, E·t = 400 N/m, and about as soft to bend.
     text = f"""<mujoco>
   <option integrator="discrete" timestep="{time_step}" solver="Newton" tolerance="1e-6" iterations="100">
-    <flag ipc="{"enable" if barrier else "disable"}"/>
+    <flag ipc="{"enable" if ipc else "disable"}"/>
   </option>
   <size memory="4G"/>
   <worldbody>
@@ -129,7 +129,7 @@ def mujoco(options: argparse.Namespace, _: Path, barrier: bool) -> Run:
         return data.flexvert_xpos.copy()
 
     done, taken, states = in_states(lambda: engine.mj_step(model, data), points, time_step, options)
-    name = f"MuJoCo {engine.__version__}, {'ipc, no friction' if barrier else 'without ipc'}"
+    name = f"MuJoCo {engine.__version__}, {'ipc, no friction' if ipc else 'without ipc'}"
     return Run(name, time_step, done, taken, states, model.flex_elem.reshape(-1, 3).astype(np.int64))
 
 
