@@ -114,6 +114,8 @@ pub(super) fn effect_costs(
 
 /// A scene that was run, as far as it went.
 struct Run {
+    /// All that the scene asks for.
+    steps: u64,
     simulation: Simulation,
     recording: Recording,
     result: Result<(), Failure>,
@@ -132,8 +134,8 @@ impl Simulate {
 
     /// Both scenes one after the other in one process, so that their times can be compared. Nothing is written of them but reports.
     fn run_both(&self, other: &Path) -> Result<(), Failure> {
-        OutputFiles::check_folder(&self.output)?;
-        let [first, second] = [self.recorded(&self.scene)?, self.recorded(other)?];
+        let run = |path| self.record(path, |_, _| Ok(0.0), |_, _, _, _| Ok(()));
+        let [first, second] = [run(&self.scene)?, run(other)?];
         let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let name = format!("{}-against-{}.html", stem(&self.scene), stem(other));
         let mut files = OutputFiles::default();
@@ -153,75 +155,34 @@ impl Simulate {
         first.result.and(second.result).and(printed)
     }
 
-    /// Runs a scene and keeps nothing but what is recorded of it.
-    fn recorded(&self, path: &Path) -> Result<Run, Failure> {
+    /// Runs a scene as far as it goes, and records it. `begin` takes it to where it starts, and says how many seconds it had taken by then; `after` is
+    /// shown each step, the number of the frame if it is one, and the seconds so far.
+    fn record(
+        &self,
+        path: &Path,
+        begin: impl FnOnce(&mut Simulation, &mut SimulationRecorder) -> Result<f64, Failure>,
+        mut after: impl FnMut(&Simulation, &SimulationRecorder, Option<u64>, f64) -> Result<(), Failure>,
+    ) -> Result<Run, Failure> {
         let scene = Scene::read(path)?;
         let path = path.display();
         let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
         let subject = Subject::new(&scene);
         let mut simulation = Simulation::new(scene, self.threads.get()).map_err(|error| format!("{path}: {error}"))?;
-        let mut recorder = SimulationRecorder::new(subject, &simulation)?;
-        let begin = Instant::now();
-        let result = run_steps(&mut simulation, steps, |simulation, taken| {
-            recorder.step(simulation, taken);
-            let step = simulation.steps_done();
-            if step.is_multiple_of(steps_per_frame) || step == steps {
-                recorder.frame(simulation)?;
-            }
-            Ok(())
-        });
-        let seconds = begin.elapsed().as_secs_f64();
-        let result = result.map_err(|failure| Failure::from(format!("{path}: {failure}")));
-        if let Err(failure) = &result {
-            recorder.frame(&simulation)?;
-            recorder.remark(failure.to_string());
-        }
-        Ok(Run {
-            recording: recorder.finish(seconds),
-            simulation,
-            result,
-        })
-    }
-
-    fn run_one(&self) -> Result<(), Failure> {
-        let scene = Scene::read(&self.scene)?;
-        let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
-        let subject = Subject::new(&scene);
-        let path = self.scene.display();
-        let mut simulation = Simulation::new(scene, self.threads.get()).map_err(|error| format!("{path}: {error}"))?;
         OutputFiles::check_folder(&self.output)?;
         let mut recorder = SimulationRecorder::new(subject, &simulation)?;
-        // Seconds that this run took before it was interrupted.
-        let mut earlier = 0.0;
-        if self.resume {
-            let saved = self.read_checkpoint()?;
-            let of_file = |error: String| format!("{}: {error}", self.file("checkpoint").display());
-            let (state, recorded) = split(&saved).ok_or_else(|| of_file(CheckpointError::Damaged.to_string()))?;
-            simulation.resume(state).map_err(|error| of_file(error.to_string()))?;
-            earlier = recorder
-                .restore(recorded)
-                .ok_or_else(|| of_file(CheckpointError::Damaged.to_string()))?;
-        } else {
-            self.write_frame(&simulation, 0)?;
-        }
+        let earlier = begin(&mut simulation, &mut recorder)?;
 
         let begin = Instant::now();
         let seconds = || earlier + begin.elapsed().as_secs_f64();
-        let mut last_checkpoint: Option<Instant> = None;
         let result = run_steps(&mut simulation, steps, |simulation, taken| {
             recorder.step(simulation, taken);
             let step = simulation.steps_done();
-            if step.is_multiple_of(steps_per_frame) || step == steps {
+            let is_frame = step.is_multiple_of(steps_per_frame) || step == steps;
+            if is_frame {
                 recorder.frame(simulation)?;
-                self.write_frame(simulation, step.div_ceil(steps_per_frame))?;
             }
-            if last_checkpoint.is_none_or(|last| last.elapsed() >= CHECKPOINT_INTERVAL)
-                && let Some(state) = simulation.checkpoint()
-            {
-                self.write_checkpoint(&state, &recorder.save(seconds()))?;
-                last_checkpoint = Some(Instant::now());
-            }
-            Ok(())
+            let frame = is_frame.then(|| step.div_ceil(steps_per_frame));
+            after(simulation, &recorder, frame, seconds())
         });
         let result = result.map_err(|failure| Failure::from(format!("{path}: {failure}")));
         let seconds = seconds();
@@ -230,7 +191,46 @@ impl Simulate {
             recorder.frame(&simulation)?;
             recorder.remark(failure.to_string());
         }
-        let mut recording = recorder.finish(seconds);
+        Ok(Run {
+            steps,
+            recording: recorder.finish(seconds),
+            simulation,
+            result,
+        })
+    }
+
+    fn run_one(&self) -> Result<(), Failure> {
+        let start = |simulation: &mut Simulation, recorder: &mut SimulationRecorder| {
+            if !self.resume {
+                self.write_frame(simulation, 0)?;
+                return Ok(0.0);
+            }
+            let saved = self.read_checkpoint()?;
+            let of_file = |error: String| format!("{}: {error}", self.file("checkpoint").display());
+            let damaged = || of_file(CheckpointError::Damaged.to_string());
+            let (state, recorded) = split(&saved).ok_or_else(damaged)?;
+            simulation.resume(state).map_err(|error| of_file(error.to_string()))?;
+            Ok(recorder.restore(recorded).ok_or_else(damaged)?)
+        };
+        let mut last_checkpoint: Option<Instant> = None;
+        let after = |simulation: &Simulation, recorder: &SimulationRecorder, frame: Option<u64>, seconds: f64| {
+            if let Some(frame) = frame {
+                self.write_frame(simulation, frame)?;
+            }
+            if last_checkpoint.is_none_or(|last| last.elapsed() >= CHECKPOINT_INTERVAL)
+                && let Some(state) = simulation.checkpoint()
+            {
+                self.write_checkpoint(&state, &recorder.save(seconds))?;
+                last_checkpoint = Some(Instant::now());
+            }
+            Ok(())
+        };
+        let Run {
+            steps,
+            simulation,
+            mut recording,
+            result,
+        } = self.record(&self.scene, start, after)?;
         let costs = match self.effects_one_by_one {
             true => effect_costs(|| Scene::read(&self.scene), steps, self.threads.get())?,
             false => Vec::new(),

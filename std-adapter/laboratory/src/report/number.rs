@@ -104,6 +104,11 @@ pub(super) fn time(seconds: f64) -> String {
     })
 }
 
+/// A time at which something happens in a simulation: `0.225 s`.
+pub(super) fn moment(seconds: f64) -> String {
+    finite(seconds, |seconds| format!("{} s", few(seconds)))
+}
+
 /// A time with its sign: `+12.3 ms`.
 pub(super) fn signed_time(seconds: f64) -> String {
     let sign = if seconds < 0.0 { "−" } else { "+" };

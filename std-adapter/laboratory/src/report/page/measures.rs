@@ -1,7 +1,7 @@
 //! What is measured at frames: energy, and how much the cloth is stretched.
 
 use super::tables;
-use crate::report::number::{few, time};
+use crate::report::number::{few, moment};
 use crate::report::recording::{GRAVITATIONAL, Measure, MeasureKind, Recording};
 use maud::{Markup, html};
 
@@ -84,7 +84,7 @@ pub(super) fn sections(recording: &Recording) -> Markup {
 fn stretch(recording: &Recording) -> Markup {
     let rows = recording.measures_of(MeasureKind::Stretch).map(|measure| {
         let end = measure.values.last().copied().unwrap_or(f64::NAN);
-        let when = time(recording.end_of(measure.largest_step));
+        let when = moment(recording.end_of(measure.largest_step));
         (&*measure.name, [few(end), few(measure.largest), when])
     });
     tables::table(["", "at the end", "most, of all frames", "when"], rows)

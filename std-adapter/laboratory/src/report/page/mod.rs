@@ -11,7 +11,7 @@ mod tests;
 
 pub(super) use self::measures::Shown;
 pub(super) use self::tables::bar;
-use super::number::{counted, figures, grouped, ordinal, time};
+use super::number::{counted, figures, grouped, moment, ordinal, time};
 use super::recording::{LONGEST_EDGE, Measure, PartKind, Recording, Series, SeriesKind};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -171,7 +171,12 @@ fn tiles(recording: &Recording) -> Markup {
     tiles.extend(recording.step_times().map(|steps| (time(steps.largest), step_of(steps))));
     let longest = recording.measure(LONGEST_EDGE);
     let longest = longest.filter(|longest| longest.largest.is_finite());
-    let when = |longest: &Measure| format!("longest edge over rest, at {}", time(recording.end_of(longest.largest_step)));
+    let when = |longest: &Measure| {
+        format!(
+            "longest edge over rest, at {}",
+            moment(recording.end_of(longest.largest_step))
+        )
+    };
     tiles.extend(longest.map(|longest| (format!("{:.3}", longest.largest), when(longest))));
     if recording.steps > 0 {
         let events = recording.series_of(|kind| kind == SeriesKind::Events);

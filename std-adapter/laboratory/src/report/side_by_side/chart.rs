@@ -1,6 +1,6 @@
 //! What was measured of both, over time, in one chart each.
 
-use crate::report::number::{few, time};
+use crate::report::number::{few, moment};
 use crate::report::page::Shown;
 use crate::report::recording::{MeasureKind, Recording};
 use maud::{Markup, html};
@@ -94,7 +94,7 @@ fn drawing(lines: &[Line], title: &str) -> Markup {
             }
             @for share in [0.0, 0.5, 1.0] {
                 @let at = begin + share * (end - begin);
-                text x=(x(at)) y=(HEIGHT - 6.0) text-anchor=(if share < 1.0 { "middle" } else { "end" }) { (time(at)) }
+                text x=(x(at)) y=(HEIGHT - 6.0) text-anchor=(if share < 1.0 { "middle" } else { "end" }) { (moment(at)) }
             }
             @for line in lines.iter().filter(|line| line.points.len() > 1) {
                 path .line d=(path(line)) stroke=(format!("var(--series-{})", line.colour)) stroke-dasharray=[line.is_second.then_some("5 4")] {}

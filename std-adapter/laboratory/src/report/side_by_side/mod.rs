@@ -1,12 +1,13 @@
 //! Two simulations side by side: one page that needs nothing else, not even scripts.
 //!
-//! Pictures of both at the same times, figures with their ratios, energy and stretch in one chart each, and where their scenes differ.
+//! Pictures of both at the same times, seen from the same place, figures with their ratios, energy and stretch in one chart each, and where their scenes differ.
 
 mod chart;
 mod rows;
 #[cfg(test)]
 mod tests;
 
+use super::number::moment;
 use super::page::document;
 use super::recording::Recording;
 use super::still::{self, StillError};
@@ -72,8 +73,8 @@ fn pictures(both: [&Recording; 2], names: &[String; 2]) -> Result<Markup, StillE
     for share in TIMES {
         for (recording, name) in both.into_iter().zip(names) {
             let frame = recording.frame_at(share * shorter);
-            let png = still::png(recording, frame, PICTURE)?;
-            let when = super::number::time(recording.time(&recording.frames[frame]));
+            let png = still::png_among(recording, frame, PICTURE, &both)?;
+            let when = moment(recording.time(&recording.frames[frame]));
             pictures.push((
                 format!("{name}, {when}"),
                 format!("data:image/png;base64,{}", STANDARD.encode(png)),

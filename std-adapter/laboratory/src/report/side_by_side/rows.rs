@@ -119,7 +119,7 @@ pub(super) fn different_settings(both: [&Recording; 2]) -> Vec<Row> {
 }
 
 /// The first's names, then those that the second alone has.
-fn names_of<'a>([first, second]: [Vec<&'a str>; 2]) -> Vec<&'a str> {
+fn names_of([first, second]: [Vec<&str>; 2]) -> Vec<&str> {
     let mut names = first;
     for name in second {
         if !names.contains(&name) {

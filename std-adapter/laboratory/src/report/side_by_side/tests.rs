@@ -51,12 +51,12 @@ fn pictures_charts_and_figures_of_both_are_on_the_page_and_nothing_is_loaded() {
     assert_eq!(
         texts(&page, "figcaption"),
         [
-            "<one>, 100 ms",
-            "two, 100 ms",
-            "<one>, 100 ms",
-            "two, 100 ms",
-            "<one>, 200 ms",
-            "two, 200 ms"
+            "<one>, 0.1 s",
+            "two, 0.1 s",
+            "<one>, 0.1 s",
+            "two, 0.1 s",
+            "<one>, 0.2 s",
+            "two, 0.2 s"
         ]
     );
     assert_eq!(texts(&page, "path").len(), 2);

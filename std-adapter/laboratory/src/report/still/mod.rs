@@ -53,7 +53,17 @@ pub enum StillError {
 ///
 /// # Errors
 /// If there is no such frame, a side of the picture is not from 1 to 8192 pixels, or PNG cannot be written.
-pub fn png(recording: &Recording, frame: usize, [width, height]: [u32; 2]) -> Result<Vec<u8>, StillError> {
+pub fn png(recording: &Recording, frame: usize, size: [u32; 2]) -> Result<Vec<u8>, StillError> {
+    png_among(recording, frame, size, &[recording])
+}
+
+/// The same, with all motion of several recordings in view.
+pub(super) fn png_among(
+    recording: &Recording,
+    frame: usize,
+    [width, height]: [u32; 2],
+    all: &[&Recording],
+) -> Result<Vec<u8>, StillError> {
     let count = recording.frames.len();
     if frame >= count {
         return Err(StillError::NoFrame { frame, count });
@@ -67,7 +77,7 @@ pub fn png(recording: &Recording, frame: usize, [width, height]: [u32; 2]) -> Re
         .flatten();
     let mut picture = pixmap.ok_or(StillError::Size(width, height))?;
 
-    let stage = Stage::new(recording);
+    let stage = Stage::new(all);
     let surface = stage.surface(recording, frame);
     let fine = size.map(|side| side as usize * SAMPLES);
     let camera = Camera::new(&stage, fine);

@@ -39,29 +39,30 @@ pub(super) struct Surface {
 }
 
 impl Stage {
-    pub(super) fn new(recording: &Recording) -> Self {
-        let up = recording.up();
+    /// Of all of these; what is up is said by the first.
+    pub(super) fn new(recordings: &[&Recording]) -> Self {
+        let up = recordings[0].up();
         // The axis that is least upright lies across.
-        let least_upright = [DVec3::X, DVec3::Y, DVec3::Z]
-            .into_iter()
-            .min_by(|a, b| up.dot(*a).abs().total_cmp(&up.dot(*b).abs()));
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let least_upright = axes.into_iter().min_by(|a, b| up.dot(*a).abs().total_cmp(&up.dot(*b).abs()));
         let across = least_upright.unwrap_or(DVec3::X).reject_from_normalized(up).normalize();
         let turn = DMat3::from_cols(across, up, across.cross(up)).transpose();
 
-        let frames = &recording.frames;
-        let chosen = (0..FRAMES).map(|k| &frames[k * (frames.len() - 1) / (FRAMES - 1)]);
         let turned = |position: &[f32; 3]| turn * DVec3::from(position.map(f64::from));
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for point in frames.iter().flat_map(|frame| frame.positions.iter().map(turned)) {
-            (low, high) = (low.min(point), high.max(point));
-        }
-        if frames[0].positions.is_empty() {
-            (low, high) = (DVec3::ZERO, DVec3::ZERO);
-        }
+        let frames = recordings.iter().flat_map(|recording| &recording.frames);
+        let points = frames.flat_map(|frame| frame.positions.iter().map(turned));
+        let ends = points.map(|point| (point, point));
+        let (low, high) = ends.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or_default();
         let middle = 0.5 * low + 0.5 * high;
-        let stride = (recording.vertex_count() / LOOKED_AT).max(1);
-        let sample = chosen.flat_map(|frame| frame.positions.iter().step_by(stride).map(turned));
-        let sample: Vec<DVec3> = sample.map(|point| point - middle).collect();
+        let mut sample = Vec::new();
+        for recording in recordings {
+            let stride = (recording.vertex_count() / LOOKED_AT).max(1);
+            let last = recording.frames.len() - 1;
+            for k in 0..FRAMES {
+                let positions = &recording.frames[k * last / (FRAMES - 1)].positions;
+                sample.extend(positions.iter().step_by(stride).map(|position| turned(position) - middle));
+            }
+        }
         let radius = sample.iter().map(|point| point.length()).fold(1e-30, f64::max);
         let spacing = round_spacing(0.2 * radius);
         Self {

@@ -1,5 +1,5 @@
 use super::table;
-use crate::report::number::{counted, few, figures, ordinal, signed_time, time};
+use crate::report::number::{counted, few, figures, moment, ordinal, signed_time, time};
 use crate::report::recording::{EDGES_99, LONGEST_EDGE, MeasureKind, Recording};
 use crate::study::EffectCost;
 use selvedge_cloth::Simulation;
@@ -74,7 +74,7 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
 fn at_worst(recording: &Recording) -> String {
     let mut text = String::new();
     if let (Some(most), Some(longest)) = (recording.measure(EDGES_99), recording.measure(LONGEST_EDGE)) {
-        let when = time(recording.end_of(longest.largest_step));
+        let when = moment(recording.end_of(longest.largest_step));
         text += &format!("over all frames {:.3} and {:.3} (at {when})\n", most.largest, longest.largest);
     }
     if let Some(steps) = recording.step_times() {
