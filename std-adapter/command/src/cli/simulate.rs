@@ -17,8 +17,8 @@ use std::time::{Duration, Instant};
 
 /// Simulates the cloth of a scene file, and pays only for the effects that the scene calls for.
 ///
-/// Writes a report that works offline: the animation, candidate pairs over time, the time of each effect. A run that was
-/// interrupted goes on from its last checkpoint with --resume, to the same bits.
+/// Writes a report that works offline: the animation, energy and stretch, candidate pairs over time, the time of each effect. A
+/// run that was interrupted goes on from its last checkpoint with --resume, to the same bits.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -67,7 +67,7 @@ pub struct Recording {
     pub steps_per_value: u64,
     /// Figures of every step.
     pub series: Vec<Series>,
-    /// After which steps measures were taken, in the order of time. With few frames, after each of them and more.
+    /// After which steps measures were taken, in the order of time: at all frames that were offered, thinned out evenly if there are many.
     pub measured_steps: Vec<u64>,
     /// Quantities of the state.
     pub measures: Vec<Measure>,

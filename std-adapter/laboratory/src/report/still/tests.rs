@@ -58,7 +58,7 @@ fn what_is_nearer_hides_what_is_behind_it_and_moves_from_frame_to_frame() {
 
 #[test]
 fn the_body_has_the_cloths_shadow() {
-    let brightness = |with_cloth: bool| {
+    let shaded = |with_cloth: bool| {
         let mut recording = recording(DVec3::Z, 1.0);
         if !with_cloth {
             recording.frames[0].positions[..4].fill([0.0, 0.0, 0.0]);
@@ -66,15 +66,9 @@ fn the_body_has_the_cloths_shadow() {
         let pixels = pixels(&recording, 0);
         // Of what is brown, as the body is: red is more than blue.
         let body = pixels.iter().filter(|pixel| pixel.red() > pixel.blue().saturating_add(4));
-        let dark = body.filter(|pixel| pixel.red() < 140).count();
-        dark
+        body.filter(|pixel| pixel.red() < 140).count()
     };
-    assert!(
-        brightness(true) > brightness(false) + 50,
-        "{} {}",
-        brightness(true),
-        brightness(false)
-    );
+    assert!(shaded(true) > shaded(false) + 50, "{} {}", shaded(true), shaded(false));
 }
 
 #[test]
