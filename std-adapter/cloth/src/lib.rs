@@ -12,6 +12,7 @@
 //! what is simulated  effects ▸ plan, step
 //! how                membrane, hierarchy, schedule, contact, simulator
 //! what changes       state ▸ checkpoint
+//! what is told       energy
 //! ```
 //!
 //! | item | what it is |
@@ -31,6 +32,7 @@ mod bending;
 mod checkpoint;
 mod contact;
 pub mod effects;
+mod energy;
 mod hierarchy;
 mod input;
 mod membrane;
@@ -47,6 +49,7 @@ mod world;
 pub use checkpoint::CheckpointError;
 pub use contact::{Blocker, ContactCounts, ContactSeconds, NearPair};
 pub use effects::effect_names;
+pub use energy::{Energy, StoredEnergy};
 pub use input::{SceneError, ValueError};
 pub use normals::vertex_normals;
 pub use scene::{OnBlocked, Scene};

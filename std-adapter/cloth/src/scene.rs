@@ -26,7 +26,7 @@
 //! ```
 
 use super::effects::{self, Effect, Gravity};
-use super::input::{FREQUENCY, Field, LARGEST_TIME, SceneError, Source, TIME, Table, ValueError};
+use super::input::{AREA_DENSITY, FREQUENCY, Field, LARGEST_TIME, SceneError, Source, TIME, Table, ValueError};
 use super::world::{Body, Cloth, SceneParts};
 use selvedge_core::glam::DVec3;
 use selvedge_files::excerpt::excerpt;
@@ -231,6 +231,14 @@ impl Scene {
     /// rest is a scene as well. It is another scene for checkpoints.
     pub fn keep_first_effects(&mut self, count: usize) {
         self.effects.truncate(count);
+    }
+
+    /// What the cloth is made of, for people to read: its weight, and what effects say of it, each with its value and unit.
+    #[must_use]
+    pub fn fabric(&self) -> Vec<(&'static str, String)> {
+        let mut fabric = vec![("weight", AREA_DENSITY.written_short(self.cloth.density))];
+        fabric.extend(self.effects.iter().flat_map(|effect| effect.fabric()));
+        fabric
     }
 
     /// What trades time for accuracy, by name, each with its value and unit: the time step, and settings of effects, those that the

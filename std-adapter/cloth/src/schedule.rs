@@ -10,6 +10,7 @@
 //!
 //! A block in which nothing moved sleeps until a block that shares a vertex with it moves something: what it would do is nothing.
 
+use super::energy::{Configuration, StoredEnergy};
 use super::step::{Constraint, TimeStep, Touches};
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
@@ -25,6 +26,11 @@ pub(crate) trait Local<const N: usize>: Debug + Send + Sync {
 
     /// By how much each vertex has to move. `stiffening` is 1/h²: what a compliance is multiplied by.
     fn corrections(&self, positions: [DVec3; N], inverse_masses: [f64; N], stiffening: f64) -> [DVec3; N];
+
+    /// The elastic energy that it holds, in J; `None`: it holds none, however it stands.
+    fn energy(&self, _positions: [DVec3; N]) -> Option<f64> {
+        None
+    }
 }
 
 /// The vertices of a constraint, and the constraint.
@@ -154,6 +160,18 @@ impl<C: Local<N>, const N: usize> Constraint for Schedule<C, N> {
                 self.run(self.colours[colour].clone(), step, positions);
             }
         }
+    }
+
+    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
+        let of_block = |block: &Block<C, N>| {
+            let own: Vec<DVec3> = at(&block.vertices, now.positions).collect();
+            let constraints = block.constraints.iter();
+            constraints
+                .map(|(places, constraint)| constraint.energy(of(places, &own)))
+                .sum::<Option<f64>>()
+        };
+        let joules = self.blocks.iter().map(of_block).sum::<Option<f64>>()?;
+        Some(StoredEnergy::Elastic(joules))
     }
 }
 

@@ -15,6 +15,7 @@ pub use drive::DriveError;
 
 use super::checkpoint::{Checkpoint, CheckpointError, Sizes};
 use super::contact::{Blocker, ContactCounts, ContactSeconds, ContactSolver, LARGEST_TURN, NearPair};
+use super::energy::{Configuration, Energy};
 use super::input::ValueError;
 use super::plan::{Entry, Plan};
 use super::scene::{OnBlocked, Scene};
@@ -339,6 +340,26 @@ impl Simulation {
             percentile_99: at(all.len() * 99 / 100),
             largest: at(all.len().saturating_sub(1)),
         }
+    }
+
+    /// The energy that the cloth has now: of its motion, and what its effects hold. Takes about as long as the effects' share of a step.
+    ///
+    /// Each step takes some of it, as implicit steps do: in free fall ½·m·g²·h·t, of a mass m after a time t in steps of h.
+    #[must_use]
+    pub fn energy(&self) -> Energy {
+        let now = Configuration {
+            positions: &self.state.positions,
+            inverse_masses: &self.inverse_masses,
+        };
+        let forces = self.forces.iter().map(|entry| (entry.effect, entry.action.energy(&now)));
+        let constraints = self.constraints.iter().map(|entry| (entry.effect, entry.action.energy(&now)));
+        let mut energy = Energy::of_motion(&self.inverse_masses, &self.state.velocities);
+        for (effect, stored) in forces.chain(constraints) {
+            if let Some(stored) = stored {
+                energy.add(self.effects[effect].name, stored);
+            }
+        }
+        energy
     }
 
     /// The effects that were constructed, in the order in which they run, and the time that each has taken.

@@ -2,6 +2,7 @@
 //!
 //! Vertices of bodies and pinned ones are **kinematic**: they follow a given motion, as if their mass were infinite.
 
+use super::energy::{Configuration, StoredEnergy};
 use super::world::Pose;
 use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
@@ -28,6 +29,11 @@ pub trait Force: Debug + Send + Sync {
     /// Adds to `velocities`, in m/s, of all vertices; those of kinematic ones are not looked at.
     fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]);
 
+    /// The energy that it holds; `None` if it holds none. Asked when somebody wants to know, never in a step.
+    fn energy(&self, _: &Configuration<'_>) -> Option<StoredEnergy> {
+        None
+    }
+
     /// Takes a new wind, in m/s; false: it knows of no wind.
     #[doc(hidden)]
     fn set_wind(&mut self, _velocity: DVec3) -> bool {
@@ -42,6 +48,11 @@ pub trait Constraint: Debug + Send + Sync {
     /// Moves `positions`, in metres, of all vertices whose inverse mass is not zero. `touches` is for effects that push things
     /// apart.
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches);
+
+    /// The energy that it holds; `None` if it holds none. Asked when somebody wants to know, never in a step.
+    fn energy(&self, _: &Configuration<'_>) -> Option<StoredEnergy> {
+        None
+    }
 }
 
 /// One contact that pushed, for friction.

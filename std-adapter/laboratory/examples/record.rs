@@ -29,6 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         scene: String::new(),
         up: DVec3::Y,
         time_step: TIME_STEP,
+        fabric: Vec::new(),
         knobs: vec![
             Knob::new("steps of the whole bend", ArmScene::STEPS.to_string()),
             Knob::new("numbers", "f64"),

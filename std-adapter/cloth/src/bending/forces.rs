@@ -69,15 +69,25 @@ impl Forces {
         (0..self.len()).map(sum).fold(0.0, f64::max)
     }
 
+    /// On a vertex.
+    #[inline(always)]
+    fn on(&self, vertex: usize, positions: &[DVec3]) -> DVec3 {
+        let own = positions[vertex];
+        let mut force = DVec3::ZERO;
+        for &(other, value) in self.row(vertex) {
+            force += (own - positions[other as usize]) * value;
+        }
+        force
+    }
+
+    /// ½x·Q·x, in J, not negative whatever is rounded. About the first vertex: forces have no sum, and differences fewer digits to lose.
+    pub(super) fn energy(&self, positions: &[DVec3]) -> f64 {
+        let of = |vertex: usize| (positions[vertex] - positions[0]).dot(self.on(vertex, positions));
+        (-0.5 * (0..self.len()).map(of).sum::<f64>()).max(0.0)
+    }
+
     /// Calls `action` with each vertex, the force on it and its place in `results`.
     pub(super) fn for_each(&self, positions: &[DVec3], results: &mut [DVec3], action: impl Fn(usize, DVec3, &mut DVec3) + Sync) {
-        parallel::for_each(results, |vertex, result| {
-            let own = positions[vertex];
-            let mut force = DVec3::ZERO;
-            for &(other, value) in self.row(vertex) {
-                force += (own - positions[other as usize]) * value;
-            }
-            action(vertex, force, result);
-        });
+        parallel::for_each(results, |vertex, result| action(vertex, self.on(vertex, positions), result));
     }
 }

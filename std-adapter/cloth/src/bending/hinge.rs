@@ -76,6 +76,11 @@ impl Local<4> for Hinge {
         let by = |i: usize| multiplier * (w[i] * k[i]);
         [by(0), by(1), by(2), by(3)]
     }
+
+    fn energy(&self, x: [DVec3; 4]) -> Option<f64> {
+        let bent: DVec3 = x.iter().zip(self.weights).map(|(&x, k)| x * k).sum();
+        Some(0.5 * self.coefficient * bent.length_squared())
+    }
 }
 
 #[cfg(test)]

@@ -43,6 +43,7 @@ mod stages;
 pub(crate) use hinge::{Hinge, hinges};
 
 use crate::schedule::{On, Schedule};
+use crate::energy::{Configuration, StoredEnergy};
 use crate::step::{Constraint, TimeStep, Touches};
 use forces::Forces;
 use selvedge_core::glam::DVec3;
@@ -119,6 +120,44 @@ impl Constraint for Bending {
         positions[..own].copy_from_slice(last);
         if let Some(beyond) = &mut self.beyond {
             beyond.project(step, positions, touches);
+        }
+    }
+    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
+        let beyond = self.beyond.as_ref().and_then(|beyond| beyond.energy(now));
+        let beyond = beyond.map_or(0.0, StoredEnergy::joules);
+        Some(StoredEnergy::Elastic(self.forces.energy(now.positions) + beyond))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::masses_of;
+    use crate::schedule::Local;
+    use crate::world::{Cloth, sheet};
+
+    /// Whether the stages do all of it or the sweep of hinges a part.
+    #[test]
+    fn energy_is_that_of_all_hinges_and_flat_cloth_has_none() {
+        let cloth = Cloth::of(sheet(DVec3::ONE, [DVec3::X, DVec3::new(0.3, 1.0, 0.0)], [9, 8]));
+        let rest = &cloth.mesh.positions;
+        let wavy: Vec<_> = rest.iter().map(|p| *p + DVec3::Z * 0.1 * (5.0 * p.x + 3.0 * p.y).sin()).collect();
+        let inverse_masses: Vec<f64> = masses_of(&cloth).into_iter().map(f64::recip).collect();
+        let all = hinges(&cloth, |_| 2e-3);
+        let of_hinge = |(own, hinge): &On<Hinge, 4>| hinge.energy(own.map(|v| wavy[v as usize])).unwrap();
+        let expected: f64 = all.iter().map(of_hinge).sum();
+        for (stages, is_parted) in [(100, false), (1, true)] {
+            let bending = Bending::new(all.clone(), &inverse_masses, stages, 0.1);
+            assert_eq!(bending.beyond.is_some(), is_parted);
+            let of = |positions: &[DVec3]| {
+                let now = Configuration {
+                    positions,
+                    inverse_masses: &inverse_masses,
+                };
+                bending.energy(&now).unwrap().joules()
+            };
+            assert!((of(&wavy) / expected - 1.0).abs() < 1e-10, "{} {expected}", of(&wavy));
+            assert!((0.0..1e-16).contains(&of(rest)), "{}", of(rest));
         }
     }
 }

@@ -66,6 +66,15 @@ impl Effect for Bend {
         vec![("stages, at most", self.stages.to_string())]
     }
 
+    fn fabric(&self) -> Vec<(&'static str, String)> {
+        let [warp, weft] = [self.stiffness, self.weft_stiffness].map(|k| BENDING_STIFFNESS.written_short(k));
+        if warp == weft {
+            vec![("bending stiffness", warp)]
+        } else {
+            vec![("bending stiffness of the warp", warp), ("bending stiffness of the weft", weft)]
+        }
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         let hinges = hinges(plan.scene.cloth, |of_warp| self.along(of_warp));
         let bending = Bending::new(hinges, &plan.inverse_masses, self.stages, plan.scene.time_step);

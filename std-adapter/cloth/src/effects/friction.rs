@@ -36,6 +36,10 @@ impl Effect for Friction {
         COEFFICIENT.check(self.coefficient)
     }
 
+    fn fabric(&self) -> Vec<(&'static str, String)> {
+        vec![("coefficient of friction", RATIO.written_short(self.coefficient))]
+    }
+
     fn register(self: Box<Self>, plan: &mut Plan<'_>) {
         plan.add_friction(*self);
     }

@@ -1,6 +1,7 @@
 //! Gravity: the same acceleration everywhere.
 
 use super::registration::{Effect, Registration};
+use crate::energy::{Configuration, StoredEnergy};
 use crate::input::{ACCELERATION, Field, SceneError, Table, ValueError};
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
@@ -66,5 +67,16 @@ impl Force for Gravity {
                 *velocity += change;
             }
         }
+    }
+
+    /// −Σm·g·x over free vertices.
+    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
+        let free = now
+            .inverse_masses
+            .iter()
+            .zip(now.positions)
+            .filter(|(inverse, _)| **inverse > 0.0);
+        let weights = free.map(|(inverse, &position)| -self.acceleration.dot(position) / inverse);
+        Some(StoredEnergy::Gravitational(weights.sum()))
     }
 }

@@ -23,6 +23,7 @@
 //!
 //! Masses of seeds are such that what conserves their momentum conserves that of the cloth ([`Level::inverse_masses`]).
 
+use crate::energy::{Configuration, StoredEnergy};
 use crate::hierarchy::{CoarseTriangle, Level};
 use crate::input::{Count, SceneError, Table, ValueError};
 use crate::membrane::{Membrane, SquaredStretch, all, image};
@@ -78,6 +79,11 @@ impl<C: Constraint> Constraint for OnLevels<C> {
             level.project(step, positions, touches);
         }
         self.mesh.project(step, positions, touches);
+    }
+
+    /// The mesh's own: levels only get it there sooner.
+    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
+        self.mesh.energy(now)
     }
 }
 

@@ -21,6 +21,7 @@ mod thickness;
 mod wind;
 
 pub use super::contact::Thickness;
+pub use super::energy::{Configuration, StoredEnergy};
 pub use super::plan::Plan;
 pub use super::step::{Constraint, Force, TimeStep, Touches};
 pub use super::world::SceneParts;

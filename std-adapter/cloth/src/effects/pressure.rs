@@ -4,6 +4,7 @@
 //! volume is taken relative to the first vertex, so that it does not depend on where the cloth is.
 
 use super::registration::{Effect, Registration};
+use crate::energy::{Configuration, StoredEnergy};
 use crate::input::{Field, PRESSURE, RATIO, ValueError};
 use crate::membrane::Incidence;
 use crate::plan::Plan;
@@ -114,5 +115,10 @@ impl Constraint for Filling {
         for vertex in 0..self.incidence.len() {
             positions[vertex] += gradient(vertex) * (multiplier * step.inverse_masses[vertex]);
         }
+    }
+
+    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
+        let excess = volume(&self.triangles, now.positions) - self.goal;
+        Some(StoredEnergy::Elastic(0.5 * excess * excess / self.compliance))
     }
 }

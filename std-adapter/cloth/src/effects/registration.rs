@@ -27,6 +27,11 @@ pub trait Effect: Debug + Send + Sync {
     /// Puts what the effect does into the plan of a step.
     fn register(self: Box<Self>, plan: &mut Plan<'_>);
 
+    /// What it says of the fabric, for people to read: each property in words, and its value with its unit.
+    fn fabric(&self) -> Vec<(&'static str, String)> {
+        Vec::new()
+    }
+
     /// What trades time for accuracy, with its unit.
     fn settings(&self) -> Vec<(&'static str, String)> {
         Vec::new()

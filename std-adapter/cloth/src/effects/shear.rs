@@ -35,6 +35,10 @@ impl Effect for Shear {
         STIFFNESS.check(self.stiffness)
     }
 
+    fn fabric(&self) -> Vec<(&'static str, String)> {
+        vec![("shear stiffness", MEMBRANE_STIFFNESS.written_short(self.stiffness))]
+    }
+
     fn announce(&self, fabric: &mut Fabric) {
         fabric.shear = Some(self.stiffness);
     }
@@ -72,5 +76,11 @@ impl Local<3> for Angle {
             gradients[k] *= multiplier * w[k];
         }
         gradients
+    }
+
+    /// ½k·A·C².
+    fn energy(&self, x: [DVec3; 3]) -> Option<f64> {
+        let c = image(self.membrane.a, x).dot(image(self.membrane.b, x));
+        Some(0.5 * c * c / self.compliance)
     }
 }

@@ -63,6 +63,10 @@ impl Effect for StrainLimit {
         levels::check(self.levels)
     }
 
+    fn fabric(&self) -> Vec<(&'static str, String)> {
+        vec![("longest over rest", RATIO.written_short(self.limit))]
+    }
+
     fn settings(&self) -> Vec<(&'static str, String)> {
         let mut settings = vec![("sweeps", self.sweeps.to_string())];
         settings.extend(levels::settings(self.levels));

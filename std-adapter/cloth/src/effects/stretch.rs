@@ -80,6 +80,15 @@ impl Effect for Stretch {
         levels::check(self.levels)
     }
 
+    fn fabric(&self) -> Vec<(&'static str, String)> {
+        let [warp, weft] = [self.stiffness, self.weft_stiffness].map(|k| MEMBRANE_STIFFNESS.written_short(k));
+        if warp == weft {
+            vec![("stiffness along warp and weft", warp)]
+        } else {
+            vec![("stiffness along the warp", warp), ("stiffness along the weft", weft)]
+        }
+    }
+
     fn settings(&self) -> Vec<(&'static str, String)> {
         let sweeps = (self.sweeps > 1).then(|| ("sweeps", self.sweeps.to_string()));
         sweeps.into_iter().chain(levels::settings(self.levels)).collect()
@@ -132,5 +141,12 @@ impl Local<3> for Spring {
             }
         }
         moves
+    }
+
+    /// ½k·A·C² for each of the two.
+    fn energy(&self, x: [DVec3; 3]) -> Option<f64> {
+        let [warp, weft] = self.compliance;
+        let of = |c: [f64; 2], compliance: f64| 0.5 * (image(c, x).length() - 1.0).powi(2) / compliance;
+        Some(of(self.membrane.a, warp) + of(self.membrane.b, weft))
     }
 }

@@ -104,7 +104,7 @@ impl Compare {
         let mut frames = SimulatedSteps::new(&scene, self.arm.steps as usize);
         let mut simulation = Simulation::new(scene, self.run.threads.get()).map_err(|error| of_file(error.into()))?;
         frames.observe(&simulation);
-        run_steps(&mut simulation, steps, |simulation| {
+        run_steps(&mut simulation, steps, |simulation, _| {
             frames.observe(simulation);
             Ok(())
         })

@@ -39,8 +39,8 @@ impl MainJob {
         let mut recorder = SimulationRecorder::new(subject, &simulation)?;
         frames.observe(&simulation);
         let begin = Instant::now();
-        run_steps(&mut simulation, steps, |simulation| {
-            recorder.step(simulation);
+        run_steps(&mut simulation, steps, |simulation, taken| {
+            recorder.step(simulation, taken);
             frames.observe(simulation);
             if simulation.steps_done().is_multiple_of(steps_per_frame) {
                 recorder.frame(simulation)?;
@@ -60,7 +60,7 @@ impl MainJob {
         files.publish()?;
         if self.run.json {
             return output::print_json(&serde_json::json!({
-                "simulation": json::simulation(&simulation, seconds),
+                "simulation": json::simulation(&simulation, &recording),
                 "effects_one_by_one": json::effects_one_by_one(&costs),
                 "comparison": json::comparison(&comparison),
             }));
@@ -68,7 +68,7 @@ impl MainJob {
         let effects = tables::effects_one_by_one(&costs);
         output::print(
             &[
-                tables::simulation(&simulation, seconds),
+                tables::simulation(&simulation, &recording),
                 effects,
                 tables::comparison(&comparison),
             ]

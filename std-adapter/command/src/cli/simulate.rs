@@ -7,7 +7,9 @@ use super::progress::Progress;
 use selvedge::Mesh;
 use selvedge_cloth::{CheckpointError, Scene, SceneError, Simulation};
 use selvedge_files::mesh;
-use selvedge_laboratory::report::{SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, tables};
+use selvedge_laboratory::report::{
+    Recording, SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, side_by_side, still, tables,
+};
 use selvedge_laboratory::study::{EffectCost, effects_one_by_one};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -15,8 +17,8 @@ use std::time::{Duration, Instant};
 
 /// Simulates the cloth of a scene file, and pays only for the effects that the scene calls for.
 ///
-/// Writes a report that works offline: the animation, candidate pairs over time, the time of each effect. A run that was
-/// interrupted goes on from its last checkpoint with --resume, to the same bits.
+/// Writes a report that works offline: the animation, energy and stretch, candidate pairs over time, the time of each effect. A
+/// run that was interrupted goes on from its last checkpoint with --resume, to the same bits.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -24,6 +26,8 @@ Examples:
   selvedge simulate scene.toml --frames gltf --output out    for Blender
   selvedge simulate scene.toml --effects-one-by-one          what each costs
   selvedge simulate scene.toml --resume                      after an interruption
+  selvedge simulate scene.toml --against other.toml          two scenes, side by side on one page
+  selvedge simulate scene.toml --picture fold.png --at 0.8   a still picture, without a browser
 
 Scenes that come with the program are in std-adapter/cloth/scenes.")]
 pub(crate) struct Simulate {
@@ -41,6 +45,15 @@ pub(crate) struct Simulate {
     /// Go on from the last checkpoint in the output folder
     #[arg(long)]
     resume: bool,
+    /// Write a still picture (PNG) of the last frame to this file, in the folder of the others unless it names one
+    #[arg(long, value_name = "FILE")]
+    picture: Option<PathBuf>,
+    /// Of the frame nearest to this time instead
+    #[arg(long, value_name = "SECONDS", requires = "picture", value_parser = time)]
+    at: Option<f64>,
+    /// Run this scene as well, in the same way, and write a page that shows both side by side
+    #[arg(long, value_name = "SCENE", conflicts_with_all = ["frames", "effects_one_by_one", "resume", "picture"])]
+    against: Option<PathBuf>,
     #[command(flatten)]
     threads: Threads,
     /// Print one JSON document instead of a table
@@ -58,22 +71,32 @@ enum Frames {
     Gltf,
 }
 
+/// A time in seconds.
+fn time(text: &str) -> Result<f64, String> {
+    let seconds = text
+        .parse()
+        .ok()
+        .filter(|seconds: &f64| seconds.is_finite() && *seconds >= 0.0);
+    seconds.ok_or_else(|| "a time in seconds, zero or more, is needed".to_owned())
+}
+
 /// The two parts of a checkpoint file: the simulation's state, and what was recorded.
 fn split(saved: &[u8]) -> Option<(&[u8], &[u8])> {
     let (&length, rest) = saved.split_first_chunk()?;
     rest.split_at_checked(usize::try_from(u64::from_le_bytes(length)).ok()?)
 }
 
-/// Runs a simulation up to step `steps`, and shows it to `then` after each step.
+/// Runs a simulation up to step `steps`, and shows it to `then` after each step, with the seconds that the step took.
 pub(super) fn run_steps(
     simulation: &mut Simulation,
     steps: u64,
-    mut then: impl FnMut(&Simulation) -> Result<(), Failure>,
+    mut then: impl FnMut(&Simulation, f64) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let progress = Progress::steps("simulating", steps);
     while simulation.steps_done() < steps {
+        let begin = Instant::now();
         simulation.step()?;
-        then(simulation)?;
+        then(simulation, begin.elapsed().as_secs_f64())?;
         progress.set_steps(simulation.steps_done());
     }
     Ok(())
@@ -89,49 +112,77 @@ pub(super) fn effect_costs(
     effects_one_by_one(read, steps, threads, &mut |share| progress.set(share))
 }
 
+/// A scene that was run, as far as it went.
+struct Run {
+    /// All that the scene asks for.
+    steps: u64,
+    simulation: Simulation,
+    recording: Recording,
+    result: Result<(), Failure>,
+}
+
 /// Between two checkpoints, at least; the first is written as soon as it can be.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(5);
 
 impl Simulate {
     pub(crate) fn run(&self) -> Result<(), Failure> {
-        let scene = Scene::read(&self.scene)?;
+        match &self.against {
+            Some(other) => self.run_both(other),
+            None => self.run_one(),
+        }
+    }
+
+    /// Both scenes one after the other in one process, so that their times can be compared. Nothing is written of them but reports.
+    fn run_both(&self, other: &Path) -> Result<(), Failure> {
+        let run = |path| self.record(path, |_, _| Ok(0.0), |_, _, _, _| Ok(()));
+        let [first, second] = [run(&self.scene)?, run(other)?];
+        let stem = |path: &Path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let name = format!("{}-against-{}.html", stem(&self.scene), stem(other));
+        let mut files = OutputFiles::default();
+        files.add_bytes(
+            self.output.join(name),
+            side_by_side::html(&first.recording, &second.recording)?.as_bytes(),
+        )?;
+        files.publish()?;
+        let printed = if self.json {
+            let mut document = json::simulation(&first.simulation, &first.recording);
+            document["against"] = json::simulation(&second.simulation, &second.recording);
+            output::print_json(&document)
+        } else {
+            let texts = [&first, &second].map(|run| tables::simulation(&run.simulation, &run.recording));
+            output::print(&texts.join("\n"))
+        };
+        first.result.and(second.result).and(printed)
+    }
+
+    /// Runs a scene as far as it goes, and records it. `begin` takes it to where it starts, and says how many seconds it had taken by then; `after` is
+    /// shown each step, the number of the frame if it is one, and the seconds so far.
+    fn record(
+        &self,
+        path: &Path,
+        begin: impl FnOnce(&mut Simulation, &mut SimulationRecorder) -> Result<f64, Failure>,
+        mut after: impl FnMut(&Simulation, &SimulationRecorder, Option<u64>, f64) -> Result<(), Failure>,
+    ) -> Result<Run, Failure> {
+        let scene = Scene::read(path)?;
+        let path = path.display();
         let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
         let subject = Subject::new(&scene);
-        let path = self.scene.display();
         let mut simulation = Simulation::new(scene, self.threads.get()).map_err(|error| format!("{path}: {error}"))?;
         OutputFiles::check_folder(&self.output)?;
         let mut recorder = SimulationRecorder::new(subject, &simulation)?;
-        // Seconds that this run took before it was interrupted.
-        let mut earlier = 0.0;
-        if self.resume {
-            let saved = self.read_checkpoint()?;
-            let of_file = |error: String| format!("{}: {error}", self.file("checkpoint").display());
-            let (state, recorded) = split(&saved).ok_or_else(|| of_file(CheckpointError::Damaged.to_string()))?;
-            simulation.resume(state).map_err(|error| of_file(error.to_string()))?;
-            earlier = recorder
-                .restore(recorded)
-                .ok_or_else(|| of_file(CheckpointError::Damaged.to_string()))?;
-        } else {
-            self.write_frame(&simulation, 0)?;
-        }
+        let earlier = begin(&mut simulation, &mut recorder)?;
 
         let begin = Instant::now();
         let seconds = || earlier + begin.elapsed().as_secs_f64();
-        let mut last_checkpoint: Option<Instant> = None;
-        let result = run_steps(&mut simulation, steps, |simulation| {
-            recorder.step(simulation);
+        let result = run_steps(&mut simulation, steps, |simulation, taken| {
+            recorder.step(simulation, taken);
             let step = simulation.steps_done();
-            if step.is_multiple_of(steps_per_frame) || step == steps {
+            let is_frame = step.is_multiple_of(steps_per_frame) || step == steps;
+            if is_frame {
                 recorder.frame(simulation)?;
-                self.write_frame(simulation, step.div_ceil(steps_per_frame))?;
             }
-            if last_checkpoint.is_none_or(|last| last.elapsed() >= CHECKPOINT_INTERVAL)
-                && let Some(state) = simulation.checkpoint()
-            {
-                self.write_checkpoint(&state, &recorder.save(seconds()))?;
-                last_checkpoint = Some(Instant::now());
-            }
-            Ok(())
+            let frame = is_frame.then(|| step.div_ceil(steps_per_frame));
+            after(simulation, &recorder, frame, seconds())
         });
         let result = result.map_err(|failure| Failure::from(format!("{path}: {failure}")));
         let seconds = seconds();
@@ -140,7 +191,46 @@ impl Simulate {
             recorder.frame(&simulation)?;
             recorder.remark(failure.to_string());
         }
-        let mut recording = recorder.finish(seconds);
+        Ok(Run {
+            steps,
+            recording: recorder.finish(seconds),
+            simulation,
+            result,
+        })
+    }
+
+    fn run_one(&self) -> Result<(), Failure> {
+        let start = |simulation: &mut Simulation, recorder: &mut SimulationRecorder| {
+            if !self.resume {
+                self.write_frame(simulation, 0)?;
+                return Ok(0.0);
+            }
+            let saved = self.read_checkpoint()?;
+            let of_file = |error: String| format!("{}: {error}", self.file("checkpoint").display());
+            let damaged = || of_file(CheckpointError::Damaged.to_string());
+            let (state, recorded) = split(&saved).ok_or_else(damaged)?;
+            simulation.resume(state).map_err(|error| of_file(error.to_string()))?;
+            Ok(recorder.restore(recorded).ok_or_else(damaged)?)
+        };
+        let mut last_checkpoint: Option<Instant> = None;
+        let after = |simulation: &Simulation, recorder: &SimulationRecorder, frame: Option<u64>, seconds: f64| {
+            if let Some(frame) = frame {
+                self.write_frame(simulation, frame)?;
+            }
+            if last_checkpoint.is_none_or(|last| last.elapsed() >= CHECKPOINT_INTERVAL)
+                && let Some(state) = simulation.checkpoint()
+            {
+                self.write_checkpoint(&state, &recorder.save(seconds))?;
+                last_checkpoint = Some(Instant::now());
+            }
+            Ok(())
+        };
+        let Run {
+            steps,
+            simulation,
+            mut recording,
+            result,
+        } = self.record(&self.scene, start, after)?;
         let costs = match self.effects_one_by_one {
             true => effect_costs(|| Scene::read(&self.scene), steps, self.threads.get())?,
             false => Vec::new(),
@@ -152,16 +242,22 @@ impl Simulate {
         if self.frames == Some(Frames::Gltf) {
             files.add_bytes(self.file("glb"), &gltf::binary(&recording)?)?;
         }
+        if let Some(picture) = &self.picture {
+            let frame = self
+                .at
+                .map_or(recording.frames.len() - 1, |seconds| recording.frame_at(seconds));
+            files.add_bytes(self.output.join(picture), &still::png(&recording, frame, still::STILL_SIZE)?)?;
+        }
         files.publish()?;
         // What has been simulated is written and told all the same.
         let printed = if self.json {
-            let mut document = json::simulation(&simulation, seconds);
+            let mut document = json::simulation(&simulation, &recording);
             if self.effects_one_by_one {
                 document["effects_one_by_one"] = json::effects_one_by_one(&costs);
             }
             output::print_json(&document)
         } else {
-            let mut text = tables::simulation(&simulation, seconds);
+            let mut text = tables::simulation(&simulation, &recording);
             if self.effects_one_by_one {
                 text += "\n";
                 text += &tables::effects_one_by_one(&costs);

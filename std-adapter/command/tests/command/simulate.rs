@@ -34,6 +34,86 @@ fn json_names_exactly_the_effects_that_the_scene_calls_for() {
 }
 
 #[test]
+fn json_tells_energy_and_stretch_at_every_frame_and_the_slowest_step() {
+    let document = place().json(&["simulate", "sheet.toml", "--json"]);
+    let numbers =
+        |value: &serde_json::Value| -> Vec<f64> { value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect() };
+    let energy = &document["energy"];
+    let [seconds, kinetic, elastic, gravitational, lost] =
+        ["seconds", "kinetic", "elastic", "gravitational", "lost"].map(|kind| numbers(&energy[kind]));
+    assert_eq!((seconds.len(), seconds[0]), (11, 0.0));
+    for frame in 0..11 {
+        let all = [&kinetic, &elastic, &gravitational, &lost]
+            .map(|kind| kind[frame])
+            .iter()
+            .sum::<f64>();
+        assert!(
+            (all - kinetic[0] - elastic[0] - gravitational[0]).abs() < 1e-12,
+            "nothing is missing"
+        );
+    }
+    let names: Vec<_> = energy["effects"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|effect| &effect["effect"])
+        .collect();
+    assert_eq!(names, ["gravity", "stretch"]);
+    assert_eq!(numbers(&energy["effects"][1]["joules"]), elastic);
+    let stretch = &document["edge_stretch"];
+    let longest = numbers(&stretch["largest"]);
+    let most = longest.iter().copied().fold(0.0, f64::max);
+    assert_eq!(stretch["most"]["largest"]["value"].as_f64().unwrap(), most);
+    assert_eq!(document["edge_stretch_at_end"]["largest"].as_f64().unwrap(), longest[10]);
+    let slowest = &document["slowest_step"];
+    assert!((1..=500).contains(&slowest["step"].as_u64().unwrap()));
+    assert!(slowest["seconds"].as_f64().unwrap() >= document["seconds"].as_f64().unwrap() / 1000.0);
+}
+
+#[test]
+fn a_picture_of_any_frame_is_a_png() {
+    let place = place();
+    let run = |options: &[&str]| {
+        let arguments = ["simulate", "sheet.toml", "--output", "out", "--picture", "sheet.png"];
+        place.stdout(&[&arguments[..], options].concat());
+        fs::read(place.path("out/sheet.png")).unwrap()
+    };
+    let last = run(&[]);
+    assert!(last.starts_with(b"\x89PNG"));
+    assert_ne!(last, run(&["--at", "0"]));
+    assert_eq!(last, run(&["--at", "1e9"]));
+    place.refusal(2, &["simulate", "sheet.toml", "--at", "1"]);
+    place.refusal(2, &["simulate", "sheet.toml", "--picture", "a.png", "--at", "-1"]);
+}
+
+#[test]
+fn two_scenes_come_on_one_page_and_in_one_document() {
+    let place = place();
+    place.write(
+        "other.toml",
+        SHEET.replace("[effects.gravity]", "[effects.gravity]\nacceleration = [0, 0, -5]"),
+    );
+    let document = place.json(&[
+        "simulate",
+        "sheet.toml",
+        "--against",
+        "other.toml",
+        "--json",
+        "--output",
+        "out",
+    ]);
+    assert_eq!(
+        (&document["steps"], &document["against"]["steps"]),
+        (&500.into(), &500.into())
+    );
+    assert_ne!(document["energy"], document["against"]["energy"]);
+    let page = place.read("out/sheet-against-other.html");
+    assert!(page.contains("<mark>acceleration = [0, 0, -5]</mark>"));
+    let message = place.refusal(2, &["simulate", "sheet.toml", "--against", "other.toml", "--resume"]);
+    assert!(message.contains("--against"), "{message}");
+}
+
+#[test]
 fn effects_one_by_one_has_a_row_for_each_and_one_without() {
     let place = place();
     let text = place.stdout(&["simulate", "sheet.toml", "--effects-one-by-one"]);
@@ -70,7 +150,7 @@ fn the_report_needs_no_network_and_no_other_file() {
     let page = place.read("out/sheet.html");
     // That nothing is loaded is tested with the page itself; here, that this is that page, with this scene.
     assert!(page.contains("<h1>a &lt;/script&gt; sheet</h1>"));
-    assert!(page.contains("body_contact: thickness"));
+    assert!(page.contains("body contact: thickness") && page.contains("self-collision"));
     let header = "<script id=\"recording\" type=\"application/json\">";
     let start = page.find(header).unwrap() + header.len();
     let end = start + page[start..].find("</script>").unwrap();

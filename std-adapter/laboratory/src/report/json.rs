@@ -5,6 +5,7 @@ use super::distributed;
 use super::findings::findings;
 use super::n_log_n_ratios;
 use super::paper::paper_row;
+use super::recording::{EDGES_99, LONGEST_EDGE, Measure, MeasureKind, Recording};
 use super::step::{StepQuestion, StepSummary};
 use crate::hard_cases::Contact;
 use crate::pipeline::{Preset, Stage, StepReport};
@@ -163,9 +164,13 @@ pub fn effects_one_by_one(costs: &[crate::study::EffectCost]) -> Value {
     costs.collect()
 }
 
-/// A simulation that has taken `seconds` so far: `selvedge simulate`.
+/// A simulation and what was recorded of it: `selvedge simulate`.
+///
+/// Energies are in J, those of weight from the scene's origin; stretch is a length over that at rest; both after the steps that end at
+/// `seconds`.
 #[must_use]
-pub fn simulation(simulation: &selvedge_cloth::Simulation, seconds: f64) -> Value {
+pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording) -> Value {
+    let seconds = recording.wall_seconds.unwrap_or(f64::NAN);
     let steps = simulation.steps_done();
     let effects = simulation.effects().iter();
     let effects: Vec<_> = effects
@@ -178,13 +183,17 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, seconds: f64) -> Valu
     let stages = stages.flat_map(|seconds| seconds.stages());
     let stages = stages.map(|(stage, seconds)| json!({"stage": stage, "seconds": seconds}));
     let stretch = simulation.edge_stretch();
+    let slowest = recording.step_times();
     json!({
         "scene": simulation.name(),
         "steps": steps,
         "seconds": seconds,
         "steps_per_second": steps as f64 / seconds,
+        "slowest_step": slowest.map(|steps| json!({"step": steps.largest_step, "seconds": steps.largest})),
         "simulated_seconds": simulation.time(),
         "edge_stretch_at_end": {"percentile_99": stretch.percentile_99, "largest": stretch.largest},
+        "edge_stretch": edge_stretch(recording),
+        "energy": energy(recording),
         "effects": effects,
         "pairs": pairs.collect::<Vec<_>>(),
         "stages": stages.collect::<Vec<_>>(),
@@ -196,6 +205,37 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, seconds: f64) -> Valu
         // Certified for cloth with whatever the scene's contact effects name; nobody looks if there are none.
         "intersections_at_end": simulation.is_certified().then_some(0),
     })
+}
+
+/// When measures were taken, in seconds.
+fn measured_seconds(recording: &Recording) -> Vec<f64> {
+    let steps = recording.measured_steps.iter();
+    steps.map(|&step| recording.end_of(step)).collect()
+}
+
+fn edge_stretch(recording: &Recording) -> Value {
+    let [of_most, of_longest] = [EDGES_99, LONGEST_EDGE].map(|name| recording.measure(name));
+    let values = |measure: Option<&Measure>| measure.map(|measure| measure.values.clone());
+    let largest = |measure: Option<&Measure>| {
+        measure.map(|measure| json!({"value": measure.largest, "seconds": recording.end_of(measure.largest_step)}))
+    };
+    json!({
+        "seconds": measured_seconds(recording),
+        "percentile_99": values(of_most),
+        "largest": values(of_longest),
+        "most": {"percentile_99": largest(of_most), "largest": largest(of_longest)},
+    })
+}
+
+fn energy(recording: &Recording) -> Value {
+    let mut energy = json!({"seconds": measured_seconds(recording)});
+    for measure in recording.measures_of(MeasureKind::Energy) {
+        energy[&measure.name] = measure.values.clone().into();
+    }
+    let effects = recording.measures_of(MeasureKind::EffectEnergy);
+    let effects = effects.map(|measure| json!({"effect": measure.name, "joules": measure.values}));
+    energy["effects"] = effects.collect();
+    energy
 }
 
 /// Cost against size: `selvedge scaling`.

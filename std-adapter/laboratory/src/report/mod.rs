@@ -15,7 +15,9 @@ pub mod page;
 mod paper;
 mod plot;
 mod recording;
+pub mod side_by_side;
 mod step;
+pub mod still;
 pub mod tables;
 mod tangles;
 
@@ -25,7 +27,8 @@ pub use figure::{FIGURE_SIZE, FigureError, FigurePairs, figure_3};
 pub use findings::{Finding, findings};
 pub use paper::{PaperRow, paper_row};
 pub use plot::{accuracy_svg, elementary_svg, scaling_svg};
-pub use recording::{About, Added, Frame, FrameError, Knob, Part, PartKind, Recorder, Recording, Series, SeriesKind};
+pub use recording::{About, Added, Frame, FrameError, Knob, Measure, MeasureKind, Part, PartKind};
+pub use recording::{Recorder, Recording, Series, SeriesKind};
 pub use recording::{SimulationRecorder, Subject, costs_of_added_effects};
 pub use step::{StepQuestion, StepSummary};
 pub use tangles::{Tangle, intersections_csv, intersections_json, tangle_ply, tangles, tangles_json};
@@ -43,6 +46,16 @@ fn distributed(row: &ComparisonRow) -> Option<MeanCounts> {
 fn mesh_size(vertices: usize, edges: usize, triangles: usize) -> String {
     let [vertices, edges, triangles] = [vertices, edges, triangles].map(number::grouped);
     format!("{vertices} vertices, {edges} edges, {triangles} triangles")
+}
+
+/// An effect as people call it, who write no underscores.
+fn label(name: &str) -> String {
+    name.replace("self_collision", "self-collision").replace('_', " ")
+}
+
+/// A value with its unit, as it is printed: `15 µN·m` for `15 uN m`.
+fn printed(value: &str) -> String {
+    value.replace("uN", "µN").replace("N m", "N·m").replace("m2", "m²")
 }
 
 /// Without control characters, which XML and HTML have no way to write and a file's name may hold.

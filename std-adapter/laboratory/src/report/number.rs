@@ -23,6 +23,17 @@ pub(super) fn counted(count: impl ToString + Copy, what: &str) -> String {
     format!("{count} {what}{s}")
 }
 
+/// `1st`, `22nd`, `1,500th`.
+pub(super) fn ordinal(number: u64) -> String {
+    let ending = match (number % 10, number % 100) {
+        (1, tens) if tens != 11 => "st",
+        (2, tens) if tens != 12 => "nd",
+        (3, tens) if tens != 13 => "rd",
+        _ => "th",
+    };
+    format!("{}{ending}", grouped(number))
+}
+
 /// A mean count: whole from 100 up, with one decimal below unless it is whole anyway.
 pub(super) fn mean(number: f64) -> String {
     finite(number, |number| {
@@ -93,6 +104,11 @@ pub(super) fn time(seconds: f64) -> String {
     })
 }
 
+/// A time at which something happens in a simulation: `0.225 s`.
+pub(super) fn moment(seconds: f64) -> String {
+    finite(seconds, |seconds| format!("{} s", few(seconds)))
+}
+
 /// A time with its sign: `+12.3 ms`.
 pub(super) fn signed_time(seconds: f64) -> String {
     let sign = if seconds < 0.0 { "−" } else { "+" };
@@ -147,6 +163,14 @@ mod tests {
             ["0", "999", "1,000", "12,345", "5,197,332"]
         );
         assert_eq!([0, 1, 1500].map(|n| counted(n, "step")), ["0 steps", "1 step", "1,500 steps"]);
+    }
+
+    #[test]
+    fn ordinals_have_their_endings() {
+        assert_eq!(
+            [1, 2, 3, 4, 11, 12, 13, 21, 102, 1113].map(ordinal),
+            ["1st", "2nd", "3rd", "4th", "11th", "12th", "13th", "21st", "102nd", "1,113th"]
+        );
     }
 
     #[test]

@@ -41,6 +41,13 @@ impl Binary {
         self.add_accessor(view, FLOAT, "VEC3", vectors.len(), bounds)
     }
 
+    /// Adds tuples that an animation needs: `VEC3` or `VEC4`.
+    pub(super) fn add_tuples<const N: usize>(&mut self, tuples: &[[f32; N]], kind: &str) -> usize {
+        let bytes = tuples.iter().flatten().flat_map(|number| number.to_le_bytes());
+        let view = self.add_view(bytes, None);
+        self.add_accessor(view, FLOAT, kind, tuples.len(), json!({}))
+    }
+
     /// Adds numbers that an animation needs, not empty.
     pub(super) fn add_numbers(&mut self, numbers: &[f32]) -> usize {
         let least = numbers.iter().copied().fold(f32::INFINITY, f32::min);

@@ -1,18 +1,20 @@
 //! A simulation as one animated glTF 2.0 file (`.glb`), which Blender and most viewers open.
 //!
-//! Each part is a mesh. Its first frame is its shape, every later frame a morph target (Blender: a shape key), and an animation of
-//! their weights leads from each frame to the next; positions in between are interpolated along straight lines. Parts that never
-//! move have no targets.
+//! Each part is a mesh, with normals. Its first frame is its shape, every later frame a morph target (Blender: a shape key), and an animation
+//! of their weights leads from each frame to the next; positions in between are interpolated along straight lines. Of bodies that keep
+//! their shape nodes are animated instead, by turns and shifts; parts that never move have neither.
 //!
 //! Written with `serde_json` alone: what is needed of the format is a page, the types of `gltf-json` would be three more
 //! dependencies and no shorter. The tests read it back with the `gltf` crate, which validates it.
 
 mod binary;
+mod rigid;
 #[cfg(test)]
 mod tests;
 
 use super::recording::{Frame, Part, PartKind, Recording};
 use binary::Binary;
+use rigid::{Pose, poses};
 use selvedge_cloth::vertex_normals;
 use selvedge_core::glam::{DQuat, DVec3};
 use serde_json::{Value, json};
@@ -35,16 +37,22 @@ const MOST_FRAMES: usize = 600;
 pub fn binary(recording: &Recording) -> Result<Vec<u8>, TooLarge> {
     let frames = chosen(&recording.frames);
     let mut binary = Binary::default();
-    let (mut nodes, mut meshes, mut moving) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut nodes, mut meshes) = (Vec::new(), Vec::new());
+    let (mut deforming, mut rigid) = (Vec::new(), Vec::new());
     let parts = recording.placed_parts();
     for (first, part) in parts.filter(|(_, part)| !part.triangles().is_empty()) {
         let vertices = first..first + part.vertex_count();
         let shape = |frame: &Frame| frame.positions[vertices.clone()].to_vec();
         let rest = shape(frames[0]);
         let moves = frames.iter().any(|frame| frame.positions[vertices.clone()] != rest);
-        let later = if moves { &frames[1..] } else { &[] };
-        if moves {
-            moving.push(nodes.len());
+        let in_frames: Vec<&[[f32; 3]]> = frames.iter().map(|frame| &frame.positions[vertices.clone()]).collect();
+        let keeps_shape = moves && part.kind() == PartKind::Body;
+        let poses = keeps_shape.then(|| poses(&in_frames)).flatten();
+        let later = if moves && poses.is_none() { &frames[1..] } else { &[] };
+        match poses {
+            Some(poses) => rigid.push((nodes.len(), poses)),
+            None if moves => deforming.push(nodes.len()),
+            None => {}
         }
         nodes.push(json!({"name": part.name(), "mesh": meshes.len()}));
         let up = recording.up();
@@ -76,8 +84,8 @@ pub fn binary(recording: &Recording) -> Result<Vec<u8>, TooLarge> {
     } else {
         document["meshes"] = meshes.into();
     }
-    if !moving.is_empty() {
-        document["animations"] = json!([animation(&mut binary, recording, &frames, &moving)]);
+    if !deforming.is_empty() || !rigid.is_empty() {
+        document["animations"] = json!([animation(&mut binary, recording, &frames, &deforming, &rigid)]);
     }
     binary.into_file(document)
 }
@@ -152,22 +160,43 @@ fn differences(to: &[[f32; 3]], from: &[[f32; 3]]) -> Vec<[f32; 3]> {
     pairs.map(|(a, b)| [a[0] - b[0], a[1] - b[1], a[2] - b[2]]).collect()
 }
 
-/// At the time of frame k the weight of target k − 1 is 1 and all others are 0; the first frame has no target.
-fn animation(binary: &mut Binary, recording: &Recording, frames: &[&Frame], nodes: &[usize]) -> Value {
+/// At the time of frame k the weight of target k − 1 is 1 and all others are 0; the first frame has no target. Rigid parts have their poses.
+fn animation(
+    binary: &mut Binary,
+    recording: &Recording,
+    frames: &[&Frame],
+    deforming: &[usize],
+    rigid: &[(usize, Vec<Pose>)],
+) -> Value {
     let start = recording.time(frames[0]);
     let times = frames.iter().map(|frame| (recording.time(frame) - start) as f32);
-    let targets = frames.len() - 1;
-    let mut weights = vec![0.0; frames.len() * targets];
-    for target in 0..targets {
-        weights[(target + 1) * targets + target] = 1.0;
-    }
     let input = binary.add_numbers(&times.collect::<Vec<_>>());
-    let output = binary.add_numbers(&weights);
-    let channel = |&node: &usize| json!({"sampler": 0, "target": {"node": node, "path": "weights"}});
+    let (mut samplers, mut channels) = (Vec::new(), Vec::new());
+    let mut add = |output: usize, path: &str, nodes: &[usize]| {
+        let channel = |&node: &usize| json!({"sampler": samplers.len(), "target": {"node": node, "path": path}});
+        channels.extend(nodes.iter().map(channel));
+        samplers.push(json!({"input": input, "output": output, "interpolation": "LINEAR"}));
+    };
+    if !deforming.is_empty() {
+        let targets = frames.len() - 1;
+        let mut weights = vec![0.0; frames.len() * targets];
+        for target in 0..targets {
+            weights[(target + 1) * targets + target] = 1.0;
+        }
+        add(binary.add_numbers(&weights), "weights", deforming);
+    }
+    for (node, poses) in rigid {
+        let rotations = poses.iter().map(|pose| pose.rotation.to_array().map(|number| number as f32));
+        let rotations = binary.add_tuples(&rotations.collect::<Vec<_>>(), "VEC4");
+        add(rotations, "rotation", &[*node]);
+        let translations = poses.iter().map(|pose| pose.translation.as_vec3().to_array());
+        let translations = binary.add_tuples(&translations.collect::<Vec<_>>(), "VEC3");
+        add(translations, "translation", &[*node]);
+    }
     json!({
         "name": recording.about.name,
-        "samplers": [{"input": input, "output": output, "interpolation": "LINEAR"}],
-        "channels": nodes.iter().map(channel).collect::<Vec<_>>(),
+        "samplers": samplers,
+        "channels": channels,
     })
 }
 

@@ -11,6 +11,7 @@ fn recording(frames: u64, up: DVec3) -> Recording {
         scene: String::new(),
         up,
         time_step: 0.02,
+        fabric: Vec::new(),
         knobs: Vec::new(),
     };
     let parts = vec![
@@ -149,4 +150,54 @@ fn a_scene_of_nothing_is_valid() {
     recorder.frame(0, &[]).unwrap();
     let (document, blob) = read_back(&recorder.finish(None));
     assert_eq!((document.meshes().len(), blob.len()), (0, 0));
+}
+
+/// A body that turns by more than a whole turn and goes elsewhere, and one that breathes.
+#[test]
+fn a_body_that_keeps_its_shape_is_an_animated_node_and_one_that_does_not_has_targets() {
+    let corners = [DVec3::new(0.3, 0.1, 0.0), DVec3::X, DVec3::Y, DVec3::new(0.2, 0.3, 0.9)];
+    let triangles = vec![[0, 1, 2], [2, 1, 3]];
+    let parts = ["rigid", "breathing"].map(|name| Part::new(name, PartKind::Body, 4, triangles.clone()));
+    let about = recording(1, DVec3::Z).about;
+    let mut recorder = Recorder::new(about, parts.to_vec(), &[], &[]);
+    for frame in 0..9_u64 {
+        let t = frame as f64;
+        let turned = |p: DVec3| DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.9 * t) * p + DVec3::new(0.1 * t, 2.0, 0.0);
+        let breathing = |p: DVec3| p * (1.0 + 0.1 * t);
+        recorder
+            .frame(frame, &[corners.map(turned), corners.map(breathing)].concat())
+            .unwrap();
+    }
+    let recording = recorder.finish(None);
+    let (document, blob) = read_back(&recording);
+    let targets: Vec<usize> = document
+        .meshes()
+        .map(|mesh| mesh.primitives().next().unwrap().morph_targets().count())
+        .collect();
+    assert_eq!(targets, [0, 8]);
+    let animation = document.animations().next().unwrap();
+    let (mut rotations, mut translations, mut weighted) = (Vec::new(), Vec::new(), 0);
+    for channel in animation.channels() {
+        let name = channel.target().node().name().unwrap().to_owned();
+        match channel.reader(|_| Some(&blob[..])).read_outputs().unwrap() {
+            ReadOutputs::Rotations(all) if name == "rigid" => rotations.extend(all.into_f32()),
+            ReadOutputs::Translations(all) if name == "rigid" => translations.extend(all),
+            ReadOutputs::MorphTargetWeights(_) if name == "breathing" => weighted += 1,
+            _ => panic!("{name} is animated otherwise"),
+        }
+    }
+    assert_eq!((rotations.len(), translations.len(), weighted), (9, 9, 1));
+    for (k, frame) in recording.frames.iter().enumerate() {
+        let (turn, shift) = (
+            DQuat::from_array(rotations[k].map(f64::from)),
+            DVec3::from(translations[k].map(f64::from)),
+        );
+        for (first, now) in recording.frames[0].positions[..4].iter().zip(&frame.positions[..4]) {
+            let placed = turn * DVec3::from(first.map(f64::from)) + shift;
+            assert!(placed.distance(DVec3::from(now.map(f64::from))) < 1e-5, "frame {k}");
+        }
+    }
+    // From one frame to the next the short way.
+    let quaternions: Vec<DQuat> = rotations.iter().map(|q| DQuat::from_array(q.map(f64::from))).collect();
+    assert!(quaternions.windows(2).all(|two| two[0].dot(two[1]) > 0.0));
 }

@@ -9,9 +9,12 @@
 //! | `bounds` | f32 | for each frame its least x, y, z and its extent along x, y, z |
 //! | `positions` | u16 | for each frame and vertex x, y, z: 0 is the frame's least, 65,535 the least and the extent |
 //! | `values` | f32 | each series' values, one series after the other |
+//! | `measured` | f32 | each measure's values, one measure after the other |
 //!
 //! So a position is off by at most half a 65,535th of the frame's extent, and by the rounding of f32.
 
+use super::measures::Shown;
+use crate::report::label;
 use crate::report::recording::{Frame, PartKind, Recording, SeriesKind};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -34,6 +37,8 @@ pub(super) fn blocks(recording: &Recording) -> Markup {
         frame.positions.iter().flat_map(quantised)
     });
     let values = recording.series.iter().flat_map(|series| &series.values);
+    let measures = Shown::all(recording);
+    let measured = measures.iter().flat_map(|measure| &measure.values).map(|&value| value as f32);
     let blocks = [
         ("triangles", base64(triangles.map(u32::to_le_bytes))),
         (
@@ -42,9 +47,10 @@ pub(super) fn blocks(recording: &Recording) -> Markup {
         ),
         ("positions", base64(positions.map(u16::to_le_bytes))),
         ("values", base64(values.map(|value| value.to_le_bytes()))),
+        ("measured", base64(measured.map(f32::to_le_bytes))),
     ];
     html! {
-        script #recording type="application/json" { (PreEscaped(inside_script(&header(recording)))) }
+        script #recording type="application/json" { (PreEscaped(inside_script(&header(recording, &measures)))) }
         @for (name, text) in &blocks {
             script id=(name) type="application/octet-stream" { (PreEscaped(text)) }
         }
@@ -52,7 +58,7 @@ pub(super) fn blocks(recording: &Recording) -> Markup {
 }
 
 /// What the blocks mean.
-fn header(recording: &Recording) -> Value {
+fn header(recording: &Recording, measures: &[Shown<'_>]) -> Value {
     let parts = recording.placed_parts().map(|(first, part)| {
         json!({
             "name": part.name(),
@@ -71,10 +77,14 @@ fn header(recording: &Recording) -> Value {
             SeriesKind::Events => ("events", ""),
             SeriesKind::Effect => ("effect", "s"),
             SeriesKind::Stage => ("stage", "s"),
+            SeriesKind::Step => ("step", "s"),
             SeriesKind::Gauge(unit) => ("gauge", unit),
         };
-        json!({"name": series.name, "kind": kind, "unit": unit})
+        json!({"name": series.name, "label": label(&series.name), "kind": kind, "unit": unit})
     });
+    let measures = measures.iter();
+    let measures = measures
+        .map(|shown| json!({"name": shown.name, "label": label(shown.name), "kind": shown.kind_name(), "unit": shown.unit()}));
     let frame_steps = recording.frames.iter().map(|frame| frame.step);
     json!({
         "up": recording.up().to_array(),
@@ -86,6 +96,8 @@ fn header(recording: &Recording) -> Value {
         "frameSteps": frame_steps.collect::<Vec<_>>(),
         "parts": parts.collect::<Vec<_>>(),
         "series": series.collect::<Vec<_>>(),
+        "measuredSteps": recording.measured_steps,
+        "measures": measures.collect::<Vec<_>>(),
     })
 }
 

@@ -4,13 +4,15 @@
 //! in the page from data in the page; `data` says how it is packed.
 
 mod data;
+mod measures;
 mod tables;
 #[cfg(test)]
 mod tests;
 
+pub(super) use self::measures::Shown;
 pub(super) use self::tables::bar;
-use super::number::{counted, figures, grouped, time};
-use super::recording::{PartKind, Recording, SeriesKind};
+use super::number::{counted, figures, grouped, moment, ordinal, time};
+use super::recording::{LONGEST_EDGE, Measure, PartKind, Recording, Series, SeriesKind};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("assets/page.css");
@@ -39,6 +41,7 @@ pub fn html(recording: &Recording) -> String {
             @for remark in &recording.remarks { p.remark role="note" { (remark) } }
             (animation(recording))
             (tiles(recording))
+            (measures::sections(recording))
             @if has(|kind| kind == SeriesKind::Pairs) {
                 section {
                     h2 { "Pairs after each stage" }
@@ -56,6 +59,7 @@ pub fn html(recording: &Recording) -> String {
             @if has(|kind| matches!(kind, SeriesKind::Effect | SeriesKind::Stage)) {
                 section {
                     h2 { "Time of each effect and each stage" }
+                    @if has(|kind| kind == SeriesKind::Step) { div.chart data-kind="step" {} }
                     @if has(|kind| kind == SeriesKind::Effect) { div.chart data-kind="effect" {} }
                     @if has(|kind| kind == SeriesKind::Stage) { div.chart data-kind="stage" {} }
                     (tables::times(recording))
@@ -74,10 +78,16 @@ pub fn html(recording: &Recording) -> String {
                     (tables::gauges(recording))
                 }
             }
+            @if !about.fabric.is_empty() {
+                section {
+                    h2 { "The fabric" }
+                    (tables::knobs(["property", "value"], &about.fabric))
+                }
+            }
             @if !about.knobs.is_empty() {
                 section {
                     h2 { "What trades time for accuracy" }
-                    (tables::knobs(recording))
+                    (tables::knobs(["setting", "value"], &about.knobs))
                 }
             }
             @if !about.scene.is_empty() {
@@ -145,16 +155,35 @@ fn summary(recording: &Recording) -> String {
     summary
 }
 
+/// Events that no simulation wants: steps that could not be made as they were.
+const TOLD: [&str; 3] = ["vertices held back", "times cut in half", "steps blocked"];
+
 /// The numbers that are asked for first.
 fn tiles(recording: &Recording) -> Markup {
     let effects = recording.series_of(|kind| kind == SeriesKind::Effect);
-    let mut tiles = vec![(time(recording.duration()), "simulated")];
+    let mut tiles = vec![(time(recording.duration()), "simulated".to_owned())];
     if let Some(seconds) = recording.wall_seconds {
         let steps = recording.steps as f64;
-        tiles.push((time(seconds), "computed in"));
-        tiles.push((figures(steps / seconds), "steps a second"));
+        tiles.push((time(seconds), "computed in".to_owned()));
+        tiles.push((figures(steps / seconds), "steps a second".to_owned()));
     }
-    tiles.push((grouped(effects.count()), "effects ran"));
+    let step_of = |steps: &Series| format!("slowest step, the {}", ordinal(steps.largest_step));
+    tiles.extend(recording.step_times().map(|steps| (time(steps.largest), step_of(steps))));
+    let longest = recording.measure(LONGEST_EDGE);
+    let longest = longest.filter(|longest| longest.largest.is_finite());
+    let when = |longest: &Measure| {
+        format!(
+            "longest edge over rest, at {}",
+            moment(recording.end_of(longest.largest_step))
+        )
+    };
+    tiles.extend(longest.map(|longest| (format!("{:.3}", longest.largest), when(longest))));
+    if recording.steps > 0 {
+        let events = recording.series_of(|kind| kind == SeriesKind::Events);
+        let told = events.filter(|event| TOLD.contains(&&*event.name));
+        tiles.extend(told.map(|event| (grouped(event.total as u64), event.name.clone())));
+    }
+    tiles.push((grouped(effects.count()), "effects ran".to_owned()));
     html! {
         dl.tiles {
             @for (value, name) in &tiles { div { dt { (name) } dd { (value) } } }

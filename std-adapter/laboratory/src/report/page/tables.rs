@@ -1,7 +1,8 @@
 //! What the charts show, in numbers.
 
+use super::super::label;
 use super::super::number::{few, mean, share, signed_time, time};
-use super::super::recording::{Recording, Series, SeriesKind};
+use super::super::recording::{Knob, Recording, Series, SeriesKind};
 use maud::{Markup, html};
 
 /// What is not there: a dash in every format.
@@ -38,7 +39,9 @@ fn counts(recording: &Recording, series: &Series) -> [String; 3] {
 pub(super) fn times(recording: &Recording) -> Markup {
     let is_time = |kind| matches!(kind, SeriesKind::Effect | SeriesKind::Stage);
     let sum: f64 = recording.series_of(is_time).map(|series| series.total).sum();
-    let whole = recording.wall_seconds.map_or(sum, |wall| wall.max(sum));
+    let steps = recording.step_times();
+    let wall = steps.map(|steps| steps.total).or(recording.wall_seconds);
+    let whole = wall.map_or(sum, |wall| wall.max(sum));
     let row = |name: &str, seconds: f64, largest: f64| {
         let of_whole = if whole > 0.0 { seconds / whole } else { 0.0 };
         html! { tr {
@@ -54,7 +57,7 @@ pub(super) fn times(recording: &Recording) -> Markup {
         rows.sort_by(|a, b| b.total.total_cmp(&a.total));
         html! { @if !rows.is_empty() { tbody {
             tr.group { th colspan="5" scope="rowgroup" { (title) } }
-            @for series in rows { (row(&series.name, series.total, series.largest)) }
+            @for series in rows { (row(&label(&series.name), series.total, series.largest)) }
         } } }
     };
     html! {
@@ -62,9 +65,9 @@ pub(super) fn times(recording: &Recording) -> Markup {
             (head(&["", "a step", "share", "most in a step", "all steps"]))
             (group("effects", SeriesKind::Effect))
             (group("stages that effects share", SeriesKind::Stage))
-            @if let Some(wall) = recording.wall_seconds { tbody {
+            @if let Some(wall) = wall { tbody {
                 @if wall > sum { (row("everything else", wall - sum, NONE)) }
-                (row("whole step, by the clock on the wall", wall, NONE))
+                (row("whole step, by the clock on the wall", wall, steps.map_or(NONE, |steps| steps.largest)))
             } }
         } }
     }
@@ -103,13 +106,13 @@ pub(super) fn gauges(recording: &Recording) -> Markup {
 }
 
 /// Settings.
-pub(super) fn knobs(recording: &Recording) -> Markup {
-    let knobs = recording.about.knobs.iter();
-    html! { div.knobs { (table(["setting", "value"], knobs.map(|knob| (&*knob.name, [&*knob.value])))) } }
+pub(super) fn knobs(headings: [&str; 2], knobs: &[Knob]) -> Markup {
+    let knobs = knobs.iter();
+    html! { div.knobs { (table(headings, knobs.map(|knob| (&*knob.name, [&*knob.value])))) } }
 }
 
 /// Rows with a name each.
-fn table<'a, const H: usize, const N: usize, C: maud::Render>(
+pub(super) fn table<'a, const H: usize, const N: usize, C: maud::Render>(
     headings: [&str; H],
     rows: impl Iterator<Item = (&'a str, [C; N])>,
 ) -> Markup {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::report::{About, Knob, Part, Recorder};
+use crate::report::{About, Knob, MeasureKind, Part, Recorder};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use proptest::prelude::*;
@@ -36,6 +36,7 @@ fn recording(frames: &[Vec<DVec3>], series: &[(&str, SeriesKind)]) -> Recording 
         scene: "# </script><b>\nlimit = 3 & 4\n".to_owned(),
         up: DVec3::Y,
         time_step: 0.001,
+        fabric: Vec::new(),
         knobs: vec![Knob::new("time step", "1 ms")],
     };
     let vertices = frames[0].len();
@@ -178,4 +179,41 @@ fn the_page_asks_for_nothing_from_outside() {
 fn the_same_recording_gives_the_same_bytes() {
     let recording = recording(&two_frames(), &EVERY_KIND);
     assert_eq!(html(&recording), html(&recording.clone()));
+}
+
+#[test]
+fn what_is_measured_at_frames_is_drawn_and_told_and_weight_counts_from_its_least() {
+    let mut recording = recording(&two_frames(), &EVERY_KIND);
+    let measures = [
+        ("kinetic", MeasureKind::Energy, [0.0, 2.0]),
+        ("gravitational", MeasureKind::Energy, [-5.0, -9.0]),
+        ("self_collision", MeasureKind::EffectEnergy, [0.0, 3.0]),
+        ("longest edge", MeasureKind::Stretch, [1.25, 1.0]),
+    ];
+    recording.measured_steps = vec![0, 1];
+    recording.measures = { measures.into_iter() }
+        .map(|(name, kind, values)| Measure {
+            name: name.to_owned(),
+            kind,
+            values: values.to_vec(),
+            largest: values[0].max(values[1]),
+            largest_step: u64::from(values[1] > values[0]),
+        })
+        .collect();
+    let page = parsed(&html(&recording));
+    let kinds = all(&page, ".chart")
+        .into_iter()
+        .map(|chart| chart.value().attr("data-kind").unwrap().to_owned());
+    let kinds: Vec<String> = kinds.collect();
+    assert_eq!(kinds[..3], ["energy", "effect-energy", "stretch"]);
+    assert_eq!(
+        numbers(&page, "measured", f32::from_le_bytes),
+        [0.0, 2.0, 4.0, 0.0, 0.0, 3.0, 1.25, 1.0]
+    );
+    let header: Value = serde_json::from_str(&text(&page, "script#recording")).unwrap();
+    assert_eq!(header["measures"][1]["kind"], "energy");
+    assert_eq!(header["measures"][2]["label"], "self-collision");
+    let rows: Vec<String> = all(&page, "tbody tr").iter().map(|row| row.text().collect()).collect();
+    assert!(rows.contains(&"gravitational440".to_owned()), "{rows:?}");
+    assert!(rows.contains(&"longest edge11.250 s".to_owned()), "{rows:?}");
 }

@@ -11,6 +11,7 @@
 //!     scene: "duration = \"20 ms\"\n".to_owned(),
 //!     up: DVec3::Z,
 //!     time_step: 0.01,
+//!     fabric: vec![Knob::new("weight", "150 g/m²")],
 //!     knobs: vec![Knob::new("time step", "10 ms")],
 //! };
 //! let cloth = Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 2]]);
@@ -39,6 +40,7 @@ mod recorder;
 mod simulated;
 #[cfg(test)]
 mod tests;
+mod thinned;
 
 pub use recorder::{FrameError, Recorder};
 pub use simulated::{SimulationRecorder, Subject, costs_of_added_effects};
@@ -65,6 +67,10 @@ pub struct Recording {
     pub steps_per_value: u64,
     /// Figures of every step.
     pub series: Vec<Series>,
+    /// After which steps measures were taken, in the order of time: at all frames that were offered, thinned out evenly if there are many.
+    pub measured_steps: Vec<u64>,
+    /// Quantities of the state.
+    pub measures: Vec<Measure>,
     /// How long the steps took by the clock on the wall, in seconds, if it is known.
     pub wall_seconds: Option<f64>,
     /// What a step costs with the first of the effects, with the first two, and so on, if that was measured.
@@ -84,6 +90,8 @@ pub struct About {
     pub up: DVec3,
     /// The time step, in seconds.
     pub time_step: f64,
+    /// What the cloth is made of.
+    pub fabric: Vec<Knob>,
     /// What trades time for accuracy.
     pub knobs: Vec<Knob>,
 }
@@ -97,7 +105,7 @@ pub struct Added {
     pub seconds: f64,
 }
 
-/// A setting that trades time for accuracy: the time step, a thickness, a tolerance.
+/// A setting: one that trades time for accuracy, such as the time step, a thickness or a tolerance; or a property of the fabric.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Knob {
     /// What it is called.
@@ -200,6 +208,8 @@ pub enum SeriesKind {
     Effect,
     /// Seconds of a stage that several effects share.
     Stage,
+    /// Seconds of the whole step, by the clock on the wall.
+    Step,
     /// A quantity of the state, in this unit (empty for a pure number): the least distance, the largest strain.
     Gauge(&'static str),
 }
@@ -219,6 +229,41 @@ pub struct Series {
     pub smallest: f64,
     /// The largest of any step; negative infinity if there was none.
     pub largest: f64,
+    /// In which step it was the largest, first.
+    pub largest_step: u64,
+}
+
+/// What a [`Measure`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeasureKind {
+    /// A kind of energy, in J.
+    Energy,
+    /// The energy that an effect holds, in J, named after the effect.
+    EffectEnergy,
+    /// Lengths of edges over those at rest.
+    Stretch,
+}
+
+/// The length that 99 % of the edges do not exceed, over that at rest.
+pub(super) const EDGES_99: &str = "99 % of the edges";
+/// Of the edge that is stretched most.
+pub(super) const LONGEST_EDGE: &str = "longest edge";
+/// Energy of weight.
+pub(super) const GRAVITATIONAL: &str = "gravitational";
+
+/// A quantity of the state, which takes too long to work out to be asked for in each step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measure {
+    /// What it is called.
+    pub name: String,
+    /// What it is.
+    pub kind: MeasureKind,
+    /// After each of the [`measured_steps`](Recording::measured_steps).
+    pub values: Vec<f64>,
+    /// The largest that was ever measured; negative infinity if none was.
+    pub largest: f64,
+    /// After which step it was the largest, first.
+    pub largest_step: u64,
 }
 
 impl Recording {
@@ -231,7 +276,20 @@ impl Recording {
     /// The time of a frame, in seconds.
     #[must_use]
     pub fn time(&self, frame: &Frame) -> f64 {
-        frame.step as f64 * self.about.time_step
+        self.end_of(frame.step)
+    }
+
+    /// The frame that is nearest to a time, in seconds: the first of two.
+    ///
+    /// # Panics
+    /// If the recording has no frames, which a [`Recorder`] does not make.
+    #[must_use]
+    pub fn frame_at(&self, seconds: f64) -> usize {
+        let away = |&frame: &usize| (self.time(&self.frames[frame]) - seconds).abs();
+        let frames = 0..self.frames.len();
+        frames
+            .min_by(|a, b| away(a).total_cmp(&away(b)))
+            .expect("a recording has frames")
     }
 
     /// How long the recorded steps are together, in simulated seconds.
@@ -270,6 +328,28 @@ impl Recording {
     /// The direction that is up, of length one.
     pub(super) fn up(&self) -> DVec3 {
         self.about.up.try_normalize().unwrap_or(DVec3::Z)
+    }
+
+    /// The measure of this name.
+    pub(super) fn measure(&self, name: &str) -> Option<&Measure> {
+        self.measures.iter().find(|measure| measure.name == name)
+    }
+
+    /// The measures of a kind, in their order.
+    pub(super) fn measures_of(&self, wanted: MeasureKind) -> impl Iterator<Item = &Measure> {
+        self.measures.iter().filter(move |measure| measure.kind == wanted)
+    }
+
+    /// The time of a step's end, in seconds.
+    pub(super) fn end_of(&self, step: u64) -> f64 {
+        step as f64 * self.about.time_step
+    }
+
+    /// The times of the whole steps, if they were recorded.
+    pub(super) fn step_times(&self) -> Option<&Series> {
+        self.series_of(|kind| kind == SeriesKind::Step)
+            .next()
+            .filter(|_| self.steps > 0)
     }
 
     /// The series of a kind, in their order.

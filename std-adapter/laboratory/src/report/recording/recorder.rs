@@ -1,10 +1,10 @@
 //! Records in bounded memory.
 //!
-//! When frames take more than their budget, every other one is dropped, and from then on every other one is not kept; when
-//! values of a series are more than [`MOST_VALUES`], each two become their mean. So both stay evenly spread over a
-//! simulation whose end nobody knows.
+//! Frames and what is measured at them are [thinned out](super::thinned); when values of a series are more than [`MOST_VALUES`], each two
+//! become their mean. So all stay evenly spread over a simulation whose end nobody knows.
 
-use super::{About, Frame, Part, Recording, Series, SeriesKind};
+use super::thinned::Thinned;
+use super::{About, Frame, Measure, MeasureKind, Part, Recording, Series, SeriesKind};
 use selvedge_core::glam::DVec3;
 use selvedge_files::bytes::{Reader, put_block};
 
@@ -28,15 +28,11 @@ pub struct FrameError {
 /// Makes a [`Recording`], step by step.
 #[derive(Clone, Debug)]
 pub struct Recorder {
+    /// Without frames, and measures without values.
     recording: Recording,
-    /// Frames that may be kept: at least two.
-    most_frames: usize,
-    /// One frame in this many is kept…
-    stride: u64,
-    /// … of those offered so far.
-    offered: u64,
-    /// The last frame offered, if it was not kept.
-    skipped: Option<Frame>,
+    frames: Thinned<[f32; 3]>,
+    /// A value of each measure.
+    measured: Thinned<f64>,
     /// What the counters read last.
     readings: Vec<f64>,
     /// For each series, the sums that its values are the means of.
@@ -61,6 +57,7 @@ impl Recorder {
             total: 0.0,
             smallest: f64::INFINITY,
             largest: f64::NEG_INFINITY,
+            largest_step: 0,
         });
         let recording = Recording {
             about,
@@ -70,20 +67,34 @@ impl Recorder {
             first_step: 1,
             steps_per_value: 1,
             series: named.collect(),
+            measured_steps: Vec::new(),
+            measures: Vec::new(),
             wall_seconds: None,
             added: Vec::new(),
             remarks: Vec::new(),
         };
         Self {
-            stride: 1,
-            offered: 0,
-            skipped: None,
+            frames: Thinned::new(2),
+            measured: Thinned::new(MOST_VALUES),
             readings: readings.to_vec(),
             sums: vec![Vec::new(); series.len()],
             recording,
-            most_frames: 2,
         }
         .with_budget(BUDGET)
+    }
+
+    /// Measures these quantities of the state at frames: see [`measure`](Self::measure).
+    #[must_use]
+    pub fn with_measures(mut self, measures: &[(&str, MeasureKind)]) -> Self {
+        let named = measures.iter().map(|&(name, kind)| Measure {
+            name: name.to_owned(),
+            kind,
+            values: Vec::new(),
+            largest: f64::NEG_INFINITY,
+            largest_step: 0,
+        });
+        self.recording.measures = named.collect();
+        self
     }
 
     /// Keeps as many frames as have at most `bytes` of positions, 12 for each vertex, but never fewer than two. 64 MiB if this is
@@ -91,14 +102,14 @@ impl Recorder {
     #[must_use]
     pub fn with_budget(mut self, bytes: usize) -> Self {
         let frame = size_of::<[f32; 3]>() * self.recording.vertex_count().max(1);
-        self.most_frames = (bytes / frame).max(2);
+        self.frames.set_most((bytes / frame).max(2));
         self
     }
 
     /// Whether a frame offered now would be kept, or is only remembered in case that it is the last.
     #[must_use]
     pub fn wants_frame(&self) -> bool {
-        self.offered.is_multiple_of(self.stride)
+        self.frames.wants_next()
     }
 
     /// Offers the state after `step` steps, 0 for the start: after more steps than all states offered before, or after as many as
@@ -118,40 +129,30 @@ impl Recorder {
                 position: positions[vertex],
             });
         }
-        let last = self.skipped.as_mut().or(self.recording.frames.last_mut());
-        if let Some(last) = last.filter(|last| last.step == step) {
-            for (place, &position) in last.positions.iter_mut().zip(positions) {
-                *place = rounded(position);
-            }
-            return Ok(());
-        }
-        // Its memory is used again.
-        let mut frame = self.skipped.take().unwrap_or_default();
-        frame.step = step;
-        frame.positions.clear();
-        frame.positions.extend(positions.iter().map(|&p| rounded(p)));
-        if self.offered == 0 {
+        if self.frames.is_empty() {
             self.recording.first_step = step + 1;
         }
-        if !self.wants_frame() {
-            self.skipped = Some(frame);
-        } else if self.recording.frames.len() < self.most_frames {
-            self.recording.frames.push(frame);
-        } else {
-            keep_every_other(&mut self.recording.frames);
-            self.stride *= 2;
-            if self.wants_frame() {
-                self.recording.frames.push(frame);
-            } else {
-                self.skipped = Some(frame);
-            }
-        }
-        self.offered += 1;
+        self.frames.offer(step, positions.iter().map(|&p| rounded(p)));
         Ok(())
     }
 
+    /// Records what each measure is after `step` steps, in their order; steps as for [`frame`](Self::frame).
+    ///
+    /// # Panics
+    /// If there are not as many values as measures.
+    pub fn measure(&mut self, step: u64, values: &[f64]) {
+        let measures = &mut self.recording.measures;
+        assert_eq!(values.len(), measures.len(), "one value for each measure");
+        for (measure, &value) in measures.iter_mut().zip(values) {
+            if value > measure.largest {
+                (measure.largest, measure.largest_step) = (value, step);
+            }
+        }
+        self.measured.offer(step, values.iter().copied());
+    }
+
     /// Records a step: what each series' counter reads after it, in the order of the series. The difference to the reading before
-    /// is the step's; a [gauge](SeriesKind::Gauge) is recorded as it is.
+    /// is the step's; a [gauge](SeriesKind::Gauge) and the time of a [step](SeriesKind::Step) are recorded as they are.
     ///
     /// # Panics
     /// If there are not as many readings as series.
@@ -167,12 +168,14 @@ impl Recorder {
         let opens = recording.steps.is_multiple_of(recording.steps_per_value);
         for (index, series) in recording.series.iter_mut().enumerate() {
             let value = match series.kind {
-                SeriesKind::Gauge(_) => readings[index],
+                SeriesKind::Gauge(_) | SeriesKind::Step => readings[index],
                 _ => readings[index] - self.readings[index],
             };
             series.total += value;
             series.smallest = series.smallest.min(value);
-            series.largest = series.largest.max(value);
+            if value > series.largest {
+                (series.largest, series.largest_step) = (value, recording.first_step + recording.steps);
+            }
             match self.sums[index].last_mut() {
                 Some(sum) if !opens => *sum += value,
                 _ => self.sums[index].push(value),
@@ -196,22 +199,24 @@ impl Recorder {
             recording.steps,
             recording.first_step,
             recording.steps_per_value,
-            self.stride,
-            self.offered,
+            recording.measures.len() as u64,
         ];
         bytes.extend(numbers.into_iter().flat_map(u64::to_le_bytes));
-        for frames in [&recording.frames[..], self.skipped.as_slice()] {
-            bytes.extend((frames.len() as u64).to_le_bytes());
-            for frame in frames {
-                bytes.extend(frame.step.to_le_bytes());
-                let coordinates = frame.positions.iter().flatten();
-                bytes.extend(coordinates.flat_map(|x| x.to_le_bytes()));
-            }
+        self.frames.save(&mut bytes, |position, bytes| {
+            bytes.extend(position.iter().flat_map(|x| x.to_le_bytes()));
+        });
+        self.measured
+            .save(&mut bytes, |value, bytes| bytes.extend(value.to_le_bytes()));
+        for measure in &recording.measures {
+            put_block(&mut bytes, measure.name.as_bytes());
+            bytes.extend(measure.largest.to_le_bytes());
+            bytes.extend(measure.largest_step.to_le_bytes());
         }
         for (index, series) in recording.series.iter().enumerate() {
             put_block(&mut bytes, series.name.as_bytes());
             let numbers = [self.readings[index], series.total, series.smallest, series.largest];
             bytes.extend(numbers.into_iter().flat_map(f64::to_le_bytes));
+            bytes.extend(series.largest_step.to_le_bytes());
             bytes.extend((self.sums[index].len() as u64).to_le_bytes());
             bytes.extend(self.sums[index].iter().flat_map(|sum| sum.to_le_bytes()));
         }
@@ -242,16 +247,25 @@ impl Recorder {
         recording.steps = reader.u64()?;
         recording.first_step = reader.u64()?;
         recording.steps_per_value = reader.u64()?;
-        self.stride = reader.u64()?;
-        self.offered = reader.u64()?;
-        recording.frames = read_frames(reader, vertices)?;
-        self.skipped = read_frames(reader, vertices)?.pop();
+        same(reader.u64()?, recording.measures.len())?;
+        self.frames.restore(reader, vertices, |reader| {
+            let position = [reader.f32()?, reader.f32()?, reader.f32()?];
+            is_finite(position).then_some(position)
+        })?;
+        let measures = recording.measures.len();
+        self.measured.restore(reader, measures, |reader| reader.f64())?;
+        for measure in &mut recording.measures {
+            (reader.block()? == measure.name.as_bytes()).then_some(())?;
+            measure.largest = reader.f64()?;
+            measure.largest_step = reader.u64()?;
+        }
         for (index, series) in recording.series.iter_mut().enumerate() {
             (reader.block()? == series.name.as_bytes()).then_some(())?;
             self.readings[index] = reader.f64()?;
             series.total = reader.f64()?;
             series.smallest = reader.f64()?;
             series.largest = reader.f64()?;
+            series.largest_step = reader.u64()?;
             let count = reader.count(size_of::<f64>())?;
             self.sums[index] = (0..count).map(|_| reader.f64()).collect::<Option<_>>()?;
         }
@@ -261,8 +275,7 @@ impl Recorder {
             recording.remarks.push(remark);
         }
         let values = self.sums.iter().all(|sums| sums.len() <= MOST_VALUES);
-        let positive = recording.steps_per_value > 0 && self.stride > 0;
-        (values && positive && reader.0.is_empty()).then_some(seconds)
+        (values && recording.steps_per_value > 0 && reader.0.is_empty()).then_some(seconds)
     }
 
     /// Says something that a reader must know.
@@ -277,7 +290,14 @@ impl Recorder {
     #[must_use]
     pub fn finish(self, wall_seconds: Option<f64>) -> Recording {
         let mut recording = self.recording;
-        recording.frames.extend(self.skipped);
+        let frames = self.frames.finish().into_iter();
+        recording.frames = frames.map(|(step, positions)| Frame { step, positions }).collect();
+        for (step, values) in self.measured.finish() {
+            recording.measured_steps.push(step);
+            for (measure, value) in recording.measures.iter_mut().zip(values) {
+                measure.values.push(value);
+            }
+        }
         assert!(
             !recording.frames.is_empty(),
             "a recording has a frame, were it only the start"
@@ -295,33 +315,10 @@ impl Recorder {
     }
 }
 
-fn read_frames(reader: &mut Reader<'_>, vertices: usize) -> Option<Vec<Frame>> {
-    let frames = reader.count(size_of::<u64>())?;
-    let frame = |_| {
-        let step = reader.u64()?;
-        let position = |_| {
-            let position = [reader.f32()?, reader.f32()?, reader.f32()?];
-            is_finite(position).then_some(position)
-        };
-        let positions = (0..vertices).map(position).collect::<Option<_>>()?;
-        Some(Frame { step, positions })
-    };
-    (0..frames).map(frame).collect()
-}
-
 fn rounded(position: DVec3) -> [f32; 3] {
     position.to_array().map(|coordinate| coordinate as f32)
 }
 
 fn is_finite(position: [f32; 3]) -> bool {
     position.iter().all(|coordinate| coordinate.is_finite())
-}
-
-/// The first, the third, and so on.
-fn keep_every_other(frames: &mut Vec<Frame>) {
-    let mut index = 0;
-    frames.retain(|_| {
-        index += 1;
-        index % 2 == 1
-    });
 }

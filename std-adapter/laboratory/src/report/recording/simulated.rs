@@ -1,6 +1,8 @@
 //! Records a [`Simulation`].
 
-use super::{About, Added, FrameError, Knob, Part, PartKind, Recorder, Recording, SeriesKind};
+use super::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, PartKind, Recorder, Recording, SeriesKind};
+use super::{EDGES_99, GRAVITATIONAL, LONGEST_EDGE};
+use crate::report::{label, printed};
 use crate::study::EffectCost;
 use selvedge::Mesh;
 use selvedge_cloth::{Scene, Simulation};
@@ -16,7 +18,7 @@ pub struct Subject {
 #[must_use]
 pub fn costs_of_added_effects(costs: &[EffectCost]) -> Vec<Added> {
     let named = |cost: &EffectCost| Added {
-        name: cost.added.unwrap_or("no effect").to_owned(),
+        name: label(cost.added.unwrap_or("no effect")),
         seconds: cost.seconds,
     };
     costs.iter().map(named).collect()
@@ -31,8 +33,13 @@ impl Subject {
             scene: scene.text.clone(),
             up: scene.up,
             time_step: scene.time_step,
+            fabric: scene
+                .fabric()
+                .into_iter()
+                .map(|(name, value)| Knob::new(name, printed(&value)))
+                .collect(),
             knobs: { scene.settings().into_iter() }
-                .map(|(name, value)| Knob::new(name, value))
+                .map(|(name, value)| Knob::new(label(&name), value))
                 .collect(),
         };
         let part = |name: &str, kind, mesh: &Mesh| Part::new(name, kind, mesh.positions.len(), mesh.triangles.clone());
@@ -44,7 +51,7 @@ impl Subject {
     }
 }
 
-/// A [`Recorder`] of a simulation: its effects, and its contacts if it looks for them, are the series.
+/// A [`Recorder`] of a simulation: its effects, and its contacts if it looks for them, are the series; energy and stretch the measures.
 #[derive(Debug)]
 pub struct SimulationRecorder(Recorder);
 
@@ -57,26 +64,32 @@ impl SimulationRecorder {
     /// # Panics
     /// If the simulation is of another scene, with another number of vertices.
     pub fn new(subject: Subject, simulation: &Simulation) -> Result<Self, FrameError> {
-        let counters = counters(simulation);
+        let counters = counters(simulation, 0.0);
         let series: Vec<_> = counters.iter().map(|&(name, kind, _)| (name, kind)).collect();
         let Subject { about, parts } = subject;
-        let recorder = Recorder::new(about, parts, &series, &readings(simulation));
-        let mut recorder = Self(recorder);
+        let recorder = Recorder::new(about, parts, &series, &readings(simulation, 0.0));
+        let measures: Vec<_> = measures(simulation).iter().map(|&(name, kind, _)| (name, kind)).collect();
+        let mut recorder = Self(recorder.with_measures(&measures));
         recorder.frame(simulation)?;
         Ok(recorder)
     }
 
-    /// Records what the last step counted and took.
-    pub fn step(&mut self, simulation: &Simulation) {
-        self.0.step(&readings(simulation));
+    /// Records what the last step counted and took: `seconds` in all, by the clock on the wall.
+    pub fn step(&mut self, simulation: &Simulation, seconds: f64) {
+        self.0.step(&readings(simulation, seconds));
     }
 
-    /// Offers the state as a frame.
+    /// Offers the state as a frame, and measures its energy and how much the cloth is stretched.
     ///
     /// # Errors
     /// If a coordinate is no finite `f32`.
     pub fn frame(&mut self, simulation: &Simulation) -> Result<(), FrameError> {
-        self.0.frame(simulation.steps_done(), simulation.positions())
+        let step = simulation.steps_done();
+        self.0.frame(step, simulation.positions())?;
+        let measures = measures(simulation).into_iter();
+        let values: Vec<f64> = measures.map(|(_, _, value)| value).collect();
+        self.0.measure(step, &values);
+        Ok(())
     }
 
     /// All that has been recorded in `seconds` by the clock on the wall, as bytes.
@@ -100,12 +113,16 @@ impl SimulationRecorder {
     /// Ends the recording of steps that took `seconds` by the clock on the wall.
     #[must_use]
     pub fn finish(self, seconds: f64) -> Recording {
-        self.0.finish(Some(seconds))
+        let mut recording = self.0.finish(Some(seconds));
+        let lost = lost(&recording);
+        let kinds = recording.measures_of(MeasureKind::Energy).count();
+        recording.measures.insert(kinds, lost);
+        recording
     }
 }
 
 /// All that a simulation counts and measures: a series each.
-fn counters(simulation: &Simulation) -> Vec<(&'static str, SeriesKind, f64)> {
+fn counters(simulation: &Simulation, seconds: f64) -> Vec<(&'static str, SeriesKind, f64)> {
     let effects = simulation.effects().iter();
     let mut counters: Vec<_> = effects
         .map(|effect| (effect.name, SeriesKind::Effect, effect.seconds))
@@ -123,11 +140,50 @@ fn counters(simulation: &Simulation) -> Vec<(&'static str, SeriesKind, f64)> {
     if let Some(seconds) = simulation.contact_seconds() {
         add(SeriesKind::Stage, &seconds.stages());
     }
+    counters.push(("whole step", SeriesKind::Step, seconds));
     counters
 }
 
 /// In the order of the series.
-fn readings(simulation: &Simulation) -> Vec<f64> {
-    let counters = counters(simulation).into_iter();
+fn readings(simulation: &Simulation, seconds: f64) -> Vec<f64> {
+    let counters = counters(simulation, seconds).into_iter();
     counters.map(|(_, _, reading)| reading).collect()
+}
+
+/// All that is measured of a state; kinds of energy come first.
+fn measures(simulation: &Simulation) -> Vec<(&'static str, MeasureKind, f64)> {
+    let energy = simulation.energy();
+    let kinds = [
+        ("kinetic", Some(energy.kinetic)),
+        ("elastic", energy.elastic()),
+        (GRAVITATIONAL, energy.gravitational()),
+    ];
+    let kinds = kinds
+        .into_iter()
+        .filter_map(|(name, joules)| Some((name, MeasureKind::Energy, joules?)));
+    let effects = energy.stored.iter();
+    let effects = effects.map(|(name, stored)| (*name, MeasureKind::EffectEnergy, stored.joules()));
+    let stretch = simulation.edge_stretch();
+    let stretch = [
+        (EDGES_99, MeasureKind::Stretch, stretch.percentile_99),
+        (LONGEST_EDGE, MeasureKind::Stretch, stretch.largest),
+    ];
+    kinds.chain(effects).chain(stretch).collect()
+}
+
+/// What there is less of in all than at the start. Below zero where what moves, and wind, have put in more than was lost.
+fn lost(recording: &Recording) -> Measure {
+    let energies: Vec<_> = recording.measures_of(MeasureKind::Energy).collect();
+    let total = |k: usize| -> f64 { energies.iter().map(|energy| energy.values[k]).sum() };
+    let steps = &recording.measured_steps;
+    let values: Vec<f64> = (0..steps.len()).map(|k| total(0) - total(k)).collect();
+    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let at = values.iter().position(|&value| value == largest);
+    Measure {
+        name: "lost".to_owned(),
+        kind: MeasureKind::Energy,
+        largest,
+        largest_step: at.map_or(0, |at| steps[at]),
+        values,
+    }
 }

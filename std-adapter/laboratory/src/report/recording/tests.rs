@@ -7,6 +7,7 @@ fn about() -> About {
         scene: String::new(),
         up: DVec3::Z,
         time_step: 0.5,
+        fabric: Vec::new(),
         knobs: Vec::new(),
     }
 }
@@ -133,4 +134,52 @@ fn a_frames_mesh_numbers_vertices_across_parts() {
 #[should_panic(expected = "not among the 3")]
 fn a_part_refuses_a_triangle_beyond_its_vertices() {
     let _ = Part::new("cloth", PartKind::Cloth, 3, vec![[0, 1, 3]]);
+}
+
+#[test]
+fn a_measure_and_a_series_know_when_they_were_largest_also_after_an_interruption() {
+    let begin = || {
+        let recorder = Recorder::new(about(), vec![triangle()], &[("step", SeriesKind::Step)], &[0.0]);
+        recorder.with_measures(&[("longest", MeasureKind::Stretch)])
+    };
+    let show = |recorder: &mut Recorder, step: u64, value: f64| {
+        if step > 0 {
+            recorder.step(&[value]);
+        }
+        recorder.frame(step, &positions(step)).unwrap();
+        recorder.measure(step, &[value]);
+    };
+    let values = [1.0, 1.2, 1.7, 1.1, 1.7, 1.0];
+    let mut whole = begin();
+    (0..6).for_each(|step| show(&mut whole, step, values[step as usize]));
+    let mut first = begin();
+    (0..4).for_each(|step| show(&mut first, step, values[step as usize]));
+    let saved = first.save(3.0);
+    let mut second = begin();
+    show(&mut second, 0, 9.0);
+    assert_eq!(second.restore(&saved), Some(3.0));
+    (4..6).for_each(|step| show(&mut second, step, values[step as usize]));
+    let (whole, second) = (whole.finish(None), second.finish(None));
+    assert_eq!(whole, second);
+    let [measure] = &whole.measures[..] else { unreachable!() };
+    assert_eq!(
+        (measure.largest, measure.largest_step, &measure.values[..]),
+        (1.7, 2, &values[..])
+    );
+    assert_eq!(whole.measured_steps, [0, 1, 2, 3, 4, 5]);
+    // A step's time is no counter.
+    assert_eq!((whole.series[0].largest, whole.series[0].largest_step), (1.7, 2));
+    assert!((whole.series[0].total - 6.7).abs() < 1e-12);
+    // Bytes that were cut off, or of a recorder of something else, change nothing.
+    assert!(begin().restore(&saved[..saved.len() - 1]).is_none());
+    let mut other = Recorder::new(about(), vec![triangle()], &[("step", SeriesKind::Step)], &[0.0]);
+    assert!(other.restore(&saved).is_none());
+}
+
+#[test]
+fn the_nearest_frame_to_a_time_is_found() {
+    let recording = frames_of(5, 9);
+    // Steps of half a second.
+    let times = [0.0, 0.2, 0.3, 1.0, 1.25, 1.9, 99.0];
+    assert_eq!(times.map(|time| recording.frame_at(time)), [0, 0, 1, 2, 2, 4, 4]);
 }

@@ -1,5 +1,6 @@
 use super::table;
-use crate::report::number::{counted, figures, signed_time, time};
+use crate::report::number::{counted, few, figures, moment, ordinal, signed_time, time};
+use crate::report::recording::{EDGES_99, LONGEST_EDGE, MeasureKind, Recording};
 use crate::study::EffectCost;
 use selvedge_cloth::Simulation;
 
@@ -19,14 +20,15 @@ pub fn effects_one_by_one(costs: &[EffectCost]) -> String {
     table(["effect added", "a step", "more than before"], rows)
 }
 
-/// A simulation that has taken `seconds` so far.
+/// A simulation and what was recorded of it.
 #[must_use]
-pub fn simulation(simulation: &Simulation, seconds: f64) -> String {
+pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
+    let seconds = recording.wall_seconds.unwrap_or(f64::NAN);
     let steps = simulation.steps_done();
     let per_step = |(name, seconds): (&str, f64)| [name.to_owned(), time(seconds / steps.max(1) as f64)];
     let stretch = simulation.edge_stretch();
     let mut text = format!(
-        "{}: {} in {}, {} a second\nat the end 99 % of the edges are at most {:.3} times as long as at rest, the longest {:.3}\n\n",
+        "{}: {} in {}, {} a second\nat the end 99 % of the edges are at most {:.3} times as long as at rest, the longest {:.3}\n",
         simulation.name(),
         counted(steps, "step"),
         time(seconds),
@@ -34,6 +36,8 @@ pub fn simulation(simulation: &Simulation, seconds: f64) -> String {
         stretch.percentile_99,
         stretch.largest,
     );
+    text += &at_worst(recording);
+    text += "\n";
     let effects = simulation.effects().iter();
     let mut rows: Vec<_> = effects.map(|effect| per_step((effect.name, effect.seconds))).collect();
     if let Some(seconds) = simulation.contact_seconds() {
@@ -49,12 +53,33 @@ pub fn simulation(simulation: &Simulation, seconds: f64) -> String {
         text += "\n";
         text += &table(["pairs and events", "a step"], rows.map(mean));
     }
+    let energies = recording.measures_of(MeasureKind::Energy).map(|measure| {
+        let ends = [measure.values.first(), measure.values.last()];
+        let [first, last] = ends.map(|end| end.copied().map_or_else(String::new, few));
+        [measure.name.clone(), first, few(measure.largest), last]
+    });
+    text += "\n";
+    text += &table(["energy, in J", "at the start", "most", "at the end"], energies);
     if simulation.blocked_steps() > 0 {
         let blocked = counted(simulation.blocked_steps(), "step");
         text += &format!(
             "\nblocked in {blocked}; bodies and pins are {} behind\n",
             time(simulation.lag())
         );
+    }
+    text
+}
+
+/// The frame with the longest edges, and the slowest step.
+fn at_worst(recording: &Recording) -> String {
+    let mut text = String::new();
+    if let (Some(most), Some(longest)) = (recording.measure(EDGES_99), recording.measure(LONGEST_EDGE)) {
+        let when = moment(recording.end_of(longest.largest_step));
+        text += &format!("over all frames {:.3} and {:.3} (at {when})\n", most.largest, longest.largest);
+    }
+    if let Some(steps) = recording.step_times() {
+        let step = ordinal(steps.largest_step);
+        text += &format!("the slowest step, the {step}, took {}\n", time(steps.largest));
     }
     text
 }

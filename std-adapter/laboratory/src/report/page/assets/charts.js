@@ -8,7 +8,7 @@ function createCharts(recording, onPick) {
   const moves = [];
   for (const place of document.querySelectorAll(".chart")) {
     const kind = place.dataset.kind;
-    const series = recording.series.filter((one) => one.kind === kind);
+    const series = [...recording.series, ...recording.measures].filter((one) => one.kind === kind);
     const groups = kind === "gauge" ? series.map((one) => [one]) : [series];
     for (const group of groups) moves.push(createChart(place, recording, kind, group, onPick));
   }
@@ -19,8 +19,12 @@ const CHARTS = {
   pairs: { caption: "pairs left, a step; logarithmic", shape: logarithmic, height: 250 },
   events: { caption: "count, a step; logarithmic", shape: logarithmic, height: 190 },
   effect: { caption: "time of effects, a step; stacked", shape: stacked, height: 230 },
+  step: { caption: "time of a whole step", shape: stacked, height: 150 },
   stage: { caption: "time of shared stages, a step; stacked", shape: stacked, height: 200 },
   gauge: { caption: "", shape: linear, height: 130 },
+  energy: { caption: "energy, in J", shape: linear, height: 230 },
+  "effect-energy": { caption: "energy that effects hold, in J", shape: linear, height: 190 },
+  stretch: { caption: "length over that at rest", shape: linear, height: 150 },
 };
 const MARGIN = { left: 58, right: 14, top: 12, bottom: 26 };
 const NAMESPACE = "http://www.w3.org/2000/svg";
@@ -30,10 +34,10 @@ function createChart(place, recording, kind, series, onPick) {
   const figure = place.appendChild(document.createElement("figure"));
   const heading = figure.appendChild(document.createElement("figcaption"));
   const unit = series[0].unit ? `, in ${series[0].unit}` : "";
-  heading.textContent = kind === "gauge" ? series[0].name + unit : caption;
+  heading.textContent = kind === "gauge" ? series[0].label + unit : caption;
   const svg = figure.appendChild(document.createElementNS(NAMESPACE, "svg"));
   svg.setAttribute("role", "img");
-  svg.setAttribute("aria-label", `${heading.textContent}: ${series.map((one) => one.name).join(", ")}; the table below has the numbers`);
+  svg.setAttribute("aria-label", `${heading.textContent}: ${series.map((one) => one.label).join(", ")}; the table below has the numbers`);
   const note = figure.appendChild(document.createElement("p"));
   note.className = "note";
   const legend = figure.appendChild(document.createElement("ul"));
@@ -42,7 +46,7 @@ function createChart(place, recording, kind, series, onPick) {
     const item = legend.appendChild(document.createElement("li"));
     const swatch = item.appendChild(document.createElement("i"));
     swatch.style.background = colour(i);
-    item.append(one.name, " ");
+    item.append(one.label, " ");
     return item.appendChild(document.createElement("b"));
   });
 
@@ -56,14 +60,10 @@ function createChart(place, recording, kind, series, onPick) {
     const width = Math.max(figure.clientWidth, 220);
     const right = width - MARGIN.right, bottom = height - MARGIN.bottom;
     toX = (time) => MARGIN.left + ((time - begin) / (end - begin)) * (right - MARGIN.left);
-    const columns = Math.max(1, Math.min(series[0].values.length, Math.floor((right - MARGIN.left) / 2)));
-    const means = series.map((one) => columnMeans(one.values, columns));
+    const { times, means } = series[0].steps ? measured(series, recording) : columnsOf(series, begin, end, (right - MARGIN.left) / 2);
     const drawing = shape(means);
     const toY = (share) => bottom - Math.min(share, 1.5) * (bottom - MARGIN.top);
-    const span = (end - begin) / columns;
-    const middles = Array.from({ length: columns }, (_, i) => toX(begin + (i + 0.5) * span));
-    // The first and the last column reach to the ends.
-    if (columns > 1) [middles[0], middles[columns - 1]] = [toX(begin), toX(end)];
+    const middles = times.map(toX);
 
     svg.replaceChildren();
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
@@ -108,7 +108,9 @@ function createChart(place, recording, kind, series, onPick) {
     const x = toX(Math.min(end, Math.max(begin, step * recording.timeStep)));
     cursor.setAttribute("x1", x);
     cursor.setAttribute("x2", x);
-    const index = Math.floor((step - recording.firstStep) / recording.stepsPerValue);
+    const index = series[0].steps
+      ? series[0].steps.findLastIndex((measured) => measured <= step)
+      : Math.floor((step - recording.firstStep) / recording.stepsPerValue);
     series.forEach((one, i) => {
       const value = one.values[Math.min(Math.max(index, 0), one.values.length - 1)];
       readings[i].textContent = one.unit === "s" && kind !== "gauge" ? duration(value) : few(value);
@@ -182,6 +184,20 @@ function linearTicks(from, to, label) {
   const ticks = [];
   for (let k = Math.ceil(from / step - 1e-9); k * step <= to; k++) ticks.push([(k * step - from) / (to - from), label(k * step)]);
   return ticks;
+}
+
+/** What was measured at frames, and when. */
+function measured(series, recording) {
+  return { times: series[0].steps.map((step) => step * recording.timeStep), means: series.map((one) => Array.from(one.values)) };
+}
+
+/** Means of what was recorded in each step, in so many columns at most, and the times of their middles. */
+function columnsOf(series, begin, end, most) {
+  const columns = Math.max(1, Math.min(series[0].values.length, Math.floor(most)));
+  const times = Array.from({ length: columns }, (_, i) => begin + ((i + 0.5) / columns) * (end - begin));
+  // The first and the last column reach to the ends.
+  if (columns > 1) [times[0], times[columns - 1]] = [begin, end];
+  return { times, means: series.map((one) => columnMeans(one.values, columns)) };
 }
 
 /** Means over equal parts of the values. */

@@ -18,6 +18,12 @@ function readRecording() {
   recording.series.forEach((series, i) => {
     series.values = values.subarray(i * each, (i + 1) * each);
   });
+  const measured = new Float32Array(buffer("measured"));
+  const count = recording.measuredSteps.length;
+  recording.measures.forEach((measure, i) => {
+    measure.values = measured.subarray(i * count, (i + 1) * count);
+    measure.steps = recording.measuredSteps;
+  });
   recording.frameTimes = recording.frameSteps.map((step) => step * recording.timeStep);
   return recording;
 }

@@ -1,0 +1,91 @@
+//! What is measured at frames: energy, and how much the cloth is stretched.
+
+use super::tables;
+use crate::report::number::{few, moment};
+use crate::report::recording::{GRAVITATIONAL, Measure, MeasureKind, Recording};
+use maud::{Markup, html};
+
+/// A measure as the page shows it.
+pub(in crate::report) struct Shown<'a> {
+    pub(in crate::report) name: &'a str,
+    pub(in crate::report) kind: MeasureKind,
+    pub(in crate::report) values: Vec<f64>,
+}
+
+impl<'a> Shown<'a> {
+    /// All of a recording.
+    pub(in crate::report) fn all(recording: &'a Recording) -> Vec<Self> {
+        recording.measures.iter().map(Self::new).collect()
+    }
+
+    /// Energy of weight is counted from the least there was: from anywhere else, the rest would not be seen beside it.
+    fn new(measure: &'a Measure) -> Self {
+        let least = measure.values.iter().copied().fold(f64::INFINITY, f64::min);
+        let floor = if measure.name == GRAVITATIONAL { least } else { 0.0 };
+        Self {
+            name: &measure.name,
+            kind: measure.kind,
+            values: measure.values.iter().map(|value| value - floor).collect(),
+        }
+    }
+
+    pub(super) const fn kind_name(&self) -> &'static str {
+        match self.kind {
+            MeasureKind::Energy => "energy",
+            MeasureKind::EffectEnergy => "effect-energy",
+            MeasureKind::Stretch => "stretch",
+        }
+    }
+
+    pub(super) const fn unit(&self) -> &'static str {
+        match self.kind {
+            MeasureKind::Energy | MeasureKind::EffectEnergy => "J",
+            MeasureKind::Stretch => "",
+        }
+    }
+
+    /// At the start, at most, at the end.
+    fn row(&self) -> (&str, [String; 3]) {
+        let values = &self.values;
+        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let ends = [values.first(), values.last()].map(|end| end.copied().unwrap_or(f64::NAN));
+        (self.name, [ends[0], most, ends[1]].map(few))
+    }
+}
+
+/// Both sections, as far as there is anything to put in them.
+pub(super) fn sections(recording: &Recording) -> Markup {
+    let shown = Shown::all(recording);
+    let rows = |kind: MeasureKind| shown.iter().filter(move |one| one.kind == kind).map(Shown::row);
+    let has = |kind: MeasureKind| !recording.measured_steps.is_empty() && rows(kind).next().is_some();
+    html! {
+        @if has(MeasureKind::Energy) {
+            section {
+                h2 { "Energy" }
+                div.chart data-kind="energy" {}
+                @if has(MeasureKind::EffectEnergy) { div.chart data-kind="effect-energy" {} }
+                (tables::table(["energy, in J", "at the start", "most", "at the end"], rows(MeasureKind::Energy)))
+                p.note {
+                    "Gravitational energy is counted from its least. Lost is what there is less of than at the start: what friction, drag, contacts, strain \
+                     limits and implicit steps have taken, less the work that moving bodies and pins, and wind, have done."
+                }
+            }
+        }
+        @if has(MeasureKind::Stretch) {
+            section {
+                h2 { "Lengths of edges, over those at rest" }
+                div.chart data-kind="stretch" {}
+                (stretch(recording))
+            }
+        }
+    }
+}
+
+fn stretch(recording: &Recording) -> Markup {
+    let rows = recording.measures_of(MeasureKind::Stretch).map(|measure| {
+        let end = measure.values.last().copied().unwrap_or(f64::NAN);
+        let when = moment(recording.end_of(measure.largest_step));
+        (&*measure.name, [few(end), few(measure.largest), when])
+    });
+    tables::table(["", "at the end", "most, of all frames", "when"], rows)
+}

@@ -1,0 +1,114 @@
+//! What is offered after steps, thinned out: evenly spread over a run whose end nobody knows, in bounded memory.
+
+use selvedge_files::bytes::Reader;
+
+/// Values after a step.
+pub(super) type AfterStep<N> = (u64, Vec<N>);
+
+/// When there are as many as may be kept, every other one is dropped, and from then on every other one is not kept. The first always is, and
+/// the last is remembered beside them.
+#[derive(Clone, Debug)]
+pub(super) struct Thinned<N> {
+    kept: Vec<AfterStep<N>>,
+    /// At least two.
+    most: usize,
+    /// One in this many is kept…
+    stride: u64,
+    /// … of those offered so far.
+    offered: u64,
+    /// The last one offered, if it was not kept.
+    skipped: Option<AfterStep<N>>,
+}
+
+impl<N> Thinned<N> {
+    pub(super) const fn new(most: usize) -> Self {
+        Self {
+            kept: Vec::new(),
+            most,
+            stride: 1,
+            offered: 0,
+            skipped: None,
+        }
+    }
+
+    pub(super) const fn set_most(&mut self, most: usize) {
+        self.most = most;
+    }
+
+    /// Whether what is offered next is kept, or only remembered in case that it is the last.
+    pub(super) const fn wants_next(&self) -> bool {
+        self.offered.is_multiple_of(self.stride)
+    }
+
+    pub(super) const fn is_empty(&self) -> bool {
+        self.offered == 0
+    }
+
+    /// After more steps than all before, or after as many as the last, which it then replaces.
+    pub(super) fn offer(&mut self, step: u64, values: impl Iterator<Item = N>) {
+        let last = self.skipped.as_mut().or(self.kept.last_mut());
+        if let Some((_, own)) = last.filter(|(last, _)| *last == step) {
+            own.clear();
+            own.extend(values);
+            return;
+        }
+        // Its memory is used again.
+        let (_, mut own) = self.skipped.take().unwrap_or_default();
+        own.clear();
+        own.extend(values);
+        if self.wants_next() && self.kept.len() == self.most {
+            let mut index = 0;
+            self.kept.retain(|_| {
+                index += 1;
+                index % 2 == 1
+            });
+            self.stride *= 2;
+        }
+        if self.wants_next() {
+            self.kept.push((step, own));
+        } else {
+            self.skipped = Some((step, own));
+        }
+        self.offered += 1;
+    }
+
+    /// All that is kept, and the last.
+    pub(super) fn finish(mut self) -> Vec<AfterStep<N>> {
+        self.kept.extend(self.skipped);
+        self.kept
+    }
+
+    pub(super) fn save(&self, bytes: &mut Vec<u8>, put: impl Fn(&N, &mut Vec<u8>)) {
+        bytes.extend([self.stride, self.offered].into_iter().flat_map(u64::to_le_bytes));
+        for list in [&self.kept[..], self.skipped.as_slice()] {
+            bytes.extend((list.len() as u64).to_le_bytes());
+            for (step, values) in list {
+                bytes.extend(step.to_le_bytes());
+                values.iter().for_each(|value| put(value, bytes));
+            }
+        }
+    }
+
+    /// Reads what was saved, `count` values after each step. `None` if it is damaged.
+    pub(super) fn restore(
+        &mut self,
+        reader: &mut Reader<'_>,
+        count: usize,
+        get: impl Fn(&mut Reader<'_>) -> Option<N>,
+    ) -> Option<()> {
+        self.stride = reader.u64()?;
+        self.offered = reader.u64()?;
+        let mut list = || {
+            let items = reader.count(size_of::<u64>())?;
+            let mut item = |_| {
+                let step = reader.u64()?;
+                let values = (0..count).map(|_| get(reader)).collect::<Option<_>>()?;
+                Some((step, values))
+            };
+            (0..items).map(&mut item).collect::<Option<Vec<_>>>()
+        };
+        self.kept = list()?;
+        self.skipped = list()?.pop();
+        (self.stride > 0).then_some(())
+    }
+}

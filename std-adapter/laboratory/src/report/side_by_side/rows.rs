@@ -1,0 +1,130 @@
+//! Figures of both, a row each.
+
+use crate::report::label;
+use crate::report::number::{few, figures as three, grouped, time};
+use crate::report::recording::{Knob, MeasureKind, Recording, SeriesKind};
+use maud::{Markup, html};
+
+/// A figure of both: its name, the two as text, and how many times as much the second is.
+pub(super) struct Row {
+    name: String,
+    pub(super) values: [Option<String>; 2],
+    ratio: Option<f64>,
+}
+
+impl Row {
+    fn of(name: impl Into<String>, values: [Option<f64>; 2], text: impl Fn(f64) -> String) -> Self {
+        let ratio = match values {
+            [Some(first), Some(second)] if first > 0.0 && second >= 0.0 => Some(second / first),
+            _ => None,
+        };
+        Self {
+            name: name.into(),
+            values: values.map(|value| value.map(&text)),
+            ratio,
+        }
+    }
+}
+
+pub(super) fn table(names: &[String; 2], rows: &[Row]) -> Markup {
+    let has_ratios = rows.iter().any(|row| row.ratio.is_some());
+    html! {
+        div.scroll { table {
+            thead { tr {
+                th scope="col" {}
+                @for name in names { th scope="col" { (name) } }
+                @if has_ratios { th scope="col" { "second over first" } }
+            } }
+            tbody { @for row in rows { tr {
+                th scope="row" { (row.name) }
+                @for value in &row.values { td { (value.as_deref().unwrap_or("–")) } }
+                @if has_ratios { td { (row.ratio.map_or_else(|| "–".to_owned(), few)) } }
+            } } }
+        } }
+    }
+}
+
+/// What is compared: sizes, times, stretch, energy, events.
+pub(super) fn figures(both: [&Recording; 2]) -> Vec<Row> {
+    let size = |recording: &Recording| recording.parts.iter().map(|part| part.triangles().len()).sum::<usize>() as f64;
+    let whole = |number: f64| grouped(number as u64);
+    let speed = |recording: &Recording| recording.wall_seconds.map(|seconds| recording.steps as f64 / seconds);
+    let each = |recording: &Recording| recording.step_times().map(|steps| steps.total / recording.steps as f64);
+    let slowest = |recording: &Recording| recording.step_times().map(|steps| steps.largest);
+    let mut rows = vec![
+        Row::of("triangles, bodies' included", both.map(|one| Some(size(one))), whole),
+        Row::of("time step", both.map(|one| Some(one.about.time_step)), time),
+        Row::of("steps", both.map(|one| Some(one.steps as f64)), whole),
+        Row::of("steps a second", both.map(speed), three),
+        Row::of("a step", both.map(each), time),
+        Row::of("slowest step", both.map(slowest), time),
+    ];
+    for name in names_of(both.map(|one| {
+        one.measures
+            .iter()
+            .filter(|m| m.kind == MeasureKind::Stretch)
+            .map(|m| &*m.name)
+            .collect()
+    })) {
+        let measure = |one: &Recording, pick: fn(&crate::report::Measure) -> Option<f64>| one.measure(name).and_then(pick);
+        let text = |value: f64| format!("{value:.3}");
+        rows.push(Row::of(
+            format!("{name} over rest, most"),
+            both.map(|one| measure(one, |m| Some(m.largest))),
+            text,
+        ));
+        rows.push(Row::of(
+            format!("{name} over rest, at the end"),
+            both.map(|one| measure(one, |m| m.values.last().copied())),
+            text,
+        ));
+    }
+    for name in names_of(both.map(|one| one.measures_of(MeasureKind::Energy).map(|m| &*m.name).collect())) {
+        let last = |one: &Recording| {
+            let mut energies = one.measures_of(MeasureKind::Energy);
+            energies.find(|m| m.name == name).and_then(|m| m.values.last().copied())
+        };
+        let joules = |value: f64| format!("{} J", few(value));
+        rows.push(Row::of(format!("{name} energy at the end"), both.map(last), joules));
+    }
+    for kind in [SeriesKind::Events, SeriesKind::Effect, SeriesKind::Stage] {
+        let of_kind = |one: &'_ Recording| -> Vec<String> { one.series_of(|own| own == kind).map(|s| s.name.clone()).collect() };
+        let lists = both.map(of_kind);
+        for name in names_of([&lists[0], &lists[1]].map(|list| list.iter().map(String::as_str).collect())) {
+            let total = |one: &Recording| {
+                let mut series = one.series_of(|own| own == kind);
+                series.find(|s| s.name == name).map(|s| s.total)
+            };
+            let a_step = |one: &Recording| total(one).map(|total| total / one.steps as f64);
+            rows.push(match kind {
+                SeriesKind::Events => Row::of(name, both.map(total), whole),
+                _ => Row::of(format!("{}, a step", label(name)), both.map(a_step), time),
+            });
+        }
+    }
+    rows
+}
+
+/// Settings and properties of the fabric that are not the same, or that one of the two does not have.
+pub(super) fn different_settings(both: [&Recording; 2]) -> Vec<Row> {
+    let all = both.map(|one| one.about.fabric.iter().chain(&one.about.knobs).collect::<Vec<&Knob>>());
+    let names = names_of([&all[0], &all[1]].map(|knobs| knobs.iter().map(|knob| &*knob.name).collect()));
+    let row = |name: &str| Row {
+        name: name.to_owned(),
+        values: [&all[0], &all[1]].map(|knobs| knobs.iter().find(|knob| knob.name == name).map(|knob| knob.value.clone())),
+        ratio: None,
+    };
+    let rows = names.into_iter().map(row);
+    rows.filter(|row| row.values[0] != row.values[1]).collect()
+}
+
+/// The first's names, then those that the second alone has.
+fn names_of([first, second]: [Vec<&str>; 2]) -> Vec<&str> {
+    let mut names = first;
+    for name in second {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
