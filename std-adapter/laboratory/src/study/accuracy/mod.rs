@@ -22,15 +22,14 @@
 //! alone: the arithmetic, without the gathering, and with branches that the processor has learnt.
 
 pub mod elementary;
-mod filter;
 mod measure;
 mod near_coplanar;
 mod pairs;
 
-pub use filter::MeasuredFilter;
 pub use pairs::PairSet;
 
 use super::{ArmFrames, Frames};
+use crate::methods::MeasuredFilter;
 use crate::scene::ArmScene;
 use selvedge::glam::DVec3;
 use std::error::Error;
@@ -259,7 +258,6 @@ pub fn measure_accuracy<F: Frames>(
 mod tests {
     use super::*;
     use crate::study::TwoFrames;
-    use selvedge_core::filter::Tier;
 
     fn measured(separation: f64) -> Accuracy {
         let options = AccuracyOptions {
@@ -271,8 +269,8 @@ mod tests {
         measure_accuracy::<TwoFrames>(None, options, &mut |_| ()).unwrap()
     }
 
-    fn row(set: &AccuracySet, tier: Tier) -> &AccuracyRow {
-        set.row(MeasuredFilter::Tier(tier)).unwrap()
+    fn row(set: &AccuracySet, filter: MeasuredFilter) -> &AccuracyRow {
+        set.row(filter).unwrap()
     }
 
     #[test]
@@ -302,7 +300,7 @@ mod tests {
                         assert_eq!(row.false_culls(), Some(0), "{}, {}", set.name, row.filter);
                     }
                 }
-                assert_eq!(row(&set, Tier::Exact).kept_cullable, 0, "{}", set.name);
+                assert_eq!(row(&set, MeasuredFilter::Exact).kept_cullable, 0, "{}", set.name);
             }
         }
     }
@@ -318,12 +316,17 @@ mod tests {
 
     #[test]
     fn sharper_bounds_keep_less_and_parts_of_the_step_cull_more() {
-        use selvedge_core::filter::Depth;
         for set in measured(0.0).sets {
-            let [by_axis, permanent] = [Tier::MagnitudesByAxis, Tier::Permanent].map(|tier| row(&set, tier).kept_cullable);
+            let [by_axis, permanent] =
+                [MeasuredFilter::ByAxis, MeasuredFilter::Permanent].map(|filter| row(&set, filter).kept_cullable);
             assert!(permanent <= by_axis, "{}: {permanent}, {by_axis}", set.name);
-            let [one, four] = [Depth::One, Depth::Four].map(|depth| row(&set, Tier::Subdivided(depth)).culled);
-            assert!(row(&set, Tier::Permanent).culled <= one && one <= four, "{}", set.name);
+            let [one, four] =
+                [MeasuredFilter::SubdividedOne, MeasuredFilter::SubdividedFour].map(|filter| row(&set, filter).culled);
+            assert!(
+                row(&set, MeasuredFilter::Permanent).culled <= one && one <= four,
+                "{}",
+                set.name
+            );
         }
     }
 

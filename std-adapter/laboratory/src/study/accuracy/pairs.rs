@@ -1,4 +1,5 @@
-use crate::pipeline::{Pipeline, Preset};
+use crate::methods::Preset;
+use crate::pipeline::Pipeline;
 use crate::study::Frames;
 use selvedge::PairKind;
 use selvedge::glam::DVec3;

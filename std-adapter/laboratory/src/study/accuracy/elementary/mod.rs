@@ -22,14 +22,13 @@
 //! goes through.
 
 mod measure;
-mod method;
 mod truth;
 
-pub use method::ElementaryMethod;
 pub use truth::{ExactAnswer, WIDEST, exact_answer};
 
 use super::{AccuracyOptions, PairSet, ScenePairs, scene_pairs};
 use crate::hard_cases::{Contact, hard_cases};
+use crate::methods::ElementaryTest;
 use crate::study::Frames;
 use crate::study::hard_cases::exactly;
 use selvedge::PairKind;
@@ -41,6 +40,27 @@ use selvedge_core::elementary::{advance::certain_contact, contact};
 
 /// Seconds that one test may take on one set in one format, or a little more.
 pub const BUDGET: f64 = 0.4;
+
+/// The tolerances that tests are asked with, in units of length.
+const TOLERANCES: [f64; 7] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12];
+
+/// Every test that is asked, at every tolerance that it is asked with.
+pub const METHODS: [ElementaryTest; 3 * TOLERANCES.len() + 4] = {
+    let mut all = [ElementaryTest::Exact; 3 * TOLERANCES.len() + 4];
+    let count = TOLERANCES.len();
+    let mut index = 0;
+    while index < count {
+        let tolerance = TOLERANCES[index];
+        all[index] = ElementaryTest::Certified(tolerance);
+        all[count + 1 + index] = ElementaryTest::TightInclusion(tolerance);
+        all[2 * count + 1 + index] = ElementaryTest::Uncertified(tolerance);
+        index += 1;
+    }
+    all[3 * count + 1] = ElementaryTest::Additive;
+    all[3 * count + 2] = ElementaryTest::BernsteinSign;
+    all[3 * count + 3] = ElementaryTest::Cubic;
+    all
+};
 
 /// Every elementary test on every set.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +86,7 @@ pub struct ElementarySet {
     pub touching: usize,
     /// Those of which it is known when.
     pub with_time: usize,
-    /// A row for each test, in the order of [`ElementaryMethod::ALL`].
+    /// A row for each test, in the order of [`METHODS`].
     pub rows: Vec<ElementaryRow>,
 }
 
@@ -74,7 +94,7 @@ pub struct ElementarySet {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElementaryRow {
     /// Which test.
-    pub method: ElementaryMethod,
+    pub method: ElementaryTest,
     /// So many pairs it was asked about.
     pub asked: usize,
     /// So many of them touch.
