@@ -38,8 +38,7 @@ pub(super) fn measure<S: Scalar>(
     let mut done = 0;
     let timed_every = (set.pairs() / TIMED).max(1);
     let mut chunk = 0;
-    let lists = [(PairKind::VertexFace, &set.vertex_face), (PairKind::EdgeEdge, &set.edge_edge)];
-    for (kind, indices) in lists {
+    for (kind, indices) in set.by_kind() {
         for indices in indices.chunks(CHUNK) {
             let pairs = Pairs {
                 kind,
@@ -97,11 +96,7 @@ impl<S: Scalar> Pairs<'_, S> {
     /// What exact arithmetic culls.
     fn exact_masks(&self, separation: S) -> Vec<Mask> {
         let mut masks = vec![0; self.mask_count()];
-        let one_by_one = OneByOne {
-            pairs: self,
-            masks: &mut masks,
-        };
-        one_by_one.with(|pair| exact::is_never_within(pair, separation, exact::UNKNOWN));
+        OneByOne(self, &mut masks).with(|pair| exact::is_never_within(pair, separation, exact::UNKNOWN));
         masks
     }
 
@@ -115,40 +110,33 @@ impl<S: Scalar> Pairs<'_, S> {
     }
 }
 
-/// Verdicts on pairs that are made from their rows one by one.
-struct OneByOne<'a, S: Scalar> {
-    pairs: &'a Pairs<'a, S>,
-    masks: &'a mut [Mask],
-}
+/// Verdicts on pairs that are made from their rows one by one: into masks.
+struct OneByOne<'a, S: Scalar>(&'a Pairs<'a, S>, &'a mut [Mask]);
 
 impl<S: Scalar> WithTest<S, bool> for OneByOne<'_, S> {
     type Outcome = ();
 
     #[inline(always)]
     fn with(self, culls: impl Fn(&PrimitivePair<S>) -> bool) {
-        for (indices, mask) in self.pairs.indices.chunks(LANES).zip(self.masks) {
+        let Self(pairs, masks) = self;
+        for (indices, mask) in pairs.indices.chunks(LANES).zip(masks) {
             *mask = 0;
             for (lane, &indices) in indices.iter().enumerate() {
-                *mask |= Mask::from(culls(&self.pairs.pair(indices))) << lane;
+                *mask |= Mask::from(culls(&pairs.pair(indices))) << lane;
             }
         }
     }
 }
 
-/// Verdicts on pairs that are gathered sixteen at a time, or on tiles of them.
-struct SideBySide<'a, S: Scalar> {
-    level: Level,
-    pairs: &'a Pairs<'a, S>,
-    tiles: Option<&'a [Tile<S>]>,
-    masks: &'a mut [Mask],
-}
+/// Verdicts on pairs that are gathered sixteen at a time, or on tiles of them: into masks.
+struct SideBySide<'a, S: Scalar>(Level, &'a Pairs<'a, S>, Option<&'a [Tile<S>]>, &'a mut [Mask]);
 
 impl<S: Scalar> WithLanes<S> for SideBySide<'_, S> {
     fn with(self, test: impl BatchTest<S>) {
-        let Pairs { kind, rows, indices } = *self.pairs;
-        match self.tiles {
-            None => culled_from_rows(self.level, kind, test, rows, indices, self.masks),
-            Some(tiles) => culled_from_tiles(self.level, kind, test, tiles, self.masks),
+        let Self(level, &Pairs { kind, rows, indices }, tiles, masks) = self;
+        match tiles {
+            None => culled_from_rows(level, kind, test, rows, indices, masks),
+            Some(tiles) => culled_from_tiles(level, kind, test, tiles, masks),
         }
     }
 }
@@ -202,11 +190,7 @@ impl<S: Scalar> Measurement<S> {
     /// What it culls, one pair at a time, compared with exact arithmetic.
     fn count(&mut self, pairs: &Pairs<'_, S>, exact: &[Mask]) -> Vec<Mask> {
         let mut masks = vec![0; pairs.mask_count()];
-        let one_by_one = OneByOne {
-            pairs,
-            masks: &mut masks,
-        };
-        self.filter.run(self.separation, one_by_one);
+        self.filter.run(self.separation, OneByOne(pairs, &mut masks));
         self.culled += ones(&masks);
         for (&culled, &exact) in masks.iter().zip(exact) {
             self.kept_cullable += (exact & !culled).count_ones() as usize;
@@ -223,19 +207,11 @@ impl<S: Scalar> Measurement<S> {
             *seconds += fastest(repeat, || match *backend {
                 Backend::OneAtATime => {
                     let masks = black_box(&mut masks);
-                    filter.run(separation, OneByOne { pairs, masks });
+                    filter.run(separation, OneByOne(pairs, masks));
                 }
                 Backend::Lanes(_, level) => {
-                    let (tiles, masks) = (None, black_box(&mut masks));
-                    filter.run_lanes(
-                        separation,
-                        SideBySide {
-                            level,
-                            pairs,
-                            tiles,
-                            masks,
-                        },
-                    );
+                    let masks = black_box(&mut masks);
+                    filter.run_lanes(separation, SideBySide(level, pairs, None, masks));
                 }
             });
             if masks != expected {
@@ -246,16 +222,8 @@ impl<S: Scalar> Measurement<S> {
             self.tiled += TILED.min(pairs.indices.len());
             let seconds = fastest(repeat, || {
                 for _ in 0..TILED_PASSES {
-                    let (tiles, masks) = (Some(black_box(tiles)), &mut masks);
-                    filter.run_lanes(
-                        separation,
-                        SideBySide {
-                            level,
-                            pairs,
-                            tiles,
-                            masks,
-                        },
-                    );
+                    let tiles = Some(black_box(tiles));
+                    filter.run_lanes(separation, SideBySide(level, pairs, tiles, &mut masks));
                 }
             });
             self.tiled_seconds += seconds / TILED_PASSES as f64;

@@ -177,10 +177,19 @@ const MOST_GENERATED: usize = 200_000;
 
 /// What every study of accuracy takes its pairs from.
 struct ScenePairs {
-    arm: PairSet,
-    mesh: Option<PairSet>,
+    /// Of the arm, and of the caller's mesh.
+    scenes: Vec<PairSet>,
     /// Made in `f32`, and in `f64`.
     near_coplanar: [PairSet; 2],
+}
+
+impl ScenePairs {
+    /// Each set as it is in `f32` and in `f64`.
+    fn in_each_format(&self) -> impl ExactSizeIterator<Item = [&PairSet; 2]> {
+        let scenes = self.scenes.iter().map(|set| [set; 2]);
+        let all: Vec<_> = scenes.chain([self.near_coplanar.each_ref()]).collect();
+        all.into_iter()
+    }
 }
 
 fn arm_frames() -> Result<ArmFrames, Box<dyn Error + Send + Sync>> {
@@ -200,9 +209,10 @@ fn scene_pairs<F: Frames>(mesh: Option<&F>, options: AccuracyOptions) -> Result<
         PairSet::of_steps(mesh.name(), mesh, &steps, pairs)
     };
     let generated = pairs.min(MOST_GENERATED);
+    let mut scenes = vec![PairSet::of_steps(arm.name(), &arm, &here, pairs)?];
+    scenes.extend(mesh.map(of_mesh).transpose()?);
     Ok(ScenePairs {
-        arm: PairSet::of_steps(arm.name(), &arm, &here, pairs)?,
-        mesh: mesh.map(of_mesh).transpose()?,
+        scenes,
         near_coplanar: [
             PairSet::near_coplanar::<f32>(seed, generated),
             PairSet::near_coplanar::<f64>(seed, generated),
@@ -226,25 +236,19 @@ pub fn measure_accuracy<F: Frames>(
         separation,
         ..
     } = options;
-    let ScenePairs {
-        arm,
-        mesh,
-        near_coplanar,
-    } = scene_pairs(mesh, options)?;
+    let mut all = scene_pairs(mesh, options)?;
     let distances = DISTANCES.into_iter().cycle();
     let far: Vec<_> = arm_steps()
         .zip(distances)
         .map(|(step, distance)| (step, distance * DIRECTION))
         .collect();
     let name = "Arm scene, 1 km to 1,000 km from the origin".to_owned();
-    let far = PairSet::of_steps(name, &arm_frames()?, &far, pairs)?;
-    let scenes: Vec<_> = [Some(arm), mesh, Some(far)].into_iter().flatten().collect();
+    all.scenes.push(PairSet::of_steps(name, &arm_frames()?, &far, pairs)?);
 
-    let mut in_each_format: Vec<_> = scenes.iter().map(|set| (set, set)).collect();
-    in_each_format.push((&near_coplanar[0], &near_coplanar[1]));
+    let in_each_format = all.in_each_format();
     let count = 2 * in_each_format.len();
     let mut sets = Vec::with_capacity(count);
-    for (single, double) in in_each_format {
+    for [single, double] in in_each_format {
         let done = sets.len() as f64;
         let mut share = |part: f64| progress((done + part) / count as f64);
         sets.push(measure::measure::<f32>(single, repeat, separation, &mut share)?);

@@ -36,6 +36,14 @@ impl PairSet {
         }
     }
 
+    /// The pairs of either kind.
+    pub(super) fn by_kind(&self) -> [(PairKind, &[[u32; 4]]); 2] {
+        [
+            (PairKind::VertexFace, &self.vertex_face),
+            (PairKind::EdgeEdge, &self.edge_edge),
+        ]
+    }
+
     /// The primitive pairs of some steps, as they come from broad phase and distribution, each pair once. A step is the
     /// frame that it starts from, and how far all positions are moved.
     ///

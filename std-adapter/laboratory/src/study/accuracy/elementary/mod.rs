@@ -26,12 +26,11 @@ mod truth;
 
 pub use truth::{ExactAnswer, WIDEST, exact_answer};
 
-use super::{AccuracyOptions, PairSet, ScenePairs, scene_pairs};
+use super::{AccuracyOptions, PairSet, scene_pairs};
 use crate::hard_cases::{Contact, hard_cases};
 use crate::methods::ElementaryTest;
 use crate::study::Frames;
 use crate::study::hard_cases::exactly;
-use selvedge::PairKind;
 use selvedge_core::{PrimitivePair, Scalar, boxes};
 use std::error::Error;
 
@@ -140,19 +139,13 @@ pub fn measure_elementary_accuracy<F: Frames>(
     options: AccuracyOptions,
     progress: &mut dyn FnMut(f64),
 ) -> Result<ElementaryAccuracy, Box<dyn Error + Send + Sync>> {
-    let ScenePairs {
-        arm,
-        mesh,
-        near_coplanar: [single, double],
-    } = scene_pairs(mesh, options)?;
-    let scenes: Vec<_> = [Some(arm), mesh].into_iter().flatten().collect();
-    let mut in_each_format: Vec<_> = scenes.iter().map(|set| (set, set)).collect();
-    in_each_format.push((&single, &double));
+    let all = scene_pairs(mesh, options)?;
+    let in_each_format = all.in_each_format();
     let count = (2 * in_each_format.len() + 2) as f64;
     let mut sets = Vec::new();
     ask(&of_hard_cases::<f32>(), options, count, &mut sets, progress);
     ask(&of_hard_cases::<f64>(), options, count, &mut sets, progress);
-    for (single, double) in in_each_format {
+    for [single, double] in in_each_format {
         ask(&of_pairs::<f32>(single), options, count, &mut sets, progress);
         ask(&of_pairs::<f64>(double), options, count, &mut sets, progress);
     }
@@ -199,7 +192,7 @@ fn of_hard_cases<S: Scalar>() -> Questions<S> {
 fn of_pairs<S: Scalar>(set: &PairSet) -> Questions<S> {
     let rows = set.rows::<S>();
     let mut pairs = Vec::new();
-    for (kind, indices) in [(PairKind::VertexFace, &set.vertex_face), (PairKind::EdgeEdge, &set.edge_edge)] {
+    for (kind, indices) in set.by_kind() {
         let all = indices.iter().map(|indices| PrimitivePair {
             kind,
             motions: indices.map(|index| rows[index as usize].motion()),
