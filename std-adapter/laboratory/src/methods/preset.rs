@@ -32,7 +32,7 @@ pub enum Redundancy {
 pub struct Stages {
     /// Where primitive pairs come from.
     pub source: Source,
-    /// The culling tests, in order; at most one for each [`Stage`].
+    /// The culling tests, in order; at most one for each [`Stage`](super::Stage).
     pub tests: &'static [CullingTest],
     /// The test of what survives.
     pub elementary: ElementaryTest,
