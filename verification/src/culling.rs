@@ -5,25 +5,11 @@ use crate::generator::{Format, PairCase};
 use selvedge_core::boxes::{Aabb, Dop18, relative, segment, swept_boxes};
 use selvedge_core::{Verdict, filter};
 use selvedge_laboratory::baselines::plain;
-use selvedge_laboratory::pipeline::CullingTest;
-
-/// Every test there is.
-pub const ALL: [CullingTest; 10] = [
-    CullingTest::SweptBoxes,
-    CullingTest::StoredSweptBoxes,
-    CullingTest::StoredDop18,
-    CullingTest::SegmentBox,
-    CullingTest::RelativeBoxes,
-    CullingTest::RelativeBoxesNine,
-    CullingTest::SubspaceThree,
-    CullingTest::SubspaceNine,
-    CullingTest::PlainNonCoplanarity,
-    CullingTest::CertifiedNonCoplanarity,
-];
+use selvedge_laboratory::methods::CullingTest;
 
 /// Those that must never cull a pair that touches, rounding included.
 pub fn certified() -> impl Iterator<Item = CullingTest> {
-    ALL.into_iter().filter(|test| test.is_certified())
+    CullingTest::ALL.into_iter().filter(|test| test.is_certified())
 }
 
 /// What `test` says of `case`.

@@ -267,6 +267,19 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> fmt::Debug for Minifloa
     }
 }
 
+/// Calls `visit` with every way to choose `N` of `values`, in the order of counting.
+pub fn every<T: Copy, const N: usize>(values: &[T], mut visit: impl FnMut([T; N])) {
+    let mut digits = [0; N];
+    loop {
+        visit(digits.map(|digit| values[digit]));
+        let Some(place) = digits.iter().position(|&digit| digit + 1 < values.len()) else {
+            return;
+        };
+        digits[..place].fill(0);
+        digits[place] += 1;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

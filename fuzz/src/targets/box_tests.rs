@@ -2,7 +2,7 @@ use super::pair::{self, Numbers};
 use rug::Rational;
 use selvedge::core::boxes::{Aabb, segment::misses};
 use selvedge::core::{Motion, Scalar, Verdict};
-use selvedge_laboratory::pipeline::CullingTest;
+use selvedge_laboratory::methods::CullingTest;
 use selvedge_verification::culling;
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::collides;

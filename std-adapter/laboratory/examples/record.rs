@@ -5,7 +5,8 @@
 //! ```
 
 use selvedge::glam::DVec3;
-use selvedge_laboratory::pipeline::{Pipeline, Preset, Stage, StepReport};
+use selvedge_laboratory::methods::{Preset, Stage};
+use selvedge_laboratory::pipeline::{Pipeline, StepReport};
 use selvedge_laboratory::report::{About, Knob, Part, PartKind, Recorder, SeriesKind, gltf, page};
 use selvedge_laboratory::scene::ArmScene;
 use std::error::Error;

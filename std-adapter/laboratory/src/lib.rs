@@ -6,7 +6,8 @@
 //! | module | what it is |
 //! |---|---|
 //! | [`baselines`] | published filters and elementary tests that may miss contacts |
-//! | [`pipeline`] | **start here**: every published method, and ours, as a choice of stages, counted and timed |
+//! | [`methods`] | the one table: every published method, and ours, by name, as a choice of stages |
+//! | [`pipeline`] | **start here**: a method on one step after another, counted and timed |
 //! | [`broad_phase`] | that of the published methods: pairs of triangles whose swept boxes overlap |
 //! | [`scene`] | the built-in motion: a sleeve on a bending arm |
 //! | [`study`] | experiments: methods compared, cost against size, benchmark queries, accuracy against time; data only |
@@ -16,6 +17,7 @@
 pub mod baselines;
 pub mod broad_phase;
 pub mod hard_cases;
+pub mod methods;
 pub mod pipeline;
 pub mod report;
 pub mod scene;

@@ -4,7 +4,8 @@ use selvedge::Mesh;
 use selvedge::glam::DVec3;
 use selvedge::{CandidateBoxes, CollisionDetector};
 use selvedge_cloth::sleeve::sleeve;
-use selvedge_laboratory::pipeline::{Pipeline, Preset};
+use selvedge_laboratory::methods::Preset;
+use selvedge_laboratory::pipeline::Pipeline;
 use selvedge_laboratory::scene::ArmScene;
 
 /// Allocations in each step, on the thread that calls.

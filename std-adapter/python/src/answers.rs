@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyModule;
 use selvedge::{Contact, ContactGeometry, Intersection, PairKind, Scalar, Topology};
+use selvedge_cloth::NearPair;
 
 /// A class of `selvedge/_answers.py`.
 pub(crate) fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
@@ -141,4 +142,14 @@ pub(crate) fn show_intersections<'py>(py: Python<'py>, found: &[Intersection]) -
         })
         .unzip();
     class(py, "Intersections")?.call1((column(py, kinds), rows(py, pairs)?))
+}
+
+/// Of cloth in motion.
+pub(crate) fn show_near_pairs<'py>(py: Python<'py>, pairs: &[NearPair]) -> PyResult<Bound<'py, PyAny>> {
+    class(py, "NearPairs")?.call1((
+        rows(py, pairs.iter().map(|pair| pair.vertices).collect())?,
+        rows(py, pairs.iter().map(|pair| pair.weights).collect())?,
+        rows(py, pairs.iter().map(|pair| pair.normal.to_array()).collect())?,
+        column(py, pairs.iter().map(|pair| pair.thickness).collect()),
+    ))
 }

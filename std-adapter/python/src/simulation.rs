@@ -1,14 +1,14 @@
 //! A scene in motion, step by step.
 
-use crate::answers::rows;
+use crate::answers::{rows, show_near_pairs};
 use crate::arrays::{Frames, with_frames};
 use crate::call::{Length, interruptible};
 use crate::errors::{self, BlockedError, BrokenError, CheckpointError, ForkedError, InputError, SceneError};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PySlice, PyType};
+use pyo3::types::{IntoPyDict, PyBytes, PyDict, PySlice, PyType};
 use selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_cloth::{DriveError, Placement, Scene, SetupError, vertex_normals};
+use selvedge_cloth::{ContactCounts, ContactSeconds, DriveError, Placement, Scene, SetupError, vertex_normals};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, TryLockError};
@@ -261,6 +261,12 @@ impl Simulation {
     }
 
     #[getter]
+    fn near_pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let pairs: Vec<_> = self.simulation()?.near_pairs().collect();
+        show_near_pairs(py, &pairs)
+    }
+
+    #[getter]
     fn positions(&self, py: Python<'_>) -> Py<PyAny> {
         self.shown.clone_ref(py)
     }
@@ -347,6 +353,54 @@ impl Simulation {
             seconds.set_item(effect.name, effect.seconds)?;
         }
         Ok(seconds.unbind())
+    }
+
+    #[getter]
+    fn contact_counts<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let simulation = self.simulation()?;
+        let Some(&counts) = simulation.contact_counts() else {
+            return Ok(None);
+        };
+        let ContactCounts {
+            candidates,
+            looked_at,
+            pushed,
+            violated,
+            zone_rounds,
+            held,
+            cuts,
+        } = counts;
+        let named = [
+            ("candidates", candidates),
+            ("looked_at", looked_at),
+            ("pushed", pushed),
+            ("violated", violated),
+            ("zone_rounds", zone_rounds),
+            ("held", held),
+            ("cuts", cuts),
+        ];
+        named.into_py_dict(py).map(Some)
+    }
+
+    #[getter]
+    fn contact_seconds<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let simulation = self.simulation()?;
+        let Some(&seconds) = simulation.contact_seconds() else {
+            return Ok(None);
+        };
+        let ContactSeconds {
+            candidates,
+            constraints,
+            certificates,
+            repairs,
+        } = seconds;
+        let named = [
+            ("candidates", candidates),
+            ("constraints", constraints),
+            ("certificates", certificates),
+            ("repairs", repairs),
+        ];
+        named.into_py_dict(py).map(Some)
     }
 
     fn checkpoint<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {

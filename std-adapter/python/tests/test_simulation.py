@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from selvedge import ARM_SLEEVE, Simulation, errors
+from selvedge import ARM_SLEEVE, NearPairs, Simulation, errors
 
 
 @pytest.fixture
@@ -151,6 +151,39 @@ def test_bodies_pins_and_wind_go_where_python_leads_them():
     simulation.step()
     assert simulation.placement("ball") is None
     np.testing.assert_array_equal(simulation.positions[ball], (turned * 1.01).astype(np.float32))
+
+
+def test_near_pairs_say_where_the_cloth_nearly_touches():
+    simulation = Simulation.from_dict(over_a_ball())
+    assert len(simulation.near_pairs) == 0
+    ball = simulation.body_vertices("ball")
+    for step in range(1, 81):
+        simulation.place_body("ball", [0, 0, 0.0005 * step])
+        simulation.step()
+    near = simulation.near_pairs
+    assert len(near) > 0 and isinstance(near, NearPairs)
+    assert near.vertices.shape == near.weights.shape == (len(near), 4) and near.normals.shape == (len(near), 3)
+    for sign in (1, -1):
+        np.testing.assert_allclose(np.where(near.weights * sign > 0, near.weights, 0).sum(axis=1), sign)
+    np.testing.assert_allclose(np.linalg.norm(near.normals, axis=1), 1)
+    assert (near.thickness > 0).all() and (near.thickness < 0.0041).all()
+    # From the second side to the first, in a motion of half a millimetre a step.
+    ways = np.einsum("ij,ijk->ik", near.weights, simulation.positions[near.vertices])
+    apart = np.einsum("ij,ij->i", ways, near.normals)
+    assert (apart > 0).all() and (apart < 0.008).all()
+    assert (near.vertices >= ball.start).any()
+    counts, seconds = simulation.contact_counts, simulation.contact_seconds
+    assert counts["candidates"] >= counts["looked_at"] >= 0 and counts["pushed"] >= len(near)
+    assert list(seconds) == ["candidates", "constraints", "certificates", "repairs"] and min(seconds.values()) >= 0
+
+
+def test_without_a_contact_effect_nothing_is_near_and_nothing_counted():
+    scene = over_a_ball()
+    del scene["effects"]["body_contact"], scene["effects"]["self_collision"]
+    simulation = Simulation.from_dict(scene)
+    simulation.step()
+    assert len(simulation.near_pairs) == 0 and not simulation.is_certified
+    assert simulation.contact_counts is None and simulation.contact_seconds is None
 
 
 def test_what_cannot_be_moved_is_told(sleeve):

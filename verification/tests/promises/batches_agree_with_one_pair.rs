@@ -11,7 +11,8 @@ use selvedge_core::boxes::direction;
 use selvedge_core::filter::{Filter, Tier, inside};
 use selvedge_laboratory::baselines::as_computed::AsComputed;
 use selvedge_laboratory::baselines::plain::Plain;
-use selvedge_laboratory::pipeline::{CullingTest, Pipeline, Preset};
+use selvedge_laboratory::methods::{CullingTest, Preset};
+use selvedge_laboratory::pipeline::Pipeline;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, meshes};
 

@@ -5,7 +5,7 @@ use rug::Rational;
 use selvedge_core::Motion;
 use selvedge_core::PairKind;
 use selvedge_core::boxes::{Aabb, segment};
-use selvedge_laboratory::pipeline::CullingTest::{
+use selvedge_laboratory::methods::CullingTest::{
     self, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, StoredSweptBoxes, SweptBoxes,
 };
 use selvedge_verification::culling::{certified, verdict};

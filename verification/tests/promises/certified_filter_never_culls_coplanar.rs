@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use selvedge_core::PairKind;
 use selvedge_core::verification::coplanarity::Bound;
-use selvedge_laboratory::pipeline::CullingTest::{CertifiedNonCoplanarity, PlainNonCoplanarity};
+use selvedge_laboratory::methods::CullingTest::{CertifiedNonCoplanarity, PlainNonCoplanarity};
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, pairs_of_any_kind};

@@ -6,7 +6,7 @@ use selvedge_core::PairKind;
 use selvedge_core::verification::coplanarity::{Bound, MovingTetrahedron, error_bound_by_magnitudes, is_in_range};
 use selvedge_core::verification::lanes::{Lanes, Rounding};
 use selvedge_core::verification::vector::Vector;
-use selvedge_laboratory::pipeline::CullingTest::PlainNonCoplanarity;
+use selvedge_laboratory::methods::CullingTest::PlainNonCoplanarity;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, pairs_of_any_kind};
 use std::ops::{Add, Div, Mul, Neg, Sub};

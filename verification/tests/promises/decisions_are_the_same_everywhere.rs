@@ -24,6 +24,7 @@ use selvedge_core::verification::exact::{
 use selvedge_core::{Motion, PrimitivePair, Verdict};
 use selvedge_laboratory::baselines::as_computed::AsComputed;
 use selvedge_laboratory::baselines::{plain, uncertified};
+use selvedge_laboratory::methods::CullingTest;
 use selvedge_verification::campaign::exact::{Source, sample};
 use selvedge_verification::culling;
 use selvedge_verification::generator::{Format, PairCase};
@@ -204,7 +205,7 @@ impl Question for Boxes {
     fn ask<S: Format>(case: &PairCase<S>, pair: &PrimitivePair<S>, digest: &mut Digest) {
         let mut bits = u64::from(direction::normal(pair).is_culled());
         bits |= u64::from(swept_boxes(pair).is_culled()) << 1;
-        for test in culling::ALL {
+        for test in CullingTest::ALL {
             bits = bits << 1 | u64::from(culling::verdict(test, case).is_culled());
         }
         let motions = case.motions();

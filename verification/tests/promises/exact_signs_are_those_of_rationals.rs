@@ -10,7 +10,7 @@ use selvedge_core::verification::coplanarity::is_in_range;
 use selvedge_core::verification::exact::{
     KnownSigns, UNKNOWN, certain_signs, control_value_signs, is_never_coplanar, is_never_within,
 };
-use selvedge_laboratory::pipeline::CullingTest;
+use selvedge_laboratory::methods::CullingTest;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, from_choices, pairs_of_any_kind,

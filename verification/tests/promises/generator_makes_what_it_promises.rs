@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use selvedge_core::PairKind;
-use selvedge_laboratory::pipeline::CullingTest::CertifiedNonCoplanarity;
+use selvedge_laboratory::methods::CullingTest::CertifiedNonCoplanarity;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{
     Choices, Format, Meeting, MeshCase, Moment, PairCase, Simplify, check, coplanar_pairs, from_choices, meshes,

@@ -5,9 +5,10 @@ use selvedge::PairKind::{EdgeEdge, VertexFace};
 use selvedge::Topology;
 use selvedge_core::PairKind;
 use selvedge_core::glam::DVec3;
-use selvedge_laboratory::pipeline::CullingTest::{self, CertifiedNonCoplanarity};
-use selvedge_laboratory::pipeline::{Pipeline, Preset};
-use selvedge_verification::culling::{ALL, certified, verdict};
+use selvedge_laboratory::methods::CullingTest::{self, CertifiedNonCoplanarity};
+use selvedge_laboratory::methods::Preset;
+use selvedge_laboratory::pipeline::Pipeline;
+use selvedge_verification::culling::{certified, verdict};
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::collides;
 
@@ -34,7 +35,7 @@ fn edge_edge([u, v]: [Ends; 2], [k, l]: [Ends; 2]) -> PairCase<f32> {
 
 fn culling<S: Format>(pair: &PairCase<S>) -> Vec<CullingTest> {
     let culls = |test: &CullingTest| verdict(*test, pair).is_culled();
-    ALL.into_iter().filter(culls).collect()
+    CullingTest::ALL.into_iter().filter(culls).collect()
 }
 
 /// Every order of roles and time that is the same contact, in both formats.

@@ -12,7 +12,7 @@
 use rug::{Rational, ops::Pow};
 use selvedge_core::verification::coplanarity::{Bound, MovingTetrahedron};
 use selvedge_core::verification::vector::Vector;
-use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD};
+use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every};
 
 /// A moving tetrahedron by the points a, b, c, p at times 0 and 1.
 type Points<T> = [[[T; 3]; 2]; 4];
@@ -85,19 +85,6 @@ impl Seen {
             let signs = [0, 1, 2, 3].map(|k| exact_control_value(points, k).signum());
             assert!(signs == [1; 4] || signs == [-1; 4], "{points:?} is culled");
         }
-    }
-}
-
-/// Calls `visit` with every way to choose `N` of `values`, in the order of counting.
-fn every<T: Copy, const N: usize>(values: &[T], mut visit: impl FnMut([T; N])) {
-    let mut digits = [0; N];
-    loop {
-        visit(digits.map(|digit| values[digit]));
-        let Some(place) = digits.iter().position(|&digit| digit + 1 < values.len()) else {
-            return;
-        };
-        digits[..place].fill(0);
-        digits[place] += 1;
     }
 }
 

@@ -10,7 +10,8 @@ use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Contact, Limits, contact};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_laboratory::baselines::cubic;
-use selvedge_laboratory::pipeline::{ElementaryTest, Pipeline, Preset, Redundancy, Source, Stage, Stages};
+use selvedge_laboratory::methods::{ElementaryTest, Preset, Redundancy, Source, Stage, Stages};
+use selvedge_laboratory::pipeline::Pipeline;
 use selvedge_laboratory::scene::ArmScene;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Format, MeshCase, PairCase, check, meshes};
@@ -249,6 +250,7 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>
                 ElementaryTest::Cubic => cubic::time_of_impact(&pair),
                 ElementaryTest::TimeOfImpact => certified,
                 ElementaryTest::Exact => certified.filter(|_| contact(&pair) == Contact::Happens),
+                other => panic!("{preset} ends with {other}"),
             }
         };
         candidates.retain(|pair| time(pair).is_some());

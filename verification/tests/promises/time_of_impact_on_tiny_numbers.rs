@@ -17,7 +17,7 @@ use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, Verte
 use selvedge_core::verification::vector::Vector;
 use selvedge_verification::altered::{self, Factors};
 use selvedge_verification::generator::{Choices, Format, Meeting, Moment, PairCase};
-use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD};
+use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every};
 use selvedge_verification::oracle::collides;
 
 /// By `SplitMix64`.
@@ -122,18 +122,6 @@ impl Seen {
                 );
             }
         }
-    }
-}
-
-fn every<T: Copy, const N: usize>(values: &[T], mut visit: impl FnMut([T; N])) {
-    let mut digits = [0; N];
-    loop {
-        visit(digits.map(|digit| values[digit]));
-        let Some(place) = digits.iter().position(|&digit| digit + 1 < values.len()) else {
-            return;
-        };
-        digits[..place].fill(0);
-        digits[place] += 1;
     }
 }
 

@@ -27,7 +27,7 @@
 use proptest::prelude::*;
 use selvedge_core::PairKind;
 use selvedge_core::Verdict;
-use selvedge_laboratory::pipeline::CullingTest::{
+use selvedge_laboratory::methods::CullingTest::{
     self, CertifiedNonCoplanarity, RelativeBoxes, RelativeBoxesNine, SegmentBox, StoredDop18, SweptBoxes,
 };
 use selvedge_verification::culling::verdict;

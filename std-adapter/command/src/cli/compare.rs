@@ -8,7 +8,7 @@ use super::simulate::run_steps;
 use clap::CommandFactory;
 use clap::error::ErrorKind;
 use selvedge_cloth::{Scene, Simulation};
-use selvedge_laboratory::pipeline::Preset;
+use selvedge_laboratory::methods::Preset;
 use selvedge_laboratory::report::{FigurePairs, comparison_csv, comparison_html, comparison_markdown, figure_3, json, tables};
 use selvedge_laboratory::scene::ArmScene;
 use selvedge_laboratory::study::{

@@ -11,7 +11,8 @@ use selvedge::core::elementary::Limits;
 use selvedge::glam::DVec3;
 use selvedge::{CandidateBoxes, CollisionDetector, Criterion};
 use selvedge_files::mesh::MeshStep;
-use selvedge_laboratory::pipeline::{Contact, Pipeline, Preset, StepReport};
+use selvedge_laboratory::methods::Preset;
+use selvedge_laboratory::pipeline::{Contact, Pipeline, StepReport};
 use selvedge_laboratory::report::{StepQuestion, StepSummary, contacts_csv, json, pairs_csv, tables};
 use std::path::{Path, PathBuf};
 

@@ -5,7 +5,7 @@ use super::compare::{Run, add_report};
 use super::output::{self, OutputFiles};
 use super::simulate::{effect_costs, run_steps};
 use selvedge_cloth::{ARM_SLEEVE, Scene, Simulation};
-use selvedge_laboratory::pipeline::Preset;
+use selvedge_laboratory::methods::Preset;
 use selvedge_laboratory::report::{SimulationRecorder, Subject, costs_of_added_effects, json, page, tables};
 use selvedge_laboratory::scene::ArmScene;
 use selvedge_laboratory::study::SimulatedSteps;

@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
 use selvedge::verification::{Level, available_levels, best_level};
-use selvedge_laboratory::pipeline::Preset;
+use selvedge_laboratory::methods::Preset;
 
 /// More threads than any machine has cores; each needs buffers of its own.
 const MAX_THREADS: i64 = 1024;

@@ -7,8 +7,9 @@ use super::progress::Progress;
 use selvedge::PairKind;
 use selvedge::core::Scalar;
 use selvedge_files::queries::{self, Query, QueryFile};
+use selvedge_laboratory::methods::{QueryMethod, UnknownMethod};
 use selvedge_laboratory::report::{json, tables};
-use selvedge_laboratory::study::{QueryMethod, QueryResult, UnknownMethod, measure_queries};
+use selvedge_laboratory::study::{QueryResult, measure_queries};
 use std::path::PathBuf;
 
 /// Asks single pairs whose answer may be known: what each method says, and how long it takes.

@@ -4,7 +4,7 @@ use super::Failure;
 use super::options::{Threads, preset_parser, refinement_parser};
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
-use selvedge_laboratory::pipeline::Preset;
+use selvedge_laboratory::methods::Preset;
 use selvedge_laboratory::report::{json, scaling_svg, tables};
 use selvedge_laboratory::scene::ArmScene;
 use selvedge_laboratory::study::{ArmFrames, ScalingPoint, measure_size};

@@ -1,7 +1,7 @@
 //! `selvedge`, `selvedge compare` and `selvedge scaling`.
 
 use crate::support::{SHEET, Workplace, keys};
-use selvedge_laboratory::pipeline::Preset;
+use selvedge_laboratory::methods::Preset;
 
 /// Small enough for a test.
 const SHORT: [&str; 4] = ["--steps", "2", "--rounds", "1"];

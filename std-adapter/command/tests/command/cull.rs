@@ -1,7 +1,7 @@
 //! `selvedge cull`.
 
 use crate::support::{Workplace, keys, moved_by};
-use selvedge_laboratory::pipeline::{Preset, Source};
+use selvedge_laboratory::methods::{Preset, Source};
 use serde_json::{Value, json};
 
 const CULL: [&str; 3] = ["cull", "start.obj", "end.obj"];

@@ -586,8 +586,17 @@ const SHARES: usize = 16;
 /// Vertices that one thread refits in one go.
 const VERTICES: usize = 1024;
 
+/// Boxes of these motions that hold what is within `separation`, as a detector has them that has seen no step before.
+pub(crate) fn mapping_within(motions: &dyn Motions, separation: f64) -> Mapping {
+    let fit = Fit {
+        separation,
+        ..Fit::default()
+    };
+    motions.mapping(&extent(motions), &fit)
+}
+
 /// The box of all positions of both frames.
-pub(crate) fn extent(motions: &dyn Motions) -> Aabb<f64> {
+fn extent(motions: &dyn Motions) -> Aabb<f64> {
     let mut extent = Aabb::<f64>::empty();
     for vertex in 0..motions.len() {
         let motion = motions.of(vertex);

@@ -45,7 +45,7 @@ mod traversal;
 mod tree;
 
 pub use degradation::{Degradation, Prices};
-pub(crate) use hierarchies::{Fit, Hierarchies, Share, extent};
+pub(crate) use hierarchies::{Fit, Hierarchies, Share, mapping_within};
 pub use order::{Centre, LEAF, order};
 pub(crate) use over_meshes::MeshHierarchy;
 pub(crate) use pairing::Pairing;

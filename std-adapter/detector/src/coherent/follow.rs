@@ -7,7 +7,7 @@
 
 use super::{Interest, NearPairs, Reach};
 use crate::PairKind;
-use crate::broad_phase::{Fit, extent};
+use crate::broad_phase::mapping_within;
 use crate::collision_filter::CollisionFilter;
 use crate::frame::Motions;
 use crate::mesh::Topology;
@@ -157,11 +157,7 @@ impl Followed {
         // Four times what is needed: the elementary test gives up on what is nearer than 20u of its size, and calls it a contact.
         let largest = largest_coordinate(start).max(largest_coordinate(end));
         let error = GapError::of_coordinates(4.0 * largest);
-        let fit = Fit {
-            separation,
-            ..Fit::default()
-        };
-        let mapping = motions.mapping(&extent(motions), &fit);
+        let mapping = mapping_within(motions, separation);
         let mut open = Open {
             pairs: std::mem::take(&mut self.open),
         };

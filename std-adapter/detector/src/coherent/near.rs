@@ -186,6 +186,8 @@ impl<I: Interest> NearPairs<I> {
         if is_narrow {
             if self.reach.is_graded {
                 self.replace_strayed();
+            } else {
+                drop_known(&mut self.found, &self.list);
             }
             add(&mut self.list, &mut self.found);
         } else {
@@ -199,13 +201,9 @@ impl<I: Interest> NearPairs<I> {
         let Self {
             list, found, strayed, ..
         } = self;
-        for pair in found {
-            if let Ok(index) = list.binary_search_by_key(&pair.key(), NearPair::key) {
-                pair.remember(&list[index]);
-            }
-        }
         let led_back = self.strays.iter_mut().zip(&*strayed).filter(|(_, strayed)| **strayed);
         led_back.for_each(|(stray, _)| *stray = 0.0);
+        remember(found, list);
         list.retain(|pair| !pair.vertices.iter().any(|&vertex| strayed[vertex as usize]));
     }
 
@@ -230,14 +228,7 @@ impl<I: Interest> NearPairs<I> {
 
     /// Replaces the list by what was found, with what is known of each pair.
     fn take_found(&mut self) {
-        // Both lists ascend by key.
-        let mut known = self.list.iter().peekable();
-        for pair in &mut self.found {
-            while known.next_if(|other| other.key() < pair.key()).is_some() {}
-            if let Some(same) = known.next_if(|other| other.key() == pair.key()) {
-                pair.remember(same);
-            }
-        }
+        remember(&mut self.found, &self.list);
         std::mem::swap(&mut self.list, &mut self.found);
     }
 
@@ -247,13 +238,27 @@ impl<I: Interest> NearPairs<I> {
     }
 }
 
-/// Adds to `pairs` those of `found` that are not there yet. Both ascend by key, and do so afterwards.
-fn add<D: Copy>(pairs: &mut Vec<NearPair<D>>, found: &mut Vec<NearPair<D>>) {
-    let mut left = &pairs[..];
+/// Has those of `found` that are `known` remember what is. Both ascend by key.
+fn remember<D: Copy>(found: &mut [NearPair<D>], known: &[NearPair<D>]) {
+    let mut known = known.iter().peekable();
+    for pair in found {
+        while known.next_if(|other| other.key() < pair.key()).is_some() {}
+        if let Some(same) = known.next_if(|other| other.key() == pair.key()) {
+            pair.remember(same);
+        }
+    }
+}
+
+/// Leaves of `found`, which are few, what is not `known`. Both ascend by key.
+fn drop_known<D: Copy>(found: &mut Vec<NearPair<D>>, mut known: &[NearPair<D>]) {
     found.retain(|new| {
-        left = &left[before(left, new)..];
-        left.first().is_none_or(|known| known.key() != new.key())
+        known = &known[before(known, new)..];
+        known.first().is_none_or(|first| first.key() != new.key())
     });
+}
+
+/// Adds to `pairs` those of `found`, none of which is there yet. Both ascend by key, and do so afterwards.
+fn add<D: Copy>(pairs: &mut Vec<NearPair<D>>, found: &mut Vec<NearPair<D>>) {
     // From the end, so that every pair is moved at most once, and those before the first new one not at all.
     let mut known = pairs.len();
     pairs.extend_from_slice(found);
@@ -299,7 +304,9 @@ mod tests {
             found in prop::collection::btree_set([0..8_u32, 0..8_u32], 0..30),
         ) {
             let mut all = pairs(&known, 1);
-            add(&mut all, &mut pairs(&found, 2));
+            let mut new = pairs(&found, 2);
+            drop_known(&mut new, &all);
+            add(&mut all, &mut new);
             let keys: Vec<_> = all.iter().map(|pair| pair.pair).collect();
             prop_assert_eq!(keys, known.union(&found).copied().collect::<Vec<_>>());
             prop_assert!(all.iter().all(|pair| (pair.data == 1) == known.contains(&pair.pair)));

@@ -13,7 +13,7 @@
 //! certified to drop a pair is derived with the [boxes](selvedge_core::boxes::moving) and their [mapping](selvedge_core::boxes::mapping).
 
 use crate::PairKind;
-use crate::broad_phase::{Fit, extent};
+use crate::broad_phase::mapping_within;
 use crate::dispatch::Level;
 use crate::frame::Motions;
 use crate::mesh::Topology;
@@ -59,11 +59,7 @@ pub(super) struct PrimitiveBoxes {
 impl PrimitiveBoxes {
     /// Makes the boxes of a step. Pairs that they show to be apart are so by more than `separation`.
     pub(super) fn fit(&mut self, topology: &Topology, motions: &dyn Motions, separation: f64) {
-        let fit = Fit {
-            separation,
-            ..Fit::default()
-        };
-        let mapping = motions.mapping(&extent(motions), &fit);
+        let mapping = mapping_within(motions, separation);
         let moving = (0..motions.len()).map(|vertex| motions.of(vertex));
         self.vertex_boxes.clear();
         self.vertex_boxes

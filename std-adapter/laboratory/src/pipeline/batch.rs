@@ -3,19 +3,15 @@
 use super::Distributed;
 use super::assignment::FeatureAssignment;
 use super::pairs::MovingMesh;
-use super::preset::{CullingTest, ElementaryTest, Stages};
 use super::stored::{BoundingVolume, Stored};
-use crate::baselines::cubic;
-use crate::baselines::plain::Plain;
+use crate::methods::{CullingTest, Stages, WithLanes, WithTest};
 use arrayvec::ArrayVec;
 use selvedge::Contact;
 use selvedge::PairKind;
 use selvedge::verification::PairCounts;
-use selvedge_core::batch::{BatchTest, ByPoints, LANES, Level, Mask, Test, culled_from_rows};
+use selvedge_core::batch::{BatchTest, LANES, Level, Mask, culled_from_rows};
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::distribution::distribute;
-use selvedge_core::elementary::{Contact as Verdict, Limits, advance::time_of_impact, contact::settled};
-use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::{PrimitivePair, Scalar};
 use std::time::Instant;
 
@@ -108,18 +104,7 @@ impl<S: Scalar> Batch<S> {
         match test {
             CullingTest::StoredSweptBoxes => self.keep_overlapping(step.boxes),
             CullingTest::StoredDop18 => self.keep_overlapping(step.dops),
-            CullingTest::SweptBoxes => self.keep_by_lanes(step, Test::SweptBoxes),
-            CullingTest::SegmentBox => self.keep_by_lanes(step, Test::SegmentBox),
-            CullingTest::RelativeBoxes | CullingTest::SubspaceThree => {
-                self.keep_by_lanes(step, Test::RelativeBoxes);
-            }
-            CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => {
-                self.keep_by_lanes(step, Test::RelativeBoxesNine);
-            }
-            CullingTest::PlainNonCoplanarity => self.keep_by_lanes(step, ByPoints(Plain)),
-            CullingTest::CertifiedNonCoplanarity => {
-                self.keep_by_lanes(step, Filter::new(Tier::Permanent));
-            }
+            _ => test.run_lanes(AtWork { batch: self, step }),
         }
     }
 
@@ -157,41 +142,45 @@ impl<S: Scalar> Batch<S> {
 
     /// The elementary test of what is left: fills `contacts`, vertex–face first.
     pub(super) fn find_contacts(&mut self, step: &StepInput<'_, S>) {
-        let limits = Limits::default();
-        match step.stages.elementary {
-            ElementaryTest::Cubic => self.find_contacts_by(step, cubic::time_of_impact),
-            ElementaryTest::TimeOfImpact => self.find_contacts_by(step, |pair| time_of_impact(pair, &limits).time()),
-            ElementaryTest::Exact => self.find_contacts_by(step, |pair| time_of_exact_contact(pair, &limits)),
-        }
-    }
-
-    /// The same with the elementary test given: the time, if there is contact.
-    fn find_contacts_by(&mut self, step: &StepInput<'_, S>, test: impl Fn(&PrimitivePair<S>) -> Option<S>) {
-        let begin = Instant::now();
-        let mut found = [0; 2];
-        let lists = [
-            (PairKind::VertexFace, &self.vertex_face),
-            (PairKind::EdgeEdge, &self.edge_edge),
-        ];
-        for ((kind, pairs), found) in lists.into_iter().zip(&mut found) {
-            let before = self.contacts.len();
-            self.contacts.extend(pairs.iter().filter_map(|&pair| {
-                let time = test(&step.mesh.pair(kind, pair))?;
-                Some(Contact { kind, pair, time })
-            }));
-            *found = (self.contacts.len() - before) as u64;
-        }
-        let [vertex_face, edge_edge] = found;
-        let found = PairCounts { vertex_face, edge_edge };
-        self.tallies.push((found, begin.elapsed().as_secs_f64()));
+        step.stages.elementary.run(AtWork { batch: self, step });
     }
 }
 
-/// The certified time of impact of a pair that truly touches.
-fn time_of_exact_contact<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) -> Option<S> {
-    let impact = time_of_impact(pair, limits);
-    let time = impact.time()?;
-    (settled(pair, &impact) != Verdict::Never).then_some(time)
+/// A stage at work.
+struct AtWork<'a, S: Scalar> {
+    batch: &'a mut Batch<S>,
+    step: &'a StepInput<'a, S>,
+}
+
+impl<S: Scalar> WithLanes<S> for AtWork<'_, S> {
+    fn with(self, test: impl BatchTest<S>) {
+        self.batch.keep_by_lanes(self.step, test);
+    }
+}
+
+impl<S: Scalar> WithTest<S, Option<S>> for AtWork<'_, S> {
+    type Outcome = ();
+
+    fn with(self, time: impl Fn(&PrimitivePair<S>) -> Option<S>) {
+        let Self { batch, step } = self;
+        let begin = Instant::now();
+        let mut found = [0; 2];
+        let lists = [
+            (PairKind::VertexFace, &batch.vertex_face),
+            (PairKind::EdgeEdge, &batch.edge_edge),
+        ];
+        for ((kind, pairs), found) in lists.into_iter().zip(&mut found) {
+            let before = batch.contacts.len();
+            batch.contacts.extend(pairs.iter().filter_map(|&pair| {
+                let time = time(&step.mesh.pair(kind, pair))?;
+                Some(Contact { kind, pair, time })
+            }));
+            *found = (batch.contacts.len() - before) as u64;
+        }
+        let [vertex_face, edge_edge] = found;
+        let found = PairCounts { vertex_face, edge_edge };
+        batch.tallies.push((found, begin.elapsed().as_secs_f64()));
+    }
 }
 
 /// Like `Vec::retain`, without a branch on the outcome: what survives is hard to predict.

@@ -22,7 +22,7 @@
 //!
 //! ```
 //! use selvedge::{glam::DVec3, Topology};
-//! use selvedge_laboratory::pipeline::{Pipeline, Preset};
+//! use selvedge_laboratory::{methods::Preset, pipeline::Pipeline};
 //!
 //! // A small triangle falls through a large one.
 //! let topology = Topology::new(6, vec![[0, 1, 2], [3, 4, 5]])?;
@@ -44,19 +44,20 @@
 mod assignment;
 mod batch;
 mod pairs;
-mod preset;
 mod report;
 mod stored;
 mod swept;
 
 pub use assignment::FeatureAssignment;
-pub use preset::{CullingTest, ElementaryTest, Preset, Redundancy, Source, Stage, Stages, UnknownPreset};
 pub use report::{StageReport, StepReport};
 pub use selvedge::Contact;
 pub use selvedge::StepError;
 pub use selvedge::ThreadError;
 
 use crate::broad_phase::{BroadPhase, SweptBox};
+#[cfg(doc)]
+use crate::methods::Preset;
+use crate::methods::{CullingTest, ElementaryTest, Redundancy, Source, Stage, Stages};
 use batch::{Batch, StepInput};
 use pairs::MovingMesh;
 use rustc_hash::FxHashSet;

@@ -1,6 +1,6 @@
 //! What a step counted and how long its stages took.
 
-use super::preset::Stage;
+use crate::methods::Stage;
 use arrayvec::ArrayVec;
 use selvedge::verification::PairCounts;
 use selvedge::verification::StepTally;

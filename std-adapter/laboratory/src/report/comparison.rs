@@ -5,7 +5,7 @@ use super::number::{ABSENT, counted, figures, mean};
 use super::page;
 use super::paper::{paper_row, printed};
 use super::{mesh_size, printable};
-use crate::pipeline::{Preset, Stage};
+use crate::methods::{Preset, Stage};
 use crate::study::{Comparison, ComparisonRow, MeanCounts};
 use maud::html;
 

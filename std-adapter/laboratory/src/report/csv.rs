@@ -2,7 +2,8 @@
 
 use super::distributed;
 use super::paper::paper_row;
-use crate::pipeline::{Contact, Stage};
+use crate::methods::Stage;
+use crate::pipeline::Contact;
 use crate::study::{Comparison, ComparisonRow, MeanCounts};
 use ::csv::Writer;
 use selvedge::PairKind;

@@ -2,7 +2,7 @@
 
 use super::number::{figures, mean};
 use super::paper::paper_row;
-use crate::pipeline::{Preset, Redundancy, Source, Stages};
+use crate::methods::{Preset, Redundancy, Source, Stages};
 use crate::study::{Comparison, ComparisonRow};
 
 /// One sentence about a comparison.

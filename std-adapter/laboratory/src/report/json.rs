@@ -8,11 +8,13 @@ use super::paper::paper_row;
 use super::recording::{EDGES_99, LONGEST_EDGE, Measure, MeasureKind, Recording};
 use super::step::{StepQuestion, StepSummary};
 use crate::hard_cases::Contact;
-use crate::pipeline::{Preset, Stage, StepReport};
+use crate::methods::QueryMethod;
+use crate::methods::{Preset, Stage};
+use crate::pipeline::StepReport;
 use crate::study::elementary::ElementaryAccuracy;
 use crate::study::{Accuracy, AccuracySet};
 use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
-use crate::study::{HardAnswer, HardResult, QueryMethod, QueryResult};
+use crate::study::{HardAnswer, HardResult, QueryResult};
 use selvedge::verification::PairCounts;
 use serde_json::{Value, json};
 

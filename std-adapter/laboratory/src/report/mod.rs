@@ -33,7 +33,7 @@ pub use recording::{SimulationRecorder, Subject, costs_of_added_effects};
 pub use step::{StepQuestion, StepSummary};
 pub use tangles::{Tangle, intersections_csv, intersections_json, tangle_ply, tangles, tangles_json};
 
-use crate::pipeline::Stage;
+use crate::methods::Stage;
 use crate::study::{ComparisonRow, MeanCounts, ScalingPoint};
 
 /// The primitive pairs of a method before any culling test, if it distributes triangle pairs.

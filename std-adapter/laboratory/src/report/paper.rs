@@ -1,7 +1,7 @@
 //! Table 1 of Lv, He, Mi, as printed.
 
 use super::number::grouped;
-use crate::pipeline::Preset;
+use crate::methods::Preset;
 
 /// One row of the paper's Table 1, measured on its authors' mesh (693 vertices, 1,345 triangles) and machine.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 //! One step of one method, with what a reader needs to know about it.
 
-use crate::pipeline::{Pipeline, Preset, StepReport};
+use crate::methods::Preset;
+use crate::pipeline::{Pipeline, StepReport};
 use selvedge::CollisionDetector;
 use selvedge::Topology;
 use selvedge_core::Scalar;

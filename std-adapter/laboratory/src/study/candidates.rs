@@ -1,7 +1,8 @@
 //! Which pairs a method leaves for the elementary test in one step: what the paper's Figure 3 shows.
 
 use super::Frames;
-use crate::pipeline::{Pipeline, Preset};
+use crate::methods::Preset;
+use crate::pipeline::Pipeline;
 use selvedge::PairKind;
 use std::error::Error;
 

@@ -1,7 +1,8 @@
 //! The paper's Table 1, for every method, on the same steps in one run.
 
 use super::Frames;
-use crate::pipeline::{Contact, Pipeline, Preset, Stage, StepReport};
+use crate::methods::{Preset, Stage};
+use crate::pipeline::{Contact, Pipeline, StepReport};
 use selvedge::PairKind;
 use selvedge::verification::PairCounts;
 use std::error::Error;

@@ -1,7 +1,7 @@
 //! What each method says of the built-in hard cases.
 
-use super::QueryMethod;
 use crate::hard_cases::{Contact, HardCase, hard_cases};
+use crate::methods::QueryMethod;
 use selvedge_core::glam::DVec3;
 use selvedge_core::{Motion, PrimitivePair, Scalar};
 
@@ -73,7 +73,7 @@ pub(super) fn exactly<S: Scalar>(case: &HardCase) -> Option<PrimitivePair<S>> {
 #[cfg(test)]
 mod tests {
     use super::{HardAnswer, ask_hard_cases};
-    use crate::study::QueryMethod;
+    use crate::methods::QueryMethod;
 
     /// The command shows what it is for: the plain test's failures, and none of ours.
     #[test]

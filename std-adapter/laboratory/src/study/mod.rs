@@ -13,7 +13,7 @@ mod simulated;
 
 pub use accuracy::elementary;
 pub use accuracy::{
-    Accuracy, AccuracyOptions, AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, MeasuredFilter, PairSet, measure_accuracy,
+    Accuracy, AccuracyOptions, AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, PairSet, measure_accuracy,
 };
 pub use arm::ArmFrames;
 pub use candidates::{StepCandidates, busiest_step, step_candidates};
@@ -21,6 +21,6 @@ pub use comparison::{Comparison, ComparisonRow, MeanCounts, MeanStage, compare};
 pub use effects::{EffectCost, effects_one_by_one};
 pub use frames::{Frames, TwoFrames};
 pub use hard_cases::{HardAnswer, HardResult, ask_hard_cases};
-pub use queries::{Nanoseconds, QueryMethod, QueryResult, TruthCounts, UnknownMethod, measure_queries};
+pub use queries::{Nanoseconds, QueryResult, TruthCounts, measure_queries};
 pub use scaling::{ScalingPoint, measure_size};
 pub use simulated::SimulatedSteps;

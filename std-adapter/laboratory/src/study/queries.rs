@@ -6,139 +6,12 @@
 //! its length, in the fastest of three runs, so that an interruption is not taken for a slow query. The pair is then in
 //! the cache and the processor's branches are trained on it: what is measured is the arithmetic.
 
-use crate::baselines::{additive, bernstein_sign, cubic, plain, tight_inclusion};
-use crate::pipeline::{CullingTest, Preset, Stages};
+use crate::methods::{QueryMethod, WithTest};
 use selvedge::PairKind;
-use selvedge_core::boxes::{self, Dop18};
-use selvedge_core::elementary::{Contact, Impact, Limits, advance::time_of_impact};
-use selvedge_core::{PrimitivePair, Scalar, Verdict, elementary, filter};
+use selvedge_core::{PrimitivePair, Scalar};
 use selvedge_files::queries::Query;
-use std::fmt;
 use std::hint::black_box;
-use std::str::FromStr;
 use std::time::{Duration, Instant};
-
-/// A test of one primitive pair, by its name on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum QueryMethod {
-    /// All stages of [`Preset::Selvedge`] from its culling tests on: they, then the certified time of impact.
-    Selvedge,
-    /// [`elementary::contact`](mod@elementary::contact), the exact verdict.
-    Exact,
-    /// [`elementary::advance`] alone, the certified time of impact with its default tolerance.
-    TimeOfImpact,
-    /// [`CullingTest::CertifiedNonCoplanarity`] alone.
-    NonCoplanarity,
-    /// [`CullingTest::PlainNonCoplanarity`] alone, as printed in the paper. **Not certified.**
-    NonCoplanarityPlain,
-    /// [`CullingTest::RelativeBoxes`] alone.
-    RelativeBoxes,
-    /// [`CullingTest::RelativeBoxesNine`] alone.
-    RelativeBoxesNine,
-    /// [`CullingTest::SweptBoxes`] alone.
-    SweptBoxes,
-    /// [`CullingTest::SegmentBox`] alone, the paper's box tests.
-    SegmentBox,
-    /// [`CullingTest::StoredDop18`] alone, the DOPs made from the pair.
-    Dop18,
-    /// [`cubic`], Provot's test. **Not certified**: it misses contacts.
-    Cubic,
-    /// [`bernstein_sign`], Tang et al. 2014 without exact arithmetic. **Not certified**: it misses contacts.
-    BernsteinSign,
-    /// [`tight_inclusion`], the bisection of Wang et al. 2021, with their default tolerance of 1e-6.
-    TightInclusion,
-    /// [`additive`], Li et al. 2021. **Not certified.**
-    Additive,
-}
-
-impl QueryMethod {
-    /// Every method, ours first.
-    pub const ALL: [Self; 14] = [
-        Self::Selvedge,
-        Self::Exact,
-        Self::TimeOfImpact,
-        Self::NonCoplanarity,
-        Self::NonCoplanarityPlain,
-        Self::RelativeBoxes,
-        Self::RelativeBoxesNine,
-        Self::SweptBoxes,
-        Self::SegmentBox,
-        Self::Dop18,
-        Self::Cubic,
-        Self::BernsteinSign,
-        Self::TightInclusion,
-        Self::Additive,
-    ];
-
-    /// The name on the command line and in reports.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Selvedge => "selvedge",
-            Self::Exact => "exact",
-            Self::TimeOfImpact => "time_of_impact",
-            Self::NonCoplanarity => "non_coplanarity",
-            Self::NonCoplanarityPlain => "non_coplanarity_plain",
-            Self::RelativeBoxes => "relative_boxes",
-            Self::RelativeBoxesNine => "relative_boxes_nine",
-            Self::SweptBoxes => "swept_boxes",
-            Self::SegmentBox => "segment_box",
-            Self::Dop18 => "dop_18",
-            Self::Cubic => "cubic",
-            Self::BernsteinSign => "bernstein_sign",
-            Self::TightInclusion => "tight_inclusion",
-            Self::Additive => "additive",
-        }
-    }
-
-    /// Asks it about one pair: false if it culls the pair, or finds that it does not touch.
-    #[must_use]
-    pub fn keeps<S: Scalar>(self, pair: PrimitivePair<S>) -> bool {
-        let query = Query {
-            pair,
-            collides: None,
-            line: 0,
-        };
-        let run = Run {
-            method: self,
-            kind: pair.kind,
-            queries: &[query],
-            progress: &mut |_| {},
-            is_timed: false,
-        };
-        measure(run).positives > 0
-    }
-
-    /// Whether it never denies a contact, rounding included.
-    #[must_use]
-    pub fn is_certified(self) -> bool {
-        match self {
-            Self::NonCoplanarityPlain | Self::Cubic | Self::BernsteinSign | Self::Additive => false,
-            Self::Selvedge => SELVEDGE.elementary.is_certified() && SELVEDGE.tests.iter().all(|test| test.is_certified()),
-            _ => true,
-        }
-    }
-}
-
-impl fmt::Display for QueryMethod {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-/// A name that no method has.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no method `{0}`; choose from {list}", list = QueryMethod::ALL.map(QueryMethod::name).join(", "))]
-pub struct UnknownMethod(String);
-
-impl FromStr for QueryMethod {
-    type Err = UnknownMethod;
-
-    fn from_str(name: &str) -> Result<Self, UnknownMethod> {
-        let known = Self::ALL.into_iter().find(|method| method.name() == name);
-        known.ok_or_else(|| UnknownMethod(name.to_owned()))
-    }
-}
 
 /// What one method said of all queries of one kind.
 #[derive(Clone, Debug, PartialEq)]
@@ -189,74 +62,12 @@ pub fn measure_queries<S: Scalar>(
     queries: &[Query<S>],
     progress: &mut dyn FnMut(usize),
 ) -> QueryResult {
-    let run = Run {
+    method.run(Run {
         kind,
         method,
         queries,
         progress,
-        is_timed: true,
-    };
-    measure(run)
-}
-
-fn measure<S: Scalar>(mut run: Run<'_, S>) -> QueryResult {
-    use CullingTest as Test;
-    // One loop for each method, compiled for it alone.
-    match run.method {
-        QueryMethod::Selvedge => {
-            let limits = Limits::default();
-            run.with(|pair| {
-                SELVEDGE.tests.iter().all(|&test| keeps(test, pair)) && time_of_impact(pair, &limits) != Impact::Never
-            })
-        }
-        QueryMethod::Exact => run.with(|pair| elementary::contact(pair) != Contact::Never),
-        QueryMethod::TimeOfImpact => {
-            let limits = Limits::default();
-            run.with(|pair| time_of_impact(pair, &limits) != Impact::Never)
-        }
-        QueryMethod::NonCoplanarity => run.with(|pair| keeps(Test::CertifiedNonCoplanarity, pair)),
-        QueryMethod::NonCoplanarityPlain => run.with(|pair| keeps(Test::PlainNonCoplanarity, pair)),
-        QueryMethod::RelativeBoxes => run.with(|pair| keeps(Test::RelativeBoxes, pair)),
-        QueryMethod::RelativeBoxesNine => run.with(|pair| keeps(Test::RelativeBoxesNine, pair)),
-        QueryMethod::SweptBoxes => run.with(|pair| keeps(Test::SweptBoxes, pair)),
-        QueryMethod::SegmentBox => run.with(|pair| keeps(Test::SegmentBox, pair)),
-        QueryMethod::Dop18 => run.with(|pair| keeps(Test::StoredDop18, pair)),
-        QueryMethod::Cubic => run.with(|pair| cubic::time_of_impact(pair).is_some()),
-        QueryMethod::BernsteinSign => run.with(|pair| bernstein_sign::touches(pair)),
-        QueryMethod::TightInclusion => {
-            let limits = Limits {
-                tolerance: S::from_f64(1e-6),
-                separation: S::ZERO,
-            };
-            run.with(|pair| tight_inclusion::time_of_impact(pair, &limits) != Impact::Never)
-        }
-        QueryMethod::Additive => run.with(|pair| additive::time_of_impact(pair, S::ZERO) != Impact::Never),
-    }
-}
-
-const SELVEDGE: Stages = Preset::Selvedge.stages();
-
-/// Whether the pair survives a culling test.
-#[inline(always)]
-fn keeps<S: Scalar>(test: CullingTest, pair: &PrimitivePair<S>) -> bool {
-    let verdict = match test {
-        CullingTest::SweptBoxes | CullingTest::StoredSweptBoxes => boxes::swept_boxes(pair),
-        CullingTest::StoredDop18 => dop_18(pair),
-        CullingTest::SegmentBox => boxes::segment::primitive_boxes(pair),
-        CullingTest::RelativeBoxes | CullingTest::SubspaceThree => boxes::relative::three_axes(pair),
-        CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => boxes::relative::nine_directions(pair),
-        CullingTest::PlainNonCoplanarity => plain::non_coplanarity(pair),
-        CullingTest::CertifiedNonCoplanarity => filter::certified::non_coplanarity(pair),
-    };
-    !verdict.is_culled()
-}
-
-fn dop_18<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
-    let [first, second] = pair.sets().map(|set| {
-        let dops = set.iter().map(Dop18::swept);
-        dops.reduce(|all, dop| all.merged(&dop)).expect("a set has points")
-    });
-    Verdict::culled_if(!first.overlaps(&second))
+    })
 }
 
 struct Run<'a, S: Scalar> {
@@ -264,25 +75,20 @@ struct Run<'a, S: Scalar> {
     kind: PairKind,
     queries: &'a [Query<S>],
     progress: &'a mut dyn FnMut(usize),
-    /// Otherwise each query is asked once, and no clock is read.
-    is_timed: bool,
 }
 
-impl<S: Scalar> Run<'_, S> {
-    fn with(&mut self, test: impl Fn(&PrimitivePair<S>) -> bool) -> QueryResult {
+impl<S: Scalar> WithTest<S, bool> for Run<'_, S> {
+    type Outcome = QueryResult;
+
+    fn with(self, keeps: impl Fn(&PrimitivePair<S>) -> bool) -> QueryResult {
         let mut watch = StopWatch { repeats: 1 };
         let mut times = Vec::with_capacity(self.queries.len());
         let mut positives = 0;
         let mut truth = Some(TruthCounts::default());
         for (index, query) in self.queries.iter().enumerate() {
             let pair = query.pair;
-            let positive = if self.is_timed {
-                let (positive, nanoseconds) = watch.time(|| test(black_box(&pair)));
-                times.push(nanoseconds);
-                positive
-            } else {
-                test(&pair)
-            };
+            let (positive, nanoseconds) = watch.time(|| keeps(black_box(&pair)));
+            times.push(nanoseconds);
             positives += usize::from(positive);
             truth = truth.zip(query.collides).map(|(mut truth, collides)| {
                 truth.positives += usize::from(collides);

@@ -1,7 +1,8 @@
 //! Cost against size: the same scene at several refinements.
 
 use super::Frames;
-use crate::pipeline::{Pipeline, Preset, StepReport};
+use crate::methods::Preset;
+use crate::pipeline::{Pipeline, StepReport};
 use std::error::Error;
 
 /// One size.

@@ -17,6 +17,7 @@ from ._answers import (
     Intersections,
     IntersectionKind,
     Kind,
+    NearPairs,
     Truncation,
 )
 from ._native import ARM_SLEEVE, EFFECTS, Detector, Simulation, __version__, time_of_impact, touches
@@ -32,6 +33,7 @@ __all__ = [
     "IntersectionKind",
     "Intersections",
     "Kind",
+    "NearPairs",
     "Simulation",
     "Truncation",
     "__version__",

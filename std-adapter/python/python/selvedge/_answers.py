@@ -116,3 +116,21 @@ class Truncation:
     """Pairs in contact at the start already; their vertices rest. With none, the step to ``positions`` is certainly free."""
     rounds: int
     """How often contacts were looked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class NearPairs:
+    """Pairs of a simulation that came near each other in the last part of its last step, as contact saw them at its start."""
+
+    vertices: NDArray[np.uint32]
+    """(n, 4) a vertex and the corners of a face, or the ends of both edges: rows of the simulation's positions."""
+    weights: NDArray[np.float64]
+    """(n, 4) of each vertex in the way between the nearest points: positive on the first side, where they add up to one, negative on
+    the other."""
+    normals: NDArray[np.float64]
+    """(n, 3) from the second side to the first, of length one."""
+    thickness: NDArray[np.float64]
+    """(n,) how far apart the pair is to be, in metres."""
+
+    def __len__(self) -> int:
+        return len(self.vertices)

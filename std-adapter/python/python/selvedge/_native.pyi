@@ -8,7 +8,7 @@ from typing import Any, Literal, final, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._answers import CandidatePairs, Contact, Contacts, ContactTimes, Intersections, Truncation
+from ._answers import CandidatePairs, Contact, Contacts, ContactTimes, Intersections, NearPairs, Truncation
 
 __all__ = ["ARM_SLEEVE", "EFFECTS", "Detector", "Simulation", "__version__", "time_of_impact", "touches"]
 
@@ -186,6 +186,9 @@ class Simulation:
     def normals(self) -> NDArray[np.float64]:
         """(n, 3): the mean direction of the faces at each vertex, of length one; zero where they have none."""
     @property
+    def near_pairs(self) -> NearPairs:
+        """What came near each other in the last part of the last step; nothing without a contact effect. A copy."""
+    @property
     def body_names(self) -> list[str]: ...
     def body_vertices(self, body: str | int) -> slice:
         """The part of :attr:`positions` that is a body's."""
@@ -251,6 +254,15 @@ class Simulation:
     @property
     def effect_seconds(self) -> dict[str, float]:
         """What each effect has taken so far."""
+    @property
+    def contact_counts(self) -> dict[str, int] | None:
+        """What contact has counted so far, None without a contact effect: ``candidates`` (pairs that boxes leave), ``looked_at`` (not
+        settled by the direction of the step before), ``pushed``, ``violated`` (not free on the motion wanted), ``zone_rounds``, ``held``
+        (vertices held back), ``cuts`` (times a step was cut in half)."""
+    @property
+    def contact_seconds(self) -> dict[str, float] | None:
+        """What contact has taken so far besides its pushes, None without a contact effect: ``candidates``, ``constraints``,
+        ``certificates``, ``repairs``."""
     def checkpoint(self) -> bytes | None:
         """All that the rest of the simulation depends on, every 200 steps; None in between."""
 

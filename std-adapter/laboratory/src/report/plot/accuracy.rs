@@ -3,9 +3,9 @@
 use super::axis::{LogAxis, TowardsNone};
 use super::look::Look;
 use super::picture::{Mark, Panel, Plot, StripRow};
+use crate::methods::MeasuredFilter;
 use crate::report::number::{grouped, percent, round_time, time};
-use crate::study::{Accuracy, AccuracyRow, AccuracySet, BackendTime, MeasuredFilter};
-use selvedge_core::filter::Tier;
+use crate::study::{Accuracy, AccuracyRow, AccuracySet, BackendTime};
 
 const WIDTH: f64 = 266.0;
 const SHARES: TowardsNone = TowardsNone {
@@ -77,7 +77,7 @@ struct Measured<'a> {
 /// Each filter's best time, and the permanent's one by one.
 fn measured(set: &AccuracySet) -> Vec<Measured<'_>> {
     let rows = set.rows.iter().flat_map(|row| {
-        let is_permanent = row.filter == MeasuredFilter::Tier(Tier::Permanent);
+        let is_permanent = row.filter == MeasuredFilter::Permanent;
         let one = row.times.first().copied().filter(|_| is_permanent);
         let times = [(look(row.filter), row.best_time()), (Look::ONE_AT_A_TIME, one)];
         times.into_iter().filter_map(move |(look, time)| {
@@ -90,8 +90,8 @@ fn measured(set: &AccuracySet) -> Vec<Measured<'_>> {
 
 fn look(filter: MeasuredFilter) -> Look {
     match filter {
-        MeasuredFilter::Tier(Tier::Subdivided(_)) => Look::SUBDIVIDED,
-        MeasuredFilter::Tier(Tier::Exact) => Look::EXACT,
+        filter if !filter.decides_by_whole_step() => Look::SUBDIVIDED,
+        MeasuredFilter::Exact => Look::EXACT,
         filter if filter.is_certified() => Look::CERTIFIED,
         _ => Look::UNSAFE,
     }

@@ -3,8 +3,9 @@
 use super::axis::{LogAxis, TowardsNone};
 use super::look::Look;
 use super::picture::{Curve, Mark, Panel, Plot, StripRow};
+use crate::methods::ElementaryTest;
 use crate::report::number::{grouped, round_time, time};
-use crate::study::elementary::{ElementaryAccuracy, ElementaryMethod, ElementaryRow, ElementarySet};
+use crate::study::elementary::{ElementaryAccuracy, ElementaryRow, ElementarySet};
 
 const WIDTH: f64 = 300.0;
 const ERRORS: TowardsNone = TowardsNone {
@@ -26,11 +27,11 @@ const UNSAFE: [(&str, &str); 4] = [
     ("cubic", "cubic"),
 ];
 
-fn look(method: ElementaryMethod) -> Look {
+fn look(method: ElementaryTest) -> Look {
     match method {
-        ElementaryMethod::Certified(_) => Look::CERTIFIED,
-        ElementaryMethod::Exact => Look::EXACT,
-        ElementaryMethod::TightInclusion(_) => Look::SUBDIVIDED,
+        ElementaryTest::Certified(_) => Look::CERTIFIED,
+        ElementaryTest::Exact => Look::EXACT,
+        ElementaryTest::TightInclusion(_) => Look::SUBDIVIDED,
         _ => Look::UNSAFE,
     }
 }
@@ -111,8 +112,8 @@ fn panel(set: &ElementarySet, axis: &LogAxis) -> Panel {
 
 fn name_of_proven(row: &ElementaryRow, set: &ElementarySet) -> String {
     let name = match row.method {
-        ElementaryMethod::Certified(tolerance) => format!("certified {tolerance:e}"),
-        ElementaryMethod::TightInclusion(tolerance) => format!("Tight-Inclusion {tolerance:e}"),
+        ElementaryTest::Certified(tolerance) => format!("certified {tolerance:e}"),
+        ElementaryTest::TightInclusion(tolerance) => format!("Tight-Inclusion {tolerance:e}"),
         _ => "exact".to_owned(),
     };
     let time = time(row.nanoseconds * 1e-9);
@@ -169,11 +170,12 @@ mod tests {
     use super::super::texts::texts;
     use super::*;
     use crate::study::AccuracyOptions;
+    use crate::study::elementary::METHODS;
 
     fn plot() -> String {
-        let rows = ElementaryMethod::ALL.map(|method| ElementaryRow {
+        let rows = METHODS.map(|method| ElementaryRow {
             method,
-            asked: if matches!(method, ElementaryMethod::TightInclusion(_)) {
+            asked: if matches!(method, ElementaryTest::TightInclusion(_)) {
                 500
             } else {
                 1000

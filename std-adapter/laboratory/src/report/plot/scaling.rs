@@ -3,7 +3,7 @@
 use super::axis::LogAxis;
 use super::look::{Look, Shape};
 use super::picture::{Curve, FAINT_INK, INK, Mark, Panel, Plot};
-use crate::pipeline::Stage;
+use crate::methods::Stage;
 use crate::report::number::{figures, grouped, round_time, time};
 use crate::study::ScalingPoint;
 

@@ -1,5 +1,5 @@
 use super::table;
-use crate::pipeline::Stage;
+use crate::methods::Stage;
 use crate::report::number::{counted, figures, mean, milliseconds};
 use crate::report::paper::printed;
 use crate::report::{distributed, findings, mesh_size};

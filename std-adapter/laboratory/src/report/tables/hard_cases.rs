@@ -1,5 +1,6 @@
 use crate::hard_cases::Contact;
-use crate::study::{HardAnswer, HardResult, QueryMethod};
+use crate::methods::QueryMethod;
+use crate::study::{HardAnswer, HardResult};
 use std::fmt::Write;
 
 /// Case by method, the exact answer beside, wrong ones marked; then how many of each.

@@ -1,5 +1,5 @@
 use super::table;
-use crate::pipeline::Preset;
+use crate::methods::Preset;
 use crate::report::n_log_n_ratios;
 use crate::report::number::{counted, grouped, time};
 use crate::study::ScalingPoint;

@@ -1,5 +1,5 @@
 use super::table;
-use crate::pipeline::{CullingTest, ElementaryTest, Stage};
+use crate::methods::{CullingTest, ElementaryTest, Stage};
 use crate::report::number::{counted, grouped, time};
 use crate::report::{StepQuestion, StepSummary, mesh_size};
 
@@ -82,10 +82,10 @@ fn promise(summary: &StepSummary) -> &'static str {
     match (tests_are_certified, stages.elementary) {
         (true, ElementaryTest::Exact) => "No contact is missed, none is false, and no time is too late: the verdict is exact.\n",
         (true, ElementaryTest::TimeOfImpact) => "No contact is missed, and no time is too late: every stage is certified.\n",
-        (true, ElementaryTest::Cubic) => "The plain cubic elementary test can miss contacts; the stages before it cannot.\n",
+        (true, _) => "The plain cubic elementary test can miss contacts; the stages before it cannot.\n",
         (false, ElementaryTest::TimeOfImpact | ElementaryTest::Exact) => {
             "The plain filter can miss contacts; the elementary test cannot.\n"
         }
-        (false, ElementaryTest::Cubic) => "The plain filter and the plain cubic elementary test can both miss contacts.\n",
+        (false, _) => "The plain filter and the plain cubic elementary test can both miss contacts.\n",
     }
 }

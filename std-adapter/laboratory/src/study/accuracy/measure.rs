@@ -1,12 +1,10 @@
 //! The clock and the counts, on one set of pairs in one format.
 
-use super::{AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, MeasuredFilter, PairSet};
-use crate::baselines::as_computed::AsComputed;
-use crate::baselines::plain::{self, Plain};
+use super::{AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, PairSet};
+use crate::methods::{MeasuredFilter, WithLanes, WithTest};
 use selvedge::verification::{Level, available_levels};
 use selvedge_core::PairKind;
-use selvedge_core::batch::{ByPoints, ByVolume, LANES, Mask, Tile, VertexRow, culled_from_rows, culled_from_tiles};
-use selvedge_core::filter::{Filter, Tier};
+use selvedge_core::batch::{BatchTest, LANES, Mask, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::verification::exact;
 use selvedge_core::{PrimitivePair, Scalar};
 use std::hint::black_box;
@@ -40,8 +38,7 @@ pub(super) fn measure<S: Scalar>(
     let mut done = 0;
     let timed_every = (set.pairs() / TIMED).max(1);
     let mut chunk = 0;
-    let lists = [(PairKind::VertexFace, &set.vertex_face), (PairKind::EdgeEdge, &set.edge_edge)];
-    for (kind, indices) in lists {
+    for (kind, indices) in set.by_kind() {
         for indices in indices.chunks(CHUNK) {
             let pairs = Pairs {
                 kind,
@@ -96,21 +93,10 @@ impl<S: Scalar> Pairs<'_, S> {
         }
     }
 
-    /// A mask bit for each pair for which `culls` is true, the pairs made from their rows one by one.
-    #[inline(always)]
-    fn one_by_one(&self, culls: impl Fn(&PrimitivePair<S>) -> bool, masks: &mut [Mask]) {
-        for (indices, mask) in self.indices.chunks(LANES).zip(masks) {
-            *mask = 0;
-            for (lane, &indices) in indices.iter().enumerate() {
-                *mask |= Mask::from(culls(&self.pair(indices))) << lane;
-            }
-        }
-    }
-
     /// What exact arithmetic culls.
     fn exact_masks(&self, separation: S) -> Vec<Mask> {
         let mut masks = vec![0; self.mask_count()];
-        self.one_by_one(|pair| exact::is_never_within(pair, separation, exact::UNKNOWN), &mut masks);
+        OneByOne(self, &mut masks).with(|pair| exact::is_never_within(pair, separation, exact::UNKNOWN));
         masks
     }
 
@@ -121,6 +107,37 @@ impl<S: Scalar> Pairs<'_, S> {
             .chunks(LANES)
             .map(|indices| Tile::new(indices.iter().map(|&indices| self.pair(indices).motions)));
         tiles.collect()
+    }
+}
+
+/// Verdicts on pairs that are made from their rows one by one: into masks.
+struct OneByOne<'a, S: Scalar>(&'a Pairs<'a, S>, &'a mut [Mask]);
+
+impl<S: Scalar> WithTest<S, bool> for OneByOne<'_, S> {
+    type Outcome = ();
+
+    #[inline(always)]
+    fn with(self, culls: impl Fn(&PrimitivePair<S>) -> bool) {
+        let Self(pairs, masks) = self;
+        for (indices, mask) in pairs.indices.chunks(LANES).zip(masks) {
+            *mask = 0;
+            for (lane, &indices) in indices.iter().enumerate() {
+                *mask |= Mask::from(culls(&pairs.pair(indices))) << lane;
+            }
+        }
+    }
+}
+
+/// Verdicts on pairs that are gathered sixteen at a time, or on tiles of them: into masks.
+struct SideBySide<'a, S: Scalar>(Level, &'a Pairs<'a, S>, Option<&'a [Tile<S>]>, &'a mut [Mask]);
+
+impl<S: Scalar> WithLanes<S> for SideBySide<'_, S> {
+    fn with(self, test: impl BatchTest<S>) {
+        let Self(level, &Pairs { kind, rows, indices }, tiles, masks) = self;
+        match tiles {
+            None => culled_from_rows(level, kind, test, rows, indices, masks),
+            Some(tiles) => culled_from_tiles(level, kind, test, tiles, masks),
+        }
     }
 }
 
@@ -149,8 +166,8 @@ impl<S: Scalar> Measurement<S> {
         let is_widest = S::FRACTION_BITS == f64::MANTISSA_DIGITS - 1;
         let is_left_out = match filter {
             MeasuredFilter::Paper => separation > S::ZERO,
-            MeasuredFilter::Uncertified => false,
-            MeasuredFilter::Tier(tier) => tier == Tier::Widened && is_widest,
+            MeasuredFilter::Widened => is_widest,
+            _ => false,
         };
         if is_left_out {
             return None;
@@ -173,7 +190,7 @@ impl<S: Scalar> Measurement<S> {
     /// What it culls, one pair at a time, compared with exact arithmetic.
     fn count(&mut self, pairs: &Pairs<'_, S>, exact: &[Mask]) -> Vec<Mask> {
         let mut masks = vec![0; pairs.mask_count()];
-        one_at_a_time(self.filter, self.separation, pairs, &mut masks);
+        self.filter.run(self.separation, OneByOne(pairs, &mut masks));
         self.culled += ones(&masks);
         for (&culled, &exact) in masks.iter().zip(exact) {
             self.kept_cullable += (exact & !culled).count_ones() as usize;
@@ -189,10 +206,12 @@ impl<S: Scalar> Measurement<S> {
         for (backend, seconds) in &mut self.backends {
             *seconds += fastest(repeat, || match *backend {
                 Backend::OneAtATime => {
-                    one_at_a_time(filter, separation, pairs, black_box(&mut masks));
+                    let masks = black_box(&mut masks);
+                    filter.run(separation, OneByOne(pairs, masks));
                 }
                 Backend::Lanes(_, level) => {
-                    from_rows(filter, separation, level, pairs, black_box(&mut masks));
+                    let masks = black_box(&mut masks);
+                    filter.run_lanes(separation, SideBySide(level, pairs, None, masks));
                 }
             });
             if masks != expected {
@@ -203,8 +222,8 @@ impl<S: Scalar> Measurement<S> {
             self.tiled += TILED.min(pairs.indices.len());
             let seconds = fastest(repeat, || {
                 for _ in 0..TILED_PASSES {
-                    let tiles = black_box(tiles);
-                    from_tiles(filter, separation, level, pairs.kind, tiles, &mut masks);
+                    let tiles = Some(black_box(tiles));
+                    filter.run_lanes(separation, SideBySide(level, pairs, tiles, &mut masks));
                 }
             });
             self.tiled_seconds += seconds / TILED_PASSES as f64;
@@ -239,72 +258,6 @@ impl Backend {
             Self::Lanes(name, _) => name,
         }
     }
-}
-
-/// Verdicts as the core's functions for one pair give them.
-fn one_at_a_time<S: Scalar>(filter: MeasuredFilter, separation: S, pairs: &Pairs<'_, S>, masks: &mut [Mask]) {
-    match filter {
-        MeasuredFilter::Paper => pairs.one_by_one(|pair| plain::non_coplanarity(pair).is_culled(), masks),
-        MeasuredFilter::Uncertified => {
-            let filter = as_computed(separation);
-            pairs.one_by_one(|pair| filter.verdict(pair).is_culled(), masks);
-        }
-        MeasuredFilter::Tier(tier) => {
-            let filter = with_separation(tier, separation);
-            pairs.one_by_one(|pair| filter.verdict(pair).is_culled(), masks);
-        }
-    }
-}
-
-/// Verdicts on pairs that are gathered sixteen at a time.
-fn from_rows<S: Scalar>(filter: MeasuredFilter, separation: S, level: Level, pairs: &Pairs<'_, S>, masks: &mut [Mask]) {
-    let Pairs { kind, rows, indices } = *pairs;
-    match filter {
-        MeasuredFilter::Paper => {
-            culled_from_rows(level, kind, ByPoints(Plain), rows, indices, masks);
-        }
-        MeasuredFilter::Uncertified => {
-            let test = ByVolume(as_computed(separation));
-            culled_from_rows(level, kind, test, rows, indices, masks);
-        }
-        MeasuredFilter::Tier(tier) => {
-            let filter = with_separation(tier, separation);
-            culled_from_rows(level, kind, filter, rows, indices, masks);
-        }
-    }
-}
-
-/// Verdicts on pairs that lie side by side.
-fn from_tiles<S: Scalar>(
-    filter: MeasuredFilter,
-    separation: S,
-    level: Level,
-    kind: PairKind,
-    tiles: &[Tile<S>],
-    masks: &mut [Mask],
-) {
-    match filter {
-        MeasuredFilter::Paper => {
-            culled_from_tiles(level, kind, ByPoints(Plain), tiles, masks);
-        }
-        MeasuredFilter::Uncertified => culled_from_tiles(level, kind, ByVolume(as_computed(separation)), tiles, masks),
-        MeasuredFilter::Tier(tier) => {
-            let filter = with_separation(tier, separation);
-            culled_from_tiles(level, kind, filter, tiles, masks);
-        }
-    }
-}
-
-/// Without the separation if it is none.
-fn as_computed<S: Scalar>(separation: S) -> AsComputed<S> {
-    let filter = AsComputed::new();
-    filter.with_separation(separation).unwrap_or(filter)
-}
-
-/// Without the separation if it is none; see [`AccuracyOptions`](super::AccuracyOptions).
-fn with_separation<S: Scalar>(tier: Tier, separation: S) -> Filter<S> {
-    let filter = Filter::new(tier);
-    filter.with_separation(separation).unwrap_or(filter)
 }
 
 /// The seconds of the fastest of `repeat` runs.

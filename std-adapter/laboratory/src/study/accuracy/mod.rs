@@ -22,15 +22,14 @@
 //! alone: the arithmetic, without the gathering, and with branches that the processor has learnt.
 
 pub mod elementary;
-mod filter;
 mod measure;
 mod near_coplanar;
 mod pairs;
 
-pub use filter::MeasuredFilter;
 pub use pairs::PairSet;
 
 use super::{ArmFrames, Frames};
+use crate::methods::MeasuredFilter;
 use crate::scene::ArmScene;
 use selvedge::glam::DVec3;
 use std::error::Error;
@@ -178,10 +177,19 @@ const MOST_GENERATED: usize = 200_000;
 
 /// What every study of accuracy takes its pairs from.
 struct ScenePairs {
-    arm: PairSet,
-    mesh: Option<PairSet>,
+    /// Of the arm, and of the caller's mesh.
+    scenes: Vec<PairSet>,
     /// Made in `f32`, and in `f64`.
     near_coplanar: [PairSet; 2],
+}
+
+impl ScenePairs {
+    /// Each set as it is in `f32` and in `f64`.
+    fn in_each_format(&self) -> impl ExactSizeIterator<Item = [&PairSet; 2]> {
+        let scenes = self.scenes.iter().map(|set| [set; 2]);
+        let all: Vec<_> = scenes.chain([self.near_coplanar.each_ref()]).collect();
+        all.into_iter()
+    }
 }
 
 fn arm_frames() -> Result<ArmFrames, Box<dyn Error + Send + Sync>> {
@@ -201,9 +209,10 @@ fn scene_pairs<F: Frames>(mesh: Option<&F>, options: AccuracyOptions) -> Result<
         PairSet::of_steps(mesh.name(), mesh, &steps, pairs)
     };
     let generated = pairs.min(MOST_GENERATED);
+    let mut scenes = vec![PairSet::of_steps(arm.name(), &arm, &here, pairs)?];
+    scenes.extend(mesh.map(of_mesh).transpose()?);
     Ok(ScenePairs {
-        arm: PairSet::of_steps(arm.name(), &arm, &here, pairs)?,
-        mesh: mesh.map(of_mesh).transpose()?,
+        scenes,
         near_coplanar: [
             PairSet::near_coplanar::<f32>(seed, generated),
             PairSet::near_coplanar::<f64>(seed, generated),
@@ -227,25 +236,19 @@ pub fn measure_accuracy<F: Frames>(
         separation,
         ..
     } = options;
-    let ScenePairs {
-        arm,
-        mesh,
-        near_coplanar,
-    } = scene_pairs(mesh, options)?;
+    let mut all = scene_pairs(mesh, options)?;
     let distances = DISTANCES.into_iter().cycle();
     let far: Vec<_> = arm_steps()
         .zip(distances)
         .map(|(step, distance)| (step, distance * DIRECTION))
         .collect();
     let name = "Arm scene, 1 km to 1,000 km from the origin".to_owned();
-    let far = PairSet::of_steps(name, &arm_frames()?, &far, pairs)?;
-    let scenes: Vec<_> = [Some(arm), mesh, Some(far)].into_iter().flatten().collect();
+    all.scenes.push(PairSet::of_steps(name, &arm_frames()?, &far, pairs)?);
 
-    let mut in_each_format: Vec<_> = scenes.iter().map(|set| (set, set)).collect();
-    in_each_format.push((&near_coplanar[0], &near_coplanar[1]));
+    let in_each_format = all.in_each_format();
     let count = 2 * in_each_format.len();
     let mut sets = Vec::with_capacity(count);
-    for (single, double) in in_each_format {
+    for [single, double] in in_each_format {
         let done = sets.len() as f64;
         let mut share = |part: f64| progress((done + part) / count as f64);
         sets.push(measure::measure::<f32>(single, repeat, separation, &mut share)?);
@@ -259,7 +262,6 @@ pub fn measure_accuracy<F: Frames>(
 mod tests {
     use super::*;
     use crate::study::TwoFrames;
-    use selvedge_core::filter::Tier;
 
     fn measured(separation: f64) -> Accuracy {
         let options = AccuracyOptions {
@@ -271,8 +273,8 @@ mod tests {
         measure_accuracy::<TwoFrames>(None, options, &mut |_| ()).unwrap()
     }
 
-    fn row(set: &AccuracySet, tier: Tier) -> &AccuracyRow {
-        set.row(MeasuredFilter::Tier(tier)).unwrap()
+    fn row(set: &AccuracySet, filter: MeasuredFilter) -> &AccuracyRow {
+        set.row(filter).unwrap()
     }
 
     #[test]
@@ -302,7 +304,7 @@ mod tests {
                         assert_eq!(row.false_culls(), Some(0), "{}, {}", set.name, row.filter);
                     }
                 }
-                assert_eq!(row(&set, Tier::Exact).kept_cullable, 0, "{}", set.name);
+                assert_eq!(row(&set, MeasuredFilter::Exact).kept_cullable, 0, "{}", set.name);
             }
         }
     }
@@ -318,12 +320,17 @@ mod tests {
 
     #[test]
     fn sharper_bounds_keep_less_and_parts_of_the_step_cull_more() {
-        use selvedge_core::filter::Depth;
         for set in measured(0.0).sets {
-            let [by_axis, permanent] = [Tier::MagnitudesByAxis, Tier::Permanent].map(|tier| row(&set, tier).kept_cullable);
+            let [by_axis, permanent] =
+                [MeasuredFilter::ByAxis, MeasuredFilter::Permanent].map(|filter| row(&set, filter).kept_cullable);
             assert!(permanent <= by_axis, "{}: {permanent}, {by_axis}", set.name);
-            let [one, four] = [Depth::One, Depth::Four].map(|depth| row(&set, Tier::Subdivided(depth)).culled);
-            assert!(row(&set, Tier::Permanent).culled <= one && one <= four, "{}", set.name);
+            let [one, four] =
+                [MeasuredFilter::SubdividedOne, MeasuredFilter::SubdividedFour].map(|filter| row(&set, filter).culled);
+            assert!(
+                row(&set, MeasuredFilter::Permanent).culled <= one && one <= four,
+                "{}",
+                set.name
+            );
         }
     }
 

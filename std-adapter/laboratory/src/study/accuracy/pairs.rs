@@ -1,4 +1,5 @@
-use crate::pipeline::{Pipeline, Preset};
+use crate::methods::Preset;
+use crate::pipeline::Pipeline;
 use crate::study::Frames;
 use selvedge::PairKind;
 use selvedge::glam::DVec3;
@@ -33,6 +34,14 @@ impl PairSet {
             edge_edge: Vec::new(),
             drawn_from: 0,
         }
+    }
+
+    /// The pairs of either kind.
+    pub(super) fn by_kind(&self) -> [(PairKind, &[[u32; 4]]); 2] {
+        [
+            (PairKind::VertexFace, &self.vertex_face),
+            (PairKind::EdgeEdge, &self.edge_edge),
+        ]
     }
 
     /// The primitive pairs of some steps, as they come from broad phase and distribution, each pair once. A step is the

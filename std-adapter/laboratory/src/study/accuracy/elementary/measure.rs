@@ -1,6 +1,7 @@
 //! The clock and the counts, on one set of pairs in one format.
 
-use super::{BUDGET, ElementaryMethod, ElementaryRow, ElementarySet, ExactAnswer, Questions};
+use super::{BUDGET, ElementaryRow, ElementarySet, ExactAnswer, METHODS, Questions};
+use crate::methods::ElementaryTest;
 use crate::study::AccuracyOptions;
 use fastrand::Rng;
 use selvedge_core::{PairKind, Scalar};
@@ -20,9 +21,9 @@ pub(super) fn measure<S: Scalar>(
     let Questions { name, pairs, truth } = questions;
     let order = chunks(pairs.len(), options.seed);
     let mut rows = Vec::new();
-    for method in ElementaryMethod::ALL {
+    for method in METHODS {
         rows.push(ask(method, questions, &order, options.repeat));
-        progress(rows.len() as f64 / ElementaryMethod::ALL.len() as f64);
+        progress(rows.len() as f64 / METHODS.len() as f64);
     }
     let vertex_face = pairs.iter().filter(|pair| pair.kind == PairKind::VertexFace).count();
     let touches = |answer: &&ExactAnswer| matches!(answer, ExactAnswer::Touches { .. });
@@ -46,7 +47,7 @@ fn chunks(pairs: usize, seed: u64) -> Vec<Range<usize>> {
     chunks
 }
 
-fn ask<S: Scalar>(method: ElementaryMethod, questions: &Questions<S>, order: &[Range<usize>], repeat: u32) -> ElementaryRow {
+fn ask<S: Scalar>(method: ElementaryTest, questions: &Questions<S>, order: &[Range<usize>], repeat: u32) -> ElementaryRow {
     let mut tally = Tally::default();
     let mut answers = [None; CHUNK];
     let begin = Instant::now();
@@ -112,7 +113,7 @@ impl Tally {
         }
     }
 
-    fn row(mut self, method: ElementaryMethod) -> ElementaryRow {
+    fn row(mut self, method: ElementaryTest) -> ElementaryRow {
         self.early.sort_by(f64::total_cmp);
         ElementaryRow {
             method,

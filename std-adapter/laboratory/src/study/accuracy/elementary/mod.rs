@@ -22,17 +22,15 @@
 //! goes through.
 
 mod measure;
-mod method;
 mod truth;
 
-pub use method::ElementaryMethod;
 pub use truth::{ExactAnswer, WIDEST, exact_answer};
 
-use super::{AccuracyOptions, PairSet, ScenePairs, scene_pairs};
+use super::{AccuracyOptions, PairSet, scene_pairs};
 use crate::hard_cases::{Contact, hard_cases};
+use crate::methods::ElementaryTest;
 use crate::study::Frames;
 use crate::study::hard_cases::exactly;
-use selvedge::PairKind;
 use selvedge_core::{PrimitivePair, Scalar, boxes};
 use std::error::Error;
 
@@ -41,6 +39,27 @@ use selvedge_core::elementary::{advance::certain_contact, contact};
 
 /// Seconds that one test may take on one set in one format, or a little more.
 pub const BUDGET: f64 = 0.4;
+
+/// The tolerances that tests are asked with, in units of length.
+const TOLERANCES: [f64; 7] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12];
+
+/// Every test that is asked, at every tolerance that it is asked with.
+pub const METHODS: [ElementaryTest; 3 * TOLERANCES.len() + 4] = {
+    let mut all = [ElementaryTest::Exact; 3 * TOLERANCES.len() + 4];
+    let count = TOLERANCES.len();
+    let mut index = 0;
+    while index < count {
+        let tolerance = TOLERANCES[index];
+        all[index] = ElementaryTest::Certified(tolerance);
+        all[count + 1 + index] = ElementaryTest::TightInclusion(tolerance);
+        all[2 * count + 1 + index] = ElementaryTest::Uncertified(tolerance);
+        index += 1;
+    }
+    all[3 * count + 1] = ElementaryTest::Additive;
+    all[3 * count + 2] = ElementaryTest::BernsteinSign;
+    all[3 * count + 3] = ElementaryTest::Cubic;
+    all
+};
 
 /// Every elementary test on every set.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +85,7 @@ pub struct ElementarySet {
     pub touching: usize,
     /// Those of which it is known when.
     pub with_time: usize,
-    /// A row for each test, in the order of [`ElementaryMethod::ALL`].
+    /// A row for each test, in the order of [`METHODS`].
     pub rows: Vec<ElementaryRow>,
 }
 
@@ -74,7 +93,7 @@ pub struct ElementarySet {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElementaryRow {
     /// Which test.
-    pub method: ElementaryMethod,
+    pub method: ElementaryTest,
     /// So many pairs it was asked about.
     pub asked: usize,
     /// So many of them touch.
@@ -120,19 +139,13 @@ pub fn measure_elementary_accuracy<F: Frames>(
     options: AccuracyOptions,
     progress: &mut dyn FnMut(f64),
 ) -> Result<ElementaryAccuracy, Box<dyn Error + Send + Sync>> {
-    let ScenePairs {
-        arm,
-        mesh,
-        near_coplanar: [single, double],
-    } = scene_pairs(mesh, options)?;
-    let scenes: Vec<_> = [Some(arm), mesh].into_iter().flatten().collect();
-    let mut in_each_format: Vec<_> = scenes.iter().map(|set| (set, set)).collect();
-    in_each_format.push((&single, &double));
+    let all = scene_pairs(mesh, options)?;
+    let in_each_format = all.in_each_format();
     let count = (2 * in_each_format.len() + 2) as f64;
     let mut sets = Vec::new();
     ask(&of_hard_cases::<f32>(), options, count, &mut sets, progress);
     ask(&of_hard_cases::<f64>(), options, count, &mut sets, progress);
-    for (single, double) in in_each_format {
+    for [single, double] in in_each_format {
         ask(&of_pairs::<f32>(single), options, count, &mut sets, progress);
         ask(&of_pairs::<f64>(double), options, count, &mut sets, progress);
     }
@@ -179,7 +192,7 @@ fn of_hard_cases<S: Scalar>() -> Questions<S> {
 fn of_pairs<S: Scalar>(set: &PairSet) -> Questions<S> {
     let rows = set.rows::<S>();
     let mut pairs = Vec::new();
-    for (kind, indices) in [(PairKind::VertexFace, &set.vertex_face), (PairKind::EdgeEdge, &set.edge_edge)] {
+    for (kind, indices) in set.by_kind() {
         let all = indices.iter().map(|indices| PrimitivePair {
             kind,
             motions: indices.map(|index| rows[index as usize].motion()),

@@ -28,7 +28,7 @@ fn certified_tests_miss_nothing_and_are_never_late_and_the_others_are_caught() {
             } else {
                 wrong += usize::from(row.is_wrong());
             }
-            if row.method == ElementaryMethod::Exact {
+            if row.method == ElementaryTest::Exact {
                 assert_eq!(row.false_alarms, 0, "{name}");
             }
             early += usize::from(row.early.is_some_and(|early| early > 0.0));
@@ -41,7 +41,7 @@ fn certified_tests_miss_nothing_and_are_never_late_and_the_others_are_caught() {
 fn a_finer_tolerance_gives_no_earlier_times() {
     for set in measured().sets {
         let of = |tolerance| {
-            let method = ElementaryMethod::Certified(tolerance);
+            let method = ElementaryTest::Certified(tolerance);
             set.rows.iter().find(|row| row.method == method).unwrap()
         };
         let (coarse, fine) = (of(1e-2), of(1e-9));

@@ -1,0 +1,120 @@
+use super::table::table;
+use super::{Ask, MeasuredFilter, WithLanes, WithTest};
+use selvedge_core::batch::Test;
+use selvedge_core::boxes::{self, Dop18};
+use selvedge_core::filter::certified;
+use selvedge_core::{PrimitivePair, Scalar};
+
+table! {
+    /// One culling test on primitive pairs. See [`selvedge_core::boxes`] and [`selvedge_core::filter`].
+    pub enum CullingTest of Stage {
+        /// Swept axis-aligned boxes of the two primitives, made on the fly. Exact.
+        SweptBoxes = "swept_boxes": Stage::Boxes,
+        /// The same test with boxes that are kept for every vertex, edge and face and refitted each step: each is made once,
+        /// not once for every pair. Exact.
+        StoredSweptBoxes = "stored_swept_boxes": Stage::Boxes,
+        /// Swept 18-DOPs, kept for every vertex, edge and face and refitted each step. Exact.
+        StoredDop18 = "dop_18": Stage::Boxes,
+        /// VF: the vertex's path against the face's swept box; EE: swept boxes. Certified.
+        SegmentBox = "segment_box": Stage::Boxes,
+        /// One of three coordinate axes keeps the two primitives in the same order. Exact.
+        RelativeBoxes = "relative_boxes": Stage::RelativeBoxes,
+        /// [`RelativeBoxes`](Self::RelativeBoxes) with the six diagonals as well. Exact.
+        RelativeBoxesNine = "relative_boxes_nine": Stage::RelativeBoxes,
+        /// The three-axis subspace filter of Tang, Li, Wang 2010 as reconstructed: the same computation as
+        /// [`RelativeBoxes`](Self::RelativeBoxes), counted as a filter.
+        SubspaceThree = "subspace_three": Stage::Subspace,
+        /// The subspace filter of Tang, Li, Wang 2011 as reconstructed: nine fixed directions.
+        SubspaceNine = "subspace_nine": Stage::Subspace,
+        /// Four control values of one sign, as printed in the paper. **Not certified.**
+        PlainNonCoplanarity = "non_coplanarity_plain": Stage::NonCoplanarity,
+        /// Four control values certainly of one sign. Certified.
+        CertifiedNonCoplanarity = "non_coplanarity": Stage::NonCoplanarity,
+    }
+}
+
+table! {
+    /// Where in the data flow a count is taken, and whether boxes are compared there.
+    pub enum Stage of bool {
+        /// Candidate triangle pairs.
+        BroadPhase = "broad-phase": false,
+        /// Their primitive pairs.
+        Distribution = "distribution": false,
+        /// After the primitive box test.
+        Boxes = "boxes": true,
+        /// After relative boxes.
+        RelativeBoxes = "relative-boxes": true,
+        /// After the subspace filter.
+        Subspace = "subspace": false,
+        /// After the non-coplanarity filter.
+        NonCoplanarity = "non-coplanarity": false,
+        /// After the elementary test: contacts.
+        Elementary = "elementary": false,
+    }
+}
+
+impl Stage {
+    /// Whether the stage compares boxes (the paper's first stage) rather than planes or directions (its second).
+    #[must_use]
+    pub const fn is_box_test(self) -> bool {
+        self.row()
+    }
+}
+
+impl CullingTest {
+    /// The stage that this test is a choice for.
+    #[must_use]
+    pub const fn stage(self) -> Stage {
+        self.row()
+    }
+
+    /// Whether it never culls a pair that touches, rounding included.
+    #[must_use]
+    pub const fn is_certified(self) -> bool {
+        !matches!(self, Self::PlainNonCoplanarity)
+    }
+
+    /// Whether it culls the pair. Volumes that a pipeline stores are made from the pair.
+    #[inline(always)]
+    #[must_use]
+    pub fn culls<S: Scalar>(self, pair: &PrimitivePair<S>) -> bool {
+        self.run(Ask(pair))
+    }
+
+    /// Does `with` what it does, with whether a pair is culled.
+    #[inline(always)]
+    pub(crate) fn run<S: Scalar, W: WithTest<S, bool>>(self, with: W) -> W::Outcome {
+        match self {
+            Self::SweptBoxes | Self::StoredSweptBoxes => with.with(|pair| boxes::swept_boxes(pair).is_culled()),
+            Self::StoredDop18 => with.with(have_disjoint_dops),
+            Self::SegmentBox => with.with(|pair| boxes::segment::primitive_boxes(pair).is_culled()),
+            Self::RelativeBoxes | Self::SubspaceThree => with.with(|pair| boxes::relative::three_axes(pair).is_culled()),
+            Self::RelativeBoxesNine | Self::SubspaceNine => with.with(|pair| boxes::relative::nine_directions(pair).is_culled()),
+            Self::PlainNonCoplanarity => MeasuredFilter::Paper.run(S::ZERO, with),
+            // Core's function for one pair without a separation: quicker than its filter, with the same verdicts.
+            Self::CertifiedNonCoplanarity => with.with(|pair| certified::non_coplanarity(pair).is_culled()),
+        }
+    }
+
+    /// The same side by side; not for [`StoredDop18`](Self::StoredDop18), which is no test of lanes and culls nothing here.
+    #[inline(always)]
+    pub(crate) fn run_lanes<S: Scalar>(self, with: impl WithLanes<S>) {
+        match self {
+            Self::SweptBoxes | Self::StoredSweptBoxes => with.with(Test::SweptBoxes),
+            Self::SegmentBox => with.with(Test::SegmentBox),
+            Self::RelativeBoxes | Self::SubspaceThree => with.with(Test::RelativeBoxes),
+            Self::RelativeBoxesNine | Self::SubspaceNine => with.with(Test::RelativeBoxesNine),
+            Self::PlainNonCoplanarity => MeasuredFilter::Paper.run_lanes(S::ZERO, with),
+            Self::CertifiedNonCoplanarity => MeasuredFilter::Permanent.run_lanes(S::ZERO, with),
+            Self::StoredDop18 => {}
+        }
+    }
+}
+
+fn have_disjoint_dops<S: Scalar>(pair: &PrimitivePair<S>) -> bool {
+    let [first, second] = pair.sets().map(|set| {
+        let dops = set.iter().map(Dop18::swept);
+        dops.reduce(|all, dop| all.merged(&dop)).expect("a set has points")
+    });
+    !first.overlaps(&second)
+}

@@ -1,0 +1,102 @@
+use super::{Ask, WithTest};
+use crate::baselines::{additive, bernstein_sign, cubic, tight_inclusion, uncertified};
+use selvedge_core::elementary::{Contact, Limits, advance, contact::settled};
+use selvedge_core::{PrimitivePair, Scalar};
+use std::fmt;
+
+/// Decides whether, and when, a pair first touches; with its tolerance in units of length where it is asked with several.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ElementaryTest {
+    /// [`selvedge_core::elementary::advance`], with the default tolerance: certified; a contact's time is not after the exact
+    /// one, and a pair that comes within the tolerance, or too close to tell, may count as a contact.
+    TimeOfImpact,
+    /// The same, and then [`selvedge_core::elementary::contact()`]: a contact is one exactly, and its time certified as before.
+    Exact,
+    /// [`TimeOfImpact`](Self::TimeOfImpact) with this tolerance.
+    Certified(f64),
+    /// The same without its error bounds. **Not certified.**
+    Uncertified(f64),
+    /// [`tight_inclusion`], the bisection of Wang et al. 2021. It never misses.
+    TightInclusion(f64),
+    /// [`additive`](crate::baselines::additive), Li et al. 2021. **Not certified.**
+    Additive,
+    /// [`bernstein_sign`], Tang et al. 2014 without exact arithmetic, which tells no times. **Not certified**: it misses contacts.
+    BernsteinSign,
+    /// [`cubic`], Provot's test. **Not certified**: it misses contacts.
+    Cubic,
+}
+
+impl ElementaryTest {
+    /// The name in reports, without the tolerance.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::TimeOfImpact => "time_of_impact",
+            Self::Exact => "exact",
+            Self::Certified(_) => "certified",
+            Self::Uncertified(_) => "without_bounds",
+            Self::TightInclusion(_) => "tight_inclusion",
+            Self::Additive => "additive",
+            Self::BernsteinSign => "bernstein_sign",
+            Self::Cubic => "cubic",
+        }
+    }
+
+    /// The tolerance, in units of length; `None` for that of the format, and for tests that know none.
+    #[must_use]
+    pub const fn tolerance(self) -> Option<f64> {
+        match self {
+            Self::Certified(tolerance) | Self::Uncertified(tolerance) | Self::TightInclusion(tolerance) => Some(tolerance),
+            Self::TimeOfImpact | Self::Exact | Self::Additive | Self::BernsteinSign | Self::Cubic => None,
+        }
+    }
+
+    /// Whether it never misses a contact, and never says a time that is too late, rounding included.
+    #[must_use]
+    pub const fn is_certified(self) -> bool {
+        match self {
+            Self::TimeOfImpact | Self::Exact | Self::Certified(_) | Self::TightInclusion(_) => true,
+            Self::Uncertified(_) | Self::Additive | Self::BernsteinSign | Self::Cubic => false,
+        }
+    }
+
+    /// From when on contact is not excluded, NaN if the test does not say; `None` if it is.
+    #[inline(always)]
+    #[must_use]
+    pub fn time<S: Scalar>(self, pair: &PrimitivePair<S>) -> Option<S> {
+        self.run(Ask(pair))
+    }
+
+    /// Does `with` what it does, with the [time](Self::time) of a pair.
+    #[inline(always)]
+    pub(crate) fn run<S: Scalar, W: WithTest<S, Option<S>>>(self, with: W) -> W::Outcome {
+        let limits = match self.tolerance() {
+            None => Limits::default(),
+            Some(tolerance) => Limits {
+                tolerance: S::from_f64(tolerance),
+                separation: S::ZERO,
+            },
+        };
+        match self {
+            Self::TimeOfImpact | Self::Certified(_) => with.with(|pair| advance::time_of_impact(pair, &limits).time()),
+            Self::Exact => with.with(|pair| {
+                let impact = advance::time_of_impact(pair, &limits);
+                impact.time().filter(|_| settled(pair, &impact) != Contact::Never)
+            }),
+            Self::Uncertified(_) => with.with(|pair| uncertified::time_of_impact(pair, &limits).time()),
+            Self::TightInclusion(_) => with.with(|pair| tight_inclusion::time_of_impact(pair, &limits).time()),
+            Self::Additive => with.with(|pair| additive::time_of_impact(pair, S::ZERO).time()),
+            Self::BernsteinSign => with.with(|pair| bernstein_sign::touches(pair).then(|| S::from_f64(f64::NAN))),
+            Self::Cubic => with.with(cubic::time_of_impact),
+        }
+    }
+}
+
+impl fmt::Display for ElementaryTest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.tolerance() {
+            Some(tolerance) => f.pad(&format!("{} {tolerance:e}", self.name())),
+            None => f.pad(self.name()),
+        }
+    }
+}

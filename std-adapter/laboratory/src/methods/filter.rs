@@ -1,0 +1,106 @@
+use super::table::table;
+use super::{WithLanes, WithTest};
+use crate::baselines::as_computed::AsComputed;
+use crate::baselines::plain::{self, Plain};
+use selvedge_core::Scalar;
+use selvedge_core::batch::{ByPoints, ByVolume};
+use selvedge_core::filter::{Depth, Filter, Tier};
+
+table! {
+    /// A non-coplanarity filter whose accuracy and time are measured: two without proof, then every [`Tier`].
+    pub enum MeasuredFilter of Option<Tier> {
+        /// [`plain`](crate::baselines::plain), as printed in the paper. **Not certified.**
+        Paper = "paper": None,
+        /// [`AsComputed`](crate::baselines::as_computed::AsComputed): signs as computed. **Not certified.**
+        Uncertified = "uncertified": None,
+        /// [`Tier::MagnitudesByEdge`].
+        ByEdge = "by_edge": Some(Tier::MagnitudesByEdge),
+        /// [`Tier::MagnitudesByAxis`].
+        ByAxis = "by_axis": Some(Tier::MagnitudesByAxis),
+        /// [`Tier::Permanent`].
+        Permanent = "permanent": Some(Tier::Permanent),
+        /// [`Tier::Widened`].
+        Widened = "widened": Some(Tier::Widened),
+        /// [`Tier::Exact`].
+        Exact = "exact": Some(Tier::Exact),
+        /// [`Tier::Subdivided`], as its [`Depth`] says.
+        SubdividedOne = "subdivided_1": Some(Tier::Subdivided(Depth::One)),
+        /// The same.
+        SubdividedTwo = "subdivided_2": Some(Tier::Subdivided(Depth::Two)),
+        /// The same.
+        SubdividedThree = "subdivided_3": Some(Tier::Subdivided(Depth::Three)),
+        /// The same.
+        SubdividedFour = "subdivided_4": Some(Tier::Subdivided(Depth::Four)),
+    }
+}
+
+impl MeasuredFilter {
+    /// The tier of the certified filter, if it is one.
+    #[must_use]
+    pub const fn tier(self) -> Option<Tier> {
+        self.row()
+    }
+
+    /// Whether a pair that it culls is proven to be free of contact.
+    #[must_use]
+    pub const fn is_certified(self) -> bool {
+        self.tier().is_some()
+    }
+
+    /// Whether all that it culls must be culled by exact signs as well. [`Tier::Subdivided`] culls coplanar pairs that do
+    /// not touch.
+    #[must_use]
+    pub const fn decides_by_whole_step(self) -> bool {
+        !matches!(self.tier(), Some(Tier::Subdivided(_)))
+    }
+
+    /// Does `with` what it does, with whether a pair is culled: one that stays farther apart than `separation`, which
+    /// [`Paper`](Self::Paper) does not know.
+    #[inline(always)]
+    pub(crate) fn run<S: Scalar, W: WithTest<S, bool>>(self, separation: S, with: W) -> W::Outcome {
+        match self.tier() {
+            Some(tier) => {
+                let filter = tier_of(tier, separation);
+                with.with(|pair| filter.verdict(pair).is_culled())
+            }
+            None if self == Self::Paper => with.with(|pair| plain::non_coplanarity(pair).is_culled()),
+            None => {
+                let filter = as_computed(separation);
+                with.with(|pair| filter.verdict(pair).is_culled())
+            }
+        }
+    }
+
+    /// The same side by side.
+    #[inline(always)]
+    pub(crate) fn run_lanes<S: Scalar>(self, separation: S, with: impl WithLanes<S>) {
+        match self.tier() {
+            Some(tier) => with.with(tier_of(tier, separation)),
+            None if self == Self::Paper => with.with(ByPoints(Plain)),
+            None => with.with(ByVolume(as_computed(separation))),
+        }
+    }
+}
+
+/// Without the separation if it is none.
+fn as_computed<S: Scalar>(separation: S) -> AsComputed<S> {
+    let filter = AsComputed::new();
+    filter.with_separation(separation).unwrap_or(filter)
+}
+
+/// The same.
+fn tier_of<S: Scalar>(tier: Tier, separation: S) -> Filter<S> {
+    let filter = Filter::new(tier);
+    filter.with_separation(separation).unwrap_or(filter)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_tier_is_measured_in_its_order() {
+        let tiers: Vec<_> = MeasuredFilter::ALL.into_iter().filter_map(MeasuredFilter::tier).collect();
+        assert_eq!(tiers, Tier::ALL);
+    }
+}

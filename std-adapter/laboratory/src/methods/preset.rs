@@ -1,0 +1,161 @@
+//! The published methods, and ours, each as a choice of stages.
+
+use super::table::table;
+use super::{CullingTest, ElementaryTest};
+use std::str::FromStr;
+
+/// Where a method's primitive pairs come from, and what keeps the same one from being tested twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Source {
+    /// Candidate triangle pairs, distributed.
+    TrianglePairs(Redundancy),
+    /// Hierarchies of moving boxes over vertices, edges and faces, which find each primitive pair once
+    /// ([`MovingBroadPhase`](selvedge::verification::MovingBroadPhase)); then the certified stages of [`CollisionDetector`](selvedge::CollisionDetector), whatever
+    /// the tests, and exact verdicts for [`ElementaryTest::Exact`].
+    MovingBoxes,
+}
+
+/// How a method keeps the same primitive pair from being tested twice, where it distributes triangle pairs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Redundancy {
+    /// Not at all: each candidate triangle pair is distributed in full, duplicates included.
+    Kept,
+    /// Two hash sets, of vertex–face and of edge–edge pairs already distributed in this step.
+    HashSets,
+    /// Each vertex and each edge is represented by one triangle (Curtis et al. 2008), assigned by
+    /// the paper's greedy rule.
+    RepresentativeTriangles,
+}
+
+/// A method as a choice for each stage after the broad phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stages {
+    /// Where primitive pairs come from.
+    pub source: Source,
+    /// The culling tests, in order; at most one for each [`Stage`](super::Stage).
+    pub tests: &'static [CullingTest],
+    /// The test of what survives.
+    pub elementary: ElementaryTest,
+}
+
+impl Stages {
+    /// Whether nothing that touches is missed, rounding included.
+    #[must_use]
+    pub fn is_certified(&self) -> bool {
+        self.tests.iter().all(|test| test.is_certified()) && self.elementary.is_certified()
+    }
+}
+
+table! {
+    /// A method by its name: author and year, or `selvedge`. In the order of the paper's references, ours last.
+    pub enum Preset of Stages {
+        /// Every primitive pair of every candidate triangle pair, duplicates included.
+        Naive = "naive": published(Redundancy::Kept, &[]),
+        /// The paper's *basic lower tailoring*: duplicates removed by two hash sets.
+        Basic = "basic": published(Redundancy::HashSets, &[]),
+        /// Provot 1997: the elementary test alone. The same stages as [`Basic`](Self::Basic), whose
+        /// elementary test is Provot's; the paper names both.
+        Provot1997 = "provot_1997": published(Redundancy::HashSets, &[]),
+        /// Hutter, Fuhrmann 2007: stored 18-DOPs.
+        HutterFuhrmann2007 = "hutter_fuhrmann_2007": published(REPRESENTATIVES, &[CullingTest::StoredDop18]),
+        /// Curtis, Tamstorf, Manocha 2008: representative triangles.
+        Curtis2008 = "curtis_2008": published(REPRESENTATIVES, &[]),
+        /// Tang, Manocha, Tong 2010: the non-coplanarity filter.
+        Tang2010 = "tang_2010": published(REPRESENTATIVES, &[CullingTest::PlainNonCoplanarity]),
+        /// Tang, Li, Wang 2010 (*reconstructed*): a subspace filter on three axes.
+        TangC2010 = "tang_c_2010": published(REPRESENTATIVES, &[CullingTest::SubspaceThree]),
+        /// Tang, Li, Wang 2011 (*reconstructed*): a subspace filter on nine directions.
+        TangC2011 = "tang_c_2011": published(REPRESENTATIVES, &[CullingTest::SubspaceNine]),
+        /// Lv, He, Mi: the paper.
+        Lv2014 = "lv_2014": published(REPRESENTATIVES, &[CullingTest::SegmentBox, CullingTest::PlainNonCoplanarity]),
+        /// Ours.
+        Selvedge = "selvedge": ours(ElementaryTest::TimeOfImpact),
+        /// Ours, with the exact verdict: no pair is called a contact that is none.
+        SelvedgeExact = "selvedge_exact": ours(ElementaryTest::Exact),
+    }
+}
+
+const REPRESENTATIVES: Redundancy = Redundancy::RepresentativeTriangles;
+
+const fn published(redundancy: Redundancy, tests: &'static [CullingTest]) -> Stages {
+    Stages {
+        source: Source::TrianglePairs(redundancy),
+        tests,
+        elementary: ElementaryTest::Cubic,
+    }
+}
+
+const fn ours(elementary: ElementaryTest) -> Stages {
+    Stages {
+        source: Source::MovingBoxes,
+        tests: &[CullingTest::CertifiedNonCoplanarity],
+        elementary,
+    }
+}
+
+impl Preset {
+    /// The stages that the name stands for.
+    #[must_use]
+    pub const fn stages(self) -> Stages {
+        self.row()
+    }
+
+    /// Whether the original could not be read, and the preset claims no reproduction of it.
+    #[must_use]
+    pub const fn is_reconstructed(self) -> bool {
+        matches!(self, Self::TangC2010 | Self::TangC2011)
+    }
+
+    /// Whether it is one of our own.
+    #[must_use]
+    pub const fn is_ours(self) -> bool {
+        matches!(self, Self::Selvedge | Self::SelvedgeExact)
+    }
+}
+
+/// A name that no preset has.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no pipeline `{0}`; choose one of {list}", list = Preset::ALL.map(Preset::name).join(", "))]
+pub struct UnknownPreset(pub String);
+
+impl FromStr for Preset {
+    type Err = UnknownPreset;
+
+    fn from_str(name: &str) -> Result<Self, UnknownPreset> {
+        Self::ALL
+            .into_iter()
+            .find(|preset| preset.name() == name)
+            .ok_or_else(|| UnknownPreset(name.to_owned()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_read_back() {
+        for preset in Preset::ALL {
+            assert_eq!(preset.name().parse(), Ok(preset));
+        }
+    }
+
+    #[test]
+    fn an_unknown_name_is_told_the_known_ones() {
+        let message = "curtis".parse::<Preset>().unwrap_err().to_string();
+        assert!(
+            message.contains("`curtis`") && message.contains("curtis_2008, tang_2010"),
+            "{message}"
+        );
+    }
+
+    #[test]
+    fn no_preset_has_two_tests_for_one_stage() {
+        for preset in Preset::ALL {
+            let mut stages: Vec<_> = preset.stages().tests.iter().map(|test| test.stage()).collect();
+            stages.dedup();
+            assert_eq!(stages.len(), preset.stages().tests.len());
+            assert!(stages.is_sorted(), "{preset}");
+        }
+    }
+}
