@@ -84,7 +84,7 @@ impl PinGroup {
                 let message = format!("there is no body {body}: the scene has {}, from 0 on", world.bodies.len());
                 Err(ValueError::new("follow", message))
             }
-            PinMotion::Own(motion) => motion.check(world.time_step),
+            PinMotion::Own(motion) => motion.check(self.vertices.len(), world.time_step),
         }
     }
 }

@@ -8,11 +8,13 @@
 //! dependencies and no shorter. The tests read it back with the `gltf` crate, which validates it.
 
 mod binary;
+mod skinned;
 #[cfg(test)]
 mod tests;
 
 use super::recording::{Frame, Part, PartKind, Recording};
 use binary::Binary;
+pub use skinned::walker;
 use selvedge_cloth::vertex_normals;
 use selvedge_core::glam::{DQuat, DVec3};
 use serde_json::{Value, json};
