@@ -60,6 +60,9 @@ pub use world::{Animation, Body, Cloth, Keyframe, Motion, Placement, RigidMotion
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
 pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");
 
+/// The scene of a skinned figure that walks in a shirt, as text: its files are `walker.glb` and `walker-shirt.ply` beside it.
+pub const WALKER: &str = include_str!("../scenes/walker.toml");
+
 /// The readme's examples are tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

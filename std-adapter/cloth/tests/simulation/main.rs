@@ -1,5 +1,6 @@
 //! Cloth simulation as a library's user meets it.
 
+mod animated;
 mod blocked;
 mod determinism;
 mod drape;

@@ -15,8 +15,8 @@ Example:
   selvedge walker --output walker
   selvedge simulate walker/walker.toml --threads 1")]
 pub(crate) struct Walker {
-    /// How long edges are, in metres, from 0.005 to 0.06: 0.016 makes 20 thousand triangles of figure and 7 thousand of shirt
-    #[arg(long, value_name = "METRES", default_value_t = 0.016, value_parser = pitch)]
+    /// How long edges are, in metres, from 0.005 to 0.035: 0.0155 makes 20,000 triangles of figure and 7,000 of shirt
+    #[arg(long, value_name = "METRES", default_value_t = 0.0155, value_parser = pitch)]
     pitch: f64,
     /// Write to this folder
     #[arg(long, value_name = "DIR", default_value = ".")]
@@ -25,7 +25,7 @@ pub(crate) struct Walker {
 
 fn pitch(text: &str) -> Result<f64, String> {
     let pitch: f64 = text.parse().map_err(|_| "it is not a number".to_owned())?;
-    if (0.005..=0.06).contains(&pitch) { Ok(pitch) } else { Err("it must be from 0.005 to 0.06".to_owned()) }
+    if (0.005..=0.035).contains(&pitch) { Ok(pitch) } else { Err("it must be from 0.005 to 0.035".to_owned()) }
 }
 
 impl Walker {

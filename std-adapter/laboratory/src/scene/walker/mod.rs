@@ -53,6 +53,8 @@ const BLEND: f64 = 0.03;
 const SHIRT_BLEND: f64 = 0.045;
 /// How far the shirt is from the figure at the start, in metres.
 const EASE: f64 = 0.016;
+/// How much longer edges of the shirt are than those of the figure.
+const SHIRT_PITCH: f64 = 1.13;
 /// How far influences of bones reach, in metres.
 const INFLUENCE: f64 = 0.045;
 
@@ -63,8 +65,8 @@ const INFLUENCE: f64 = 0.045;
 /// ```
 /// use selvedge_laboratory::scene::Walker;
 ///
-/// let walker = Walker::new(0.05);
-/// assert!(walker.body().triangles.len() > 1000 && walker.shirt().triangles.len() > 500);
+/// let walker = Walker::new(0.035);
+/// assert!(walker.body().triangles.len() > 1000 && walker.shirt().triangles.len() > 700);
 /// assert_eq!(walker.turns(0.0)[0].to_array(), [0.0; 3]);
 /// ```
 #[derive(Clone, Debug)]
@@ -78,10 +80,10 @@ impl Walker {
     /// How long it moves, in seconds.
     pub const DURATION: f64 = 3.0;
 
-    /// A figure, and a shirt, with edges of about `pitch` metres, from 0.005 to 0.06.
+    /// A figure with edges of about `pitch` metres, from 0.005 to 0.035, and a shirt with slightly longer ones.
     #[must_use]
     pub fn new(pitch: f64) -> Self {
-        let pitch = pitch.clamp(0.005, 0.06);
+        let pitch = pitch.clamp(0.005, 0.035);
         let limbs = limbs();
         let body = surface(
             |point| blended(limbs.iter(), BLEND, point),
@@ -93,7 +95,7 @@ impl Walker {
         let shirt = surface(
             |point| blended(limbs.iter(), SHIRT_BLEND, point) - EASE,
             [DVec3::new(-0.6, 0.7, -0.3), DVec3::new(0.6, 1.6, 0.3)],
-            pitch,
+            SHIRT_PITCH * pitch,
             &[cut(0, 0.4, 1.0), cut(0, -0.4, -1.0), cut(1, 1.462, 1.0), cut(1, 0.87, -1.0)],
         );
         Self {
@@ -155,7 +157,7 @@ impl Walker {
     /// The scene as text, whose files are `walker.glb` and `walker-shirt.ply` beside it.
     #[must_use]
     pub fn scene(&self) -> &'static str {
-        include_str!("walker.toml")
+        selvedge_cloth::WALKER
     }
 
     /// How far the first bone has moved at a time, in metres.
@@ -244,7 +246,7 @@ mod tests {
 
     #[test]
     fn the_figure_is_closed_and_the_shirt_has_four_openings() {
-        for pitch in [0.05, 0.03] {
+        for pitch in [0.035, 0.025] {
             let walker = Walker::new(pitch);
             let body = walker.body().topology().unwrap().statistics();
             assert_eq!((body.boundary_edges, body.non_manifold_edges, body.components), (0, 0, 1));

@@ -17,14 +17,22 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    fn leaves_out(&self, point: DVec3) -> bool {
-        (point.to_array()[self.axis] - self.at) * self.side > 0.0
+    /// Whether it leaves out a point: not one that is nearly on it.
+    fn leaves_out(&self, point: DVec3, nearly: f64) -> bool {
+        (point.to_array()[self.axis] - self.at) * self.side > nearly
     }
 }
 
 /// Where `solid` is zero, as a mesh with edges of about `pitch` between `lower` and `upper`, without what cuts leave out. Triangles turn
 /// anticlockwise seen from where it is positive. The mesh ends at a cut in an even line.
 pub(super) fn surface(solid: impl Fn(DVec3) -> f64, [lower, upper]: [DVec3; 2], pitch: f64, cuts: &[Cut]) -> Mesh {
+    // Where the middles of cells are, so that the last row of triangles is as wide as the others.
+    let snapped = |cut: &Cut| {
+        let first = lower.to_array()[cut.axis];
+        let at = first + (((cut.at - first) / pitch).floor() + 0.5) * pitch;
+        Cut { at, ..*cut }
+    };
+    let cuts: Vec<Cut> = cuts.iter().map(snapped).collect();
     let [width, height, depth] = ((upper - lower) / pitch).to_array().map(|cells| cells.ceil() as usize + 1);
     let corner = |at: [usize; 3]| lower + DVec3::from(at.map(|cells| cells as f64)) * pitch;
     let mut values = Vec::with_capacity(width * height * depth);
@@ -51,7 +59,7 @@ pub(super) fn surface(solid: impl Fn(DVec3) -> f64, [lower, upper]: [DVec3; 2], 
                     let end = moved(at, axis, 1);
                     let [inside, beyond] = [at, end].map(is_inside);
                     let middle = 0.5 * (corner(at) + corner(end));
-                    if inside == beyond || cuts.iter().any(|cut| cut.leaves_out(middle)) {
+                    if inside == beyond || cuts.iter().any(|cut| cut.leaves_out(middle, 0.1 * pitch)) {
                         continue;
                     }
                     // The four cells about the edge, anticlockwise seen from its end.
@@ -69,7 +77,7 @@ pub(super) fn surface(solid: impl Fn(DVec3) -> f64, [lower, upper]: [DVec3; 2], 
             }
         }
     }
-    relax(&mut mesh, &solid, pitch, cuts);
+    relax(&mut mesh, &solid, pitch, &cuts);
     mesh
 }
 
