@@ -77,6 +77,7 @@ pub(super) fn surface(solid: impl Fn(DVec3) -> f64, [lower, upper]: [DVec3; 2], 
             }
         }
     }
+    trim(&mut mesh);
     relax(&mut mesh, &solid, pitch, &cuts);
     mesh
 }
@@ -87,15 +88,45 @@ fn moved(mut at: [usize; 3], axis: usize, by: isize) -> [usize; 3] {
     at
 }
 
-/// Evens the mesh out.
-fn relax(mesh: &mut Mesh, solid: &impl Fn(DVec3) -> f64, pitch: f64, cuts: &[Cut]) {
-    // How many triangles an edge has, whichever way it goes.
-    let mut edges: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+/// How many triangles each edge has, whichever way it goes.
+fn edges(mesh: &Mesh) -> BTreeMap<[u32; 2], u32> {
+    let mut edges = BTreeMap::new();
     for &[a, b, c] in &mesh.triangles {
         for (from, to) in [(a, b), (b, c), (c, a)] {
             *edges.entry([from.min(to), from.max(to)]).or_default() += 1;
         }
     }
+    edges
+}
+
+/// Leaves out triangles all of whose corners are where the mesh ends, which would be drawn into a line there, and vertices of none.
+fn trim(mesh: &mut Mesh) {
+    loop {
+        let mut ends = vec![false; mesh.positions.len()];
+        for (edge, _) in edges(mesh).iter().filter(|(_, count)| **count == 1) {
+            edge.iter().for_each(|&vertex| ends[vertex as usize] = true);
+        }
+        let before = mesh.triangles.len();
+        mesh.triangles.retain(|triangle| !triangle.iter().all(|&vertex| ends[vertex as usize]));
+        if mesh.triangles.len() == before {
+            break;
+        }
+    }
+    let mut numbers = vec![None; mesh.positions.len()];
+    let mut kept = Vec::new();
+    for vertex in mesh.triangles.iter_mut().flatten() {
+        let old = *vertex as usize;
+        *vertex = *numbers[old].get_or_insert_with(|| {
+            kept.push(mesh.positions[old]);
+            kept.len() as u32 - 1
+        });
+    }
+    mesh.positions = kept;
+}
+
+/// Evens the mesh out.
+fn relax(mesh: &mut Mesh, solid: &impl Fn(DVec3) -> f64, pitch: f64, cuts: &[Cut]) {
+    let edges = edges(mesh);
     let count = mesh.positions.len();
     let mut neighbours = vec![Vec::new(); count];
     let mut on_edge = vec![false; count];
