@@ -66,6 +66,7 @@ impl Fingerprint {
         }
     }
 
+    #[must_use]
     pub fn value(self) -> u64 {
         self.0
     }

@@ -47,7 +47,9 @@ fn scene_with(cloth: Cloth, bodies: Vec<Body>) -> Scene {
     let mut scene = Scene::new(cloth, 2e-3);
     scene.bodies = bodies;
     scene.add(Gravity::default()).add(Stretch::isotropic(200.0));
-    scene.add(BodyContact(Thickness::of(4e-3))).add(SelfCollision(Thickness::of(4e-3)));
+    scene
+        .add(BodyContact(Thickness::of(4e-3)))
+        .add(SelfCollision(Thickness::of(4e-3)));
     scene
 }
 
@@ -79,8 +81,8 @@ fn at_each_step_a_body_is_exactly_where_its_animation_says_and_rests_before_and_
         let differ = now.iter().zip(&expected).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
         assert!(differ < 1e-12, "step {step}: {differ}");
         match step {
-            ..=50 => assert_eq!(now, frames[0], "before the first key"),
-            290.. => assert_eq!(now, frames[11], "after the last"),
+            ..=49 => assert!(now == frames[0], "before the first key"),
+            290.. => assert!(now == frames[11], "after the last"),
             _ => {}
         }
     }
@@ -106,8 +108,14 @@ fn a_body_of_frames_gives_the_same_bits_on_any_number_of_threads_and_resumed() {
     // Of another animation it is another scene.
     let mut scene = on_breathing_ball();
     let (triangles, frames) = breathing(11);
-    scene.bodies[0] = Body::animated("ball", triangles, Animation::of_frames(frames, 24.0).unwrap().starting_at(0.1));
-    let other = Simulation::new(scene, 1).unwrap().resume(&simulations[0].checkpoint().unwrap_or_default());
+    scene.bodies[0] = Body::animated(
+        "ball",
+        triangles,
+        Animation::of_frames(frames, 24.0).unwrap().starting_at(0.1),
+    );
+    let other = Simulation::new(scene, 1)
+        .unwrap()
+        .resume(&simulations[0].checkpoint().unwrap_or_default());
     assert!(other.is_err());
 }
 
@@ -149,7 +157,11 @@ fn stop_names_the_body_hold_lets_the_clock_wait_and_yield_lets_it_pass() {
     for _ in 0..400 {
         yields.step().unwrap();
         has_yielded |= !yields.is_certified();
-        assert!(yields.is_certified() == (crossings(&yields) == 0) || !yields.is_certified());
+        assert!(
+            !yields.is_certified() || crossings(&yields) == 0,
+            "step {}",
+            yields.steps_done()
+        );
     }
     assert!(has_yielded && yields.lag() == 0.0);
 }
@@ -160,7 +172,10 @@ fn numbered_files_and_frames_of_code_make_the_same_scene() {
     let (triangles, frames) = breathing(5);
     for (number, frame) in frames.iter().enumerate() {
         let triangles = triangles.clone();
-        let mesh = Mesh { positions: frame.clone(), triangles };
+        let mesh = Mesh {
+            positions: frame.clone(),
+            triangles,
+        };
         mesh::write(&folder.path().join(format!("ball-{number:04}.ply")), &mesh).unwrap();
     }
     let of_files = |files: &str| {
@@ -238,7 +253,14 @@ fn a_skinned_figure_gives_the_same_bits_on_any_number_of_threads_and_resumed() {
 
 #[test]
 fn a_figure_of_code_is_that_of_the_file() {
-    let figure = read(&scene_file("walker.glb"), &Choice { node: Some("figure"), animation: Some("walk") }).unwrap();
+    let figure = read(
+        &scene_file("walker.glb"),
+        &Choice {
+            node: Some("figure"),
+            animation: Some("walk"),
+        },
+    )
+    .unwrap();
     let triangles = figure.mesh().triangles.clone();
     let body = Body::animated("figure", triangles, Animation::of_figure(figure).unwrap());
     let of_file = Scene::read(&scene_file("walker.toml")).unwrap();
@@ -255,7 +277,9 @@ fn pins_may_be_animated_as_well() {
     let animation = Animation::of_frames(vec![at_rest, moved], 10.0).unwrap();
     let pins = |vertices: Vec<u32>| {
         let motion = PinMotion::Own(Motion::Animated(animation.clone()));
-        Pins { groups: vec![PinGroup { vertices, motion }] }
+        Pins {
+            groups: vec![PinGroup { vertices, motion }],
+        }
     };
     let mut scene = scene_with(sheet(0.2), vec![Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap()]);
     scene.add(pins(top.clone()));
@@ -266,6 +290,18 @@ fn pins_may_be_animated_as_well() {
     scene.add(pins(vec![0, 1]));
     let message = Simulation::new(scene, 1).unwrap_err().to_string();
     assert_eq!(message, "pins: the animation is of 13 vertices, but what it moves has 2");
+    let mut scene = on_breathing_ball();
+    scene.add(Pins {
+        groups: vec![PinGroup {
+            vertices: vec![0],
+            motion: PinMotion::Body(0),
+        }],
+    });
+    let message = Simulation::new(scene, 1).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "pins: pins cannot follow 'ball', which changes its shape; give them a motion of their own"
+    );
 }
 
 #[test]
@@ -273,11 +309,17 @@ fn animations_that_cannot_be_are_refused_where_they_are_made() {
     let frame = |x: f64| vec![DVec3::ZERO, DVec3::X, DVec3::new(x, 1.0, 0.0)];
     let message = |frames, rate| Animation::of_frames(frames, rate).unwrap_err().to_string();
     assert_eq!(message(vec![], 24.0), "an animation needs at least one frame");
-    assert_eq!(message(vec![frame(0.0), vec![]], 24.0), "frame 1 has 0 vertices, but the first has 3");
+    assert_eq!(
+        message(vec![frame(0.0), vec![]], 24.0),
+        "frame 1 has 0 vertices, but the first has 3"
+    );
     assert!(message(vec![frame(0.0), frame(f64::NAN)], 24.0).starts_with("frame 1 has vertex 2 at [NaN, 1, 0]"));
     assert!(message(vec![frame(1e4)], 24.0).contains("which is not within 1000 metres"));
     for rate in [-24.0, 0.0, f64::NAN, f64::INFINITY] {
-        assert!(message(vec![frame(0.0)], rate).starts_with("`frames_per_second` is "), "{rate}");
+        assert!(
+            message(vec![frame(0.0)], rate).starts_with("`frames_per_second` is "),
+            "{rate}"
+        );
     }
     let scene = |animation: Animation| scene_with(sheet(0.5), vec![Body::animated("leaf", vec![[0, 1, 2]], animation)]);
     let refusal = |animation| Simulation::new(scene(animation), 1).unwrap_err().to_string();
@@ -315,20 +357,62 @@ fn what_is_wrong_with_files_of_animated_bodies_is_said_with_the_place_in_the_sce
         found.replace(&*folder.path().to_string_lossy(), "F")
     };
     let cases = [
-        ("shape = \"frames\"", "F/s.toml:8:1: [body] needs `files`, such as \"frames/body-####.ply\""),
-        ("shape = \"frames\"\nfiles = \"leaf-#.obj\"", "F/s.toml:8:1: [body] needs `frames_per_second`"),
-        ("shape = \"frames\"\nfiles = \"leaf-#.obj\"\nframes_per_second = -24", "F/s.toml:12:21: `frames_per_second` is -24 Hz, but must be from"),
-        ("shape = \"frames\"\nfiles = \"leaf-#.obj\"\nframes_per_second = 24", "F/s.toml:11:9: F/leaf-#.obj: frame 2 is missing"),
-        ("shape = \"frames\"\nfiles = \"no-#.obj\"\nframes_per_second = 24", "F/s.toml:11:9: F/no-#.obj: there is no such file in 'F'"),
-        ("shape = \"frames\"\nfiles = \"cut-#.obj\"\nframes_per_second = 24", "F/s.toml:11:9: vertex 2 moves at 2136 m/s from 0.000 s of the animation on"),
-        ("shape = \"frames\"\nfiles = \"cut-#.obj\"\nframes_per_second = 24\naxis = [0, 0, 1]", "F/s.toml:13:1: [body] has no key 'axis'"),
-        ("shape = \"gltf\"", "F/s.toml:8:1: [body] needs `file`, such as \"figure.glb\""),
-        ("shape = \"gltf\"\nfile = \"no.glb\"", "F/s.toml:11:8: F/no.glb: there is no such file"),
-        ("shape = \"gltf\"\nfile = \"text.glb\"", "F/s.toml:11:8: F/text.glb: is not a valid glTF 2.0 file: "),
-        ("shape = \"gltf\"\nfile = \"walker.glb\"\nnode = \"figur\"", "F/s.toml:12:8: F/walker.glb: no node 'figur' has a mesh; those that have: 'figure'"),
-        ("shape = \"gltf\"\nfile = \"walker.glb\"\nanimation = \"run\"", "F/s.toml:12:13: F/walker.glb: there is no animation 'run'; choose from 'walk'"),
-        ("shape = \"gltf\"\nfile = \"walker.glb\"\nstart = -1", "F/s.toml:12:9: `start` is -1 s, but must be from 0 s"),
-        ("shape = \"glb\"\nfile = \"walker.glb\"", "F/s.toml:10:9: `shape` cannot be 'glb'"),
+        (
+            "shape = \"frames\"",
+            "F/s.toml:8:1: [body] needs `files`, such as \"frames/body-####.ply\"",
+        ),
+        (
+            "shape = \"frames\"\nfiles = \"leaf-#.obj\"",
+            "F/s.toml:8:1: [body] needs `frames_per_second`",
+        ),
+        (
+            "shape = \"frames\"\nfiles = \"leaf-#.obj\"\nframes_per_second = -24",
+            "F/s.toml:12:21: `frames_per_second` is -24 Hz, but must be from",
+        ),
+        (
+            "shape = \"frames\"\nfiles = \"leaf-#.obj\"\nframes_per_second = 24",
+            "F/s.toml:11:9: F/leaf-#.obj: frame 2 is missing",
+        ),
+        (
+            "shape = \"frames\"\nfiles = \"no-#.obj\"\nframes_per_second = 24",
+            "F/s.toml:11:9: F/no-#.obj: there is no such file in 'F'",
+        ),
+        (
+            "shape = \"frames\"\nfiles = \"cut-#.obj\"\nframes_per_second = 24",
+            "F/s.toml:11:9: vertex 2 moves at 2136 m/s from 0.000 s of the animation on",
+        ),
+        (
+            "shape = \"frames\"\nfiles = \"cut-#.obj\"\nframes_per_second = 24\naxis = [0, 0, 1]",
+            "F/s.toml:13:1: [body] has no key 'axis'",
+        ),
+        (
+            "shape = \"gltf\"",
+            "F/s.toml:8:1: [body] needs `file`, such as \"figure.glb\"",
+        ),
+        (
+            "shape = \"gltf\"\nfile = \"no.glb\"",
+            "F/s.toml:11:8: F/no.glb: there is no such file",
+        ),
+        (
+            "shape = \"gltf\"\nfile = \"text.glb\"",
+            "F/s.toml:11:8: F/text.glb: is not a valid glTF 2.0 file: ",
+        ),
+        (
+            "shape = \"gltf\"\nfile = \"walker.glb\"\nnode = \"figur\"",
+            "F/s.toml:12:8: F/walker.glb: no node 'figur' has a mesh; those that have: 'figure'",
+        ),
+        (
+            "shape = \"gltf\"\nfile = \"walker.glb\"\nanimation = \"run\"",
+            "F/s.toml:12:13: F/walker.glb: there is no animation 'run'; choose from 'walk'",
+        ),
+        (
+            "shape = \"gltf\"\nfile = \"walker.glb\"\nstart = -1",
+            "F/s.toml:12:9: `start` is -1 s, but must be from 0 s",
+        ),
+        (
+            "shape = \"glb\"\nfile = \"walker.glb\"",
+            "F/s.toml:10:9: `shape` cannot be 'glb'",
+        ),
     ];
     for (body, expected) in cases {
         let found = message(body);

@@ -25,7 +25,11 @@ pub(crate) struct Walker {
 
 fn pitch(text: &str) -> Result<f64, String> {
     let pitch: f64 = text.parse().map_err(|_| "it is not a number".to_owned())?;
-    if (0.005..=0.035).contains(&pitch) { Ok(pitch) } else { Err("it must be from 0.005 to 0.035".to_owned()) }
+    if (0.005..=0.035).contains(&pitch) {
+        Ok(pitch)
+    } else {
+        Err("it must be from 0.005 to 0.035".to_owned())
+    }
 }
 
 impl Walker {

@@ -32,7 +32,9 @@ pub enum AnimationProblem {
     #[error(transparent)]
     File(#[from] FileProblem),
     /// The reader was left out of this program.
-    #[error("this program was built without the reader of glTF files; build it with the feature `gltf` of selvedge-cloth or selvedge-files")]
+    #[error(
+        "this program was built without the reader of glTF files; build it with the feature `gltf` of selvedge-cloth or selvedge-files"
+    )]
     NotBuiltIn,
     /// It is no glTF 2.0 file, or one that contradicts itself.
     #[error("is not a valid glTF 2.0 file: {0}")]
@@ -88,7 +90,9 @@ pub enum AnimationProblem {
         choices: Choices,
     },
     /// The mesh stays as it is: neither its node nor a joint of its skin moves, nor a weight of its morph targets changes.
-    #[error("the animation '{animation}' does not move '{node}': it has no channel of its node, of a joint of its skin, or of its morph targets")]
+    #[error(
+        "the animation '{animation}' does not move '{node}': it has no channel of its node, of a joint of its skin, or of its morph targets"
+    )]
     NothingMoves {
         /// The animation.
         animation: String,

@@ -10,8 +10,8 @@ use crate::mesh::{FileProblem, check_finite};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use gltf::accessor::{Accessor, DataType, Dimensions};
-use gltf::json::validation::Checked;
 use gltf::buffer::{Source, View};
+use gltf::json::validation::Checked;
 use gltf::mesh::{Mode, Primitive, Semantic};
 use gltf::scene::Transform;
 use selvedge::Mesh;
@@ -67,7 +67,10 @@ fn check_length(bytes: &[u8]) -> Result<(), AnimationProblem> {
     let length = bytes.get(8..12).and_then(|length| length.try_into().ok());
     let length = length.map_or(0, u32::from_le_bytes) as usize;
     if length < 12 || length > bytes.len() {
-        let message = format!("its header says that it has {length} bytes, but it has {}; is it complete?", bytes.len());
+        let message = format!(
+            "its header says that it has {length} bytes, but it has {}; is it complete?",
+            bytes.len()
+        );
         return Err(AnimationProblem::NotGltf(message));
     }
     Ok(())
@@ -81,18 +84,25 @@ fn check_indices(root: &gltf::json::Root) -> Result<(), AnimationProblem> {
         .flat_map(|primitive| primitive.attributes.values())
         .find(|index| index.value() >= root.accessors.len());
     if let Some(index) = missing {
-        let message = format!("a primitive names accessor {}, but there are {}", index.value(), root.accessors.len());
+        let message = format!(
+            "a primitive names accessor {}, but there are {}",
+            index.value(),
+            root.accessors.len()
+        );
         return Err(AnimationProblem::NotGltf(message));
     }
     for animation in &root.animations {
         let is_there = |accessor: usize| accessor < root.accessors.len();
         let is_known = |sampler: &gltf::json::animation::Sampler| {
-            matches!(sampler.interpolation, Checked::Valid(_)) && is_there(sampler.input.value()) && is_there(sampler.output.value())
+            matches!(sampler.interpolation, Checked::Valid(_))
+                && is_there(sampler.input.value())
+                && is_there(sampler.output.value())
         };
         let names_a_property = |channel: &gltf::json::animation::Channel| matches!(channel.target.path, Checked::Valid(_));
         if !animation.samplers.iter().all(is_known) || !animation.channels.iter().all(names_a_property) {
             let name = short(animation.name.as_deref().unwrap_or("without a name"));
-            let message = format!("the animation '{name}' has a sampler or a channel of no known kind, or an accessor that is not there");
+            let message =
+                format!("the animation '{name}' has a sampler or a channel of no known kind, or an accessor that is not there");
             return Err(AnimationProblem::NotGltf(message));
         }
     }
@@ -114,7 +124,9 @@ fn buffers(document: &gltf::Document, blob: Option<Vec<u8>>, path: &Path) -> Res
             reason,
         };
         let mut bytes = match buffer.source() {
-            Source::Bin => blob.take().ok_or_else(|| wrong("is to be the file's binary part, but it has none".to_owned()))?,
+            Source::Bin => blob
+                .take()
+                .ok_or_else(|| wrong("is to be the file's binary part, but it has none".to_owned()))?,
             Source::Uri(uri) => match uri.strip_prefix("data:") {
                 Some(data) => inline(data).map_err(wrong)?,
                 None => {
@@ -126,7 +138,9 @@ fn buffers(document: &gltf::Document, blob: Option<Vec<u8>>, path: &Path) -> Res
         };
         if bytes.len() < buffer.length() {
             let (found, said) = (bytes.len(), buffer.length());
-            return Err(wrong(format!("is to have {said} bytes, but has {found}; is the file complete?")));
+            return Err(wrong(format!(
+                "is to have {said} bytes, but has {found}; is the file complete?"
+            )));
         }
         bytes.truncate(buffer.length());
         Ok(bytes)
@@ -233,13 +247,24 @@ impl<'a> File<'a> {
             self.add(&primitive, skin.as_ref(), &mut parts)?;
         }
         let weights = node.weights().or(mesh.weights()).unwrap_or_default();
+        if !weights.iter().all(|weight| weight.is_finite()) {
+            return Err(wrong("the weights of the morph targets", "one is not finite"));
+        }
         let targets = parts.targets.into_iter().enumerate().map(|(index, moves)| Target {
             weight: weights.get(index).map_or(0.0, |&weight| f64::from(weight)),
             moves,
         });
         let targets: Vec<Target> = targets.collect();
-        let joints: Vec<usize> = skin.iter().flat_map(|skin| skin.joints()).map(|joint| joint.index()).collect();
-        let (nodes, places) = self.skeleton(if joints.is_empty() { vec![node.index()] } else { joints.clone() })?;
+        let joints: Vec<usize> = skin
+            .iter()
+            .flat_map(|skin| skin.joints())
+            .map(|joint| joint.index())
+            .collect();
+        let (nodes, places) = self.skeleton(if joints.is_empty() {
+            vec![node.index()]
+        } else {
+            joints.clone()
+        })?;
         let skin = match &skin {
             None => None,
             Some(skin) => Some(Skin {
@@ -270,9 +295,14 @@ impl<'a> File<'a> {
     fn add(&self, primitive: &Primitive<'a>, skin: Option<&gltf::Skin<'a>>, parts: &mut Parts) -> Result<(), AnimationProblem> {
         let what = format!("primitive {} of the mesh", primitive.index());
         if primitive.mode() != Mode::Triangles {
-            return Err(wrong(&what, format!("is of {:?}, but must be of triangles", primitive.mode())));
+            return Err(wrong(
+                &what,
+                format!("is of {:?}, but must be of triangles", primitive.mode()),
+            ));
         }
-        let positions = primitive.get(&Semantic::Positions).ok_or_else(|| wrong(&what, "has no positions"))?;
+        let positions = primitive
+            .get(&Semantic::Positions)
+            .ok_or_else(|| wrong(&what, "has no positions"))?;
         let positions = self.vectors(&positions, None, &format!("{what}, positions"))?;
         let (first, count) = (parts.positions.len(), positions.len());
         let indices = match primitive.indices() {
@@ -294,7 +324,9 @@ impl<'a> File<'a> {
                 return Err(problem.into());
             }
         }
-        let corners = indices.chunks_exact(3).map(|t| [t[0], t[1], t[2]].map(|vertex| first as u32 + vertex as u32));
+        let corners = indices
+            .chunks_exact(3)
+            .map(|t| [t[0], t[1], t[2]].map(|vertex| first as u32 + vertex as u32));
         parts.triangles.extend(corners);
         let targets: Vec<_> = primitive.morph_targets().collect();
         if first > 0 && targets.len() != parts.targets.len() {
@@ -333,15 +365,23 @@ impl<'a> File<'a> {
             sets.push((read(&joints, "JOINTS")?, read(&weights, "WEIGHTS")?));
         }
         if sets.is_empty() {
-            return Err(wrong(what, "has a skin, but no JOINTS_0 that say which joints its vertices follow"));
+            return Err(wrong(
+                what,
+                "has a skin, but no JOINTS_0 that say which joints its vertices follow",
+            ));
         }
         for vertex in 0..count {
             let of_vertex = 4 * vertex..4 * vertex + 4;
-            let all = sets.iter().flat_map(|(joints, weights)| joints[of_vertex.clone()].iter().zip(&weights[of_vertex.clone()]));
+            let all = sets
+                .iter()
+                .flat_map(|(joints, weights)| joints[of_vertex.clone()].iter().zip(&weights[of_vertex.clone()]));
             let begin = parts.influences.len();
             for (&joint, &weight) in all.filter(|(_, weight)| **weight != 0.0) {
-                if !(weight > 0.0) {
-                    return Err(wrong(what, format!("vertex {vertex} has the weight {weight}, but none may be negative")));
+                if weight < 0.0 {
+                    return Err(wrong(
+                        what,
+                        format!("vertex {vertex} has the weight {weight}, but none may be negative"),
+                    ));
                 }
                 if joint >= joint_count as f64 {
                     let reason = format!("vertex {vertex} follows joint {joint}, but the skin has {joint_count}, from 0 on");
@@ -351,7 +391,7 @@ impl<'a> File<'a> {
             }
             let own = &mut parts.influences[begin..];
             let sum: f64 = own.iter().map(|(_, weight)| weight).sum();
-            if !(sum > 0.0) {
+            if sum <= 0.0 {
                 return Err(wrong(what, format!("vertex {vertex} follows no joint: its weights are zero")));
             }
             own.iter_mut().for_each(|(_, weight)| *weight /= sum);
@@ -440,9 +480,15 @@ impl<'a> File<'a> {
                     None => continue,
                 },
             };
-            let what = format!("channel {index} of the animation ({property:?} of '{}')", short(&label(&node)));
+            let what = format!(
+                "channel {index} of the animation ({property:?} of '{}')",
+                short(&label(&node))
+            );
             if matches!(node.transform(), Transform::Matrix { .. }) && property != Property::Weights {
-                return Err(wrong(&what, "moves a node that has a `matrix`; it must have `translation`, `rotation`, `scale`"));
+                return Err(wrong(
+                    &what,
+                    "moves a node that has a `matrix`; it must have `translation`, `rotation`, `scale`",
+                ));
             }
             if tracks.iter().any(|track| (track.node, track.property) == (place, property)) {
                 return Err(wrong(&what, "there is another channel of the same"));
@@ -455,7 +501,10 @@ impl<'a> File<'a> {
                 gltf::animation::Interpolation::CubicSpline => (Interpolation::Cubic, 3),
             };
             if times.is_empty() || times[0] < 0.0 || !times.is_sorted_by(|a, b| a < b) {
-                return Err(wrong(&what, "its times must be zero or more, each later than the one before, and one at least"));
+                return Err(wrong(
+                    &what,
+                    "its times must be zero or more, each later than the one before, and one at least",
+                ));
             }
             let each = if property == Property::Weights { width } else { 1 };
             let count = times.len().saturating_mul(parts).saturating_mul(each);
@@ -463,8 +512,11 @@ impl<'a> File<'a> {
             if property == Property::Rotation && interpolation != Interpolation::Cubic {
                 for (key, value) in values.chunks_exact_mut(4).enumerate() {
                     let rotation = DQuat::from_slice(value);
-                    if !(rotation.length_squared() > 0.0) {
-                        return Err(wrong(&what, format!("the rotation of key {key} is zero, but must be a quaternion of length one")));
+                    if rotation.length_squared() <= 0.0 {
+                        return Err(wrong(
+                            &what,
+                            format!("the rotation of key {key} is zero, but must be a quaternion of length one"),
+                        ));
                     }
                     value.copy_from_slice(&rotation.normalize().to_array());
                 }
@@ -496,7 +548,10 @@ impl<'a> File<'a> {
     ) -> Result<Vec<f64>, AnimationProblem> {
         let wrong = |reason: String| wrong(what, reason);
         if accessor.dimensions() != dimensions {
-            return Err(wrong(format!("are of type {:?}, but must be of {dimensions:?}", accessor.dimensions())));
+            return Err(wrong(format!(
+                "are of type {:?}, but must be of {dimensions:?}",
+                accessor.dimensions()
+            )));
         }
         if let Some(count) = count.filter(|&count| count != accessor.count()) {
             return Err(wrong(format!("there are {}, but must be {count}", accessor.count())));
@@ -541,7 +596,11 @@ impl<'a> File<'a> {
         }
         match numbers.iter().position(|number| !number.is_finite()) {
             None => Ok(numbers),
-            Some(index) => Err(wrong(format!("number {} is {}, but must be finite", index / width, numbers[index]))),
+            Some(index) => Err(wrong(format!(
+                "number {} is {}, but must be finite",
+                index / width,
+                numbers[index]
+            ))),
         }
     }
 
@@ -551,16 +610,23 @@ impl<'a> File<'a> {
         let buffer = &self.buffers[view.buffer().index()];
         let end = view.offset().checked_add(view.length());
         let bytes = end.and_then(|end| buffer.get(view.offset()..end));
-        let needed = count.checked_sub(1).map_or(Some(0), |last| last.checked_mul(stride)?.checked_add(size));
-        let bytes = bytes.and_then(|bytes| bytes.get(offset..)).filter(|bytes| needed.is_some_and(|needed| needed <= bytes.len()));
+        let needed = count
+            .checked_sub(1)
+            .map_or(Some(0), |last| last.checked_mul(stride)?.checked_add(size));
+        let bytes = bytes
+            .and_then(|bytes| bytes.get(offset..))
+            .filter(|bytes| needed.is_some_and(|needed| needed <= bytes.len()));
         match bytes {
             Some(bytes) if stride >= size => Ok(Run { bytes, stride }),
-            _ => Err(format!("are to be {count}, more than the bytes hold that the file gives them; is it complete?")),
+            _ => Err(format!(
+                "are to be {count}, more than the bytes hold that the file gives them; is it complete?"
+            )),
         }
     }
 }
 
 /// Where elements lie.
+#[derive(Clone, Copy)]
 struct Run<'a> {
     bytes: &'a [u8],
     stride: usize,
@@ -597,23 +663,33 @@ struct Parts {
 
 /// Where a node is in its parent, if all its numbers are finite and it turns.
 fn local(node: &gltf::Node<'_>) -> Result<Local, AnimationProblem> {
-    let local = match node.transform() {
-        Transform::Matrix { matrix } => Local::Whole(DAffine3::from_mat4(DMat4::from_cols_array_2d(&matrix.map(|c| c.map(f64::from))))),
+    let refuse = |reason: &str| Err(wrong(&format!("node '{}'", short(&label(node))), reason));
+    match node.transform() {
+        Transform::Matrix { matrix } => {
+            let matrix = DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)));
+            if !matrix.is_finite() {
+                return refuse("its matrix has a number that is not finite");
+            }
+            Ok(Local::Whole(DAffine3::from_mat4(matrix)))
+        }
         Transform::Decomposed {
             translation,
             rotation,
             scale,
         } => {
+            let [translation, scale] = [translation, scale].map(|vector| DVec3::from_array(vector.map(f64::from)));
             let rotation = DQuat::from_array(rotation.map(f64::from));
-            if !(rotation.length_squared() > 0.0) {
-                return Err(wrong(&format!("node '{}'", short(&label(node))), "its rotation is zero"));
+            if !(translation.is_finite() && rotation.is_finite() && scale.is_finite()) {
+                return refuse("its place has a number that is not finite");
             }
-            Local::Parts {
-                translation: DVec3::from_array(translation.map(f64::from)),
+            if rotation.length_squared() <= 0.0 {
+                return refuse("its rotation is zero, but must be a quaternion of length one");
+            }
+            Ok(Local::Parts {
+                translation,
                 rotation: rotation.normalize(),
-                scale: DVec3::from_array(scale.map(f64::from)),
-            }
+                scale,
+            })
         }
-    };
-    Ok(local)
+    }
 }

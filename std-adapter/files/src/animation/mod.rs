@@ -10,13 +10,19 @@
 //! Reading needs the feature `gltf`; without it [`read`] says so.
 
 mod error;
-#[cfg_attr(not(any(feature = "gltf", test)), expect(dead_code, reason = "only the reader makes figures"))]
+#[cfg_attr(
+    not(any(feature = "gltf", test)),
+    expect(dead_code, reason = "only the reader makes figures")
+)]
 mod figure;
 #[cfg(any(feature = "gltf", test))]
 mod gltf;
 #[cfg(test)]
 mod tests;
-#[cfg_attr(not(any(feature = "gltf", test)), expect(dead_code, reason = "only the reader makes tracks"))]
+#[cfg_attr(
+    not(any(feature = "gltf", test)),
+    expect(dead_code, reason = "only the reader makes tracks")
+)]
 mod track;
 
 pub use error::{AnimationError, AnimationProblem, Choices};

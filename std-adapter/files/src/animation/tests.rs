@@ -12,13 +12,22 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 /// and lies a metre up; the joint itself moves along x. One morph target lifts vertex 0 along z.
 const NUMBERS: [(&str, &[f32]); 9] = [
     ("positions", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 1.0, 2.0, 0.0]),
-    ("weights", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.5, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]),
-    ("inverses", &[
-        1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, //
-        1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 1.0,
-    ]),
+    (
+        "weights",
+        &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.5, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+    ),
+    (
+        "inverses",
+        &[
+            1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, //
+            1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 1.0,
+        ],
+    ),
     ("times", &[1.0, 2.0]),
-    ("turns", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, FRAC_1_SQRT_2 as f32, FRAC_1_SQRT_2 as f32]),
+    (
+        "turns",
+        &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, FRAC_1_SQRT_2 as f32, FRAC_1_SQRT_2 as f32],
+    ),
     ("target", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
     ("lifts", &[0.0, 1.0]),
     ("indices", &[]),
@@ -43,7 +52,10 @@ fn text(name: impl Fn(String) -> String) -> String {
             "joints" => bytes.extend(JOINTS),
             _ => bytes.extend(numbers.iter().flat_map(|number| number.to_le_bytes())),
         }
-        views.push(format!(r#"{{"buffer":0,"byteOffset":{begin},"byteLength":{}}}"#, bytes.len() - begin));
+        views.push(format!(
+            r#"{{"buffer":0,"byteOffset":{begin},"byteLength":{}}}"#,
+            bytes.len() - begin
+        ));
     }
     let data = base64::engine::general_purpose::STANDARD.encode(&bytes);
     let accessor = |view: usize, component: u32, kind: &str, count: usize| {
@@ -103,7 +115,10 @@ fn vertices_go_with_their_joints_and_their_morph_targets_and_rest_before_and_aft
     assert_eq!(at(&figure, 0.0), at(&figure, 1.0));
     assert_eq!(figure.mesh().positions, at(&figure, 1.0));
     // A quarter about (0, 1): (1, 2) goes to (-1, 2), and (0, 2), which follows it by half, halfway to (-1, 1).
-    assert_near(&at(&figure, 2.0), &[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [-0.5, 1.5, 0.0], [-1.0, 2.0, 0.0]]);
+    assert_near(
+        &at(&figure, 2.0),
+        &[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [-0.5, 1.5, 0.0], [-1.0, 2.0, 0.0]],
+    );
     assert_eq!(at(&figure, 9.0), at(&figure, 2.0));
     // Halfway along the arc, not along the chord.
     let half = FRAC_1_SQRT_2 * (1.0 - 1.0);
@@ -129,37 +144,114 @@ fn a_figure_is_chosen_by_the_name_of_its_node_or_its_mesh() {
 fn message(passage: &str, by: &str) -> String {
     let good = text(|text| text);
     assert!(good.contains(passage), "'{passage}' must be there");
-    read_text(&good.replacen(passage, by, 1), &Choice::default()).unwrap_err().to_string()
+    read_text(&good.replacen(passage, by, 1), &Choice::default())
+        .unwrap_err()
+        .to_string()
 }
 
 #[test]
 fn files_that_are_wrong_or_lie_are_refused_with_the_place_named() {
     let cases = [
-        (r#""joints":[0,1]"#, r#""joints":[0]"#, "primitive 0 of the mesh: vertex 2 follows joint 1, but the skin has 1, from 0 on"),
-        (r#""joints":[0,1]"#, r#""joints":[0,1,1]"#, "the skin's inverse bind matrices: there are 2, but must be 3"),
-        (r#""path":"rotation""#, r#""path":"colour""#, "is not a valid glTF 2.0 file: the animation 'bend' has a sampler or a channel of no known"),
-        (r#""output":4"#, r#""output":44"#, "is not a valid glTF 2.0 file: the animation 'bend' has a sampler or a channel of no known"),
-        (r#"{"node":1,"#, r#"{"node":7,"#, "is not a valid glTF 2.0 file: a channel moves node 7, but there are 3"),
-        (r#"{"POSITION":0"#, r#"{"POSITION":99"#, "is not a valid glTF 2.0 file: a primitive names accessor 99, but there are 9"),
-        (r#","JOINTS_0":8,"WEIGHTS_0":1"#, "", "primitive 0 of the mesh: has a skin, but no JOINTS_0"),
-        (r#","WEIGHTS_0":1"#, "", "primitive 0 of the mesh: has JOINTS_0, but no WEIGHTS_0"),
-        (r#""bufferView":0,"componentType":5126,"type":"VEC3","count":4"#, r#""bufferView":0,"componentType":5126,"type":"VEC3","count":400000000"#, "primitive 0 of the mesh, positions: are to be 400000000, more than the bytes hold"),
-        (r#""type":"VEC4","count":2"#, r#""type":"VEC4","count":1"#, "channel 0 of the animation (Rotation of 'upper'), values: there are 1, but must be 2"),
-        (r#""componentType":5126,"type":"VEC4","count":2"#, r#""componentType":5126,"type":"VEC3","count":2"#, "channel 0 of the animation (Rotation of 'upper'), values: are of type Vec3"),
-        (r#""path":"rotation""#, r#""path":"scale""#, "channel 0 of the animation (Scale of 'upper'), values: are of type Vec4"),
-        (r#""children":[1]"#, r#""children":[1],"mesh":0"#, "2 nodes have a mesh; say with `node` which is meant: 'root', 'strip'"),
+        (
+            r#""joints":[0,1]"#,
+            r#""joints":[0]"#,
+            "primitive 0 of the mesh: vertex 2 follows joint 1, but the skin has 1, from 0 on",
+        ),
+        (
+            r#""joints":[0,1]"#,
+            r#""joints":[0,1,1]"#,
+            "the skin's inverse bind matrices: there are 2, but must be 3",
+        ),
+        (
+            r#""path":"rotation""#,
+            r#""path":"colour""#,
+            "is not a valid glTF 2.0 file: the animation 'bend' has a sampler or a channel of no known",
+        ),
+        (
+            r#""output":4"#,
+            r#""output":44"#,
+            "is not a valid glTF 2.0 file: the animation 'bend' has a sampler or a channel of no known",
+        ),
+        (
+            r#"{"node":1,"#,
+            r#"{"node":7,"#,
+            "is not a valid glTF 2.0 file: a channel moves node 7, but there are 3",
+        ),
+        (
+            r#"{"POSITION":0"#,
+            r#"{"POSITION":99"#,
+            "is not a valid glTF 2.0 file: a primitive names accessor 99, but there are 9",
+        ),
+        (
+            r#","JOINTS_0":8,"WEIGHTS_0":1"#,
+            "",
+            "primitive 0 of the mesh: has a skin, but no JOINTS_0",
+        ),
+        (
+            r#","WEIGHTS_0":1"#,
+            "",
+            "primitive 0 of the mesh: has JOINTS_0, but no WEIGHTS_0",
+        ),
+        (
+            r#""bufferView":0,"componentType":5126,"type":"VEC3","count":4"#,
+            r#""bufferView":0,"componentType":5126,"type":"VEC3","count":400000000"#,
+            "primitive 0 of the mesh, positions: are to be 400000000, more than the bytes hold",
+        ),
+        (
+            r#""type":"VEC4","count":2"#,
+            r#""type":"VEC4","count":1"#,
+            "channel 0 of the animation (Rotation of 'upper'), values: there are 1, but must be 2",
+        ),
+        (
+            r#""componentType":5126,"type":"VEC4","count":2"#,
+            r#""componentType":5126,"type":"VEC3","count":2"#,
+            "channel 0 of the animation (Rotation of 'upper'), values: are of type Vec3",
+        ),
+        (
+            r#""path":"rotation""#,
+            r#""path":"scale""#,
+            "channel 0 of the animation (Scale of 'upper'), values: are of type Vec4",
+        ),
+        (
+            r#""children":[1]"#,
+            r#""children":[1],"mesh":0"#,
+            "2 nodes have a mesh; say with `node` which is meant: 'root', 'strip'",
+        ),
         (r#","mesh":0,"skin":0"#, "", "no node of the file has a mesh"),
-        (r#"{"name":"upper","#, r#"{"name":"upper","children":[0],"#, "is not a valid glTF 2.0 file: node "),
-        (r#""indices":7"#, r#""indices":7,"mode":1"#, "primitive 0 of the mesh: is of Lines, but must be of triangles"),
-        (r#"{"asset""#, r#"{"extensionsRequired":["KHR_draco_mesh_compression"],"asset""#, "is not a valid glTF 2.0 file: "),
-        (r#""translation":[0,1,0]"#, r#""matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,1,0,1]"#, "channel 0 of the animation (Rotation of 'upper'): moves a node that has a `matrix`"),
+        (
+            r#"{"name":"upper","#,
+            r#"{"name":"upper","children":[0],"#,
+            "is not a valid glTF 2.0 file: node ",
+        ),
+        (
+            r#""indices":7"#,
+            r#""indices":7,"mode":1"#,
+            "primitive 0 of the mesh: is of Lines, but must be of triangles",
+        ),
+        (
+            r#"{"asset""#,
+            r#"{"extensionsRequired":["KHR_draco_mesh_compression"],"asset""#,
+            "is not a valid glTF 2.0 file: ",
+        ),
+        (
+            r#""translation":[0,1,0]"#,
+            r#""matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,1,0,1]"#,
+            "channel 0 of the animation (Rotation of 'upper'): moves a node that has a `matrix`",
+        ),
         (";base64,", ";base64,!", "buffer 0 is no valid base64"),
-        ("data:application/octet-stream;base64,", "no%20such%20file.bin?", "buffer 0 is the file 'no such file.bin?"),
+        (
+            "data:application/octet-stream;base64,",
+            "no%20such%20file.bin?",
+            "buffer 0 is the file 'no such file.bin?",
+        ),
         (r#""version":"2.0""#, r#""version":2"#, "is not a valid glTF 2.0 file: "),
     ];
     for (passage, by, expected) in cases {
         let found = message(passage, by);
-        assert!(found.starts_with(&format!("strip.gltf: {expected}")), "{found}\nis not\n{expected}");
+        assert!(
+            found.starts_with(&format!("strip.gltf: {expected}")),
+            "{found}\nis not\n{expected}"
+        );
     }
     // An animation of something else, and none.
     let text = text(|text| text);
@@ -288,7 +380,10 @@ fn rotations_take_the_shorter_arc_evenly_and_steps_jump_at_the_key() {
     assert!(turn(0.0).abs() < 1e-12 && (turn(1.0) - 1.0).abs() < 1e-12);
     assert!(turn(0.1) < 0.1 && (turn(0.5) - FRAC_1_SQRT_2).abs() < 1e-12);
     // Through zero: any rotation, but one.
-    let figure = turning(Interpolation::Cubic, [zero, half(0.0), zero, zero, half(0.0).map(|x| -x), zero].concat());
+    let figure = turning(
+        Interpolation::Cubic,
+        [zero, half(0.0), zero, zero, half(0.0).map(|x| -x), zero].concat(),
+    );
     assert!(at(&figure, 0.5)[0].is_finite());
 }
 

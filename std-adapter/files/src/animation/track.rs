@@ -59,7 +59,11 @@ impl Track {
             // Numbers of files are rounded, and a cubic may go through zero.
             let rotation = DQuat::from_slice(values);
             let length = rotation.length();
-            let rotation = if length > 0.0 && length.is_finite() { rotation * length.recip() } else { DQuat::IDENTITY };
+            let rotation = if length > 0.0 && length.is_finite() {
+                rotation * length.recip()
+            } else {
+                DQuat::IDENTITY
+            };
             values.copy_from_slice(&rotation.to_array());
         }
     }
@@ -83,9 +87,10 @@ impl Track {
             let s3 = s2 * s;
             let weights = [2.0 * s3 - 3.0 * s2 + 1.0, (s3 - 2.0 * s2 + s) * length];
             let [to_weight, arriving_weight] = [3.0 * s2 - 2.0 * s3, (s3 - s2) * length];
-            values.extend((0..self.width).map(|k| {
-                weights[0] * from[k] + weights[1] * leaving[k] + to_weight * to[k] + arriving_weight * arriving[k]
-            }));
+            values.extend(
+                (0..self.width)
+                    .map(|k| weights[0] * from[k] + weights[1] * leaving[k] + to_weight * to[k] + arriving_weight * arriving[k]),
+            );
         } else if self.property == Property::Rotation {
             values.extend(arc(DQuat::from_slice(from), DQuat::from_slice(to), share).to_array());
         } else {

@@ -59,7 +59,11 @@ pub enum SequenceProblem {
         other: String,
     },
     /// A folder has files of several sequences, or meshes without a number.
-    #[error("this folder has more than one sequence ('{}' and '{}'); name the files, such as body-####.ply", excerpt(one, 60), excerpt(other, 60))]
+    #[error(
+        "this folder has more than one sequence ('{}' and '{}'); name the files, such as body-####.ply",
+        excerpt(one, 60),
+        excerpt(other, 60)
+    )]
     SeveralSequences {
         /// A file.
         one: String,
@@ -88,7 +92,11 @@ pub enum SequenceProblem {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn read_sequence(pattern: &Path) -> Result<MeshSequence, MeshError> {
-    let found = if pattern.is_dir() { of_folder(pattern) } else { of_pattern(pattern) };
+    let found = if pattern.is_dir() {
+        of_folder(pattern)
+    } else {
+        of_pattern(pattern)
+    };
     let files = found.map_err(|problem| MeshError::Sequence {
         pattern: pattern.to_owned(),
         problem,
@@ -162,9 +170,9 @@ fn of_folder(folder: &Path) -> Result<Vec<PathBuf>, SequenceProblem> {
     };
     // The last run of digits: the number, and not the 4 of `v4-body-001.ply`.
     let end = one.rfind(|c: char| c.is_ascii_digit()).map_or(0, |last| last + 1);
-    let start = one[..end].rfind(|c: char| !c.is_ascii_digit()).map_or(0, |before| {
-        before + one[before..].chars().next().map_or(0, char::len_utf8)
-    });
+    let start = one[..end]
+        .rfind(|c: char| !c.is_ascii_digit())
+        .map_or(0, |before| before + one[before..].chars().next().map_or(0, char::len_utf8));
     let names = Names {
         before: &one[..start],
         digits: 1,

@@ -657,7 +657,11 @@ fn edges_and_points_that_are_none_are_errors_that_name_their_line() {
 fn numbered_files_are_frames_in_the_order_of_their_numbers() {
     let folder = TempDir::new().unwrap();
     let frame = |number: u64| Mesh {
-        positions: triangle().positions.into_iter().map(|p| p + DVec3::Z * number as f64).collect(),
+        positions: triangle()
+            .positions
+            .into_iter()
+            .map(|p| p + DVec3::Z * number as f64)
+            .collect(),
         ..triangle()
     };
     // Past the digits of the first, and in both formats.
@@ -704,9 +708,16 @@ fn what_is_no_sequence_is_refused_with_the_frame_or_the_file_named() {
     assert!(message("").contains("more than one sequence ('leaf-1.obj' and 'shirt.obj'); name the files"));
     let text = |lines: &str| fs::write(folder.path().join("leaf-3.obj"), lines).unwrap();
     text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\n");
-    assert!(message("leaf-#.obj").contains("F/leaf-1.obj and F/leaf-3.obj are not frames of the same mesh: the first has 3 vertices, the second 4"));
+    assert!(
+        message("leaf-#.obj")
+            .contains("F/leaf-1.obj and F/leaf-3.obj are not frames of the same mesh: the first has 3 vertices, the second 4")
+    );
     text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 2\n");
     assert!(message("leaf-#.obj").contains("triangle 0 is 0 1 2 in the first, 0 2 1 in the second"));
     text("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
-    assert!(message("leaf-#.obj").starts_with("F/leaf-3.obj: line 3: "), "{}", message("leaf-#.obj"));
+    assert!(
+        message("leaf-#.obj").starts_with("F/leaf-3.obj: line 3: "),
+        "{}",
+        message("leaf-#.obj")
+    );
 }

@@ -14,10 +14,10 @@ mod tests;
 
 use super::recording::{Frame, Part, PartKind, Recording};
 use binary::Binary;
-pub use skinned::walker;
 use selvedge_cloth::vertex_normals;
 use selvedge_core::glam::{DQuat, DVec3};
 use serde_json::{Value, json};
+pub use skinned::walker;
 
 /// The format numbers bytes by a `u32`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

@@ -53,7 +53,9 @@ pub fn walker(walker: &Walker) -> Result<Vec<u8>, TooLarge> {
         channels.push(json!({"sampler": samplers.len(), "target": {"node": node, "path": path}}));
         samplers.push(json!({"input": input, "output": output, "interpolation": "LINEAR"}));
     };
-    let moved: Vec<[f32; 3]> = { seconds.iter() }.map(|&time| single(bones[0].joint + walker.moved(time))).collect();
+    let moved: Vec<[f32; 3]> = { seconds.iter() }
+        .map(|&time| single(bones[0].joint + walker.moved(time)))
+        .collect();
     add(binary.add_items("VEC3", &moved), 0, "translation");
     for bone in 0..bones.len() {
         let turn = |&time: &f64| rotation(walker.turns(time)[bone]).to_array().map(|number| number as f32);

@@ -144,7 +144,11 @@ impl Walker {
         turns[CHEST].z = 0.04 * walks * sin(TAU * time + 0.5 * PI);
         turns[HEAD].y = 0.1 * swing;
         for (side, sign) in [(0, 1.0), (1, -1.0)] {
-            let raised = if side == 0 { eased(time, 1.3, 2.0) - eased(time, 2.0, 2.7) } else { eased(time, 1.8, 2.5) };
+            let raised = if side == 0 {
+                eased(time, 1.3, 2.0) - eased(time, 2.0, 2.7)
+            } else {
+                eased(time, 1.8, 2.5)
+            };
             let lowered = 0.75 * eased(time, 0.1, 0.9) - 1.1 * raised;
             turns[UPPER_ARMS[side]] = DVec3::new(0.0, -0.3 * sign * swing * sign, -sign * lowered);
             turns[FOREARMS[side]].y = -sign * (0.25 + 0.15 * sign * swing) * eased(time, 0.2, 0.9);
@@ -257,5 +261,18 @@ mod tests {
             let [v, e, f] = [topology.vertex_count(), topology.edges().len(), topology.triangles().len()];
             assert_eq!(v as i64 - e as i64 + f as i64, 2 - 4);
         }
+    }
+
+    #[test]
+    fn the_scene_that_comes_with_the_program_is_of_the_coarsest_walker() {
+        let scenes = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../cloth/scenes");
+        let walker = Walker::new(0.035);
+        let figure = crate::report::gltf::walker(&walker).unwrap();
+        assert!(
+            std::fs::read(scenes.join("walker.glb")).unwrap() == figure,
+            "run `selvedge walker --pitch 0.035` there"
+        );
+        let shirt = selvedge_files::mesh::read(&scenes.join("walker-shirt.ply")).unwrap().mesh;
+        assert!(shirt == *walker.shirt());
     }
 }

@@ -107,7 +107,8 @@ fn trim(mesh: &mut Mesh) {
             edge.iter().for_each(|&vertex| ends[vertex as usize] = true);
         }
         let before = mesh.triangles.len();
-        mesh.triangles.retain(|triangle| !triangle.iter().all(|&vertex| ends[vertex as usize]));
+        mesh.triangles
+            .retain(|triangle| !triangle.iter().all(|&vertex| ends[vertex as usize]));
         if mesh.triangles.len() == before {
             break;
         }
