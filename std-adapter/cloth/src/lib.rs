@@ -19,6 +19,7 @@
 //! |---|---|
 //! | [`Scene`] | **start here**: what is to be simulated, from code or from a file |
 //! | [`Cloth`], [`Body`], [`effects`] | what a scene consists of |
+//! | [`Motion`], [`Animation`] | where bodies go: on keyframes, as frames or a skinned figure of a glTF file say, or as the caller does |
 //! | [`Simulation`] | runs a scene: positions after each step, what each effect took, checkpoints |
 //! | [`effect_names`] | every effect that a scene may name |
 //! | [`sleeve`] | the paper's sleeve at any size, of which scenes can be made |
@@ -55,11 +56,16 @@ pub use normals::vertex_normals;
 pub use scene::{OnBlocked, Scene};
 pub use selvedge::Mesh;
 pub use selvedge_core::glam;
+/// Readers of meshes, numbered frames and figures: what [`Animation`]s are made of.
+pub use selvedge_files as files;
 pub use simulator::{Blocked, CHECKPOINT_STEPS, DriveError, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation};
-pub use world::{Body, Cloth, Keyframe, Motion, Placement, RigidMotion};
+pub use world::{Animation, Body, Cloth, Keyframe, Motion, Placement, RigidMotion};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
 pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");
+
+/// The scene of a skinned figure that walks in a shirt, as text: its files are `walker.glb` and `walker-shirt.ply` beside it.
+pub const WALKER: &str = include_str!("../scenes/walker.toml");
 
 /// The readme's examples are tests.
 #[cfg(doctest)]

@@ -29,6 +29,7 @@ use super::effects::{self, Effect, Gravity};
 use super::input::{AREA_DENSITY, FREQUENCY, Field, LARGEST_TIME, SceneError, Source, TIME, Table, ValueError};
 use super::world::{Body, Cloth, SceneParts};
 use selvedge_core::glam::DVec3;
+use selvedge_files::bytes::Fingerprint;
 use selvedge_files::excerpt::excerpt;
 use std::path::Path;
 
@@ -268,13 +269,9 @@ impl Scene {
 
     /// Tells checkpoints of this scene from others': from its text and all that it was made into.
     pub(crate) fn fingerprint(&self) -> u64 {
-        // FNV-1a: the same in every version of every compiler. Numbers are written so that they read back.
-        let mut hash = 0xcbf2_9ce4_8422_2325_u64;
-        let mut take = |bytes: &[u8]| {
-            for &byte in bytes {
-                hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-            }
-        };
+        // Numbers are written so that they read back.
+        let mut fingerprint = Fingerprint::default();
+        let mut take = |bytes: &[u8]| fingerprint.take(bytes);
         take(self.text.as_bytes());
         let Cloth {
             density, velocity, warp, ..
@@ -290,7 +287,7 @@ impl Scene {
             coordinates.for_each(|x| take(&x.to_le_bytes()));
             mesh.triangles.iter().flatten().for_each(|vertex| take(&vertex.to_le_bytes()));
         }
-        hash
+        fingerprint.value()
     }
 }
 

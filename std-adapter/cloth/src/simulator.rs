@@ -192,6 +192,7 @@ impl Simulation {
             carriers.resize(rest.len(), carrier as Carrier);
         }
         inverse_masses.resize(rest.len(), 0.0);
+        let mut motions = motions;
         let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
         let mut carried = rest.clone();
         for (point, &carrier) in carried[..cloth.mesh.positions.len()].iter_mut().zip(&carriers) {
@@ -205,7 +206,8 @@ impl Simulation {
             .iter()
             .zip(&carriers)
             .map(|(&point, &carrier)| poses.get(carrier as usize).map_or(point, |pose| pose.apply(point)));
-        let positions: Vec<DVec3> = start.collect();
+        let mut positions: Vec<DVec3> = start.collect();
+        motions.iter_mut().for_each(|motion| motion.put(0.0, &mut positions));
         let velocities = carriers.iter().map(|&carrier| match carrier {
             FREE => cloth.velocity,
             _ => DVec3::ZERO,
@@ -563,12 +565,13 @@ impl Simulation {
             carried,
             effects,
             contact,
+            motions,
             ..
         } = self;
         let clock = state.clock;
         work.poses.clear();
         let poses = |motion: &Kinematic| [clock, clock + ticks].map(|time| motion.pose(time));
-        work.poses.extend(self.motions.iter().map(poses));
+        work.poses.extend(motions.iter().map(poses));
         work.touches.list.clear();
         let step = TimeStep {
             time: state.step as f64 * self.time_step,
@@ -591,9 +594,7 @@ impl Simulation {
         let (positions, touches) = (&mut work.predicted, &mut work.touches);
         positions.clear();
         positions.extend((0..step.start.len()).map(predicted));
-        for driven in self.motions.iter().filter_map(Kinematic::driven) {
-            driven.put(clock + ticks, positions);
-        }
+        motions.iter_mut().for_each(|motion| motion.put(clock + ticks, positions));
         for Entry { effect, action } in &mut self.constraints {
             timed(effects, *effect, || action.project(&step, positions, touches));
         }

@@ -2,9 +2,11 @@
 //!
 //! | module | what it is |
 //! |---|---|
-//! | [`mesh`] | **start here**: OBJ and PLY files, one mesh or both frames of a step |
+//! | [`mesh`] | **start here**: OBJ and PLY files, one mesh, both frames of a step, or numbered frames |
+//! | [`animation`] | skinned and morphing figures of glTF files; reading them needs the feature `gltf` |
 //! | [`queries`] | primitive-pair queries of the public continuous collision detection benchmark |
 
+pub mod animation;
 // What the project's other crates use besides; nothing is promised of it.
 #[doc(hidden)]
 pub mod bytes;

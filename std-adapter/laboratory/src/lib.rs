@@ -9,7 +9,7 @@
 //! | [`methods`] | the one table: every published method, and ours, by name, as a choice of stages |
 //! | [`pipeline`] | **start here**: a method on one step after another, counted and timed |
 //! | [`broad_phase`] | that of the published methods: pairs of triangles whose swept boxes overlap |
-//! | [`scene`] | the built-in motion: a sleeve on a bending arm |
+//! | [`scene`] | built-in motions: a sleeve on a bending arm; a figure that walks in a shirt |
 //! | [`study`] | experiments: methods compared, cost against size, benchmark queries, accuracy against time; data only |
 //! | [`hard_cases`] | hard cases of the literature by name, with exact answers |
 //! | [`report`] | what studies and simulations found, as tables, CSV, JSON, plots, pictures, pages and glTF |

@@ -125,6 +125,11 @@ impl OfContact {
         first_crossing(&self.topology, positions, |a, b| self.body_of_pair(a, b).is_some())
     }
 
+    /// Whether an edge of the cloth passes through a face of a body, or the other way round.
+    pub(super) fn passes_through(&self, body: Carrier, positions: &[DVec3]) -> bool {
+        first_crossing(&self.topology, positions, |a, b| self.body_of_pair(a, b) == Some(body)).is_some()
+    }
+
     /// The body of two vertices that are to be kept apart, [`FREE`] for cloth and cloth; `None` if nobody asked for that.
     #[inline(always)]
     fn body_of_pair(&self, one: u32, other: u32) -> Option<Carrier> {

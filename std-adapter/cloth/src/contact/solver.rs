@@ -130,7 +130,8 @@ impl ContactSolver {
         self.yielding.copy_from_slice(yielding);
     }
 
-    /// Takes bodies back into the promise that are apart from the cloth by their separation.
+    /// Takes bodies back into the promise that are apart from the cloth by their separation. A coarse mesh may pass through another one
+    /// with all its vertices and edges far from the other's: that is asked for by itself.
     pub(crate) fn take_back(&mut self, positions: &[DVec3]) {
         for body in 0..self.yielding.len() {
             if !self.yielding[body] {
@@ -141,7 +142,8 @@ impl ContactSolver {
                 let separation = self.settings.of(pair.data.is_with_body()).map_or(0.0, |t| t.separation);
                 pair.distance_from_below(positions, self.error) > separation
             };
-            self.yielding[body] = !pairs.clone().all(is_apart);
+            let is_apart = pairs.clone().all(is_apart) && !self.candidates.interest().passes_through(body as Carrier, positions);
+            self.yielding[body] = !is_apart;
         }
     }
 }

@@ -79,12 +79,20 @@ impl PinGroup {
             }
         }
         match &self.motion {
-            PinMotion::Body(body) if *body < world.bodies.len() => Ok(()),
+            PinMotion::Body(body) if *body < world.bodies.len() => match &world.bodies[*body].motion {
+                Motion::Animated(_) => {
+                    let name = &world.bodies[*body].name;
+                    let message =
+                        format!("pins cannot follow '{name}', which changes its shape; give them a motion of their own");
+                    Err(ValueError::new("follow", message))
+                }
+                _ => Ok(()),
+            },
             PinMotion::Body(body) => {
                 let message = format!("there is no body {body}: the scene has {}, from 0 on", world.bodies.len());
                 Err(ValueError::new("follow", message))
             }
-            PinMotion::Own(motion) => motion.check(world.time_step),
+            PinMotion::Own(motion) => motion.check(self.vertices.len(), world.time_step),
         }
     }
 }

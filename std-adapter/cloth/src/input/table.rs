@@ -147,6 +147,11 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// Text in one line; `example` is how a scene may write it.
+    pub(crate) fn required_text(&self, key: &str, example: &str) -> Result<&'a str, SceneError> {
+        self.text(key)?.ok_or_else(|| self.missing(key, example))
+    }
+
     /// One of several names, if the key is there.
     pub(crate) fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<Option<T>, SceneError> {
         let Some(name) = self.text(key)? else {

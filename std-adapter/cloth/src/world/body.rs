@@ -1,10 +1,13 @@
 //! `[[body]]`: what the cloth meets.
 
+use super::animation::{Animation, RATE, START};
 use super::motion::{Motion, RigidMotion};
 use super::shapes;
 use crate::input::{Count, Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
+use selvedge_files::animation::{self, AnimationProblem, Choice};
+use selvedge_files::mesh::{self, MeshSequence};
 
 /// A kinematic body: it goes where it is told, whatever the cloth does.
 ///
@@ -34,12 +37,16 @@ enum BodyShape {
     Capsule,
     Ball,
     File,
+    Frames,
+    Figure,
 }
 
-const SHAPES: [(&str, BodyShape); 3] = [
+const SHAPES: [(&str, BodyShape); 5] = [
     ("capsule", BodyShape::Capsule),
     ("ball", BodyShape::Ball),
     ("file", BodyShape::File),
+    ("frames", BodyShape::Frames),
+    ("gltf", BodyShape::Figure),
 ];
 
 const FROM: Field = Field::vector("from", LENGTH, LARGEST_COORDINATE);
@@ -84,36 +91,100 @@ impl Body {
         }
     }
 
+    /// Any surface that changes its shape: its triangles, and where their vertices go.
+    #[must_use]
+    pub fn animated(name: &str, triangles: Vec<[u32; 3]>, animation: Animation) -> Self {
+        let positions = animation.positions_at(animation.span()[0]);
+        Self {
+            motion: Motion::Animated(animation),
+            ..Self::of_mesh(name, Mesh { positions, triangles })
+        }
+    }
+
     /// What the mesh and the motion may be.
     pub(crate) fn check(&self, time_step: f64) -> Result<(), ValueError> {
-        let checked = shapes::check(&self.mesh).and_then(|()| self.motion.check(time_step));
+        let motion = || self.motion.check(self.mesh.positions.len(), time_step);
+        let checked = shapes::check(&self.mesh).and_then(|()| motion());
         checked.map_err(|error| error.of(&self.name))
     }
 
     pub(crate) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
-        let own: &[&str] = match table.required_choice("shape", &SHAPES)? {
+        let shape = table.required_choice("shape", &SHAPES)?;
+        let own: &[&str] = match shape {
             BodyShape::Capsule => &["from", "to", "radius", "around"],
             BodyShape::Ball => &["centre", "radius", "around"],
             BodyShape::File => &["file"],
+            BodyShape::Frames => &["files", "frames_per_second", "start"],
+            BodyShape::Figure => &["file", "node", "animation", "start"],
         };
-        let keys = [&["name", "shape"], &Motion::KEYS[..], own].concat();
-        table.expect_keys(&keys)?;
+        let motion: &[&str] = match shape {
+            BodyShape::Frames | BodyShape::Figure => &[],
+            _ => &Motion::KEYS,
+        };
+        table.expect_keys(&[&["name", "shape"], motion, own].concat())?;
         let Some(name) = table.text("name")? else {
             let message = "[body] needs `name`, such as \"arm\"".to_owned();
             return Err(table.error("name", message));
         };
         let radius = || table.required_number(&RADIUS);
         let around = || table.count(&AROUND).map(|n| n.unwrap_or(24));
-        let made = match table.required_choice("shape", &SHAPES)? {
+        let made = match shape {
             BodyShape::Capsule => {
                 let ends = [table.required_vector(&FROM)?, table.required_vector(&TO)?];
                 Self::capsule(name, ends, radius()?, around()?)
             }
             BodyShape::Ball => Self::ball(name, table.required_vector(&CENTRE)?, radius()?, around()?),
             BodyShape::File => Ok(Self::of_mesh(name, shapes::of_file(table)?)),
+            BodyShape::Frames => return Self::read_frames(name, table, time_step),
+            BodyShape::Figure => return Self::read_figure(name, table, time_step),
         };
         let mut body = made.map_err(|error| table.placed(&error))?;
         body.motion = Motion::read(table, time_step)?;
+        Ok(body)
+    }
+
+    /// Numbered files.
+    fn read_frames(name: &str, table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
+        let files = table.required_text("files", "\"frames/body-####.ply\"")?;
+        let rate = table.required_number(&RATE)?;
+        let read = mesh::read_sequence(&table.folder().join(files));
+        let MeshSequence { triangles, frames, .. } = read.map_err(|error| table.error("files", error.to_string()))?;
+        let animation = Animation::of_frames(frames, rate);
+        Self::read_animated(name, table, time_step, triangles, animation, "files")
+    }
+
+    /// A figure of a glTF file.
+    fn read_figure(name: &str, table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
+        let file = table.required_text("file", "\"figure.glb\"")?;
+        let choice = Choice {
+            node: table.text("node")?,
+            animation: table.text("animation")?,
+        };
+        let figure = animation::read(&table.folder().join(file), &choice).map_err(|error| {
+            let key = match error.problem {
+                AnimationProblem::NoSuchNode { .. } => "node",
+                AnimationProblem::NoSuchAnimation { .. } => "animation",
+                _ => "file",
+            };
+            table.error(key, error.to_string())
+        })?;
+        let triangles = figure.mesh().triangles.clone();
+        Self::read_animated(name, table, time_step, triangles, Animation::of_figure(figure), "file")
+    }
+
+    /// The rest of what a table says of an animation, which was read from what `key` names.
+    fn read_animated(
+        name: &str,
+        table: &Table<'_>,
+        time_step: f64,
+        triangles: Vec<[u32; 3]>,
+        animation: Result<Animation, ValueError>,
+        key: &str,
+    ) -> Result<Self, SceneError> {
+        let start = table.number(&START)?.unwrap_or_default();
+        let of_file = |error: ValueError| table.error(key, error.message);
+        let body = Self::animated(name, triangles, animation.map_err(of_file)?.starting_at(start));
+        body.check(time_step).map_err(of_file)?;
         Ok(body)
     }
 }

@@ -1,8 +1,9 @@
-//! Bodies and pins that the caller moves, step by step.
+//! What carries kinematic vertices; and bodies and pins that the caller moves, step by step.
 //!
 //! Before a step the caller may say where it leads: a rigid body turns about its origin and moves along evenly, points that are given
 //! one by one go straight. A step that has to be cut, or to wait, leaves them on the way; the next one starts from there.
 
+use super::animation::Animation;
 use super::motion::{Motion, Pose, RigidMotion};
 use super::placement::Placement;
 use selvedge_core::glam::DVec3;
@@ -11,7 +12,18 @@ use selvedge_core::glam::DVec3;
 #[derive(Debug)]
 pub(crate) enum Kinematic {
     Keyframes(RigidMotion),
+    Animated(Animated),
     Driven(Box<Driven>),
+}
+
+/// Something of which each vertex goes its own way, known ahead.
+#[derive(Debug)]
+pub(crate) struct Animated {
+    /// Of the scene.
+    vertices: Vec<u32>,
+    animation: Animation,
+    /// Of its vertices.
+    positions: Vec<DVec3>,
 }
 
 /// Something that the caller moves.
@@ -55,6 +67,11 @@ impl Kinematic {
     pub(crate) fn new(motion: Motion, vertices: Vec<u32>) -> Self {
         match motion {
             Motion::Keyframes(motion) => Self::Keyframes(motion),
+            Motion::Animated(animation) => Self::Animated(Animated {
+                vertices,
+                animation,
+                positions: Vec::new(),
+            }),
             Motion::Driven(placement) => {
                 // Scenes are checked before.
                 let placement = placement.checked().unwrap_or(placement);
@@ -73,21 +90,40 @@ impl Kinematic {
     pub(crate) fn pose(&self, clock: f64) -> Pose {
         match self {
             Self::Keyframes(motion) => motion.pose(clock),
+            Self::Animated(animated) => Pose::deformed(animated.animation.key(clock)),
             Self::Driven(driven) => driven.pose(clock),
+        }
+    }
+
+    /// Puts points that go their own ways where they are at a time of the clock.
+    pub(crate) fn put(&mut self, clock: f64, positions: &mut [DVec3]) {
+        match self {
+            Self::Keyframes(_) => {}
+            Self::Animated(animated) => animated.put(clock, positions),
+            Self::Driven(driven) => driven.put(clock, positions),
         }
     }
 
     pub(crate) fn driven(&self) -> Option<&Driven> {
         match self {
-            Self::Keyframes(_) => None,
+            Self::Keyframes(_) | Self::Animated(_) => None,
             Self::Driven(driven) => Some(driven),
         }
     }
 
     pub(crate) fn driven_mut(&mut self) -> Option<&mut Driven> {
         match self {
-            Self::Keyframes(_) => None,
+            Self::Keyframes(_) | Self::Animated(_) => None,
             Self::Driven(driven) => Some(driven),
+        }
+    }
+}
+
+impl Animated {
+    fn put(&mut self, clock: f64, positions: &mut [DVec3]) {
+        self.animation.sample(clock, &mut self.positions);
+        for (&vertex, &position) in self.vertices.iter().zip(&self.positions) {
+            positions[vertex as usize] = position;
         }
     }
 }
@@ -154,8 +190,7 @@ impl Driven {
         };
     }
 
-    /// Puts points that go their own ways where they are at a time of the clock.
-    pub(crate) fn put(&self, clock: f64, positions: &mut [DVec3]) {
+    fn put(&self, clock: f64, positions: &mut [DVec3]) {
         if let Leg::Points { from, to, .. } = &self.leg {
             let share = self.share(clock);
             for ((&vertex, from), to) in self.vertices.iter().zip(from).zip(to) {

@@ -1,5 +1,6 @@
 //! What a scene is about: the cloth at rest, bodies, and the motions that bodies and pins follow.
 
+mod animation;
 mod body;
 mod cloth;
 mod driven;
@@ -7,6 +8,7 @@ mod motion;
 mod placement;
 mod shapes;
 
+pub use animation::Animation;
 pub use body::Body;
 pub use cloth::Cloth;
 pub use motion::{Keyframe, Motion, RigidMotion};

@@ -1,6 +1,7 @@
-//! Where bodies and pins go: along keyframes, or wherever the caller says from step to step ([`driven`](super::driven)).
+//! Where bodies and pins go: along keyframes, as an [animation](super::animation) says, or wherever the caller says from step to step
+//! ([`driven`](super::driven)).
 
-use super::Placement;
+use super::{Animation, Placement};
 use crate::input::{ANGLE, Field, LARGEST_COORDINATE, LARGEST_TIME, LENGTH, RATIO, SceneError, TIME, Table, ValueError};
 use libm::{cos, sin};
 use selvedge_core::glam::DVec3;
@@ -10,6 +11,8 @@ use selvedge_core::glam::DVec3;
 pub enum Motion {
     /// Known ahead.
     Keyframes(RigidMotion),
+    /// Known ahead, vertex by vertex: a body that changes its shape.
+    Animated(Animation),
     /// By the caller, from here on: each step may be told where it leads, and where it is told nothing, all stays. See
     /// [`Simulation::place_body`](crate::Simulation::place_body).
     Driven(Placement),
@@ -17,10 +20,11 @@ pub enum Motion {
 
 impl Motion {
     /// # Errors
-    /// If something turns too far in a step, or a number is beyond its range.
-    pub(crate) fn check(&self, time_step: f64) -> Result<(), ValueError> {
+    /// If something turns or jumps too far in a step, a number is beyond its range, or it cannot move so many vertices.
+    pub(crate) fn check(&self, vertices: usize, time_step: f64) -> Result<(), ValueError> {
         match self {
             Self::Keyframes(motion) => motion.check(time_step),
+            Self::Animated(animation) => animation.check(vertices, time_step),
             Self::Driven(placement) => placement.checked().map(drop),
         }
     }
@@ -39,6 +43,12 @@ impl Motion {
             None => Ok(Self::Driven(Placement::default())),
             Some(key) => Err(table.error(key, format!("what is driven from step to step has no `{key}`"))),
         }
+    }
+}
+
+impl From<Animation> for Motion {
+    fn from(animation: Animation) -> Self {
+        Self::Animated(animation)
     }
 }
 
@@ -116,7 +126,7 @@ pub(crate) struct Pose {
     axis: DVec3,
     pub(crate) angle: f64,
     translation: DVec3,
-    /// How far its points are on straight ways of their own: then the rest says nothing.
+    /// How far its points are on ways of their own: then the rest says nothing.
     pub(super) deformed: Option<f64>,
 }
 
@@ -229,10 +239,10 @@ impl Pose {
         }
     }
 
-    /// That of points on straight ways of their own.
-    pub(super) fn deformed(share: f64) -> Self {
+    /// That of points on ways of their own, so far on them.
+    pub(super) fn deformed(along: f64) -> Self {
         Self {
-            deformed: Some(share),
+            deformed: Some(along),
             ..Self::standing(Placement::default())
         }
     }

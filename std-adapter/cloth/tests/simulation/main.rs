@@ -1,5 +1,6 @@
 //! Cloth simulation as a library's user meets it.
 
+mod animated;
 mod bending;
 mod blocked;
 mod determinism;

@@ -13,6 +13,7 @@ mod progress;
 mod queries;
 mod scaling;
 mod simulate;
+mod walker;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -57,6 +58,7 @@ enum Command {
     Accuracy(accuracy::Accuracy),
     Arm(arm::Arm),
     Simulate(simulate::Simulate),
+    Walker(walker::Walker),
 }
 
 /// Runs the command line. Errors go to standard error, as does everything else that is not the answer.
@@ -73,6 +75,7 @@ pub(crate) fn main() -> ExitCode {
         Some(Command::Accuracy(accuracy)) => accuracy.run(),
         Some(Command::Arm(arm)) => arm.run(),
         Some(Command::Simulate(simulate)) => simulate.run(),
+        Some(Command::Walker(walker)) => walker.run(),
     };
     exit(result.map(|()| ExitCode::SUCCESS))
 }

@@ -10,3 +10,4 @@ mod queries;
 mod simulate;
 mod support;
 mod terminal;
+mod walker;

@@ -1,5 +1,6 @@
 //! What can be wrong with a mesh file, each with a message that says where and what to do.
 
+use super::sequence::SequenceProblem;
 use selvedge::{Topology, TopologyError};
 use std::fmt;
 use std::io;
@@ -26,6 +27,14 @@ pub enum MeshError {
         end: PathBuf,
         /// The first difference.
         difference: FrameDifference,
+    },
+    /// Numbered files are no sequence.
+    #[error("{}: {problem}", pattern.display())]
+    Sequence {
+        /// What was asked for.
+        pattern: PathBuf,
+        /// What is wrong with it.
+        problem: SequenceProblem,
     },
 }
 
@@ -162,7 +171,7 @@ pub enum FileProblem {
 }
 
 impl FileProblem {
-    pub(super) fn from_read(error: io::Error) -> Self {
+    pub(crate) fn from_read(error: io::Error) -> Self {
         match error.kind() {
             io::ErrorKind::NotFound => Self::Missing,
             io::ErrorKind::IsADirectory => Self::Folder,

@@ -9,12 +9,14 @@
 mod error;
 mod obj;
 mod ply;
+mod sequence;
 mod step;
 #[cfg(test)]
 mod tests;
 
 pub use error::{FileProblem, FrameDifference, MeshError};
 pub use ply::PlyEncoding;
+pub use sequence::{MeshSequence, SequenceProblem, read_sequence};
 pub use step::{MeshStep, read_step};
 
 use crate::temporary_file;
@@ -302,7 +304,7 @@ fn check(mesh: &Mesh) -> Result<(), FileProblem> {
     Ok(())
 }
 
-fn check_finite(vertex: usize, position: DVec3, line: Option<usize>) -> Result<(), FileProblem> {
+pub(crate) fn check_finite(vertex: usize, position: DVec3, line: Option<usize>) -> Result<(), FileProblem> {
     for (coordinate, value) in ['x', 'y', 'z'].into_iter().zip(position.to_array()) {
         if !value.is_finite() {
             return Err(FileProblem::NonFinite {

@@ -652,3 +652,72 @@ fn edges_and_points_that_are_none_are_errors_that_name_their_line() {
         "the header declares no integer 'vertex1' for the element 'edge'"
     );
 }
+
+#[test]
+fn numbered_files_are_frames_in_the_order_of_their_numbers() {
+    let folder = TempDir::new().unwrap();
+    let frame = |number: u64| Mesh {
+        positions: triangle()
+            .positions
+            .into_iter()
+            .map(|p| p + DVec3::Z * number as f64)
+            .collect(),
+        ..triangle()
+    };
+    // Past the digits of the first, and in both formats.
+    for number in [8, 9, 10, 11] {
+        write(&folder.path().join(format!("leaf{number}.ply")), &frame(number)).unwrap();
+    }
+    fs::write(folder.path().join("leaf.txt"), "of no interest").unwrap();
+    let by_name = read_sequence(&folder.path().join("leaf#.ply")).unwrap();
+    let heights: Vec<f64> = by_name.frames.iter().map(|frame| frame[0].z).collect();
+    assert_eq!((heights, by_name.triangles.len()), (vec![8.0, 9.0, 10.0, 11.0], 1));
+    assert_eq!(by_name.files[3], folder.path().join("leaf11.ply"));
+    assert_eq!(read_sequence(folder.path()).unwrap(), by_name);
+}
+
+#[test]
+fn what_is_no_sequence_is_refused_with_the_frame_or_the_file_named() {
+    let folder = TempDir::new().unwrap();
+    let put = |name: &str| write(&folder.path().join(name), &triangle()).unwrap();
+    let message = |pattern: &str| {
+        let path = folder.path().join(pattern);
+        let error = read_sequence(&path).unwrap_err().to_string();
+        error.replace(&*folder.path().to_string_lossy(), "F")
+    };
+    assert_eq!(message("leaf-#.obj"), "F/leaf-#.obj: there is no such file in 'F'");
+    assert_eq!(message(""), "F/: there is no such file in 'F/'");
+    for name in ["leaf-1.obj", "leaf-2.obj", "leaf-5.obj"] {
+        put(name);
+    }
+    assert_eq!(
+        message("leaf-#.obj"),
+        "F/leaf-#.obj: frame 3 is missing: there are frames up to 2, and from 5 on"
+    );
+    assert!(message("leaf-1.obj").ends_with("must have one run of '#' where their numbers stand, such as body-####.ply"));
+    assert!(message("#-#.obj").contains("one run of '#'"));
+    assert!(message("no/leaf-#.obj").starts_with("F/no/leaf-#.obj: the folder 'F/no' cannot be read: "));
+    fs::remove_file(folder.path().join("leaf-5.obj")).unwrap();
+    put("leaf-02.obj");
+    assert_eq!(
+        message("leaf-#.obj"),
+        "F/leaf-#.obj: frame 2 is there twice: 'leaf-02.obj' and 'leaf-2.obj'"
+    );
+    fs::remove_file(folder.path().join("leaf-02.obj")).unwrap();
+    put("shirt.obj");
+    assert!(message("").contains("more than one sequence ('leaf-1.obj' and 'shirt.obj'); name the files"));
+    let text = |lines: &str| fs::write(folder.path().join("leaf-3.obj"), lines).unwrap();
+    text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\n");
+    assert!(
+        message("leaf-#.obj")
+            .contains("F/leaf-1.obj and F/leaf-3.obj are not frames of the same mesh: the first has 3 vertices, the second 4")
+    );
+    text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 2\n");
+    assert!(message("leaf-#.obj").contains("triangle 0 is 0 1 2 in the first, 0 2 1 in the second"));
+    text("v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
+    assert!(
+        message("leaf-#.obj").starts_with("F/leaf-3.obj: line 3: "),
+        "{}",
+        message("leaf-#.obj")
+    );
+}

@@ -4,6 +4,7 @@ use super::TooLarge;
 use serde_json::{Value, json};
 
 /// Numbers of the format.
+const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
 const ARRAY_BUFFER: u32 = 34962;
@@ -41,11 +42,26 @@ impl Binary {
         self.add_accessor(view, FLOAT, "VEC3", vectors.len(), bounds)
     }
 
-    /// Adds tuples that an animation needs: `VEC3` or `VEC4`.
-    pub(super) fn add_tuples<const N: usize>(&mut self, tuples: &[[f32; N]], kind: &str) -> usize {
-        let bytes = tuples.iter().flatten().flat_map(|number| number.to_le_bytes());
+    /// Adds four small numbers for each vertex.
+    pub(super) fn add_joints(&mut self, joints: impl ExactSizeIterator<Item = [u16; 4]>) -> usize {
+        let count = joints.len();
+        let bytes = joints.flatten().flat_map(u16::to_le_bytes);
+        let view = self.add_view(bytes, Some(ARRAY_BUFFER));
+        self.add_accessor(view, UNSIGNED_SHORT, "VEC4", count, json!({}))
+    }
+
+    /// Adds four numbers for each vertex.
+    pub(super) fn add_weights(&mut self, weights: impl ExactSizeIterator<Item = [f32; 4]>) -> usize {
+        let count = weights.len();
+        let view = self.add_view(weights.flatten().flat_map(f32::to_le_bytes), Some(ARRAY_BUFFER));
+        self.add_accessor(view, FLOAT, "VEC4", count, json!({}))
+    }
+
+    /// Adds what an animation or a skin needs of several numbers each: of the type `kind`.
+    pub(super) fn add_items<const N: usize>(&mut self, kind: &str, items: &[[f32; N]]) -> usize {
+        let bytes = items.iter().flatten().flat_map(|number| number.to_le_bytes());
         let view = self.add_view(bytes, None);
-        self.add_accessor(view, FLOAT, kind, tuples.len(), json!({}))
+        self.add_accessor(view, FLOAT, kind, items.len(), json!({}))
     }
 
     /// Adds numbers that an animation needs, not empty.
@@ -58,7 +74,7 @@ impl Binary {
         self.add_accessor(view, FLOAT, "SCALAR", numbers.len(), bounds)
     }
 
-    /// Every number takes four bytes, so that every view begins at a multiple of four.
+    /// Every number takes four bytes, or four take eight, so that every view begins at a multiple of four.
     fn add_view(&mut self, bytes: impl Iterator<Item = u8>, target: Option<u32>) -> usize {
         let begin = self.bytes.len();
         self.bytes.extend(bytes);

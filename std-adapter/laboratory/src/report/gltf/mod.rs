@@ -9,6 +9,7 @@
 
 mod binary;
 mod rigid;
+mod skinned;
 #[cfg(test)]
 mod tests;
 
@@ -18,6 +19,7 @@ use rigid::{Pose, poses};
 use selvedge_cloth::vertex_normals;
 use selvedge_core::glam::{DQuat, DVec3};
 use serde_json::{Value, json};
+pub use skinned::walker;
 
 /// The format numbers bytes by a `u32`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -187,10 +189,10 @@ fn animation(
     }
     for (node, poses) in rigid {
         let rotations = poses.iter().map(|pose| pose.rotation.to_array().map(|number| number as f32));
-        let rotations = binary.add_tuples(&rotations.collect::<Vec<_>>(), "VEC4");
+        let rotations = binary.add_items("VEC4", &rotations.collect::<Vec<_>>());
         add(rotations, "rotation", &[*node]);
         let translations = poses.iter().map(|pose| pose.translation.as_vec3().to_array());
-        let translations = binary.add_tuples(&translations.collect::<Vec<_>>(), "VEC3");
+        let translations = binary.add_items("VEC3", &translations.collect::<Vec<_>>());
         add(translations, "translation", &[*node]);
     }
     json!({

@@ -1,0 +1,282 @@
+//! Where the vertices of a body that changes its shape go: frames, or a figure that a skeleton moves.
+//!
+//! **Free of jumps.** Where a vertex is depends on the clock of bodies alone, and it is there exactly whenever a step, or a part of one, begins
+//! or ends; in between it goes straight, and that way is what the [certified pass](crate::contact) certifies. The clock goes on by a time
+//! step at most, and never back; it may wait. What is no motion but a cut, or in another unit than metres, is refused: no vertex may be
+//! faster than [`FASTEST_VERTEX`].
+
+use crate::input::{FREQUENCY, Field, LARGEST_COORDINATE, LARGEST_TIME, TIME, ValueError};
+use selvedge_core::glam::DVec3;
+use selvedge_files::animation::Figure;
+use selvedge_files::bytes::Fingerprint;
+use std::fmt;
+use std::sync::Arc;
+
+/// In m/s: much faster than anybody moves a hand, and slower than a figure that is somewhere else in the next frame.
+const FASTEST_VERTEX: f64 = 100.0;
+
+pub(super) const RATE: Field = Field::new("frames_per_second", FREQUENCY, 1e-3, 1e5);
+pub(super) const START: Field = Field::new("start", TIME, 0.0, LARGEST_TIME);
+
+/// Where each vertex of a body is at any time, known ahead: [`Motion::Animated`](crate::Motion::Animated).
+///
+/// Before its first key all is where it is there, after its last one as well.
+///
+/// ```
+/// use selvedge_cloth::glam::DVec3;
+/// use selvedge_cloth::{Animation, Body};
+///
+/// // A triangle whose tip goes up by 10 cm in half a second, from 1 s on.
+/// let frame = |height| vec![DVec3::ZERO, DVec3::X, DVec3::new(0.0, 1.0, height)];
+/// let animation = Animation::of_frames(vec![frame(0.0), frame(0.1)], 2.0)?.starting_at(1.0);
+/// assert_eq!(animation.span(), [1.0, 1.5]);
+/// assert_eq!(animation.positions_at(1.25)[2].z, 0.05);
+/// let body = Body::animated("leaf", vec![[0, 1, 2]], animation);
+/// assert_eq!(body.mesh.positions, frame(0.0));
+///
+/// let error = Animation::of_frames(vec![frame(0.0)], -1.0).unwrap_err();
+/// assert_eq!(error.field, "frames_per_second");
+/// # Ok::<(), selvedge_cloth::ValueError>(())
+/// ```
+#[derive(Clone, PartialEq)]
+pub struct Animation {
+    source: Arc<Source>,
+    /// When its first key is, in seconds of the clock.
+    start: f64,
+}
+
+#[derive(PartialEq)]
+struct Source {
+    shapes: Shapes,
+    /// From the first key, in seconds.
+    length: f64,
+    vertices: usize,
+    fingerprint: u64,
+    jumps: Jumps,
+}
+
+#[derive(PartialEq)]
+enum Shapes {
+    Frames { frames: Vec<Vec<DVec3>>, rate: f64 },
+    Figure(Figure),
+}
+
+/// The fastest vertex, and the one that jumps farthest: when, from the first key on, and which.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Jumps {
+    /// In m/s.
+    speed: (f64, f64, usize),
+    /// In metres, in no time at all.
+    way: (f64, f64, usize),
+}
+
+impl Animation {
+    /// Frames of all vertices, in metres, so many of them a second; in between all goes straight and evenly. The first frame is at time 0.
+    ///
+    /// # Errors
+    /// If there is no frame, or they are not all of as many vertices, or the rate is none; if a coordinate is not finite or beyond a kilometre.
+    pub fn of_frames(frames: Vec<Vec<DVec3>>, frames_per_second: f64) -> Result<Self, ValueError> {
+        RATE.check(frames_per_second)?;
+        let wrong = |message: String| Err(ValueError::new("frames", message));
+        let Some(first) = frames.first() else {
+            return wrong("an animation needs at least one frame".to_owned());
+        };
+        let (vertices, mut fingerprint, mut jumps) = (first.len(), Fingerprint::default(), Jumps::default());
+        fingerprint.take(&frames_per_second.to_le_bytes());
+        for (index, frame) in frames.iter().enumerate() {
+            if frame.len() != vertices {
+                return wrong(format!(
+                    "frame {index} has {} vertices, but the first has {vertices}",
+                    frame.len()
+                ));
+            }
+            check_reach(frame, || format!("frame {index}"))?;
+            let numbers = frame.iter().flat_map(|position| position.to_array());
+            numbers.for_each(|number| fingerprint.take(&number.to_le_bytes()));
+            if let Some(before) = index.checked_sub(1) {
+                let (way, vertex) = longest_way(&frames[before], frame);
+                let time = before as f64 / frames_per_second;
+                jumps.speed = larger(jumps.speed, (way * frames_per_second, time, vertex));
+            }
+        }
+        let length = (frames.len() - 1) as f64 / frames_per_second;
+        let rate = frames_per_second;
+        Ok(Self::of(Source {
+            shapes: Shapes::Frames { frames, rate },
+            length,
+            vertices,
+            fingerprint: fingerprint.value(),
+            jumps,
+        }))
+    }
+
+    /// A [figure](crate::files::animation) of a glTF file, in metres. Its first key is at time 0.
+    ///
+    /// # Errors
+    /// If a vertex is beyond a kilometre, or not finite, at one of its keys.
+    pub fn of_figure(figure: Figure) -> Result<Self, ValueError> {
+        let [first, last] = figure.span();
+        let (mut before, mut at, mut jumps) = (Vec::new(), Vec::new(), Jumps::default());
+        let mut last_key = first;
+        for key in figure.key_times() {
+            // What it has come to just before, and what it is then: these differ where something jumps.
+            if figure.has_steps() && key > first {
+                std::mem::swap(&mut before, &mut at);
+                figure.positions_at(key.next_down(), &mut at);
+                jumps.of_way(&before, &at, last_key - first, key - last_key);
+                std::mem::swap(&mut before, &mut at);
+                figure.positions_at(key, &mut at);
+                let (way, vertex) = longest_way(&before, &at);
+                jumps.way = larger(jumps.way, (way, key - first, vertex));
+            } else {
+                std::mem::swap(&mut before, &mut at);
+                figure.positions_at(key, &mut at);
+                if key > first {
+                    jumps.of_way(&before, &at, last_key - first, key - last_key);
+                }
+            }
+            check_reach(&at, || format!("the figure at {key} s"))?;
+            last_key = key;
+        }
+        Ok(Self::of(Source {
+            length: last - first,
+            vertices: figure.mesh().positions.len(),
+            fingerprint: figure.fingerprint(),
+            shapes: Shapes::Figure(figure),
+            jumps,
+        }))
+    }
+
+    fn of(source: Source) -> Self {
+        Self {
+            source: Arc::new(source),
+            start: 0.0,
+        }
+    }
+
+    /// The same, its first key at a time of the simulation, in seconds from 0 to 100,000.
+    #[must_use]
+    pub fn starting_at(self, time: f64) -> Self {
+        Self { start: time, ..self }
+    }
+
+    /// When its first and its last key are, in seconds of the simulation, if bodies never have to wait.
+    #[must_use]
+    pub fn span(&self) -> [f64; 2] {
+        [self.start, self.start + self.source.length]
+    }
+
+    /// How many vertices it moves.
+    #[must_use]
+    pub fn vertex_count(&self) -> usize {
+        self.source.vertices
+    }
+
+    /// Where all vertices are at a time of the simulation, in seconds, if bodies never have to wait; in metres.
+    #[must_use]
+    pub fn positions_at(&self, time: f64) -> Vec<DVec3> {
+        let mut positions = Vec::new();
+        self.sample(time, &mut positions);
+        positions
+    }
+
+    /// The time of the clock on which all depends: the same before the first key, and after the last.
+    pub(crate) fn key(&self, clock: f64) -> f64 {
+        (clock - self.start).clamp(0.0, self.source.length)
+    }
+
+    /// Replaces `positions` by those at a time of the clock, all of them finite.
+    pub(crate) fn sample(&self, clock: f64, positions: &mut Vec<DVec3>) {
+        let time = self.key(clock);
+        match &self.source.shapes {
+            Shapes::Frames { frames, rate } => {
+                let place = time * rate;
+                // No frame follows the last.
+                let before = (place as usize).min(frames.len() - 1);
+                let share = place - before as f64;
+                positions.clear();
+                match frames.get(before + 1).filter(|_| share > 0.0) {
+                    None => positions.extend_from_slice(&frames[before]),
+                    Some(after) => {
+                        let ways = frames[before].iter().zip(after);
+                        positions.extend(ways.map(|(&from, &to)| from + (to - from) * share));
+                    }
+                }
+            }
+            Shapes::Figure(figure) => {
+                figure.positions_at(figure.span()[0] + time, positions);
+                // Between its keys a cubic may go anywhere.
+                let farthest = DVec3::splat(LARGEST_COORDINATE);
+                for position in positions.iter_mut().filter(|position| !is_within_reach(position)) {
+                    let nearest = if position.is_nan() { DVec3::ZERO } else { *position };
+                    *position = nearest.clamp(-farthest, farthest);
+                }
+            }
+        }
+    }
+
+    /// Whether it can move so many vertices, and no jump is too large.
+    pub(super) fn check(&self, vertices: usize, time_step: f64) -> Result<(), ValueError> {
+        START.check(self.start)?;
+        if self.source.vertices != vertices {
+            let message = format!(
+                "the animation is of {} vertices, but what it moves has {vertices}",
+                self.source.vertices
+            );
+            return Err(ValueError::new("animation", message));
+        }
+        let Jumps { speed, way } = self.source.jumps;
+        let fastest = larger(speed, (way.0 / time_step, way.1, way.2));
+        let (speed, time, vertex) = fastest;
+        if speed > FASTEST_VERTEX {
+            let message = format!(
+                "vertex {vertex} moves at {speed:.0} m/s from {time:.3} s of the animation on, but must not be faster than {FASTEST_VERTEX} m/s; is there a cut in the animation, or is its unit not the metre?"
+            );
+            return Err(ValueError::new("animation", message));
+        }
+        Ok(())
+    }
+}
+
+/// What tells it from others, not all that it holds.
+impl fmt::Debug for Animation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut debug = f.debug_struct("Animation");
+        debug.field("vertices", &self.source.vertices).field("span", &self.span());
+        debug.field("fingerprint", &self.source.fingerprint).finish_non_exhaustive()
+    }
+}
+
+impl Jumps {
+    /// Vertices go from one place to another in so many seconds.
+    fn of_way(&mut self, from: &[DVec3], to: &[DVec3], begin: f64, seconds: f64) {
+        let (way, vertex) = longest_way(from, to);
+        self.speed = larger(self.speed, (way / seconds, begin, vertex));
+    }
+}
+
+/// The longest of the ways, and whose it is.
+fn longest_way(from: &[DVec3], to: &[DVec3]) -> (f64, usize) {
+    let ways = from.iter().zip(to).map(|(from, to)| from.distance(*to)).enumerate();
+    let longest = ways.max_by(|a, b| a.1.total_cmp(&b.1));
+    longest.map_or((0.0, 0), |(vertex, way)| (way, vertex))
+}
+
+fn larger(a: (f64, f64, usize), b: (f64, f64, usize)) -> (f64, f64, usize) {
+    if b.0 > a.0 { b } else { a }
+}
+
+fn is_within_reach(position: &DVec3) -> bool {
+    position.abs().cmple(DVec3::splat(LARGEST_COORDINATE)).all()
+}
+
+fn check_reach(positions: &[DVec3], whose: impl Fn() -> String) -> Result<(), ValueError> {
+    match positions.iter().position(|position| !is_within_reach(position)) {
+        None => Ok(()),
+        Some(vertex) => {
+            let (whose, at) = (whose(), positions[vertex]);
+            let message = format!("{whose} has vertex {vertex} at {at}, which is not within {LARGEST_COORDINATE} metres");
+            Err(ValueError::new("frames", message))
+        }
+    }
+}

@@ -1,0 +1,421 @@
+//! Bodies that change their shape: frames of files and of code, skinned figures.
+
+use crate::{load, scene_file};
+use selvedge::CollisionDetector;
+use selvedge_cloth::effects::{BodyContact, Gravity, PinGroup, PinMotion, Pins, SelfCollision, Stretch, Thickness};
+use selvedge_cloth::files::animation::{Choice, read};
+use selvedge_cloth::files::mesh;
+use selvedge_cloth::glam::DVec3;
+use selvedge_cloth::{Animation, Body, CHECKPOINT_STEPS, Cloth, Mesh, Motion, OnBlocked, Scene, Simulation};
+use std::fs;
+use std::path::Path;
+
+/// By the exact test, which shares nothing with the certificate: pairs with a triangle of the cloth that pass through each other.
+fn crossings(simulation: &Simulation) -> usize {
+    let positions = simulation.positions();
+    let topology = selvedge::Topology::new(positions.len(), simulation.triangles().to_vec()).unwrap();
+    let cloth = |vertex: u32| (vertex as usize) < simulation.cloth_vertices();
+    let mut detector = CollisionDetector::<f64>::new(topology.clone());
+    let mut found = Vec::new();
+    detector.intersections(positions, &mut found).unwrap();
+    let with_cloth = found.iter().filter(|intersection| match **intersection {
+        selvedge::Intersection::EdgeFace { edge, face } => {
+            cloth(topology.edges()[edge as usize][0]) || cloth(topology.triangles()[face as usize][0])
+        }
+        // What merely touches is the certificate's own.
+        _ => false,
+    });
+    with_cloth.count()
+}
+
+/// A ball of two shapes that swells and shrinks, as frames.
+fn breathing(frames: usize) -> (Vec<[u32; 3]>, Vec<Vec<DVec3>>) {
+    let rest = Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap().mesh;
+    let frame = |index: usize| {
+        let by = 1.0 + 0.3 * (index as f64).sin().powi(2);
+        rest.positions.iter().map(|p| *p * DVec3::new(by, by, 2.0 - by)).collect()
+    };
+    (rest.triangles.clone(), (0..frames).map(frame).collect())
+}
+
+fn sheet(height: f64) -> Cloth {
+    let corner = DVec3::new(-0.15, -0.15, height);
+    Cloth::sheet(corner, [0.3 * DVec3::X, 0.3 * DVec3::Y], [12; 2], 0.2).unwrap()
+}
+
+fn scene_with(cloth: Cloth, bodies: Vec<Body>) -> Scene {
+    let mut scene = Scene::new(cloth, 2e-3);
+    scene.bodies = bodies;
+    scene.add(Gravity::default()).add(Stretch::isotropic(200.0));
+    scene
+        .add(BodyContact(Thickness::of(4e-3)))
+        .add(SelfCollision(Thickness::of(4e-3)));
+    scene
+}
+
+fn on_breathing_ball() -> Scene {
+    let (triangles, frames) = breathing(12);
+    let animation = Animation::of_frames(frames, 24.0).unwrap().starting_at(0.1);
+    scene_with(sheet(0.08), vec![Body::animated("ball", triangles, animation)])
+}
+
+fn bits(simulation: &Simulation) -> Vec<[u64; 3]> {
+    let positions = simulation.positions().iter();
+    positions.map(|p| p.to_array().map(f64::to_bits)).collect()
+}
+
+#[test]
+fn at_each_step_a_body_is_exactly_where_its_animation_says_and_rests_before_and_after() {
+    let mut simulation = Simulation::new(on_breathing_ball(), 1).unwrap();
+    let (_, frames) = breathing(12);
+    let vertices = simulation.body_vertices(0).unwrap();
+    let animation = Animation::of_frames(frames.clone(), 24.0).unwrap().starting_at(0.1);
+    assert_eq!(&simulation.positions()[vertices.clone()], frames[0]);
+    for step in 1..=350 {
+        simulation.step().unwrap();
+        assert!(simulation.is_certified());
+        assert_eq!(crossings(&simulation), 0, "step {step}");
+        let now = &simulation.positions()[vertices.clone()];
+        let expected = animation.positions_at(simulation.time());
+        // The clock is a sum, the time a product.
+        let differ = now.iter().zip(&expected).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+        assert!(differ < 1e-12, "step {step}: {differ}");
+        match step {
+            ..=49 => assert!(now == frames[0], "before the first key"),
+            290.. => assert!(now == frames[11], "after the last"),
+            _ => {}
+        }
+    }
+    assert_eq!((simulation.lag(), simulation.blocked_steps()), (0.0, 0));
+}
+
+#[test]
+fn a_body_of_frames_gives_the_same_bits_on_any_number_of_threads_and_resumed() {
+    let new = |threads| Simulation::new(on_breathing_ball(), threads).unwrap();
+    let mut simulations = [new(1), new(2)];
+    for _ in 0..CHECKPOINT_STEPS {
+        simulations.iter_mut().for_each(|simulation| simulation.step().unwrap());
+    }
+    assert!(bits(&simulations[0]) == bits(&simulations[1]));
+    // In the midst of the motion.
+    let mut resumed = new(1);
+    resumed.resume(&simulations[0].checkpoint().unwrap()).unwrap();
+    for _ in 0..60 {
+        resumed.step().unwrap();
+        simulations[1].step().unwrap();
+    }
+    assert!(bits(&resumed) == bits(&simulations[1]));
+    // Of another animation it is another scene.
+    let mut scene = on_breathing_ball();
+    let (triangles, frames) = breathing(11);
+    scene.bodies[0] = Body::animated(
+        "ball",
+        triangles,
+        Animation::of_frames(frames, 24.0).unwrap().starting_at(0.1),
+    );
+    let other = Simulation::new(scene, 1)
+        .unwrap()
+        .resume(&simulations[0].checkpoint().unwrap_or_default());
+    assert!(other.is_err());
+}
+
+/// Two soft bodies that close on the sheet from both sides, pass into each other, and open again.
+fn pinched(on_blocked: OnBlocked) -> Simulation {
+    let plate = |name: &str, side: f64| {
+        let ball = Body::ball(name, DVec3::ZERO, 0.06, 16).unwrap().mesh;
+        let frame = |distance: f64| ball.positions.iter().map(|p| *p + DVec3::Z * (side * distance)).collect();
+        let frames = vec![frame(0.08), frame(0.05), frame(0.05), frame(0.12)];
+        Body::animated(name, ball.triangles.clone(), Animation::of_frames(frames, 5.0).unwrap())
+    };
+    let mut scene = scene_with(sheet(0.0), vec![plate("below", -1.0), plate("above", 1.0)]);
+    scene.on_blocked = on_blocked;
+    Simulation::new(scene, 1).unwrap()
+}
+
+#[test]
+fn stop_names_the_body_hold_lets_the_clock_wait_and_yield_lets_it_pass() {
+    let mut stops = pinched(OnBlocked::Stop);
+    let blocked = (0..200).find_map(|_| stops.step().err()).expect("no room is left");
+    assert!(["below", "above"].contains(&blocked.body.as_deref().unwrap()), "{blocked}");
+    assert!(stops.is_certified() && crossings(&stops) == 0);
+
+    let mut holds = pinched(OnBlocked::Hold);
+    for _ in 0..200 {
+        holds.step().unwrap();
+        assert!(holds.is_certified());
+    }
+    assert_eq!(crossings(&holds), 0);
+    assert!(holds.lag() > 0.05 && holds.blocked_steps() > 0, "{}", holds.lag());
+    // It stands where its clock is, not where it would be.
+    let ball = Body::ball("below", DVec3::ZERO, 0.06, 16).unwrap().mesh;
+    let height = holds.positions()[holds.body_vertices(0).unwrap().start].z - ball.positions[0].z;
+    let clock = holds.time() - holds.lag();
+    assert!((height - (-0.08 + 0.03 * clock * 5.0)).abs() < 1e-9, "{height} at {clock}");
+
+    let mut yields = pinched(OnBlocked::Yield);
+    let mut has_yielded = false;
+    for _ in 0..400 {
+        yields.step().unwrap();
+        has_yielded |= !yields.is_certified();
+        assert!(
+            !yields.is_certified() || crossings(&yields) == 0,
+            "step {}",
+            yields.steps_done()
+        );
+    }
+    assert!(has_yielded && yields.lag() == 0.0);
+}
+
+#[test]
+fn numbered_files_and_frames_of_code_make_the_same_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let (triangles, frames) = breathing(5);
+    for (number, frame) in frames.iter().enumerate() {
+        let triangles = triangles.clone();
+        let mesh = Mesh {
+            positions: frame.clone(),
+            triangles,
+        };
+        mesh::write(&folder.path().join(format!("ball-{number:04}.ply")), &mesh).unwrap();
+    }
+    let of_files = |files: &str| {
+        let text = format!(
+            r#"
+            time_step = 0.002
+            duration = 1
+            [cloth]
+            shape = "sheet"
+            corner = [-0.15, -0.15, 0.08]
+            sides = {{ first = [0.3, 0, 0], second = [0, 0.3, 0] }}
+            cells = [12, 12]
+            density = 0.2
+            [[body]]
+            name = "ball"
+            shape = "frames"
+            files = "{files}"
+            frames_per_second = 24
+            start = "20 ms"
+            [effects.gravity]
+            [effects.stretch]
+            stiffness = 200
+            [effects.body_contact]
+            thickness = 0.004
+            [effects.self_collision]
+            thickness = 0.004
+            "#
+        );
+        Scene::parse(&text, &folder.path().join("s.toml")).unwrap()
+    };
+    let animation = Animation::of_frames(frames, 24.0).unwrap().starting_at(0.02);
+    let of_code = scene_with(sheet(0.08), vec![Body::animated("ball", triangles, animation)]);
+    let run = |scene| {
+        let mut simulation = Simulation::new(scene, 1).unwrap();
+        (0..100).for_each(|_| simulation.step().unwrap());
+        bits(&simulation)
+    };
+    let expected = run(of_code);
+    assert!(run(of_files("ball-####.ply")) == expected);
+    assert!(run(of_files(".")) == expected);
+}
+
+/// Every state of the shipped scene, as far as a test has time for: walking has begun, one arm is up.
+#[test]
+fn a_walking_figure_never_passes_through_its_shirt() {
+    let mut simulation = load("walker.toml", |text| text, 1);
+    for step in 1..=420 {
+        simulation.step().unwrap();
+        assert!(simulation.is_certified(), "step {step}");
+        assert_eq!(crossings(&simulation), 0, "step {step}");
+    }
+    assert_eq!(simulation.blocked_steps(), 0);
+    // The shirt has gone along.
+    let cloth = &simulation.positions()[..simulation.cloth_vertices()];
+    let middle = cloth.iter().map(|p| p.z).sum::<f64>() / cloth.len() as f64;
+    assert!(middle > 1.0, "{middle}");
+}
+
+#[test]
+fn a_skinned_figure_gives_the_same_bits_on_any_number_of_threads_and_resumed() {
+    let new = |threads| load("walker.toml", |text| text, threads);
+    let mut simulations = [new(1), new(2)];
+    for _ in 0..CHECKPOINT_STEPS {
+        simulations.iter_mut().for_each(|simulation| simulation.step().unwrap());
+    }
+    assert!(bits(&simulations[0]) == bits(&simulations[1]));
+    let mut resumed = new(2);
+    resumed.resume(&simulations[0].checkpoint().unwrap()).unwrap();
+    for _ in 0..50 {
+        resumed.step().unwrap();
+        simulations[0].step().unwrap();
+    }
+    assert!(bits(&resumed) == bits(&simulations[0]));
+}
+
+#[test]
+fn a_figure_of_code_is_that_of_the_file() {
+    let figure = read(
+        &scene_file("walker.glb"),
+        &Choice {
+            node: Some("figure"),
+            animation: Some("walk"),
+        },
+    )
+    .unwrap();
+    let triangles = figure.mesh().triangles.clone();
+    let body = Body::animated("figure", triangles, Animation::of_figure(figure).unwrap());
+    let of_file = Scene::read(&scene_file("walker.toml")).unwrap();
+    assert_eq!(of_file.bodies[0].mesh, body.mesh);
+    assert_eq!(of_file.bodies[0].motion, body.motion);
+}
+
+#[test]
+fn pins_may_be_animated_as_well() {
+    let cloth = sheet(0.2);
+    let top = cloth.part("top").unwrap().to_vec();
+    let at_rest: Vec<DVec3> = top.iter().map(|&vertex| cloth.mesh().positions[vertex as usize]).collect();
+    let moved = at_rest.iter().map(|p| *p + DVec3::Z * 0.05).collect();
+    let animation = Animation::of_frames(vec![at_rest, moved], 10.0).unwrap();
+    let pins = |vertices: Vec<u32>| {
+        let motion = PinMotion::Own(Motion::Animated(animation.clone()));
+        Pins {
+            groups: vec![PinGroup { vertices, motion }],
+        }
+    };
+    let mut scene = scene_with(sheet(0.2), vec![Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap()]);
+    scene.add(pins(top.clone()));
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    (0..60).for_each(|_| simulation.step().unwrap());
+    assert_eq!(simulation.positions()[top[3] as usize].z, 0.25);
+    let mut scene = scene_with(sheet(0.2), vec![Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap()]);
+    scene.add(pins(vec![0, 1]));
+    let message = Simulation::new(scene, 1).unwrap_err().to_string();
+    assert_eq!(message, "pins: the animation is of 13 vertices, but what it moves has 2");
+    let mut scene = on_breathing_ball();
+    scene.add(Pins {
+        groups: vec![PinGroup {
+            vertices: vec![0],
+            motion: PinMotion::Body(0),
+        }],
+    });
+    let message = Simulation::new(scene, 1).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "pins: pins cannot follow 'ball', which changes its shape; give them a motion of their own"
+    );
+}
+
+#[test]
+fn animations_that_cannot_be_are_refused_where_they_are_made() {
+    let frame = |x: f64| vec![DVec3::ZERO, DVec3::X, DVec3::new(x, 1.0, 0.0)];
+    let message = |frames, rate| Animation::of_frames(frames, rate).unwrap_err().to_string();
+    assert_eq!(message(vec![], 24.0), "an animation needs at least one frame");
+    assert_eq!(
+        message(vec![frame(0.0), vec![]], 24.0),
+        "frame 1 has 0 vertices, but the first has 3"
+    );
+    assert!(message(vec![frame(0.0), frame(f64::NAN)], 24.0).starts_with("frame 1 has vertex 2 at [NaN, 1, 0]"));
+    assert!(message(vec![frame(1e4)], 24.0).contains("which is not within 1000 metres"));
+    for rate in [-24.0, 0.0, f64::NAN, f64::INFINITY] {
+        assert!(
+            message(vec![frame(0.0)], rate).starts_with("`frames_per_second` is "),
+            "{rate}"
+        );
+    }
+    let scene = |animation: Animation| scene_with(sheet(0.5), vec![Body::animated("leaf", vec![[0, 1, 2]], animation)]);
+    let refusal = |animation| Simulation::new(scene(animation), 1).unwrap_err().to_string();
+    // A cut: five metres from one frame to the next.
+    let cut = Animation::of_frames(vec![frame(0.0), frame(0.1), frame(5.1)], 24.0).unwrap();
+    assert_eq!(
+        refusal(cut),
+        "leaf: vertex 2 moves at 120 m/s from 0.042 s of the animation on, but must not be faster than 100 m/s; is there a cut in the animation, or is its unit not the metre?"
+    );
+    let early = Animation::of_frames(vec![frame(0.0)], 24.0).unwrap().starting_at(-1.0);
+    assert!(refusal(early).starts_with("leaf: `start` is -1 s"));
+    let other = Animation::of_frames(vec![frame(0.0)], 24.0).unwrap();
+    let mut scene = scene(other);
+    scene.bodies[0].mesh.positions.push(DVec3::ONE);
+    let message = Simulation::new(scene, 1).unwrap_err().to_string();
+    assert_eq!(message, "leaf: the animation is of 3 vertices, but what it moves has 4");
+}
+
+#[test]
+fn what_is_wrong_with_files_of_animated_bodies_is_said_with_the_place_in_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let put = |name: &str, lines: &str| fs::write(folder.path().join(name), lines).unwrap();
+    fs::copy(scene_file("walker.glb"), folder.path().join("walker.glb")).unwrap();
+    put("leaf-1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    put("leaf-3.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    put("cut-1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    put("cut-2.obj", "v 0 0 0\nv 1 0 0\nv 0 90 0\nf 1 2 3\n");
+    put("text.glb", "no figure");
+    let message = |body: &str| {
+        let text = format!(
+            "time_step = 0.002\nduration = 1\n[cloth]\nshape = \"sheet\"\nsides = {{ first = [1, 0, 0], second = [0, 0, 1] }}\ncells = [2, 2]\ndensity = 0.2\n[[body]]\nname = \"body\"\n{body}\n[effects.body_contact]\nthickness = 0.003\n"
+        );
+        let error = Scene::parse(&text, Path::new(&folder.path().join("s.toml"))).unwrap_err();
+        let found = error.to_string();
+        found.replace(&*folder.path().to_string_lossy(), "F")
+    };
+    let cases = [
+        (
+            "shape = \"frames\"",
+            "F/s.toml:8:1: [body] needs `files`, such as \"frames/body-####.ply\"",
+        ),
+        (
+            "shape = \"frames\"\nfiles = \"leaf-#.obj\"",
+            "F/s.toml:8:1: [body] needs `frames_per_second`",
+        ),
+        (
+            "shape = \"frames\"\nfiles = \"leaf-#.obj\"\nframes_per_second = -24",
+            "F/s.toml:12:21: `frames_per_second` is -24 Hz, but must be from",
+        ),
+        (
+            "shape = \"frames\"\nfiles = \"leaf-#.obj\"\nframes_per_second = 24",
+            "F/s.toml:11:9: F/leaf-#.obj: frame 2 is missing",
+        ),
+        (
+            "shape = \"frames\"\nfiles = \"no-#.obj\"\nframes_per_second = 24",
+            "F/s.toml:11:9: F/no-#.obj: there is no such file in 'F'",
+        ),
+        (
+            "shape = \"frames\"\nfiles = \"cut-#.obj\"\nframes_per_second = 24",
+            "F/s.toml:11:9: vertex 2 moves at 2136 m/s from 0.000 s of the animation on",
+        ),
+        (
+            "shape = \"frames\"\nfiles = \"cut-#.obj\"\nframes_per_second = 24\naxis = [0, 0, 1]",
+            "F/s.toml:13:1: [body] has no key 'axis'",
+        ),
+        (
+            "shape = \"gltf\"",
+            "F/s.toml:8:1: [body] needs `file`, such as \"figure.glb\"",
+        ),
+        (
+            "shape = \"gltf\"\nfile = \"no.glb\"",
+            "F/s.toml:11:8: F/no.glb: there is no such file",
+        ),
+        (
+            "shape = \"gltf\"\nfile = \"text.glb\"",
+            "F/s.toml:11:8: F/text.glb: is not a valid glTF 2.0 file: ",
+        ),
+        (
+            "shape = \"gltf\"\nfile = \"walker.glb\"\nnode = \"figur\"",
+            "F/s.toml:12:8: F/walker.glb: no node 'figur' has a mesh; those that have: 'figure'",
+        ),
+        (
+            "shape = \"gltf\"\nfile = \"walker.glb\"\nanimation = \"run\"",
+            "F/s.toml:12:13: F/walker.glb: there is no animation 'run'; choose from 'walk'",
+        ),
+        (
+            "shape = \"gltf\"\nfile = \"walker.glb\"\nstart = -1",
+            "F/s.toml:12:9: `start` is -1 s, but must be from 0 s",
+        ),
+        (
+            "shape = \"glb\"\nfile = \"walker.glb\"",
+            "F/s.toml:10:9: `shape` cannot be 'glb'",
+        ),
+    ];
+    for (body, expected) in cases {
+        let found = message(body);
+        assert!(found.starts_with(expected), "{found}\nis not\n{expected}");
+    }
+}

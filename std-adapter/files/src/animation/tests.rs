@@ -1,0 +1,417 @@
+//! What the reader of figures promises.
+
+use super::figure::{Local, Node, Shape, Skin};
+use super::track::{Interpolation, Property, Track};
+use super::*;
+use base64::Engine;
+use proptest::prelude::*;
+use selvedge_core::glam::{DAffine3, DQuat, DVec3};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
+
+/// A strip of two triangles: the upper two vertices follow the upper of two joints, which turns by a quarter about z in the second from 1 to 2
+/// and lies a metre up; the joint itself moves along x. One morph target lifts vertex 0 along z.
+const NUMBERS: [(&str, &[f32]); 9] = [
+    ("positions", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 1.0, 2.0, 0.0]),
+    (
+        "weights",
+        &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.5, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+    ),
+    (
+        "inverses",
+        &[
+            1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, //
+            1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -1.0, 0.0, 1.0,
+        ],
+    ),
+    ("times", &[1.0, 2.0]),
+    (
+        "turns",
+        &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, FRAC_1_SQRT_2 as f32, FRAC_1_SQRT_2 as f32],
+    ),
+    ("target", &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    ("lifts", &[0.0, 1.0]),
+    ("indices", &[]),
+    ("joints", &[]),
+];
+const JOINTS: [u8; 16] = [0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0];
+const INDICES: [u16; 6] = [0, 1, 2, 1, 3, 2];
+
+/// The file's JSON, whose one buffer is given in it.
+fn text(name: impl Fn(String) -> String) -> String {
+    let mut bytes: Vec<u8> = Vec::new();
+    let mut views = Vec::new();
+    for (what, numbers) in NUMBERS {
+        let begin = bytes.len();
+        match what {
+            "indices" => {
+                bytes.extend(INDICES.iter().flat_map(|index| index.to_le_bytes()));
+                // What follows begins at a multiple of four.
+                views.push(format!(r#"{{"buffer":0,"byteOffset":{begin},"byteLength":12}}"#));
+                continue;
+            }
+            "joints" => bytes.extend(JOINTS),
+            _ => bytes.extend(numbers.iter().flat_map(|number| number.to_le_bytes())),
+        }
+        views.push(format!(
+            r#"{{"buffer":0,"byteOffset":{begin},"byteLength":{}}}"#,
+            bytes.len() - begin
+        ));
+    }
+    let data = base64::engine::general_purpose::STANDARD.encode(&bytes);
+    let accessor = |view: usize, component: u32, kind: &str, count: usize| {
+        let bounds = if view == 0 { r#","min":[0,0,0],"max":[1,2,0]"# } else { "" };
+        format!(r#"{{"bufferView":{view},"componentType":{component},"type":"{kind}","count":{count}{bounds}}}"#)
+    };
+    let accessors = [
+        accessor(0, 5126, "VEC3", 4),
+        accessor(1, 5126, "VEC4", 4),
+        accessor(2, 5126, "MAT4", 2),
+        accessor(3, 5126, "SCALAR", 2),
+        accessor(4, 5126, "VEC4", 2),
+        accessor(5, 5126, "VEC3", 4),
+        accessor(6, 5126, "SCALAR", 2),
+        accessor(7, 5123, "SCALAR", 6),
+        accessor(8, 5121, "VEC4", 4),
+    ];
+    name(format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,2]}}],
+"nodes":[{{"name":"root","children":[1]}},{{"name":"upper","translation":[0,1,0]}},{{"name":"strip","mesh":0,"skin":0}}],
+"meshes":[{{"name":"ribbon","primitives":[{{"attributes":{{"POSITION":0,"JOINTS_0":8,"WEIGHTS_0":1}},"indices":7,"targets":[{{"POSITION":5}}]}}]}}],
+"skins":[{{"joints":[0,1],"inverseBindMatrices":2}}],
+"animations":[{{"name":"bend","samplers":[{{"input":3,"output":4}},{{"input":3,"output":6}}],
+"channels":[{{"sampler":0,"target":{{"node":1,"path":"rotation"}}}},{{"sampler":1,"target":{{"node":2,"path":"weights"}}}}]}}],
+"accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{},"uri":"data:application/octet-stream;base64,{data}"}}]}}"#,
+        accessors.join(","),
+        views.join(","),
+        bytes.len()
+    ))
+}
+
+fn read_text(text: &str, choice: &Choice<'_>) -> Result<Figure, AnimationError> {
+    read_bytes(text.as_bytes(), Path::new("strip.gltf"), choice)
+}
+
+fn at(figure: &Figure, time: f64) -> Vec<DVec3> {
+    let mut positions = Vec::new();
+    figure.positions_at(time, &mut positions);
+    positions
+}
+
+#[track_caller]
+fn assert_near(found: &[DVec3], expected: &[[f64; 3]]) {
+    assert_eq!(found.len(), expected.len());
+    for (found, &expected) in found.iter().zip(expected) {
+        assert!(found.distance(expected.into()) < 1e-6, "{found} is not {expected:?}");
+    }
+}
+
+#[test]
+fn vertices_go_with_their_joints_and_their_morph_targets_and_rest_before_and_after_the_keys() {
+    let figure = read_text(&text(|text| text), &Choice::default()).unwrap();
+    assert_eq!((figure.span(), figure.key_times()), ([1.0, 2.0], vec![1.0, 2.0]));
+    assert_eq!(figure.mesh().triangles, [[0, 1, 2], [1, 3, 2]]);
+    let rest = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [1.0, 2.0, 0.0]];
+    assert_near(&at(&figure, 1.0), &rest);
+    assert_eq!(at(&figure, 0.0), at(&figure, 1.0));
+    assert_eq!(figure.mesh().positions, at(&figure, 1.0));
+    // A quarter about (0, 1): (1, 2) goes to (-1, 2), and (0, 2), which follows it by half, halfway to (-1, 1).
+    assert_near(
+        &at(&figure, 2.0),
+        &[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [-0.5, 1.5, 0.0], [-1.0, 2.0, 0.0]],
+    );
+    assert_eq!(at(&figure, 9.0), at(&figure, 2.0));
+    // Halfway along the arc, not along the chord.
+    let half = FRAC_1_SQRT_2 * (1.0 - 1.0);
+    assert_near(&at(&figure, 1.5)[3..], &[[half, 1.0 + 2.0 * FRAC_1_SQRT_2, 0.0]]);
+    assert_near(&at(&figure, 1.5)[..1], &[[0.0, 0.0, 0.5]]);
+}
+
+#[test]
+fn a_figure_is_chosen_by_the_name_of_its_node_or_its_mesh() {
+    let text = text(|text| text);
+    let choose = |node, animation| read_text(&text, &Choice { node, animation }).map(|figure| figure.fingerprint());
+    let only = choose(None, None).unwrap();
+    assert_eq!(choose(Some("strip"), Some("bend")).unwrap(), only);
+    assert_eq!(choose(Some("ribbon"), None).unwrap(), only);
+    let message = choose(Some("strap"), None).unwrap_err().to_string();
+    assert_eq!(message, "strip.gltf: no node 'strap' has a mesh; those that have: 'strip'");
+    let message = choose(None, Some("wave")).unwrap_err().to_string();
+    assert_eq!(message, "strip.gltf: there is no animation 'wave'; choose from 'bend'");
+}
+
+/// The file with one passage replaced, and the message.
+#[track_caller]
+fn message(passage: &str, by: &str) -> String {
+    let good = text(|text| text);
+    assert!(good.contains(passage), "'{passage}' must be there");
+    read_text(&good.replacen(passage, by, 1), &Choice::default())
+        .unwrap_err()
+        .to_string()
+}
+
+#[test]
+fn files_that_are_wrong_or_lie_are_refused_with_the_place_named() {
+    let cases = [
+        (
+            r#""joints":[0,1]"#,
+            r#""joints":[0]"#,
+            "primitive 0 of the mesh: vertex 2 follows joint 1, but the skin has 1, from 0 on",
+        ),
+        (
+            r#""joints":[0,1]"#,
+            r#""joints":[0,1,1]"#,
+            "the skin's inverse bind matrices: there are 2, but must be 3",
+        ),
+        (
+            r#""path":"rotation""#,
+            r#""path":"colour""#,
+            "is not a valid glTF 2.0 file: the animation 'bend' has a sampler or a channel of no known",
+        ),
+        (
+            r#""output":4"#,
+            r#""output":44"#,
+            "is not a valid glTF 2.0 file: the animation 'bend' has a sampler or a channel of no known",
+        ),
+        (
+            r#"{"node":1,"#,
+            r#"{"node":7,"#,
+            "is not a valid glTF 2.0 file: a channel moves node 7, but there are 3",
+        ),
+        (
+            r#"{"POSITION":0"#,
+            r#"{"POSITION":99"#,
+            "is not a valid glTF 2.0 file: a primitive names accessor 99, but there are 9",
+        ),
+        (
+            r#","JOINTS_0":8,"WEIGHTS_0":1"#,
+            "",
+            "primitive 0 of the mesh: has a skin, but no JOINTS_0",
+        ),
+        (
+            r#","WEIGHTS_0":1"#,
+            "",
+            "primitive 0 of the mesh: has JOINTS_0, but no WEIGHTS_0",
+        ),
+        (
+            r#""bufferView":0,"componentType":5126,"type":"VEC3","count":4"#,
+            r#""bufferView":0,"componentType":5126,"type":"VEC3","count":400000000"#,
+            "primitive 0 of the mesh, positions: are to be 400000000, more than the bytes hold",
+        ),
+        (
+            r#""type":"VEC4","count":2"#,
+            r#""type":"VEC4","count":1"#,
+            "channel 0 of the animation (Rotation of 'upper'), values: there are 1, but must be 2",
+        ),
+        (
+            r#""componentType":5126,"type":"VEC4","count":2"#,
+            r#""componentType":5126,"type":"VEC3","count":2"#,
+            "channel 0 of the animation (Rotation of 'upper'), values: are of type Vec3",
+        ),
+        (
+            r#""path":"rotation""#,
+            r#""path":"scale""#,
+            "channel 0 of the animation (Scale of 'upper'), values: are of type Vec4",
+        ),
+        (
+            r#""children":[1]"#,
+            r#""children":[1],"mesh":0"#,
+            "2 nodes have a mesh; say with `node` which is meant: 'root', 'strip'",
+        ),
+        (r#","mesh":0,"skin":0"#, "", "no node of the file has a mesh"),
+        (
+            r#"{"name":"upper","#,
+            r#"{"name":"upper","children":[0],"#,
+            "is not a valid glTF 2.0 file: node ",
+        ),
+        (
+            r#""indices":7"#,
+            r#""indices":7,"mode":1"#,
+            "primitive 0 of the mesh: is of Lines, but must be of triangles",
+        ),
+        (
+            r#"{"asset""#,
+            r#"{"extensionsRequired":["KHR_draco_mesh_compression"],"asset""#,
+            "is not a valid glTF 2.0 file: ",
+        ),
+        (
+            r#""translation":[0,1,0]"#,
+            r#""matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,1,0,1]"#,
+            "channel 0 of the animation (Rotation of 'upper'): moves a node that has a `matrix`",
+        ),
+        (";base64,", ";base64,!", "buffer 0 is no valid base64"),
+        (
+            "data:application/octet-stream;base64,",
+            "no%20such%20file.bin?",
+            "buffer 0 is the file 'no such file.bin?",
+        ),
+        (r#""version":"2.0""#, r#""version":2"#, "is not a valid glTF 2.0 file: "),
+    ];
+    for (passage, by, expected) in cases {
+        let found = message(passage, by);
+        assert!(
+            found.starts_with(&format!("strip.gltf: {expected}")),
+            "{found}\nis not\n{expected}"
+        );
+    }
+    // An animation of something else, and none.
+    let text = text(|text| text);
+    let begin = text.find(r#""channels":["#).unwrap();
+    let end = begin + text[begin..].find("}]").unwrap() + 2;
+    let without = [&text[..begin], r#""channels":[]"#, &text[end..]].concat();
+    let found = read_text(&without, &Choice::default()).unwrap_err().to_string();
+    assert!(found.contains("does not move 'strip'"), "{found}");
+    let begin = text.find(r#""animations""#).unwrap();
+    let end = text.find(r#""accessors""#).unwrap();
+    let without = [&text[..begin], &text[end..]].concat();
+    let error = read_text(&without, &Choice::default()).unwrap_err();
+    assert!(matches!(error.problem, AnimationProblem::NoAnimation), "{error}");
+}
+
+#[test]
+fn numbers_that_are_not_finite_or_out_of_range_are_refused() {
+    let good = text(|text| text);
+    let begin = good.find("base64,").unwrap() + 7;
+    let end = begin + good[begin..].find('"').unwrap();
+    let engine = &base64::engine::general_purpose::STANDARD;
+    let bytes = engine.decode(&good[begin..end]).unwrap();
+    let message = |offset: usize, by: &[u8]| {
+        let mut changed = bytes.clone();
+        changed[offset..offset + by.len()].copy_from_slice(by);
+        let text = [&good[..begin], &engine.encode(&changed), &good[end..]].concat();
+        read_text(&text, &Choice::default()).unwrap_err().to_string()
+    };
+    let nan = f32::NAN.to_le_bytes();
+    let offset = |index: usize| NUMBERS[..index].iter().map(|(_, numbers)| 4 * numbers.len()).sum::<usize>();
+    assert!(message(offset(0), &nan).ends_with("primitive 0 of the mesh, positions: number 0 is NaN, but must be finite"));
+    assert!(message(offset(1), &nan).contains("WEIGHTS_0: number 0 is NaN"));
+    assert!(message(offset(1), &(-1.0_f32).to_le_bytes()).contains("vertex 0 has the weight -1"));
+    assert!(message(offset(1), &0.0_f32.to_le_bytes()).contains("vertex 0 follows no joint: its weights are zero"));
+    assert!(message(offset(3) + 4, &1.0_f32.to_le_bytes()).contains("each later than the one before"));
+    assert!(message(offset(4) + 12, &[0; 4]).contains("the rotation of key 0 is zero"));
+    assert!(message(offset(7), &9_u16.to_le_bytes()).contains("face 0 names vertex 9, but there are 4 vertices"));
+    assert!(message(offset(7) + 12, &[7; 4]).contains("vertex 0 follows joint 7, but the skin has 2"));
+}
+
+#[test]
+fn binary_files_that_are_cut_short_or_say_another_length_are_refused() {
+    let json = text(|text| text);
+    let json = format!("{json}{}", " ".repeat(json.len().next_multiple_of(4) - json.len()));
+    let file = |length: u32| {
+        let mut bytes = b"glTF".to_vec();
+        for number in [2, length, json.len() as u32] {
+            bytes.extend(number.to_le_bytes());
+        }
+        bytes.extend(b"JSON");
+        bytes.extend(json.as_bytes());
+        bytes
+    };
+    let length = 20 + json.len() as u32;
+    let read = |bytes: &[u8]| read_bytes(bytes, Path::new("strip.glb"), &Choice::default());
+    assert_eq!(read(&file(length)).unwrap().mesh().positions.len(), 4);
+    for wrong in [0, 3, 11, length + 1, u32::MAX] {
+        let message = read(&file(wrong)).unwrap_err().to_string();
+        assert!(message.contains("its header says that it has"), "{message}");
+    }
+    let whole = file(length);
+    for cut in (0..whole.len()).step_by(7) {
+        assert!(read(&whole[..cut]).is_err(), "{cut}");
+    }
+    assert_eq!(read(&[]).unwrap_err().to_string(), "strip.glb: the file is empty");
+    let error = super::read(Path::new("no/such.glb"), &Choice::default()).unwrap_err();
+    assert_eq!(error.to_string(), "no/such.glb: there is no such file");
+}
+
+/// A joint that turns about z.
+fn turning(interpolation: Interpolation, values: Vec<f64>) -> Figure {
+    let shape = Shape {
+        nodes: vec![Node {
+            parent: None,
+            local: Local::Parts {
+                translation: DVec3::ZERO,
+                rotation: DQuat::IDENTITY,
+                scale: DVec3::ONE,
+            },
+        }],
+        tracks: vec![Track {
+            node: 0,
+            property: Property::Rotation,
+            interpolation,
+            times: vec![0.0, 1.0],
+            values,
+            width: 4,
+        }],
+        rest: vec![DVec3::X],
+        targets: Vec::new(),
+        node: 0,
+        skin: Some(Skin {
+            joints: vec![(0, DAffine3::IDENTITY)],
+            ends: vec![1],
+            influences: vec![(0, 1.0)],
+        }),
+    };
+    Figure {
+        mesh: Default::default(),
+        shape,
+        fingerprint: 0,
+    }
+}
+
+#[test]
+fn rotations_take_the_shorter_arc_evenly_and_steps_jump_at_the_key() {
+    let half = |angle: f64| [0.0, 0.0, (0.5 * angle).sin(), (0.5 * angle).cos()];
+    let both = |other: [f64; 4]| [half(0.0), other].concat();
+    let quarter = half(FRAC_PI_2);
+    for to in [quarter, quarter.map(|number| -number)] {
+        let figure = turning(Interpolation::Linear, both(to));
+        for share in [0.0, 0.25, 0.5, 0.9, 1.0] {
+            let angle = share * FRAC_PI_2;
+            assert!(at(&figure, share)[0].distance(DVec3::new(angle.cos(), angle.sin(), 0.0)) < 1e-12);
+        }
+        assert!(!figure.has_steps());
+    }
+    let figure = turning(Interpolation::Step, both(quarter));
+    assert!(figure.has_steps());
+    assert_eq!(at(&figure, 0.999), at(&figure, 0.0));
+    assert!(at(&figure, 1.0)[0].distance(DVec3::Y) < 1e-12);
+    // Its tangents are zero: it starts and ends slowly.
+    let zero = [0.0; 4];
+    let figure = turning(Interpolation::Cubic, [zero, half(0.0), zero, zero, quarter, zero].concat());
+    let turn = |time: f64| at(&figure, time)[0].y;
+    assert!(turn(0.0).abs() < 1e-12 && (turn(1.0) - 1.0).abs() < 1e-12);
+    assert!(turn(0.1) < 0.1 && (turn(0.5) - FRAC_1_SQRT_2).abs() < 1e-12);
+    // Through zero: any rotation, but one.
+    let figure = turning(
+        Interpolation::Cubic,
+        [zero, half(0.0), zero, zero, half(0.0).map(|x| -x), zero].concat(),
+    );
+    assert!(at(&figure, 0.5)[0].is_finite());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    /// Whatever is done to the bytes of a file.
+    #[test]
+    fn no_bytes_make_the_reader_panic(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6)) {
+        let mut bytes = text(|text| text).into_bytes();
+        for (place, byte) in changes {
+            let place = place.index(bytes.len());
+            bytes[place] = byte;
+        }
+        if let Ok(figure) = read_bytes(&bytes, Path::new("strip.gltf"), &Choice::default()) {
+            prop_assert_eq!(at(&figure, 1.5).len(), figure.mesh().positions.len());
+        }
+    }
+
+    /// Numbers of the JSON half replaced by others.
+    #[test]
+    fn no_numbers_make_the_reader_panic(which in any::<prop::sample::Index>(), by in prop_oneof![Just(u64::MAX), Just(u64::from(u32::MAX)), 0..20_u64]) {
+        let text = text(|text| text);
+        let end = text.find("base64").unwrap();
+        let digits: Vec<usize> = (1..end).filter(|&k| text.as_bytes()[k].is_ascii_digit() && b":[,".contains(&text.as_bytes()[k - 1])).collect();
+        let begin = digits[which.index(digits.len())];
+        let length = text[begin..].bytes().take_while(u8::is_ascii_digit).count();
+        let changed = [&text[..begin], &by.to_string(), &text[begin + length..]].concat();
+        let _ = read_text(&changed, &Choice::default());
+    }
+}

@@ -1,0 +1,233 @@
+//! Numbered files as the frames of one mesh.
+
+use super::error::{FrameDifference, MeshError};
+use super::{FileFormat, load};
+use crate::excerpt::excerpt;
+use selvedge_core::glam::DVec3;
+use std::path::{Path, PathBuf};
+
+/// The frames of one mesh, in the order of their numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshSequence {
+    /// Of all frames.
+    pub triangles: Vec<[u32; 3]>,
+    /// Positions of all vertices, frame by frame: one at least.
+    pub frames: Vec<Vec<DVec3>>,
+    /// The file of each frame.
+    pub files: Vec<PathBuf>,
+}
+
+/// Why files are no sequence of frames.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SequenceProblem {
+    /// The name has no place for the number, or several.
+    #[error("the name of the files must have one run of '#' where their numbers stand, such as body-####.ply")]
+    Pattern,
+    /// The folder cannot be read.
+    #[error("the folder '{}' cannot be read: {error}", folder.display())]
+    Folder {
+        /// The folder.
+        folder: PathBuf,
+        /// Why.
+        error: std::io::Error,
+    },
+    /// No file has such a name.
+    #[error("there is no such file in '{}'", folder.display())]
+    NoFiles {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A number is left out.
+    #[error("frame {missing} is missing: there are frames up to {before}, and from {after} on")]
+    MissingFrame {
+        /// The first number that is missing.
+        missing: u64,
+        /// The last one before.
+        before: u64,
+        /// The first one after.
+        after: u64,
+    },
+    /// Two files have the same number.
+    #[error("frame {frame} is there twice: '{}' and '{}'", excerpt(one, 60), excerpt(other, 60))]
+    TwiceThere {
+        /// Its number.
+        frame: u64,
+        /// A file.
+        one: String,
+        /// Another one.
+        other: String,
+    },
+    /// A folder has files of several sequences, or meshes without a number.
+    #[error(
+        "this folder has more than one sequence ('{}' and '{}'); name the files, such as body-####.ply",
+        excerpt(one, 60),
+        excerpt(other, 60)
+    )]
+    SeveralSequences {
+        /// A file.
+        one: String,
+        /// One of another sequence.
+        other: String,
+    },
+}
+
+/// Reads numbered OBJ or PLY files as the frames of one mesh: `pattern` is a path whose file name has one run of `#` where the number stands
+/// (`body-####.ply`), with as many digits as there are `#`, or more; or a folder whose mesh files are one such sequence. Frames go from
+/// the lowest number to the highest, none left out.
+///
+/// # Errors
+/// Those of [`read`](super::read) for any of the files; if there is none, a number is missing, or is there twice; or if a frame has other
+/// triangles, or another number of vertices, than the first: the message names both files and the first difference.
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// for (number, height) in [(9, 0.0), (10, 0.1)] {
+///     let text = format!("v 0 0 {height}\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+///     std::fs::write(folder.path().join(format!("leaf-{number:03}.obj")), text)?;
+/// }
+/// let leaf = selvedge_files::mesh::read_sequence(&folder.path().join("leaf-###.obj"))?;
+/// assert_eq!((leaf.triangles.len(), leaf.frames.len()), (1, 2));
+/// assert_eq!(leaf.frames[1][0].z, 0.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn read_sequence(pattern: &Path) -> Result<MeshSequence, MeshError> {
+    let found = if pattern.is_dir() {
+        of_folder(pattern)
+    } else {
+        of_pattern(pattern)
+    };
+    let files = found.map_err(|problem| MeshError::Sequence {
+        pattern: pattern.to_owned(),
+        problem,
+    })?;
+    let read = |path: &Path| load(path).map_err(|problem| MeshError::file(path, problem));
+    // There is one: sequences of none were refused.
+    let (first, topology) = read(&files[0])?;
+    let mut frames = vec![first.mesh.positions];
+    for file in &files[1..] {
+        let (frame, _) = read(file)?;
+        let (vertices, triangles) = (frame.mesh.positions.len(), &frame.mesh.triangles);
+        if let Some(difference) = FrameDifference::find(&topology, vertices, triangles) {
+            return Err(MeshError::Frames {
+                start: files[0].clone(),
+                end: file.clone(),
+                difference,
+            });
+        }
+        frames.push(frame.mesh.positions);
+    }
+    Ok(MeshSequence {
+        triangles: topology.triangles().to_vec(),
+        frames,
+        files,
+    })
+}
+
+/// What stands before and after a number, and its least number of digits.
+#[derive(Clone, Copy)]
+struct Names<'a> {
+    before: &'a str,
+    digits: usize,
+    after: &'a str,
+}
+
+impl Names<'_> {
+    /// The number of a file with such a name.
+    fn number(&self, name: &str) -> Option<u64> {
+        let digits = name.strip_prefix(self.before)?.strip_suffix(self.after)?;
+        let is_number = digits.len() >= self.digits && digits.bytes().all(|byte| byte.is_ascii_digit());
+        digits.parse().ok().filter(|_| is_number)
+    }
+}
+
+fn of_pattern(pattern: &Path) -> Result<Vec<PathBuf>, SequenceProblem> {
+    let name = pattern.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let first = name.find('#').ok_or(SequenceProblem::Pattern)?;
+    let digits = name[first..].bytes().take_while(|&byte| byte == b'#').count();
+    let names = Names {
+        before: &name[..first],
+        digits,
+        after: &name[first + digits..],
+    };
+    if names.after.contains('#') {
+        return Err(SequenceProblem::Pattern);
+    }
+    let folder = match pattern.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    in_order(folder, &listing(folder)?, names)
+}
+
+fn of_folder(folder: &Path) -> Result<Vec<PathBuf>, SequenceProblem> {
+    let mut all = listing(folder)?;
+    all.retain(|name| FileFormat::from_path(Path::new(name)).is_some());
+    let Some(one) = all.first() else {
+        return Err(SequenceProblem::NoFiles {
+            folder: folder.to_owned(),
+        });
+    };
+    // The last run of digits: the number, and not the 4 of `v4-body-001.ply`.
+    let end = one.rfind(|c: char| c.is_ascii_digit()).map_or(0, |last| last + 1);
+    let start = one[..end]
+        .rfind(|c: char| !c.is_ascii_digit())
+        .map_or(0, |before| before + one[before..].chars().next().map_or(0, char::len_utf8));
+    let names = Names {
+        before: &one[..start],
+        digits: 1,
+        after: &one[end..],
+    };
+    match all.iter().find(|name| names.number(name).is_none()) {
+        None => in_order(folder, &all, names),
+        Some(other) => Err(SequenceProblem::SeveralSequences {
+            one: one.clone(),
+            other: other.clone(),
+        }),
+    }
+}
+
+/// The names of all files in a folder, in order.
+fn listing(folder: &Path) -> Result<Vec<String>, SequenceProblem> {
+    let failed = |error| SequenceProblem::Folder {
+        folder: folder.to_owned(),
+        error,
+    };
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        // What is no text has no such name.
+        names.extend(entry.map_err(failed)?.file_name().into_string().ok());
+    }
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// The files with such names in the order of their numbers, none left out.
+fn in_order(folder: &Path, all: &[String], names: Names<'_>) -> Result<Vec<PathBuf>, SequenceProblem> {
+    let numbered = all.iter().filter_map(|name| Some((names.number(name)?, name)));
+    let mut numbered: Vec<(u64, &String)> = numbered.collect();
+    numbered.sort_unstable();
+    if numbered.is_empty() {
+        return Err(SequenceProblem::NoFiles {
+            folder: folder.to_owned(),
+        });
+    }
+    for pair in numbered.windows(2) {
+        let [(before, one), (after, other)] = [pair[0], pair[1]];
+        if before == after {
+            return Err(SequenceProblem::TwiceThere {
+                frame: before,
+                one: one.clone(),
+                other: other.clone(),
+            });
+        }
+        if after - before > 1 {
+            return Err(SequenceProblem::MissingFrame {
+                missing: before + 1,
+                before,
+                after,
+            });
+        }
+    }
+    Ok(numbered.into_iter().map(|(_, name)| folder.join(name)).collect())
+}
