@@ -9,7 +9,7 @@ fn the_scene_that_it_writes_runs_and_stays_free_of_intersections() {
     let scene = place.read("walker/walker.toml");
     place.write(
         "walker/walker.toml",
-        scene.replace("duration = \"3 s\"", "duration = \"50 ms\""),
+        scene.replace("duration = \"3 s\"", "duration = \"40 ms\""),
     );
     let document = place.json(&["simulate", "walker/walker.toml", "--json"]);
     assert_eq!(

@@ -96,7 +96,7 @@ impl Walker {
             |point| blended(limbs.iter(), SHIRT_BLEND, point) - EASE,
             [DVec3::new(-0.6, 0.7, -0.3), DVec3::new(0.6, 1.6, 0.3)],
             SHIRT_PITCH * pitch,
-            &[cut(0, 0.4, 1.0), cut(0, -0.4, -1.0), cut(1, 1.462, 1.0), cut(1, 0.87, -1.0)],
+            &[cut(0, 0.4, 1.0), cut(0, -0.4, -1.0), cut(1, 1.5, 1.0), cut(1, 0.87, -1.0)],
         );
         Self {
             influences: body.positions.iter().map(|&point| influences(&limbs, point)).collect(),

@@ -29,7 +29,7 @@ pub(super) fn surface(solid: impl Fn(DVec3) -> f64, [lower, upper]: [DVec3; 2], 
     // Where the middles of cells are, so that the last row of triangles is as wide as the others.
     let snapped = |cut: &Cut| {
         let first = lower.to_array()[cut.axis];
-        let at = first + (((cut.at - first) / pitch).floor() + 0.5) * pitch;
+        let at = first + (((cut.at - first) / pitch - 0.5).round() + 0.5) * pitch;
         Cut { at, ..*cut }
     };
     let cuts: Vec<Cut> = cuts.iter().map(snapped).collect();
