@@ -42,8 +42,8 @@ mod stages;
 
 pub(crate) use hinge::{Hinge, hinges};
 
-use crate::schedule::{On, Schedule};
 use crate::energy::{Configuration, StoredEnergy};
+use crate::schedule::{On, Schedule};
 use crate::step::{Constraint, TimeStep, Touches};
 use forces::Forces;
 use selvedge_core::glam::DVec3;
@@ -141,7 +141,10 @@ mod tests {
     fn energy_is_that_of_all_hinges_and_flat_cloth_has_none() {
         let cloth = Cloth::of(sheet(DVec3::ONE, [DVec3::X, DVec3::new(0.3, 1.0, 0.0)], [9, 8]));
         let rest = &cloth.mesh.positions;
-        let wavy: Vec<_> = rest.iter().map(|p| *p + DVec3::Z * 0.1 * (5.0 * p.x + 3.0 * p.y).sin()).collect();
+        let wavy: Vec<_> = rest
+            .iter()
+            .map(|p| *p + DVec3::Z * 0.1 * (5.0 * p.x + 3.0 * p.y).sin())
+            .collect();
         let inverse_masses: Vec<f64> = masses_of(&cloth).into_iter().map(f64::recip).collect();
         let all = hinges(&cloth, |_| 2e-3);
         let of_hinge = |(own, hinge): &On<Hinge, 4>| hinge.energy(own.map(|v| wavy[v as usize])).unwrap();

@@ -71,7 +71,10 @@ impl Effect for Bend {
         if warp == weft {
             vec![("bending stiffness", warp)]
         } else {
-            vec![("bending stiffness of the warp", warp), ("bending stiffness of the weft", weft)]
+            vec![
+                ("bending stiffness of the warp", warp),
+                ("bending stiffness of the weft", weft),
+            ]
         }
     }
 

@@ -10,10 +10,8 @@ use crate::schedule::On;
 use selvedge::verification::parallel;
 use selvedge_core::glam::{DVec2, DVec3};
 
-/// A part of the cloth with more than this share of its vertices outside all coarse triangles is left out. On coarse levels a thin triangle at
-/// the border that is no good leaves some (6 % of a sheet on a grid of 71 cells, seeds 18 cm apart): with that level a hung sheet sags by
-/// 7 mm on a grid as on irregular triangles, without it by 9.7 mm.
-const MOST_OUTSIDE: f64 = 0.12;
+/// A part of the cloth with more than this share of its vertices outside all coarse triangles is left out.
+const MOST_OUTSIDE: f64 = 0.05;
 
 /// A triangle between seeds, at rest.
 #[derive(Clone, Copy, Debug)]
