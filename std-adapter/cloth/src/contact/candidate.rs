@@ -88,6 +88,15 @@ mod tests {
             }
             prop_assert!(Closest::of(kind, end).distance() >= gap);
             prop_assert!(pair.distance_from_below(&start, error) <= Closest::of(kind, start).distance());
+            // And from the start to where repairs may have moved it: the gap at the start was large enough.
+            let moved = [0, 1, 2, 3].map(|k| end[k] + moves[(k + 1) % 4] * 0.1);
+            let mut again = pair;
+            if until.is_none() && again.stays_apart(&moved, separation, error) {
+                for step in 0..=20 {
+                    let at = [0, 1, 2, 3].map(|k| start[k].lerp(moved[k], f64::from(step) / 20.0));
+                    prop_assert!(Closest::of(kind, at).distance() > separation * (1.0 - 1e-9));
+                }
+            }
             // And once more from where it is: the gap is right there, as `stays_apart` takes it to be.
             let on = [0, 1, 2, 3].map(|k| end[k] + moves[k] * 0.1);
             if pair.stays_apart(&on, separation, error) {
