@@ -175,7 +175,7 @@ impl Simulation {
         let Plan {
             mut inverse_masses,
             mut carriers,
-            motions,
+            mut motions,
             pins,
             forces,
             constraints,
@@ -192,7 +192,6 @@ impl Simulation {
             carriers.resize(rest.len(), carrier as Carrier);
         }
         inverse_masses.resize(rest.len(), 0.0);
-        let mut motions = motions;
         let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
         let mut carried = rest.clone();
         for (point, &carrier) in carried[..cloth.mesh.positions.len()].iter_mut().zip(&carriers) {
