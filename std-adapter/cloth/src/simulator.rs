@@ -33,7 +33,7 @@ use std::time::Instant;
 pub const FASTEST: f64 = 1000.0;
 
 /// A checkpoint can be taken when so many steps are done, and again so many later. There contact forgets what it knows besides
-/// the positions, which a resumed simulation does not know either.
+/// the state, which a resumed simulation does not know either.
 pub const CHECKPOINT_STEPS: u64 = 200;
 
 /// The shortest part of a step that is tried, in steps, or in parts of one in which nothing turns too far: so a step has an end.
@@ -211,11 +211,18 @@ impl Simulation {
             FREE => cloth.velocity,
             _ => DVec3::ZERO,
         });
+        let state = State {
+            step: 0,
+            blocked_steps: 0,
+            clock: 0.0,
+            velocities: velocities.collect(),
+            positions,
+        };
         let cloth_vertices = cloth.mesh.positions.len();
         let mut contact = ContactSolver::new(contact, &triangles, &rest, &carriers, cloth_vertices, bodies.len())?;
         if let Some(contact) = &mut contact {
-            contact.refresh(&positions);
-            if let Some(pair) = contact.first_touching(&positions) {
+            begin_anew(contact, &state, time_step);
+            if let Some(pair) = contact.first_touching(&state.positions) {
                 return Err(SetupError::Touching(pair));
             }
         }
@@ -237,13 +244,7 @@ impl Simulation {
             constraints,
             effects: times,
             threads,
-            state: State {
-                step: 0,
-                blocked_steps: 0,
-                clock: 0.0,
-                velocities: velocities.collect(),
-                positions,
-            },
+            state,
             work: Work {
                 touches: Touches {
                     wanted: !friction.is_empty(),
@@ -458,7 +459,7 @@ impl Simulation {
         if let Some(contact) = &mut self.contact {
             contact.take_back(&self.state.positions);
             if self.state.step.is_multiple_of(CHECKPOINT_STEPS) {
-                contact.refresh(&self.state.positions);
+                begin_anew(contact, &self.state, self.time_step);
             }
         }
         Ok(of_the_step)
@@ -498,7 +499,7 @@ impl Simulation {
         let checkpoint = Checkpoint::read(checkpoint, self.fingerprint, sizes)?;
         if let Some(contact) = &mut self.contact {
             contact.set_yielding(&checkpoint.yielding);
-            contact.refresh(&checkpoint.state.positions);
+            begin_anew(contact, &checkpoint.state, self.time_step);
             (contact.counts, contact.stages) = (checkpoint.counts, checkpoint.stages);
         }
         for (effect, seconds) in self.effects.iter_mut().zip(checkpoint.effects) {
@@ -625,6 +626,16 @@ impl Simulation {
         state.clock += ticks;
         Ok(())
     }
+}
+
+/// Has contact forget all but the state, which everything is expected to go on from straight ahead in steps of `h` seconds: so a simulation
+/// that goes on from here, and one that is resumed here, are alike.
+fn begin_anew(contact: &mut ContactSolver, state: &State, h: f64) {
+    let ways = state.positions.iter().zip(&state.velocities);
+    let end: Vec<_> = ways
+        .map(|(&position, &velocity)| position + limited(velocity, FASTEST) * h)
+        .collect();
+    contact.refresh(&state.positions, &end, h);
 }
 
 /// Runs what an effect does, and adds the time to it.

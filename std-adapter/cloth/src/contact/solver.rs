@@ -65,9 +65,11 @@ impl ContactSolver {
         }))
     }
 
-    /// Forgets everything but the positions: a simulation that goes on from here, and one that is resumed here, are alike.
-    pub(crate) fn refresh(&mut self, positions: &[DVec3]) {
-        self.candidates.refresh(positions);
+    /// Forgets the steps before; the next one is expected to lead from `start` to `end` in `h` seconds.
+    pub(crate) fn refresh(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
+        let begin = Instant::now();
+        self.candidates.refresh(start, end, h);
+        self.stages.candidates += begin.elapsed().as_secs_f64();
     }
 
     /// The first pair that touches, after [`refresh`](Self::refresh), or the first edge that passes through a face.

@@ -58,6 +58,17 @@ pub(crate) struct Share<'a> {
     tasks: &'a [BlockPair],
 }
 
+/// Which vertices an update looks at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Refit {
+    /// Those that move; once, those that rest.
+    Moving,
+    /// All, whichever count as moving. Then what is found does not depend on the updates before.
+    All,
+    /// Those that move, which alone have done so since the last update. What is found fits what was found then.
+    Narrowed,
+}
+
 /// Trees over vertices, edges and faces. Everything is numbered by its position in its tree: what lies close together is so
 /// in memory as well, whatever the mesh's own order.
 #[derive(Debug)]
@@ -78,8 +89,7 @@ pub(crate) struct Hierarchies {
     moving: Option<Vec<bool>>,
     /// Which pairs are looked at, if not all.
     filter: Option<Arc<CollisionFilter>>,
-    /// Whether what does not count as moving may move all the same.
-    refit_all: bool,
+    refit: Refit,
     /// What the boxes of what rests were fitted with, if they are still good.
     fitted: Option<Mapping>,
     /// What the boxes hold.
@@ -90,10 +100,11 @@ pub(crate) struct Hierarchies {
     task_tests: u64,
     stack: Vec<BlockPair>,
     degradation: Degradation,
-    /// Whether the last update has built them.
+    /// Whether the last update has built them, or was the first one of everything after a build.
     is_new: bool,
-    /// Whether the next update builds, whatever they have cost.
-    must_build: bool,
+    is_built: bool,
+    /// Whether nothing has been found yet by what was built last, but for a few vertices.
+    is_unmeasured: bool,
     statistics: MovingStatistics,
 }
 
@@ -111,7 +122,7 @@ impl Hierarchies {
             boxes: Vec::new(),
             moving: None,
             filter: None,
-            refit_all: false,
+            refit: Refit::Moving,
             fitted: None,
             fit: Fit::default(),
             extent: Aabb::empty(),
@@ -121,7 +132,8 @@ impl Hierarchies {
             stack: Vec::new(),
             degradation: Degradation::default(),
             is_new: false,
-            must_build: true,
+            is_built: false,
+            is_unmeasured: false,
             statistics: MovingStatistics::default(),
         }
     }
@@ -174,7 +186,7 @@ impl Hierarchies {
 
     /// From the next update on only pairs with a wanted vertex are found. All vertices may move.
     pub(crate) fn set_wanted(&mut self, wanted: Vec<bool>) {
-        self.refit_all = true;
+        self.refit = Refit::All;
         // Then nobody has to be asked.
         let are_all = wanted.iter().all(|&wanted| wanted);
         self.set_moving((!are_all).then_some(wanted));
@@ -183,14 +195,9 @@ impl Hierarchies {
     /// From the next update on only pairs with a wanted vertex are found, and only wanted vertices are looked at: the boxes of the
     /// others stay as the last update left them.
     pub(crate) fn narrow_to(&mut self, wanted: Vec<bool>) {
-        self.refit_all = false;
+        self.refit = Refit::Narrowed;
         self.moving = Some(wanted);
         self.mark();
-    }
-
-    /// The next update builds: what is found then, and in what order, does not depend on the steps before.
-    pub(crate) fn forget(&mut self) {
-        self.must_build = true;
     }
 
     /// Takes the positions of a step and finds where to look for pairs.
@@ -201,15 +208,31 @@ impl Hierarchies {
 
     /// Takes the positions of a step.
     pub(crate) fn fit_boxes(&mut self, motions: &dyn Motions, fit: &Fit) {
-        let items = self.edges.len();
-        self.is_new = self.must_build || self.degradation.is_worth_a_build(PRICES, items);
-        if self.is_new {
+        let is_whole = self.refit != Refit::Narrowed;
+        let builds = !self.is_built || is_whole && self.are_degraded();
+        // Rounding of boxes follows from it.
+        if builds || self.refit == Refit::All {
+            self.extent = extent(motions);
+        }
+        if builds {
             self.build(motions);
         }
+        self.is_new = is_whole && std::mem::take(&mut self.is_unmeasured);
         let mapping = motions.mapping(&self.extent, fit);
         self.refit(motions, mapping);
         self.fit = *fit;
         self.task_tests = 0;
+    }
+
+    /// Builds them from these positions if that is worth its time: with wanted vertices that changes nothing of what updates find but the order.
+    pub(crate) fn build_if_degraded(&mut self, motions: &dyn Motions) {
+        if self.is_built && self.are_degraded() {
+            self.build(motions);
+        }
+    }
+
+    fn are_degraded(&self) -> bool {
+        self.degradation.is_worth_a_build(PRICES, self.edges.len())
     }
 
     /// The box that holds all, as the last update left it.
@@ -219,7 +242,6 @@ impl Hierarchies {
     }
 
     fn build(&mut self, motions: &dyn Motions) {
-        self.extent = extent(motions);
         let middles = motions.mapping(&self.extent, &Fit::default());
         let middle = |vertex: u32| {
             let motion = motions.of(vertex as usize);
@@ -262,7 +284,8 @@ impl Hierarchies {
         self.mark();
         self.note_members();
         self.degradation = Degradation::default();
-        self.must_build = false;
+        self.is_built = true;
+        self.is_unmeasured = true;
         self.statistics.builds += 1;
     }
 
@@ -292,7 +315,7 @@ impl Hierarchies {
 
     fn refit(&mut self, motions: &dyn Motions, mapping: Mapping) {
         // What rests keeps the rows and boxes that it has.
-        let only_moving = self.moving.is_some() && !self.refit_all && self.fitted == Some(mapping);
+        let only_moving = self.moving.is_some() && self.refit != Refit::All && self.fitted == Some(mapping);
         let vertices = &self.vertices.primitives;
         let rows = self.rows.resize(vertices.len());
         self.boxes.resize(vertices.len(), MovingBox::empty());

@@ -61,6 +61,7 @@ use crate::frame::{Step, StepError, check_length};
 use crate::mesh::Topology;
 use crate::parallel;
 use selvedge_core::Position;
+use selvedge_core::glam::DVec3;
 use std::mem::swap;
 use std::sync::Arc;
 
@@ -126,7 +127,8 @@ impl MovingBroadPhase {
     }
 
     /// From the next update on only pairs with a vertex that is `wanted` are candidates, one entry for each vertex of the mesh:
-    /// pairs of cloth, say, and not those of bodies among themselves.
+    /// pairs of cloth, say, and not those of bodies among themselves. What is found then does not depend on the steps before but for
+    /// its order.
     ///
     /// # Panics
     /// At the next update, if there are fewer entries than vertices.
@@ -140,14 +142,14 @@ impl MovingBroadPhase {
     }
 
     /// From the next update on only pairs with a `wanted` vertex are candidates, and only such vertices have moved since the last
-    /// update.
+    /// update. Hierarchies are not built then.
     pub fn narrow_to(&mut self, wanted: Vec<bool>) {
         self.hierarchies.narrow_to(wanted);
     }
 
-    /// The next update builds the hierarchies: from there on all is as in a broad phase that has seen no step yet.
-    pub fn forget(&mut self) {
-        self.hierarchies.forget();
+    /// Builds the hierarchies from these positions if they have degraded, so that the next [`update`](Self::update) need not.
+    pub(crate) fn build_if_degraded(&mut self, start: &[DVec3], end: &[DVec3]) {
+        self.hierarchies.build_if_degraded(&Step::of_finite(start, end));
     }
 
     /// Takes the positions of a step. Builds the hierarchies in the first step and when they have degraded, refits them
@@ -256,7 +258,6 @@ impl Sink for Collected<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use selvedge_core::glam::DVec3;
 
     /// Two rows of points, as near each other as their curve is tight.
     fn strip(radius: f64) -> Vec<DVec3> {
@@ -268,22 +269,30 @@ mod tests {
     }
 
     #[test]
-    fn what_is_found_after_forgetting_does_not_depend_on_the_steps_before() {
+    fn what_is_found_with_wanted_vertices_does_not_depend_on_the_steps_before() {
         let triangles = (0..398).map(|k| [k, k + 1, k + 2]).collect();
         let topology = Arc::new(Topology::new(400, triangles).unwrap());
         let found = |broad_phase: &mut MovingBroadPhase, positions: &[DVec3]| {
             let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
             broad_phase.update(positions, positions).unwrap();
             broad_phase.candidates(&mut vertex_face, &mut edge_edge);
-            (vertex_face, edge_edge)
+            let in_order = (vertex_face.clone(), edge_edge.clone());
+            vertex_face.sort_unstable();
+            edge_edge.sort_unstable();
+            (in_order, [vertex_face, edge_edge])
+        };
+        let of_all = || {
+            let mut broad_phase = MovingBroadPhase::new(Arc::clone(&topology));
+            broad_phase.set_wanted(vec![true; 400]);
+            broad_phase
         };
         let (wide, tight) = (strip(100.0), strip(2.5));
-        let fresh = found(&mut MovingBroadPhase::new(Arc::clone(&topology)), &tight);
-        assert!(!fresh.0.is_empty() && !fresh.1.is_empty());
-        let mut old = MovingBroadPhase::new(topology);
+        let (order, fresh) = found(&mut of_all(), &tight);
+        assert!(fresh.iter().all(|pairs| !pairs.is_empty()));
+        let mut old = of_all();
         found(&mut old, &wide);
-        assert!(found(&mut old, &tight) != fresh, "hierarchies of the wide one");
-        old.forget();
-        assert!(found(&mut old, &tight) == fresh);
+        let (order_of_wide, later) = found(&mut old, &tight);
+        assert!(order_of_wide != order, "hierarchies of the wide one");
+        assert!(later == fresh);
     }
 }

@@ -44,10 +44,11 @@ impl Horizon {
         }
     }
 
-    /// Begins anew, and learns nothing from the past.
+    /// Begins anew, and learns nothing from the past: looks half as far ahead as it may.
     pub(super) fn forget(&mut self) {
         self.span = 0.0;
-        self.steps = 1;
+        self.steps = self.farthest.div_ceil(2);
+        self.bends.clear();
     }
 
     /// Begins with the step from `start` to `end` in `h` seconds. Returns the motion to find candidates for.
@@ -179,7 +180,6 @@ mod tests {
     #[test]
     fn a_straight_motion_is_covered_to_its_end_and_farther_each_time() {
         let mut horizon = Horizon::new(4);
-        horizon.forget();
         let at = |step: u32| [DVec3::X * f64::from(step)];
         let mut found = 0;
         for step in 0..64 {

@@ -97,16 +97,15 @@ impl<I: Interest> NearPairs<I> {
         &self.strayed
     }
 
-    /// Forgets everything but the positions: from here on all is as it would be if nothing had been before.
+    /// Forgets the steps before: from here on all is as it would be if there had been none, and the next one were expected to go from
+    /// `start` to `end`.
     ///
     /// # Panics
     /// As [`cover`](Self::cover).
-    pub fn refresh(&mut self, positions: &[DVec3]) {
+    pub fn refresh(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
         self.list.clear();
-        self.search.forget();
         self.horizon.forget();
-        self.find(positions, positions, 1.0);
-        self.horizon.forget();
+        self.find(start, end, h);
     }
 
     /// A step that took a time of `h` was made.
@@ -119,8 +118,7 @@ impl<I: Interest> NearPairs<I> {
         self.horizon.find_strayed(end, h, self.room, &mut self.strayed)
     }
 
-    /// Adds the pairs of vertices that have strayed. Returns whether that was possible: not if many have, or the motion has ended;
-    /// or if all were found anew.
+    /// Adds the pairs of vertices that have strayed. Returns whether that was possible: not if many have, or the motion has ended.
     ///
     /// # Panics
     /// As [`cover`](Self::cover).
@@ -166,12 +164,12 @@ impl<I: Interest> NearPairs<I> {
     }
 
     fn cover_strayed(&mut self, strayed: usize, start: &[DVec3], end: &[DVec3], h: f64) {
-        match strayed {
-            0 => {}
-            few if few < end.len() / MANY => {
-                self.find_of_strayed(start, end, h);
-            }
-            _ => self.find(start, end, h),
+        if strayed > 0 && strayed >= end.len() / MANY {
+            return self.find(start, end, h);
+        }
+        self.search.build_if_degraded([start, end]);
+        if strayed > 0 {
+            self.find_of_strayed(start, end, h);
         }
     }
 
@@ -182,18 +180,14 @@ impl<I: Interest> NearPairs<I> {
             self.find(start, end, h);
             return false;
         };
-        let is_narrow = self.search.pairs_of(&self.strayed, &self.reach, motion, &mut self.found);
-        if is_narrow {
-            if self.reach.is_graded {
-                self.replace_strayed();
-            } else {
-                drop_known(&mut self.found, &self.list);
-            }
-            add(&mut self.list, &mut self.found);
+        self.search.pairs_of(&self.strayed, &self.reach, motion, &mut self.found);
+        if self.reach.is_graded {
+            self.replace_strayed();
         } else {
-            self.take_found();
+            drop_known(&mut self.found, &self.list);
         }
-        is_narrow
+        add(&mut self.list, &mut self.found);
+        true
     }
 
     /// Takes the pairs with a vertex that has strayed out of the list, with all that is known of them into those that were found.
@@ -223,11 +217,6 @@ impl<I: Interest> NearPairs<I> {
         self.strays.resize(end.len(), 0.0);
         let motion = self.horizon.begin(start, end, h, self.slack);
         self.search.pairs(&self.reach, motion, &mut self.found);
-        self.take_found();
-    }
-
-    /// Replaces the list by what was found, with what is known of each pair.
-    fn take_found(&mut self) {
         remember(&mut self.found, &self.list);
         std::mem::swap(&mut self.list, &mut self.found);
     }

@@ -77,14 +77,8 @@ impl<I: Interest> Search<I> {
         self.broad_phase.set_separation(one.max(other) + reach.beyond)
     }
 
-    /// Forgets the steps before. When the hierarchies are built depends on them, and so do the pairs: those of a
-    /// [few vertices](Self::pairs_of) are added to what is known, or replace it if there was a build.
-    pub(super) fn forget(&mut self) {
-        self.broad_phase.forget();
-    }
-
-    /// Replaces `pairs` by those of the motion from `start` to `end`, in ascending order of their keys: whatever order
-    /// the hierarchies find them in, which depends on the steps before.
+    /// Replaces `pairs` by those of the motion from `start` to `end`, in ascending order of their keys: not that in which the hierarchies
+    /// find them, which is all that depends on the steps before.
     ///
     /// # Panics
     /// If a position is not finite.
@@ -96,30 +90,20 @@ impl<I: Interest> Search<I> {
         self.find(reach, motion, None, pairs);
     }
 
-    /// Replaces `pairs` by those with a vertex that is in `only`, the only ones whose motion is not that of the last search. Returns
-    /// whether it is so; else all are there.
+    /// Replaces `pairs` by those with a vertex that is in `only`, the only ones whose motion is not that of the last search.
     ///
     /// # Panics
     /// If a position is not finite.
-    pub(super) fn pairs_of(
-        &mut self,
-        only: &[bool],
-        reach: &Reach,
-        motion: [&[DVec3]; 2],
-        pairs: &mut Vec<NearPair<I::Data>>,
-    ) -> bool {
-        let builds = self.broad_phase.statistics().builds;
+    pub(super) fn pairs_of(&mut self, only: &[bool], reach: &Reach, motion: [&[DVec3]; 2], pairs: &mut Vec<NearPair<I::Data>>) {
         self.broad_phase.narrow_to(only.to_vec());
         self.is_narrowed = true;
         self.update(motion);
-        // After a build the broad phase takes what a traversal costs for the measure of later ones: so that must be a whole one.
-        let is_narrow = self.broad_phase.statistics().builds == builds;
-        if is_narrow {
-            self.find(reach, motion, Some(only), pairs);
-        } else {
-            self.pairs(reach, motion, pairs);
-        }
-        is_narrow
+        self.find(reach, motion, Some(only), pairs);
+    }
+
+    /// Does what the next search need not do then; a step that does not search has the time.
+    pub(super) fn build_if_degraded(&mut self, [start, end]: [&[DVec3]; 2]) {
+        self.broad_phase.build_if_degraded(start, end);
     }
 
     fn update(&mut self, [start, end]: [&[DVec3]; 2]) {
