@@ -71,10 +71,21 @@ def in_states(step: Callable[[], None], points: Callable[[], np.ndarray], time_s
     return done, taken, states
 
 
-def selvedge(options: argparse.Namespace, folder: Path) -> Run:
-    """The scene that comes with the program; the time is the whole command's, set-up, report and files included."""
+# What makes the scene of selvedge that of MuJoCo with `ipc`: without friction, as stiff in shear as a membrane of E·t = 400 N/m and a Poisson
+# number of 0.2 (E·t/(2·1.2)), and with a shorter step and a smaller limit less stretched.
+AS_MUJOCO = [
+    ("\n[effects.friction]\ncoefficient = 0.3\n", ""),
+    ('stiffness = "80 N/m"', 'stiffness = "167 N/m"'),
+    ('time_step = "1 ms"', 'time_step = "0.625 ms"'),
+    ("limit = 1.08", "limit = 1.01"),
+]
+
+
+def selvedge(options: argparse.Namespace, folder: Path, name: str, own: list[tuple[str, str]]) -> Run:
+    """The scene that comes with the program, with changes; the time is the whole command's, set-up, report and files included."""
     scene = (HERE / "../../../cloth/scenes/drop.toml").read_text()
     changes = [
+        *own,
         ("cells = [32, 32]", f"cells = [{options.cells}, {options.cells}]"),
         ("frames_per_second = 40", f"frames_per_second = {1 / INTERVAL:g}"),
         ('duration = "1.5 s"', f'duration = "{options.seconds} s"'),
@@ -93,7 +104,7 @@ def selvedge(options: argparse.Namespace, folder: Path) -> Run:
     triangles = meshes[0].cells_dict["triangle"].astype(np.int64)
     triangles = triangles[(triangles < vertices).all(axis=1)]
     states = [mesh.points[:vertices].astype(np.float64) for mesh in meshes]
-    return Run("selvedge", 1e-3, report["steps"], taken, states, triangles)
+    return Run(name, options.seconds / report["steps"], report["steps"], taken, states, triangles)
 
 
 def mujoco(options: argparse.Namespace, _: Path, ipc: bool) -> Run:
@@ -207,7 +218,8 @@ def newton(options: argparse.Namespace, _: Path) -> Run:
 
 
 SIMULATORS: dict[str, Callable[[argparse.Namespace, Path], Run]] = {
-    "selvedge": selvedge,
+    "selvedge": lambda options, folder: selvedge(options, folder, "selvedge", []),
+    "selvedge-as-mujoco": lambda options, folder: selvedge(options, folder, "selvedge, no friction, less stretched", AS_MUJOCO),
     "mujoco-ipc": lambda options, folder: mujoco(options, folder, True),
     "mujoco": lambda options, folder: mujoco(options, folder, False),
     "rapier": lambda options, folder: rapier(options, folder, 0.0015),
