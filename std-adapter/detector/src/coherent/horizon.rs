@@ -7,6 +7,7 @@
 //! Where few vertices leave that room, as in a crease, they alone get a [new way](Horizon::lead_back) for the rest of the time, and
 //! candidates are looked for with what they belong to.
 
+use super::ahead::Ahead;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::course::{expected, has_room, is_certain, joined, room, time_after};
 use selvedge_core::separation::largest_coordinate;
@@ -26,10 +27,8 @@ pub(super) struct Horizon {
     span: f64,
     /// Since it began, in seconds.
     elapsed: f64,
-    /// How many steps the span was meant to last.
-    steps: u32,
-    /// How many it may be at most.
-    farthest: u32,
+    /// How many steps the span is meant to last.
+    pub(super) ahead: Ahead,
     /// By how much the way of each vertex in a step differs from that in the step before; empty if nobody has told.
     pub(super) bends: Vec<DVec3>,
 }
@@ -38,8 +37,7 @@ impl Horizon {
     /// Looks no more than so many steps ahead.
     pub(super) fn new(farthest: u32) -> Self {
         Self {
-            farthest,
-            steps: 1,
+            ahead: Ahead::new(farthest),
             ..Self::default()
         }
     }
@@ -47,29 +45,25 @@ impl Horizon {
     /// Begins anew, and learns nothing from the past: looks half as far ahead as it may.
     pub(super) fn forget(&mut self) {
         self.span = 0.0;
-        self.steps = self.farthest.div_ceil(2);
+        self.ahead.forget();
         self.bends.clear();
     }
 
     /// Begins with the step from `start` to `end` in `h` seconds. Returns the motion to find candidates for.
     ///
-    /// Looks twice as far ahead as before if that lasted, half as far if it did not last half of its time. Vertices are to stay within
-    /// `room` of it.
+    /// Looks as many steps [ahead](Ahead) as cost least. Vertices are to stay within `room` of it.
     pub(super) fn begin<'a>(&'a mut self, start: &'a [DVec3], end: &[DVec3], h: f64, room: f64) -> [&'a [DVec3]; 2] {
         if self.span > 0.0 {
-            if self.elapsed > 0.9 * self.span {
-                self.steps = (2 * self.steps).min(self.farthest);
-            } else if self.elapsed < 0.5 * self.span {
-                self.steps = (self.steps / 2).max(1);
-            }
+            let lasted = self.elapsed / self.span * f64::from(self.ahead.steps());
+            self.ahead.choose(lasted);
         }
+        let steps = f64::from(self.ahead.steps());
         self.elapsed = 0.0;
-        self.span = h * f64::from(self.steps);
+        self.span = h * steps;
         self.origin.clear();
         self.origin.extend_from_slice(start);
         self.drift.clear();
         self.drift.extend(start.iter().zip(end).map(|(&from, &to)| (to - from) / h));
-        let steps = f64::from(self.steps);
         let ways = self.drift.iter_mut().zip(&self.bends);
         ways.for_each(|(drift, &own)| *drift += bent(own, steps, h, room));
         self.far.clear();
@@ -79,7 +73,6 @@ impl Horizon {
         self.largest = largest_coordinate(start).max(largest_coordinate(&self.far));
         if !is_certain(room, self.largest) {
             // Rounding is too coarse to tell who strays: for this step only, and exactly for it.
-            self.steps = 1;
             self.span = h;
             self.far.copy_from_slice(end);
         }
@@ -177,28 +170,28 @@ fn bent(bend: DVec3, steps: f64, h: f64, room: f64) -> DVec3 {
 mod tests {
     use super::*;
 
+    /// One that looks so many steps ahead.
+    fn looking(steps: u32) -> Horizon {
+        let mut horizon = Horizon::new(2 * steps);
+        horizon.forget();
+        horizon
+    }
+
     #[test]
-    fn a_straight_motion_is_covered_to_its_end_and_farther_each_time() {
-        let mut horizon = Horizon::new(4);
+    fn a_straight_motion_is_covered_to_its_end() {
+        let mut horizon = looking(4);
         let at = |step: u32| [DVec3::X * f64::from(step)];
-        let mut found = 0;
-        for step in 0..64 {
-            if !horizon.covers(&at(step + 1), 1.0, 0.1) {
-                horizon.begin(&at(step), &at(step + 1), 1.0, 0.1);
-                found += 1;
-            }
+        horizon.begin(&at(0), &at(1), 1.0, 0.1);
+        for step in 0..4 {
+            assert!(horizon.covers(&at(step + 1), 1.0, 0.1));
             horizon.advance(1.0);
         }
-        // 1 + 2, then 4 at a time.
-        assert_eq!(found, 2 + 16);
+        assert!(!horizon.covers(&at(5), 1.0, 0.1));
     }
 
     #[test]
     fn a_vertex_that_strays_is_led_back_and_the_others_go_on() {
-        let mut horizon = Horizon {
-            steps: 4,
-            ..Horizon::default()
-        };
+        let mut horizon = looking(4);
         horizon.begin(&[DVec3::ZERO; 2], &[DVec3::X; 2], 1.0, 0.1);
         horizon.advance(1.0);
         let (start, end) = ([DVec3::X; 2], [DVec3::new(2.0, 0.05, 0.0), DVec3::X]);
@@ -215,10 +208,7 @@ mod tests {
 
     #[test]
     fn far_from_the_origin_for_its_room_a_motion_is_one_step_and_nobody_has_room() {
-        let mut horizon = Horizon {
-            steps: 4,
-            ..Horizon::default()
-        };
+        let mut horizon = looking(4);
         let (start, end) = ([DVec3::X * 1e12], [DVec3::X * 1e12 + DVec3::Y]);
         assert_eq!(horizon.begin(&start, &end, 1.0, 0.1), [&start[..], &end[..]]);
         assert!(horizon.lasts(1.0) && !horizon.covers(&end, 1.0, 0.1));
@@ -228,10 +218,7 @@ mod tests {
 
     #[test]
     fn a_vertex_that_strays_ends_it() {
-        let mut horizon = Horizon {
-            steps: 4,
-            ..Horizon::default()
-        };
+        let mut horizon = looking(4);
         horizon.begin(&[DVec3::ZERO], &[DVec3::X], 1.0, 0.1);
         horizon.advance(1.0);
         assert!(horizon.covers(&[DVec3::new(2.0, 0.09, 0.0)], 1.0, 0.1));

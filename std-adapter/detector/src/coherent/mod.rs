@@ -11,13 +11,14 @@
 //! |---|---|
 //! | `search` | near pairs: hierarchies of moving boxes, then the sieve |
 //! | `sieve` | pairs that keep apart until the next search |
-//! | `horizon`, `near` | for how many steps the pairs are good, and the list of them |
+//! | `ahead`, `horizon`, `near` | how many steps to look ahead, for how many the pairs are good, and the list of them |
 //! | `pair` | one pair, and the direction that keeps it apart |
 //! | `follow` | all of it for the steps of a [`CollisionDetector`](crate::CollisionDetector) |
 //!
 //! Nothing here decides by a bound of its own: directions, clearances and courses, with their derivations, are
 //! [core's](selvedge_core::separation).
 
+mod ahead;
 mod follow;
 mod horizon;
 mod near;
@@ -56,6 +57,8 @@ pub struct Reach {
     pub margin: f32,
     /// Steps to look ahead, at most.
     pub farthest: u32,
+    /// What a pair of the list costs in a step, in units of what finding one costs.
+    pub upkeep: f64,
     /// Whether to find out of each pair how far its vertices may stray before it needs attention.
     pub is_graded: bool,
 }

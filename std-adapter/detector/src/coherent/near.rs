@@ -111,6 +111,7 @@ impl<I: Interest> NearPairs<I> {
     /// A step that took a time of `h` was made.
     pub fn advance(&mut self, h: f64) {
         self.horizon.advance(h);
+        self.horizon.ahead.spend(self.reach.upkeep * self.list.len() as f64);
     }
 
     /// Finds which vertices have strayed so far that pairs which are not in the list may come within what is to be kept; how many.
@@ -181,6 +182,7 @@ impl<I: Interest> NearPairs<I> {
             return false;
         };
         self.search.pairs_of(&self.strayed, &self.reach, motion, &mut self.found);
+        self.horizon.ahead.spend(self.search.work());
         if self.reach.is_graded {
             self.replace_strayed();
         } else {
@@ -217,6 +219,7 @@ impl<I: Interest> NearPairs<I> {
         self.strays.resize(end.len(), 0.0);
         let motion = self.horizon.begin(start, end, h, self.slack);
         self.search.pairs(&self.reach, motion, &mut self.found);
+        self.horizon.ahead.spend(self.search.work());
         remember(&mut self.found, &self.list);
         std::mem::swap(&mut self.list, &mut self.found);
     }

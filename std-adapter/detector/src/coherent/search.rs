@@ -101,6 +101,11 @@ impl<I: Interest> Search<I> {
         self.find(reach, motion, Some(only), pairs);
     }
 
+    /// How many pairs the boxes left in the last search: about what it cost.
+    pub(super) fn work(&self) -> f64 {
+        (self.vertex_face.len() + self.edge_edge.len()) as f64
+    }
+
     /// Does what the next search need not do then; a step that does not search has the time.
     pub(super) fn build_if_degraded(&mut self, [start, end]: [&[DVec3]; 2]) {
         self.broad_phase.build_if_degraded(start, end);

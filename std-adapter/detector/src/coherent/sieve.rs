@@ -100,6 +100,7 @@ mod tests {
             spare: 0.0,
             margin: 0.5,
             farthest: 1,
+            upkeep: 0.0,
             is_graded: false,
         }
     }
