@@ -34,7 +34,7 @@ impl Effect for Magnet {
         Err(ValueError::new("magnet", "`at` and `strength` must be finite"))
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+    fn register(&self, plan: &mut Plan<'_>) {
         plan.add_force(*self);
     }
 }

@@ -38,6 +38,7 @@ mod hierarchy;
 mod input;
 mod membrane;
 mod normals;
+mod of_cloth;
 mod plan;
 mod scene;
 mod schedule;

@@ -2,11 +2,16 @@
 //!
 //! Each effect registers what it does into one of the phases below and owns its data. A phase without entries does not exist;
 //! effects run in the order of the registry, not of the file.
+//!
+//! Where there are several cloths, an effect that acts on each by itself registers once for each. What it does then is
+//! [shown](super::of_cloth) the vertices of that cloth alone; where there is one cloth it sees everything, and nothing stands in between.
 
 use super::contact::ContactSettings;
 use super::hierarchy::{Hierarchy, Level};
+use super::of_cloth::OfCloth;
 use super::step::{Carrier, Constraint, FREE, Force};
 use super::world::{Cloth, Kinematic, Motion, SceneParts};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// An entry of a phase and the effect that it belongs to.
@@ -22,6 +27,8 @@ pub(crate) struct Entry<T: ?Sized> {
 pub struct Fabric {
     /// How stiff the angle between warp and weft is, in N/m; `None`: no effect makes it so.
     pub(crate) shear: Option<f64>,
+    /// What it keeps from itself, in metres; `None`: no effect makes it so.
+    pub(crate) thickness: Option<f64>,
 }
 
 /// What a step consists of: effects put into it what they do.
@@ -30,10 +37,15 @@ pub struct Plan<'a> {
     pub(crate) scene: SceneParts<'a>,
     /// The effect that is registering.
     pub(crate) effect: usize,
-    pub(crate) fabric: Fabric,
-    /// Of all cloth vertices, in 1/kg.
+    /// The cloth that it acts on; `None`: the whole scene.
+    cloth: Option<usize>,
+    /// Of each cloth.
+    pub(crate) fabrics: Vec<Fabric>,
+    /// Of each cloth, its vertices among the scene's.
+    vertices: Vec<Range<usize>>,
+    /// Of the vertices of all cloths, in 1/kg.
     pub(crate) inverse_masses: Vec<f64>,
-    /// Of all cloth vertices.
+    /// Of the vertices of all cloths.
     pub(crate) carriers: Vec<Carrier>,
     /// Bodies' motions, then those of pins.
     pub(crate) motions: Vec<Kinematic>,
@@ -43,14 +55,15 @@ pub struct Plan<'a> {
     pub(crate) constraints: Vec<Entry<dyn Constraint>>,
     pub(crate) contact: ContactSettings,
     pub(crate) friction: Vec<Entry<dyn Constraint>>,
-    /// Made for the first effect that asks for levels.
-    hierarchy: Option<Hierarchy<'a>>,
+    /// Of each cloth: made for the first effect that asks for levels.
+    hierarchies: Vec<Option<Hierarchy<'a>>>,
 }
 
 impl<'a> Plan<'a> {
     /// A plan without any effect.
     pub(crate) fn new(scene: SceneParts<'a>) -> Self {
-        let mut first = scene.cloth.mesh.positions.len() as u32;
+        let count = scene.cloth_vertices();
+        let mut first = count as u32;
         let motions = scene.bodies.iter().map(|body| {
             let vertices = first..first + body.mesh.positions.len() as u32;
             first = vertices.end;
@@ -61,15 +74,42 @@ impl<'a> Plan<'a> {
             pins: Vec::new(),
             scene,
             effect: 0,
-            fabric: Fabric::default(),
-            hierarchy: None,
-            inverse_masses: masses_of(scene.cloth).into_iter().map(f64::recip).collect(),
-            carriers: vec![FREE; scene.cloth.mesh.positions.len()],
+            cloth: None,
+            fabrics: Vec::new(),
+            vertices: scene.vertices_of_cloths().collect(),
+            hierarchies: scene.cloths.iter().map(|_| None).collect(),
+            inverse_masses: scene.cloths.iter().flat_map(masses_of).map(f64::recip).collect(),
+            carriers: vec![FREE; count],
             forces: Vec::new(),
             constraints: Vec::new(),
-            contact: ContactSettings::default(),
+            contact: ContactSettings::new(scene.cloths.iter().map(|cloth| cloth.mesh.positions.len())),
             friction: Vec::new(),
         }
+    }
+
+    /// Lets an effect register, by its index: for one of the cloths, or for the whole scene.
+    pub(crate) fn begin(&mut self, effect: usize, cloth: Option<usize>) {
+        (self.effect, self.cloth) = (effect, cloth);
+        self.scene = self.scene.of_cloth(cloth);
+    }
+
+    /// What the effects say of the cloth that the registering one acts on.
+    pub(crate) fn fabric(&self) -> Fabric {
+        self.fabrics[self.cloth.unwrap_or(0)]
+    }
+
+    /// Of the vertices that the registering effect sees of cloth, in 1/kg.
+    pub(crate) fn inverse_masses(&self) -> &[f64] {
+        match self.cloth {
+            Some(cloth) => &self.inverse_masses[self.vertices[cloth].clone()],
+            None => &self.inverse_masses,
+        }
+    }
+
+    /// The vertices of the cloth that the registering effect acts on, if there are others.
+    fn part(&self) -> Option<Range<usize>> {
+        let cloth = self.cloth.filter(|_| self.vertices.len() > 1)?;
+        Some(self.vertices[cloth].clone())
     }
 
     fn entry<T: ?Sized>(&self, action: Box<T>) -> Entry<T> {
@@ -85,7 +125,7 @@ impl<'a> Plan<'a> {
         self.scene
     }
 
-    /// The mass of each vertex of the cloth, in kg: a third of its triangles'.
+    /// The mass of each vertex of the cloth that it acts on, in kg: a third of its triangles'.
     #[must_use]
     pub fn masses(&self) -> Vec<f64> {
         masses_of(self.scene.cloth)
@@ -93,12 +133,20 @@ impl<'a> Plan<'a> {
 
     /// Forces act in the order in which effects put them here, before anything else.
     pub fn add_force(&mut self, force: impl Force + 'static) {
-        self.forces.push(self.entry(Box::new(force)));
+        let force: Box<dyn Force> = match self.part() {
+            Some(vertices) => Box::new(OfCloth::new(vertices, force)),
+            None => Box::new(force),
+        };
+        self.forces.push(self.entry(force));
     }
 
     /// Constraints act in the order in which effects put them here, after forces and before contact.
     pub fn add_constraint(&mut self, constraint: impl Constraint + 'static) {
-        self.constraints.push(self.entry(Box::new(constraint)));
+        let constraint: Box<dyn Constraint> = match self.part() {
+            Some(vertices) => Box::new(OfCloth::new(vertices, constraint)),
+            None => Box::new(constraint),
+        };
+        self.constraints.push(self.entry(constraint));
     }
 
     /// Runs after all contacts.
@@ -106,7 +154,7 @@ impl<'a> Plan<'a> {
         self.friction.push(self.entry(Box::new(friction)));
     }
 
-    /// The cloth's coarser levels, from fine to coarse, whose seeds are no farther apart than `coarsest`: the `most` finest of them.
+    /// Coarser levels of the cloth that it acts on, from fine to coarse, whose seeds are no farther apart than `coarsest`: the `most` finest of them.
     ///
     /// Pins are known: they register before.
     pub(crate) fn levels(&mut self, coarsest: f64, most: Option<u32>) -> Vec<Arc<Level>> {
@@ -114,9 +162,10 @@ impl<'a> Plan<'a> {
             return Vec::new();
         }
         let scene = self.scene;
-        let pinned = || self.inverse_masses.iter().map(|&inverse| inverse == 0.0).collect();
-        let make = || Hierarchy::new(scene.cloth, masses_of(scene.cloth), pinned());
-        let mut levels = self.hierarchy.get_or_insert_with(make).levels_to(coarsest);
+        let is_pinned: Vec<bool> = self.inverse_masses().iter().map(|&inverse| inverse == 0.0).collect();
+        let make = || Hierarchy::new(scene.cloth, masses_of(scene.cloth), is_pinned);
+        let hierarchy = &mut self.hierarchies[self.cloth.unwrap_or(0)];
+        let mut levels = hierarchy.get_or_insert_with(make).levels_to(coarsest);
         levels.truncate(most.map_or(usize::MAX, |most| most as usize));
         levels
     }
@@ -127,7 +176,7 @@ impl<'a> Plan<'a> {
         self.motions.len() as Carrier - 1
     }
 
-    /// Makes a cloth vertex kinematic.
+    /// Makes a vertex of cloth, as the scene numbers it, kinematic.
     pub(crate) fn pin(&mut self, vertex: u32, carrier: Carrier) {
         self.inverse_masses[vertex as usize] = 0.0;
         self.carriers[vertex as usize] = carrier;

@@ -25,13 +25,16 @@
 //! # Ok::<(), selvedge_cloth::SceneError>(())
 //! ```
 
-use super::effects::{self, Effect, Gravity};
-use super::input::{AREA_DENSITY, FREQUENCY, Field, LARGEST_TIME, SceneError, Source, TIME, Table, ValueError};
+mod file;
+
+use super::effects::{Called, Effect, Effects};
+use super::input::{AREA_DENSITY, FREQUENCY, Field, LARGEST_TIME, TIME, ValueError};
 use super::world::{Body, Cloth, SceneParts};
+use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use selvedge_files::bytes::Fingerprint;
 use selvedge_files::excerpt::excerpt;
-use std::path::Path;
+use std::ops::Range;
 
 /// What to do when bodies or pins force the cloth where it cannot go without intersecting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -45,7 +48,7 @@ pub enum OnBlocked {
     Yield,
 }
 
-/// A scene: cloth, bodies and effects. Read from a file, or made in code:
+/// A scene: cloths, bodies and effects. Read from a file, or made in code:
 ///
 /// ```
 /// use selvedge_cloth::effects::{Bend, BodyContact, Gravity, SelfCollision, Stretch, Thickness};
@@ -73,9 +76,9 @@ pub enum OnBlocked {
 pub struct Scene {
     /// `name`, or the file's.
     pub name: String,
-    /// The cloth at rest.
-    pub cloth: Cloth,
-    /// What it meets.
+    /// What is simulated, at rest. Vertices are numbered through all of them, in this order.
+    pub cloths: Vec<Cloth>,
+    /// What they meet.
     pub bodies: Vec<Body>,
     /// Seconds.
     pub time_step: f64,
@@ -90,7 +93,7 @@ pub struct Scene {
     /// What to do when the cloth cannot go on.
     pub on_blocked: OnBlocked,
     /// The effects called for, in the order in which they run.
-    pub(crate) effects: Vec<Box<dyn Effect>>,
+    pub(crate) effects: Effects,
 }
 
 const TIME_STEP: Field = Field::new("time_step", TIME, 1e-6, 0.1);
@@ -102,12 +105,13 @@ fn duration_field(time_step: f64) -> Field {
 }
 
 impl Scene {
-    /// A cloth alone, and the length of a step in seconds; for as long as it is run, without any effect yet.
+    /// A cloth alone, and the length of a step in seconds; for as long as it is run, without any effect yet. More cloths are pushed to
+    /// [`cloths`](Self::cloths).
     #[must_use]
     pub fn new(cloth: Cloth, time_step: f64) -> Self {
         Self {
             name: "scene".to_owned(),
-            cloth,
+            cloths: vec![cloth],
             bodies: Vec::new(),
             time_step,
             duration: LARGEST_TIME,
@@ -115,19 +119,47 @@ impl Scene {
             up: DVec3::Z,
             text: String::new(),
             on_blocked: OnBlocked::default(),
-            effects: Vec::new(),
+            effects: Effects::default(),
         }
     }
 
     /// Calls for an effect, instead of one of the same name if there is one. In which order they are added does not matter for ours; a
     /// caller's own run after them, in the order in which they are added.
     pub fn add(&mut self, effect: impl Effect + 'static) -> &mut Self {
-        let name = effect.name();
-        self.effects.retain(|other| other.name() != name);
-        let rank = effects::rank(name);
-        let place = self.effects.partition_point(|other| effects::rank(other.name()) <= rank);
-        self.effects.insert(place, Box::new(effect));
+        self.effects.add(effect);
         self
+    }
+
+    /// All cloths at rest, as one mesh: in the order of the scene, with its numbers of vertices.
+    #[must_use]
+    pub fn all_cloth(&self) -> Mesh {
+        let mut all = Mesh::default();
+        for Cloth { mesh, .. } in &self.cloths {
+            append(&mut all, mesh);
+        }
+        all
+    }
+
+    /// The vertices of a part of a cloth, as the scene numbers them: of pins and seams. `None` if there is no such cloth or part.
+    #[must_use]
+    pub fn part(&self, cloth: &str, part: &str) -> Option<Vec<u32>> {
+        let parts = self.parts().ok()?;
+        let index = self.cloths.iter().position(|own| own.name == cloth)?;
+        let first = parts.vertices_of_cloths().nth(index)?.start as u32;
+        let vertices = self.cloths[index].part(part)?;
+        Some(vertices.iter().map(|&vertex| first + vertex).collect())
+    }
+
+    /// What effects act on.
+    pub(crate) fn parts(&self) -> Result<SceneParts<'_>, ValueError> {
+        SceneParts::new(&self.cloths, &self.bodies, self.time_step)
+    }
+
+    pub(crate) fn called(&self) -> Called<'_> {
+        Called {
+            by_scene: &self.effects,
+            cloths: &self.cloths,
+        }
     }
 
     /// Whether all of it makes sense, alone and together. A scene from a file does; [`Simulation::new`](crate::Simulation::new) asks.
@@ -138,108 +170,72 @@ impl Scene {
         TIME_STEP.check(self.time_step)?;
         duration_field(self.time_step).check(self.duration)?;
         FRAME_RATE.check(self.frame_rate)?;
-        self.cloth.check()?;
+        for (index, cloth) in self.cloths.iter().enumerate() {
+            check_name("cloths", self.cloths[..index].iter().map(|other| &other.name), &cloth.name)?;
+            cloth.check()?;
+        }
         for (index, body) in self.bodies.iter().enumerate() {
-            check_name(&self.bodies[..index], body)?;
+            check_name("bodies", self.bodies[..index].iter().map(|other| &other.name), &body.name)?;
             body.check(self.time_step)?;
         }
-        let world = SceneParts {
-            cloth: &self.cloth,
-            bodies: &self.bodies,
-            time_step: self.time_step,
-        };
-        effects::check(&self.effects, &world)
-    }
-
-    /// Reads a scene file. Paths in it are relative to its folder.
-    ///
-    /// # Errors
-    /// If it cannot be read, or something in it is wrong: the message names file, line and column.
-    pub fn read(path: &Path) -> Result<Self, SceneError> {
-        let bytes = std::fs::read(path).map_err(|error| SceneError::whole(path, format!("cannot be read: {error}")))?;
-        let text = String::from_utf8(bytes)
-            .map_err(|_| SceneError::whole(path, "is not UTF-8 text; a scene is a TOML file".to_owned()))?;
-        Self::parse(&text, path)
-    }
-
-    /// Reads a scene from the text of a file. `path` is for messages and for the paths in it.
-    ///
-    /// # Errors
-    /// If something in it is wrong.
-    pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
-        let root = toml::de::DeTable::parse(text).map_err(|error| {
-            let span = error.span().unwrap_or(0..0);
-            SceneError::at(path, text, &span, error.message().trim().replace('\n', ", "))
-        })?;
-        let source = Source { path, text };
-        let root = Table::root(&source, root.get_ref());
-        root.expect_keys(&[
-            "name",
-            "time_step",
-            "duration",
-            "frames_per_second",
-            "on_blocked",
-            "cloth",
-            "body",
-            "effects",
-        ])?;
-        let time_step = root.required_number(&TIME_STEP)?;
-        let duration = root.required_number(&duration_field(time_step))?;
-        let cloth = Cloth::read(&root.required_table("cloth")?)?;
-        let bodies = read_bodies(&root, time_step)?;
-        let world = SceneParts {
-            cloth: &cloth,
-            bodies: &bodies,
-            time_step,
-        };
-        let effects = match root.table("effects")? {
-            Some(table) => effects::read(&table, &world)?,
-            None => Vec::new(),
-        };
-        let gravity = match root.table("effects")? {
-            Some(table) => Gravity::read_acceleration(&table)?,
-            None => None,
-        };
-        let choices = [
-            ("stop", OnBlocked::Stop),
-            ("hold", OnBlocked::Hold),
-            ("yield", OnBlocked::Yield),
-        ];
-        let stem = path.file_stem().map(|stem| stem.to_string_lossy());
-        Ok(Self {
-            name: root
-                .text("name")?
-                .map_or_else(|| stem.unwrap_or_default().into_owned(), str::to_owned),
-            frame_rate: root.number(&FRAME_RATE)?.unwrap_or(60.0),
-            on_blocked: root.choice("on_blocked", &choices)?.unwrap_or_default(),
-            up: gravity.map_or(DVec3::Z, |acceleration| -acceleration),
-            text: text.to_owned(),
-            time_step,
-            duration,
-            cloth,
-            bodies,
-            effects,
-        })
+        self.called().check(&self.parts()?).map_err(|wrong| wrong.error)
     }
 
     /// The effects that the scene calls for, in the order in which they run.
     #[must_use]
     pub fn effect_names(&self) -> Vec<&'static str> {
-        self.effects.iter().map(|effect| effect.name()).collect()
+        self.called().names()
     }
 
     /// Forgets all effects but the first `count`, in the order in which they run. What an effect needs runs before it, so that the
     /// rest is a scene as well. It is another scene for checkpoints.
     pub fn keep_first_effects(&mut self, count: usize) {
-        self.effects.truncate(count);
+        let names = self.effect_names();
+        let first = &names[..count.min(names.len())];
+        self.effects.keep(first);
+        self.cloths.iter_mut().for_each(|cloth| cloth.effects.keep(first));
     }
 
-    /// What the cloth is made of, for people to read: its weight, and what effects say of it, each with its value and unit.
+    /// What the cloths are made of, for people to read: their weight, and what effects say of them, each with its value and unit.
     #[must_use]
-    pub fn fabric(&self) -> Vec<(&'static str, String)> {
-        let mut fabric = vec![("weight", AREA_DENSITY.written_short(self.cloth.density))];
-        fabric.extend(self.effects.iter().flat_map(|effect| effect.fabric()));
+    pub fn fabric(&self) -> Vec<(String, String)> {
+        let mut fabric = Vec::new();
+        for cloth in &self.cloths {
+            let weight = AREA_DENSITY.written_short(cloth.density);
+            fabric.push((self.of_cloth(cloth, "weight"), weight));
+        }
+        self.each_acting(|cloth, effect| {
+            for (what, value) in effect.fabric() {
+                fabric.push((
+                    cloth.map_or_else(|| what.to_owned(), |cloth| self.of_cloth(cloth, what)),
+                    value,
+                ));
+            }
+        });
         fabric
+    }
+
+    /// What a cloth has, and which it is if there are several.
+    fn of_cloth(&self, cloth: &Cloth, what: &str) -> String {
+        match self.cloths.len() {
+            1 => what.to_owned(),
+            _ => format!("{what} of '{}'", cloth.name),
+        }
+    }
+
+    /// Shows every effect that acts, and the cloth whose own it is; the scene's once, however many cloths it acts on.
+    fn each_acting<'a>(&'a self, mut show: impl FnMut(Option<&'a Cloth>, &'a dyn Effect)) {
+        for name in self.effect_names() {
+            let own = self
+                .cloths
+                .iter()
+                .filter_map(|cloth| Some((Some(cloth), cloth.effects.get(name)?)));
+            let of_scene = self.effects.get(name).map(|effect| (None, effect));
+            of_scene
+                .into_iter()
+                .chain(own)
+                .for_each(|(cloth, effect)| show(cloth, effect));
+        }
     }
 
     /// What trades time for accuracy, by name, each with its value and unit: the time step, and settings of effects, those that the
@@ -247,10 +243,11 @@ impl Scene {
     #[must_use]
     pub fn settings(&self) -> Vec<(String, String)> {
         let mut settings = vec![("time step".to_owned(), TIME.written_short(self.time_step))];
-        for effect in &self.effects {
+        self.each_acting(|cloth, effect| {
+            let name = cloth.map_or_else(|| effect.name().to_owned(), |cloth| self.of_cloth(cloth, effect.name()));
             let named = effect.settings().into_iter();
-            settings.extend(named.map(|(name, value)| (format!("{}: {name}", effect.name()), value)));
-        }
+            settings.extend(named.map(|(setting, value)| (format!("{name}: {setting}"), value)));
+        });
         settings
     }
 
@@ -273,15 +270,23 @@ impl Scene {
         let mut fingerprint = Fingerprint::default();
         let mut take = |bytes: &[u8]| fingerprint.take(bytes);
         take(self.text.as_bytes());
-        let Cloth {
-            density, velocity, warp, ..
-        } = &self.cloth;
-        let numbers = (self.time_step, self.on_blocked, density, velocity, warp, &self.effects);
-        take(format!("{numbers:?}").as_bytes());
+        take(format!("{:?}", (self.time_step, self.on_blocked, &self.effects)).as_bytes());
+        for Cloth {
+            name,
+            density,
+            velocity,
+            warp,
+            effects,
+            ..
+        } in &self.cloths
+        {
+            take(format!("{:?}", (name, density, velocity, warp, effects)).as_bytes());
+        }
         for body in &self.bodies {
             take(format!("{:?}", (&body.name, &body.motion)).as_bytes());
         }
-        let meshes = std::iter::once(&self.cloth.mesh).chain(self.bodies.iter().map(|body| &body.mesh));
+        let cloths = self.cloths.iter().map(|cloth| &cloth.mesh);
+        let meshes = cloths.chain(self.bodies.iter().map(|body| &body.mesh));
         for mesh in meshes {
             let coordinates = mesh.positions.iter().flat_map(|position| position.to_array());
             coordinates.for_each(|x| take(&x.to_le_bytes()));
@@ -291,21 +296,20 @@ impl Scene {
     }
 }
 
-/// No two bodies have one name, which messages and scenes tell them by.
-fn check_name(others: &[Body], body: &Body) -> Result<(), ValueError> {
-    if others.iter().any(|other| other.name == body.name) {
-        let message = format!("there are two bodies named '{}'", excerpt(&body.name, 40));
+/// Adds a mesh to others; returns its vertices among all.
+pub(crate) fn append(all: &mut Mesh, mesh: &Mesh) -> Range<usize> {
+    let first = all.positions.len();
+    all.positions.extend_from_slice(&mesh.positions);
+    let numbered = |triangle: &[u32; 3]| triangle.map(|vertex| first as u32 + vertex);
+    all.triangles.extend(mesh.triangles.iter().map(numbered));
+    first..all.positions.len()
+}
+
+/// No two of a kind have one name, which messages and scenes tell them by.
+fn check_name<'a>(kind: &str, mut others: impl Iterator<Item = &'a String>, name: &str) -> Result<(), ValueError> {
+    if others.any(|other| other == name) {
+        let message = format!("there are two {kind} named '{}'", excerpt(name, 40));
         return Err(ValueError::new("name", message));
     }
     Ok(())
-}
-
-fn read_bodies(root: &Table<'_>, time_step: f64) -> Result<Vec<Body>, SceneError> {
-    let mut bodies: Vec<Body> = Vec::new();
-    for table in root.tables("body")? {
-        let body = Body::read(&table, time_step)?;
-        check_name(&bodies, &body).map_err(|error| table.placed(&error))?;
-        bodies.push(body);
-    }
-    Ok(bodies)
 }

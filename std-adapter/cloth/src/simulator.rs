@@ -18,10 +18,10 @@ use super::contact::{Blocker, ContactCounts, ContactSeconds, ContactSolver, LARG
 use super::energy::{Configuration, Energy};
 use super::input::ValueError;
 use super::plan::{Entry, Plan};
-use super::scene::{OnBlocked, Scene};
+use super::scene::{OnBlocked, Scene, append};
 use super::state::State;
 use super::step::{Carrier, Constraint, FREE, Force, TimeStep, Touches};
-use super::world::{Driven, Kinematic, Pose, SceneParts};
+use super::world::{Driven, Kinematic, Pose};
 use selvedge::verification::parallel::Workers;
 use selvedge::{Mesh, TopologyError};
 use selvedge::{ThreadError, Threads};
@@ -45,6 +45,9 @@ pub struct Simulation {
     name: String,
     time_step: f64,
     fingerprint: u64,
+    cloth_names: Vec<String>,
+    /// Of each cloth.
+    vertices_of_cloths: Vec<Range<usize>>,
     cloth_vertices: usize,
     cloth_triangles: usize,
     triangles: Vec<[u32; 3]>,
@@ -146,32 +149,9 @@ impl Simulation {
         scene.check()?;
         let fingerprint = scene.fingerprint();
         let threads = Workers::new(Threads::from_count(threads))?;
-        let Scene {
-            name,
-            cloth,
-            bodies,
-            time_step,
-            effects,
-            on_blocked,
-            ..
-        } = scene;
-        let mut plan = Plan::new(SceneParts {
-            cloth: &cloth,
-            bodies: &bodies,
-            time_step,
-        });
-        for effect in &effects {
-            effect.announce(&mut plan.fabric);
-        }
-        let mut times = Vec::with_capacity(effects.len());
-        for (index, effect) in effects.into_iter().enumerate() {
-            times.push(EffectTime {
-                name: effect.name(),
-                seconds: 0.0,
-            });
-            plan.effect = index;
-            effect.register(&mut plan);
-        }
+        let mut plan = Plan::new(scene.parts()?);
+        let names = scene.called().register(&mut plan);
+        let times = names.into_iter().map(|name| EffectTime { name, seconds: 0.0 }).collect();
         let Plan {
             mut inverse_masses,
             mut carriers,
@@ -183,18 +163,30 @@ impl Simulation {
             friction,
             ..
         } = plan;
-        let mut rest = cloth.mesh.positions.clone();
-        let mut triangles = cloth.mesh.triangles.clone();
+        let Scene {
+            name,
+            cloths,
+            bodies,
+            time_step,
+            on_blocked,
+            ..
+        } = scene;
+        let mut all = Mesh::default();
+        let vertices_of_cloths: Vec<_> = cloths.iter().map(|cloth| append(&mut all, &cloth.mesh)).collect();
+        let (cloth_vertices, cloth_triangles) = (all.positions.len(), all.triangles.len());
         let mut body_vertices = Vec::with_capacity(bodies.len());
         for (carrier, body) in bodies.iter().enumerate() {
-            body_vertices.push(rest.len()..rest.len() + body.mesh.positions.len());
-            append(&mut rest, &mut triangles, &body.mesh);
-            carriers.resize(rest.len(), carrier as Carrier);
+            body_vertices.push(append(&mut all, &body.mesh));
+            carriers.resize(all.positions.len(), carrier as Carrier);
         }
+        let Mesh {
+            positions: rest,
+            triangles,
+        } = all;
         inverse_masses.resize(rest.len(), 0.0);
         let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
         let mut carried = rest.clone();
-        for (point, &carrier) in carried[..cloth.mesh.positions.len()].iter_mut().zip(&carriers) {
+        for (point, &carrier) in carried[..cloth_vertices].iter_mut().zip(&carriers) {
             // Pins that follow a driven body start where the cloth is, wherever that body stands.
             let body = motions.get(carrier as usize).filter(|_| (carrier as usize) < bodies.len());
             if let Some(standing) = body.and_then(Kinematic::driven).and_then(|driven| driven.placement) {
@@ -207,18 +199,18 @@ impl Simulation {
             .map(|(&point, &carrier)| poses.get(carrier as usize).map_or(point, |pose| pose.apply(point)));
         let mut positions: Vec<DVec3> = start.collect();
         motions.iter_mut().for_each(|motion| motion.put(0.0, &mut positions));
-        let velocities = carriers.iter().map(|&carrier| match carrier {
-            FREE => cloth.velocity,
-            _ => DVec3::ZERO,
-        });
+        let mut velocities = vec![DVec3::ZERO; rest.len()];
+        for (cloth, vertices) in cloths.iter().zip(&vertices_of_cloths) {
+            let free = vertices.clone().filter(|&vertex| carriers[vertex] == FREE);
+            free.for_each(|vertex| velocities[vertex] = cloth.velocity);
+        }
         let state = State {
             step: 0,
             blocked_steps: 0,
             clock: 0.0,
-            velocities: velocities.collect(),
+            velocities,
             positions,
         };
-        let cloth_vertices = cloth.mesh.positions.len();
         let mut contact = ContactSolver::new(contact, &triangles, &rest, &carriers, cloth_vertices, bodies.len())?;
         if let Some(contact) = &mut contact {
             begin_anew(contact, &state, time_step);
@@ -235,8 +227,10 @@ impl Simulation {
             body_names: bodies.into_iter().map(|body| body.name).collect(),
             contact,
             fingerprint,
-            cloth_triangles: cloth.mesh.triangles.len(),
+            cloth_names: cloths.into_iter().map(|cloth| cloth.name).collect(),
+            cloth_triangles,
             cloth_vertices,
+            vertices_of_cloths,
             triangles,
             inverse_masses,
             motions,
@@ -277,13 +271,13 @@ impl Simulation {
         self.state.step as f64 * self.time_step
     }
 
-    /// Where everything is: the cloth's vertices, then the bodies'.
+    /// Where everything is: the vertices of each cloth, then the bodies'.
     #[must_use]
     pub fn positions(&self) -> &[DVec3] {
         &self.state.positions
     }
 
-    /// Triangles on [`positions`](Self::positions): the cloth's, then the bodies'.
+    /// Triangles on [`positions`](Self::positions): those of each cloth, then the bodies'.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
@@ -301,6 +295,18 @@ impl Simulation {
         &self.body_names
     }
 
+    /// The cloths' names, in the order of the scene.
+    #[must_use]
+    pub fn cloth_names(&self) -> &[String] {
+        &self.cloth_names
+    }
+
+    /// The vertices of a cloth, among the [`positions`](Self::positions); `None` if there is no such cloth.
+    #[must_use]
+    pub fn vertices_of_cloth(&self, cloth: usize) -> Option<Range<usize>> {
+        self.vertices_of_cloths.get(cloth).cloned()
+    }
+
     /// The vertices of a body, among the [`positions`](Self::positions); `None` if there is no such body.
     #[must_use]
     pub fn body_vertices(&self, body: usize) -> Option<Range<usize>> {
@@ -313,19 +319,19 @@ impl Simulation {
         self.contact.iter().flat_map(|contact| contact.near_pairs())
     }
 
-    /// How many of the vertices are the cloth's.
+    /// How many of the vertices are of cloth.
     #[must_use]
     pub fn cloth_vertices(&self) -> usize {
         self.cloth_vertices
     }
 
-    /// How many of the triangles are the cloth's.
+    /// How many of the triangles are of cloth.
     #[must_use]
     pub fn cloth_triangles(&self) -> usize {
         self.cloth_triangles
     }
 
-    /// How much the cloth is stretched now. Finds the edges anew, in O(n log n) time.
+    /// How much cloth is stretched now, of all cloths together. Finds the edges anew, in O(n log n) time.
     #[must_use]
     pub fn edge_stretch(&self) -> EdgeStretch {
         let cloth = self.triangles[..self.cloth_triangles].iter();
@@ -600,9 +606,8 @@ impl Simulation {
         }
         if let Some(contact) = contact {
             contact.prepare(step.start, positions, h);
-            let settings = contact.settings;
-            for (with_body, setting) in [(true, settings.bodies), (false, settings.cloth)] {
-                if let Some((effect, _)) = setting {
+            for with_body in [true, false] {
+                if let Some(effect) = contact.settings.effect(with_body) {
                     timed(effects, effect, || contact.push(with_body, &step, positions, touches));
                 }
             }
@@ -655,10 +660,4 @@ fn limited(vector: DVec3, longest: f64) -> DVec3 {
     } else {
         DVec3::ZERO
     }
-}
-
-fn append(positions: &mut Vec<DVec3>, triangles: &mut Vec<[u32; 3]>, mesh: &Mesh) {
-    let first = positions.len() as u32;
-    positions.extend_from_slice(&mesh.positions);
-    triangles.extend(mesh.triangles.iter().map(|t| t.map(|vertex| first + vertex)));
 }

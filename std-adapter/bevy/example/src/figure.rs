@@ -115,7 +115,7 @@ pub(crate) fn spawn(world: &mut World, cells: [u32; 2]) -> Result<Figure, ValueE
         entities.push(world.spawn(part).id());
         scene.bodies.push(body);
     }
-    let mesh = world.resource_mut::<Assets<Mesh>>().add(mesh_of(scene.cloth.mesh()));
+    let mesh = world.resource_mut::<Assets<Mesh>>().add(mesh_of(scene.cloths[0].mesh()));
     let led = entities.iter().enumerate();
     let simulation = led.fold(ClothSimulation::new(scene), |simulation, (body, &entity)| {
         simulation.led_by(body, entity)

@@ -145,7 +145,7 @@ fn a_cloth_is_that_of_a_simulation_driven_by_hand_bit_for_bit() {
     let mut app = app();
     let ball = app.world_mut().spawn(Transform::default()).id();
     let scene = over_a_ball();
-    let handle = add(&mut app, mesh_of(scene.cloth.mesh()));
+    let handle = add(&mut app, mesh_of(scene.cloths[0].mesh()));
     let cloth = app
         .world_mut()
         .spawn((ClothSimulation::new(scene).led_by(0, ball), Mesh3d(handle)))
@@ -188,7 +188,7 @@ fn a_cloth_is_that_of_a_simulation_driven_by_hand_bit_for_bit() {
 fn a_cloths_own_transform_does_not_move_it_and_its_mesh_is_seen_where_it_is() {
     let mut app = app();
     let ball = app.world_mut().spawn(Transform::default()).id();
-    let handle = add(&mut app, mesh_of(over_a_ball().cloth.mesh()));
+    let handle = add(&mut app, mesh_of(over_a_ball().cloths[0].mesh()));
     let transform = Transform::from_xyz(1.0, -2.0, 0.5)
         .with_rotation(Quat::from_rotation_x(0.7))
         .with_scale(Vec3::new(2.0, 1.0, 0.5));
@@ -310,7 +310,7 @@ fn what_cannot_be_simulated_is_told_once_and_the_app_runs_on() {
         ClothSimulation::new(scene)
     };
     let cases: [(ClothSimulation, &str); 4] = [
-        (cloth(|scene| scene.cloth.density = f64::NAN), "density"),
+        (cloth(|scene| scene.cloths[0].density = f64::NAN), "density"),
         (cloth(|scene| scene.time_step = f64::NAN), "time_step"),
         (cloth(|scene| _ = scene.add(Stretch::isotropic(0.0))), "stiffness"),
         (

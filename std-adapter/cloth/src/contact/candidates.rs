@@ -1,8 +1,8 @@
 //! Which pairs contact looks at: [near pairs](NearPairs) of cloth with itself and with bodies, good for several steps.
 
 use super::candidate::OfPair;
-use super::neighbours::{Neighbours, are_many};
-use super::settings::{ContactSettings, MARGIN, NEIGHBOURS_AT_REST, Thickness};
+use super::neighbours::{Neighbours, are_many, at_rest};
+use super::settings::{ContactSettings, MARGIN, Thickness};
 use super::start::first_crossing;
 use crate::step::{Carrier, FREE};
 use selvedge::verification::{Interest, NearPairs, Reach};
@@ -26,9 +26,6 @@ const FARTHEST_OF_FINE: u32 = 8;
 /// What a candidate costs in a step, constraints and certificate, in units of what finding one costs that boxes leave: 30 and 50 ns on a sheet of 130
 /// thousand triangles that lands on a ball.
 const UPKEEP: f64 = 0.6;
-/// Where the largest thickness of neighbours lies, between the separation and the thickness. On a sleeve of 134,000 triangles
-/// three quarters of the pairs within the reach are neighbours that are not within theirs.
-const NEIGHBOURS: f64 = 0.2;
 
 /// What is to be kept apart.
 #[derive(Debug)]
@@ -70,25 +67,25 @@ pub(super) fn candidates(
         upkeep: UPKEEP,
         is_graded: false,
     };
-    if let Some((_, own)) = settings.cloth {
-        let at_rest = NEIGHBOURS_AT_REST * own.thickness;
-        if are_many(&topology, rest, cloth_vertices, at_rest) {
-            let smaller = own.separation + NEIGHBOURS * (own.thickness - own.separation);
-            settings.neighbours = Some(smaller);
-            neighbours = Neighbours::new(rest, cloth_vertices, at_rest);
-            reach = Reach {
-                distances: [smaller, thickness],
-                beyond: thickness * REACH_OF_FINE,
-                spare: smaller - separation,
-                farthest: FARTHEST_OF_FINE,
-                ..reach
-            };
-        }
+    if are_many(&topology, rest, cloth_vertices, settings) {
+        let smaller = settings.of_cloths().iter().map(|own| own.of_neighbours()).fold(0.0, f64::max);
+        settings.has_neighbours = true;
+        neighbours = Neighbours::new(
+            rest,
+            settings.ends().zip(settings.of_cloths().iter().map(|own| at_rest(*own))),
+        );
+        reach = Reach {
+            distances: [smaller, thickness],
+            beyond: thickness * REACH_OF_FINE,
+            spare: smaller - separation,
+            farthest: FARTHEST_OF_FINE,
+            ..reach
+        };
     }
     let interest = OfContact {
         topology: Arc::clone(&topology),
-        cloth: settings.cloth.is_some(),
-        bodies: settings.bodies.is_some(),
+        cloth: settings.asks(false),
+        bodies: settings.asks(true),
         carriers: carriers.to_vec(),
         cloth_vertices,
         neighbours,

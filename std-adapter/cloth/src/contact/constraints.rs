@@ -6,8 +6,8 @@
 //! or the mesh would lock, and [less](super::neighbours).
 
 use super::candidate::Candidate;
-use super::neighbours::are_neighbours;
-use super::settings::{ContactSettings, MARGIN, NEIGHBOURS_AT_REST, RECOVERY, Thickness};
+use super::neighbours::{are_neighbours, at_rest};
+use super::settings::{ContactSettings, MARGIN, RECOVERY, Thickness};
 use crate::step::{TimeStep, Touch, Touches};
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
@@ -65,11 +65,11 @@ fn constraint(
     h: f64,
     error: GapError<f64>,
 ) -> Option<ContactConstraint> {
-    let Thickness { thickness, .. } = settings.of(pair.data.is_with_body())?;
+    let own = settings.of(pair)?;
     // The pair's own, once it is known.
     let aim = match f64::from(pair.data.thickness) {
-        0.0 => thickness,
-        own => own,
+        0.0 => own.thickness,
+        known => known,
     };
     let reach = aim * (1.0 + MARGIN);
     if f64::from(pair.gap()) > reach || pair.is_kept_at(aim, predicted) {
@@ -82,7 +82,7 @@ fn constraint(
         return None;
     }
     if pair.data.thickness == 0.0 {
-        pair.data.thickness = thickness_of(pair, settings.neighbours, thickness, rest) as f32;
+        pair.data.thickness = thickness_of(pair, settings, own, rest) as f32;
     }
     Some(ContactConstraint {
         pair: NearPair {
@@ -95,15 +95,18 @@ fn constraint(
     })
 }
 
-/// The thickness that a pair can have: `thickness`, but for neighbours.
-fn thickness_of(pair: &Candidate, neighbours: Option<f64>, thickness: f64, rest: &[DVec3]) -> f64 {
-    if pair.data.is_with_body() {
+/// The thickness that a pair can have: the one that is asked for, but for neighbours in one cloth.
+fn thickness_of(pair: &Candidate, settings: &ContactSettings, asked: Thickness, rest: &[DVec3]) -> f64 {
+    let Thickness { thickness, .. } = asked;
+    let [one, .., other] = pair.vertices;
+    if pair.data.is_with_body() || !settings.are_of_one_cloth(one, other) {
         return thickness;
     }
-    let are_near = |distance| are_neighbours(pair.kind, pair.points(rest), distance);
-    let own = match neighbours {
-        Some(smaller) if are_near(NEIGHBOURS_AT_REST * thickness) => smaller,
-        _ => thickness,
+    let are_near = || are_neighbours(pair.kind, pair.points(rest), at_rest(asked));
+    let own = if settings.has_neighbours && are_near() {
+        asked.of_neighbours()
+    } else {
+        thickness
     };
     own.min(0.5 * pair.closest(rest).distance())
 }

@@ -212,7 +212,7 @@ impl ContactSolver {
 
     /// m_P of the module.
     pub(super) fn kept(&self, pair: &Candidate, start: &[DVec3]) -> f64 {
-        let thickness = self.settings.of(pair.data.is_with_body());
+        let thickness = self.settings.of(pair);
         let separation = thickness.map_or(0.0, |thickness| thickness.separation);
         kept(pair, start, separation, self.error)
     }
@@ -228,7 +228,7 @@ impl ContactSettings {
         if pair.data.is_with_body() && yielding[pair.data.body as usize] {
             return None;
         }
-        self.of(pair.data.is_with_body()).map(|thickness| thickness.separation)
+        self.of(pair).map(|thickness| thickness.separation)
     }
 }
 

@@ -141,7 +141,7 @@ impl ContactSolver {
             }
             let pairs = self.candidates.list.iter().filter(|pair| pair.data.body == body as Carrier);
             let is_apart = |pair: &Candidate| {
-                let separation = self.settings.of(pair.data.is_with_body()).map_or(0.0, |t| t.separation);
+                let separation = self.settings.of(pair).map_or(0.0, |t| t.separation);
                 pair.distance_from_below(positions, self.error) > separation
             };
             let is_apart = pairs.clone().all(is_apart) && !self.candidates.interest().passes_through(body as Carrier, positions);

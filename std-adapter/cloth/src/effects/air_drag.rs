@@ -35,7 +35,7 @@ impl Effect for AirDrag {
         RATE.check(self.rate)
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+    fn register(&self, plan: &mut Plan<'_>) {
         plan.add_force(*self);
     }
 }

@@ -78,9 +78,9 @@ impl Effect for Bend {
         }
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+    fn register(&self, plan: &mut Plan<'_>) {
         let hinges = hinges(plan.scene.cloth, |of_warp| self.along(of_warp));
-        let bending = Bending::new(hinges, &plan.inverse_masses, self.stages, plan.scene.time_step);
+        let bending = Bending::new(hinges, plan.inverse_masses(), self.stages, plan.scene.time_step);
         plan.add_constraint(bending);
     }
 }

@@ -3,7 +3,7 @@
 //! Capsules and balls push vertices by their exact distance, so that cloth slides on a smooth surface; edges and faces of the
 //! cloth are kept off by the pairs with the body's mesh, as for any other body.
 
-use super::registration::{Effect, Registration};
+use super::registration::{Effect, Registration, Scope};
 use super::thickness;
 use crate::contact::{RECOVERY, Thickness};
 use crate::input::ValueError;
@@ -27,6 +27,10 @@ impl Effect for BodyContact {
         "body_contact"
     }
 
+    fn scope(&self) -> Scope {
+        Scope::AllCloths
+    }
+
     fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
         if world.bodies.is_empty() {
             let message = "body contact has nothing to act on: the scene has no [[body]]";
@@ -39,8 +43,8 @@ impl Effect for BodyContact {
         thickness::settings(&self.0)
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
-        plan.contact.bodies = Some((plan.effect, self.0));
+    fn register(&self, plan: &mut Plan<'_>) {
+        plan.contact.keep_from_bodies(plan.effect, self.0);
         let cloth_vertices = plan.scene.cloth.mesh.positions.len();
         let bodies = plan.scene.bodies.iter().enumerate();
         let capsules: Vec<_> = bodies

@@ -2,7 +2,7 @@
 //!
 //! A contact that moved its two sides apart by p may undo up to μ·p of their sliding since the start of the step.
 
-use super::registration::{Effect, Registration};
+use super::registration::{Effect, Registration, Scope};
 use crate::input::{Field, RATIO, ValueError};
 use crate::plan::Plan;
 use crate::step::{Constraint, TimeStep, Touches};
@@ -32,6 +32,10 @@ impl Effect for Friction {
         "friction"
     }
 
+    fn scope(&self) -> Scope {
+        Scope::Scene
+    }
+
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         COEFFICIENT.check(self.coefficient)
     }
@@ -40,7 +44,7 @@ impl Effect for Friction {
         vec![("coefficient of friction", RATIO.written_short(self.coefficient))]
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+    fn register(&self, plan: &mut Plan<'_>) {
         plan.add_friction(*self);
     }
 }

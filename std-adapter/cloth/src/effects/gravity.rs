@@ -1,6 +1,6 @@
 //! Gravity: the same acceleration everywhere.
 
-use super::registration::{Effect, Registration};
+use super::registration::{Effect, Registration, Scope};
 use crate::energy::{Configuration, StoredEnergy};
 use crate::input::{ACCELERATION, Field, SceneError, Table, ValueError};
 use crate::plan::Plan;
@@ -50,11 +50,15 @@ impl Effect for Gravity {
         "gravity"
     }
 
+    fn scope(&self) -> Scope {
+        Scope::Scene
+    }
+
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         ACCELERATING.check_vector(self.acceleration)
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+    fn register(&self, plan: &mut Plan<'_>) {
         plan.add_force(*self);
     }
 }

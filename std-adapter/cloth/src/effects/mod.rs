@@ -1,4 +1,5 @@
-//! What acts on the cloth, one file each: settings as scene files have them, in SI units, for [`Scene::add`](crate::Scene::add).
+//! What acts on cloth, one file each: settings as scene files have them, in SI units, for [`Scene::add`](crate::Scene::add), and for
+//! [`Cloth::add`](crate::Cloth::add) where one of several cloths has its own.
 //!
 //! An effect of a caller's own implements [`Effect`], and puts [`Force`]s and [`Constraint`]s into the [`Plan`] of a step; they run after
 //! ours and before contact, so that every step is certified whatever they do. `examples/own_effect.rs` has one.
@@ -10,6 +11,7 @@ mod body_contact;
 mod friction;
 mod gravity;
 mod levels;
+mod list;
 mod pins;
 mod pressure;
 mod registration;
@@ -18,6 +20,7 @@ mod shear;
 mod strain_limit;
 mod stretch;
 mod thickness;
+mod vertices;
 mod wind;
 
 pub use super::contact::Thickness;
@@ -32,15 +35,17 @@ pub use friction::Friction;
 pub use gravity::Gravity;
 pub use pins::{PinGroup, PinMotion, Pins};
 pub use pressure::InternalPressure;
-pub use registration::Effect;
+pub use registration::{Effect, Scope};
 pub use self_collision::SelfCollision;
 pub use shear::Shear;
 pub use strain_limit::StrainLimit;
 pub use stretch::Stretch;
 pub use wind::Wind;
 
-use super::input::{SceneError, Table, ValueError, suggestion};
+use super::input::{SceneError, Table, suggestion};
 use registration::Registration;
+
+pub(crate) use list::{Called, Effects, Wrong};
 
 /// The registrations of these modules, but for those that `--cfg without_effect="NAME"` leaves out of the program: with it
 /// `std-adapter/cloth/instruction-counts/run.sh` shows that an effect costs nothing where it is not named.
@@ -70,46 +75,39 @@ const REGISTRY: &[(&str, Registration)] = registry![
     friction "friction"
 ];
 
-/// Reads the effects that `table` names, and constructs no other.
-pub(crate) fn read(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Vec<Box<dyn Effect>>, SceneError> {
+/// Reads the effects that `[effects]` names, and constructs no other; [`Called::check`] follows.
+pub(crate) fn read(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Effects, SceneError> {
     for (name, place) in table.keys() {
-        if !REGISTRY.iter().any(|(known, _)| *known == name) {
-            let names = REGISTRY.iter().map(|(name, _)| *name);
-            let message = format!("there is no effect '{name}'{}", suggestion(name, names));
+        if registration_of(name).is_none() {
+            let message = format!("there is no effect '{name}'{}", suggestion(name, effect_names()));
             return Err(table.complain(place, message));
         }
     }
-    let mut effects = Vec::new();
+    read_known(table, world)
+}
+
+/// The same from a table that has other keys as well: a cloth's own.
+pub(crate) fn read_known(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Effects, SceneError> {
+    let mut effects = Effects::default();
     for (name, registration) in REGISTRY {
         let Some(settings) = table.table(name)? else {
             continue;
         };
-        registration
-            .check_needs(name, |other| table.has(other))
-            .map_err(|error| table.error(name, error.message))?;
         settings.expect_keys(registration.keys)?;
         let effect = (registration.read)(&settings, world)?;
         debug_assert_eq!(effect.name(), *name);
-        effect.check(world).map_err(|error| settings.placed(&error))?;
-        effects.push(effect);
+        effects.add_shared(effect.into());
     }
     Ok(effects)
 }
 
-/// Whether the effects make sense, each alone and together.
-pub(crate) fn check(effects: &[Box<dyn Effect>], world: &SceneParts<'_>) -> Result<(), ValueError> {
-    for effect in effects {
-        let name = effect.name();
-        let is_there = |other: &str| effects.iter().any(|effect| effect.name() == other);
-        let needs = REGISTRY.iter().find(|(known, _)| *known == name);
-        needs.map_or(Ok(()), |(_, registration)| registration.check_needs(name, is_there))?;
-        effect.check(world).map_err(|error| error.of(name))?;
-    }
-    Ok(())
+fn registration_of(name: &str) -> Option<&'static Registration> {
+    let (_, registration) = REGISTRY.iter().find(|(known, _)| *known == name)?;
+    Some(registration)
 }
 
 /// Its place in the order in which effects run; a caller's own come after ours.
-pub(crate) fn rank(name: &str) -> usize {
+fn rank(name: &str) -> usize {
     let place = REGISTRY.iter().position(|(known, _)| *known == name);
     place.unwrap_or(REGISTRY.len())
 }

@@ -1,7 +1,8 @@
 //! Pins: vertices that are kinematic, moved by keyframes of their own, by the body that they follow, or by the caller.
 
-use super::registration::{Effect, Registration};
-use crate::input::{Count, Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError, suggestion};
+use super::registration::{Effect, Registration, Scope};
+use super::vertices::{named_cloth, no_vertex, of_cloth};
+use crate::input::{Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError, suggestion};
 use crate::plan::Plan;
 use crate::step::Carrier;
 use crate::world::{Motion, RigidMotion, SceneParts};
@@ -17,7 +18,7 @@ pub(super) const REGISTRATION: Registration = Registration {
     needs: &[],
     read: |table, world| {
         let mut pins = Pins::default();
-        let mut taken = vec![false; world.cloth.mesh.positions.len()];
+        let mut taken = vec![false; world.cloth_vertices()];
         for table in table.tables("group")? {
             let group = read_group(&table, world)?;
             group.check(world, &mut taken).map_err(|error| match error.field {
@@ -40,7 +41,7 @@ pub struct Pins {
 /// Pinned vertices that are moved together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PinGroup {
-    /// As the cloth's mesh numbers them; [`Cloth::part`](crate::Cloth::part) knows some by name.
+    /// As the scene numbers them, through all cloths; [`Scene::part`](crate::Scene::part) knows some by name.
     pub vertices: Vec<u32>,
     /// What moves them.
     pub motion: PinMotion,
@@ -73,7 +74,7 @@ impl PinGroup {
         }
         for &vertex in &self.vertices {
             match taken.get_mut(vertex as usize) {
-                None => return wrong(format!("the cloth has no vertex {vertex}: it has {}, from 0 on", taken.len())),
+                None => return wrong(no_vertex(vertex, taken.len())),
                 Some(true) => return wrong(format!("vertex {vertex} is pinned twice")),
                 Some(taken) => *taken = true,
             }
@@ -106,22 +107,15 @@ fn way(table: &Table<'_>) -> &'static str {
 
 /// Exactly one of `part`, `vertices`, `box` and `ball` says which vertices; `follow` or keyframes where they go.
 fn read_group(table: &Table<'_>, world: &SceneParts<'_>) -> Result<PinGroup, SceneError> {
-    table.expect_keys(&[&WAYS[..], &["follow"], &Motion::KEYS].concat())?;
+    table.expect_keys(&[&WAYS[..], &["cloth", "follow"], &Motion::KEYS].concat())?;
     if WAYS.into_iter().filter(|way| table.has(way)).count() != 1 {
         let message = "pins need exactly one of `part`, `vertices`, `box` and `ball`".to_owned();
         return Err(table.error("part", message));
     }
     let vertices = match way(table) {
-        "part" => {
-            let vertices = world.cloth.named_part(table.text("part")?.unwrap_or_default());
-            vertices.map_err(|message| table.error("part", message))?.to_vec()
-        }
-        "vertices" => {
-            let last = world.cloth.mesh.positions.len() as u32 - 1;
-            table.counts(&Count::new("vertices", 0, last))?.unwrap_or_default()
-        }
-        "box" => in_box(&table.required_table("box")?, world)?,
-        _ => in_ball(&table.required_table("ball")?, world)?,
+        "box" => within(table, world, in_box(&table.required_table("box")?)?)?,
+        "ball" => within(table, world, in_ball(&table.required_table("ball")?)?)?,
+        _ => of_cloth(table, world)?,
     };
     let motion = match table.text("follow")? {
         None => PinMotion::Own(Motion::read(table, world.time_step)?),
@@ -141,23 +135,31 @@ fn read_group(table: &Table<'_>, world: &SceneParts<'_>) -> Result<PinGroup, Sce
     Ok(PinGroup { vertices, motion })
 }
 
-fn in_box(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Vec<u32>, SceneError> {
+fn in_box(table: &Table<'_>) -> Result<impl Fn(DVec3) -> bool, SceneError> {
     table.expect_keys(&["lower", "upper"])?;
     let [lower, upper] = [table.required_vector(&LOWER)?, table.required_vector(&UPPER)?];
-    Ok(vertices_where(world, |p| p.cmpge(lower).all() && p.cmple(upper).all()))
+    Ok(move |p: DVec3| p.cmpge(lower).all() && p.cmple(upper).all())
 }
 
-fn in_ball(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Vec<u32>, SceneError> {
+fn in_ball(table: &Table<'_>) -> Result<impl Fn(DVec3) -> bool, SceneError> {
     table.expect_keys(&["centre", "radius"])?;
     let centre = table.required_vector(&CENTRE)?;
     let radius = table.required_number(&RADIUS)?;
-    Ok(vertices_where(world, |p| p.distance(centre) <= radius))
+    Ok(move |p: DVec3| p.distance(centre) <= radius)
 }
 
-fn vertices_where(world: &SceneParts<'_>, is_inside: impl Fn(DVec3) -> bool) -> Vec<u32> {
-    let positions = world.cloth.mesh.positions.iter().enumerate();
-    let inside = positions.filter(|(_, p)| is_inside(**p));
-    inside.map(|(vertex, _)| vertex as u32).collect()
+/// Of all cloths, or of the one that is named.
+fn within(table: &Table<'_>, world: &SceneParts<'_>, is_inside: impl Fn(DVec3) -> bool) -> Result<Vec<u32>, SceneError> {
+    let only = if table.has("cloth") {
+        Some(named_cloth(table, world)?)
+    } else {
+        None
+    };
+    let cloths = world.cloths.iter().zip(world.vertices_of_cloths()).enumerate();
+    let wanted = cloths.filter(|(index, _)| only.is_none_or(|only| only == *index));
+    let vertices = wanted.flat_map(|(_, (cloth, vertices))| vertices.zip(&cloth.mesh.positions));
+    let inside = vertices.filter(|(_, position)| is_inside(**position));
+    Ok(inside.map(|(vertex, _)| vertex as u32).collect())
 }
 
 impl Effect for Pins {
@@ -165,22 +167,26 @@ impl Effect for Pins {
         "pins"
     }
 
+    fn scope(&self) -> Scope {
+        Scope::Scene
+    }
+
     fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
         if self.groups.is_empty() {
             return Err(ValueError::new("group", "pins need at least one [[effects.pins.group]]"));
         }
-        let mut taken = vec![false; world.cloth.mesh.positions.len()];
+        let mut taken = vec![false; world.cloth_vertices()];
         self.groups.iter().try_for_each(|group| group.check(world, &mut taken))
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
-        for group in self.groups {
-            let carrier = match group.motion {
-                PinMotion::Body(body) => body as Carrier,
-                PinMotion::Own(motion) => plan.add_motion(motion, group.vertices.clone()),
+    fn register(&self, plan: &mut Plan<'_>) {
+        for group in &self.groups {
+            let carrier = match &group.motion {
+                PinMotion::Body(body) => *body as Carrier,
+                PinMotion::Own(motion) => plan.add_motion(motion.clone(), group.vertices.clone()),
             };
             plan.pins.push(carrier);
-            for vertex in group.vertices {
+            for &vertex in &group.vertices {
                 plan.pin(vertex, carrier);
             }
         }

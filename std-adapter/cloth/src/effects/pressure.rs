@@ -63,7 +63,7 @@ impl Effect for InternalPressure {
         }
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+    fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
         let triangles = cloth.mesh.triangles.clone();
         let rest = volume(&triangles, &cloth.mesh.positions);

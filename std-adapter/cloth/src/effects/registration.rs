@@ -24,8 +24,19 @@ pub trait Effect: Debug + Send + Sync {
     #[doc(hidden)]
     fn announce(&self, _fabric: &mut Fabric) {}
 
-    /// Puts what the effect does into the plan of a step.
-    fn register(self: Box<Self>, plan: &mut Plan<'_>);
+    /// On what it acts at a time: how often it registers in a scene of several cloths.
+    fn scope(&self) -> Scope {
+        Scope::Cloth
+    }
+
+    /// Whether its settings make sense with what all cloths' effects have announced.
+    #[doc(hidden)]
+    fn check_fabrics(&self, _world: &SceneParts<'_>, _fabrics: &[Fabric]) -> Result<(), ValueError> {
+        Ok(())
+    }
+
+    /// Puts what the effect does into the plan of a step: once for each cloth on which it acts, or once for the scene.
+    fn register(&self, plan: &mut Plan<'_>);
 
     /// What it says of the fabric, for people to read: each property in words, and its value with its unit.
     fn fabric(&self) -> Vec<(&'static str, String)> {
@@ -36,6 +47,18 @@ pub trait Effect: Debug + Send + Sync {
     fn settings(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
+}
+
+/// On what an effect acts at a time, where a scene has several cloths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// On each cloth by itself: what it puts into the plan sees the vertices of that cloth alone, numbered as in its mesh. A cloth may
+    /// have [its own](crate::Cloth::add), and one that has none, in a scene that has none either, is left alone.
+    Cloth,
+    /// The same, but it has to do with what cloths do to each other: all have one, or none.
+    AllCloths,
+    /// On the whole scene: it sees the vertices of all cloths, one after the other in the order of the scene, then those of bodies.
+    Scene,
 }
 
 /// Reads an effect's table; [`check`](Effect::check) follows.

@@ -1,12 +1,12 @@
-//! Self-collision: the cloth keeps a thickness from itself, and every step is certified to be free of contact.
+//! Self-collision: cloth keeps a thickness from itself and from other cloths, and every step is certified to be free of contact.
 //!
 //! The effect only says so; the work is that of [`contact`](crate::contact), shared with body contact.
 
-use super::registration::{Effect, Registration};
+use super::registration::{Effect, Registration, Scope};
 use super::thickness;
 use crate::contact::Thickness;
 use crate::input::ValueError;
-use crate::plan::Plan;
+use crate::plan::{Fabric, Plan};
 use crate::world::SceneParts;
 
 pub(super) const REGISTRATION: Registration = Registration {
@@ -15,13 +15,19 @@ pub(super) const REGISTRATION: Registration = Registration {
     read: |table, _| Ok(Box::new(SelfCollision(thickness::read(table)?))),
 };
 
-/// The cloth keeps a thickness from itself, and every step is certified to be free of contact.
+/// Cloth keeps a thickness from itself and from other cloths, and every step is certified to be free of contact.
+///
+/// Two cloths keep the mean of their thicknesses from each other, and every step the mean of their separations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SelfCollision(pub Thickness);
 
 impl Effect for SelfCollision {
     fn name(&self) -> &'static str {
         "self_collision"
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::AllCloths
     }
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
@@ -32,7 +38,11 @@ impl Effect for SelfCollision {
         thickness::settings(&self.0)
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
-        plan.contact.cloth = Some((plan.effect, self.0));
+    fn announce(&self, fabric: &mut Fabric) {
+        fabric.thickness = Some(self.0.thickness);
+    }
+
+    fn register(&self, plan: &mut Plan<'_>) {
+        plan.contact.keep_from_cloth(plan.effect, self.0);
     }
 }

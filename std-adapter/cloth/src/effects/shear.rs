@@ -43,7 +43,7 @@ impl Effect for Shear {
         fabric.shear = Some(self.stiffness);
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+    fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
         let angles = of_triangles(cloth, |membrane, area| Angle {
             membrane,

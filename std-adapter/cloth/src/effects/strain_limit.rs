@@ -73,7 +73,7 @@ impl Effect for StrainLimit {
         settings
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+    fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
         let limit = self.limit;
         // It does not give, so that a pull goes all the way at once.

@@ -94,7 +94,7 @@ impl Effect for Stretch {
         sweeps.into_iter().chain(levels::settings(self.levels)).collect()
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+    fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
         let stiffness = [self.stiffness, self.weft_stiffness];
         let springs = of_triangles(cloth, |membrane, area| Spring {
@@ -109,7 +109,7 @@ impl Effect for Stretch {
         // Each level and the mesh itself do their part of the work.
         let parts = (levels.len() + 1) as f64;
         let [warp, weft] = stiffness;
-        let fabric = [Some(warp), Some(weft), plan.fabric.shear].map(|k| k.map(|k| k / parts));
+        let fabric = [Some(warp), Some(weft), plan.fabric().shear].map(|k| k.map(|k| k / parts));
         plan.add_constraint(OnLevels::new(levels, springs, |triangle| Tension::stretch(triangle, fabric)));
     }
 }

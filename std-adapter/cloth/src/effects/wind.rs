@@ -91,7 +91,7 @@ impl Effect for Wind {
         GUST_FREQUENCY.check(self.gust_frequency)
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+    fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
         plan.add_force(Blow {
             factor: 0.5 * self.air_density * self.drag / cloth.density,

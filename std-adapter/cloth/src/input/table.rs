@@ -198,6 +198,18 @@ impl<'a> Table<'a> {
         })
     }
 
+    /// The table of this name (`[key]`), or the tables (`[[key]]`), of which there is at least one.
+    pub(crate) fn one_or_more_tables(&self, key: &str) -> Result<Vec<Table<'a>>, SceneError> {
+        let is_list = self
+            .get(key)
+            .is_some_and(|value| matches!(value.get_ref(), DeValue::Array(array) if !array.is_empty()));
+        if is_list {
+            self.tables(key)
+        } else {
+            Ok(vec![self.required_table(key)?])
+        }
+    }
+
     /// The tables of this name (`[[key]]`), none if it is not there.
     pub(crate) fn tables(&self, key: &str) -> Result<Vec<Table<'a>>, SceneError> {
         let Some(value) = self.get(key) else {

@@ -102,12 +102,10 @@ impl Simulation {
     /// If the scene calls for no wind, or no wind can blow so.
     pub fn set_wind(&mut self, velocity: DVec3) -> Result<(), DriveError> {
         Wind::check_velocity(velocity).map_err(|error| error.of("wind"))?;
-        let mut taken = self.forces.iter_mut().map(|force| force.action.set_wind(velocity));
-        if taken.any(|taken| taken) {
-            Ok(())
-        } else {
-            Err(DriveError::NoWind)
-        }
+        // Each of several cloths has its own.
+        let taken = self.forces.iter_mut().map(|force| force.action.set_wind(velocity));
+        let is_taken = taken.fold(false, |any, taken| any | taken);
+        if is_taken { Ok(()) } else { Err(DriveError::NoWind) }
     }
 
     fn driven_body(&mut self, body: usize) -> Result<&mut Driven, DriveError> {

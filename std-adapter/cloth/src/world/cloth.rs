@@ -1,16 +1,27 @@
-//! `[cloth]`: the mesh and its mass.
+//! A cloth: its mesh, its mass, and effects of its own.
 
 use super::shapes;
-use crate::input::{
-    AREA_DENSITY, Count, Field, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, SceneError, Table, ValueError, suggestion,
-};
+use crate::effects::{Effect, Effects};
+use crate::input::{AREA_DENSITY, Count, Field, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, ValueError, suggestion};
 use crate::sleeve::{RefinementError, ring_sizes, sleeve};
 use selvedge::{Mesh, Topology};
 use selvedge_core::glam::DVec3;
 
-/// The cloth at rest.
+/// A cloth at rest: its mesh, what it weighs, and what it has of its own.
+///
+/// ```
+/// use selvedge_cloth::effects::Stretch;
+/// use selvedge_cloth::glam::DVec3;
+/// use selvedge_cloth::Cloth;
+///
+/// let mut lining = Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [10, 10], 0.08)?.named("lining");
+/// lining.add(Stretch::isotropic(80.0)); // instead of the scene's
+/// # Ok::<(), selvedge_cloth::ValueError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Cloth {
+    /// Its name in the scene and in messages; `cloth` unless it is given one. No two cloths of a scene have the same.
+    pub name: String,
     pub(crate) mesh: Mesh,
     pub(crate) topology: Topology,
     /// Mass per area in kg/m².
@@ -21,34 +32,25 @@ pub struct Cloth {
     pub velocity: DVec3,
     /// Vertices that have a name.
     parts: Vec<(&'static str, Vec<u32>)>,
+    /// Effects of its own, instead of the scene's of the same names.
+    pub(crate) effects: Effects,
 }
 
-#[derive(Clone, Copy)]
-enum ClothShape {
-    Sleeve,
-    Sheet,
-    Tube,
-    File,
-}
+/// Its name unless it is given one.
+pub(super) const NAME: &str = "cloth";
 
-const SHAPES: [(&str, ClothShape); 4] = [
-    ("sleeve", ClothShape::Sleeve),
-    ("sheet", ClothShape::Sheet),
-    ("tube", ClothShape::Tube),
-    ("file", ClothShape::File),
-];
-const CELLS: Count = Count::new("cells", 1, 2000);
-const CELLS_AROUND: Count = Count::new("cells", 3, 2000);
-const REFINEMENT: Count = Count::new("refinement", 1, 1000);
-const CORNER: Field = Field::vector("corner", LENGTH, LARGEST_COORDINATE);
-const FIRST: Field = Field::vector("first", LENGTH, LARGEST_COORDINATE);
-const SECOND: Field = Field::vector("second", LENGTH, LARGEST_COORDINATE);
-const FROM: Field = Field::vector("from", LENGTH, LARGEST_COORDINATE);
-const TO: Field = Field::vector("to", LENGTH, LARGEST_COORDINATE);
-const RADIUS: Field = Field::new("radius", LENGTH, 1e-3, LARGEST_COORDINATE);
-const WARP: Field = Field::vector("warp", RATIO, LARGEST_COORDINATE);
-const DENSITY: Field = Field::new("density", AREA_DENSITY, 1e-3, 100.0);
-const VELOCITY: Field = Field::vector("velocity", SPEED, 1e3);
+pub(super) const CELLS: Count = Count::new("cells", 1, 2000);
+pub(super) const CELLS_AROUND: Count = Count::new("cells", 3, 2000);
+pub(super) const REFINEMENT: Count = Count::new("refinement", 1, 1000);
+pub(super) const CORNER: Field = Field::vector("corner", LENGTH, LARGEST_COORDINATE);
+pub(super) const FIRST: Field = Field::vector("first", LENGTH, LARGEST_COORDINATE);
+pub(super) const SECOND: Field = Field::vector("second", LENGTH, LARGEST_COORDINATE);
+pub(super) const FROM: Field = Field::vector("from", LENGTH, LARGEST_COORDINATE);
+pub(super) const TO: Field = Field::vector("to", LENGTH, LARGEST_COORDINATE);
+pub(super) const RADIUS: Field = Field::new("radius", LENGTH, 1e-3, LARGEST_COORDINATE);
+pub(super) const WARP: Field = Field::vector("warp", RATIO, LARGEST_COORDINATE);
+pub(super) const DENSITY: Field = Field::new("density", AREA_DENSITY, 1e-3, 100.0);
+pub(super) const VELOCITY: Field = Field::vector("velocity", SPEED, 1e3);
 
 impl Cloth {
     /// A parallelogram with a corner and two sides, in metres, in `cells` along each; `density` in kg/m². Its warp goes along the first
@@ -154,57 +156,35 @@ impl Cloth {
             return Err(ValueError::new("shape", message));
         }
         Ok(Self {
+            name: NAME.to_owned(),
             density,
             velocity: DVec3::ZERO,
             mesh,
             topology,
             warp,
             parts,
+            effects: Effects::default(),
         })
+    }
+
+    /// The same with a name.
+    #[must_use]
+    pub fn named(self, name: &str) -> Self {
+        let name = name.to_owned();
+        Self { name, ..self }
+    }
+
+    /// Gives it an effect of its own, instead of the scene's of the same name: what it is made of, its thickness. Not for effects that act
+    /// on the whole scene, such as gravity.
+    pub fn add(&mut self, effect: impl Effect + 'static) -> &mut Self {
+        self.effects.add(effect);
+        self
     }
 
     /// What may have been changed since it was made.
     pub(crate) fn check(&self) -> Result<(), ValueError> {
         let checked = DENSITY.check(self.density).and(VELOCITY.check_vector(self.velocity));
-        checked.map_err(|error| error.of("cloth"))
-    }
-
-    pub(crate) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
-        let shape = table.required_choice("shape", &SHAPES)?;
-        let own: &[&str] = match shape {
-            ClothShape::Sleeve => &["refinement"],
-            ClothShape::Sheet => &["corner", "sides", "cells"],
-            ClothShape::Tube => &["from", "to", "radius", "cells"],
-            ClothShape::File => &["file", "warp"],
-        };
-        table.expect_keys(&[&["shape", "density", "velocity"], own].concat())?;
-        let density = || table.required_number(&DENSITY);
-        let made = match shape {
-            ClothShape::Sleeve => Self::sleeve(table.count(&REFINEMENT)?.unwrap_or(1), density()?),
-            ClothShape::Sheet => {
-                let sides = table.required_table("sides")?;
-                sides.expect_keys(&["first", "second"])?;
-                let sides = [sides.required_vector(&FIRST)?, sides.required_vector(&SECOND)?];
-                let corner = table.vector(&CORNER)?.unwrap_or_default();
-                Self::sheet(corner, sides, table.two_counts(&CELLS)?, density()?)
-            }
-            ClothShape::Tube => {
-                let ends = [table.required_vector(&FROM)?, table.required_vector(&TO)?];
-                Self::tube(
-                    ends,
-                    table.required_number(&RADIUS)?,
-                    table.two_counts(&CELLS_AROUND)?,
-                    density()?,
-                )
-            }
-            ClothShape::File => {
-                let warp = table.vector(&WARP)?.unwrap_or(DVec3::X);
-                Self::of_mesh(shapes::of_file(table)?, warp, density()?)
-            }
-        };
-        let mut cloth = made.map_err(|error| table.placed(&error))?;
-        cloth.velocity = table.vector(&VELOCITY)?.unwrap_or_default();
-        Ok(cloth)
+        checked.map_err(|error| error.of(&self.name))
     }
 
     /// At rest, from which the simulation starts.
@@ -230,6 +210,8 @@ impl Cloth {
     #[cfg(test)]
     pub(crate) fn of(mesh: Mesh) -> Self {
         Self {
+            name: NAME.to_owned(),
+            effects: Effects::default(),
             topology: mesh.topology().unwrap(),
             mesh,
             density: 0.1,

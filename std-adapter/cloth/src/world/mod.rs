@@ -1,4 +1,4 @@
-//! What a scene is about: the cloth at rest, bodies, and the motions that bodies and pins follow.
+//! What a scene is about: cloths at rest, bodies, and the motions that bodies and pins follow.
 
 mod animation;
 mod body;
@@ -6,7 +6,11 @@ mod cloth;
 mod driven;
 mod motion;
 mod placement;
+mod read_cloth;
 mod shapes;
+
+use crate::input::ValueError;
+use std::ops::Range;
 
 pub use animation::Animation;
 pub use body::Body;
@@ -22,10 +26,47 @@ pub(crate) use shapes::{capsule, sheet, tube};
 /// What effects act on: a scene but for its effects.
 #[derive(Clone, Copy, Debug)]
 pub struct SceneParts<'a> {
-    /// At rest.
+    /// At rest: the one that the effect acts on, the first if it acts on the whole scene.
     pub cloth: &'a Cloth,
+    /// All of them, at rest. Vertices of a scene are numbered through them, and then through bodies.
+    pub cloths: &'a [Cloth],
     /// What it meets.
     pub bodies: &'a [Body],
     /// In seconds.
     pub time_step: f64,
+}
+
+impl<'a> SceneParts<'a> {
+    /// Of a scene with these.
+    pub(crate) fn new(cloths: &'a [Cloth], bodies: &'a [Body], time_step: f64) -> Result<Self, ValueError> {
+        let none = || ValueError::new("cloth", "the scene has no cloth, but needs one or more");
+        Ok(Self {
+            cloth: cloths.first().ok_or_else(none)?,
+            cloths,
+            bodies,
+            time_step,
+        })
+    }
+
+    /// The same for an effect that acts on one of the cloths.
+    pub(crate) fn of_cloth(self, cloth: Option<usize>) -> Self {
+        Self {
+            cloth: cloth.map_or(self.cloth, |cloth| &self.cloths[cloth]),
+            ..self
+        }
+    }
+
+    /// Of each cloth, its vertices among the scene's.
+    pub(crate) fn vertices_of_cloths(self) -> impl Iterator<Item = Range<usize>> + use<'a> {
+        self.cloths.iter().scan(0, |end, cloth| {
+            let first = *end;
+            *end += cloth.mesh.positions.len();
+            Some(first..*end)
+        })
+    }
+
+    /// How many vertices all cloths have.
+    pub(crate) fn cloth_vertices(self) -> usize {
+        self.cloths.iter().map(|cloth| cloth.mesh.positions.len()).sum()
+    }
 }

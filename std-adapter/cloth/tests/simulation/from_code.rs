@@ -190,8 +190,8 @@ fn pins_that_follow_a_driven_body_start_where_the_cloth_is() {
     let mut ball = Body::ball("ball", DVec3::Z, 0.01, 12).unwrap();
     ball.motion = Motion::Driven(standing);
     let mut scene = scene_with(ball, 0.0);
-    let vertices = scene.cloth.part("left").unwrap().to_vec();
-    let rest = scene.cloth.mesh().positions.clone();
+    let vertices = scene.cloths[0].part("left").unwrap().to_vec();
+    let rest = scene.cloths[0].mesh().positions.clone();
     scene.add(Pins {
         groups: vec![PinGroup {
             vertices: vertices.clone(),
@@ -418,7 +418,7 @@ fn neither_threads_nor_a_resume_change_a_bit() {
     assert_eq!(bits(&one), bits(&two));
     assert_eq!(bits(&one), bits(&resumed));
     let mut other = scene();
-    other.cloth.density = 0.3;
+    other.cloths[0].density = 0.3;
     let mut other = Simulation::new(other, 1).unwrap();
     assert!(other.resume(&two.checkpoint().unwrap_or_default()).is_err());
 }
@@ -441,7 +441,7 @@ fn the_wind_turns_when_it_is_told_to() {
 }
 
 /// A caller's own: pushes everything up, and keeps it below a ceiling.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 struct Balloon {
     ceiling: f64,
 }
@@ -451,7 +451,7 @@ impl Effect for Balloon {
         "balloon"
     }
 
-    fn register(self: Box<Self>, plan: &mut Plan<'_>) {
+    fn register(&self, plan: &mut Plan<'_>) {
         assert_eq!(plan.masses().len(), plan.scene().cloth.mesh().positions.len());
         plan.add_force(Lift);
         plan.add_constraint(*self);
@@ -540,10 +540,13 @@ fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_b
         ),
         (complaint(|s| s.frame_rate = -1.0), "`frames_per_second` is -1 Hz"),
         (
-            complaint(|s| s.cloth.density = 200.0),
+            complaint(|s| s.cloths[0].density = 200.0),
             "cloth: `density` is 200 kg/m2, but must be from 0.001 kg/m2 to 100 kg/m2",
         ),
-        (complaint(|s| s.cloth.velocity = up * 1e4), "cloth: `velocity` is 10000 m/s"),
+        (
+            complaint(|s| s.cloths[0].velocity = up * 1e4),
+            "cloth: `velocity` is 10000 m/s",
+        ),
         (complaint(|s| s.bodies.push(ball())), "there are two bodies named 'ball'"),
         (
             complaint(|s| s.bodies[0].mesh.positions[0].x = f64::INFINITY),
@@ -637,7 +640,7 @@ fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_b
         ),
         (
             of(pins(vec![PinGroup::resting([169])])),
-            "pins: the cloth has no vertex 169: it has 169, from 0 on",
+            "pins: the scene has no vertex 169 of cloth: it has 169, from 0 on",
         ),
         (
             of(pins(vec![PinGroup::resting([3]), PinGroup::resting([2, 3])])),

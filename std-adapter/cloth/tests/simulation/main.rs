@@ -8,6 +8,7 @@ mod drape;
 mod energy;
 mod from_code;
 mod paying_only;
+mod several_cloths;
 mod stability;
 mod stretch;
 mod wrong_scenes;

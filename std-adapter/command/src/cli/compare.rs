@@ -101,7 +101,7 @@ impl Compare {
         let of_file = |failure: Failure| format!("{}: {failure}", path.display());
         let scene = Scene::read(path)?;
         let steps = scene.steps();
-        let mut frames = SimulatedSteps::new(&scene, self.arm.steps as usize);
+        let mut frames = SimulatedSteps::new(&scene, self.arm.steps as usize).map_err(|error| of_file(error.into()))?;
         let mut simulation = Simulation::new(scene, self.run.threads.get()).map_err(|error| of_file(error.into()))?;
         frames.observe(&simulation);
         run_steps(&mut simulation, steps, |simulation, _| {

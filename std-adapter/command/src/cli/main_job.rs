@@ -33,7 +33,7 @@ impl MainJob {
         let read = || Scene::parse(ARM_SLEEVE, Path::new(FILE));
         let scene = read()?;
         let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
-        let mut frames = SimulatedSteps::new(&scene, self.steps as usize);
+        let mut frames = SimulatedSteps::new(&scene, self.steps as usize)?;
         let subject = Subject::new(&scene);
         let mut simulation = Simulation::new(scene, self.run.threads.get())?;
         let mut recorder = SimulationRecorder::new(subject, &simulation)?;

@@ -1,11 +1,11 @@
 //! Steps of a simulation.
 
 use super::Frames;
-use selvedge::Topology;
+use selvedge::{Topology, TopologyError};
 use selvedge::glam::DVec3;
 use selvedge_cloth::{Scene, Simulation};
 
-/// Some of a simulation's steps, evenly spread over it: the cloth alone, without bodies.
+/// Some of a simulation's steps, evenly spread over it: its cloths alone, without bodies.
 ///
 /// They are collected while the simulation runs, which shows each of its states to [`observe`](Self::observe):
 ///
@@ -23,7 +23,7 @@ use selvedge_cloth::{Scene, Simulation};
 /// # [effects.gravity]
 /// # "#;
 /// let scene = Scene::parse(text, "fall.toml".as_ref())?;
-/// let mut frames = SimulatedSteps::new(&scene, 5);
+/// let mut frames = SimulatedSteps::new(&scene, 5)?;
 /// let (steps, mut simulation) = (scene.steps(), Simulation::new(scene, 1)?);
 /// frames.observe(&simulation);
 /// for _ in 0..steps {
@@ -47,15 +47,17 @@ pub struct SimulatedSteps {
 
 impl SimulatedSteps {
     /// None yet. Of the scene's steps `count` will be kept, or all if it has fewer.
-    #[must_use]
-    pub fn new(scene: &Scene, count: usize) -> Self {
-        Self {
+    ///
+    /// # Errors
+    /// If the cloths together have too many triangles.
+    pub fn new(scene: &Scene, count: usize) -> Result<Self, TopologyError> {
+        Ok(Self {
             scene: scene.name.clone(),
-            topology: scene.cloth.topology().clone(),
+            topology: scene.all_cloth().topology()?,
             all: scene.steps(),
             count: scene.steps().min(count as u64),
             steps: Vec::new(),
-        }
+        })
     }
 
     /// The state after the chosen step `index`.

@@ -25,7 +25,7 @@ pub fn costs_of_added_effects(costs: &[EffectCost]) -> Vec<Added> {
 }
 
 impl Subject {
-    /// The scene's text, its up direction, its cloth and its bodies, each a part of its own.
+    /// The scene's text, its up direction, its cloths and its bodies, each a part of its own.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let about = About {
@@ -45,9 +45,12 @@ impl Subject {
         let part = |name: &str, kind, mesh: &Mesh| Part::new(name, kind, mesh.positions.len(), mesh.triangles.clone());
         let bodies = scene.bodies.iter();
         let bodies = bodies.map(|body| part(&body.name, PartKind::Body, &body.mesh));
-        let mut parts = vec![part("cloth", PartKind::Cloth, scene.cloth.mesh())];
-        parts.extend(bodies);
-        Self { about, parts }
+        let cloths = scene.cloths.iter();
+        let cloths = cloths.map(|cloth| part(&cloth.name, PartKind::Cloth, cloth.mesh()));
+        Self {
+            about,
+            parts: cloths.chain(bodies).collect(),
+        }
     }
 }
 

@@ -1,0 +1,162 @@
+//! Which effects a scene calls for, and on what each of them acts.
+//!
+//! A scene has effects, and a cloth may have some of its own. What a cloth is made of stands with the cloth, under the name that the
+//! scene's effect has, with the same keys: so there is nothing new to learn, an effect needs no list of cloths in it, and a scene of one
+//! cloth is as it was.
+
+use super::registration::{Effect, Scope};
+use super::{rank, registration_of};
+use crate::input::ValueError;
+use crate::plan::{Fabric, Plan};
+use crate::world::{Cloth, SceneParts};
+use std::sync::Arc;
+
+/// Effects in the order in which they run, one of a name.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Effects(Vec<Arc<dyn Effect>>);
+
+impl Effects {
+    /// Calls for an effect, instead of one of the same name if there is one.
+    pub(crate) fn add(&mut self, effect: impl Effect + 'static) {
+        self.add_shared(Arc::new(effect));
+    }
+
+    pub(super) fn add_shared(&mut self, effect: Arc<dyn Effect>) {
+        let name = effect.name();
+        self.0.retain(|other| other.name() != name);
+        let place = self.0.partition_point(|other| rank(other.name()) <= rank(name));
+        self.0.insert(place, effect);
+    }
+
+    pub(crate) fn get(&self, name: &str) -> Option<&dyn Effect> {
+        self.0.iter().map(|effect| &**effect).find(|effect| effect.name() == name)
+    }
+
+    /// Forgets all but those of these names.
+    pub(crate) fn keep(&mut self, names: &[&str]) {
+        self.0.retain(|effect| names.contains(&effect.name()));
+    }
+
+    fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.0.iter().map(|effect| effect.name())
+    }
+}
+
+/// The scene's effects, and the cloths that may have some of their own.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Called<'a> {
+    pub(crate) by_scene: &'a Effects,
+    pub(crate) cloths: &'a [Cloth],
+}
+
+/// An effect as the scene has it, or a cloth of its own, that makes no sense.
+#[derive(Debug)]
+pub(crate) struct Wrong {
+    pub(crate) name: &'static str,
+    /// Whose own it is.
+    pub(crate) cloth: Option<usize>,
+    pub(crate) error: ValueError,
+}
+
+impl<'a> Called<'a> {
+    /// All names, in the order in which they run.
+    pub(crate) fn names(self) -> Vec<&'static str> {
+        let own = self.cloths.iter().flat_map(|cloth| cloth.effects.names());
+        let mut names = Vec::new();
+        for name in self.by_scene.names().chain(own) {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names.sort_by_key(|name| rank(name));
+        names
+    }
+
+    /// What acts under a name: on which of the cloths, or on the whole scene.
+    pub(crate) fn acting(self, name: &str) -> Vec<(Option<usize>, &'a dyn Effect)> {
+        let of_scene = self.by_scene.get(name);
+        match of_scene {
+            Some(effect) if effect.scope() == Scope::Scene => vec![(None, effect)],
+            _ => {
+                let of_cloth = |(index, cloth): (usize, &'a Cloth)| Some((Some(index), cloth.effects.get(name).or(of_scene)?));
+                self.cloths.iter().enumerate().filter_map(of_cloth).collect()
+            }
+        }
+    }
+
+    /// What the effects say of each cloth.
+    fn fabrics(self) -> Vec<Fabric> {
+        let mut fabrics = vec![Fabric::default(); self.cloths.len()];
+        for name in self.names() {
+            for (cloth, effect) in self.acting(name) {
+                effect.announce(&mut fabrics[cloth.unwrap_or(0)]);
+            }
+        }
+        fabrics
+    }
+
+    /// Whether all of them make sense, each alone and together.
+    pub(crate) fn check(self, world: &SceneParts<'_>) -> Result<(), Wrong> {
+        let names = self.names();
+        let fabrics = self.fabrics();
+        for &name in &names {
+            let own = self.cloths.iter().position(|cloth| cloth.effects.get(name).is_some());
+            let complain = |error| {
+                let cloth = own.filter(|_| self.by_scene.get(name).is_none());
+                Wrong { name, cloth, error }
+            };
+            if let Some(registration) = registration_of(name) {
+                let checked = registration.check_needs(name, |other| names.contains(&other));
+                checked.map_err(complain)?;
+            }
+            let acting = self.acting(name);
+            self.check_scope(name, own, acting.len())?;
+            for (cloth, effect) in acting {
+                let world = world.of_cloth(cloth);
+                let checked = effect.check(&world).and_then(|()| effect.check_fabrics(&world, &fabrics));
+                checked.map_err(|error| self.wrong(name, cloth, error))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A cloth has of its own only what may be, and what all of them are to have all have.
+    fn check_scope(self, name: &'static str, own: Option<usize>, acting: usize) -> Result<(), Wrong> {
+        let Some(cloth) = own else { return Ok(()) };
+        let wrong = |message| Err(self.wrong(name, own, ValueError::new("", message)));
+        match self.cloths[cloth].effects.get(name).map(Effect::scope) {
+            Some(Scope::Scene) => wrong(format!(
+                "'{name}' acts on the whole scene, so that no cloth has one of its own: name it in [effects.{name}]"
+            )),
+            Some(Scope::AllCloths) if acting < self.cloths.len() => wrong(format!(
+                "'{name}' has to do with what cloths do to each other: name it in [effects.{name}] for all of them, or in every cloth"
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    fn wrong(self, name: &'static str, cloth: Option<usize>, error: ValueError) -> Wrong {
+        let of = match cloth {
+            Some(cloth) if self.cloths.len() > 1 => format!("{name} of '{}'", self.cloths[cloth].name),
+            _ => name.to_owned(),
+        };
+        Wrong {
+            name,
+            cloth: cloth.filter(|&cloth| self.cloths[cloth].effects.get(name).is_some()),
+            error: error.of(&of),
+        }
+    }
+
+    /// Puts all of them into the plan; returns their names.
+    pub(crate) fn register(self, plan: &mut Plan<'_>) -> Vec<&'static str> {
+        plan.fabrics = self.fabrics();
+        let names = self.names();
+        for (index, name) in names.iter().enumerate() {
+            for (cloth, effect) in self.acting(name) {
+                plan.begin(index, cloth);
+                effect.register(plan);
+            }
+        }
+        names
+    }
+}

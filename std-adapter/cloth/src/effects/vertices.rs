@@ -1,0 +1,50 @@
+//! How a table of a scene file names vertices of a cloth, by a part that has a name or by their numbers in its mesh: as the scene numbers
+//! them, through all cloths.
+
+use crate::input::{Count, SceneError, Table, suggestion};
+use crate::world::SceneParts;
+
+/// The vertices that `part`, or `vertices`, names; of which cloth, `cloth` says if there are several.
+pub(super) fn of_cloth(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Vec<u32>, SceneError> {
+    let index = named_cloth(table, world)?;
+    let cloth = &world.cloths[index];
+    let own = match table.text("part")? {
+        Some(part) => cloth
+            .named_part(part)
+            .map_err(|message| table.error("part", message))?
+            .to_vec(),
+        None => {
+            let last = cloth.mesh().positions.len() as u32 - 1;
+            table.counts(&Count::new("vertices", 0, last))?.unwrap_or_default()
+        }
+    };
+    let first = world
+        .vertices_of_cloths()
+        .nth(index)
+        .map_or(0, |vertices| vertices.start as u32);
+    Ok(own.into_iter().map(|vertex| first + vertex).collect())
+}
+
+/// The cloth that `cloth` names: its index. The only one if there is but one.
+pub(super) fn named_cloth(table: &Table<'_>, world: &SceneParts<'_>) -> Result<usize, SceneError> {
+    let names = || world.cloths.iter().map(|cloth| cloth.name.as_str());
+    match table.text("cloth")? {
+        None if world.cloths.len() == 1 => Ok(0),
+        None => {
+            let message = format!(
+                "the scene has several cloths: say which with `cloth`{}",
+                suggestion("", names())
+            );
+            Err(table.error("cloth", message))
+        }
+        Some(name) => names().position(|own| own == name).ok_or_else(|| {
+            let message = format!("there is no cloth '{name}'{}", suggestion(name, names()));
+            table.error("cloth", message)
+        }),
+    }
+}
+
+/// What is told of a vertex that no cloth has.
+pub(super) fn no_vertex(vertex: u32, count: usize) -> String {
+    format!("the scene has no vertex {vertex} of cloth: it has {count}, from 0 on")
+}

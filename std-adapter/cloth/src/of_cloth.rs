@@ -1,0 +1,66 @@
+//! What an effect does to one of several cloths, in a step that has them all: it is shown the vertices of that cloth alone.
+
+use super::energy::{Configuration, StoredEnergy};
+use super::step::{Constraint, Force, TimeStep, Touches};
+use selvedge_core::glam::DVec3;
+use std::ops::Range;
+
+/// A force or constraint on one of several cloths.
+#[derive(Debug)]
+pub(crate) struct OfCloth<T> {
+    /// Of the cloth, among the scene's.
+    vertices: Range<usize>,
+    action: T,
+}
+
+impl<T> OfCloth<T> {
+    pub(crate) const fn new(vertices: Range<usize>, action: T) -> Self {
+        Self { vertices, action }
+    }
+
+    fn step<'a>(&self, step: &TimeStep<'a>) -> TimeStep<'a> {
+        TimeStep {
+            start: &step.start[self.vertices.clone()],
+            inverse_masses: &step.inverse_masses[self.vertices.clone()],
+            ..*step
+        }
+    }
+
+    fn configuration<'a>(&self, now: &Configuration<'a>) -> Configuration<'a> {
+        Configuration {
+            positions: &now.positions[self.vertices.clone()],
+            inverse_masses: &now.inverse_masses[self.vertices.clone()],
+        }
+    }
+}
+
+impl<T: Force> Force for OfCloth<T> {
+    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
+        let step = self.step(step);
+        self.action.apply(&step, &mut velocities[self.vertices.clone()]);
+    }
+
+    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
+        self.action.energy(&self.configuration(now))
+    }
+
+    fn set_wind(&mut self, velocity: DVec3) -> bool {
+        self.action.set_wind(velocity)
+    }
+}
+
+impl<T: Constraint> Constraint for OfCloth<T> {
+    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
+        let step = self.step(step);
+        let before = touches.list.len();
+        self.action.project(&step, &mut positions[self.vertices.clone()], touches);
+        let first = self.vertices.start as u32;
+        for touch in &mut touches.list[before..] {
+            touch.vertices = touch.vertices.map(|vertex| first + vertex);
+        }
+    }
+
+    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
+        self.action.energy(&self.configuration(now))
+    }
+}

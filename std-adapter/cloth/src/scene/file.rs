@@ -1,0 +1,122 @@
+//! A scene as a TOML file says it.
+
+use super::{FRAME_RATE, OnBlocked, Scene, TIME_STEP, check_name, duration_field};
+use crate::effects::{self, Called, Effects, Gravity, Wrong};
+use crate::input::{SceneError, Source, Table};
+use crate::world::{Body, Cloth, SceneParts};
+use selvedge_core::glam::DVec3;
+use std::path::Path;
+
+impl Scene {
+    /// Reads a scene file. Paths in it are relative to its folder.
+    ///
+    /// # Errors
+    /// If it cannot be read, or something in it is wrong: the message names file, line and column.
+    pub fn read(path: &Path) -> Result<Self, SceneError> {
+        let bytes = std::fs::read(path).map_err(|error| SceneError::whole(path, format!("cannot be read: {error}")))?;
+        let text = String::from_utf8(bytes)
+            .map_err(|_| SceneError::whole(path, "is not UTF-8 text; a scene is a TOML file".to_owned()))?;
+        Self::parse(&text, path)
+    }
+
+    /// Reads a scene from the text of a file. `path` is for messages and for the paths in it.
+    ///
+    /// # Errors
+    /// If something in it is wrong.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
+        let root = toml::de::DeTable::parse(text).map_err(|error| {
+            let span = error.span().unwrap_or(0..0);
+            SceneError::at(path, text, &span, error.message().trim().replace('\n', ", "))
+        })?;
+        let source = Source { path, text };
+        let root = Table::root(&source, root.get_ref());
+        root.expect_keys(&[
+            "name",
+            "time_step",
+            "duration",
+            "frames_per_second",
+            "on_blocked",
+            "cloth",
+            "body",
+            "effects",
+        ])?;
+        let time_step = root.required_number(&TIME_STEP)?;
+        let duration = root.required_number(&duration_field(time_step))?;
+        let mut cloths = read_cloths(&root)?;
+        let bodies = read_bodies(&root, time_step)?;
+        let effects = read_effects(&root, &mut cloths, &bodies, time_step)?;
+        let gravity = match root.table("effects")? {
+            Some(table) => Gravity::read_acceleration(&table)?,
+            None => None,
+        };
+        let choices = [
+            ("stop", OnBlocked::Stop),
+            ("hold", OnBlocked::Hold),
+            ("yield", OnBlocked::Yield),
+        ];
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy());
+        Ok(Self {
+            name: root
+                .text("name")?
+                .map_or_else(|| stem.unwrap_or_default().into_owned(), str::to_owned),
+            frame_rate: root.number(&FRAME_RATE)?.unwrap_or(60.0),
+            on_blocked: root.choice("on_blocked", &choices)?.unwrap_or_default(),
+            up: gravity.map_or(DVec3::Z, |acceleration| -acceleration),
+            text: text.to_owned(),
+            time_step,
+            duration,
+            cloths,
+            bodies,
+            effects,
+        })
+    }
+}
+
+/// `[cloth]`, or any number of `[[cloth]]`: all but effects of their own.
+fn read_cloths(root: &Table<'_>) -> Result<Vec<Cloth>, SceneError> {
+    let mut cloths: Vec<Cloth> = Vec::new();
+    for table in root.one_or_more_tables("cloth")? {
+        let cloth = Cloth::read(&table)?;
+        check_name("cloths", cloths.iter().map(|other| &other.name), &cloth.name).map_err(|error| table.placed(&error))?;
+        cloths.push(cloth);
+    }
+    Ok(cloths)
+}
+
+fn read_bodies(root: &Table<'_>, time_step: f64) -> Result<Vec<Body>, SceneError> {
+    let mut bodies: Vec<Body> = Vec::new();
+    for table in root.tables("body")? {
+        let body = Body::read(&table, time_step)?;
+        check_name("bodies", bodies.iter().map(|other| &other.name), &body.name).map_err(|error| table.placed(&error))?;
+        bodies.push(body);
+    }
+    Ok(bodies)
+}
+
+/// `[effects]`, and what the cloths have of their own; together they make sense.
+fn read_effects(root: &Table<'_>, cloths: &mut [Cloth], bodies: &[Body], time_step: f64) -> Result<Effects, SceneError> {
+    let tables = root.one_or_more_tables("cloth")?;
+    for (index, table) in tables.iter().enumerate() {
+        let world = SceneParts::new(cloths, bodies, time_step).map_err(|error| root.placed(&error))?;
+        cloths[index].effects = effects::read_known(table, &world)?;
+    }
+    let world = SceneParts::new(cloths, bodies, time_step).map_err(|error| root.placed(&error))?;
+    let effects = root.table("effects")?;
+    let by_scene = match &effects {
+        Some(table) => effects::read(table, &world)?,
+        None => Effects::default(),
+    };
+    let called = Called {
+        by_scene: &by_scene,
+        cloths,
+    };
+    let place = |Wrong { name, cloth, error }: Wrong| {
+        let above = cloth.map_or(effects.as_ref(), |cloth| tables.get(cloth)).unwrap_or(root);
+        match above.table(name) {
+            Ok(Some(table)) => table.placed(&error),
+            _ => above.placed(&error),
+        }
+    };
+    called.check(&world).map_err(place)?;
+    Ok(by_scene)
+}

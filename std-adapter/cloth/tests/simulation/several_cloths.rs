@@ -1,0 +1,371 @@
+//! Several cloths in a scene, each with what it is made of.
+
+use selvedge::core::PairKind;
+use selvedge::core::separation::closest::Closest;
+use selvedge_cloth::effects::{
+    AirDrag, BodyContact, Friction, Gravity, InternalPressure, PinGroup, Pins, SelfCollision, Shear, Stretch, Thickness, Wind,
+};
+use selvedge_cloth::glam::DVec3;
+use selvedge_cloth::{Body, CHECKPOINT_STEPS, Cloth, Scene, Simulation};
+use std::path::Path;
+
+/// A level sheet of 0.3 m, its lower left corner there.
+fn sheet(name: &str, corner: DVec3, cells: u32, density: f64) -> Cloth {
+    let cloth = Cloth::sheet(corner, [0.3 * DVec3::X, 0.3 * DVec3::Y], [cells; 2], density).unwrap();
+    cloth.named(name)
+}
+
+fn run(mut simulation: Simulation, steps: u64) -> Simulation {
+    (0..steps).for_each(|_| simulation.step().unwrap());
+    simulation
+}
+
+/// The positions of a cloth.
+fn of_cloth(simulation: &Simulation, cloth: usize) -> &[DVec3] {
+    &simulation.positions()[simulation.vertices_of_cloth(cloth).unwrap()]
+}
+
+const LAYERS: &str = r#"
+time_step = "2 ms"
+duration = "1 s"
+
+[[cloth]]
+name = "shell"
+shape = "sheet"
+corner = [-0.15, -0.15, 0.08]
+sides = { first = [0.3, 0, 0], second = [0, 0.3, 0] }
+cells = [12, 12]
+density = "200 g/m2"
+[cloth.self_collision]
+thickness = "5 mm"
+separation = "1 mm"
+
+[[cloth]]
+name = "lining"
+shape = "sheet"
+corner = [-0.15, -0.15, 0.076]
+sides = { first = [0.3, 0, 0], second = [0, 0.3, 0] }
+cells = [10, 10]
+density = "80 g/m2"
+velocity = [0, 0, -0.1]
+[cloth.stretch]
+stiffness = "80 N/m"
+[cloth.self_collision]
+thickness = "3 mm"
+
+[[body]]
+name = "ball"
+shape = "ball"
+centre = [0, 0, 0]
+radius = "6 cm"
+around = 16
+
+[effects.gravity]
+[effects.wind]
+velocity = [1, 0, 0]
+[effects.stretch]
+stiffness = "400 N/m"
+[effects.shear]
+stiffness = "40 N/m"
+[effects.body_contact]
+thickness = "4 mm"
+[effects.friction]
+coefficient = 0.3
+[[effects.pins.group]]
+cloth = "lining"
+part = "bottom-left"
+"#;
+
+fn from_file() -> Scene {
+    Scene::parse(LAYERS, Path::new("layers.toml")).unwrap()
+}
+
+fn from_code() -> Scene {
+    let corner = |height| DVec3::new(-0.15, -0.15, height);
+    let mut shell = sheet("shell", corner(0.08), 12, 0.2);
+    shell.add(SelfCollision(Thickness {
+        thickness: 5e-3,
+        separation: 1e-3,
+    }));
+    let mut lining = sheet("lining", corner(0.076), 10, 0.08);
+    lining.velocity = -0.1 * DVec3::Z;
+    lining.add(Stretch::isotropic(80.0)).add(SelfCollision(Thickness::of(3e-3)));
+    let mut scene = Scene::new(shell, 2e-3);
+    scene.cloths.push(lining);
+    scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap());
+    let wind = Wind {
+        velocity: DVec3::X,
+        ..Wind::default()
+    };
+    scene.add(Gravity::default()).add(wind).add(Stretch::isotropic(400.0));
+    scene.add(Shear { stiffness: 40.0 }).add(Friction { coefficient: 0.3 });
+    scene.add(BodyContact(Thickness::of(4e-3)));
+    let corner = scene.part("lining", "bottom-left").unwrap();
+    scene.add(Pins {
+        groups: vec![PinGroup::resting(corner)],
+    });
+    scene
+}
+
+#[test]
+fn code_and_file_make_the_same_scene_of_two_cloths_to_the_last_bit() {
+    let [file, code] = [from_file(), from_code()].map(|scene| {
+        assert_eq!(scene.effect_names().len(), 8);
+        run(Simulation::new(scene, 1).unwrap(), 100)
+    });
+    assert_eq!(file.cloth_names(), ["shell", "lining"]);
+    assert_eq!(file.positions(), code.positions());
+    assert_eq!(file.cloth_vertices(), 13 * 13 + 11 * 11);
+    assert_eq!(file.vertices_of_cloth(1), Some(169..290));
+    assert!(file.is_certified());
+}
+
+#[test]
+fn several_cloths_have_the_same_bits_on_any_number_of_threads_and_resumed() {
+    let mut whole = run(Simulation::new(from_file(), 1).unwrap(), CHECKPOINT_STEPS);
+    let checkpoint = whole.checkpoint().unwrap();
+    let mut resumed = Simulation::new(from_file(), 2).unwrap();
+    resumed.resume(&checkpoint).unwrap();
+    whole = run(whole, 60);
+    resumed = run(resumed, 60);
+    assert_eq!(whole.positions(), resumed.positions());
+    // A cloth's own is part of the scene.
+    let mut other = from_code();
+    other.cloths[1].add(Stretch::isotropic(81.0));
+    assert!(Simulation::new(other, 1).unwrap().resume(&checkpoint).is_err());
+}
+
+/// Each sees its own vertices only, as if it were alone: no effect mixes them up.
+#[test]
+fn cloths_that_do_not_meet_go_as_each_goes_alone_to_the_last_bit() {
+    let places = [DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0)];
+    let cloths = || {
+        let mut stiff = sheet("stiff", places[0], 9, 0.2);
+        stiff.add(Stretch::isotropic(900.0)).add(Wind {
+            velocity: DVec3::new(0.0, 2.0, 1.0),
+            ..Wind::default()
+        });
+        let mut soft = sheet("soft", places[1], 14, 0.1);
+        soft.velocity = DVec3::X;
+        [stiff, soft]
+    };
+    let scene = |cloths: Vec<Cloth>| {
+        let mut all = cloths.into_iter();
+        let mut scene = Scene::new(all.next().unwrap(), 1e-3);
+        scene.cloths.extend(all);
+        scene.add(Gravity::default()).add(Stretch::isotropic(60.0));
+        let corners = scene.cloths.iter().flat_map(|cloth| scene.part(&cloth.name, "left").unwrap());
+        let corners: Vec<u32> = corners.collect();
+        scene.add(Pins {
+            groups: vec![PinGroup::resting(corners)],
+        });
+        run(Simulation::new(scene, 1).unwrap(), 200)
+    };
+    let together = scene(cloths().into());
+    for (index, cloth) in cloths().into_iter().enumerate() {
+        let alone = scene(vec![cloth]);
+        assert_eq!(of_cloth(&together, index), alone.positions(), "{index}");
+    }
+}
+
+/// The sheet below is held at its rim, and the one above lies on it: nowhere nearer than what both are thick, but where the one below is
+/// pressed into it; steps keep the mean of their separations.
+#[test]
+fn two_cloths_keep_the_mean_of_their_thicknesses_from_each_other() {
+    for thickness in [[6e-3, 6e-3], [6e-3, 2e-3], [2e-3, 2e-3]] {
+        let mut below = sheet("below", DVec3::ZERO, 12, 0.2);
+        below.add(SelfCollision(Thickness::of(thickness[0])));
+        // Vertices of the one do not stand on vertices of the other.
+        let mut above = sheet("above", DVec3::new(0.011, 0.007, 0.01), 10, 0.1);
+        above.add(SelfCollision(Thickness::of(thickness[1])));
+        let rim = ["left", "right", "bottom", "top"];
+        let mut rim: Vec<u32> = rim.into_iter().flat_map(|part| below.part(part).unwrap().to_vec()).collect();
+        rim.sort_unstable();
+        rim.dedup();
+        let mut scene = Scene::new(below, 2e-3);
+        scene.cloths.push(above);
+        scene
+            .add(Gravity::default())
+            .add(Stretch::isotropic(500.0))
+            .add(Friction { coefficient: 0.5 });
+        scene.add(Pins {
+            groups: vec![PinGroup::resting(rim)],
+        });
+        let simulation = run(Simulation::new(scene, 1).unwrap(), 400);
+        let (positions, triangles) = (simulation.positions(), simulation.triangles());
+        let distances = (169..290).map(|vertex| {
+            let to = |t: &[u32; 3]| {
+                Closest::of(
+                    PairKind::VertexFace,
+                    [vertex, t[0], t[1], t[2]].map(|v| positions[v as usize]),
+                )
+            };
+            triangles[..288]
+                .iter()
+                .map(|t| to(t).distance())
+                .fold(f64::INFINITY, f64::min)
+        });
+        let mut distances: Vec<f64> = distances.collect();
+        distances.sort_by(f64::total_cmp);
+        let [mean, least, middle] = [0.5 * (thickness[0] + thickness[1]), distances[0], distances[60]];
+        assert!(least > 0.1 * mean, "{least} of {mean}");
+        assert!((0.9..1.1).contains(&(middle / mean)), "{middle} of {mean}");
+    }
+}
+
+#[test]
+fn a_cloth_of_its_own_stiffness_is_stretched_as_that_says() {
+    // Hung side by side by their upper edges, far enough apart.
+    let mut scene = Scene::new(sheet("first", DVec3::ZERO, 8, 0.2), 2e-3);
+    let mut second = sheet("second", DVec3::new(0.5, 0.0, 0.0), 8, 0.2);
+    second.add(Stretch::isotropic(20.0));
+    scene.cloths.push(second);
+    let tops = ["first", "second"]
+        .into_iter()
+        .flat_map(|name| scene.part(name, "top").unwrap());
+    let tops: Vec<u32> = tops.collect();
+    scene.add(Gravity {
+        acceleration: -9.81 * DVec3::Y,
+    });
+    scene.add(Stretch::isotropic(200.0)).add(AirDrag { rate: 5.0 });
+    scene.add(Pins {
+        groups: vec![PinGroup::resting(tops)],
+    });
+    let simulation = run(Simulation::new(scene, 1).unwrap(), 3000);
+    let lengthened = |cloth: usize| -of_cloth(&simulation, cloth)[..9].iter().map(|p| p.y).sum::<f64>() / 9.0;
+    let [first, second] = [lengthened(0), lengthened(1)];
+    assert!((8.0..12.0).contains(&(second / first)), "{first} {second}");
+}
+
+#[test]
+fn a_wind_that_changes_blows_on_all_cloths() {
+    let mut scene = Scene::new(sheet("a", DVec3::ZERO, 4, 0.2), 2e-3);
+    scene.cloths.push(sheet("b", DVec3::X, 4, 0.2));
+    scene.add(Wind::default());
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    simulation.set_wind(5.0 * DVec3::Z).unwrap();
+    simulation.step().unwrap();
+    assert!(simulation.velocities().iter().all(|v| v.z > 0.0));
+}
+
+#[track_caller]
+fn complaint(change: impl FnOnce(&mut Scene)) -> String {
+    let mut scene = from_code();
+    change(&mut scene);
+    Simulation::new(scene, 1).unwrap_err().to_string()
+}
+
+#[test]
+fn what_is_wrong_with_several_cloths_is_told_with_their_names() {
+    let cases = [
+        (
+            complaint(|s| s.cloths.clear()),
+            "the scene has no cloth, but needs one or more",
+        ),
+        (
+            complaint(|s| s.cloths[1].name = "shell".into()),
+            "there are two cloths named 'shell'",
+        ),
+        (
+            complaint(|s| s.cloths[1].density = 0.0),
+            "lining: `density` is 0 kg/m2, but must be from 0.001 kg/m2 to 100 kg/m2",
+        ),
+        (
+            complaint(|s| {
+                s.cloths[1].add(Stretch::isotropic(-1.0));
+            }),
+            "stretch of 'lining': `stiffness` is -1 N/m, but must be from 0.001 N/m to 1e9 N/m",
+        ),
+        (
+            complaint(|s| {
+                s.cloths[1].add(Gravity::default());
+            }),
+            "gravity of 'lining': 'gravity' acts on the whole scene, so that no cloth has one of its own: name it in [effects.gravity]",
+        ),
+        (
+            complaint(|s| s.cloths.push(sheet("patch", DVec3::Z, 2, 0.1))),
+            "self_collision of 'shell': 'self_collision' has to do with what cloths do to each other: name it in \
+             [effects.self_collision] for all of them, or in every cloth",
+        ),
+        (
+            complaint(|s| {
+                s.add(InternalPressure::of_volume(1.1));
+            }),
+            "internal_pressure of 'shell': internal pressure needs a closed cloth, but this one has 48 open edges",
+        ),
+        (
+            complaint(|s| {
+                s.add(Pins {
+                    groups: vec![PinGroup::resting([290])],
+                });
+            }),
+            "pins: the scene has no vertex 290 of cloth: it has 290, from 0 on",
+        ),
+    ];
+    for (found, expected) in cases {
+        assert_eq!(found, expected);
+    }
+}
+
+/// The file with one passage replaced, and the message.
+#[track_caller]
+fn message(passage: &str, by: &str) -> String {
+    assert_eq!(LAYERS.matches(passage).count(), 1, "'{passage}' must be there once");
+    let error = Scene::parse(&LAYERS.replacen(passage, by, 1), Path::new("s.toml")).unwrap_err();
+    error.to_string()
+}
+
+#[test]
+fn mistakes_with_several_cloths_in_a_file_are_told_with_their_place() {
+    let cases = [
+        (
+            "name = \"lining\"",
+            "name = \"shell\"",
+            "s.toml:17:8: there are two cloths named 'shell'",
+        ),
+        (
+            "[cloth.stretch]",
+            "[cloth.strech]",
+            "s.toml:24:8: [cloth] has no key 'strech'; did you mean 'stretch'?",
+        ),
+        (
+            "stiffness = \"80 N/m\"",
+            "stiffnes = 80",
+            "s.toml:25:1: [cloth.stretch] has no key 'stiffnes'; did you mean 'stiffness'?",
+        ),
+        (
+            "\"80 N/m\"",
+            "\"80 N\"",
+            "s.toml:25:13: `stiffness` must be a stiffness of a membrane, and 'N' is no unit of it; choose from N/m, kN/m",
+        ),
+        (
+            "[cloth.stretch]\nstiffness = \"80 N/m\"",
+            "[cloth.gravity]",
+            "s.toml:24:1: 'gravity' acts on the whole scene, so that no cloth has one of its own: name it in [effects.gravity]",
+        ),
+        (
+            "[cloth.self_collision]\nthickness = \"3 mm\"",
+            "",
+            "s.toml:12:1: 'self_collision' has to do with what cloths do to each other: name it in [effects.self_collision] for all \
+             of them, or in every cloth",
+        ),
+        (
+            "thickness = \"3 mm\"",
+            "thickness = \"3 mm\"\nseparation = \"4 mm\"",
+            "s.toml:28:14: `separation` is 0.004 m, but must be at most nine tenths of the thickness, 0.003 m",
+        ),
+        (
+            "cloth = \"lining\"",
+            "",
+            "s.toml:47:1: the scene has several cloths: say which with `cloth`; choose from shell, lining",
+        ),
+        (
+            "cloth = \"lining\"",
+            "cloth = \"linings\"",
+            "s.toml:48:9: there is no cloth 'linings'; did you mean 'lining'?",
+        ),
+    ];
+    for (passage, by, expected) in cases {
+        assert_eq!(message(passage, by), expected);
+    }
+}
