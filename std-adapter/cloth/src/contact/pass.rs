@@ -22,7 +22,6 @@
 
 use super::candidate::{Candidate, impact};
 use super::report::Blocker;
-use super::settings::ContactSettings;
 use super::solver::{ContactSolver, gap_error};
 use crate::step::{FREE, TimeStep};
 use selvedge::verification::parallel;
@@ -219,16 +218,6 @@ impl ContactSolver {
 
     pub(super) fn separation(&self, pair: &Candidate) -> Option<f64> {
         self.settings.separation(pair, &self.yielding)
-    }
-}
-
-impl ContactSettings {
-    /// The separation that a pair is asked to keep; `None` if none is promised.
-    fn separation(&self, pair: &Candidate, yielding: &[bool]) -> Option<f64> {
-        if pair.data.is_with_body() && yielding[pair.data.body as usize] {
-            return None;
-        }
-        self.of(pair).map(|thickness| thickness.separation)
     }
 }
 

@@ -13,6 +13,8 @@ pub(crate) struct ContactSettings {
     pub(super) has_neighbours: bool,
     /// Of each cloth: the vertex after its last one.
     ends: Vec<u32>,
+    /// What the first cloth is to keep from cloth, and from bodies.
+    of_first: [Option<Thickness>; 2],
 }
 
 /// What one effect asks for.
@@ -88,11 +90,13 @@ impl ContactSettings {
     /// The next cloth, in the order of the scene, is to keep this from itself and from other cloths.
     pub(crate) fn keep_from_cloth(&mut self, effect: usize, thickness: Thickness) {
         Asked::add(&mut self.cloth, effect, thickness);
+        self.of_first[0].get_or_insert(thickness);
     }
 
     /// The next cloth, in the order of the scene, is to keep this from bodies.
     pub(crate) fn keep_from_bodies(&mut self, effect: usize, thickness: Thickness) {
         Asked::add(&mut self.bodies, effect, thickness);
+        self.of_first[1].get_or_insert(thickness);
     }
 
     fn asked(&self, with_body: bool) -> Option<&Asked> {
@@ -119,24 +123,39 @@ impl ContactSettings {
         self.ends.len() == 1 || self.cloth_of(one) == self.cloth_of(other)
     }
 
-    /// What a pair has to keep.
+    /// What a pair has to keep. Asked of every pair in every step.
     #[inline(always)]
     pub(super) fn of(&self, pair: &Candidate) -> Option<Thickness> {
-        let with_body = pair.data.is_with_body();
-        match self.asked(with_body)?.of_cloths.as_slice() {
-            [only] => Some(*only),
-            of_cloths => {
-                let [one, .., other] = pair.vertices;
-                // Bodies' vertices come after the cloths'.
-                let [first, last] = [one.min(other), one.max(other)];
-                let own = of_cloths[self.cloth_of(first)];
-                Some(if with_body {
-                    own
-                } else {
-                    own.between(of_cloths[self.cloth_of(last)])
-                })
-            }
+        let [of_cloth, of_bodies] = self.of_first;
+        match pair.data.is_with_body() {
+            _ if self.ends.len() > 1 => self.of_several(pair),
+            true => of_bodies,
+            false => of_cloth,
         }
+    }
+
+    /// The separation that a pair is asked to keep; `None` if none is promised, as while its body is `yielding`.
+    #[inline(always)]
+    pub(super) fn separation(&self, pair: &Candidate, yielding: &[bool]) -> Option<f64> {
+        if pair.data.is_with_body() && yielding[pair.data.body as usize] {
+            return None;
+        }
+        self.of(pair).map(|thickness| thickness.separation)
+    }
+
+    /// What a pair has to keep where there are several cloths.
+    #[cold]
+    #[inline(never)]
+    fn of_several(&self, pair: &Candidate) -> Option<Thickness> {
+        let with_body = pair.data.is_with_body();
+        let of_cloths = &self.asked(with_body)?.of_cloths;
+        let [one, .., other] = pair.vertices;
+        // Bodies' vertices come after the cloths'.
+        let own = of_cloths[self.cloth_of(one.min(other))];
+        if with_body {
+            return Some(own);
+        }
+        Some(own.between(of_cloths[self.cloth_of(one.max(other))]))
     }
 
     /// What each cloth is to keep from others and from itself; none if nobody asks for that.

@@ -15,8 +15,10 @@ mod list;
 mod pins;
 mod pressure;
 mod registration;
+mod seams;
 mod self_collision;
 mod shear;
+mod stitches;
 mod strain_limit;
 mod stretch;
 mod thickness;
@@ -36,6 +38,7 @@ pub use gravity::Gravity;
 pub use pins::{PinGroup, PinMotion, Pins};
 pub use pressure::InternalPressure;
 pub use registration::{Effect, Scope};
+pub use seams::{Seam, Seams};
 pub use self_collision::SelfCollision;
 pub use shear::Shear;
 pub use strain_limit::StrainLimit;
@@ -70,6 +73,7 @@ const REGISTRY: &[(&str, Registration)] = registry![
     bend "bend"
     pressure "internal_pressure"
     strain_limit "strain_limit"
+    seams "seams"
     body_contact "body_contact"
     self_collision "self_collision"
     friction "friction"

@@ -13,7 +13,7 @@ use std::fmt;
 use std::sync::Arc;
 
 /// In m/s: much faster than anybody moves a hand, and slower than a figure that is somewhere else in the next frame.
-const FASTEST_VERTEX: f64 = 100.0;
+pub(crate) const FASTEST_VERTEX: f64 = 100.0;
 
 pub(super) const RATE: Field = Field::new("frames_per_second", FREQUENCY, 1e-3, 1e5);
 pub(super) const START: Field = Field::new("start", TIME, 0.0, LARGEST_TIME);

@@ -18,6 +18,7 @@ pub use cloth::Cloth;
 pub use motion::{Keyframe, Motion, RigidMotion};
 pub use placement::Placement;
 
+pub(crate) use animation::FASTEST_VERTEX;
 pub(crate) use driven::{Driven, Kinematic};
 pub(crate) use motion::Pose;
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod drape;
 mod energy;
 mod from_code;
 mod paying_only;
+mod seams;
 mod several_cloths;
 mod stability;
 mod stretch;

@@ -19,7 +19,7 @@ centre = [0, 0, 0]
 radius = "10 cm"
 "#;
 
-const EFFECTS: [(&str, &str); 11] = [
+const EFFECTS: [(&str, &str); 12] = [
     ("gravity", ""),
     ("wind", "velocity = [1, 0, 0]"),
     ("air_drag", "rate = 1"),
@@ -28,6 +28,10 @@ const EFFECTS: [(&str, &str); 11] = [
     ("shear", "stiffness = 100"),
     ("bend", "stiffness = 1e-5"),
     ("strain_limit", "limit = 1.1"),
+    (
+        "seams",
+        "seam = [{ first = { part = \"left\" }, second = { part = \"right\" } }]",
+    ),
     ("body_contact", "thickness = \"1 mm\""),
     ("self_collision", "thickness = \"1 mm\""),
     ("friction", "coefficient = 0.3"),

@@ -1,0 +1,210 @@
+//! Seams: rows of vertices that are held together, or drawn together over a time ([`stitches`](super::stitches)).
+//!
+//! **A seam never joins what must not touch.** Two rows that become one would share their vertices, and a cloth that is joined to another
+//! within no distance at all has no state without a contact. So a closed seam has a gap, of no less than the thickness that contact keeps
+//! between the two: there seam and contact agree, and the certificate has nothing to do with either. (Cloth that is one piece from the
+//! start is a mesh whose triangles share their vertices.)
+//!
+//! A seam does not resist bending.
+
+use super::registration::{Effect, Registration, Scope};
+use super::stitches::{Sewing, Stitch, stitches};
+use super::vertices::{no_vertex, of_cloth};
+use crate::contact::Thickness;
+use crate::input::{Field, LARGEST_TIME, LENGTH, SPEED, SceneError, TIME, Table, ValueError};
+use crate::plan::{Fabric, Plan};
+use crate::world::{FASTEST_VERTEX, SceneParts};
+use selvedge_core::glam::DVec3;
+
+const GAP: Field = Field::new("gap", LENGTH, 0.0, 0.1);
+const CLOSING: Field = Field::new("closing", TIME, 1e-6, LARGEST_TIME);
+
+pub(super) const REGISTRATION: Registration = Registration {
+    keys: &["seam"],
+    needs: &[],
+    read: |table, world| {
+        let tables = table.tables("seam")?;
+        let seams = { tables.iter() }
+            .map(|table| read_seam(table, world))
+            .collect::<Result<_, _>>()?;
+        Ok(Box::new(Seams { seams }))
+    },
+};
+
+/// Rows of vertices of one cloth or of two that are sewn together.
+///
+/// ```
+/// use selvedge_cloth::effects::{Seam, Seams, SelfCollision, Thickness};
+/// use selvedge_cloth::glam::DVec3;
+/// use selvedge_cloth::{Cloth, Scene, Simulation};
+///
+/// let panel = |x| Cloth::sheet(DVec3::X * x, [0.1 * DVec3::X, 0.1 * DVec3::Y], [6, 6], 0.2);
+/// let mut scene = Scene::new(panel(0.0)?.named("left"), 2e-3);
+/// scene.cloths.push(panel(0.12)?.named("right"));
+/// let rows = [scene.part("left", "right"), scene.part("right", "left")].map(Option::unwrap_or_default);
+/// let [first, second] = rows.clone();
+/// scene.add(SelfCollision(Thickness::of(2e-3)));
+/// scene.add(Seams { seams: vec![Seam { closing: Some(0.1), ..Seam::of(first, second) }] });
+///
+/// let mut simulation = Simulation::new(scene, 1)?;
+/// for _ in 0..60 {
+///     simulation.step()?;
+/// }
+/// let gap = simulation.positions()[rows[0][3] as usize].distance(simulation.positions()[rows[1][3] as usize]);
+/// assert!((gap - 2e-3).abs() < 1e-4 && simulation.is_certified());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Seams {
+    /// One or more.
+    pub seams: Vec<Seam>,
+}
+
+/// Two rows of vertices that are sewn together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seam {
+    /// Vertices one after the other, as the scene numbers them, through all cloths; [`Scene::part`](crate::Scene::part) knows some by name.
+    /// Where the row ends at the vertex at which it begins it is closed.
+    pub first: Vec<u32>,
+    /// The same, beginning at the same end. It need not have as many.
+    pub second: Vec<u32>,
+    /// How far apart the rows are when the seam is closed, in metres: at least the thickness that contact keeps between them, which it is if
+    /// nothing else is said.
+    pub gap: Option<f64>,
+    /// After which time it is closed, in seconds from the start; till then the rows are drawn together evenly. `None`: they are held as near
+    /// as they are at the start, or within the gap if that is more.
+    pub closing: Option<f64>,
+}
+
+impl Seam {
+    /// Rows that are held as they are.
+    #[must_use]
+    pub const fn of(first: Vec<u32>, second: Vec<u32>) -> Self {
+        Self {
+            first,
+            second,
+            gap: None,
+            closing: None,
+        }
+    }
+
+    /// Whether there are two rows; of what there is, `gap` and `closing` are numbers that can be.
+    fn check(&self, rest: &[DVec3]) -> Result<(), ValueError> {
+        for (name, row) in [("first", &self.first), ("second", &self.second)] {
+            let wrong = |message| Err(ValueError::new(name, message));
+            if let Some(&vertex) = row.iter().find(|&&vertex| vertex as usize >= rest.len()) {
+                return wrong(no_vertex(vertex, rest.len()));
+            }
+            let is_step = |two: &[u32]| rest[two[0] as usize] != rest[two[1] as usize];
+            if row.len() < 2 || !row.windows(2).all(is_step) {
+                return wrong("a row of a seam needs two vertices or more, each at another place than the one before".to_owned());
+            }
+        }
+        if let Some(vertex) = self.first.iter().find(|vertex| self.second.contains(vertex)) {
+            let message = format!("vertex {vertex} is in both rows of a seam, but cannot be sewn to itself");
+            return Err(ValueError::new("second", message));
+        }
+        self.gap.map_or(Ok(()), |gap| GAP.check(gap))?;
+        self.closing.map_or(Ok(()), |closing| CLOSING.check(closing))
+    }
+
+    /// Each with how far apart its points are at the start, in metres.
+    fn stitches(&self, rest: &[DVec3]) -> Vec<(Stitch, f64)> {
+        let made = stitches(&self.first, &self.second, rest).into_iter();
+        made.map(|stitch| (stitch, stitch.length(rest))).collect()
+    }
+
+    /// Whether the closed seam leaves contact its thickness, and how fast it closes.
+    fn check_ways(&self, rest: &[DVec3], thickness: f64) -> Result<(), ValueError> {
+        let gap = self.gap.unwrap_or(thickness);
+        if gap < thickness {
+            let [gap, thickness] = [gap, thickness].map(|length| LENGTH.written(length));
+            let message =
+                format!("`gap` is {gap}, but contact keeps {thickness} between the two rows: take that or more, or none");
+            return Err(ValueError::new(GAP.name, message));
+        }
+        let Some(closing) = self.closing else { return Ok(()) };
+        let farthest = self.stitches(rest).iter().map(|(_, start)| *start).fold(0.0, f64::max);
+        let speed = (farthest - gap) / closing;
+        if speed > FASTEST_VERTEX {
+            let [speed, most] = [speed, FASTEST_VERTEX].map(|speed| SPEED.written(speed));
+            let message =
+                format!("the rows of the seam would close at {speed}, but must not at more than {most}: take a longer `closing`");
+            return Err(ValueError::new(CLOSING.name, message));
+        }
+        Ok(())
+    }
+}
+
+/// Where vertices of all cloths are at rest.
+fn rest_of(world: &SceneParts<'_>) -> Vec<DVec3> {
+    world.cloths.iter().flat_map(|cloth| &cloth.mesh.positions).copied().collect()
+}
+
+/// What contact keeps between the rows of a seam, at most, in metres; none if nobody asks for contact.
+fn thickness(seam: &Seam, world: &SceneParts<'_>, fabrics: &[Fabric]) -> f64 {
+    let thickest = |row: &[u32]| {
+        let cloths = world.vertices_of_cloths().zip(fabrics);
+        let own = cloths.filter(|(vertices, _)| row.iter().any(|&vertex| vertices.contains(&(vertex as usize))));
+        let own = own.map(|(_, fabric)| fabric.thickness.unwrap_or(0.0));
+        Thickness::of(own.fold(0.0, f64::max))
+    };
+    thickest(&seam.first).between(thickest(&seam.second)).thickness
+}
+
+fn read_seam(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Seam, SceneError> {
+    table.expect_keys(&["first", "second", "reversed", "gap", "closing"])?;
+    let row = |key: &str| {
+        let table = table.required_table(key)?;
+        table.expect_keys(&["cloth", "part", "vertices"])?;
+        if table.has("part") == table.has("vertices") {
+            let message = "a row of a seam needs either `part` or `vertices`".to_owned();
+            return Err(table.error("vertices", message));
+        }
+        of_cloth(&table, world)
+    };
+    let mut seam = Seam::of(row("first")?, row("second")?);
+    if table.flag("reversed")? {
+        seam.second.reverse();
+    }
+    (seam.gap, seam.closing) = (table.number(&GAP)?, table.number(&CLOSING)?);
+    seam.check(&rest_of(world)).map_err(|error| table.placed(&error))?;
+    Ok(seam)
+}
+
+impl Effect for Seams {
+    fn name(&self) -> &'static str {
+        "seams"
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::Scene
+    }
+
+    fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
+        if self.seams.is_empty() {
+            return Err(ValueError::new("seam", "seams need at least one [[effects.seams.seam]]"));
+        }
+        let rest = rest_of(world);
+        self.seams.iter().try_for_each(|seam| seam.check(&rest))
+    }
+
+    fn check_fabrics(&self, world: &SceneParts<'_>, fabrics: &[Fabric]) -> Result<(), ValueError> {
+        let rest = rest_of(world);
+        let mut seams = self.seams.iter();
+        seams.try_for_each(|seam| seam.check_ways(&rest, thickness(seam, world, fabrics)))
+    }
+
+    fn register(&self, plan: &mut Plan<'_>) {
+        let world = plan.scene();
+        let rest = rest_of(&world);
+        for seam in &self.seams {
+            let gap = seam.gap.unwrap_or_else(|| thickness(seam, &world, &plan.fabrics));
+            plan.add_constraint(Sewing {
+                stitches: seam.stitches(&rest),
+                gap,
+                closing: seam.closing,
+            });
+        }
+    }
+}

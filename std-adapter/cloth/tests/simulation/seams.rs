@@ -1,0 +1,304 @@
+//! Rows of vertices that are sewn together.
+
+use selvedge_cloth::effects::{
+    Bend, Gravity, PinGroup, Pins, Seam, Seams, SelfCollision, Shear, StrainLimit, Stretch, Thickness,
+};
+use selvedge_cloth::glam::DVec3;
+use selvedge_cloth::{CHECKPOINT_STEPS, Cloth, Scene, Simulation};
+use std::path::Path;
+
+/// An upright panel, 0.2 m wide and 0.3 m high.
+fn panel(name: &str, corner: DVec3, cells: [u32; 2]) -> Cloth {
+    let cloth = Cloth::sheet(corner, [0.2 * DVec3::X, 0.3 * DVec3::Z], cells, 0.15).unwrap();
+    cloth.named(name)
+}
+
+/// Front and back of a bag, 6 cm apart, of different meshes; not sewn yet.
+fn panels() -> Scene {
+    let mut scene = Scene::new(panel("front", DVec3::ZERO, [10, 15]), 2e-3);
+    scene.cloths.push(panel("back", 0.06 * DVec3::Y, [8, 11]));
+    scene
+        .add(Gravity::default())
+        .add(Stretch::isotropic(300.0))
+        .add(Shear { stiffness: 60.0 });
+    scene.add(Bend::isotropic(1e-5)).add(StrainLimit::at(1.1));
+    scene.add(SelfCollision(Thickness::of(THICKNESS)));
+    scene
+}
+
+const THICKNESS: f64 = 3e-3;
+/// Three sides of the bag.
+const SIDES: [&str; 3] = ["left", "bottom", "right"];
+
+fn rows(scene: &Scene, side: &str) -> [Vec<u32>; 2] {
+    ["front", "back"].map(|cloth| scene.part(cloth, side).unwrap())
+}
+
+/// Sewn along three sides in 0.3 s, hung by the upper edge of the front.
+fn bag() -> Scene {
+    let mut scene = panels();
+    let seam = |side| {
+        let [first, second] = rows(&scene, side);
+        Seam {
+            closing: Some(0.3),
+            ..Seam::of(first, second)
+        }
+    };
+    let seams = SIDES.map(seam).into();
+    let top = scene.part("front", "top").unwrap();
+    scene.add(Seams { seams }).add(Pins {
+        groups: vec![PinGroup::resting(top)],
+    });
+    scene
+}
+
+/// How far apart the rows of a bag are, along each side: of each vertex of the finer row, to the nearest point of the other.
+fn gaps(simulation: &Simulation, scene: &Scene) -> Vec<f64> {
+    let at = |vertex: u32| simulation.positions()[vertex as usize];
+    let mut gaps = Vec::new();
+    for side in SIDES {
+        let [first, second] = rows(scene, side);
+        for &vertex in &first {
+            let to = |two: &[u32]| {
+                let [from, way] = [at(two[0]), at(two[1]) - at(two[0])];
+                let share = ((at(vertex) - from).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+                at(vertex).distance(from + way * share)
+            };
+            gaps.push(second.windows(2).map(to).fold(f64::INFINITY, f64::min));
+        }
+    }
+    gaps
+}
+
+#[test]
+fn panels_are_drawn_together_in_the_given_time_and_keep_their_gap_from_then_on() {
+    let scene = bag();
+    let mut simulation = Simulation::new(bag(), 1).unwrap();
+    let (mut widest, mut middle) = (Vec::new(), Vec::new());
+    for step in 1..=400 {
+        simulation.step().unwrap();
+        let mut gaps = gaps(&simulation, &scene);
+        gaps.sort_by(f64::total_cmp);
+        assert!(gaps[0] > 0.5 * THICKNESS, "step {step}: {}", gaps[0]);
+        middle.push(gaps[gaps.len() / 2]);
+        widest.push(gaps[gaps.len() - 1]);
+    }
+    // From 6 cm to the thickness; contacts push after the seam, so that some are a little farther apart.
+    assert!((0.030..0.032).contains(&widest[75]), "{}", widest[75]);
+    for (middle, widest) in middle.iter().zip(&widest).skip(160) {
+        assert!(*middle < 1.15 * THICKNESS && *widest < 1.6 * THICKNESS, "{middle} {widest}");
+    }
+    assert!(simulation.is_certified() && simulation.contact_counts().unwrap().cuts == 0);
+}
+
+#[test]
+fn a_seam_without_a_time_holds_rows_as_they_lie_and_one_that_is_not_named_lets_them_fall_apart() {
+    let hung = |is_sewn: bool| {
+        let mut scene = Scene::new(panel("upper", 0.31 * DVec3::Z, [8, 8]), 2e-3);
+        scene.cloths.push(panel("lower", DVec3::ZERO, [8, 8]));
+        scene
+            .add(Gravity::default())
+            .add(Stretch::isotropic(300.0))
+            .add(Shear { stiffness: 60.0 });
+        scene.add(SelfCollision(Thickness::of(THICKNESS)));
+        let row = |cloth, part| scene.part(cloth, part).unwrap();
+        let [top, first, second] = [row("upper", "top"), row("upper", "bottom"), row("lower", "top")];
+        scene.add(Pins {
+            groups: vec![PinGroup::resting(top)],
+        });
+        if is_sewn {
+            scene.add(Seams {
+                seams: vec![Seam::of(first.clone(), second.clone())],
+            });
+        }
+        let mut simulation = Simulation::new(scene, 1).unwrap();
+        (0..300).for_each(|_| simulation.step().unwrap());
+        let at = |vertex: u32| simulation.positions()[vertex as usize];
+        let pairs = first.iter().zip(&second);
+        pairs.map(|(&a, &b)| at(a).distance(at(b))).fold(0.0, f64::max)
+    };
+    assert!((0.0099..0.0101).contains(&hung(true)), "{}", hung(true));
+    assert!(hung(false) > 1.0);
+}
+
+#[test]
+fn seams_have_the_same_bits_on_any_number_of_threads_and_resumed_while_they_close() {
+    let scene = || {
+        let mut scene = bag();
+        // Still open where it is resumed, after 0.4 s.
+        scene.add(Seams {
+            seams: SIDES
+                .map(|side| {
+                    let [first, second] = rows(&scene, side);
+                    Seam {
+                        closing: Some(0.6),
+                        gap: Some(0.004),
+                        ..Seam::of(first, second)
+                    }
+                })
+                .into(),
+        });
+        scene
+    };
+    let mut whole = Simulation::new(scene(), 1).unwrap();
+    (0..CHECKPOINT_STEPS).for_each(|_| whole.step().unwrap());
+    let mut resumed = Simulation::new(scene(), 2).unwrap();
+    resumed.resume(&whole.checkpoint().unwrap()).unwrap();
+    for _ in 0..150 {
+        whole.step().unwrap();
+        resumed.step().unwrap();
+    }
+    assert_eq!(whole.positions(), resumed.positions());
+}
+
+#[track_caller]
+fn of(change: impl FnOnce(&mut Seam)) -> String {
+    let mut scene = panels();
+    let [first, second] = rows(&scene, "left");
+    let mut seam = Seam::of(first, second);
+    change(&mut seam);
+    scene.add(Seams { seams: vec![seam] });
+    Simulation::new(scene, 1).unwrap_err().to_string()
+}
+
+#[test]
+fn wrong_seams_from_code_get_errors_that_say_what_would_be_right() {
+    let cases = [
+        (
+            of(|seam| seam.gap = Some(1e-3)),
+            "seams: `gap` is 0.001 m, but contact keeps 0.003 m between the two rows: take that or more, or none",
+        ),
+        (
+            of(|seam| seam.gap = Some(1.0)),
+            "seams: `gap` is 1 m, but must be from 0 m to 0.1 m",
+        ),
+        (
+            of(|seam| seam.closing = Some(0.0)),
+            "seams: `closing` is 0 s, but must be from 1e-6 s to 100000 s",
+        ),
+        (
+            of(|seam| seam.closing = Some(1e-4)),
+            "seams: the rows of the seam would close at 570 m/s, but must not at more than 100 m/s: take a longer `closing`",
+        ),
+        (
+            of(|seam| seam.first.truncate(1)),
+            "seams: a row of a seam needs two vertices or more, each at another place than the one before",
+        ),
+        (
+            of(|seam| seam.second.insert(0, seam.second[0])),
+            "seams: a row of a seam needs two vertices or more, each at another place than the one before",
+        ),
+        (
+            of(|seam| seam.second[1] = seam.first[1]),
+            "seams: vertex 11 is in both rows of a seam, but cannot be sewn to itself",
+        ),
+        (
+            of(|seam| seam.second[1] = 9999),
+            "seams: the scene has no vertex 9999 of cloth: it has 284, from 0 on",
+        ),
+    ];
+    for (found, expected) in cases {
+        assert_eq!(found, expected);
+    }
+    let mut scene = panels();
+    scene.add(Seams::default());
+    let none = Simulation::new(scene, 1).unwrap_err().to_string();
+    assert_eq!(none, "seams: seams need at least one [[effects.seams.seam]]");
+}
+
+const BAG: &str = r#"
+time_step = "2 ms"
+duration = "1 s"
+[[cloth]]
+name = "front"
+shape = "sheet"
+sides = { first = [0.2, 0, 0], second = [0, 0, 0.3] }
+cells = [10, 15]
+density = "150 g/m2"
+[[cloth]]
+name = "back"
+shape = "sheet"
+corner = [0.2, 0.06, 0.3]
+sides = { first = [-0.2, 0, 0], second = [0, 0, -0.3] }
+cells = [10, 15]
+density = "150 g/m2"
+[effects.gravity]
+[effects.stretch]
+stiffness = 300
+[[effects.seams.seam]]
+first = { cloth = "front", part = "left" }
+second = { cloth = "back", part = "right" }
+reversed = true
+gap = "4 mm"
+closing = "0.3 s"
+[effects.self_collision]
+thickness = "3 mm"
+"#;
+
+#[test]
+fn a_file_names_rows_by_cloth_and_part_and_reversed_where_they_run_against_each_other() {
+    let mut simulation = Simulation::new(Scene::parse(BAG, Path::new("bag.toml")).unwrap(), 1).unwrap();
+    (0..200).for_each(|_| simulation.step().unwrap());
+    // Of the front, row by row from below; of the back from above and from the right, so that its last vertex is the lower left one.
+    let [front, back] = [0, 1].map(|cloth| simulation.vertices_of_cloth(cloth).unwrap());
+    for row in 0..=15 {
+        let [a, b] = [front.start + 11 * row, back.end - 1 - 11 * row].map(|vertex| simulation.positions()[vertex]);
+        assert!(a.distance(b) < 5e-3, "{row}: {}", a.distance(b));
+    }
+}
+
+#[track_caller]
+fn message(passage: &str, by: &str) -> String {
+    assert_eq!(BAG.matches(passage).count(), 1, "'{passage}' must be there once");
+    let error = Scene::parse(&BAG.replacen(passage, by, 1), Path::new("s.toml")).unwrap_err();
+    error.to_string()
+}
+
+#[test]
+fn mistakes_with_seams_in_a_file_are_told_with_their_place() {
+    let cases = [
+        (
+            "first = { cloth = \"front\", part = \"left\" }\n",
+            "",
+            "s.toml:20:1: the scene has no [effects.seams.seam.first]",
+        ),
+        (
+            "{ cloth = \"front\", part = \"left\" }",
+            "{ cloth = \"front\" }",
+            "s.toml:21:9: a row of a seam needs either `part` or `vertices`",
+        ),
+        (
+            "part = \"left\"",
+            "part = \"lefft\"",
+            "s.toml:21:35: this cloth has no part 'lefft'; did you mean 'left'?",
+        ),
+        (
+            "part = \"left\"",
+            "vertices = [3, 176]",
+            "s.toml:21:43: `vertices` is 176, but must be from 0 to 175",
+        ),
+        (
+            "gap = \"4 mm\"",
+            "gap = \"4 N\"",
+            "s.toml:24:7: `gap` must be a length, and 'N' is no unit of it; choose from m, mm, cm",
+        ),
+        (
+            "reversed = true",
+            "reversed = 1",
+            "s.toml:23:12: `reversed` must be true or false, but is of type integer",
+        ),
+        (
+            "closing",
+            "close",
+            "s.toml:25:1: [effects.seams.seam] has no key 'close'; did you mean 'closing'?",
+        ),
+        (
+            "gap = \"4 mm\"",
+            "gap = \"2 mm\"",
+            "s.toml:20:11: `gap` is 0.002 m, but contact keeps 0.003 m between the two rows: take that or more, or none",
+        ),
+    ];
+    for (passage, by, expected) in cases {
+        assert_eq!(message(passage, by), expected);
+    }
+}
