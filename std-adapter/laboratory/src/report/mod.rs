@@ -4,6 +4,7 @@
 //!
 //! A simulation is handed over as a [`Recording`], which a [`Recorder`] makes.
 
+mod colours;
 mod comparison;
 mod csv;
 mod figure;

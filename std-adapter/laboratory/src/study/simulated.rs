@@ -1,8 +1,8 @@
 //! Steps of a simulation.
 
 use super::Frames;
-use selvedge::{Topology, TopologyError};
 use selvedge::glam::DVec3;
+use selvedge::{Topology, TopologyError};
 use selvedge_cloth::{Scene, Simulation};
 
 /// Some of a simulation's steps, evenly spread over it: its cloths alone, without bodies.

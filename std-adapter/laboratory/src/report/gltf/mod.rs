@@ -13,6 +13,7 @@ mod skinned;
 #[cfg(test)]
 mod tests;
 
+use super::colours::{CLOTHS, of_cloths};
 use super::recording::{Frame, Part, PartKind, Recording};
 use binary::Binary;
 use rigid::{Pose, poses};
@@ -41,8 +42,9 @@ pub fn binary(recording: &Recording) -> Result<Vec<u8>, TooLarge> {
     let mut binary = Binary::default();
     let (mut nodes, mut meshes) = (Vec::new(), Vec::new());
     let (mut deforming, mut rigid) = (Vec::new(), Vec::new());
-    let parts = recording.placed_parts();
-    for (first, part) in parts.filter(|(_, part)| !part.triangles().is_empty()) {
+    let colours = of_cloths(&recording.parts);
+    let parts = recording.placed_parts().zip(colours);
+    for ((first, part), colour) in parts.filter(|((_, part), _)| !part.triangles().is_empty()) {
         let vertices = first..first + part.vertex_count();
         let shape = |frame: &Frame| frame.positions[vertices.clone()].to_vec();
         let rest = shape(frames[0]);
@@ -61,6 +63,7 @@ pub fn binary(recording: &Recording) -> Result<Vec<u8>, TooLarge> {
         meshes.push(mesh(
             &mut binary,
             part,
+            colour,
             &rest,
             later.iter().map(|frame| (frame.step, shape(frame))),
             up,
@@ -78,7 +81,7 @@ pub fn binary(recording: &Recording) -> Result<Vec<u8>, TooLarge> {
         "scene": 0,
         "scenes": [{"name": recording.about.name, "nodes": [root]}],
         "nodes": nodes,
-        "materials": [CLOTH.json(), BODY.json()],
+        "materials": materials(&recording.parts),
     });
     if root == 0 {
         // A list of no children is not allowed.
@@ -111,6 +114,7 @@ fn chosen(frames: &[Frame]) -> Vec<&Frame> {
 fn mesh(
     binary: &mut Binary,
     part: &Part,
+    colour: Option<usize>,
     rest: &[[f32; 3]],
     later: impl Iterator<Item = (u64, Vec<[f32; 3]>)>,
     up: DVec3,
@@ -141,10 +145,8 @@ fn mesh(
     let mut primitive = json!({
         "attributes": attributes,
         "indices": indices,
-        "material": match part.kind() {
-            PartKind::Cloth => 0,
-            PartKind::Body => 1,
-        },
+        // That of bodies comes after the first cloth's.
+        "material": colour.map_or(1, |colour| if colour == 0 { 0 } else { colour + 1 }),
     });
     let mut mesh = json!({"name": part.name()});
     if !targets.is_empty() {
@@ -210,11 +212,19 @@ struct Material {
     both_sides: bool,
 }
 
-const CLOTH: Material = Material {
-    name: "cloth",
-    colour: [0.05, 0.18, 0.46],
-    both_sides: true,
-};
+/// Of cloths, as many as the recording has colours for, and after the first that of bodies.
+fn materials(parts: &[Part]) -> Vec<Value> {
+    let cloth = |colour: usize| Material {
+        name: ["cloth", "second cloth", "third cloth", "fourth cloth"][colour],
+        colour: CLOTHS[colour].map(|light| light as f32),
+        both_sides: true,
+    };
+    let last = of_cloths(parts).into_iter().flatten().max().unwrap_or(0);
+    let mut materials: Vec<_> = (0..=last).map(|colour| cloth(colour).json()).collect();
+    materials.insert(1, BODY.json());
+    materials
+}
+
 const BODY: Material = Material {
     name: "body",
     colour: [0.47, 0.41, 0.36],

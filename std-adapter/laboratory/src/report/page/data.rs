@@ -14,6 +14,7 @@
 //! So a position is off by at most half a 65,535th of the frame's extent, and by the rounding of f32.
 
 use super::measures::Shown;
+use crate::report::colours::of_cloths;
 use crate::report::label;
 use crate::report::recording::{Frame, PartKind, Recording, SeriesKind};
 use base64::Engine;
@@ -59,18 +60,22 @@ pub(super) fn blocks(recording: &Recording) -> Markup {
 
 /// What the blocks mean.
 fn header(recording: &Recording, measures: &[Shown<'_>]) -> Value {
-    let parts = recording.placed_parts().map(|(first, part)| {
-        json!({
-            "name": part.name(),
-            "kind": match part.kind() {
-                PartKind::Cloth => "cloth",
-                PartKind::Body => "body",
-            },
-            "firstVertex": first,
-            "vertices": part.vertex_count(),
-            "triangles": part.triangles().len(),
-        })
-    });
+    let parts = recording
+        .placed_parts()
+        .zip(of_cloths(&recording.parts))
+        .map(|((first, part), colour)| {
+            json!({
+                "name": part.name(),
+                "colour": colour,
+                "kind": match part.kind() {
+                    PartKind::Cloth => "cloth",
+                    PartKind::Body => "body",
+                },
+                "firstVertex": first,
+                "vertices": part.vertex_count(),
+                "triangles": part.triangles().len(),
+            })
+        });
     let series = recording.series.iter().map(|series| {
         let (kind, unit) = match series.kind {
             SeriesKind::Pairs => ("pairs", ""),

@@ -138,8 +138,13 @@ fn summary(recording: &Recording) -> String {
             [n + 1, vertices + part.vertex_count(), triangles + part.triangles().len()]
         })
     };
-    let [_, vertices, triangles] = count(PartKind::Cloth);
-    let mut summary = format!("Cloth of {} vertices and {} triangles", grouped(vertices), grouped(triangles));
+    let [n, vertices, triangles] = count(PartKind::Cloth);
+    let cloths = if n == 1 { "Cloth".to_owned() } else { format!("{n} cloths") };
+    let mut summary = format!(
+        "{cloths} of {} vertices and {} triangles",
+        grouped(vertices),
+        grouped(triangles)
+    );
     match count(PartKind::Body) {
         [0, ..] => {}
         [n, _, triangles] => {

@@ -2,13 +2,12 @@
 
 use super::raster::Raster;
 use super::stage::{Ray, Stage, Surface};
-use crate::report::recording::PartKind;
+use crate::report::colours::CLOTHS;
 use selvedge_core::glam::{DVec3, dvec3};
 
 type Colour = [f64; 3];
 
-/// Of the page's light theme, as linear light.
-const CLOTH: DVec3 = dvec3(0.046_1, 0.183, 0.467);
+/// Of the page's light theme, as linear light; the fronts of cloths are [`CLOTHS`].
 const LINING: DVec3 = dvec3(0.658, 0.332, 0.073_5);
 const BODY: DVec3 = dvec3(0.481, 0.412, 0.358);
 /// As they are shown.
@@ -78,11 +77,12 @@ impl Light {
         let outward = outward.try_normalize().unwrap_or_else(|| flat.normalize_or(DVec3::Y));
         let normal = if faces_eye { outward } else { -outward };
 
-        let is_cloth = surface.kinds[triangle] == PartKind::Cloth;
-        let base = match (is_cloth, faces_eye) {
-            (true, true) => CLOTH,
-            (true, false) => LINING,
-            (false, _) => BODY,
+        let cloth = surface.cloths[triangle];
+        let is_cloth = cloth.is_some();
+        let base = match (cloth, faces_eye) {
+            (Some(colour), true) => CLOTHS[colour].into(),
+            (Some(_), false) => LINING,
+            (None, _) => BODY,
         };
         let to_eye = -ray.direction.normalize();
         let facing = normal.dot(self.sun);

@@ -1,6 +1,7 @@
 //! Where things are: axes with y up, the middle of all motion at zero, and its radius one; and from where they are seen.
 
-use crate::report::recording::{PartKind, Recording};
+use crate::report::colours::of_cloths;
+use crate::report::recording::Recording;
 use selvedge_cloth::vertex_normals;
 use selvedge_core::glam::{DMat3, DVec3};
 
@@ -34,8 +35,8 @@ pub(super) struct Surface {
     pub(super) points: Vec<DVec3>,
     pub(super) normals: Vec<DVec3>,
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Of each triangle.
-    pub(super) kinds: Vec<PartKind>,
+    /// Of each triangle: the number of its colour if it is of cloth.
+    pub(super) cloths: Vec<Option<usize>>,
 }
 
 impl Stage {
@@ -82,14 +83,12 @@ impl Stage {
         let placed = |position: &[f32; 3]| (self.turn * DVec3::from(position.map(f64::from)) - self.middle) / self.radius;
         let points: Vec<DVec3> = positions.map(placed).collect();
         let triangles = recording.mesh(frame).triangles;
-        let kinds = recording
-            .parts
-            .iter()
-            .flat_map(|part| std::iter::repeat_n(part.kind(), part.triangles().len()));
+        let colours = recording.parts.iter().zip(of_cloths(&recording.parts));
+        let cloths = colours.flat_map(|(part, colour)| std::iter::repeat_n(colour, part.triangles().len()));
         let mut normals = Vec::new();
         vertex_normals(&points, &triangles, &mut normals);
         Surface {
-            kinds: kinds.collect(),
+            cloths: cloths.collect(),
             points,
             normals,
             triangles,

@@ -123,7 +123,7 @@ function createViewer(canvas, recording, onChange) {
     gl.uniform1f(surface.at("lift"), 0.008 * scene.radius);
     eachPart((part, first) => {
       const isCloth = part.kind === "cloth";
-      gl.uniform3fv(surface.at("front"), isCloth ? colours.cloth : colours.body);
+      gl.uniform3fv(surface.at("front"), isCloth ? colours.cloths[part.colour] : colours.body);
       gl.uniform3fv(surface.at("back"), isCloth ? colours.lining : colours.body);
       gl.uniform1f(surface.at("sheen"), isCloth ? 1 : 0);
       gl.drawElements(gl.TRIANGLES, 3 * part.triangles, gl.UNSIGNED_INT, 12 * first);
@@ -396,7 +396,8 @@ function themeColours(canvas) {
     const hex = style.getPropertyValue(name).trim().slice(1);
     return [0, 2, 4].map((i) => (parseInt(hex.slice(i, i + 2), 16) / 255) ** 2.2);
   };
-  return { cloth: linear("--cloth"), lining: linear("--lining"), body: linear("--body"), grid: linear("--grid") };
+  const cloths = [0, 1, 2, 3].map((colour) => linear(`--cloth-${colour}`));
+  return { cloths, lining: linear("--lining"), body: linear("--body"), grid: linear("--grid") };
 }
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
