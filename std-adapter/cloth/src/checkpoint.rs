@@ -1,12 +1,13 @@
 //! The state of a simulation as bytes, and what it has measured so far.
 
-use super::contact::{ContactCounts, ContactSeconds};
+use super::contact::{ContactCounts, ContactSeconds, PairKey};
 use super::state::State;
 use super::world::Placement;
+use selvedge::PairKind;
 use selvedge_core::glam::{DQuat, DVec3};
 use selvedge_files::bytes::Reader;
 
-const MAGIC: &[u8; 16] = b"selvedge state 2";
+const MAGIC: &[u8; 16] = b"selvedge state 3";
 
 /// Bytes from which a simulation cannot go on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -28,6 +29,8 @@ pub(super) struct Checkpoint {
     pub(super) state: State,
     /// Of each body; none without contact.
     pub(super) yielding: Vec<bool>,
+    /// Of what was tangled at the start and is not apart yet, pairs that do not meet any more; `None` if all is apart.
+    pub(super) parting: Option<Vec<PairKey>>,
     /// Seconds of each effect.
     pub(super) effects: Vec<f64>,
     /// Of what the caller moves, unless it was moved point by point.
@@ -57,6 +60,14 @@ impl Checkpoint {
         let numbers = vectors.flat_map(|vector| vector.to_array());
         bytes.extend(numbers.flat_map(f64::to_le_bytes));
         bytes.extend(self.yielding.iter().map(|&yields| u8::from(yields)));
+        bytes.push(u8::from(self.parting.is_some()));
+        if let Some(parting) = &self.parting {
+            bytes.extend((parting.len() as u64).to_le_bytes());
+            for (kind, pair) in parting {
+                bytes.push(u8::from(*kind == PairKind::EdgeEdge));
+                bytes.extend(pair.iter().flat_map(|feature| u64::from(*feature).to_le_bytes()));
+            }
+        }
         bytes.extend(self.effects.iter().flat_map(|x| x.to_le_bytes()));
         for placement in &self.placements {
             bytes.push(u8::from(placement.is_some()));
@@ -111,6 +122,13 @@ impl Checkpoint {
         };
         let (positions, velocities) = (vectors()?, vectors()?);
         let yielding = reader.bytes(sizes.yielding)?;
+        let parting = match flag(reader)? {
+            true => {
+                let count = reader.u64()?;
+                Some((0..count).map(|_| pair(reader)).collect::<Option<_>>()?)
+            }
+            false => None,
+        };
         let effects: Option<Vec<_>> = (0..sizes.effects).map(|_| reader.f64()).collect();
         let placements: Option<Vec<_>> = (0..sizes.placements).map(|_| placement(reader)).collect();
         Some(Self {
@@ -124,6 +142,7 @@ impl Checkpoint {
             yielding: { yielding.iter() }
                 .map(|&byte| (byte <= 1).then_some(byte == 1))
                 .collect::<Option<_>>()?,
+            parting,
             effects: effects?,
             placements: placements?,
             counts: ContactCounts {
@@ -145,12 +164,26 @@ impl Checkpoint {
     }
 }
 
+fn flag(reader: &mut Reader<'_>) -> Option<bool> {
+    match reader.bytes(1)? {
+        [flag @ (0 | 1)] => Some(*flag == 1),
+        _ => None,
+    }
+}
+
+fn pair(reader: &mut Reader<'_>) -> Option<PairKey> {
+    let kind = if flag(reader)? {
+        PairKind::EdgeEdge
+    } else {
+        PairKind::VertexFace
+    };
+    let mut feature = || u32::try_from(reader.u64()?).ok();
+    Some((kind, [feature()?, feature()?]))
+}
+
 /// Whether there is one, and its numbers.
 fn placement(reader: &mut Reader<'_>) -> Option<Option<Placement>> {
-    let is_there = match reader.bytes(1)? {
-        [is_there @ (0 | 1)] => *is_there == 1,
-        _ => return None,
-    };
+    let is_there = flag(reader)?;
     let mut numbers = [0.0; 7];
     for number in &mut numbers {
         *number = reader.f64()?;
@@ -186,6 +219,7 @@ mod tests {
                 velocities: vec![DVec3::Y, DVec3::splat(f64::MIN_POSITIVE)],
             },
             yielding: vec![true, false],
+            parting: Some(vec![(PairKind::VertexFace, [1, 0]), (PairKind::EdgeEdge, [0, 2])]),
             effects: vec![0.25],
             placements: vec![Some(Placement::at(DVec3::Y)), None],
             counts: ContactCounts {

@@ -49,17 +49,20 @@ mod step;
 mod world;
 
 pub use checkpoint::CheckpointError;
-pub use contact::{Blocker, ContactCounts, ContactSeconds, NearPair};
+pub use contact::{Blocker, ContactCounts, ContactSeconds, Crossing, NearPair};
 pub use effects::effect_names;
 pub use energy::{Energy, StoredEnergy};
 pub use input::{SceneError, ValueError};
 pub use normals::vertex_normals;
-pub use scene::{OnBlocked, Scene};
+pub use scene::{OnBlocked, Scene, TangledStart};
 pub use selvedge::Mesh;
 pub use selvedge_core::glam;
 /// Readers of meshes, numbered frames and figures: what [`Animation`]s are made of.
 pub use selvedge_files as files;
-pub use simulator::{Blocked, CHECKPOINT_STEPS, DriveError, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation};
+pub use simulator::{
+    Blocked, CHECKPOINT_STEPS, DriveError, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation, Tangled, Untangled,
+    Untangling,
+};
 pub use world::{Animation, Body, Cloth, Keyframe, Motion, Placement, RigidMotion};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].

@@ -48,6 +48,19 @@ pub enum OnBlocked {
     Yield,
 }
 
+/// What to do when edges pass through faces where the simulation starts: of the cloth with itself or with bodies, as far as effects are
+/// to keep them apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TangledStart {
+    /// Do not start, and tell where.
+    #[default]
+    Refuse,
+    /// What meets leaves the promise until it is apart; see [`Simulation::crossings`](crate::Simulation::crossings).
+    Tolerate,
+    /// Pull it apart before the first step, or tell what is left; see [`Simulation::untangled`](crate::Simulation::untangled).
+    Untangle,
+}
+
 /// A scene: cloths, bodies and effects. Read from a file, or made in code:
 ///
 /// ```
@@ -92,6 +105,8 @@ pub struct Scene {
     pub text: String,
     /// What to do when the cloth cannot go on.
     pub on_blocked: OnBlocked,
+    /// What to do when surfaces pass through each other at the start.
+    pub tangled_start: TangledStart,
     /// The effects called for, in the order in which they run.
     pub(crate) effects: Effects,
 }
@@ -119,6 +134,7 @@ impl Scene {
             up: DVec3::Z,
             text: String::new(),
             on_blocked: OnBlocked::default(),
+            tangled_start: TangledStart::default(),
             effects: Effects::default(),
         }
     }
@@ -178,7 +194,8 @@ impl Scene {
             check_name("bodies", self.bodies[..index].iter().map(|other| &other.name), &body.name)?;
             body.check(self.time_step)?;
         }
-        self.called().check(&self.parts()?).map_err(|wrong| wrong.error)
+        self.called().check(&self.parts()?).map_err(|wrong| wrong.error)?;
+        check_start(self.tangled_start, &self.called().names())
     }
 
     /// The effects that the scene calls for, in the order in which they run.
@@ -270,7 +287,7 @@ impl Scene {
         let mut fingerprint = Fingerprint::default();
         let mut take = |bytes: &[u8]| fingerprint.take(bytes);
         take(self.text.as_bytes());
-        take(format!("{:?}", (self.time_step, self.on_blocked, &self.effects)).as_bytes());
+        take(format!("{:?}", (self.time_step, self.on_blocked, self.tangled_start, &self.effects)).as_bytes());
         for Cloth {
             name,
             density,
@@ -295,6 +312,21 @@ impl Scene {
         fingerprint.value()
     }
 }
+
+/// What nobody keeps apart is not tangled.
+fn check_start(start: TangledStart, effects: &[&str]) -> Result<(), ValueError> {
+    let has_contact = effects
+        .iter()
+        .any(|effect| ["self_collision", "body_contact"].contains(effect));
+    if start == TangledStart::Refuse || has_contact {
+        return Ok(());
+    }
+    let message =
+        "`tangled_start` has nothing to act on: it needs [effects.self_collision] or [effects.body_contact] in the scene";
+    Err(ValueError::new(START, message.to_owned()))
+}
+
+const START: &str = "tangled_start";
 
 /// Adds a mesh to others; returns its vertices among all.
 pub(crate) fn append(all: &mut Mesh, mesh: &Mesh) -> Range<usize> {

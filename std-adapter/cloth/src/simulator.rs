@@ -10,20 +10,25 @@
 //! [`FASTEST`].
 
 mod drive;
+mod tangled;
+mod untangle;
 
 pub use drive::DriveError;
+pub use tangled::Tangled;
+pub use untangle::{Untangled, Untangling};
 
 use super::checkpoint::{Checkpoint, CheckpointError, Sizes};
-use super::contact::{Blocker, ContactCounts, ContactSeconds, ContactSolver, LARGEST_TURN, NearPair};
+use super::contact::{Blocker, ContactCounts, ContactSeconds, ContactSolver, Crossing, LARGEST_TURN, NearPair};
 use super::energy::{Configuration, Energy};
+use super::hierarchy::mesh_spacing;
 use super::input::ValueError;
 use super::plan::{Entry, Plan};
-use super::scene::{OnBlocked, Scene, append};
+use super::scene::{OnBlocked, Scene, TangledStart, append};
 use super::state::State;
 use super::step::{Carrier, Constraint, FREE, Force, TimeStep, Touches};
 use super::world::{Driven, Kinematic, Pose};
 use selvedge::verification::parallel::Workers;
-use selvedge::{Mesh, TopologyError};
+use selvedge::{Mesh, StepError, TopologyError};
 use selvedge::{ThreadError, Threads};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
@@ -68,11 +73,14 @@ pub struct Simulation {
     friction: Vec<Entry<dyn Constraint>>,
     effects: Vec<EffectTime>,
     on_blocked: OnBlocked,
+    tangled_start: TangledStart,
     body_names: Vec<String>,
     body_vertices: Vec<Range<usize>>,
     threads: Workers,
     state: State,
     work: Work,
+    /// Before the first step.
+    untangled: Option<Untangled>,
 }
 
 /// Filled anew in each step.
@@ -126,9 +134,12 @@ pub enum SetupError {
     /// Something in the scene cannot be.
     #[error(transparent)]
     Value(#[from] ValueError),
-    /// The scene starts with an intersection, which no certificate can end.
-    #[error("the scene starts with an intersection: {0} touches")]
-    Touching(String),
+    /// The scene starts with surfaces that pass through each other, which no certificate can end.
+    #[error(transparent)]
+    Tangled(Box<Tangled>),
+    /// A position is not finite.
+    #[error(transparent)]
+    Positions(#[from] StepError),
     /// The operating system refused the threads.
     #[error(transparent)]
     Threads(#[from] ThreadError),
@@ -146,6 +157,14 @@ impl Simulation {
     /// # Errors
     /// If something in the scene cannot be, it starts with an intersection, or the operating system refuses the threads.
     pub fn new(scene: Scene, threads: usize) -> Result<Self, SetupError> {
+        Self::new_telling(scene, threads, &mut |_| ())
+    }
+
+    /// The same, and tells how untangling goes, before each of its steps, if the scene is [to be untangled](TangledStart::Untangle).
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn new_telling(scene: Scene, threads: usize, tell: &mut (dyn FnMut(Untangling) + Send)) -> Result<Self, SetupError> {
         scene.check()?;
         let fingerprint = scene.fingerprint();
         let threads = Workers::new(Threads::from_count(threads))?;
@@ -169,6 +188,7 @@ impl Simulation {
             bodies,
             time_step,
             on_blocked,
+            tangled_start,
             ..
         } = scene;
         let mut all = Mesh::default();
@@ -214,14 +234,26 @@ impl Simulation {
         let mut contact = ContactSolver::new(contact, &triangles, &rest, &carriers, cloth_vertices, bodies.len())?;
         if let Some(contact) = &mut contact {
             begin_anew(contact, &state, time_step);
-            if let Some(pair) = contact.first_touching(&state.positions) {
-                return Err(SetupError::Touching(pair));
+            let found = contact.tolerate(&state.positions)?;
+            if !found.is_empty() && tangled_start == TangledStart::Refuse {
+                return Err(SetupError::Tangled(Box::new(Tangled {
+                    crossings: found,
+                    mesh: Mesh {
+                        positions: state.positions,
+                        triangles,
+                    },
+                    cloth_triangles,
+                    body_names: bodies.into_iter().map(|body| body.name).collect(),
+                    untangled: None,
+                })));
             }
         }
-        Ok(Self {
+        let spacing = cloths.iter().map(mesh_spacing).fold(f64::INFINITY, f64::min);
+        let mut simulation = Self {
             name,
             time_step,
             on_blocked,
+            tangled_start,
             body_vertices,
             pins,
             body_names: bodies.into_iter().map(|body| body.name).collect(),
@@ -250,7 +282,13 @@ impl Simulation {
             carriers,
             rest,
             carried,
-        })
+            untangled: None,
+        };
+        if tangled_start == TangledStart::Untangle && !simulation.is_apart() {
+            let untangled = simulation.untangle(spacing, tell);
+            simulation.check_untangled(untangled)?;
+        }
+        Ok(simulation)
     }
 
     /// The scene's name.
@@ -394,12 +432,38 @@ impl Simulation {
         self.state.blocked_steps
     }
 
+    /// Edges that meet faces now although effects are to keep them apart, of a scene that starts tangled and
+    /// [tolerates](TangledStart::Tolerate) that; empty for good once all is apart.
+    #[must_use]
+    pub fn crossings(&self) -> &[Crossing] {
+        self.contact.as_ref().map_or(&[], |contact| contact.exempt().crossings())
+    }
+
+    /// How many pairs have left the promise since the start: those about [`crossings`](Self::crossings), and those that are not apart by their
+    /// separation yet.
+    #[must_use]
+    pub fn tolerated_pairs(&self) -> usize {
+        self.contact.as_ref().map_or(0, |contact| contact.tolerated_pairs())
+    }
+
+    /// What the scene wants of a tangled start.
+    #[must_use]
+    pub fn tangled_start(&self) -> TangledStart {
+        self.tangled_start
+    }
+
+    /// What was untangled before the first step; `None` if nothing was.
+    #[must_use]
+    pub fn untangled(&self) -> Option<&Untangled> {
+        self.untangled.as_ref()
+    }
+
     /// Whether the state is certified to be free of intersections of whatever the scene's contact effects name: not without any,
-    /// and not while a body is let pass.
+    /// not while a body is let pass, and not while what was tangled at the start is tolerated.
     #[must_use]
     pub fn is_certified(&self) -> bool {
         let contact = self.contact.as_ref();
-        contact.is_some_and(|contact| !contact.yielding().contains(&true))
+        contact.is_some_and(|contact| contact.exempt().is_empty())
     }
 
     /// How far bodies and pins are behind their keyframes, in seconds.
@@ -485,7 +549,8 @@ impl Simulation {
             ..Checkpoint::default()
         };
         if let Some(contact) = &self.contact {
-            checkpoint.yielding = contact.yielding().to_vec();
+            checkpoint.yielding = contact.exempt().yielding.clone();
+            checkpoint.parting = contact.exempt().parting().map(<[_]>::to_vec);
             (checkpoint.counts, checkpoint.stages) = (contact.counts, contact.stages);
         }
         Some(checkpoint.write(self.fingerprint))
@@ -498,12 +563,16 @@ impl Simulation {
     pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), CheckpointError> {
         let sizes = Sizes {
             vertices: self.state.positions.len(),
-            yielding: self.contact.as_ref().map_or(0, |c| c.yielding().len()),
+            yielding: self.contact.as_ref().map_or(0, |c| c.exempt().yielding.len()),
             effects: self.effects.len(),
             placements: self.driven().count(),
         };
         let checkpoint = Checkpoint::read(checkpoint, self.fingerprint, sizes)?;
         if let Some(contact) = &mut self.contact {
+            let positions = &checkpoint.state.positions;
+            if !contact.set_parting(checkpoint.parting.as_deref(), positions) {
+                return Err(CheckpointError::Damaged);
+            }
             contact.set_yielding(&checkpoint.yielding);
             begin_anew(contact, &checkpoint.state, self.time_step);
             (contact.counts, contact.stages) = (checkpoint.counts, checkpoint.stages);

@@ -1,12 +1,12 @@
 //! Which pairs contact looks at: [near pairs](NearPairs) of cloth with itself and with bodies, good for several steps.
 
 use super::candidate::OfPair;
+use super::crossing::{Crossing, CrossingFinder, PairKey};
 use super::neighbours::{Neighbours, are_many, at_rest};
 use super::settings::{ContactSettings, MARGIN, Thickness};
-use super::start::first_crossing;
 use crate::step::{Carrier, FREE};
 use selvedge::verification::{Interest, NearPairs, Reach};
-use selvedge::{PairKind, Topology, TopologyError};
+use selvedge::{Intersection, PairKind, Topology, TopologyError};
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
@@ -121,19 +121,42 @@ impl Interest for OfContact {
 }
 
 impl OfContact {
-    /// An edge that passes through a face, of those that are to be kept apart; in words.
-    pub(super) fn first_crossing(&self, positions: &[DVec3]) -> Option<String> {
-        first_crossing(&self.topology, positions, |a, b| self.body_of_pair(a, b).is_some())
+    /// Of all primitives, the cloth's first.
+    pub(super) fn topology(&self) -> &Arc<Topology> {
+        &self.topology
+    }
+
+    /// Whether there is such a pair.
+    pub(super) fn has(&self, (kind, [first, second]): &PairKey) -> bool {
+        let edges = self.topology.edges().len();
+        let [firsts, seconds] = match kind {
+            PairKind::VertexFace => [self.topology.vertex_count(), self.topology.triangles().len()],
+            PairKind::EdgeEdge => [edges, edges],
+        };
+        (*first as usize) < firsts && (*second as usize) < seconds
+    }
+
+    /// What two primitives are that meet.
+    pub(super) fn crossing(&self, intersection: &Intersection, positions: &[DVec3]) -> Crossing {
+        let crossing = Crossing::new(&self.topology, intersection, positions);
+        let body = self.body_of_pair(crossing.edge[0], crossing.face[0]);
+        Crossing {
+            body: body.filter(|&body| body != FREE).map(|body| body as usize),
+            ..crossing
+        }
     }
 
     /// Whether an edge of the cloth passes through a face of a body, or the other way round.
     pub(super) fn passes_through(&self, body: Carrier, positions: &[DVec3]) -> bool {
-        first_crossing(&self.topology, positions, |a, b| self.body_of_pair(a, b) == Some(body)).is_some()
+        let found = CrossingFinder::new(&self.topology);
+        let is_of_body = |a, b| self.body_of_pair(a, b) == Some(body);
+        // Where that cannot be asked, nothing is known to be apart.
+        { found }.find(positions, is_of_body).map_or(true, |found| !found.is_empty())
     }
 
     /// The body of two vertices that are to be kept apart, [`FREE`] for cloth and cloth; `None` if nobody asked for that.
     #[inline(always)]
-    fn body_of_pair(&self, one: u32, other: u32) -> Option<Carrier> {
+    pub(super) fn body_of_pair(&self, one: u32, other: u32) -> Option<Carrier> {
         match (self.body(one), self.body(other)) {
             (FREE, FREE) if self.cloth => Some(FREE),
             (FREE, body) | (body, FREE) if body != FREE && self.bodies => Some(body),
@@ -142,7 +165,7 @@ impl OfContact {
     }
 
     /// The body of a vertex; [`FREE`] for cloth, pinned or not.
-    fn body(&self, vertex: u32) -> Carrier {
+    pub(super) fn body(&self, vertex: u32) -> Carrier {
         match vertex as usize {
             vertex if vertex < self.cloth_vertices => FREE,
             vertex => self.carriers[vertex],

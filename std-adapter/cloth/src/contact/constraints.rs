@@ -3,9 +3,11 @@
 //! A constraint is C = n·Σwᵢxᵢ − h ≥ 0 with the direction n and the weights w of the closest points at the start of the step. A pair that
 //! starts nearer than that comes apart at [`RECOVERY`] at most, whatever the length of the step: a push must not become a
 //! velocity. On a fine mesh neighbours at rest may be nearer than the thickness; such a pair's is at most half its distance at rest,
-//! or the mesh would lock, and [less](super::neighbours).
+//! or the mesh would lock, and [less](super::neighbours). What was tangled has no such distance at rest: it comes
+//! apart to at least the thickness of neighbours.
 
 use super::candidate::Candidate;
+use super::exempt::Exempt;
 use super::neighbours::{are_neighbours, at_rest};
 use super::settings::{ContactSettings, MARGIN, RECOVERY, Thickness};
 use crate::step::{TimeStep, Touch, Touches};
@@ -32,13 +34,22 @@ pub struct NearPair {
     pub thickness: f64,
 }
 
+/// What is asked of pairs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rules<'a> {
+    pub(super) settings: &'a ContactSettings,
+    /// Those that are not pushed: what is tangled.
+    pub(super) exempt: &'a Exempt,
+    /// Of each vertex, for the thickness that neighbours can have.
+    pub(super) rest: &'a [DVec3],
+}
+
 /// Replaces `constraints` by those of the pairs that are near at the start of the step, and that the direction which kept them apart
 /// there does not keep at their thickness at its predicted end.
 pub(super) fn collect(
     constraints: &mut Vec<ContactConstraint>,
     pairs: &mut [Candidate],
-    settings: &ContactSettings,
-    rest: &[DVec3],
+    rules: Rules<'_>,
     [start, predicted]: [&[DVec3]; 2],
     h: f64,
     error: GapError<f64>,
@@ -48,7 +59,7 @@ pub(super) fn collect(
         pairs,
         |_, pairs, constraints: &mut Vec<ContactConstraint>| {
             let near = pairs.iter_mut();
-            constraints.extend(near.filter_map(|pair| constraint(pair, settings, rest, [start, predicted], h, error)));
+            constraints.extend(near.filter_map(|pair| constraint(pair, rules, [start, predicted], h, error)));
         },
         constraints,
         |all, own| all.extend(own),
@@ -59,13 +70,15 @@ pub(super) fn collect(
 #[inline(always)]
 fn constraint(
     pair: &mut Candidate,
-    settings: &ContactSettings,
-    rest: &[DVec3],
+    rules: Rules<'_>,
     [start, predicted]: [&[DVec3]; 2],
     h: f64,
     error: GapError<f64>,
 ) -> Option<ContactConstraint> {
-    let own = settings.of(pair)?;
+    let own = rules.settings.of(pair)?;
+    if rules.exempt.is_tangled(pair) {
+        return None;
+    }
     // The pair's own, once it is known.
     let aim = match f64::from(pair.data.thickness) {
         0.0 => own.thickness,
@@ -82,7 +95,7 @@ fn constraint(
         return None;
     }
     if pair.data.thickness == 0.0 {
-        pair.data.thickness = thickness_of(pair, settings, own, rest) as f32;
+        pair.data.thickness = thickness_of(pair, rules, own) as f32;
     }
     Some(ContactConstraint {
         pair: NearPair {
@@ -96,7 +109,8 @@ fn constraint(
 }
 
 /// The thickness that a pair can have: the one that is asked for, but for neighbours in one cloth.
-fn thickness_of(pair: &Candidate, settings: &ContactSettings, asked: Thickness, rest: &[DVec3]) -> f64 {
+fn thickness_of(pair: &Candidate, rules: Rules<'_>, asked: Thickness) -> f64 {
+    let Rules { settings, exempt, rest } = rules;
     let Thickness { thickness, .. } = asked;
     let [one, .., other] = pair.vertices;
     if pair.data.is_with_body() || !settings.are_of_one_cloth(one, other) {
@@ -108,7 +122,12 @@ fn thickness_of(pair: &Candidate, settings: &ContactSettings, asked: Thickness, 
     } else {
         thickness
     };
-    own.min(0.5 * pair.closest(rest).distance())
+    let own = own.min(0.5 * pair.closest(rest).distance());
+    if exempt.is_parting(pair) {
+        own.max(asked.of_neighbours())
+    } else {
+        own
+    }
 }
 
 /// The pairs that constraints are on.

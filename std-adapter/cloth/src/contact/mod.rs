@@ -9,7 +9,10 @@
 //! | `pass` | no step is accepted that is not certified |
 //! | `relaxation`, `impact_zones`, `truncation` | what is done about a step that is not |
 //! | `solver` | all of it, as the simulation calls it |
-//! | `start` | whether triangles pass through each other where a simulation starts |
+//! | `crossing` | where surfaces pass through each other |
+//! | `exempt` | what has left the promise: bodies that were let pass, what was tangled where the simulation started |
+//! | `contours`, `sides`, `incidence` | which way to go for what is tangled to come apart |
+//! | `untangling` | that, as the simulation calls it before its first step |
 //! | `report` | what was counted, what it took, what was in the way |
 //!
 //! Pairs may be left out of forces, never out of certificates: neighbours on the mesh are pairs like any other.
@@ -17,17 +20,24 @@
 mod candidate;
 mod candidates;
 mod constraints;
+mod contours;
+mod crossing;
+mod exempt;
 mod impact_zones;
+mod incidence;
 mod neighbours;
 mod pass;
 mod relaxation;
 mod report;
 mod settings;
+mod sides;
 mod solver;
-mod start;
 mod truncation;
+mod untangling;
 
 pub use constraints::NearPair;
+pub use crossing::Crossing;
+pub(crate) use crossing::PairKey;
 pub(crate) use pass::LARGEST_TURN;
 pub use report::{Blocker, ContactCounts, ContactSeconds};
 pub use settings::Thickness;

@@ -73,7 +73,7 @@ impl ContactSolver {
         let Self {
             candidates,
             settings,
-            yielding,
+            exempt,
             error,
             ..
         } = self;
@@ -82,7 +82,7 @@ impl ContactSolver {
             &mut candidates.list,
             |first, pairs, looked_at: &mut LookedAt| {
                 for (index, pair) in pairs.iter_mut().enumerate() {
-                    let Some(separation) = settings.separation(pair, yielding) else {
+                    let Some(separation) = settings.separation(pair, exempt) else {
                         pair.forget_gap();
                         continue;
                     };
@@ -217,7 +217,7 @@ impl ContactSolver {
     }
 
     pub(super) fn separation(&self, pair: &Candidate) -> Option<f64> {
-        self.settings.separation(pair, &self.yielding)
+        self.settings.separation(pair, &self.exempt)
     }
 }
 

@@ -1,6 +1,7 @@
 //! What effects ask of contact.
 
 use super::candidate::Candidate;
+use super::exempt::Exempt;
 
 /// What the effects ask for.
 #[derive(Clone, Debug, Default)]
@@ -134,10 +135,10 @@ impl ContactSettings {
         }
     }
 
-    /// The separation that a pair is asked to keep; `None` if none is promised, as while its body is `yielding`.
+    /// The separation that a pair is asked to keep; `None` if none is promised, as while it is `exempt`.
     #[inline(always)]
-    pub(super) fn separation(&self, pair: &Candidate, yielding: &[bool]) -> Option<f64> {
-        if pair.data.is_with_body() && yielding[pair.data.body as usize] {
+    pub(super) fn separation(&self, pair: &Candidate, exempt: &Exempt) -> Option<f64> {
+        if exempt.has(pair) {
             return None;
         }
         self.of(pair).map(|thickness| thickness.separation)

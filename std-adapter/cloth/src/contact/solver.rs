@@ -2,13 +2,15 @@
 
 use super::candidate::{Candidate, time_of_impact_of};
 use super::candidates::{Candidates, candidates};
-use super::constraints::{self, ContactConstraint, NearPair};
+use super::constraints::{self, ContactConstraint, NearPair, Rules};
+use super::crossing::{Crossing, PairKey};
+use super::exempt::{Exempt, Tangle};
 use super::impact_zones::ImpactZones;
 use super::relaxation::Relaxation;
-use super::report::{ContactCounts, ContactSeconds, described};
+use super::report::{ContactCounts, ContactSeconds};
 use super::settings::ContactSettings;
 use crate::step::{Carrier, TimeStep, Touches};
-use selvedge::TopologyError;
+use selvedge::{StepError, TopologyError};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
@@ -23,15 +25,17 @@ pub(crate) struct ContactSolver {
     /// Of each vertex: whose motion it follows.
     pub(super) carriers: Vec<Carrier>,
     /// Of each vertex, for the thickness that neighbours can have.
-    rest: Vec<DVec3>,
+    pub(super) rest: Vec<DVec3>,
     /// Of gaps between positions of this step.
     pub(super) error: GapError<f64>,
     constraints: Vec<ContactConstraint>,
     pub(super) moved: Vec<bool>,
     pub(super) relaxation: Relaxation,
     pub(super) zones: ImpactZones,
-    /// Bodies whose pairs have left the promise.
-    pub(super) yielding: Vec<bool>,
+    /// What has left the promise.
+    pub(super) exempt: Exempt,
+    /// Whether contacts push; not while what is tangled is pulled apart, as they would push to the side where it must not stay.
+    pub(super) pushes: bool,
     pub(crate) counts: ContactCounts,
     pub(crate) stages: ContactSeconds,
 }
@@ -59,7 +63,8 @@ impl ContactSolver {
             moved: vec![false; rest.len()],
             relaxation: Relaxation::default(),
             zones: ImpactZones::default(),
-            yielding: vec![false; bodies],
+            exempt: Exempt::new(bodies),
+            pushes: true,
             counts: ContactCounts::default(),
             stages: ContactSeconds::default(),
         }))
@@ -72,25 +77,40 @@ impl ContactSolver {
         self.stages.candidates += begin.elapsed().as_secs_f64();
     }
 
-    /// The first pair that touches, after [`refresh`](Self::refresh), or the first edge that passes through a face.
-    pub(crate) fn first_touching(&self, positions: &[DVec3]) -> Option<String> {
+    /// Where edges meet faces after [`refresh`](Self::refresh), and pairs that are nearer than rounding can tell. From here on they have left the
+    /// promise, each until it is apart, with [those about it](super::exempt).
+    ///
+    /// # Errors
+    /// If a position is not finite.
+    pub(crate) fn tolerate(&mut self, positions: &[DVec3]) -> Result<Vec<Crossing>, StepError> {
+        let mut tangle = Tangle::new(self.candidates.interest(), positions.len());
         let error = gap_error(positions, positions);
-        let touching = self.candidates.list.iter().find(|pair| {
+        let touches = |pair: &&Candidate| {
             pair.distance_from_below(positions, error) == 0.0 && time_of_impact_of(pair, [positions, positions], 0.0).is_some()
-        });
-        touching
-            .map(|pair| described(pair.kind, pair.vertices))
-            .or_else(|| self.candidates.interest().first_crossing(positions))
+        };
+        let touching: Vec<&Candidate> = self.candidates.list.iter().filter(touches).collect();
+        let parting = touching.iter().map(|pair| pair.key()).collect();
+        tangle.look(self.candidates.interest(), parting, positions)?;
+        let mut crossings = tangle.crossings().to_vec();
+        let besides = touching.into_iter().filter(|pair| !tangle.links(pair));
+        crossings.extend(besides.map(|pair| Crossing::of_touching(pair, positions)));
+        self.exempt.tangle = (!tangle.is_empty()).then_some(tangle);
+        Ok(crossings)
     }
 
     /// Sets up the contacts of a step of `h` seconds that so far leads to `predicted`.
     pub(crate) fn prepare(&mut self, start: &[DVec3], predicted: &[DVec3], h: f64) {
         let begin = Instant::now();
         self.error = gap_error(start, predicted);
+        if !self.pushes {
+            self.constraints.clear();
+            return;
+        }
         let Self {
             constraints,
             candidates,
             settings,
+            exempt,
             rest,
             error,
             ..
@@ -98,8 +118,7 @@ impl ContactSolver {
         constraints::collect(
             constraints,
             &mut candidates.list,
-            settings,
-            rest,
+            Rules { settings, exempt, rest },
             [start, predicted],
             h,
             *error,
@@ -117,35 +136,68 @@ impl ContactSolver {
         constraints::near_pairs(&self.constraints)
     }
 
-    /// Takes a body's pairs out of the promise until it is apart from the cloth.
-    pub(crate) fn let_pass(&mut self, body: usize) {
-        self.yielding[body] = true;
+    /// How many pairs of a tangle have left the promise, of those that the last step looked at.
+    pub(crate) fn tolerated_pairs(&self) -> usize {
+        let count = |tangle: &Tangle| self.candidates.list.iter().filter(|pair| tangle.has(pair)).count();
+        self.exempt.tangle.as_ref().map_or(0, count)
     }
 
-    /// Of each body, whether its pairs have left the promise.
-    pub(crate) fn yielding(&self) -> &[bool] {
-        &self.yielding
+    /// Takes a body's pairs out of the promise until it is apart from the cloth.
+    pub(crate) fn let_pass(&mut self, body: usize) {
+        self.exempt.yielding[body] = true;
+    }
+
+    /// What has left the promise.
+    pub(crate) fn exempt(&self) -> &Exempt {
+        &self.exempt
     }
 
     /// Sets what [`yielding`](Self::yielding) says.
     pub(crate) fn set_yielding(&mut self, yielding: &[bool]) {
-        self.yielding.copy_from_slice(yielding);
+        self.exempt.yielding.copy_from_slice(yielding);
     }
 
-    /// Takes bodies back into the promise that are apart from the cloth by their separation. A coarse mesh may pass through another one
-    /// with all its vertices and edges far from the other's: that is asked for by itself.
+    /// Sets what [`Exempt::parting`] says, where all is at `positions`. False: there are no such pairs, and nothing has changed.
+    pub(crate) fn set_parting(&mut self, parting: Option<&[PairKey]>, positions: &[DVec3]) -> bool {
+        let interest = self.candidates.interest();
+        let Some(parting) = parting else {
+            self.exempt.tangle = None;
+            return true;
+        };
+        if !(parting.is_sorted() && parting.iter().all(|key| interest.has(key))) {
+            return false;
+        }
+        let mut tangle = Tangle::new(interest, positions.len());
+        let is_known = tangle.look(interest, parting.to_vec(), positions).is_ok();
+        if is_known {
+            self.exempt.tangle = Some(tangle);
+        }
+        is_known
+    }
+
+    /// Takes what is apart by its separation back into the promise. A coarse mesh may pass through another one with all its vertices and
+    /// edges far from the other's: that is asked for by itself.
     pub(crate) fn take_back(&mut self, positions: &[DVec3]) {
-        for body in 0..self.yielding.len() {
-            if !self.yielding[body] {
-                continue;
+        let Self {
+            exempt,
+            candidates,
+            settings,
+            error,
+            ..
+        } = self;
+        let is_apart = |pair: &Candidate| {
+            let separation = settings.of(pair).map_or(0.0, |t| t.separation);
+            pair.distance_from_below(positions, *error) > separation
+        };
+        for (body, yielding) in exempt.yielding.iter_mut().enumerate() {
+            if *yielding {
+                let mut pairs = candidates.list.iter().filter(|pair| pair.data.body == body as Carrier);
+                *yielding = !pairs.all(is_apart) || candidates.interest().passes_through(body as Carrier, positions);
             }
-            let pairs = self.candidates.list.iter().filter(|pair| pair.data.body == body as Carrier);
-            let is_apart = |pair: &Candidate| {
-                let separation = self.settings.of(pair).map_or(0.0, |t| t.separation);
-                pair.distance_from_below(positions, self.error) > separation
-            };
-            let is_apart = pairs.clone().all(is_apart) && !self.candidates.interest().passes_through(body as Carrier, positions);
-            self.yielding[body] = !is_apart;
+        }
+        if let Some(tangle) = &mut exempt.tangle {
+            tangle.take_back(candidates, positions, is_apart);
+            exempt.tangle.take_if(|tangle| tangle.is_empty());
         }
     }
 }

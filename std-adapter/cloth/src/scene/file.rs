@@ -1,6 +1,6 @@
 //! A scene as a TOML file says it.
 
-use super::{FRAME_RATE, OnBlocked, Scene, TIME_STEP, check_name, duration_field};
+use super::{FRAME_RATE, OnBlocked, START, Scene, TIME_STEP, TangledStart, check_name, check_start, duration_field};
 use crate::effects::{self, Called, Effects, Gravity, Wrong};
 use crate::input::{SceneError, Source, Table};
 use crate::world::{Body, Cloth, SceneParts};
@@ -36,6 +36,7 @@ impl Scene {
             "duration",
             "frames_per_second",
             "on_blocked",
+            START,
             "cloth",
             "body",
             "effects",
@@ -54,6 +55,17 @@ impl Scene {
             ("hold", OnBlocked::Hold),
             ("yield", OnBlocked::Yield),
         ];
+        let starts = [
+            ("refuse", TangledStart::Refuse),
+            ("tolerate", TangledStart::Tolerate),
+            ("untangle", TangledStart::Untangle),
+        ];
+        let tangled_start = root.choice(START, &starts)?.unwrap_or_default();
+        let called = Called {
+            by_scene: &effects,
+            cloths: &cloths,
+        };
+        check_start(tangled_start, &called.names()).map_err(|error| root.placed(&error))?;
         let stem = path.file_stem().map(|stem| stem.to_string_lossy());
         Ok(Self {
             name: root
@@ -61,6 +73,7 @@ impl Scene {
                 .map_or_else(|| stem.unwrap_or_default().into_owned(), str::to_owned),
             frame_rate: root.number(&FRAME_RATE)?.unwrap_or(60.0),
             on_blocked: root.choice("on_blocked", &choices)?.unwrap_or_default(),
+            tangled_start,
             up: gravity.map_or(DVec3::Z, |acceleration| -acceleration),
             text: text.to_owned(),
             time_step,

@@ -7,11 +7,13 @@ mod determinism;
 mod drape;
 mod energy;
 mod from_code;
+mod garments;
 mod paying_only;
 mod seams;
 mod several_cloths;
 mod stability;
 mod stretch;
+mod tangled;
 mod wrong_scenes;
 
 #[path = "../../src/hierarchy/irregular.rs"]

@@ -30,6 +30,11 @@ impl Progress {
         Self::start(message, steps, template)
     }
 
+    /// Work that ends when nothing is left of so many; [`set_steps`](Self::set_steps) tells how many are.
+    pub(crate) fn shrinking(message: &'static str, most: u64) -> Self {
+        Self::start(message, most, "{msg} {pos}, {elapsed}")
+    }
+
     /// Work of unknown length.
     pub(crate) fn spinner(message: &'static str) -> Self {
         Self::start(message, LENGTH, "{spinner} {msg}, {elapsed}")

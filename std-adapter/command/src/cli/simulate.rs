@@ -5,10 +5,11 @@ use super::options::Threads;
 use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge::Mesh;
-use selvedge_cloth::{CheckpointError, Scene, SceneError, Simulation};
+use selvedge_cloth::{CheckpointError, Scene, SceneError, SetupError, Simulation};
 use selvedge_files::mesh;
 use selvedge_laboratory::report::{
-    Recording, SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, side_by_side, still, tables,
+    Recording, SimulationRecorder, Subject, costs_of_added_effects, gltf, json, page, side_by_side, start_sentences, still,
+    tables, tangled_start_html, tangled_start_json,
 };
 use selvedge_laboratory::study::{EffectCost, effects_one_by_one};
 use std::io::Write;
@@ -155,6 +156,27 @@ impl Simulate {
         first.result.and(second.result).and(printed)
     }
 
+    /// Sets a scene up, and untangles it if it is to be. If it starts tangled, or still is then, the places are written and told.
+    fn set_up(&self, scene: Scene) -> Result<Simulation, Failure> {
+        let name = scene.name.clone();
+        let mut untangling = None;
+        let made = Simulation::new_telling(scene, self.threads.get(), &mut |now| {
+            let shown = untangling.get_or_insert_with(|| Progress::shrinking("untangling, places left", now.crossings as u64));
+            shown.set_steps(now.crossings as u64);
+        });
+        drop(untangling);
+        if let Err(SetupError::Tangled(tangled)) = &made {
+            let mut files = OutputFiles::default();
+            let page = self.file("tangled.html");
+            files.add_bytes(page, tangled_start_html(&name, tangled).as_bytes())?;
+            files.publish()?;
+            if self.json {
+                output::print_json(&tangled_start_json(&name, tangled))?;
+            }
+        }
+        Ok(made?)
+    }
+
     /// Runs a scene as far as it goes, and records it. `begin` takes it to where it starts, and says how many seconds it had taken by then; `after` is
     /// shown each step, the number of the frame if it is one, and the seconds so far.
     fn record(
@@ -167,8 +189,8 @@ impl Simulate {
         let path = path.display();
         let (steps, steps_per_frame) = (scene.steps(), scene.steps_per_frame());
         let subject = Subject::new(&scene);
-        let mut simulation = Simulation::new(scene, self.threads.get()).map_err(|error| format!("{path}: {error}"))?;
         OutputFiles::check_folder(&self.output)?;
+        let mut simulation = self.set_up(scene).map_err(|error| format!("{path}: {error}"))?;
         let mut recorder = SimulationRecorder::new(subject, &simulation)?;
         let earlier = begin(&mut simulation, &mut recorder)?;
 
@@ -186,6 +208,9 @@ impl Simulate {
         });
         let result = result.map_err(|failure| Failure::from(format!("{path}: {failure}")));
         let seconds = seconds();
+        for sentence in start_sentences(&simulation) {
+            recorder.remark(sentence);
+        }
         if let Err(failure) = &result {
             // Where it was blocked, or could not go on.
             recorder.frame(&simulation)?;

@@ -204,7 +204,73 @@ fn what_is_wrong_with_a_scene_is_said_with_its_place() {
     fs::create_dir(place.path("selvedge-out")).unwrap();
     let message = place.refusal(1, &["simulate", "sheet.toml", "--resume"]);
     assert!(message.contains("sheet.checkpoint: cannot be read"), "{message}");
-    place.write("sheet.toml", SHEET.replace("0.13", "0.1"));
-    let message = place.refusal(1, &["simulate", "sheet.toml"]);
-    assert!(message.contains("starts with an intersection"), "{message}");
+}
+
+/// The sheet of `SHEET` through the upper part of its ball.
+fn tangled(start: &str) -> Workplace {
+    let place = Workplace::new();
+    let through = SHEET
+        .replace("0.13", "0.05")
+        .replace("name = \"a", &format!("{start}\nname = \"a"));
+    place.write("sheet.toml", through);
+    place
+}
+
+#[test]
+fn a_scene_that_starts_tangled_is_refused_with_every_place_in_json_and_on_a_page() {
+    let place = tangled("");
+    let output = place.run(&["simulate", "sheet.toml", "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        message.contains("sheet.toml: the scene starts with an intersection: "),
+        "{message}"
+    );
+    assert!(
+        message.contains("with the body 'ball'") && message.contains("tangled_start = \"untangle\""),
+        "{message}"
+    );
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let crossings = document["tangled_start"]["crossings"].as_array().unwrap();
+    assert!(crossings.len() > 10);
+    for crossing in crossings {
+        assert_eq!(crossing["body"], "ball");
+        // The sheet lies at this height; the point is rounded.
+        assert!((crossing["point"][2].as_f64().unwrap() - 0.05).abs() < 1e-12);
+    }
+    let page = place.read("selvedge-out/sheet.tangled.html");
+    assert_eq!(page.matches("<tr>").count(), 1 + crossings.len());
+    assert!(!page.contains("</script> sheet"), "the scene's name is text");
+}
+
+#[test]
+fn a_scene_that_starts_tangled_is_untangled_or_tolerated_if_it_says_so_and_the_report_tells() {
+    let place = tangled("tangled_start = \"untangle\"");
+    let document = place.json(&["simulate", "sheet.toml", "--json"]);
+    let untangled = &document["untangled"];
+    assert!(
+        untangled["crossings"].as_u64() > Some(10) && untangled["left"] == 0,
+        "{untangled}"
+    );
+    assert_eq!(
+        (&document["steps"], &document["intersections_at_end"]),
+        (&500.into(), &0.into())
+    );
+    assert!(document["tolerated"].is_null());
+    let page = place.read("selvedge-out/sheet.html");
+    assert!(page.contains("Untangled before the first step: edges met faces at "));
+    assert!(
+        place
+            .stdout(&["simulate", "sheet.toml"])
+            .contains("Untangled before the first step")
+    );
+
+    let place = tangled("tangled_start = \"tolerate\"");
+    let document = place.json(&["simulate", "sheet.toml", "--json"]);
+    assert!(document["tolerated"]["crossings_at_end"].is_u64() && document["untangled"].is_null());
+    assert!(
+        place
+            .read("selvedge-out/sheet.html")
+            .contains("edges through faces, tolerated")
+    );
 }

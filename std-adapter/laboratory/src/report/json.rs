@@ -7,6 +7,7 @@ use super::n_log_n_ratios;
 use super::paper::paper_row;
 use super::recording::{EDGES_99, LONGEST_EDGE, Measure, MeasureKind, Recording};
 use super::step::{StepQuestion, StepSummary};
+use super::tangled_start::untangled_json;
 use crate::hard_cases::Contact;
 use crate::methods::QueryMethod;
 use crate::methods::{Preset, Stage};
@@ -16,6 +17,7 @@ use crate::study::{Accuracy, AccuracySet};
 use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
 use crate::study::{HardAnswer, HardResult, QueryResult};
 use selvedge::verification::PairCounts;
+use selvedge_cloth::TangledStart;
 use serde_json::{Value, json};
 
 /// One step: `selvedge cull`.
@@ -204,6 +206,9 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
         "cuts": counts.map(|counts| counts.cuts),
         "blocked_steps": simulation.blocked_steps(),
         "lag_seconds": simulation.lag(),
+        "untangled": simulation.untangled().map(untangled_json),
+        "tolerated": (simulation.tangled_start() == TangledStart::Tolerate)
+            .then(|| json!({"crossings_at_end": simulation.crossings().len(), "pairs_at_end": simulation.tolerated_pairs()})),
         // Certified for cloth with whatever the scene's contact effects name; nobody looks if there are none.
         "intersections_at_end": simulation.is_certified().then_some(0),
     })

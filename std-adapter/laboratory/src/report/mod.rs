@@ -20,6 +20,7 @@ pub mod side_by_side;
 mod step;
 pub mod still;
 pub mod tables;
+mod tangled_start;
 mod tangles;
 
 pub use self::csv::{comparison_csv, contacts_csv, pairs_csv};
@@ -32,6 +33,7 @@ pub use recording::{About, Added, Frame, FrameError, Knob, Measure, MeasureKind,
 pub use recording::{Recorder, Recording, Series, SeriesKind};
 pub use recording::{SimulationRecorder, Subject, costs_of_added_effects};
 pub use step::{StepQuestion, StepSummary};
+pub use tangled_start::{start_sentences, tangled_start_html, tangled_start_json};
 pub use tangles::{Tangle, intersections_csv, intersections_json, tangle_ply, tangles, tangles_json};
 
 use crate::methods::Stage;

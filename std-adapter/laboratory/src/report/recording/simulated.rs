@@ -5,7 +5,7 @@ use super::{EDGES_99, GRAVITATIONAL, LONGEST_EDGE};
 use crate::report::{label, printed};
 use crate::study::EffectCost;
 use selvedge::Mesh;
-use selvedge_cloth::{Scene, Simulation};
+use selvedge_cloth::{Scene, Simulation, TangledStart};
 
 /// What a recording says of a scene, taken before a [`Simulation`] consumes it.
 #[derive(Clone, Debug)]
@@ -139,6 +139,11 @@ fn counters(simulation: &Simulation, seconds: f64) -> Vec<(&'static str, SeriesK
         add(SeriesKind::Events, &counts.events().map(number));
         let blocked = ("steps blocked", simulation.blocked_steps());
         add(SeriesKind::Events, &[blocked].map(number));
+    }
+    if simulation.tangled_start() == TangledStart::Tolerate {
+        let crossings = ("edges through faces, tolerated", simulation.crossings().len() as f64);
+        let pairs = ("pairs out of the promise", simulation.tolerated_pairs() as f64);
+        add(SeriesKind::Gauge(""), &[crossings, pairs]);
     }
     if let Some(seconds) = simulation.contact_seconds() {
         add(SeriesKind::Stage, &seconds.stages());

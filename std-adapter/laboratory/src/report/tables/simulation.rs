@@ -1,6 +1,7 @@
 use super::table;
 use crate::report::number::{counted, few, figures, moment, ordinal, signed_time, time};
 use crate::report::recording::{EDGES_99, LONGEST_EDGE, MeasureKind, Recording};
+use crate::report::start_sentences;
 use crate::study::EffectCost;
 use selvedge_cloth::Simulation;
 
@@ -60,6 +61,9 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
     });
     text += "\n";
     text += &table(["energy, in J", "at the start", "most", "at the end"], energies);
+    for sentence in start_sentences(simulation) {
+        text += &format!("\n{sentence}\n");
+    }
     if simulation.blocked_steps() > 0 {
         let blocked = counted(simulation.blocked_steps(), "step");
         text += &format!(

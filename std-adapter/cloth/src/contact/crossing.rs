@@ -1,0 +1,181 @@
+//! Surfaces that pass through each other: which edges meet which faces, exactly.
+//!
+//! The certified pass keeps apart what is apart. It would never notice two surfaces that pass through each other far from any vertex
+//! and any other edge: so edges that meet faces are asked for by themselves, of the detector's
+//! [exact test](CollisionDetector::intersections).
+
+use super::candidate::Candidate;
+use selvedge::core::glam::DVec3;
+use selvedge::{CollisionDetector, Intersection, PairKind, StepError, Topology};
+use std::sync::Arc;
+
+/// An edge and a face that have a point in common, and no vertex.
+///
+/// Neighbours that are folded flat onto each other may touch without any, and so may what is nearer than rounding can tell: then the edge
+/// is a vertex, (v, v), or the face an edge, (a, b, b).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Its vertices, those of bodies after the cloth's.
+    pub edge: [u32; 2],
+    /// Its vertices.
+    pub face: [u32; 3],
+    /// Where they meet, in metres.
+    pub point: DVec3,
+    /// The body that one of them belongs to; `None` if both are cloth.
+    pub body: Option<usize>,
+}
+
+/// How a pair is called in the lists of candidates.
+pub(crate) type PairKey = (PairKind, [u32; 2]);
+
+/// Looks for what meets; its hierarchies are used again.
+#[derive(Debug)]
+pub(super) struct CrossingFinder {
+    detector: CollisionDetector<f64>,
+    found: Vec<Intersection>,
+}
+
+impl CrossingFinder {
+    pub(super) fn new(topology: &Arc<Topology>) -> Self {
+        Self {
+            detector: CollisionDetector::new(Arc::clone(topology)),
+            found: Vec::new(),
+        }
+    }
+
+    /// What meets where all is at `positions`, in ascending order, if a vertex of the one and a vertex of the other `are_asked` about.
+    pub(super) fn find(
+        &mut self,
+        positions: &[DVec3],
+        are_asked: impl Fn(u32, u32) -> bool,
+    ) -> Result<&[Intersection], StepError> {
+        let Self { detector, found } = self;
+        detector.intersections(positions, found)?;
+        found.retain(|own| {
+            let (edge, face) = edge_and_face(detector.topology(), own);
+            are_asked(edge[0], face[0])
+        });
+        Ok(found)
+    }
+}
+
+/// Vertices of both, as [`Crossing`] has them.
+fn edge_and_face(topology: &Topology, intersection: &Intersection) -> ([u32; 2], [u32; 3]) {
+    let edge = |edge: u32| topology.edges()[edge as usize];
+    let face = |face: u32| topology.triangles()[face as usize];
+    match *intersection {
+        Intersection::EdgeFace { edge: own, face: other } => (edge(own), face(other)),
+        Intersection::VertexFace { vertex, face: other } => ([vertex; 2], face(other)),
+        Intersection::EdgeEdge { edges: [own, other] } => {
+            let [a, b] = edge(other);
+            (edge(own), [a, b, b])
+        }
+    }
+}
+
+impl Crossing {
+    /// Of two primitives that meet, as of cloth with itself.
+    pub(super) fn new(topology: &Topology, intersection: &Intersection, positions: &[DVec3]) -> Self {
+        let (edge, face) = edge_and_face(topology, intersection);
+        let point = |vertex: u32| positions[vertex as usize];
+        Self {
+            edge,
+            face,
+            point: meeting_point(edge.map(point), face.map(point)),
+            body: None,
+        }
+    }
+
+    /// Of a pair that is nearer than rounding can tell.
+    pub(super) fn of_touching(pair: &Candidate, positions: &[DVec3]) -> Self {
+        let [a, b, c, d] = pair.vertices;
+        let (edge, face) = match pair.kind {
+            PairKind::VertexFace => ([a, a], [b, c, d]),
+            PairKind::EdgeEdge => ([a, b], [c, d, d]),
+        };
+        let closest = pair.closest(positions);
+        let of_first = closest
+            .weights
+            .into_iter()
+            .zip(pair.vertices)
+            .filter(|(weight, _)| *weight > 0.0);
+        Self {
+            edge,
+            face,
+            point: of_first.map(|(weight, vertex)| positions[vertex as usize] * weight).sum(),
+            body: pair.data.is_with_body().then_some(pair.data.body as usize),
+        }
+    }
+}
+
+/// Where an edge meets the plane of a face, as a share of the way from its first end to its second; one half where it lies in the plane.
+pub(super) fn share_to_plane([a, b]: [DVec3; 2], [c, d, e]: [DVec3; 3]) -> f64 {
+    let normal = (d - c).cross(e - c);
+    let [above, below] = [normal.dot(a - c), normal.dot(b - c)];
+    let share = above / (above - below);
+    if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.5 }
+}
+
+fn meeting_point(edge: [DVec3; 2], face: [DVec3; 3]) -> DVec3 {
+    edge[0].lerp(edge[1], share_to_plane(edge, face))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn crossings(positions: &[DVec3], triangles: Vec<[u32; 3]>, are_asked: bool) -> Vec<Crossing> {
+        let topology = Arc::new(Topology::new(positions.len(), triangles).unwrap());
+        let mut finder = CrossingFinder::new(&topology);
+        let found = finder.find(positions, |_, _| are_asked).unwrap();
+        found.iter().map(|own| Crossing::new(&topology, own, positions)).collect()
+    }
+
+    #[test]
+    fn an_edge_through_a_face_is_found_with_its_place_and_one_beside_it_is_not() {
+        let mut positions = [
+            [0.0, 0.0, 0.0],
+            [3.0, 0.0, 0.0],
+            [0.0, 3.0, 0.0],
+            [1.0, 1.0, -1.0],
+            [1.0, 1.0, 3.0],
+            [1.2, 1.2, 5.0],
+        ]
+        .map(DVec3::from);
+        let found = |positions: &[DVec3], are_asked| crossings(positions, vec![[0, 1, 2], [3, 4, 5]], are_asked);
+        let first = found(&positions, true)[0];
+        assert_eq!((first.edge, first.face, first.body), ([3, 4], [0, 1, 2], None));
+        assert_eq!(first.point, DVec3::new(1.0, 1.0, 0.0));
+        assert_eq!(found(&positions, false), []);
+        (positions[3].x, positions[4].x) = (2.5, 2.5);
+        assert_eq!(found(&positions, true), []);
+    }
+
+    #[test]
+    fn neighbours_on_a_mesh_do_not_count_unless_they_pass_through_each_other() {
+        let mut positions = [
+            [0.0, 0.0, 0.0],
+            [3.0, 0.0, 0.0],
+            [0.0, 3.0, 0.0],
+            [-1.0, 0.0, 0.0],
+            [0.0, -1.0, 0.0],
+        ]
+        .map(DVec3::from);
+        let found = |positions: &[DVec3]| crossings(positions, vec![[0, 1, 2], [0, 3, 4]], true);
+        assert_eq!(found(&positions), []);
+        (positions[3], positions[4]) = (DVec3::new(1.0, 1.0, -1.0), DVec3::new(1.0, 1.0, 1.0));
+        assert!(!found(&positions).is_empty());
+    }
+
+    #[test]
+    fn neighbours_that_are_folded_flat_onto_each_other_are_named_by_a_vertex_or_by_two_edges() {
+        let fold = |x: f64, y: f64| {
+            let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(x, y, 0.0)];
+            crossings(&corners, vec![[0, 1, 2], [1, 0, 3]], true)
+        };
+        let named = |found: Vec<Crossing>| -> Vec<_> { found.iter().map(|own| (own.edge, own.face)).collect() };
+        assert_eq!(named(fold(0.2, 0.2)), [([3, 3], [0, 1, 2])]);
+        assert_eq!(named(fold(0.8, 0.8)), [([1, 2], [0, 3, 3])]);
+        assert_eq!(named(fold(0.2, -0.2)), []);
+    }
+}

@@ -1,0 +1,92 @@
+//! Untangling as the simulation calls it before its first step.
+
+use super::contours::Contours;
+use super::solver::ContactSolver;
+use crate::step::FREE;
+use selvedge::Topology;
+use selvedge_core::glam::DVec3;
+use std::collections::BTreeSet;
+
+/// Knows which way out there is.
+#[derive(Debug)]
+pub(crate) struct Untangler {
+    contours: Contours,
+    /// Of each body, the sign of its triangles' normals that leads out of it; zero if it is not closed.
+    outward: Vec<f64>,
+}
+
+impl ContactSolver {
+    /// Of what was found to be tangled there.
+    pub(crate) fn untangler(&self, positions: &[DVec3]) -> Untangler {
+        let interest = self.candidates.interest();
+        let topology = interest.topology();
+        let mut triangles = vec![Vec::new(); self.exempt.yielding.len()];
+        for triangle in topology.triangles() {
+            let body = interest.body(triangle[0]);
+            if body != FREE {
+                triangles[body as usize].push(*triangle);
+            }
+        }
+        Untangler {
+            contours: Contours::new(topology, positions),
+            outward: triangles.iter().map(|own| outward(own, positions)).collect(),
+        }
+    }
+
+    /// Ends untangling: from here on all counts as that far apart at rest as it is now, which in the scene it was not. Counts and times
+    /// begin anew.
+    pub(crate) fn end_untangling(&mut self, positions: &[DVec3]) {
+        self.rest.copy_from_slice(positions);
+        self.pushes = true;
+        (self.counts, self.stages) = Default::default();
+    }
+
+    /// Lets contacts push, or not.
+    pub(crate) fn set_pushes(&mut self, pushes: bool) {
+        self.pushes = pushes;
+    }
+}
+
+impl Untangler {
+    /// Replaces `ways` by the direction in which each vertex is to go; see [`Contours::find_ways`].
+    pub(crate) fn find_ways(&mut self, contact: &ContactSolver, positions: &[DVec3], ways: &mut [DVec3]) {
+        let interest = contact.candidates.interest();
+        let topology: &Topology = interest.topology();
+        let outward = |vertex: u32| match interest.body(vertex) {
+            FREE => 0.0,
+            body => self.outward[body as usize],
+        };
+        self.contours
+            .find_ways(topology, contact.exempt.intersections(), positions, outward, ways);
+    }
+}
+
+/// See [`Untangler`]: closed is what has each edge once in either direction.
+fn outward(triangles: &[[u32; 3]], positions: &[DVec3]) -> f64 {
+    let edges = || triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let all: BTreeSet<[u32; 2]> = edges().collect();
+    let is_closed = all.len() == 3 * triangles.len() && edges().all(|[a, b]| all.contains(&[b, a]));
+    let volume = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|vertex| positions[vertex as usize]);
+        a.cross(b).dot(c)
+    };
+    let volume: f64 = triangles.iter().map(volume).sum();
+    if is_closed && volume != 0.0 { volume.signum() } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::capsule;
+
+    #[test]
+    fn the_way_out_of_a_body_is_known_if_it_is_closed() {
+        let mesh = capsule([DVec3::ZERO, DVec3::X], 0.3, 12);
+        assert_eq!(outward(&mesh.triangles, &mesh.positions), 1.0);
+        let turned: Vec<_> = mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
+        assert_eq!(outward(&turned, &mesh.positions), -1.0);
+        assert_eq!(outward(&mesh.triangles[1..], &mesh.positions), 0.0);
+        let mixed = [&mesh.triangles[..5], &turned[5..]].concat();
+        assert_eq!(outward(&mixed, &mesh.positions), 0.0);
+    }
+}

@@ -1,0 +1,225 @@
+//! Scenes that start with surfaces passing through each other: refused with a list, tolerated, or untangled.
+
+use crate::garments::{NAMES, garment};
+use crate::{scene_file, set_up};
+use selvedge::{CollisionDetector, Intersection, Topology};
+use selvedge_cloth::effects::Gravity;
+use selvedge_cloth::{Scene, SetupError, Simulation, Tangled, TangledStart, Untangling};
+
+/// A garment that starts so.
+fn starting(name: &str, cells: u32, depth: f64, start: TangledStart) -> Scene {
+    let mut scene = garment(name, cells, depth);
+    scene.tangled_start = start;
+    scene
+}
+
+/// What meets, but for bodies among themselves, exactly and by itself.
+fn meeting(simulation: &Simulation) -> Vec<Intersection> {
+    let topology = Topology::new(simulation.positions().len(), simulation.triangles().to_vec()).unwrap();
+    let mut found = Vec::new();
+    let mut detector = CollisionDetector::<f64>::new(topology);
+    detector.intersections(simulation.positions(), &mut found).unwrap();
+    found
+}
+
+fn refused(scene: Scene) -> Tangled {
+    match Simulation::new(scene, 1) {
+        Err(SetupError::Tangled(tangle)) => *tangle,
+        other => panic!("{:?}", other.map(|simulation| simulation.name().to_owned())),
+    }
+}
+
+#[test]
+fn a_refusal_lists_every_edge_and_face_that_meet_and_where() {
+    let tangle = refused(garment("sheet in a ball", 12, 1.0));
+    let topology = Topology::new(tangle.mesh.positions.len(), tangle.mesh.triangles.clone()).unwrap();
+    let mut found = Vec::new();
+    let mut detector = CollisionDetector::<f64>::new(topology);
+    detector.intersections(&tangle.mesh.positions, &mut found).unwrap();
+    assert!(found.len() > 20);
+    let pairs: Vec<_> = tangle
+        .crossings
+        .iter()
+        .map(|crossing| (crossing.edge, crossing.face))
+        .collect();
+    for intersection in &found {
+        let Intersection::EdgeFace { edge, face } = *intersection else {
+            panic!("{intersection:?}")
+        };
+        let pair = (
+            detector.topology().edges()[edge as usize],
+            detector.topology().triangles()[face as usize],
+        );
+        assert!(pairs.contains(&pair), "{pair:?}");
+    }
+    assert_eq!(pairs.len(), found.len());
+    for crossing in &tangle.crossings {
+        assert_eq!(crossing.body, Some(0));
+        // The sheet lies in the plane z = 0.
+        assert!(crossing.point.z.abs() < 1e-12 && crossing.point.x.abs() < 0.4);
+    }
+    let text = tangle.to_string();
+    let expected = format!("{0} edges meet faces, {0} with the body 'ball'; first the edge ", found.len());
+    assert!(
+        text.contains(&expected) && text.contains("tangled_start = \"untangle\""),
+        "{text}"
+    );
+}
+
+#[test]
+fn four_fifths_of_tangled_garments_are_free_after_untangling_and_the_others_are_told() {
+    let (mut free, mut all) = (0, 0);
+    for name in NAMES {
+        for depth in [1.0, 2.0] {
+            assert!(!refused(garment(name, 20, depth)).crossings.is_empty(), "{name}");
+            all += 1;
+            match Simulation::new(starting(name, 20, depth, TangledStart::Untangle), 1) {
+                Ok(simulation) => {
+                    assert_eq!(meeting(&simulation), [], "{name} {depth}");
+                    let untangled = simulation.untangled().unwrap();
+                    assert!(
+                        untangled.crossings > 0 && untangled.left == 0 && simulation.is_certified(),
+                        "{name}"
+                    );
+                    free += 1;
+                }
+                Err(SetupError::Tangled(tangle)) => {
+                    let left = tangle.untangled.as_ref().unwrap().left;
+                    assert!(left > 0 && tangle.crossings.len() == left, "{name} {depth}: {tangle}");
+                }
+                Err(other) => panic!("{name}: {other}"),
+            }
+        }
+    }
+    assert!(5 * free >= 4 * all, "{free} of {all}");
+}
+
+#[test]
+fn what_was_untangled_goes_on_as_any_other_scene_and_is_the_same_on_two_threads() {
+    let run = |threads| {
+        let mut scene = starting("corner through itself", 20, 1.0, TangledStart::Untangle);
+        scene.add(Gravity::default());
+        let mut told = Vec::new();
+        let mut simulation = Simulation::new_telling(scene, threads, &mut |untangling| told.push(untangling)).unwrap();
+        assert!(
+            matches!(told[0], Untangling { steps: 0, crossings } if crossings > 10),
+            "{told:?}"
+        );
+        assert_eq!(told.last().unwrap().crossings, 0);
+        assert!(simulation.velocities().iter().all(|velocity| velocity.length() == 0.0));
+        assert_eq!(
+            (simulation.steps_done(), simulation.contact_counts().unwrap().candidates),
+            (0, 0)
+        );
+        for _ in 0..60 {
+            simulation.step().unwrap();
+        }
+        assert!(simulation.is_certified() && meeting(&simulation).is_empty());
+        simulation.positions().to_vec()
+    };
+    assert_eq!(run(1), run(2));
+}
+
+#[test]
+fn what_is_tolerated_is_told_and_nothing_else_comes_to_meet() {
+    let mut scene = starting("corner through itself", 20, 1.0, TangledStart::Tolerate);
+    scene.add(Gravity::default());
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let before = simulation.crossings().len();
+    assert_eq!(before, meeting(&simulation).len());
+    assert!(before > 10 && simulation.tolerated_pairs() > before && !simulation.is_certified());
+    for _ in 0..100 {
+        simulation.step().unwrap();
+        let found = meeting(&simulation).len();
+        assert_eq!(simulation.crossings().len(), found);
+        assert_eq!(simulation.is_certified(), simulation.tolerated_pairs() == 0);
+        assert!(found == 0 || !simulation.is_certified());
+    }
+}
+
+/// Two sheets that are pulled out of each other.
+const PULLED: &str = r#"
+    time_step = "1 ms"
+    duration = "1 s"
+    tangled_start = "tolerate"
+    [cloth]
+    shape = "sheet"
+    corner = [0, 0, 0]
+    sides = { first = [0.2, 0, 0], second = [0, 0.2, 0] }
+    cells = [8, 8]
+    density = "200 g/m2"
+    [[body]]
+    name = "blade"
+    shape = "capsule"
+    from = [0.1, 0.1, -0.05]
+    to = [0.1, 0.1, 0.01]
+    radius = "2 cm"
+    keyframes = [{ time = 0 }, { time = "0.1 s", translation = [0, 0, -0.1] }, { time = "0.2 s", translation = [0, 0, 0.1] }]
+    [effects.stretch]
+    stiffness = 300
+    [effects.pins]
+    group = [{ part = "left" }, { part = "right" }]
+    [effects.body_contact]
+    thickness = "2 mm"
+"#;
+
+#[test]
+fn what_comes_apart_is_in_the_promise_again_and_does_not_meet_again() {
+    let mut simulation = set_up(PULLED, "pulled.toml", 1);
+    assert!(!simulation.crossings().is_empty());
+    let mut has_come_apart = false;
+    for step in 0..300 {
+        simulation.step().unwrap();
+        has_come_apart |= simulation.is_certified();
+        assert_eq!(simulation.is_certified(), has_come_apart, "step {step}");
+        assert!(!has_come_apart || meeting(&simulation).is_empty(), "step {step}");
+    }
+    assert!(has_come_apart);
+}
+
+#[test]
+fn a_tolerated_tangle_goes_on_from_a_checkpoint_to_the_same_bits() {
+    let scene = || {
+        let mut scene = starting("two sheets, tilted", 12, 1.0, TangledStart::Tolerate);
+        scene.add(Gravity::default());
+        scene
+    };
+    let mut simulation = Simulation::new(scene(), 1).unwrap();
+    (0..200).for_each(|_| simulation.step().unwrap());
+    let saved = simulation.checkpoint().unwrap();
+    assert!(!simulation.crossings().is_empty());
+    let mut resumed = Simulation::new(scene(), 2).unwrap();
+    resumed.resume(&saved).unwrap();
+    assert_eq!(resumed.crossings(), simulation.crossings());
+    assert_eq!(resumed.tolerated_pairs(), simulation.tolerated_pairs());
+    for _ in 0..50 {
+        simulation.step().unwrap();
+        resumed.step().unwrap();
+        assert_eq!(resumed.positions(), simulation.positions());
+        assert_eq!(resumed.tolerated_pairs(), simulation.tolerated_pairs());
+    }
+}
+
+#[test]
+fn a_file_says_the_same_as_code_and_what_nothing_keeps_apart_is_an_error() {
+    let file = |text: &str| Scene::parse(text, &scene_file("pulled.toml"));
+    assert_eq!(file(PULLED).unwrap().tangled_start, TangledStart::Tolerate);
+    let untangled = file(&PULLED.replace("\"tolerate\"", "\"untangle\"")).unwrap();
+    assert_eq!(untangled.tangled_start, TangledStart::Untangle);
+    let without = PULLED.replace("[effects.body_contact]\n    thickness = \"2 mm\"\n", "");
+    let error = file(&without).unwrap_err().to_string();
+    assert!(
+        error.contains(":4:") && error.contains("`tangled_start` has nothing to act on"),
+        "{error}"
+    );
+    let mut scene = starting("curls", 8, 1.0, TangledStart::Untangle);
+    assert!(scene.check().is_ok());
+    let effects = scene
+        .effect_names()
+        .iter()
+        .position(|name| *name == "self_collision")
+        .unwrap();
+    scene.keep_first_effects(effects);
+    assert!(scene.check().unwrap_err().to_string().contains("tangled_start"));
+    assert!(file("tangled_start = \"ignore\"").is_err());
+}

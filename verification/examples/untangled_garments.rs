@@ -1,0 +1,119 @@
+//! Garments that start tangled, untangled before the first step, and judged by the exact oracle.
+//!
+//! `cargo run --release -p selvedge-verification --example untangled_garments -- [--cells N] [--depths 1,2,3] [--only WORDS]`
+//!
+//! Prints a row for each garment at each depth, and how many end without an intersection. Exit status 1 if one of them has some by the
+//! oracle though the simulation starts, or is refused without.
+
+#[path = "../../std-adapter/cloth/tests/simulation/garments.rs"]
+mod garments;
+
+use garments::{NAMES, garment};
+use selvedge_cloth::{Mesh, Scene, SetupError, Simulation, TangledStart, Untangled};
+use selvedge_verification::oracle::mesh_intersections;
+use std::process::ExitCode;
+
+const USAGE: &str = "usage: untangled_garments [--cells N] [--depths 1,2,3] [--only WORDS]";
+
+type Failure = Box<dyn std::error::Error>;
+
+struct Options {
+    cells: u32,
+    depths: Vec<f64>,
+    only: String,
+}
+
+impl Options {
+    fn parse(mut arguments: impl Iterator<Item = String>) -> Option<Self> {
+        let mut options = Self {
+            cells: 24,
+            depths: vec![1.0, 2.0, 3.0],
+            only: String::new(),
+        };
+        while let Some(option) = arguments.next() {
+            let value = arguments.next()?;
+            match option.as_str() {
+                "--cells" => options.cells = value.parse().ok().filter(|&cells| cells >= 4)?,
+                "--depths" => options.depths = value.split(',').map(|depth| depth.parse().ok()).collect::<Option<_>>()?,
+                "--only" => options.only = value,
+                _ => return None,
+            }
+        }
+        Some(options)
+    }
+}
+
+/// Pairs of triangles that intersect, bodies among themselves left out.
+fn intersecting(mesh: &Mesh, cloth_triangles: usize) -> usize {
+    let positions: Vec<_> = mesh.positions.iter().map(|position| position.to_array()).collect();
+    mesh_intersections(&positions, &mesh.triangles, cloth_triangles).len()
+}
+
+/// Sets a scene up: where all is then, and what was untangled; or what is left.
+fn set_up(scene: Scene) -> Result<(Mesh, Option<Untangled>, bool), Failure> {
+    match Simulation::new(scene, 1) {
+        Ok(simulation) => {
+            let mesh = Mesh {
+                positions: simulation.positions().to_vec(),
+                triangles: simulation.triangles().to_vec(),
+            };
+            Ok((mesh, simulation.untangled().copied(), true))
+        }
+        Err(SetupError::Tangled(tangle)) => Ok((tangle.mesh, tangle.untangled, false)),
+        Err(other) => Err(other.into()),
+    }
+}
+
+fn run(options: &Options) -> Result<bool, Failure> {
+    println!(
+        "| garment, depth | triangles | pairs of triangles that intersect: before, after | steps | edges: 99 %, longest | moved by | time |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    let (mut free, mut all, mut is_honest) = (0, 0, true);
+    for name in NAMES.into_iter().filter(|name| name.contains(&options.only)) {
+        for &depth in &options.depths {
+            let mut scene = garment(name, options.cells, depth);
+            let cloth_triangles = scene.cloths[0].mesh().triangles.len();
+            let (start, ..) = set_up(garment(name, options.cells, depth))?;
+            let before = intersecting(&start, cloth_triangles);
+            scene.tangled_start = TangledStart::Untangle;
+            let (end, untangled, is_free) = set_up(scene)?;
+            let after = intersecting(&end, cloth_triangles);
+            is_honest &= is_free == (after == 0);
+            all += 1;
+            free += usize::from(after == 0);
+            let Some(told) = untangled else {
+                println!("| {name}, {depth} | {cloth_triangles} | {before}, {after} | | | | |");
+                continue;
+            };
+            println!(
+                "| {name}, {depth} | {cloth_triangles} | {before}, {after} | {} | {:.3}, {:.3} | {:.0} mm | {:.2} s |",
+                told.steps,
+                told.stretch.percentile_99,
+                told.stretch.largest,
+                1e3 * told.farthest,
+                told.seconds,
+            );
+        }
+    }
+    println!("\n{free} of {all} are free of intersections by the oracle");
+    Ok(is_honest)
+}
+
+fn main() -> ExitCode {
+    let Some(options) = Options::parse(std::env::args().skip(1)) else {
+        eprintln!("{USAGE}");
+        return ExitCode::from(2);
+    };
+    match run(&options) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => {
+            eprintln!("the oracle and the simulation disagree");
+            ExitCode::FAILURE
+        }
+        Err(failure) => {
+            eprintln!("{failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
