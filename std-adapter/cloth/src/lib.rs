@@ -19,6 +19,7 @@
 //! |---|---|
 //! | [`Scene`] | **start here**: what is to be simulated, from code or from a file |
 //! | [`Cloth`], [`Body`], [`effects`] | what a scene consists of |
+//! | [`Material`] | cotton, denim, silk, wool, leather, latex: what they weigh and resist |
 //! | [`Motion`], [`Animation`] | where bodies go: on keyframes, as frames or a skinned figure of a glTF file say, or as the caller does |
 //! | [`Simulation`] | runs a scene: positions after each step, what each effect took, checkpoints |
 //! | [`effect_names`] | every effect that a scene may name |
@@ -63,7 +64,7 @@ pub use simulator::{
     Blocked, CHECKPOINT_STEPS, DriveError, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation, Tangled, Untangled,
     Untangling,
 };
-pub use world::{Animation, Body, Cloth, Keyframe, Motion, Placement, RigidMotion};
+pub use world::{Animation, Body, Cloth, Keyframe, Material, Motion, Placement, RigidMotion};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
 pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");

@@ -218,6 +218,9 @@ impl Scene {
     pub fn fabric(&self) -> Vec<(String, String)> {
         let mut fabric = Vec::new();
         for cloth in &self.cloths {
+            if let Some(material) = cloth.material {
+                fabric.push((self.of_cloth(cloth, "material"), material.name.to_owned()));
+            }
             let weight = AREA_DENSITY.written_short(cloth.density);
             fabric.push((self.of_cloth(cloth, "weight"), weight));
         }

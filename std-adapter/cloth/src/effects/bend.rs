@@ -13,9 +13,10 @@ const STAGES: Count = Count::new("stages", 1, 1000);
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["stiffness", "weft_stiffness", "stages"],
     needs: &[],
-    read: |table, _| {
-        let mut bend = Bend::isotropic(table.required_number(&WARP)?);
-        bend.weft_stiffness = table.number(&WEFT)?.unwrap_or(bend.stiffness);
+    read: |table, world| {
+        let of_material = world.cloth.material.map(|material| material.bend());
+        let mut bend = table.number_or(&WARP, Bend::isotropic, of_material)?;
+        bend.weft_stiffness = table.number(&WEFT)?.unwrap_or(bend.weft_stiffness);
         bend.stages = table.count(&STAGES)?.unwrap_or(bend.stages);
         Ok(Box::new(bend))
     },

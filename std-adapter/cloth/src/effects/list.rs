@@ -21,7 +21,7 @@ impl Effects {
         self.add_shared(Arc::new(effect));
     }
 
-    pub(super) fn add_shared(&mut self, effect: Arc<dyn Effect>) {
+    pub(crate) fn add_shared(&mut self, effect: Arc<dyn Effect>) {
         let name = effect.name();
         self.0.retain(|other| other.name() != name);
         let place = self.0.partition_point(|other| rank(other.name()) <= rank(name));
@@ -30,6 +30,11 @@ impl Effects {
 
     pub(crate) fn get(&self, name: &str) -> Option<&dyn Effect> {
         self.0.iter().map(|effect| &**effect).find(|effect| effect.name() == name)
+    }
+
+    /// The effect of a name, to be shared.
+    pub(crate) fn shared(&self, name: &str) -> Option<Arc<dyn Effect>> {
+        self.0.iter().find(|effect| effect.name() == name).cloned()
     }
 
     /// Forgets all but those of these names.

@@ -13,9 +13,10 @@ const STIFFNESS: Field = Field::new("stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["stiffness"],
     needs: &[],
-    read: |table, _| {
-        let stiffness = table.required_number(&STIFFNESS)?;
-        Ok(Box::new(Shear { stiffness }))
+    read: |table, world| {
+        let of_material = world.cloth.material.map(|material| material.shear());
+        let shear = table.number_or(&STIFFNESS, |stiffness| Shear { stiffness }, of_material)?;
+        Ok(Box::new(shear))
     },
 };
 

@@ -28,13 +28,14 @@ const SWEEPS: Count = Count::new("sweeps", 1, 100);
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["stiffness", "weft_stiffness", "sweeps", "levels"],
     needs: &[],
-    read: |table, _| {
-        let warp = table.required_number(&WARP)?;
+    read: |table, world| {
+        let of_material = world.cloth.material.map(|material| material.stretch());
+        let stretch = table.number_or(&WARP, Stretch::isotropic, of_material)?;
         Ok(Box::new(Stretch {
-            weft_stiffness: table.number(&WEFT)?.unwrap_or(warp),
-            sweeps: table.count(&SWEEPS)?.unwrap_or(1),
+            weft_stiffness: table.number(&WEFT)?.unwrap_or(stretch.weft_stiffness),
+            sweeps: table.count(&SWEEPS)?.unwrap_or(stretch.sweeps),
             levels: levels::read_most(table)?,
-            stiffness: warp,
+            ..stretch
         }))
     },
 };

@@ -77,6 +77,15 @@ impl<'a> Table<'a> {
             .ok_or_else(|| self.missing(field.name, &field.quantity.example()))
     }
 
+    /// What `of` makes of a number in SI units; `otherwise` if the key is not there, which is an error if that is nothing.
+    pub(crate) fn number_or<T>(&self, field: &Field, of: impl Fn(f64) -> T, otherwise: Option<T>) -> Result<T, SceneError> {
+        match (self.number(field)?, otherwise) {
+            (Some(number), _) => Ok(of(number)),
+            (None, Some(otherwise)) => Ok(otherwise),
+            (None, None) => self.required_number(field).map(of),
+        }
+    }
+
     /// A whole number, if the key is there.
     pub(crate) fn count(&self, count: &Count) -> Result<Option<u32>, SceneError> {
         self.get(count.name).map(|value| self.whole(count, value)).transpose()

@@ -106,19 +106,39 @@ fn read_bodies(root: &Table<'_>, time_step: f64) -> Result<Vec<Body>, SceneError
     Ok(bodies)
 }
 
+fn parts<'a>(root: &Table<'_>, cloths: &'a [Cloth], bodies: &'a [Body], time_step: f64) -> Result<SceneParts<'a>, SceneError> {
+    SceneParts::new(cloths, bodies, time_step).map_err(|error| root.placed(&error))
+}
+
 /// `[effects]`, and what the cloths have of their own; together they make sense.
 fn read_effects(root: &Table<'_>, cloths: &mut [Cloth], bodies: &[Body], time_step: f64) -> Result<Effects, SceneError> {
     let tables = root.one_or_more_tables("cloth")?;
-    for (index, table) in tables.iter().enumerate() {
-        let world = SceneParts::new(cloths, bodies, time_step).map_err(|error| root.placed(&error))?;
-        cloths[index].effects = effects::read_known(table, &world)?;
-    }
-    let world = SceneParts::new(cloths, bodies, time_step).map_err(|error| root.placed(&error))?;
     let effects = root.table("effects")?;
-    let by_scene = match &effects {
-        Some(table) => effects::read(table, &world)?,
-        None => Effects::default(),
+    let of_scene = |world: &SceneParts<'_>| match &effects {
+        Some(table) => effects::read(table, world),
+        None => Ok(Effects::default()),
     };
+    // What it leaves to a material is of the only cloth: others of a material get effects of their own.
+    let plain = cloths.iter().position(|cloth| cloth.material.is_none());
+    let by_scene = of_scene(&parts(root, cloths, bodies, time_step)?.of_cloth(plain))?;
+    for (index, table) in tables.iter().enumerate() {
+        let world = parts(root, cloths, bodies, time_step)?.of_cloth(Some(index));
+        let mut own = effects::read_known(table, &world)?;
+        if let Some(material) = cloths[index].material {
+            let of_scene = of_scene(&world)?;
+            for effect in material.effects() {
+                let name = effect.name();
+                match of_scene.shared(name) {
+                    _ if own.get(name).is_some() => {}
+                    None => own.add_shared(effect),
+                    Some(said) if tables.len() > 1 => own.add_shared(said),
+                    Some(_) => {}
+                }
+            }
+        }
+        cloths[index].effects = own;
+    }
+    let world = parts(root, cloths, bodies, time_step)?;
     let called = Called {
         by_scene: &by_scene,
         cloths,

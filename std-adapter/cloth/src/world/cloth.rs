@@ -1,6 +1,6 @@
 //! A cloth: its mesh, its mass, and effects of its own.
 
-use super::shapes;
+use super::{Material, shapes};
 use crate::effects::{Effect, Effects};
 use crate::input::{AREA_DENSITY, Count, Field, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, ValueError, suggestion};
 use crate::sleeve::{RefinementError, ring_sizes, sleeve};
@@ -30,6 +30,8 @@ pub struct Cloth {
     pub(crate) warp: DVec3,
     /// The velocity that all of it starts with, in m/s.
     pub velocity: DVec3,
+    /// What it is made of, if that has a name.
+    pub(crate) material: Option<Material>,
     /// Vertices that have a name.
     parts: Vec<(&'static str, Vec<u32>)>,
     /// Effects of its own, instead of the scene's of the same names.
@@ -159,6 +161,7 @@ impl Cloth {
             name: NAME.to_owned(),
             density,
             velocity: DVec3::ZERO,
+            material: None,
             mesh,
             topology,
             warp,
@@ -178,6 +181,15 @@ impl Cloth {
     /// on the whole scene, such as gravity.
     pub fn add(&mut self, effect: impl Effect + 'static) -> &mut Self {
         self.effects.add(effect);
+        self
+    }
+
+    /// Makes it of a material: sets its density, and gives it [`Stretch`](crate::effects::Stretch), [`Shear`](crate::effects::Shear) and
+    /// [`Bend`](crate::effects::Bend) of its own with the material's numbers. What is [added](Self::add) afterwards has precedence.
+    pub fn set_material(&mut self, material: Material) -> &mut Self {
+        self.density = material.density;
+        self.material = Some(material);
+        material.effects().into_iter().for_each(|effect| self.effects.add_shared(effect));
         self
     }
 
@@ -217,6 +229,7 @@ impl Cloth {
             density: 0.1,
             warp: DVec3::X,
             velocity: DVec3::ZERO,
+            material: None,
             parts: Vec::new(),
         }
     }

@@ -4,6 +4,7 @@ mod animation;
 mod body;
 mod cloth;
 mod driven;
+mod material;
 mod motion;
 mod placement;
 mod read_cloth;
@@ -15,6 +16,7 @@ use std::ops::Range;
 pub use animation::Animation;
 pub use body::Body;
 pub use cloth::Cloth;
+pub use material::Material;
 pub use motion::{Keyframe, Motion, RigidMotion};
 pub use placement::Placement;
 

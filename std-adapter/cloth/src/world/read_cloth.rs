@@ -3,7 +3,7 @@
 use super::cloth::{
     CELLS, CELLS_AROUND, CORNER, Cloth, DENSITY, FIRST, FROM, NAME, RADIUS, REFINEMENT, SECOND, TO, VELOCITY, WARP,
 };
-use super::shapes;
+use super::{Material, shapes};
 use crate::effects::effect_names;
 use crate::input::{SceneError, Table};
 use selvedge_core::glam::DVec3;
@@ -22,6 +22,7 @@ const SHAPES: [(&str, ClothShape); 4] = [
     ("tube", ClothShape::Tube),
     ("file", ClothShape::File),
 ];
+
 impl Cloth {
     /// All but effects of its own, whose tables have the names of effects.
     pub(crate) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
@@ -32,8 +33,9 @@ impl Cloth {
             ClothShape::Tube => &["from", "to", "radius", "cells"],
             ClothShape::File => &["file", "warp"],
         };
-        table.expect_keys(&[&["name", "shape", "density", "velocity"], own, &effect_names()].concat())?;
-        let density = || table.required_number(&DENSITY);
+        table.expect_keys(&[&["name", "shape", "material", "density", "velocity"], own, &effect_names()].concat())?;
+        let material = table.choice("material", &Material::ALL.map(|material| (material.name, material)))?;
+        let density = || table.number_or(&DENSITY, |density| density, material.map(|material| material.density));
         let made = match shape {
             ClothShape::Sleeve => Self::sleeve(table.count(&REFINEMENT)?.unwrap_or(1), density()?),
             ClothShape::Sheet => {
@@ -59,6 +61,7 @@ impl Cloth {
         };
         let mut cloth = made.map_err(|error| table.placed(&error))?;
         cloth.velocity = table.vector(&VELOCITY)?.unwrap_or_default();
+        cloth.material = material;
         cloth.name = table.text("name")?.unwrap_or(NAME).to_owned();
         Ok(cloth)
     }

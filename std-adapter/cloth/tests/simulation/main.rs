@@ -8,6 +8,7 @@ mod drape;
 mod energy;
 mod from_code;
 mod garments;
+mod materials;
 mod paying_only;
 mod seams;
 mod several_cloths;
