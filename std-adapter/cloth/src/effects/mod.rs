@@ -8,10 +8,13 @@
 mod air_drag;
 mod bend;
 mod body_contact;
+mod enclosed;
 mod friction;
 mod gravity;
+mod inflation;
 mod levels;
 mod list;
+mod panels;
 mod pins;
 mod pressure;
 mod registration;
@@ -24,6 +27,7 @@ mod stretch;
 mod thickness;
 mod vertices;
 mod wind;
+mod wind_field;
 
 pub use super::contact::Thickness;
 pub use super::energy::{Configuration, StoredEnergy};
@@ -35,6 +39,7 @@ pub use bend::Bend;
 pub use body_contact::BodyContact;
 pub use friction::Friction;
 pub use gravity::Gravity;
+pub use inflation::{Inflation, PressureKey};
 pub use pins::{PinGroup, PinMotion, Pins};
 pub use pressure::InternalPressure;
 pub use registration::{Effect, Scope};
@@ -44,6 +49,7 @@ pub use shear::Shear;
 pub use strain_limit::StrainLimit;
 pub use stretch::Stretch;
 pub use wind::Wind;
+pub use wind_field::{Air, AirSource, Fan, Vortex, WindField};
 
 use super::input::{SceneError, Table, suggestion};
 use registration::Registration;
@@ -66,6 +72,8 @@ macro_rules! registry {
 const REGISTRY: &[(&str, Registration)] = registry![
     gravity "gravity"
     wind "wind"
+    wind_field "wind_field"
+    inflation "inflation"
     air_drag "air_drag"
     pins "pins"
     stretch "stretch"

@@ -1,16 +1,14 @@
 //! Internal pressure: a closed cloth keeps a volume, as a constraint on all its vertices at once (Müller et al. 2007).
 //!
-//! C = V(x) − r·V₀ with the volume V = ⅙Σ a·(b × c) and the energy ½·K·C²/(r·V₀), K a bulk modulus: compliance r·V₀/K. The
-//! volume is taken relative to the first vertex, so that it does not depend on where the cloth is.
+//! C = V(x) − r·V₀ with the volume V ([`Walls`]) and the energy ½·K·C²/(r·V₀), K a bulk modulus: compliance r·V₀/K.
 
+use super::enclosed::{Walls, open_edges};
 use super::registration::{Effect, Registration};
 use crate::energy::{Configuration, StoredEnergy};
 use crate::input::{Field, PRESSURE, RATIO, ValueError};
-use crate::membrane::Incidence;
 use crate::plan::Plan;
 use crate::step::{Constraint, TimeStep, Touches};
 use crate::world::SceneParts;
-use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 
 const VOLUME: Field = Field::new("volume", RATIO, 0.01, 10.0);
@@ -53,8 +51,7 @@ impl Effect for InternalPressure {
     fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
         VOLUME.check(self.volume)?;
         MODULUS.check(self.modulus)?;
-        let statistics = world.cloth.topology.statistics();
-        match statistics.boundary_edges + statistics.non_manifold_edges {
+        match open_edges(world.cloth) {
             0 => Ok(()),
             open => {
                 let message = format!("internal pressure needs a closed cloth, but this one has {open} open edges");
@@ -65,14 +62,12 @@ impl Effect for InternalPressure {
 
     fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
-        let triangles = cloth.mesh.triangles.clone();
-        let rest = volume(&triangles, &cloth.mesh.positions);
+        let walls = Walls::new(cloth);
+        let rest = walls.volume(&cloth.mesh.positions);
         plan.add_constraint(Filling {
             goal: self.volume * rest,
             compliance: self.volume * rest.abs() / self.modulus,
-            triangles,
-            incidence: Incidence::new(cloth),
-            normals: Vec::new(),
+            walls,
         });
     }
 }
@@ -81,44 +76,25 @@ impl Effect for InternalPressure {
 struct Filling {
     goal: f64,
     compliance: f64,
-    triangles: Vec<[u32; 3]>,
-    incidence: Incidence,
-    /// A sixth of each triangle's cross product.
-    normals: Vec<DVec3>,
-}
-
-fn volume(triangles: &[[u32; 3]], positions: &[DVec3]) -> f64 {
-    let origin = positions[0];
-    let parts = triangles.iter().map(|triangle| {
-        let [a, b, c] = triangle.map(|v| positions[v as usize] - origin);
-        a.dot(b.cross(c))
-    });
-    parts.sum::<f64>() / 6.0
+    walls: Walls,
 }
 
 impl Constraint for Filling {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
-        let read: &[DVec3] = positions;
-        parallel::fill(&mut self.normals, &self.triangles, |triangle| {
-            let [a, b, c] = triangle.map(|v| read[v as usize]);
-            (b - a).cross(c - a) / 6.0
-        });
-        let gradient = |vertex: usize| -> DVec3 {
-            let around = self.incidence.of(vertex).iter();
-            around.map(|&(triangle, _)| self.normals[triangle as usize]).sum()
-        };
+        let walls = &mut self.walls;
+        walls.look(positions);
         let mut weight = self.compliance / (step.h * step.h);
-        for vertex in 0..self.incidence.len() {
-            weight += step.inverse_masses[vertex] * gradient(vertex).length_squared();
+        for vertex in 0..walls.len() {
+            weight += step.inverse_masses[vertex] * walls.gradient(vertex).length_squared();
         }
-        let multiplier = (self.goal - volume(&self.triangles, positions)) / weight;
-        for vertex in 0..self.incidence.len() {
-            positions[vertex] += gradient(vertex) * (multiplier * step.inverse_masses[vertex]);
+        let multiplier = (self.goal - walls.volume(positions)) / weight;
+        for vertex in 0..walls.len() {
+            positions[vertex] += walls.gradient(vertex) * (multiplier * step.inverse_masses[vertex]);
         }
     }
 
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
-        let excess = volume(&self.triangles, now.positions) - self.goal;
+        let excess = self.walls.volume(now.positions) - self.goal;
         Some(StoredEnergy::Elastic(0.5 * excess * excess / self.compliance))
     }
 }

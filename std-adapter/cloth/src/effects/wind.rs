@@ -1,20 +1,14 @@
-//! Wind: each triangle is pushed along its normal by the air that it stops.
-//!
-//! The force on a triangle of area A is ½ρ·c·A·|u·n|(u·n)·n, u the air's velocity relative to it (Keller et al. 2003 use the
-//! same normal term). The triangle's own normal velocity then follows v′ = −k|v|v, k = ½ρc/σ with σ its mass per area, whose exact
-//! solution over a step is v/(1 + k·h·|v|): so a step never overshoots the wind. Vertices take the changes of their triangles in
-//! the shares that these have in their mass, whose sum is one.
+//! Wind that is the same everywhere but for gusts: it pushes as [`Panels`] say.
 //!
 //! Gusts: the wind's speed varies as 1 + g·sin(2πft − q·x) with x along the wind, q one wave in [`GUST_LENGTH`] metres.
 
+use super::panels::{Panels, check_drag, read_drag};
 use super::registration::{Effect, Registration};
-use crate::input::{AIR_DENSITY, FREQUENCY, Field, RATIO, SPEED, ValueError};
-use crate::membrane::Incidence;
+use crate::input::{FREQUENCY, Field, RATIO, SPEED, ValueError};
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
 use crate::world::SceneParts;
 use libm::sin;
-use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 use std::f64::consts::TAU;
 
@@ -22,8 +16,6 @@ use std::f64::consts::TAU;
 const GUST_LENGTH: f64 = 1.0;
 
 const VELOCITY: Field = Field::vector("velocity", SPEED, 1e3);
-const DENSITY: Field = Field::new("air_density", AIR_DENSITY, 0.0, 1e3);
-const DRAG: Field = Field::new("drag", RATIO, 0.0, 100.0);
 const GUST: Field = Field::new("gust", RATIO, 0.0, 1.0);
 const GUST_FREQUENCY: Field = Field::new("gust_frequency", FREQUENCY, 0.0, 1e3);
 
@@ -33,10 +25,12 @@ pub(super) const REGISTRATION: Registration = Registration {
     read: |table, _| {
         let number = |field, default| table.number(field).map(|n| n.unwrap_or(default));
         let default = Wind::default();
+        let velocity = table.required_vector(&VELOCITY)?;
+        let [air_density, drag] = read_drag(table, [default.air_density, default.drag])?;
         Ok(Box::new(Wind {
-            velocity: table.required_vector(&VELOCITY)?,
-            air_density: number(&DENSITY, default.air_density)?,
-            drag: number(&DRAG, default.drag)?,
+            velocity,
+            air_density,
+            drag,
             gust: number(&GUST, default.gust)?,
             gust_frequency: number(&GUST_FREQUENCY, default.gust_frequency)?,
         }))
@@ -85,21 +79,16 @@ impl Effect for Wind {
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         Self::check_velocity(self.velocity)?;
-        DENSITY.check(self.air_density)?;
-        DRAG.check(self.drag)?;
+        check_drag([self.air_density, self.drag])?;
         GUST.check(self.gust)?;
         GUST_FREQUENCY.check(self.gust_frequency)
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
-        let cloth = plan.scene.cloth;
         plan.add_force(Blow {
-            factor: 0.5 * self.air_density * self.drag / cloth.density,
+            panels: Panels::new(plan.scene.cloth, [self.air_density, self.drag]),
             wave: wave(self.velocity),
             wind: *self,
-            triangles: cloth.mesh.triangles.clone(),
-            incidence: Incidence::new(cloth),
-            changes: Vec::new(),
         });
     }
 }
@@ -112,14 +101,9 @@ fn wave(velocity: DVec3) -> DVec3 {
 #[derive(Debug)]
 struct Blow {
     wind: Wind,
-    /// k of the module.
-    factor: f64,
     /// Phase per metre.
     wave: DVec3,
-    triangles: Vec<[u32; 3]>,
-    incidence: Incidence,
-    /// Of each triangle's velocity.
-    changes: Vec<DVec3>,
+    panels: Panels,
 }
 
 impl Force for Blow {
@@ -130,31 +114,11 @@ impl Force for Blow {
     }
 
     fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
-        let Self {
-            wind,
-            factor,
-            wave,
-            triangles,
-            incidence,
-            changes,
-        } = self;
+        let Self { wind, wave, panels } = self;
         let phase = TAU * wind.gust_frequency * step.time;
-        let read: &[DVec3] = velocities;
-        parallel::fill(changes, triangles, |triangle| {
-            let [a, b, c] = triangle.map(|v| step.start[v as usize]);
-            let normal = (b - a).cross(c - a).normalize_or_zero();
-            let [u, v, w] = triangle.map(|v| read[v as usize]);
+        panels.push(step, velocities, |[a, ..]| {
             let strength = 1.0 + wind.gust * sin(phase - wave.dot(a));
-            let across = (wind.velocity * strength - (u + v + w) / 3.0).dot(normal);
-            let slowing = *factor * step.h * across.abs();
-            normal * (across * (slowing / (1.0 + slowing)))
+            wind.velocity * strength
         });
-        for (vertex, velocity) in velocities.iter_mut().enumerate().take(incidence.len()) {
-            if step.inverse_masses[vertex] > 0.0 {
-                for &(triangle, share) in incidence.of(vertex) {
-                    *velocity += changes[triangle as usize] * share;
-                }
-            }
-        }
     }
 }

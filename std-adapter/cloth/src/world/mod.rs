@@ -22,7 +22,7 @@ pub use placement::Placement;
 
 pub(crate) use animation::FASTEST_VERTEX;
 pub(crate) use driven::{Driven, Kinematic};
-pub(crate) use motion::Pose;
+pub(crate) use motion::{KEY_TIME, Pose, check_key_time};
 #[cfg(test)]
 pub(crate) use shapes::{capsule, sheet, tube};
 

@@ -76,7 +76,7 @@ const FASTEST_TURN: f64 = 6.0;
 
 const PIVOT: Field = Field::vector("pivot", LENGTH, LARGEST_COORDINATE);
 const AXIS: Field = Field::vector("axis", RATIO, LARGEST_COORDINATE);
-const KEY_TIME: Field = Field::new("time", TIME, 0.0, LARGEST_TIME);
+pub(crate) const KEY_TIME: Field = Field::new("time", TIME, 0.0, LARGEST_TIME);
 const KEY_ANGLE: Field = Field::new("angle", ANGLE, -1e4, 1e4);
 pub(super) const TRANSLATION: Field = Field::vector("translation", LENGTH, LARGEST_COORDINATE);
 
@@ -91,19 +91,25 @@ pub struct Keyframe {
     pub translation: DVec3,
 }
 
+/// Whether a keyframe at a time, in seconds, can follow one at the time `last`.
+pub(crate) fn check_key_time(time: f64, last: Option<f64>) -> Result<(), ValueError> {
+    KEY_TIME.check(time)?;
+    if last.is_some_and(|last| time < last + CLOSEST_KEYS) {
+        let message = "keyframes must be in order: each `time` a microsecond or more later than the one before";
+        return Err(ValueError::new(KEY_TIME.name, message));
+    }
+    Ok(())
+}
+
 impl Keyframe {
     /// Whether it can follow `last`.
     fn check(&self, last: Option<&Self>, time_step: f64) -> Result<(), ValueError> {
-        KEY_TIME.check(self.time)?;
         KEY_ANGLE.check(self.angle)?;
         TRANSLATION.check_vector(self.translation)?;
+        check_key_time(self.time, last.map(|last| last.time))?;
         let Some(last) = last else {
             return Ok(());
         };
-        if self.time < last.time + CLOSEST_KEYS {
-            let message = "keyframes must be in order: each `time` a microsecond or more later than the one before";
-            return Err(ValueError::new(KEY_TIME.name, message));
-        }
         // Half-way it is half as fast again as on average.
         let turn = (self.angle - last.angle).abs();
         let in_a_step = turn.min(1.5 * turn * time_step / (self.time - last.time));

@@ -1,5 +1,6 @@
 //! Cloth simulation as a library's user meets it.
 
+mod air;
 mod animated;
 mod bending;
 mod blocked;

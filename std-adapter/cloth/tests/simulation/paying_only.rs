@@ -19,9 +19,14 @@ centre = [0, 0, 0]
 radius = "10 cm"
 "#;
 
-const EFFECTS: [(&str, &str); 12] = [
+const EFFECTS: [(&str, &str); 14] = [
     ("gravity", ""),
     ("wind", "velocity = [1, 0, 0]"),
+    (
+        "wind_field",
+        "fan = [{ at = [0, 0, -1], velocity = [0, 0, 1], radius = 0.1 }]",
+    ),
+    ("inflation", "pressure = \"1 Pa\""),
     ("air_drag", "rate = 1"),
     ("pins", "group = [{ part = \"left\" }]"),
     ("stretch", "stiffness = 100"),
@@ -64,7 +69,7 @@ fn exactly_the_effects_named_are_constructed_and_reported() {
 
 #[test]
 fn without_a_contact_effect_nothing_looks_for_contact() {
-    let simulation = scene(&EFFECTS[..8]);
+    let simulation = scene(&EFFECTS[..EFFECTS.len() - 3]);
     assert!(simulation.contact_counts().is_none() && simulation.contact_seconds().is_none());
     assert!(!simulation.is_certified());
     assert!(scene(&EFFECTS).is_certified());

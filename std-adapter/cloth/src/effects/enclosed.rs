@@ -1,0 +1,63 @@
+//! The volume that a closed cloth holds, and what pushes on it from inside.
+//!
+//! V = ⅙Σ a·(b × c), relative to the first vertex, so that it does not depend on where the cloth is. Its gradient at a vertex is a third of
+//! the area vectors around it: what a pressure of one pascal pushes it with, in N, whether the cloth is closed or not.
+
+use crate::membrane::Incidence;
+use crate::world::Cloth;
+use selvedge::verification::parallel;
+use selvedge_core::glam::DVec3;
+
+/// The triangles of a cloth, as walls.
+#[derive(Debug)]
+pub(super) struct Walls {
+    triangles: Vec<[u32; 3]>,
+    incidence: Incidence,
+    /// A sixth of each triangle's cross product.
+    normals: Vec<DVec3>,
+}
+
+impl Walls {
+    pub(super) fn new(cloth: &Cloth) -> Self {
+        Self {
+            triangles: cloth.mesh.triangles.clone(),
+            incidence: Incidence::new(cloth),
+            normals: Vec::new(),
+        }
+    }
+
+    /// In m³, if the cloth is closed: negative if its triangles are turned inside.
+    pub(super) fn volume(&self, positions: &[DVec3]) -> f64 {
+        let origin = positions[0];
+        let parts = self.triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|v| positions[v as usize] - origin);
+            a.dot(b.cross(c))
+        });
+        parts.sum::<f64>() / 6.0
+    }
+
+    /// Looks where all is, before gradients are asked for.
+    pub(super) fn look(&mut self, positions: &[DVec3]) {
+        parallel::fill(&mut self.normals, &self.triangles, |triangle| {
+            let [a, b, c] = triangle.map(|v| positions[v as usize]);
+            (b - a).cross(c - a) / 6.0
+        });
+    }
+
+    /// Of the volume, in m².
+    pub(super) fn gradient(&self, vertex: usize) -> DVec3 {
+        let around = self.incidence.of(vertex).iter();
+        around.map(|&(triangle, _)| self.normals[triangle as usize]).sum()
+    }
+
+    /// Vertices.
+    pub(super) fn len(&self) -> usize {
+        self.incidence.len()
+    }
+}
+
+/// How many edges of a cloth are open: none if it is closed.
+pub(super) fn open_edges(cloth: &Cloth) -> usize {
+    let statistics = cloth.topology.statistics();
+    statistics.boundary_edges + statistics.non_manifold_edges
+}

@@ -1,0 +1,134 @@
+//! Inflation: a pressure that is given, over time, on one side of the cloth. On a vertex it is p times the gradient of the volume
+//! ([`Walls`]), so that a closed cloth gets neither a push nor a turn as a whole. It does work, like wind: it tells no energy.
+
+use super::enclosed::{Walls, open_edges};
+use super::registration::{Effect, Registration};
+use crate::input::{Field, PRESSURE, SceneError, Table, ValueError};
+use crate::plan::Plan;
+use crate::step::{Force, TimeStep};
+use crate::world::{KEY_TIME, SceneParts, check_key_time};
+use selvedge_core::glam::DVec3;
+
+const GIVEN: Field = Field::new("pressure", PRESSURE, -1e7, 1e7);
+
+pub(super) const REGISTRATION: Registration = Registration {
+    keys: &["pressure", "keyframes"],
+    needs: &[],
+    read: |table, _| {
+        let given = table.number(&GIVEN)?;
+        let keyframes = read_keyframes(table)?;
+        match given {
+            Some(_) if !keyframes.is_empty() => {
+                let message = "inflation is by `pressure` or by `keyframes`, not by both".to_owned();
+                Err(table.error("keyframes", message))
+            }
+            Some(pressure) => Ok(Box::new(Inflation::at(pressure))),
+            None => Ok(Box::new(Inflation { keyframes })),
+        }
+    },
+};
+
+fn read_keyframes(table: &Table<'_>) -> Result<Vec<PressureKey>, SceneError> {
+    let mut keyframes: Vec<PressureKey> = Vec::new();
+    for key in table.tables("keyframes")? {
+        key.expect_keys(&["time", "pressure"])?;
+        let next = PressureKey {
+            time: key.required_number(&KEY_TIME)?,
+            pressure: key.required_number(&GIVEN)?,
+        };
+        next.check(keyframes.last()).map_err(|error| key.placed(&error))?;
+        keyframes.push(next);
+    }
+    Ok(keyframes)
+}
+
+/// A pressure on one side of the cloth, from outside to inside if it is negative: of a closed cloth from its inside, of an open one
+/// towards where its triangles' corners go counter-clockwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inflation {
+    /// In order; in between it changes evenly, before the first and after the last one it stays. One at least.
+    pub keyframes: Vec<PressureKey>,
+}
+
+/// A pressure at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PressureKey {
+    /// In seconds of the simulation.
+    pub time: f64,
+    /// Above that of the air around, in Pa.
+    pub pressure: f64,
+}
+
+impl PressureKey {
+    fn check(&self, last: Option<&Self>) -> Result<(), ValueError> {
+        GIVEN.check(self.pressure)?;
+        check_key_time(self.time, last.map(|last| last.time))
+    }
+}
+
+impl Inflation {
+    /// The same pressure at any time, in Pa.
+    #[must_use]
+    pub fn at(pressure: f64) -> Self {
+        let keyframes = vec![PressureKey { time: 0.0, pressure }];
+        Self { keyframes }
+    }
+
+    /// In Pa, at a time in seconds.
+    fn pressure(&self, time: f64) -> f64 {
+        let keys = &self.keyframes;
+        let next = keys.partition_point(|key| key.time <= time);
+        match (next.checked_sub(1).map(|last| keys[last]), keys.get(next)) {
+            (Some(a), Some(b)) => a.pressure + (b.pressure - a.pressure) * ((time - a.time) / (b.time - a.time)),
+            (Some(key), None) | (None, Some(&key)) => key.pressure,
+            (None, None) => 0.0,
+        }
+    }
+}
+
+impl Effect for Inflation {
+    fn name(&self) -> &'static str {
+        "inflation"
+    }
+
+    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
+        if self.keyframes.is_empty() {
+            let message = "inflation needs a `pressure`, or `keyframes` of it, such as [{ time = 0, pressure = \"2 kPa\" }]";
+            return Err(ValueError::new("keyframes", message));
+        }
+        let before = std::iter::once(None).chain(self.keyframes.iter().map(Some));
+        before.zip(&self.keyframes).try_for_each(|(last, key)| key.check(last))
+    }
+
+    fn register(&self, plan: &mut Plan<'_>) {
+        let cloth = plan.scene.cloth;
+        let walls = Walls::new(cloth);
+        let is_inside_out = open_edges(cloth) == 0 && walls.volume(&cloth.mesh.positions) < 0.0;
+        plan.add_force(Inflating {
+            inflation: self.clone(),
+            outward: if is_inside_out { -1.0 } else { 1.0 },
+            walls,
+        });
+    }
+}
+
+#[derive(Debug)]
+struct Inflating {
+    inflation: Inflation,
+    /// Which way the triangles' normals go.
+    outward: f64,
+    walls: Walls,
+}
+
+impl Force for Inflating {
+    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
+        let impulse = self.outward * self.inflation.pressure(step.time) * step.h;
+        if impulse == 0.0 {
+            return;
+        }
+        self.walls.look(step.start);
+        for (vertex, velocity) in velocities.iter_mut().enumerate().take(self.walls.len()) {
+            *velocity += self.walls.gradient(vertex) * (impulse * step.inverse_masses[vertex]);
+        }
+    }
+}

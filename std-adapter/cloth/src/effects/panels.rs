@@ -1,0 +1,80 @@
+//! What moving air does to a cloth: each triangle is pushed along its normal by the air that it stops.
+//!
+//! The force on a triangle of area A is ½ρ·c·A·|u·n|(u·n)·n, u the air's velocity relative to it (Keller et al. 2003 use the
+//! same normal term). The triangle's own normal velocity then follows v′ = −k|v|v, k = ½ρc/σ with σ its mass per area, whose exact
+//! solution over a step is v/(1 + k·h·|v|): so a step never overshoots the wind. Vertices take the changes of their triangles in
+//! the shares that these have in their mass, whose sum is one.
+
+use crate::input::{AIR_DENSITY, Field, RATIO, SceneError, Table, ValueError};
+use crate::membrane::Incidence;
+use crate::step::TimeStep;
+use crate::world::Cloth;
+use selvedge::verification::parallel;
+use selvedge_core::glam::DVec3;
+
+const DENSITY: Field = Field::new("air_density", AIR_DENSITY, 0.0, 1e3);
+const DRAG: Field = Field::new("drag", RATIO, 0.0, 100.0);
+
+/// Reads the density of air and the drag coefficient, or leaves them as they are.
+pub(super) fn read_drag(table: &Table<'_>, [density, drag]: [f64; 2]) -> Result<[f64; 2], SceneError> {
+    Ok([
+        table.number(&DENSITY)?.unwrap_or(density),
+        table.number(&DRAG)?.unwrap_or(drag),
+    ])
+}
+
+/// Whether there can be air of such a density, and such a drag coefficient.
+pub(super) fn check_drag([density, drag]: [f64; 2]) -> Result<(), ValueError> {
+    DENSITY.check(density)?;
+    DRAG.check(drag)
+}
+
+/// The triangles of a cloth, in the air.
+#[derive(Debug)]
+pub(super) struct Panels {
+    /// k of the module.
+    factor: f64,
+    triangles: Vec<[u32; 3]>,
+    incidence: Incidence,
+    /// Of each triangle's velocity.
+    changes: Vec<DVec3>,
+}
+
+impl Panels {
+    /// In air of such a density, in kg/m³, with such a drag coefficient.
+    pub(super) fn new(cloth: &Cloth, [density, drag]: [f64; 2]) -> Self {
+        Self {
+            factor: 0.5 * density * drag / cloth.density,
+            triangles: cloth.mesh.triangles.clone(),
+            incidence: Incidence::new(cloth),
+            changes: Vec::new(),
+        }
+    }
+
+    /// Changes velocities by air that moves as `air` says of a triangle's corners.
+    pub(super) fn push(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3], air: impl Fn([DVec3; 3]) -> DVec3 + Sync) {
+        let Self {
+            factor,
+            triangles,
+            incidence,
+            changes,
+        } = self;
+        let read: &[DVec3] = velocities;
+        parallel::fill(changes, triangles, |triangle| {
+            let corners = triangle.map(|v| step.start[v as usize]);
+            let [a, b, c] = corners;
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            let [u, v, w] = triangle.map(|v| read[v as usize]);
+            let across = (air(corners) - (u + v + w) / 3.0).dot(normal);
+            let slowing = *factor * step.h * across.abs();
+            normal * (across * (slowing / (1.0 + slowing)))
+        });
+        for (vertex, velocity) in velocities.iter_mut().enumerate().take(incidence.len()) {
+            if step.inverse_masses[vertex] > 0.0 {
+                for &(triangle, share) in incidence.of(vertex) {
+                    *velocity += changes[triangle as usize] * share;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,295 @@
+//! Air that pushes: inflation by a given pressure, and wind from a field.
+
+use selvedge::glam::DVec3;
+use selvedge_cloth::effects::{
+    Air, AirDrag, AirSource, Effect, Fan, Inflation, PressureKey, SelfCollision, Stretch, Thickness, Vortex, Wind, WindField,
+};
+use selvedge_cloth::{Body, Cloth, Scene, Simulation};
+use std::path::Path;
+
+const RADIUS: f64 = 0.1;
+
+/// A ball of cloth about (1, 0, 0), its triangles turned inside if that is asked for.
+fn balloon(is_inside_out: bool) -> Cloth {
+    let mut mesh = Body::ball("ball", DVec3::X, RADIUS, 24).unwrap().mesh;
+    if is_inside_out {
+        mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+    }
+    Cloth::of_mesh(mesh, DVec3::Z, 0.2).unwrap()
+}
+
+/// After so many steps of half a millisecond.
+fn run(cloth: Cloth, effects: impl FnOnce(&mut Scene), steps: u32) -> Simulation {
+    let mut scene = Scene::new(cloth, 5e-4);
+    effects(&mut scene);
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    (0..steps).for_each(|_| simulation.step().unwrap());
+    simulation
+}
+
+fn mean_radius(simulation: &Simulation) -> f64 {
+    let count = simulation.cloth_vertices();
+    let positions = &simulation.positions()[..count];
+    positions.iter().map(|p| p.distance(DVec3::X)).sum::<f64>() / count as f64
+}
+
+/// Of a ball with the tension T = k·(r − R)/R in its skin: p = 2T/r. Shorter steps leave less of the pull to the next.
+#[test]
+fn a_balloon_grows_until_its_skin_holds_the_pressure() {
+    let (stiffness, pressure) = (200.0, 400.0);
+    for is_inside_out in [false, true] {
+        let effects = |scene: &mut Scene| {
+            scene.time_step = 1e-4;
+            scene.add(Stretch::isotropic(stiffness)).add(AirDrag { rate: 20.0 });
+            scene.add(Inflation::at(pressure)).add(SelfCollision(Thickness::of(1e-3)));
+        };
+        let inflated = run(balloon(is_inside_out), effects, 8000);
+        let expected = RADIUS / (1.0 - pressure * RADIUS / (2.0 * stiffness));
+        let found = mean_radius(&inflated);
+        assert!((found / expected - 1.0).abs() < 0.02, "{found}, not {expected}");
+        assert!(inflated.is_certified());
+    }
+}
+
+#[test]
+fn a_pressure_over_time_is_that_of_its_keyframes() {
+    let key = |time, pressure| PressureKey { time, pressure };
+    let after = |steps| {
+        let inflation = Inflation {
+            keyframes: vec![key(0.1, 0.0), key(0.4, 400.0), key(0.5, 0.0)],
+        };
+        let effects = |scene: &mut Scene| {
+            scene
+                .add(inflation)
+                .add(Stretch::isotropic(200.0))
+                .add(AirDrag { rate: 20.0 });
+        };
+        mean_radius(&run(balloon(false), effects, steps)) / RADIUS
+    };
+    let [before, full, empty] = [200, 800, 2000].map(after);
+    assert!((before - 1.0).abs() < 1e-9, "{before}");
+    assert!(full > 1.08, "{full}");
+    assert!((empty - 1.0).abs() < 0.01, "{empty}");
+}
+
+/// In one step: of the whole momentum, and of an open sheet p·h/σ everywhere.
+#[test]
+fn a_closed_cloth_is_not_pushed_as_a_whole_and_an_open_one_along_its_normals() {
+    let closed = run(balloon(false), |scene| _ = scene.add(Inflation::at(1e3)), 1);
+    let (mut momentum, mut sizes) = (DVec3::ZERO, 0.0);
+    let mesh = balloon(false).mesh().clone();
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|v| mesh.positions[v as usize]);
+        for vertex in triangle {
+            let own = closed.velocities()[*vertex as usize] * (b - a).cross(c - a).length();
+            momentum += own;
+            sizes += own.length();
+        }
+    }
+    assert!(sizes > 1e-3 && momentum.length() < 1e-12 * sizes, "{momentum} of {sizes}");
+    let sheet = Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [4, 4], 0.2).unwrap();
+    let open = run(sheet, |scene| _ = scene.add(Inflation::at(30.0)), 1);
+    let expected = DVec3::Z * (30.0 * 5e-4 / 0.2);
+    for velocity in open.velocities() {
+        assert!(velocity.distance(expected) < 1e-12, "{velocity}, not {expected}");
+    }
+}
+
+/// The same wind everywhere, as a field.
+#[derive(Debug)]
+struct Even(DVec3);
+
+impl Air for Even {
+    fn velocity(&self, _: DVec3, _: f64) -> DVec3 {
+        self.0
+    }
+}
+
+fn sheet() -> Cloth {
+    Cloth::sheet(DVec3::ZERO, [DVec3::X * 0.3, DVec3::Z * 0.3], [6, 6], 0.1).unwrap()
+}
+
+#[test]
+fn a_field_that_is_the_same_everywhere_is_wind_to_the_last_bit() {
+    let velocity = DVec3::new(1.0, 4.0, 0.5);
+    let even = run(sheet(), |scene| _ = scene.add(WindField::new(Even(velocity))), 100);
+    let wind = Wind {
+        velocity,
+        ..Wind::default()
+    };
+    let wind = run(sheet(), |scene| _ = scene.add(wind), 100);
+    assert_eq!(even.positions(), wind.positions());
+    assert!(even.velocities()[0].y > 0.01);
+}
+
+/// Only from a time on, and only right of a place.
+#[derive(Debug)]
+struct Gust;
+
+impl Air for Gust {
+    fn velocity(&self, at: DVec3, time: f64) -> DVec3 {
+        if at.x > 0.15 && time > 0.02 {
+            DVec3::Y * 5.0
+        } else {
+            DVec3::ZERO
+        }
+    }
+}
+
+#[test]
+fn a_field_from_code_depends_on_place_and_time() {
+    let fastest = |steps, side: &str| {
+        let vertices = sheet().part(side).unwrap().to_vec();
+        let blown = run(sheet(), |scene| _ = scene.add(WindField::new(Gust)), steps);
+        vertices.iter().map(|&v| blown.velocities()[v as usize].y).fold(0.0, f64::max)
+    };
+    assert_eq!([fastest(40, "right"), fastest(200, "left")], [0.0, 0.0]);
+    assert!(fastest(200, "right") > 0.1);
+}
+
+fn fan() -> Fan {
+    Fan {
+        at: DVec3::new(1.0, 2.0, 3.0),
+        velocity: DVec3::Y * 6.0,
+        radius: 0.2,
+    }
+}
+
+fn moved_by(source: AirSource, at: DVec3) -> DVec3 {
+    vec![source].velocity(at, 0.0)
+}
+
+#[test]
+fn a_fan_blows_a_jet_that_keeps_its_momentum() {
+    let fan = fan();
+    let blown = |along: f64, across: f64| moved_by(AirSource::Fan(fan), fan.at + DVec3::new(across, along, 0.0));
+    assert_eq!(blown(0.0, 0.0), fan.velocity);
+    assert!(blown(0.0, fan.radius).distance(fan.velocity / 2.0) < 1e-12);
+    assert_eq!(blown(-0.1, 0.0), DVec3::ZERO, "behind it the air is still");
+    // ∫U²·2πr·dr over a section.
+    let momentum = |along: f64| {
+        let rings = (0..4000).map(|k| 1e-3 * (f64::from(k) + 0.5));
+        rings.map(|r| blown(along, r).length_squared() * r).sum::<f64>()
+    };
+    for along in [1.0, 5.0] {
+        assert!((momentum(along) / momentum(0.0) - 1.0).abs() < 1e-3, "{along} m");
+    }
+}
+
+#[test]
+fn a_vortex_is_fastest_at_its_radius_and_turns_counter_clockwise() {
+    let vortex = Vortex {
+        at: DVec3::ONE,
+        axis: DVec3::Z * 7.0,
+        speed: 3.0,
+        radius: 0.5,
+    };
+    let blown = |x: f64| moved_by(AirSource::Vortex(vortex), DVec3::new(1.0 + x, 1.0, -4.0));
+    assert!(blown(0.5).distance(3.0 * DVec3::Y) < 1e-12);
+    assert!(blown(-0.5).distance(-3.0 * DVec3::Y) < 1e-12);
+    assert_eq!(blown(0.0), DVec3::ZERO);
+    assert!((1..100).all(|k| blown(0.05 * f64::from(k)).y <= 3.0));
+}
+
+const FILE: &str = r#"
+    time_step = "0.5 ms"
+    duration = 1
+    [cloth]
+    shape = "sheet"
+    sides = { first = [0.3, 0, 0], second = [0, 0, 0.3] }
+    cells = [6, 6]
+    density = 0.1
+    [[effects.wind_field.fan]]
+    at = [0.1, -0.2, 0.1]
+    velocity = [0, "18 km/h", 1]
+    radius = "10 cm"
+    [[effects.wind_field.vortex]]
+    at = [0, 0, 0]
+    axis = [0, 0, 1]
+    speed = 2
+    radius = 0.3
+    [effects.inflation]
+    keyframes = [{ time = 0, pressure = 5 }, { time = "50 ms", pressure = "-0.01 kPa" }]
+"#;
+
+#[test]
+fn fields_and_pressures_from_a_file_and_from_code_are_the_same_to_the_last_bit() {
+    let mut of_file = Simulation::new(Scene::parse(FILE, Path::new("s.toml")).unwrap(), 2).unwrap();
+    (0..200).for_each(|_| of_file.step().unwrap());
+    let sources = vec![
+        AirSource::Fan(Fan {
+            at: DVec3::new(0.1, -0.2, 0.1),
+            velocity: DVec3::new(0.0, 18.0 * (1.0 / 3.6), 1.0),
+            radius: 0.1,
+        }),
+        AirSource::Vortex(Vortex {
+            at: DVec3::ZERO,
+            axis: DVec3::Z,
+            speed: 2.0,
+            radius: 0.3,
+        }),
+    ];
+    let key = |time, pressure| PressureKey { time, pressure };
+    let inflation = Inflation {
+        keyframes: vec![key(0.0, 5.0), key(0.05, -10.0)],
+    };
+    let effects = |scene: &mut Scene| _ = scene.add(WindField::of(sources)).add(inflation);
+    assert_eq!(of_file.positions(), run(sheet(), effects, 200).positions());
+}
+
+#[test]
+fn wrong_air_is_named_with_its_unit_and_its_range() {
+    let complaint = |passage: &str, by: &str| {
+        assert_eq!(FILE.matches(passage).count(), 1, "{passage}");
+        let error = Scene::parse(&FILE.replace(passage, by), Path::new("s.toml")).unwrap_err();
+        error.to_string()
+    };
+    for (passage, by, expected) in [
+        (
+            "speed = 2",
+            "speed = \"2 Hz\"",
+            "s.toml:16:13: `speed` must be a speed, and 'Hz' is no unit of it; choose from m/s, cm/s, km/h",
+        ),
+        (
+            "axis = [0, 0, 1]",
+            "axis = [0, 0, 0]",
+            "s.toml:15:12: `axis` must not be zero: it is the direction that the air turns about",
+        ),
+        (
+            "radius = \"10 cm\"",
+            "radius = 0",
+            "s.toml:12:14: `radius` is 0 m, but must be from 0.001 m to 1000 m",
+        ),
+        (
+            "pressure = 5",
+            "pressure = 1e9",
+            "s.toml:19:41: `pressure` is 1e9 Pa, but must be from -1e7 Pa to 1e7 Pa",
+        ),
+        (
+            "time = \"50 ms\"",
+            "time = 0",
+            "s.toml:19:55: keyframes must be in order: each `time` a microsecond or more later than the one before",
+        ),
+        (
+            "[effects.inflation]",
+            "[effects.inflation]\n    pressure = 2",
+            "s.toml:20:17: inflation is by `pressure` or by `keyframes`, not by both",
+        ),
+    ] {
+        assert_eq!(complaint(passage, by), expected);
+    }
+    let refused = |effect: &dyn Fn(&mut Scene)| {
+        let mut scene = Scene::new(sheet(), 1e-3);
+        effect(&mut scene);
+        scene.check().unwrap_err().to_string()
+    };
+    let endless = Fan {
+        velocity: DVec3::Y * f64::NAN,
+        ..fan()
+    };
+    let field = refused(&|scene| _ = scene.add(WindField::of(vec![AirSource::Fan(endless)])));
+    assert!(field.starts_with("wind_field: `velocity` is NaN m/s"), "{field}");
+    let nothing = refused(&|scene| _ = scene.add(Inflation { keyframes: Vec::new() }));
+    assert!(nothing.starts_with("inflation: inflation needs a `pressure`"), "{nothing}");
+    assert_eq!(WindField::new(Gust).name(), "wind_field");
+}
