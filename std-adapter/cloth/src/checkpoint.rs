@@ -35,6 +35,8 @@ pub(super) struct Checkpoint {
     pub(super) effects: Vec<f64>,
     /// Of what the caller moves, unless it was moved point by point.
     pub(super) placements: Vec<Option<Placement>>,
+    /// Of all constraints that remember something.
+    pub(super) memories: Vec<f64>,
     /// All zero without contact.
     pub(super) counts: ContactCounts,
     /// All zero without contact.
@@ -48,6 +50,7 @@ pub(super) struct Sizes {
     pub(super) yielding: usize,
     pub(super) effects: usize,
     pub(super) placements: usize,
+    pub(super) memories: usize,
 }
 
 impl Checkpoint {
@@ -75,6 +78,7 @@ impl Checkpoint {
             let numbers = rotation.to_array().into_iter().chain(translation.to_array());
             bytes.extend(numbers.flat_map(f64::to_le_bytes));
         }
+        bytes.extend(self.memories.iter().flat_map(|x| x.to_le_bytes()));
         let ContactCounts {
             candidates,
             looked_at,
@@ -102,7 +106,8 @@ impl Checkpoint {
         let checkpoint = Self::read_on(&mut reader, sizes).ok_or(CheckpointError::Damaged)?;
         let state = &checkpoint.state;
         let all = state.positions.iter().chain(&state.velocities);
-        let is_finite = state.clock.is_finite() && { all }.all(|vector| vector.is_finite());
+        let remembered = checkpoint.memories.iter().all(|number| number.is_finite());
+        let is_finite = remembered && state.clock.is_finite() && { all }.all(|vector| vector.is_finite());
         if is_finite && reader.0.is_empty() {
             Ok(checkpoint)
         } else {
@@ -131,6 +136,7 @@ impl Checkpoint {
         };
         let effects: Option<Vec<_>> = (0..sizes.effects).map(|_| reader.f64()).collect();
         let placements: Option<Vec<_>> = (0..sizes.placements).map(|_| placement(reader)).collect();
+        let memories: Option<Vec<_>> = (0..sizes.memories).map(|_| reader.f64()).collect();
         Some(Self {
             state: State {
                 step,
@@ -145,6 +151,7 @@ impl Checkpoint {
             parting,
             effects: effects?,
             placements: placements?,
+            memories: memories?,
             counts: ContactCounts {
                 candidates: reader.u64()?,
                 looked_at: reader.u64()?,
@@ -207,6 +214,7 @@ mod tests {
         yielding: 2,
         effects: 1,
         placements: 2,
+        memories: 3,
     };
 
     fn checkpoint() -> Checkpoint {
@@ -222,6 +230,7 @@ mod tests {
             parting: Some(vec![(PairKind::VertexFace, [1, 0]), (PairKind::EdgeEdge, [0, 2])]),
             effects: vec![0.25],
             placements: vec![Some(Placement::at(DVec3::Y)), None],
+            memories: vec![-1.0, 0.5, 2.0],
             counts: ContactCounts {
                 candidates: 1,
                 looked_at: 2,

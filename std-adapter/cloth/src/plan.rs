@@ -12,6 +12,7 @@ use super::of_cloth::OfCloth;
 use super::step::{Carrier, Constraint, FREE, Force};
 use super::world::{Cloth, Kinematic, Motion, SceneParts};
 use std::ops::Range;
+use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
 /// An entry of a phase and the effect that it belongs to.
@@ -168,6 +169,30 @@ impl<'a> Plan<'a> {
         let mut levels = hierarchy.get_or_insert_with(make).levels_to(coarsest);
         levels.truncate(most.map_or(usize::MAX, |most| most as usize));
         levels
+    }
+
+    /// Where all vertices are at the start, but for pinned ones: those of cloths, then the bodies'.
+    pub(crate) fn start(&mut self) -> Vec<DVec3> {
+        let cloths = self.scene.cloths.iter();
+        let mut positions: Vec<DVec3> = cloths.flat_map(|cloth| cloth.mesh.positions.iter().copied()).collect();
+        for (body, motion) in self.scene.bodies.iter().zip(&self.motions) {
+            let pose = motion.pose(0.0);
+            let place = |&point: &DVec3| if pose.is_rigid() { pose.apply(point) } else { point };
+            positions.extend(body.mesh.positions.iter().map(place));
+        }
+        for motion in &mut self.motions[..self.scene.bodies.len()] {
+            motion.put(0.0, &mut positions);
+        }
+        positions
+    }
+
+    /// The triangles of a body, on all vertices.
+    pub(crate) fn triangles_of(&self, body: usize) -> Vec<[u32; 3]> {
+        let before = &self.scene.bodies[..body];
+        let of_bodies: usize = before.iter().map(|body| body.mesh.positions.len()).sum();
+        let first = (self.scene.cloth_vertices() + of_bodies) as u32;
+        let own = self.scene.bodies[body].mesh.triangles.iter();
+        own.map(|triangle| triangle.map(|vertex| first + vertex)).collect()
     }
 
     /// Adds what moves these vertices.

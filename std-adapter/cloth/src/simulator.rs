@@ -25,7 +25,7 @@ use super::input::ValueError;
 use super::plan::{Entry, Plan};
 use super::scene::{OnBlocked, Scene, TangledStart, append};
 use super::state::State;
-use super::step::{Carrier, Constraint, FREE, Force, TimeStep, Touches};
+use super::step::{Carrier, Constraint, FREE, Force, Memory, Release, TimeStep, Touches};
 use super::world::{Driven, Kinematic, Pose};
 use selvedge::verification::parallel::Workers;
 use selvedge::{Mesh, StepError, TopologyError};
@@ -69,6 +69,8 @@ pub struct Simulation {
     pins: Vec<Carrier>,
     forces: Vec<Entry<dyn Force>>,
     constraints: Vec<Entry<dyn Constraint>>,
+    /// Those of them that remember something.
+    remembering: Vec<usize>,
     contact: Option<ContactSolver>,
     friction: Vec<Entry<dyn Constraint>>,
     effects: Vec<EffectTime>,
@@ -204,6 +206,8 @@ impl Simulation {
             triangles,
         } = all;
         inverse_masses.resize(rest.len(), 0.0);
+        let remembers = |&index: &usize| constraints[index].action.memory().is_some();
+        let remembering = (0..constraints.len()).filter(remembers).collect();
         let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
         let mut carried = rest.clone();
         for (point, &carrier) in carried[..cloth_vertices].iter_mut().zip(&carriers) {
@@ -268,6 +272,7 @@ impl Simulation {
             motions,
             forces,
             constraints,
+            remembering,
             effects: times,
             threads,
             state,
@@ -408,6 +413,13 @@ impl Simulation {
         energy
     }
 
+    /// The vertices that [`Attachments`](crate::effects::Attachments) have let go of so far, in their order; what effects of a caller's own
+    /// [remember](crate::effects::Memory) may add to it.
+    #[must_use]
+    pub fn released(&self) -> Vec<Release> {
+        self.memories().flat_map(|memory| memory.released()).collect()
+    }
+
     /// The effects that were constructed, in the order in which they run, and the time that each has taken.
     #[must_use]
     pub fn effects(&self) -> &[EffectTime] {
@@ -546,6 +558,7 @@ impl Simulation {
             state: self.state.clone(),
             effects: self.effects.iter().map(|effect| effect.seconds).collect(),
             placements: self.driven().map(|driven| driven.placement).collect(),
+            memories: self.memories().flat_map(|memory| memory.numbers()).collect(),
             ..Checkpoint::default()
         };
         if let Some(contact) = &self.contact {
@@ -566,6 +579,7 @@ impl Simulation {
             yielding: self.contact.as_ref().map_or(0, |c| c.exempt().yielding.len()),
             effects: self.effects.len(),
             placements: self.driven().count(),
+            memories: self.memories().map(|memory| memory.numbers().len()).sum(),
         };
         let checkpoint = Checkpoint::read(checkpoint, self.fingerprint, sizes)?;
         if let Some(contact) = &mut self.contact {
@@ -584,8 +598,21 @@ impl Simulation {
         for (driven, placement) in driven.zip(checkpoint.placements) {
             driven.placement = placement;
         }
+        let mut numbers = checkpoint.memories.as_slice();
+        for &index in &self.remembering {
+            if let Some(memory) = self.constraints[index].action.memory_mut() {
+                let own;
+                (own, numbers) = numbers.split_at(memory.numbers().len());
+                memory.recall(own);
+            }
+        }
         self.state = checkpoint.state;
         Ok(())
+    }
+
+    fn memories(&self) -> impl Iterator<Item = &dyn Memory> {
+        let all = self.remembering.iter();
+        all.filter_map(|&index| self.constraints[index].action.memory())
     }
 
     fn driven(&self) -> impl Iterator<Item = &Driven> {
@@ -692,6 +719,11 @@ impl Simulation {
         }
         if let Some(contact) = contact {
             contact.certify(&step, positions)?;
+        }
+        for &index in &self.remembering {
+            if let Some(memory) = self.constraints[index].action.memory_mut() {
+                memory.settle(&step, positions);
+            }
         }
         for (vertex, &position) in positions.iter().enumerate() {
             state.velocities[vertex] = (position - state.positions[vertex]) / h;

@@ -53,6 +53,45 @@ pub trait Constraint: Debug + Send + Sync {
     fn energy(&self, _: &Configuration<'_>) -> Option<StoredEnergy> {
         None
     }
+
+    /// What it remembers from step to step, on which its projections then depend as well; `None`, always, if it remembers nothing.
+    fn memory(&self) -> Option<&dyn Memory> {
+        None
+    }
+
+    /// The same, to be changed.
+    fn memory_mut(&mut self) -> Option<&mut dyn Memory> {
+        None
+    }
+}
+
+/// What a constraint remembers from step to step. It changes only when a step, or a part of one, was made: those that could not be made leave no
+/// trace. It is in checkpoints.
+pub trait Memory {
+    /// A step was made, from `step.start`, and this is where everything came to.
+    fn settle(&mut self, step: &TimeStep<'_>, positions: &[DVec3]);
+
+    /// All of it: always as many numbers, all finite.
+    fn numbers(&self) -> Vec<f64>;
+
+    /// Takes back what [`numbers`](Self::numbers) were once.
+    fn recall(&mut self, numbers: &[f64]);
+
+    /// What has let go of its vertices so far.
+    fn released(&self) -> Vec<Release> {
+        Vec::new()
+    }
+}
+
+/// A vertex that was held and is free now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Release {
+    /// The group that it was in, in the order of the scene.
+    pub group: usize,
+    /// Of the cloth.
+    pub vertex: u32,
+    /// When the step began in which it let go, in seconds.
+    pub time: f64,
 }
 
 /// One contact that pushed, for friction.

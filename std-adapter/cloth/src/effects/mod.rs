@@ -6,6 +6,7 @@
 // Adding one of ours takes its own file, a `mod` line, a `pub use` and a line of `REGISTRY`.
 
 mod air_drag;
+mod attachments;
 mod bend;
 mod body_contact;
 mod enclosed;
@@ -19,6 +20,7 @@ mod pins;
 mod pressure;
 mod registration;
 mod seams;
+mod selection;
 mod self_collision;
 mod shear;
 mod stitches;
@@ -32,9 +34,10 @@ mod wind_field;
 pub use super::contact::Thickness;
 pub use super::energy::{Configuration, StoredEnergy};
 pub use super::plan::Plan;
-pub use super::step::{Constraint, Force, TimeStep, Touches};
+pub use super::step::{Constraint, Force, Memory, Release, TimeStep, Touches};
 pub use super::world::SceneParts;
 pub use air_drag::AirDrag;
+pub use attachments::{AttachmentGroup, Attachments};
 pub use bend::Bend;
 pub use body_contact::BodyContact;
 pub use friction::Friction;
@@ -82,6 +85,7 @@ const REGISTRY: &[(&str, Registration)] = registry![
     pressure "internal_pressure"
     strain_limit "strain_limit"
     seams "seams"
+    attachments "attachments"
     body_contact "body_contact"
     self_collision "self_collision"
     friction "friction"

@@ -31,6 +31,7 @@ quantities! {
     AIR_DENSITY = "a density" ["kg/m3" 1.0];
     MEMBRANE_STIFFNESS = "a stiffness of a membrane" ["N/m" 1.0, "kN/m" 1e3];
     BENDING_STIFFNESS = "a bending stiffness" ["N m" 1.0, "mN m" 1e-3, "uN m" 1e-6];
+    FORCE = "a force" ["N" 1.0, "mN" 1e-3];
     PRESSURE = "a pressure" ["Pa" 1.0, "kPa" 1e3];
 }
 

@@ -2,6 +2,7 @@
 
 mod air;
 mod animated;
+mod attachments;
 mod bending;
 mod blocked;
 mod determinism;

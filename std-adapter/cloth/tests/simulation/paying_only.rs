@@ -19,7 +19,7 @@ centre = [0, 0, 0]
 radius = "10 cm"
 "#;
 
-const EFFECTS: [(&str, &str); 14] = [
+const EFFECTS: [(&str, &str); 15] = [
     ("gravity", ""),
     ("wind", "velocity = [1, 0, 0]"),
     (
@@ -37,6 +37,7 @@ const EFFECTS: [(&str, &str); 14] = [
         "seams",
         "seam = [{ first = { part = \"left\" }, second = { part = \"right\" } }]",
     ),
+    ("attachments", "group = [{ part = \"top-right\", limit = 1 }]"),
     ("body_contact", "thickness = \"1 mm\""),
     ("self_collision", "thickness = \"1 mm\""),
     ("friction", "coefficient = 0.3"),
@@ -88,8 +89,8 @@ fn every_effect_named_and_no_other_takes_memory() {
     for count in 0..EFFECTS.len() {
         let more = bytes(count + 1) - bytes(count);
         assert!(more > 0, "{}", EFFECTS[count].0);
-        // Gravity, drag, pins and friction own a few numbers, nothing for each vertex (pins: their list).
-        if ["gravity", "air_drag", "pins", "friction"].contains(&EFFECTS[count].0) {
+        // Gravity, drag, pins and friction own a few numbers, nothing for each vertex (pins and attachments: their list).
+        if ["gravity", "air_drag", "pins", "attachments", "friction"].contains(&EFFECTS[count].0) {
             assert!(more < sheet / 2, "{}: {more} bytes", EFFECTS[count].0);
         }
     }

@@ -1,0 +1,263 @@
+//! Attachments: vertices that are held with a limited force. Above it they let go, each by itself, and for good.
+//!
+//! Each is a spring between a vertex and its anchor, of the stiffness limit/give: the force is the limit where the spring is as long as
+//! it gives. C = |x − a|, compliance give/limit, in one step of extended position-based dynamics. A vertex lets go when a step was made at
+//! whose end it is farther from its anchor than that; steps that could not be made change nothing.
+//!
+//! The anchor of a vertex that follows a body is a point on one of its triangles, the nearest at the start, and so far from it: so that it goes with
+//! bodies that change their shape as well.
+
+use super::pins::PinMotion;
+use super::registration::{Effect, Registration, Scope};
+use super::selection::{check_body, check_vertices, keys, placed, read_motion, read_vertices};
+use crate::energy::{Configuration, StoredEnergy};
+use crate::input::{FORCE, Field, LENGTH, ValueError};
+use crate::plan::Plan;
+use crate::step::{Carrier, Constraint, Memory, Release, TimeStep, Touches};
+use crate::world::{Motion, RigidMotion, SceneParts};
+use selvedge_core::glam::DVec3;
+
+const LIMIT: Field = Field::new("limit", FORCE, 1e-6, 1e6);
+const GIVE: Field = Field::new("give", LENGTH, 1e-6, 1.0);
+
+pub(super) const REGISTRATION: Registration = Registration {
+    keys: &["group"],
+    needs: &[],
+    read: |table, world| {
+        let mut attachments = Attachments::default();
+        let mut taken = vec![false; world.cloth_vertices()];
+        for table in table.tables("group")? {
+            table.expect_keys(&keys(&[LIMIT.name, GIVE.name]))?;
+            let mut group = AttachmentGroup::resting(read_vertices(&table, world)?, table.required_number(&LIMIT)?);
+            group.motion = read_motion(&table, world)?;
+            group.give = table.number(&GIVE)?.unwrap_or(group.give);
+            group.check(world, &mut taken).map_err(|error| placed(&table, error))?;
+            attachments.groups.push(group);
+        }
+        Ok(Box::new(attachments))
+    },
+};
+
+/// Vertices of the cloth that are held until something pulls too much.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attachments {
+    /// Each vertex is in one of them at most.
+    pub groups: Vec<AttachmentGroup>,
+}
+
+/// Vertices that are held together with what they are attached to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AttachmentGroup {
+    /// As the scene numbers them, through all cloths; [`Scene::part`](crate::Scene::part) knows some by name.
+    pub vertices: Vec<u32>,
+    /// What moves their anchors: not the caller ([`Motion::Driven`]), but a body that it drives may.
+    pub motion: PinMotion,
+    /// The force above which a vertex lets go, in N, for each vertex.
+    pub limit: f64,
+    /// How far a vertex is from its anchor when it does, in m.
+    pub give: f64,
+}
+
+impl AttachmentGroup {
+    /// Vertices whose anchors stay where they are at the start; of each a force in N, at a millimetre.
+    #[must_use]
+    pub fn resting(vertices: impl Into<Vec<u32>>, limit: f64) -> Self {
+        Self {
+            vertices: vertices.into(),
+            motion: PinMotion::Own(RigidMotion::resting().into()),
+            limit,
+            give: 1e-3,
+        }
+    }
+
+    /// Marks its vertices as taken.
+    fn check(&self, world: &SceneParts<'_>, taken: &mut [bool]) -> Result<(), ValueError> {
+        check_vertices(&self.vertices, taken, "attached")?;
+        LIMIT.check(self.limit)?;
+        GIVE.check(self.give)?;
+        match &self.motion {
+            &PinMotion::Body(body) => check_body(body, world),
+            PinMotion::Own(motion @ Motion::Keyframes(_)) => motion.check(self.vertices.len(), world.time_step),
+            PinMotion::Own(_) => {
+                let message =
+                    "attachments go by keyframes or `follow` a body, which may be driven; they are not driven themselves";
+                Err(ValueError::new("driven", message))
+            }
+        }
+    }
+}
+
+impl Effect for Attachments {
+    fn name(&self) -> &'static str {
+        "attachments"
+    }
+
+    fn scope(&self) -> Scope {
+        Scope::Scene
+    }
+
+    fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
+        if self.groups.is_empty() {
+            let message = "attachments need at least one [[effects.attachments.group]]";
+            return Err(ValueError::new("group", message));
+        }
+        let mut taken = vec![false; world.cloth_vertices()];
+        self.groups.iter().try_for_each(|group| group.check(world, &mut taken))
+    }
+
+    fn register(&self, plan: &mut Plan<'_>) {
+        let start = plan.start();
+        let mut all = Vec::new();
+        for (index, group) in self.groups.iter().enumerate() {
+            let anchor: Box<dyn Fn(DVec3) -> Anchor + '_> = match &group.motion {
+                &PinMotion::Body(body) => {
+                    let triangles = plan.triangles_of(body);
+                    let start = &start;
+                    Box::new(move |point| Anchor::on(&triangles, start, point))
+                }
+                PinMotion::Own(motion) => {
+                    let carrier = plan.add_motion(motion.clone(), Vec::new());
+                    Box::new(move |point| Anchor::Carried(carrier, point))
+                }
+            };
+            let place = |vertex: u32| start[vertex as usize];
+            all.extend(group.vertices.iter().map(|&vertex| Attachment {
+                group: index,
+                vertex,
+                anchor: anchor(place(vertex)),
+                last: place(vertex),
+                stiffness: group.limit / group.give,
+                give: group.give,
+                released: None,
+            }));
+        }
+        plan.add_constraint(Holding(all));
+    }
+}
+
+/// What a vertex is attached to.
+#[derive(Clone, Copy, Debug)]
+enum Anchor {
+    /// A point that a motion carries, where it is when not moved at all.
+    Carried(Carrier, DVec3),
+    /// A point of a triangle: shares of its sides from its first vertex, and how far in front of it.
+    On([u32; 3], [f64; 3]),
+}
+
+impl Anchor {
+    /// On the nearest of these triangles, by their middles.
+    fn on(triangles: &[[u32; 3]], positions: &[DVec3], point: DVec3) -> Self {
+        let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
+        let distance = |t: &[u32; 3]| (corners(t).iter().sum::<DVec3>() / 3.0).distance_squared(point);
+        let nearest = triangles.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let Some(triangle) = nearest else {
+            return Self::On([0; 3], [0.0; 3]);
+        };
+        let [a, b, c] = corners(triangle);
+        let ([first, second], way) = ([b - a, c - a], point - a);
+        let normal = first.cross(second);
+        let area = normal.length_squared();
+        let share = |side: DVec3| if area > 0.0 { side.dot(normal) / area } else { 0.0 };
+        let shares = [share(way.cross(second)), share(first.cross(way))];
+        Self::On(*triangle, [shares[0], shares[1], way.dot(normal.normalize_or_zero())])
+    }
+
+    /// Where it is at the end of a step, with bodies where they are then.
+    fn at(&self, step: &TimeStep<'_>, positions: &[DVec3]) -> DVec3 {
+        match *self {
+            Self::Carried(carrier, point) => step.poses[carrier as usize][1].apply(point),
+            Self::On(triangle, [u, v, height]) => {
+                let [a, b, c] = triangle.map(|v| positions[v as usize]);
+                let (first, second) = (b - a, c - a);
+                a + first * u + second * v + first.cross(second).normalize_or_zero() * height
+            }
+        }
+    }
+}
+
+/// A vertex and its anchor.
+#[derive(Debug)]
+struct Attachment {
+    group: usize,
+    vertex: u32,
+    anchor: Anchor,
+    /// Where that was at the end of the last step.
+    last: DVec3,
+    /// In N/m.
+    stiffness: f64,
+    /// In m.
+    give: f64,
+    /// In seconds, when it has let go.
+    released: Option<f64>,
+}
+
+#[derive(Debug)]
+struct Holding(Vec<Attachment>);
+
+impl Constraint for Holding {
+    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
+        for held in self.0.iter().filter(|held| held.released.is_none()) {
+            let inverse_mass = step.inverse_masses[held.vertex as usize];
+            if inverse_mass > 0.0 {
+                let way = held.anchor.at(step, positions) - positions[held.vertex as usize];
+                let compliance = 1.0 / (held.stiffness * step.h * step.h);
+                positions[held.vertex as usize] += way * (inverse_mass / (inverse_mass + compliance));
+            }
+        }
+    }
+
+    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
+        let held = self.0.iter().filter(|held| held.released.is_none());
+        let each = held.map(|held| {
+            let distance = held.last.distance_squared(now.positions[held.vertex as usize]);
+            0.5 * held.stiffness * distance
+        });
+        Some(StoredEnergy::Elastic(each.sum()))
+    }
+
+    fn memory(&self) -> Option<&dyn Memory> {
+        Some(self)
+    }
+
+    fn memory_mut(&mut self) -> Option<&mut dyn Memory> {
+        Some(self)
+    }
+}
+
+impl Memory for Holding {
+    fn settle(&mut self, step: &TimeStep<'_>, positions: &[DVec3]) {
+        for held in self.0.iter_mut().filter(|held| held.released.is_none()) {
+            held.last = held.anchor.at(step, positions);
+            if held.last.distance(positions[held.vertex as usize]) > held.give {
+                held.released = Some(step.time);
+            }
+        }
+    }
+
+    /// Of each the time when it let go, −1 while it holds, and where its anchor was.
+    fn numbers(&self) -> Vec<f64> {
+        let of = |held: &Attachment| {
+            let [x, y, z] = held.last.to_array();
+            [held.released.unwrap_or(-1.0), x, y, z]
+        };
+        self.0.iter().flat_map(of).collect()
+    }
+
+    fn recall(&mut self, numbers: &[f64]) {
+        for (held, own) in self.0.iter_mut().zip(numbers.chunks_exact(4)) {
+            held.released = (own[0] >= 0.0).then_some(own[0]);
+            held.last = DVec3::new(own[1], own[2], own[3]);
+        }
+    }
+
+    fn released(&self) -> Vec<Release> {
+        let released = |held: &Attachment| {
+            held.released.map(|time| Release {
+                group: held.group,
+                vertex: held.vertex,
+                time,
+            })
+        };
+        self.0.iter().filter_map(released).collect()
+    }
+}

@@ -1,0 +1,125 @@
+//! Which vertices of the cloth are meant, and where they are led: by a table of a group, for pins and attachments.
+
+use super::vertices::{named_cloth, no_vertex, of_cloth};
+use crate::input::{Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError, suggestion};
+use crate::world::{Motion, SceneParts};
+use selvedge_core::glam::DVec3;
+
+const LOWER: Field = Field::vector("lower", LENGTH, LARGEST_COORDINATE);
+const UPPER: Field = Field::vector("upper", LENGTH, LARGEST_COORDINATE);
+const CENTRE: Field = Field::vector("centre", LENGTH, LARGEST_COORDINATE);
+const RADIUS: Field = Field::new("radius", LENGTH, 1e-6, LARGEST_COORDINATE);
+
+/// How a table says which vertices.
+const WAYS: [&str; 4] = ["part", "vertices", "box", "ball"];
+
+/// What leads vertices.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PinMotion {
+    /// They are fixed to a body, by its index in the scene, where both are at the start.
+    Body(usize),
+    /// They go on their own: a driven group of pins by [`Simulation::move_pins`](crate::Simulation::move_pins).
+    Own(Motion),
+}
+
+/// The key by which a table says which vertices.
+fn way(table: &Table<'_>) -> &'static str {
+    WAYS.into_iter().rev().find(|way| table.has(way)).unwrap_or(WAYS[0])
+}
+
+/// Keys of a table of a group, and those that are its own.
+pub(super) fn keys<'a>(own: &[&'a str]) -> Vec<&'a str> {
+    [&WAYS[..], &["cloth", "follow"], &Motion::KEYS, own].concat()
+}
+
+/// An error about a group that code could have made as well.
+pub(super) fn placed(table: &Table<'_>, error: ValueError) -> SceneError {
+    match error.field {
+        "vertices" => table.error(way(table), error.message),
+        _ => table.placed(&error),
+    }
+}
+
+/// Exactly one of `part`, `vertices`, `box` and `ball` says which vertices.
+pub(super) fn read_vertices(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Vec<u32>, SceneError> {
+    if WAYS.into_iter().filter(|way| table.has(way)).count() != 1 {
+        let message = "a group needs exactly one of `part`, `vertices`, `box` and `ball`".to_owned();
+        return Err(table.error("part", message));
+    }
+    match way(table) {
+        "box" => within(table, world, in_box(&table.required_table("box")?)?),
+        "ball" => within(table, world, in_ball(&table.required_table("ball")?)?),
+        _ => of_cloth(table, world),
+    }
+}
+
+/// `follow` or keyframes say where they go.
+pub(super) fn read_motion(table: &Table<'_>, world: &SceneParts<'_>) -> Result<PinMotion, SceneError> {
+    match table.text("follow")? {
+        None => Ok(PinMotion::Own(Motion::read(table, world.time_step)?)),
+        Some(_) if table.has("keyframes") => {
+            let message = "what follows a body (`follow`) has no keyframes of its own".to_owned();
+            Err(table.error("keyframes", message))
+        }
+        Some(name) => {
+            let names = || world.bodies.iter().map(|body| body.name.as_str());
+            let Some(body) = names().position(|body| body == name) else {
+                let message = format!("there is no body '{name}'{}", suggestion(name, names()));
+                return Err(table.error("follow", message));
+            };
+            Ok(PinMotion::Body(body))
+        }
+    }
+}
+
+fn in_box(table: &Table<'_>) -> Result<impl Fn(DVec3) -> bool, SceneError> {
+    table.expect_keys(&["lower", "upper"])?;
+    let [lower, upper] = [table.required_vector(&LOWER)?, table.required_vector(&UPPER)?];
+    Ok(move |p: DVec3| p.cmpge(lower).all() && p.cmple(upper).all())
+}
+
+fn in_ball(table: &Table<'_>) -> Result<impl Fn(DVec3) -> bool, SceneError> {
+    table.expect_keys(&["centre", "radius"])?;
+    let centre = table.required_vector(&CENTRE)?;
+    let radius = table.required_number(&RADIUS)?;
+    Ok(move |p: DVec3| p.distance(centre) <= radius)
+}
+
+/// Of all cloths, or of the one that is named.
+fn within(table: &Table<'_>, world: &SceneParts<'_>, is_inside: impl Fn(DVec3) -> bool) -> Result<Vec<u32>, SceneError> {
+    let only = if table.has("cloth") {
+        Some(named_cloth(table, world)?)
+    } else {
+        None
+    };
+    let cloths = world.cloths.iter().zip(world.vertices_of_cloths()).enumerate();
+    let wanted = cloths.filter(|(index, _)| only.is_none_or(|only| only == *index));
+    let vertices = wanted.flat_map(|(_, (cloth, vertices))| vertices.zip(&cloth.mesh.positions));
+    let inside = vertices.filter(|(_, position)| is_inside(**position));
+    Ok(inside.map(|(vertex, _)| vertex as u32).collect())
+}
+
+/// Whether there are vertices, all of the cloth, and none of them `taken` already. Marks them; `done` is what happens to them.
+pub(super) fn check_vertices(vertices: &[u32], taken: &mut [bool], done: &str) -> Result<(), ValueError> {
+    let wrong = |message: String| Err(ValueError::new("vertices", message));
+    if vertices.is_empty() {
+        return wrong("no vertex of the cloth is in this group".to_owned());
+    }
+    for &vertex in vertices {
+        match taken.get_mut(vertex as usize) {
+            None => return wrong(no_vertex(vertex, taken.len())),
+            Some(true) => return wrong(format!("vertex {vertex} is {done} twice")),
+            Some(taken) => *taken = true,
+        }
+    }
+    Ok(())
+}
+
+/// Whether there is such a body.
+pub(super) fn check_body(body: usize, world: &SceneParts<'_>) -> Result<(), ValueError> {
+    if body < world.bodies.len() {
+        return Ok(());
+    }
+    let message = format!("there is no body {body}: the scene has {}, from 0 on", world.bodies.len());
+    Err(ValueError::new("follow", message))
+}

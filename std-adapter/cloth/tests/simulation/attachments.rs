@@ -1,0 +1,230 @@
+//! Attachments hold with a limited force, and tell when they let go.
+
+use selvedge::glam::DVec3;
+use selvedge_cloth::effects::{
+    AirDrag, AttachmentGroup, Attachments, BodyContact, Gravity, PinMotion, Release, Shear, Stretch, Thickness,
+};
+use selvedge_cloth::{Animation, Body, CHECKPOINT_STEPS, Cloth, Keyframe, Motion, Placement, RigidMotion, Scene, Simulation};
+use std::path::Path;
+
+/// A sheet of 20 cm and 200 g/m², upright: it weighs 78.48 mN.
+fn sheet() -> Cloth {
+    Cloth::sheet(DVec3::ZERO, [DVec3::X * 0.2, DVec3::Z * 0.2], [6, 6], 0.2).unwrap()
+}
+
+const WEIGHT: f64 = 0.2 * 0.2 * 0.2 * 9.81;
+/// Its upper corners.
+const CORNERS: [u32; 2] = [42, 48];
+
+fn hung(groups: Vec<AttachmentGroup>) -> Scene {
+    let mut scene = Scene::new(sheet(), 1e-3);
+    scene.add(Gravity::default()).add(Stretch::isotropic(500.0));
+    scene.add(Shear { stiffness: 100.0 }).add(AirDrag { rate: 5.0 });
+    scene.add(Attachments { groups });
+    scene
+}
+
+fn simulated(scene: Scene, steps: u64) -> Simulation {
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    (0..steps).for_each(|_| simulation.step().unwrap());
+    simulation
+}
+
+/// At rest each of two holds half the weight, and pulls the sheet apart a little: a spring that gives by a millimetre at twice the weight gives by a quarter of one.
+#[test]
+fn each_holds_its_share_of_the_weight() {
+    let hanging = simulated(hung(vec![AttachmentGroup::resting(CORNERS, 2.0 * WEIGHT)]), 4000);
+    assert_eq!(hanging.released(), []);
+    let given = CORNERS.map(|v| sheet().mesh().positions[v as usize] - hanging.positions()[v as usize]);
+    for given in given {
+        assert!((given.z / 0.25e-3 - 1.0).abs() < 0.01, "{given}");
+    }
+    let stored = hanging.energy().stored;
+    let held = stored.iter().find(|(name, _)| *name == "attachments").unwrap();
+    let expected: f64 = given.iter().map(|d| 0.5 * 2.0 * WEIGHT / 1e-3 * d.length_squared()).sum();
+    assert!((held.1.joules() / expected - 1.0).abs() < 1e-9, "{held:?}, not {expected}");
+}
+
+/// Each by itself, and for good.
+#[test]
+fn what_pulls_more_than_the_limit_comes_loose_and_falls() {
+    let [weak, strong] = [(CORNERS[0], 0.2), (CORNERS[1], 5.0)];
+    let group = |(corner, share): (u32, f64)| AttachmentGroup::resting([corner], share * WEIGHT);
+    let one = simulated(hung(vec![group(strong), group(weak)]), 1000);
+    let released = one.released();
+    assert_eq!(released.len(), 1);
+    let Release { group: of, vertex, time } = released[0];
+    assert_eq!((of, vertex), (1, weak.0));
+    assert!((0.0..0.2).contains(&time), "{time}");
+    let height = |vertex: u32| one.positions()[vertex as usize].z - sheet().mesh().positions[vertex as usize].z;
+    assert!(height(weak.0) < -0.1 && height(strong.0) > -1e-3);
+
+    let mut both = simulated(hung(vec![AttachmentGroup::resting(CORNERS, 0.2 * WEIGHT)]), 1000);
+    assert_eq!(both.released().len(), 2);
+    let before = both.velocities()[0].z;
+    (0..100).for_each(|_| both.step().unwrap());
+    assert!(both.velocities()[0].z < before, "it falls ever faster");
+}
+
+/// A body that turns and goes up, one that the caller leads, and one that changes its shape.
+#[test]
+fn attachments_follow_bodies_however_they_move() {
+    let rigid = |at: DVec3, motion: Motion| {
+        let mut body = Body::ball("ball", at, 0.05, 24).unwrap();
+        body.motion = motion;
+        body
+    };
+    let at = sheet().mesh().positions[CORNERS[0] as usize] - DVec3::X * 0.06;
+    let key = |time, height| Keyframe {
+        time,
+        angle: 0.0,
+        translation: DVec3::Z * height,
+    };
+    let keyed = RigidMotion::new(at, DVec3::Z, vec![key(0.0, 0.0), key(1.0, 0.1)]).unwrap();
+    let mesh = rigid(at, RigidMotion::resting().into()).mesh;
+    let frame = |height: f64| mesh.positions.iter().map(|p| *p + DVec3::Z * height).collect::<Vec<_>>();
+    let frames = Animation::of_frames(vec![frame(0.0), frame(0.1)], 1.0).unwrap();
+    let bodies = [
+        rigid(at, keyed.into()),
+        rigid(at, Motion::Driven(Placement::default())),
+        Body::animated("ball", mesh.triangles.clone(), frames),
+    ];
+    for (index, body) in bodies.into_iter().enumerate() {
+        let mut group = AttachmentGroup::resting([CORNERS[0]], 50.0 * WEIGHT);
+        group.motion = PinMotion::Body(0);
+        let mut scene = hung(vec![group]);
+        scene.bodies.push(body);
+        scene.add(BodyContact(Thickness::of(2e-3)));
+        let mut simulation = Simulation::new(scene, 1).unwrap();
+        for step in 1..=1000 {
+            if index == 1 {
+                simulation
+                    .place_body(0, Placement::at(DVec3::Z * (1e-4 * f64::from(step))))
+                    .unwrap();
+            }
+            simulation.step().unwrap();
+        }
+        assert_eq!(simulation.released(), [], "body {index}");
+        let expected = sheet().mesh().positions[CORNERS[0] as usize] + DVec3::Z * 0.1;
+        let found = simulation.positions()[CORNERS[0] as usize];
+        assert!(found.distance(expected) < 1e-3, "body {index}: {found}, not {expected}");
+    }
+}
+
+const FILE: &str = r#"
+    time_step = "1 ms"
+    duration = 1
+    [cloth]
+    shape = "sheet"
+    sides = { first = [0.2, 0, 0], second = [0, 0, 0.2] }
+    cells = [6, 6]
+    density = 0.2
+    [effects.gravity]
+    [effects.stretch]
+    stiffness = 500
+    [effects.shear]
+    stiffness = 100
+    [effects.air_drag]
+    rate = 5
+    [[effects.attachments.group]]
+    part = "top-left"
+    limit = "500 mN"
+    give = "2 mm"
+    [[effects.attachments.group]]
+    part = "top-right"
+    limit = "0.1 N"
+    keyframes = [{ time = 0.1 }, { time = 0.5, translation = [0.2, 0, 0.1] }]
+"#;
+
+fn of_file(threads: usize) -> Simulation {
+    Simulation::new(Scene::parse(FILE, Path::new("s.toml")).unwrap(), threads).unwrap()
+}
+
+#[test]
+fn attachments_from_a_file_and_from_code_are_the_same_to_the_last_bit() {
+    let mut resting = AttachmentGroup::resting([CORNERS[0]], 0.5);
+    resting.give = 2e-3;
+    let key = |time, translation| Keyframe {
+        time,
+        angle: 0.0,
+        translation,
+    };
+    let keys = vec![key(0.1, DVec3::ZERO), key(0.5, DVec3::new(0.2, 0.0, 0.1))];
+    let mut moved = AttachmentGroup::resting([CORNERS[1]], 0.1);
+    moved.motion = PinMotion::Own(RigidMotion::new(DVec3::ZERO, DVec3::Z, keys).unwrap().into());
+    let of_code = simulated(hung(vec![resting, moved]), 600);
+    let mut of_file = of_file(2);
+    (0..600).for_each(|_| of_file.step().unwrap());
+    assert_eq!(of_file.positions(), of_code.positions());
+    assert_eq!(of_file.released(), of_code.released());
+    assert_eq!(of_file.released().len(), 1, "the one that is pulled away");
+}
+
+/// What has let go stays loose.
+#[test]
+fn a_resumed_simulation_knows_what_has_let_go() {
+    let mut whole = of_file(1);
+    while whole.released().is_empty() {
+        whole.step().unwrap();
+    }
+    while !whole.steps_done().is_multiple_of(CHECKPOINT_STEPS) {
+        whole.step().unwrap();
+    }
+    let checkpoint = whole.checkpoint().unwrap();
+    let mut resumed = of_file(2);
+    resumed.resume(&checkpoint).unwrap();
+    assert_eq!((resumed.released(), resumed.energy()), (whole.released(), whole.energy()));
+    for _ in 0..150 {
+        whole.step().unwrap();
+        resumed.step().unwrap();
+    }
+    assert_eq!(resumed.positions(), whole.positions());
+}
+
+#[test]
+fn wrong_attachments_are_named_with_their_unit_and_range() {
+    let complaint = |passage: &str, by: &str| {
+        assert_eq!(FILE.matches(passage).count(), 1, "{passage}");
+        let error = Scene::parse(&FILE.replace(passage, by), Path::new("s.toml")).unwrap_err();
+        error.to_string()
+    };
+    for (passage, by, expected) in [
+        (
+            "limit = \"500 mN\"",
+            "",
+            "s.toml:16:5: [effects.attachments.group] needs `limit`, such as 0.5 (in N) or \"5 mN\"",
+        ),
+        (
+            "\"500 mN\"",
+            "\"500 N/m\"",
+            "s.toml:18:13: `limit` must be a force, and 'N/m' is no unit of it; choose from N, mN",
+        ),
+        (
+            "give = \"2 mm\"",
+            "give = 0",
+            "s.toml:19:12: `give` is 0 m, but must be from 1e-6 m to 1 m",
+        ),
+        (
+            "part = \"top-right\"",
+            "part = \"top\"",
+            "s.toml:21:12: vertex 42 is attached twice",
+        ),
+        (
+            "keyframes = [{ time = 0.1 }, { time = 0.5, translation = [0.2, 0, 0.1] }]",
+            "driven = true",
+            "s.toml:23:14: attachments go by keyframes or `follow` a body, which may be driven; they are not driven themselves",
+        ),
+        (
+            "keyframes = [{ time = 0.1 }, { time = 0.5, translation = [0.2, 0, 0.1] }]",
+            "follow = \"arm\"",
+            "s.toml:23:14: there is no body 'arm'; there are none",
+        ),
+    ] {
+        assert_eq!(complaint(passage, by), expected);
+    }
+    let none = hung(Vec::new()).check().unwrap_err().to_string();
+    assert_eq!(
+        none,
+        "attachments: attachments need at least one [[effects.attachments.group]]"
+    );
+}
