@@ -1,7 +1,7 @@
 //! What an effect does to one of several cloths, in a step that has them all: it is shown the vertices of that cloth alone.
 
 use super::energy::{Configuration, StoredEnergy};
-use super::step::{Constraint, Force, TimeStep, Touches};
+use super::step::{Constraint, Force, Memory, Release, TimeStep, Touches};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
@@ -62,5 +62,40 @@ impl<T: Constraint> Constraint for OfCloth<T> {
 
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
         self.action.energy(&self.configuration(now))
+    }
+
+    fn memory(&self) -> Option<&dyn Memory> {
+        self.action.memory().is_some().then_some(self)
+    }
+
+    fn memory_mut(&mut self) -> Option<&mut dyn Memory> {
+        if self.action.memory().is_some() { Some(self) } else { None }
+    }
+}
+
+impl<T: Constraint> Memory for OfCloth<T> {
+    fn settle(&mut self, step: &TimeStep<'_>, positions: &[DVec3]) {
+        let step = self.step(step);
+        if let Some(memory) = self.action.memory_mut() {
+            memory.settle(&step, &positions[self.vertices.clone()]);
+        }
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        self.action.memory().map_or_else(Vec::new, Memory::numbers)
+    }
+
+    fn recall(&mut self, numbers: &[f64]) {
+        if let Some(memory) = self.action.memory_mut() {
+            memory.recall(numbers);
+        }
+    }
+
+    fn released(&self) -> Vec<Release> {
+        let mut released = self.action.memory().map_or_else(Vec::new, Memory::released);
+        released
+            .iter_mut()
+            .for_each(|release| release.vertex += self.vertices.start as u32);
+        released
     }
 }

@@ -6,6 +6,7 @@
 //! Where there are several cloths, an effect that acts on each by itself registers once for each. What it does then is
 //! [shown](super::of_cloth) the vertices of that cloth alone; where there is one cloth it sees everything, and nothing stands in between.
 
+use super::bending::Yield;
 use super::contact::ContactSettings;
 use super::hierarchy::{Hierarchy, Level};
 use super::of_cloth::OfCloth;
@@ -30,6 +31,8 @@ pub struct Fabric {
     pub(crate) shear: Option<f64>,
     /// What it keeps from itself, in metres; `None`: no effect makes it so.
     pub(crate) thickness: Option<f64>,
+    /// When folds stay; `None`: never.
+    pub(crate) folds: Option<Yield>,
 }
 
 /// What a step consists of: effects put into it what they do.

@@ -13,6 +13,17 @@ pub(crate) struct Hinge {
     pub(super) weights: [f64; 4],
     /// What |C|² is multiplied by for twice the energy, in N/m.
     pub(super) coefficient: f64,
+    /// A of the module, in m².
+    pub(super) area: f64,
+}
+
+impl Hinge {
+    /// C of the module, in m.
+    #[inline(always)]
+    pub(super) fn bent(&self, x: [DVec3; 4]) -> DVec3 {
+        let k = self.weights;
+        x[0] * k[0] + x[1] * k[1] + x[2] * k[2] + x[3] * k[3]
+    }
 }
 
 /// No hinge is without stiffness, however blunt the angles opposite its edge.
@@ -50,6 +61,7 @@ pub(crate) fn hinges(cloth: &Cloth, rigidity: impl Fn(f64) -> f64) -> Vec<On<Hin
         let hinge = Hinge {
             weights: [at_b[0] + at_b[1], at_a[0] + at_a[1], -at_a[0] - at_b[0], -at_a[1] - at_b[1]],
             coefficient: rigidity(of_warp) * share(opposite) / area,
+            area,
         };
         (vertices, hinge)
     };
@@ -66,7 +78,7 @@ impl Local<4> for Hinge {
     #[inline(always)]
     fn corrections(&self, x: [DVec3; 4], w: [f64; 4], stiffening: f64) -> [DVec3; 4] {
         let k = self.weights;
-        let bent = x[0] * k[0] + x[1] * k[1] + x[2] * k[2] + x[3] * k[3];
+        let bent = self.bent(x);
         let mut weight = stiffening / self.coefficient;
         for i in 0..4 {
             weight += w[i] * k[i] * k[i];

@@ -34,17 +34,20 @@
 //!
 //! **Too stiff.** Where a row needs more stages than are allowed, the stiffness of its hinges is parted: what the stages can do is done by
 //! them, the rest by one sweep, hinge by hinge, as if there were no stages. So slivers do not slow all others down, and a plate is
-//! at least as stiff as the stages make it.
+//! at least as stiff as the stages make it. With folds that stay ([`folds`]) there is no such rest: what is too stiff gets softer.
 
+mod folds;
 mod forces;
 mod hinge;
 mod stages;
 
+pub(crate) use folds::Yield;
 pub(crate) use hinge::{Hinge, hinges};
 
 use crate::energy::{Configuration, StoredEnergy};
 use crate::schedule::{On, Schedule};
-use crate::step::{Constraint, TimeStep, Touches};
+use crate::step::{Constraint, Memory, TimeStep, Touches};
+use folds::Folds;
 use forces::Forces;
 use selvedge_core::glam::DVec3;
 use stages::Stages;
@@ -57,20 +60,28 @@ pub(crate) struct Bending {
     fastest: f64,
     /// What is too stiff for the stages.
     beyond: Option<Schedule<Hinge, 4>>,
+    folds: Option<Folds>,
     /// The last two stages, and the next.
     work: [Vec<DVec3>; 3],
 }
 
 impl Bending {
     /// Of hinges on vertices with these inverse masses, in 1/kg, in at most so many stages for a step of so many seconds.
-    pub(crate) fn new(hinges: Vec<On<Hinge, 4>>, inverse_masses: &[f64], most_stages: u32, time_step: f64) -> Self {
+    pub(crate) fn new(
+        hinges: Vec<On<Hinge, 4>>,
+        inverse_masses: &[f64],
+        most_stages: u32,
+        time_step: f64,
+        folds: Option<Yield>,
+    ) -> Self {
         let allowed = Stages::of(most_stages).reach() / (time_step * time_step);
         let [within, beyond] = parted(hinges, inverse_masses, allowed);
         let forces = Forces::new(&within, inverse_masses.len());
         Self {
             fastest: forces.fastest(inverse_masses),
             forces,
-            beyond: (!beyond.is_empty()).then(|| Schedule::once(beyond, inverse_masses.len())),
+            folds: folds.map(|when| Folds::new(&within, inverse_masses.len(), when)),
+            beyond: (!beyond.is_empty() && folds.is_none()).then(|| Schedule::once(beyond, inverse_masses.len())),
             work: Default::default(),
         }
     }
@@ -99,33 +110,63 @@ fn parted(hinges: Vec<On<Hinge, 4>>, inverse_masses: &[f64], allowed: f64) -> [V
     [within.collect(), beyond]
 }
 
+/// All stages of a step; `whole` makes the whole force on a vertex of that which bending alone has.
+fn run(
+    forces: &Forces,
+    [before, last, next]: &mut [Vec<DVec3>; 3],
+    stages: Stages,
+    (step, positions): (&TimeStep<'_>, &mut [DVec3]),
+    whole: impl Fn(usize, DVec3) -> DVec3 + Sync,
+) {
+    let own = forces.len();
+    last.clear();
+    last.extend_from_slice(&positions[..own]);
+    before.clone_from(last);
+    for stage in stages.each() {
+        let scale = stage.force * step.h * step.h;
+        next.resize(own, DVec3::ZERO);
+        forces.for_each(last, next, |vertex, force, next| {
+            let (before, last) = (before[vertex], last[vertex]);
+            let force = whole(vertex, force);
+            *next = last + (before - last) * stage.before + force * (scale * step.inverse_masses[vertex]);
+        });
+        std::mem::swap(before, last);
+        std::mem::swap(last, next);
+    }
+    positions[..own].copy_from_slice(last);
+}
+
 impl Constraint for Bending {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
         let stages = Stages::to_reach(step.h * step.h * self.fastest);
-        let [before, last, next] = &mut self.work;
-        let own = self.forces.len();
-        last.clear();
-        last.extend_from_slice(&positions[..own]);
-        before.clone_from(last);
-        for stage in stages.each() {
-            let scale = stage.force * step.h * step.h;
-            next.resize(own, DVec3::ZERO);
-            self.forces.for_each(last, next, |vertex, force, next| {
-                let (before, last) = (before[vertex], last[vertex]);
-                *next = last + (before - last) * stage.before + force * (scale * step.inverse_masses[vertex]);
-            });
-            std::mem::swap(before, last);
-            std::mem::swap(last, next);
+        let (forces, work) = (&self.forces, &mut self.work);
+        match &mut self.folds {
+            None => run(forces, work, stages, (step, positions), |_, force| force),
+            Some(folds) => {
+                let loads = folds.loads(step.start);
+                run(forces, work, stages, (step, positions), |vertex, force| force + loads[vertex]);
+            }
         }
-        positions[..own].copy_from_slice(last);
         if let Some(beyond) = &mut self.beyond {
             beyond.project(step, positions, touches);
         }
     }
+
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
         let beyond = self.beyond.as_ref().and_then(|beyond| beyond.energy(now));
         let beyond = beyond.map_or(0.0, StoredEnergy::joules);
-        Some(StoredEnergy::Elastic(self.forces.energy(now.positions) + beyond))
+        let folds = self.folds.as_ref().map_or(0.0, |folds| folds.energy(now.positions));
+        Some(StoredEnergy::Elastic(
+            (self.forces.energy(now.positions) + folds).max(0.0) + beyond,
+        ))
+    }
+
+    fn memory(&self) -> Option<&dyn Memory> {
+        self.folds.as_ref().map(|folds| folds as &dyn Memory)
+    }
+
+    fn memory_mut(&mut self) -> Option<&mut dyn Memory> {
+        self.folds.as_mut().map(|folds| folds as &mut dyn Memory)
     }
 }
 
@@ -150,7 +191,7 @@ mod tests {
         let of_hinge = |(own, hinge): &On<Hinge, 4>| hinge.energy(own.map(|v| wavy[v as usize])).unwrap();
         let expected: f64 = all.iter().map(of_hinge).sum();
         for (stages, is_parted) in [(100, false), (1, true)] {
-            let bending = Bending::new(all.clone(), &inverse_masses, stages, 0.1);
+            let bending = Bending::new(all.clone(), &inverse_masses, stages, 0.1, None);
             assert_eq!(bending.beyond.is_some(), is_parted);
             let of = |positions: &[DVec3]| {
                 let now = Configuration {

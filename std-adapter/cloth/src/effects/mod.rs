@@ -17,6 +17,7 @@ mod levels;
 mod list;
 mod panels;
 mod pins;
+mod plastic_folds;
 mod pressure;
 mod registration;
 mod seams;
@@ -44,6 +45,7 @@ pub use friction::Friction;
 pub use gravity::Gravity;
 pub use inflation::{Inflation, PressureKey};
 pub use pins::{PinGroup, PinMotion, Pins};
+pub use plastic_folds::PlasticFolds;
 pub use pressure::InternalPressure;
 pub use registration::{Effect, Scope};
 pub use seams::{Seam, Seams};
@@ -82,6 +84,7 @@ const REGISTRY: &[(&str, Registration)] = registry![
     stretch "stretch"
     shear "shear"
     bend "bend"
+    plastic_folds "plastic_folds"
     pressure "internal_pressure"
     strain_limit "strain_limit"
     seams "seams"

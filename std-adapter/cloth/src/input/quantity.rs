@@ -23,6 +23,7 @@ quantities! {
     RATIO = "a plain number" ["" 1.0];
     LENGTH = "a length" ["m" 1.0, "mm" 1e-3, "cm" 1e-2];
     TIME = "a time" ["s" 1.0, "ms" 1e-3, "us" 1e-6];
+    CURVATURE = "a curvature" ["1/m" 1.0, "1/cm" 1e2, "1/mm" 1e3];
     ANGLE = "an angle" ["rad" 1.0, "deg" DEGREE];
     SPEED = "a speed" ["m/s" 1.0, "cm/s" 1e-2, "km/h" 1.0 / 3.6];
     ACCELERATION = "an acceleration" ["m/s2" 1.0];

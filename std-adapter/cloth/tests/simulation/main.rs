@@ -14,6 +14,7 @@ mod materials;
 mod paying_only;
 mod seams;
 mod several_cloths;
+mod plastic_folds;
 mod stability;
 mod stretch;
 mod tangled;

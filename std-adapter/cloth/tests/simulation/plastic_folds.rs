@@ -1,0 +1,249 @@
+//! Folds that stay when cloth is bent too far.
+
+use crate::set_up;
+use selvedge::glam::DVec3;
+use selvedge_cloth::effects::{AirDrag, Bend, Effect, Force, PinGroup, Pins, Plan, PlasticFolds, Shear, Stretch, TimeStep};
+use selvedge_cloth::{CHECKPOINT_STEPS, Cloth, Scene, Simulation};
+use std::path::Path;
+
+/// Lifts what is right of the middle for half a second.
+#[derive(Clone, Copy, Debug)]
+struct Hand;
+
+impl Effect for Hand {
+    fn name(&self) -> &'static str {
+        "hand"
+    }
+
+    fn register(&self, plan: &mut Plan<'_>) {
+        plan.add_force(*self);
+    }
+}
+
+impl Force for Hand {
+    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
+        for (velocity, start) in velocities.iter_mut().zip(step.start) {
+            if step.time < 0.5 && start.x > 0.05 {
+                velocity.z += 20.0 * step.h;
+            }
+        }
+    }
+}
+
+/// A strip of 10 cm, clamped at its left end or free, that is lifted at its right end and let go.
+fn strip(is_clamped: bool, folds: Option<PlasticFolds>) -> Scene {
+    let strip = Cloth::sheet(DVec3::ZERO, [DVec3::X * 0.1, DVec3::Y * 0.02], [20, 4], 0.2).unwrap();
+    let clamped: Vec<u32> = (0..105).filter(|v| v % 21 < 2).collect();
+    let mut scene = Scene::new(strip, 1e-3);
+    scene.add(Stretch::isotropic(1000.0)).add(Shear { stiffness: 300.0 });
+    scene.add(Bend::isotropic(1e-4)).add(AirDrag { rate: 10.0 }).add(Hand);
+    if is_clamped {
+        scene.add(Pins {
+            groups: vec![PinGroup::resting(clamped)],
+        });
+    }
+    if let Some(folds) = folds {
+        scene.add(folds);
+    }
+    scene
+}
+
+fn after(scene: Scene, steps: u64, threads: usize) -> Simulation {
+    let mut simulation = Simulation::new(scene, threads).unwrap();
+    (0..steps).for_each(|_| simulation.step().unwrap());
+    simulation
+}
+
+/// Of the right end.
+fn height(simulation: &Simulation) -> f64 {
+    simulation.positions()[20].z
+}
+
+#[test]
+fn what_is_bent_beyond_the_yield_curvature_stays_bent_and_what_is_not_comes_back() {
+    let lifted = |yield_curvature| {
+        let folds = Some(PlasticFolds::beyond(yield_curvature));
+        [500, 2500].map(|steps| height(&after(strip(true, folds), steps, 1)))
+    };
+    let [up, back] = lifted(1e4);
+    assert!(up > 0.04 && back.abs() < 1e-4, "{up} {back}");
+    let [up, kept] = lifted(30.0);
+    assert!(kept > 0.02 && kept < up, "{up} {kept}");
+    // The sooner it yields, the more is left.
+    let [_, more] = lifted(20.0);
+    assert!(more > 1.5 * kept, "{more} {kept}");
+}
+
+#[test]
+fn folds_that_never_yield_change_no_bit() {
+    let [with, without] = [Some(PlasticFolds::beyond(1e6)), None].map(|folds| after(strip(true, folds), 600, 1));
+    assert_eq!(with.positions(), without.positions());
+}
+
+/// A square of two triangles, of which all is held and a corner is lifted within a tenth of a second: what is elastic and beyond yielding fades by
+/// e in each `creep`.
+#[test]
+fn what_is_held_bent_creeps_until_it_pulls_no_more_than_at_yielding() {
+    let scene = |folds: &str| {
+        format!(
+            r#"
+            time_step = "1 ms"
+            duration = "1 s"
+            [cloth]
+            shape = "sheet"
+            sides = {{ first = [1, 0, 0], second = [0, 1, 0] }}
+            cells = [1, 1]
+            density = 0.2
+            [[effects.pins.group]]
+            vertices = [0, 1, 2]
+            [[effects.pins.group]]
+            vertices = [3]
+            keyframes = [{{ time = 0 }}, {{ time = 0.1, translation = [0, 0, 0.3] }}]
+            [effects.bend]
+            stiffness = 1e-5
+            {folds}
+            "#
+        )
+    };
+    let held = |folds: &str, steps: u32| {
+        let mut simulation = set_up(&scene(folds), "square.toml", 1);
+        (0..steps).for_each(|_| simulation.step().unwrap());
+        simulation.energy().elastic().unwrap()
+    };
+    let yielding = |curvature: f64, creep: f64, steps| {
+        let folds = format!("[effects.plastic_folds]\nyield_curvature = {curvature}\ncreep = {creep}");
+        held(&folds, steps)
+    };
+    // What no fold can take: C is not quite along the normal, as the square is stretched.
+    let least = yielding(1e-3, 0.0, 200);
+    // It grows with the square of what is elastic.
+    let pull = |energy: f64| (energy - least).sqrt();
+    let at_once = pull(yielding(0.1, 0.0, 200));
+    assert!(at_once < 0.5 * pull(held("", 200)) && at_once > 0.0);
+    let [sooner, later] = [200, 500].map(|steps| pull(yielding(0.1, 0.1, steps)) - at_once);
+    assert!((sooner / later / 3.0_f64.exp() - 1.0).abs() < 1e-3, "{sooner} {later}");
+}
+
+/// A free strip: loads sum to zero. Drag slows all of it down at one rate.
+#[test]
+fn folds_push_nothing_as_a_whole() {
+    let mut scene = strip(false, Some(PlasticFolds::beyond(2.0)));
+    scene.add(AirDrag { rate: 0.0 });
+    let mut free = after(scene, 600, 1);
+    let masses: Vec<f64> = {
+        let cloth = &free.triangles()[..free.cloth_triangles()];
+        let mut shares = vec![0.0; free.cloth_vertices()];
+        cloth.iter().flatten().for_each(|&v| shares[v as usize] += 1.0);
+        shares
+    };
+    let momentum = |now: &Simulation| -> DVec3 { now.velocities().iter().zip(&masses).map(|(v, m)| *v * *m).sum() };
+    let before = momentum(&free);
+    (0..500).for_each(|_| free.step().unwrap());
+    let change = momentum(&free) - before;
+    assert!(
+        before.z > 1.0 && change.length() < 1e-9 * before.length(),
+        "{before} {change}"
+    );
+    // It has folded: it does not go where it would go otherwise.
+    let mut elastic = strip(false, None);
+    elastic.add(AirDrag { rate: 0.0 });
+    let elastic = after(elastic, 1100, 1);
+    let differ = free.positions().iter().zip(elastic.positions()).map(|(a, b)| a.distance(*b));
+    assert!(differ.fold(0.0, f64::max) > 1e-3);
+}
+
+#[test]
+fn folds_are_the_same_bits_on_two_threads_and_resumed_from_a_checkpoint() {
+    let scene = || {
+        let folds = PlasticFolds {
+            creep: 0.05,
+            ..PlasticFolds::beyond(20.0)
+        };
+        strip(true, Some(folds))
+    };
+    let checkpoint = after(scene(), 2 * CHECKPOINT_STEPS, 2).checkpoint().unwrap();
+    let mut resumed = Simulation::new(scene(), 1).unwrap();
+    resumed.resume(&checkpoint).unwrap();
+    (0..300).for_each(|_| resumed.step().unwrap());
+    let whole = after(scene(), 2 * CHECKPOINT_STEPS + 300, 1);
+    assert_eq!(resumed.positions(), whole.positions());
+    assert_eq!(resumed.energy(), whole.energy());
+}
+
+const CRUMPLING: &str = r#"
+        time_step = "1 ms"
+        duration = "1 s"
+        [cloth]
+        shape = "sheet"
+        corner = [-0.2, -0.2, 0.16]
+        sides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }
+        cells = [20, 20]
+        density = "200 g/m2"
+        velocity = [0.4, 0.3, -3]
+        [[body]]
+        name = "ball"
+        shape = "ball"
+        centre = [0, 0, 0]
+        radius = "10 cm"
+        [effects.stretch]
+        stiffness = "300 N/m"
+        [effects.shear]
+        stiffness = "100 N/m"
+        [effects.bend]
+        stiffness = "50 uN m"
+        [effects.plastic_folds]
+        yield_curvature = "0.2 1/cm"
+        [effects.body_contact]
+        thickness = "3 mm"
+        [effects.self_collision]
+        thickness = "3 mm"
+        "#;
+
+/// Against a ball: energy of motion only becomes elastic energy and heat, in folds as well.
+#[test]
+fn a_sheet_that_crumples_never_moves_faster_than_it_was_thrown() {
+    let mut simulation = set_up(CRUMPLING, "scene.toml", 1);
+    let start = simulation.energy().kinetic;
+    let mut most = 0.0_f64;
+    for _ in 0..800 {
+        simulation.step().unwrap();
+        most = most.max(simulation.energy().kinetic);
+    }
+    assert!(most <= start * (1.0 + 1e-9) && simulation.is_certified(), "{most} of {start}");
+    assert!(simulation.contact_counts().unwrap().pushed > 1000);
+}
+
+#[test]
+fn wrong_folds_are_named_with_their_unit_and_range() {
+    let message = |text: &str| {
+        let head = "time_step = 0.001\nduration = 1\n[cloth]\nshape = \"sheet\"\nsides = { first = [1, 0, 0], second = [0, 1, 0] }\ncells = [2, 2]\ndensity = 0.1\n";
+        Scene::parse(&format!("{head}{text}"), Path::new("s.toml"))
+            .unwrap_err()
+            .to_string()
+    };
+    for (text, expected) in [
+        (
+            "[effects.plastic_folds]\nyield_curvature = 5",
+            "s.toml:8:1: 'plastic_folds' has nothing to act on: it needs [effects.bend] in the scene",
+        ),
+        (
+            "[effects.bend]\nstiffness = 1e-5\n[effects.plastic_folds]",
+            "s.toml:10:1: [effects.plastic_folds] needs `yield_curvature`, such as 0.5 (in 1/m) or \"5 1/cm\"",
+        ),
+        (
+            "[effects.bend]\nstiffness = 1e-5\n[effects.plastic_folds]\nyield_curvature = \"5 mm\"",
+            "s.toml:11:19: `yield_curvature` must be a curvature, and 'mm' is no unit of it; choose from 1/m, 1/cm, 1/mm",
+        ),
+        (
+            "[effects.bend]\nstiffness = 1e-5\n[effects.plastic_folds]\nyield_curvature = 5\ncreep = -1",
+            "s.toml:12:9: `creep` is -1 s, but must be from 0 s to 100000 s",
+        ),
+    ] {
+        assert_eq!(message(text), expected);
+    }
+    let zero = strip(true, Some(PlasticFolds::beyond(0.0))).check().unwrap_err().to_string();
+    assert!(
+        zero.starts_with("plastic_folds: `yield_curvature` is 0 1/m, but must be from"),
+        "{zero}"
+    );
+}
