@@ -10,18 +10,25 @@ use std::ops::Range;
 pub(crate) struct OfCloth<T> {
     /// Of the cloth, among the scene's.
     vertices: Range<usize>,
+    /// Of its vertices, those that something holds.
+    held: Vec<(u32, f64)>,
     action: T,
 }
 
 impl<T> OfCloth<T> {
     pub(crate) const fn new(vertices: Range<usize>, action: T) -> Self {
-        Self { vertices, action }
+        Self {
+            vertices,
+            held: Vec::new(),
+            action,
+        }
     }
 
     fn step<'a>(&self, step: &TimeStep<'a>) -> TimeStep<'a> {
         TimeStep {
             start: &step.start[self.vertices.clone()],
             inverse_masses: &step.inverse_masses[self.vertices.clone()],
+            held: &[],
             ..*step
         }
     }
@@ -51,10 +58,19 @@ impl<T: Force> Force for OfCloth<T> {
 
 impl<T: Constraint> Constraint for OfCloth<T> {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
-        let step = self.step(step);
+        self.held.clear();
+        let own = step
+            .held
+            .iter()
+            .filter(|(vertex, _)| self.vertices.contains(&(*vertex as usize)));
+        let first = self.vertices.start as u32;
+        self.held.extend(own.map(|&(vertex, mass)| (vertex - first, mass)));
+        let step = TimeStep {
+            held: &self.held,
+            ..self.step(step)
+        };
         let before = touches.list.len();
         self.action.project(&step, &mut positions[self.vertices.clone()], touches);
-        let first = self.vertices.start as u32;
         for touch in &mut touches.list[before..] {
             touch.vertices = touch.vertices.map(|vertex| first + vertex);
         }

@@ -12,8 +12,8 @@ use super::hierarchy::{Hierarchy, Level};
 use super::of_cloth::OfCloth;
 use super::step::{Carrier, Constraint, FREE, Force};
 use super::world::{Cloth, Kinematic, Motion, SceneParts};
-use std::ops::Range;
 use selvedge_core::glam::DVec3;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// An entry of a phase and the effect that it belongs to.

@@ -360,6 +360,7 @@ mod tests {
             h: 1.0,
             start,
             inverse_masses: &vec![1.0; start.len()],
+            held: &[],
             poses: &[],
         };
         let threads = Workers::new(Threads::from_count(threads)).unwrap();

@@ -92,6 +92,10 @@ struct Work {
     predicted: Vec<DVec3>,
     poses: Vec<[Pose; 2]>,
     touches: Touches,
+    /// Vertices that constraints hold, and by how much heavier each is, in kg.
+    held: Vec<(u32, f64)>,
+    /// As constraints see them, if any are held.
+    inverse_masses: Vec<f64>,
 }
 
 /// An effect that the scene calls for, and the time that it has taken.
@@ -558,7 +562,7 @@ impl Simulation {
             state: self.state.clone(),
             effects: self.effects.iter().map(|effect| effect.seconds).collect(),
             placements: self.driven().map(|driven| driven.placement).collect(),
-            memories: self.memories().flat_map(|memory| memory.numbers()).collect(),
+            memories: self.remembered(),
             ..Checkpoint::default()
         };
         if let Some(contact) = &self.contact {
@@ -579,7 +583,7 @@ impl Simulation {
             yielding: self.contact.as_ref().map_or(0, |c| c.exempt().yielding.len()),
             effects: self.effects.len(),
             placements: self.driven().count(),
-            memories: self.memories().map(|memory| memory.numbers().len()).sum(),
+            memories: self.remembered().len(),
         };
         let checkpoint = Checkpoint::read(checkpoint, self.fingerprint, sizes)?;
         if let Some(contact) = &mut self.contact {
@@ -598,7 +602,18 @@ impl Simulation {
         for (driven, placement) in driven.zip(checkpoint.placements) {
             driven.placement = placement;
         }
-        let mut numbers = checkpoint.memories.as_slice();
+        self.recall(&checkpoint.memories);
+        self.state = checkpoint.state;
+        Ok(())
+    }
+
+    /// What all constraints remember, one after the other.
+    fn remembered(&self) -> Vec<f64> {
+        self.memories().flat_map(Memory::numbers).collect()
+    }
+
+    /// Takes back what was [`remembered`](Self::remembered) once.
+    fn recall(&mut self, mut numbers: &[f64]) {
         for &index in &self.remembering {
             if let Some(memory) = self.constraints[index].action.memory_mut() {
                 let own;
@@ -606,8 +621,6 @@ impl Simulation {
                 memory.recall(own);
             }
         }
-        self.state = checkpoint.state;
-        Ok(())
     }
 
     fn memories(&self) -> impl Iterator<Item = &dyn Memory> {
@@ -680,6 +693,7 @@ impl Simulation {
             h,
             start: &state.positions,
             inverse_masses,
+            held: &[],
             poses: &work.poses,
         };
         let velocities = &mut work.velocities;
@@ -697,6 +711,27 @@ impl Simulation {
         positions.clear();
         positions.extend((0..step.start.len()).map(predicted));
         motions.iter_mut().for_each(|motion| motion.put(clock + ticks, positions));
+        work.held.clear();
+        for &index in &self.remembering {
+            if let Some(memory) = self.constraints[index].action.memory() {
+                memory.hold(h, &mut work.held);
+            }
+        }
+        let step = if work.held.is_empty() {
+            step
+        } else {
+            let own = &mut work.inverse_masses;
+            own.clone_from(inverse_masses);
+            for &(vertex, mass) in &work.held {
+                let inverse_mass = &mut own[vertex as usize];
+                *inverse_mass /= 1.0 + *inverse_mass * mass;
+            }
+            TimeStep {
+                inverse_masses: own,
+                held: &work.held,
+                ..step
+            }
+        };
         for Entry { effect, action } in &mut self.constraints {
             timed(effects, *effect, || action.project(&step, positions, touches));
         }

@@ -16,8 +16,10 @@ pub struct TimeStep<'a> {
     pub h: f64,
     /// Positions at the start, in metres: the cloth's vertices, then the bodies'.
     pub start: &'a [DVec3],
-    /// Per vertex, in 1/kg; zero where it is kinematic.
+    /// Per vertex, in 1/kg; zero where it is kinematic. For constraints it is less where something [holds](Memory::hold) the vertex.
     pub inverse_masses: &'a [f64],
+    /// Vertices that something holds, and by how much heavier each is, in kg. `inverse_masses` has it.
+    pub(crate) held: &'a [(u32, f64)],
     /// Of each kinematic motion, at the start and at the end.
     pub(crate) poses: &'a [[Pose; 2]],
 }
@@ -68,6 +70,9 @@ pub trait Constraint: Debug + Send + Sync {
 /// What a constraint remembers from step to step. It changes only when a step, or a part of one, was made: those that could not be made leave no
 /// trace. It is in checkpoints.
 pub trait Memory {
+    /// Adds the vertices that it holds, and by how many kg each is heavier for all constraints of a step of `h` seconds.
+    fn hold(&self, _h: f64, _held: &mut Vec<(u32, f64)>) {}
+
     /// A step was made, from `step.start`, and this is where everything came to.
     fn settle(&mut self, step: &TimeStep<'_>, positions: &[DVec3]);
 

@@ -1,19 +1,25 @@
 //! Attachments: vertices that are held with a limited force. Above it they let go, each by itself, and for good.
 //!
-//! Each is a spring between a vertex and its anchor, of the stiffness limit/give: the force is the limit where the spring is as long as
-//! it gives. C = |x − a|, compliance give/limit, in one step of extended position-based dynamics. A vertex lets go when a step was made at
-//! whose end it is farther from its anchor than that; steps that could not be made change nothing.
+//! Each is a spring between a vertex and its anchor, of the stiffness k = limit/give: the force is the limit where the spring is as long as
+//! it gives. A vertex lets go when a step was made at whose end it is farther from its anchor than that; steps that could not be made change
+//! nothing.
 //!
-//! The anchor of a vertex that follows a body is a point on one of its triangles, the nearest at the start, and so far from it: so that it goes with
-//! bodies that change their shape as well.
+//! One implicit step wants (M + h²K)·x = M·y + h²k·a + …, y being where inertia leads, a the anchor, K the springs'. They are the part
+//! of it that is diagonal: for all other constraints the mass of a held vertex is m + h²k ([`Memory::hold`]), and it starts from
+//! (m·y + h²k·a)/(m + h²k). At rest the force is then k·|x − a| whatever else pulls, and light vertices are held as well as heavy ones:
+//! were the spring a constraint among others, it would pull its vertex back by as much as the others had moved it, h²/m times the force, which is
+//! many edges on a fine mesh.
+//!
+//! Coarse levels of stretch and strain limit weigh their seeds in the same way.
 
+use super::anchor::Anchor;
 use super::pins::PinMotion;
 use super::registration::{Effect, Registration, Scope};
 use super::selection::{check_body, check_vertices, keys, placed, read_motion, read_vertices};
 use crate::energy::{Configuration, StoredEnergy};
 use crate::input::{FORCE, Field, LENGTH, ValueError};
 use crate::plan::Plan;
-use crate::step::{Carrier, Constraint, Memory, Release, TimeStep, Touches};
+use crate::step::{Constraint, Memory, Release, TimeStep, Touches};
 use crate::world::{Motion, RigidMotion, SceneParts};
 use selvedge_core::glam::DVec3;
 
@@ -135,46 +141,6 @@ impl Effect for Attachments {
     }
 }
 
-/// What a vertex is attached to.
-#[derive(Clone, Copy, Debug)]
-enum Anchor {
-    /// A point that a motion carries, where it is when not moved at all.
-    Carried(Carrier, DVec3),
-    /// A point of a triangle: shares of its sides from its first vertex, and how far in front of it.
-    On([u32; 3], [f64; 3]),
-}
-
-impl Anchor {
-    /// On the nearest of these triangles, by their middles.
-    fn on(triangles: &[[u32; 3]], positions: &[DVec3], point: DVec3) -> Self {
-        let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
-        let distance = |t: &[u32; 3]| (corners(t).iter().sum::<DVec3>() / 3.0).distance_squared(point);
-        let nearest = triangles.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let Some(triangle) = nearest else {
-            return Self::On([0; 3], [0.0; 3]);
-        };
-        let [a, b, c] = corners(triangle);
-        let ([first, second], way) = ([b - a, c - a], point - a);
-        let normal = first.cross(second);
-        let area = normal.length_squared();
-        let share = |side: DVec3| if area > 0.0 { side.dot(normal) / area } else { 0.0 };
-        let shares = [share(way.cross(second)), share(first.cross(way))];
-        Self::On(*triangle, [shares[0], shares[1], way.dot(normal.normalize_or_zero())])
-    }
-
-    /// Where it is at the end of a step, with bodies where they are then.
-    fn at(&self, step: &TimeStep<'_>, positions: &[DVec3]) -> DVec3 {
-        match *self {
-            Self::Carried(carrier, point) => step.poses[carrier as usize][1].apply(point),
-            Self::On(triangle, [u, v, height]) => {
-                let [a, b, c] = triangle.map(|v| positions[v as usize]);
-                let (first, second) = (b - a, c - a);
-                a + first * u + second * v + first.cross(second).normalize_or_zero() * height
-            }
-        }
-    }
-}
-
 /// A vertex and its anchor.
 #[derive(Debug)]
 struct Attachment {
@@ -197,12 +163,9 @@ struct Holding(Vec<Attachment>);
 impl Constraint for Holding {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
         for held in self.0.iter().filter(|held| held.released.is_none()) {
-            let inverse_mass = step.inverse_masses[held.vertex as usize];
-            if inverse_mass > 0.0 {
-                let way = held.anchor.at(step, positions) - positions[held.vertex as usize];
-                let compliance = 1.0 / (held.stiffness * step.h * step.h);
-                positions[held.vertex as usize] += way * (inverse_mass / (inverse_mass + compliance));
-            }
+            let vertex = held.vertex as usize;
+            let way = held.anchor.at(step, positions) - positions[vertex];
+            positions[vertex] += way * (held.stiffness * step.h * step.h * step.inverse_masses[vertex]);
         }
     }
 
@@ -225,6 +188,11 @@ impl Constraint for Holding {
 }
 
 impl Memory for Holding {
+    fn hold(&self, h: f64, held: &mut Vec<(u32, f64)>) {
+        let holding = self.0.iter().filter(|held| held.released.is_none());
+        held.extend(holding.map(|held| (held.vertex, held.stiffness * h * h)));
+    }
+
     fn settle(&mut self, step: &TimeStep<'_>, positions: &[DVec3]) {
         for held in self.0.iter_mut().filter(|held| held.released.is_none()) {
             held.last = held.anchor.at(step, positions);

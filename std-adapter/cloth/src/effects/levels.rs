@@ -51,6 +51,8 @@ struct OnLevel {
     /// Of the seeds.
     before: Vec<DVec3>,
     after: Vec<DVec3>,
+    /// Of the seeds, where something holds vertices.
+    inverse_masses: Vec<f64>,
 }
 
 impl<C> OnLevels<C> {
@@ -63,6 +65,7 @@ impl<C> OnLevels<C> {
                 triangles: Schedule::once(triangles.collect(), level.inverse_masses.len()),
                 before: Vec::new(),
                 after: Vec::new(),
+                inverse_masses: Vec::new(),
                 level,
             }
         };
@@ -91,10 +94,13 @@ impl Constraint for OnLevel {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
         self.level.read(positions, &mut self.before);
         self.after.clone_from(&self.before);
-        let of_seeds = TimeStep {
-            inverse_masses: &self.level.inverse_masses,
-            ..*step
+        let inverse_masses = if step.held.is_empty() {
+            &self.level.inverse_masses
+        } else {
+            self.level.weigh(step.held, &mut self.inverse_masses);
+            &self.inverse_masses
         };
+        let of_seeds = TimeStep { inverse_masses, ..*step };
         self.triangles.project(&of_seeds, &mut self.after, touches);
         if self.after != self.before {
             for (after, before) in self.after.iter_mut().zip(&self.before) {
@@ -233,6 +239,7 @@ mod tests {
             h: 1e-3,
             start: positions,
             inverse_masses: &masses.iter().map(|m| 1.0 / m).collect::<Vec<_>>(),
+            held: &[],
             poses: &[],
         };
         levels.project(&step, &mut moved, &mut Touches::default());

@@ -6,6 +6,8 @@
 // Adding one of ours takes its own file, a `mod` line, a `pub use` and a line of `REGISTRY`.
 
 mod air_drag;
+mod air_sources;
+mod anchor;
 mod attachments;
 mod bend;
 mod body_contact;
@@ -38,6 +40,7 @@ pub use super::plan::Plan;
 pub use super::step::{Constraint, Force, Memory, Release, TimeStep, Touches};
 pub use super::world::SceneParts;
 pub use air_drag::AirDrag;
+pub use air_sources::{AirSource, Fan, Vortex};
 pub use attachments::{AttachmentGroup, Attachments};
 pub use bend::Bend;
 pub use body_contact::BodyContact;
@@ -54,7 +57,7 @@ pub use shear::Shear;
 pub use strain_limit::StrainLimit;
 pub use stretch::Stretch;
 pub use wind::Wind;
-pub use wind_field::{Air, AirSource, Fan, Vortex, WindField};
+pub use wind_field::{Air, WindField};
 
 use super::input::{SceneError, Table, suggestion};
 use registration::Registration;
@@ -81,6 +84,7 @@ const REGISTRY: &[(&str, Registration)] = registry![
     inflation "inflation"
     air_drag "air_drag"
     pins "pins"
+    attachments "attachments"
     stretch "stretch"
     shear "shear"
     bend "bend"
@@ -88,7 +92,6 @@ const REGISTRY: &[(&str, Registration)] = registry![
     pressure "internal_pressure"
     strain_limit "strain_limit"
     seams "seams"
-    attachments "attachments"
     body_contact "body_contact"
     self_collision "self_collision"
     friction "friction"

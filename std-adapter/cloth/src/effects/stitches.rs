@@ -166,6 +166,7 @@ mod tests {
                 h: 0.1,
                 start: &rest,
                 inverse_masses: &[1.0; 4],
+                held: &[],
                 poses: &[],
             };
             sewing.project(&step, &mut positions, &mut Touches::default());

@@ -1,30 +1,17 @@
 //! Wind from a field: air whose velocity depends on place and time. It pushes as [`Panels`] say, by the air in the middle of each triangle.
 //!
-//! A scene file makes a field of fans and vortices, whose velocities add up; code may give any function ([`Air`]).
-//!
-//! **A fan** is a round jet. Its middle goes straight on, and its half-width grows with the distance s as R + 0.094·s (Hussein, Capp and
-//! George 1994). The momentum that goes through each section is the same, ∝ U²R², so that the velocity in the middle falls as R/(R + 0.094·s);
-//! across it is 2^(−r²/half-width²). Behind the fan the air is still, as is what the jet draws in from its sides.
-//!
-//! **A vortex** turns about its axis with the velocity 2·v·(r/R)/(1 + (r/R)²), which is v at its core's radius R and most there
-//! (Kaufmann 1962).
+//! A scene file makes a field of fans and vortices ([`AirSource`]); code may give any function ([`Air`]).
 
+use super::air_sources::{AirSource, Fan, Vortex};
 use super::panels::{Panels, check_drag, read_drag};
 use super::registration::{Effect, Registration};
-use crate::input::{Field, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, SceneError, Table, ValueError};
+use crate::input::ValueError;
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
 use crate::world::SceneParts;
-use libm::exp2;
 use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
 use std::sync::Arc;
-
-const AT: Field = Field::vector("at", LENGTH, LARGEST_COORDINATE);
-const VELOCITY: Field = Field::vector("velocity", SPEED, 1e3);
-const RADIUS: Field = Field::new("radius", LENGTH, 1e-3, LARGEST_COORDINATE);
-const AXIS: Field = Field::vector("axis", RATIO, LARGEST_COORDINATE);
-const TURNING: Field = Field::new("speed", SPEED, -1e3, 1e3);
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["fan", "vortex", "air_density", "drag"],
@@ -108,119 +95,6 @@ impl WindField {
     #[must_use]
     pub fn of(sources: Vec<AirSource>) -> Self {
         Self::new(sources)
-    }
-}
-
-/// What moves air.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AirSource {
-    /// A round jet.
-    Fan(Fan),
-    /// Air that turns.
-    Vortex(Vortex),
-}
-
-/// A round jet of air.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fan {
-    /// In metres.
-    pub at: DVec3,
-    /// In its middle, where it stands, in m/s. Its direction is that of the jet.
-    pub velocity: DVec3,
-    /// Where the velocity is half of that in the middle, in metres.
-    pub radius: f64,
-}
-
-/// Air that turns about an axis, counter-clockwise as seen from where the axis points to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vortex {
-    /// A point of the axis, in metres.
-    pub at: DVec3,
-    /// Of any length but zero.
-    pub axis: DVec3,
-    /// The largest, in m/s; negative: clockwise.
-    pub speed: f64,
-    /// Where it is largest, in metres.
-    pub radius: f64,
-}
-
-/// Of a round jet's half-width, with the distance.
-const SPREADING: f64 = 0.094;
-
-impl Fan {
-    fn read(table: &Table<'_>) -> Result<Self, SceneError> {
-        table.expect_keys(&["at", "velocity", "radius"])?;
-        Ok(Self {
-            at: table.required_vector(&AT)?,
-            velocity: table.required_vector(&VELOCITY)?,
-            radius: table.required_number(&RADIUS)?,
-        })
-    }
-
-    fn velocity(&self, at: DVec3) -> DVec3 {
-        let way = at - self.at;
-        let direction = self.velocity.normalize_or_zero();
-        let along = way.dot(direction);
-        if !(along >= 0.0) {
-            return DVec3::ZERO;
-        }
-        let width = self.radius + SPREADING * along;
-        let across = (way - direction * along).length_squared();
-        self.velocity * (self.radius / width * exp2(-across / (width * width)))
-    }
-}
-
-impl Vortex {
-    fn read(table: &Table<'_>) -> Result<Self, SceneError> {
-        table.expect_keys(&["at", "axis", "speed", "radius"])?;
-        let vortex = Self {
-            at: table.required_vector(&AT)?,
-            axis: table.required_vector(&AXIS)?,
-            speed: table.required_number(&TURNING)?,
-            radius: table.required_number(&RADIUS)?,
-        };
-        vortex.check().map_err(|error| table.placed(&error))?;
-        Ok(vortex)
-    }
-
-    fn check(&self) -> Result<(), ValueError> {
-        AT.check_vector(self.at)?;
-        AXIS.check_vector(self.axis)?;
-        TURNING.check(self.speed)?;
-        RADIUS.check(self.radius)?;
-        if self.axis == DVec3::ZERO {
-            let message = "`axis` must not be zero: it is the direction that the air turns about";
-            return Err(ValueError::new(AXIS.name, message));
-        }
-        Ok(())
-    }
-
-    fn velocity(&self, at: DVec3) -> DVec3 {
-        // Its length is the distance from the axis.
-        let turning = self.axis.normalize_or_zero().cross(at - self.at);
-        let squared = turning.length_squared() / (self.radius * self.radius);
-        turning * (2.0 * self.speed / self.radius / (1.0 + squared))
-    }
-}
-
-impl Air for Vec<AirSource> {
-    fn velocity(&self, at: DVec3, _: f64) -> DVec3 {
-        let each = self.iter().map(|source| match source {
-            AirSource::Fan(fan) => fan.velocity(at),
-            AirSource::Vortex(vortex) => vortex.velocity(at),
-        });
-        each.sum()
-    }
-
-    fn check(&self) -> Result<(), ValueError> {
-        self.iter().try_for_each(|source| match source {
-            AirSource::Fan(fan) => {
-                AT.check_vector(fan.at)?;
-                VELOCITY.check_vector(fan.velocity)?;
-                RADIUS.check(fan.radius)
-            }
-            AirSource::Vortex(vortex) => vortex.check(),
-        })
     }
 }
 

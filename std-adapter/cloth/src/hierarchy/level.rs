@@ -101,6 +101,18 @@ impl Level {
         })
     }
 
+    /// The inverse masses of seeds where vertices are heavier, by so many kg each.
+    pub(crate) fn weigh(&self, heavier: &[(u32, f64)], inverse_masses: &mut Vec<f64>) {
+        inverse_masses.clone_from(&self.inverse_masses);
+        for &(vertex, mass) in heavier {
+            let Follows { seeds, shares } = self.follows[vertex as usize];
+            for (seed, share) in seeds.into_iter().zip(shares) {
+                let inverse_mass = &mut inverse_masses[seed as usize];
+                *inverse_mass /= 1.0 + *inverse_mass * share * mass;
+            }
+        }
+    }
+
     /// Where the seeds are.
     pub(crate) fn read(&self, positions: &[DVec3], seeds: &mut Vec<DVec3>) {
         seeds.clear();

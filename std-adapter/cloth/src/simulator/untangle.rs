@@ -87,12 +87,15 @@ impl Simulation {
         let velocities = self.state.velocities.clone();
         let start = self.state.positions.clone();
         let times = self.effects.clone();
+        let remembered = self.remembered();
         let crossings = self.crossings().len();
         let threads = std::mem::take(&mut self.threads);
         let steps = threads.run(|| self.pull_apart(REACH * spacing, tell));
         self.threads = threads;
         (self.forces, self.effects) = (forces, times);
         self.state.velocities = velocities;
+        // Nothing lets go, and no fold stays, before the first step.
+        self.recall(&remembered);
         let moved = start.iter().zip(&self.state.positions);
         Untangled {
             crossings,

@@ -189,7 +189,10 @@ impl Cloth {
     pub fn set_material(&mut self, material: Material) -> &mut Self {
         self.density = material.density;
         self.material = Some(material);
-        material.effects().into_iter().for_each(|effect| self.effects.add_shared(effect));
+        material
+            .effects()
+            .into_iter()
+            .for_each(|effect| self.effects.add_shared(effect));
         self
     }
 

@@ -193,7 +193,10 @@ fn each_of_several_cloths_has_a_material_of_its_own() {
     ] {
         assert!(fabric.contains(&(what.to_owned(), expected.to_owned())), "{what}: {fabric:?}");
     }
-    let stages = scene.settings().into_iter().filter(|(name, value)| name.contains("stages") && value == "64");
+    let stages = scene
+        .settings()
+        .into_iter()
+        .filter(|(name, value)| name.contains("stages") && value == "64");
     assert!(stages.count() >= 2);
 }
 

@@ -187,6 +187,8 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
     let stages = stages.flat_map(|seconds| seconds.stages());
     let stages = stages.map(|(stage, seconds)| json!({"stage": stage, "seconds": seconds}));
     let stretch = simulation.edge_stretch();
+    let released = simulation.released().into_iter();
+    let released = released.map(|release| json!({"group": release.group, "vertex": release.vertex, "seconds": release.time}));
     let slowest = recording.step_times();
     json!({
         "scene": simulation.name(),
@@ -204,6 +206,7 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
         "contacts_resolved": counts.map(|counts| counts.pushed),
         "vertices_held": counts.map(|counts| counts.held),
         "cuts": counts.map(|counts| counts.cuts),
+        "released": released.collect::<Vec<_>>(),
         "blocked_steps": simulation.blocked_steps(),
         "lag_seconds": simulation.lag(),
         "untangled": simulation.untangled().map(untangled_json),

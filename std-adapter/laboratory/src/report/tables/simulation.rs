@@ -64,6 +64,16 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
     for sentence in start_sentences(simulation) {
         text += &format!("\n{sentence}\n");
     }
+    let released = simulation.released();
+    let times = released.iter().map(|release| release.time);
+    if let (Some(first), Some(last)) = (times.clone().reduce(f64::min), times.reduce(f64::max)) {
+        let vertices = released.len();
+        text += &format!(
+            "\nattached vertices that let go: {vertices}, from {} to {}\n",
+            moment(first),
+            moment(last)
+        );
+    }
     if simulation.blocked_steps() > 0 {
         let blocked = counted(simulation.blocked_steps(), "step");
         text += &format!(
