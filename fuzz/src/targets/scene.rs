@@ -28,7 +28,8 @@ pub fn scene(data: &[u8]) {
         }
     };
     let bodies = scene.bodies.iter().map(|body| body.mesh.triangles.len());
-    if scene.cloth.mesh().triangles.len() + bodies.sum::<usize>() > LARGEST {
+    let cloths = scene.cloths.iter().map(|cloth| cloth.mesh().triangles.len());
+    if cloths.chain(bodies).sum::<usize>() > LARGEST {
         return;
     }
     let mut simulation = match Simulation::new(scene, 1) {
