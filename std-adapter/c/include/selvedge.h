@@ -79,7 +79,7 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_NO_SUCH_DETECTOR = 5,
   /**
-   * Another thread is using the detector or world.
+   * Another thread is using the detector, world or simulation.
    */
   SELVEDGE_STATUS_BUSY = 6,
   /**
@@ -123,7 +123,7 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_NO_MEMORY = 16,
   /**
-   * The process was forked after the detector or world has started threads; they are not in the child.
+   * The process was forked after the detector, world or simulation has started threads; they are not in the child.
    */
   SELVEDGE_STATUS_FORKED = 17,
   /**
@@ -139,7 +139,7 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_BAD_TIME = 20,
   /**
-   * A fault of the library's own. The detector or world can only be freed from now on.
+   * A fault of the library's own. The detector, world or simulation can only be freed from now on.
    */
   SELVEDGE_STATUS_INTERNAL = 21,
   /**
@@ -158,6 +158,42 @@ enum selvedge_status
    * A pose is none: a number is not finite, the quaternion is zero, or the mesh would be out of the range of numbers.
    */
   SELVEDGE_STATUS_BAD_POSE = 25,
+  /**
+   * There is no such simulation: it was freed, or never made.
+   */
+  SELVEDGE_STATUS_NO_SUCH_SIMULATION = 26,
+  /**
+   * A scene cannot be read or used: the words name its file, line and column where one is at fault.
+   */
+  SELVEDGE_STATUS_BAD_SCENE = 27,
+  /**
+   * A step found no motion without an intersection, in a scene that stops then. What is done of the step stays.
+   */
+  SELVEDGE_STATUS_BLOCKED = 28,
+  /**
+   * The scene has no such cloth, body, group of pins, or wind.
+   */
+  SELVEDGE_STATUS_NO_SUCH_PART = 29,
+  /**
+   * A body or a group of pins has a motion of its own: its scene does not say that it is driven.
+   */
+  SELVEDGE_STATUS_NOT_DRIVEN = 30,
+  /**
+   * A position or a velocity is not finite, or beyond its range.
+   */
+  SELVEDGE_STATUS_BAD_VALUE = 31,
+  /**
+   * Bytes are no checkpoint, are damaged, or are one of another scene.
+   */
+  SELVEDGE_STATUS_BAD_CHECKPOINT = 32,
+  /**
+   * There is no checkpoint after this step: one is every SELVEDGE_CHECKPOINT_STEPS steps.
+   */
+  SELVEDGE_STATUS_NO_CHECKPOINT = 33,
+  /**
+   * A text is not UTF-8.
+   */
+  SELVEDGE_STATUS_BAD_TEXT = 34,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -1083,109 +1119,6 @@ selvedge_status selvedge_world_edges(const struct selvedge_world *world,
                                      selvedge_mesh mesh,
                                      const struct selvedge_pair **edges,
                                      size_t *count);
-
-/**
- * All contacts of a step in which these meshes move, each listed once, and all others rest: those that have moved rest where their last
- * motion ended. The contacts stay where they are until this world's contacts are asked for again, or it is freed. If there are none
- * they are at NULL.
- *
- * If the question is refused nothing has changed; for one that is cut short see selvedge_world_set_cancelled.
- *
- * The caller promises:
- * `deforming` and `rigid` point to so many entries, each frame to 3 * `vertex_count` numbers, `contacts` to a pointer, `count` to a
- * number.
- */
-selvedge_status selvedge_world_contacts_f64(struct selvedge_world *world,
-                                            const struct selvedge_deforming_f64 *deforming,
-                                            size_t deforming_count,
-                                            const struct selvedge_rigid *rigid,
-                                            size_t rigid_count,
-                                            const struct selvedge_world_contact **contacts,
-                                            size_t *count);
-
-/**
- * selvedge_world_contacts_f64 for float.
- *
- * The caller promises:
- * As selvedge_world_contacts_f64.
- */
-selvedge_status selvedge_world_contacts_f32(struct selvedge_world *world,
-                                            const struct selvedge_deforming_f32 *deforming,
-                                            size_t deforming_count,
-                                            const struct selvedge_rigid *rigid,
-                                            size_t rigid_count,
-                                            const struct selvedge_world_contact **contacts,
-                                            size_t *count);
-
-/**
- * The earliest contact of such a step, before which it is free of contact. `*found` becomes whether there is one; if there is none the
- * whole step is free, and nothing is written to `contact`.
- *
- * The caller promises:
- * As selvedge_world_contacts_f64; `found` and `contact` point to one each.
- */
-selvedge_status selvedge_world_earliest_f64(struct selvedge_world *world,
-                                            const struct selvedge_deforming_f64 *deforming,
-                                            size_t deforming_count,
-                                            const struct selvedge_rigid *rigid,
-                                            size_t rigid_count,
-                                            bool *found,
-                                            struct selvedge_world_contact *contact);
-
-/**
- * selvedge_world_earliest_f64 for float.
- *
- * The caller promises:
- * As selvedge_world_earliest_f64.
- */
-selvedge_status selvedge_world_earliest_f32(struct selvedge_world *world,
-                                            const struct selvedge_deforming_f32 *deforming,
-                                            size_t deforming_count,
-                                            const struct selvedge_rigid *rigid,
-                                            size_t rigid_count,
-                                            bool *found,
-                                            struct selvedge_world_contact *contact);
-
-/**
- * Whether such a step is certainly free of contact.
- *
- * The caller promises:
- * As selvedge_world_contacts_f64; `is_free` points to one.
- */
-selvedge_status selvedge_world_is_free_f64(struct selvedge_world *world,
-                                           const struct selvedge_deforming_f64 *deforming,
-                                           size_t deforming_count,
-                                           const struct selvedge_rigid *rigid,
-                                           size_t rigid_count,
-                                           bool *is_free);
-
-/**
- * selvedge_world_is_free_f64 for float.
- *
- * The caller promises:
- * As selvedge_world_is_free_f64.
- */
-selvedge_status selvedge_world_is_free_f32(struct selvedge_world *world,
-                                           const struct selvedge_deforming_f32 *deforming,
-                                           size_t deforming_count,
-                                           const struct selvedge_rigid *rigid,
-                                           size_t rigid_count,
-                                           bool *is_free);
-
-/**
- * How the two of each contact of the last step lie to each other at its time, in their order. They stay where they are until this
- * world's contact geometries are asked for again, or it is freed. The contacts may be the world's own.
- *
- * The last step is that of the last question: of an earlier step's contacts nothing is known any more.
- *
- * The caller promises:
- * `contacts` points to `contact_count` contacts, `geometries` to a pointer, `count` to a number.
- */
-selvedge_status selvedge_world_contact_geometries(struct selvedge_world *world,
-                                                  const struct selvedge_world_contact *contacts,
-                                                  size_t contact_count,
-                                                  const struct selvedge_world_geometry **geometries,
-                                                  size_t *count);
 
 /**
  * All contacts of a step in which these meshes move, each listed once, and all others rest: those that have moved rest where their last

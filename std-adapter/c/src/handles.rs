@@ -1,4 +1,4 @@
-//! What lives, and is named by handles: detectors and worlds.
+//! What lives, and is named by handles: detectors, worlds and simulations.
 //!
 //! To C a handle is a pointer; here it is a number that was given once and never again, looked up at each call. So a handle that
 //! was freed, or never made, is told from one that lives, whatever memory holds, and no handle is ever followed.
@@ -25,7 +25,15 @@ pub(crate) trait Handled: Send + Sized + 'static {
 
     fn living() -> &'static Living<Self>;
 
-    fn cancellation(&self) -> Cancellation;
+    /// What cuts its questions short; of what has none, one that nobody is given.
+    fn cancellation(&self) -> Cancellation {
+        Cancellation::default()
+    }
+
+    /// Whether it has threads of its own when it is made.
+    fn has_threads(&self) -> bool {
+        false
+    }
 }
 
 /// All of a type, by the numbers of their handles.
@@ -69,11 +77,13 @@ pub(crate) fn keep<T: Handled>(item: T) -> Result<*mut T::Handle, Failure> {
     let one_more = |number: usize| number.checked_add(1);
     let number = NEXT.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_more);
     let number = number.map_err(|_| Failure::new(Status::BadCount, "there are no more handles"))?;
+    let has_threads = item.has_threads();
     let kept = Kept {
         cancellation: item.cancellation(),
-        item: Mutex::new(item),
         threads_of: Mutex::new(None),
+        item: Mutex::new(item),
     };
+    kept.set_has_threads(has_threads);
     // A panic cannot leave the map half changed.
     let mut living = T::living().0.write().unwrap_or_else(PoisonError::into_inner);
     living.insert(number, Arc::new(kept));

@@ -2,6 +2,8 @@
 
 use crate::answers::{ContactRow, Pair};
 use crate::status::{Failure, Status};
+#[cfg(feature = "cloth")]
+use std::ffi::{CStr, c_char};
 use std::ptr::NonNull;
 use std::slice;
 
@@ -84,6 +86,16 @@ impl<S: Plain> OutFrame<S> {
         Ok(Self { start, vertex_count })
     }
 
+    /// Writes one row after another, as far as there is room.
+    #[cfg(feature = "cloth")]
+    pub(crate) fn fill(self, rows: impl Iterator<Item = [S; 3]>) {
+        let start = self.start.0.cast::<[S; 3]>();
+        for (index, row) in rows.take(self.vertex_count).enumerate() {
+            // SAFETY: aligned as its numbers are, and `new` was promised that so many may be written to.
+            unsafe { start.add(index).write(row) };
+        }
+    }
+
     /// Writes the positions, which are the library's own.
     pub(crate) fn set(self, positions: &[[S; 3]]) {
         let count = positions.len().min(self.vertex_count);
@@ -128,6 +140,19 @@ impl OutList<Pair> {
         self.start.set(start);
         self.count.set(pairs.len());
     }
+}
+
+/// A text that a zero byte ends.
+///
+/// # Safety
+/// Unless it is null, there is a zero byte behind the pointer, and nobody writes up to it as long as the text lives.
+#[cfg(feature = "cloth")]
+pub(crate) unsafe fn text<'a>(name: &str, start: *const c_char) -> Result<&'a str, Failure> {
+    check_pointer(name, start)?;
+    // SAFETY: not null; the rest is the caller's promise.
+    let bytes = unsafe { CStr::from_ptr(start) };
+    let not_utf8 = |error| Failure::new(Status::BadText, format!("{name} is not UTF-8: {error}"));
+    bytes.to_str().map_err(not_utf8)
 }
 
 /// The number is none of the enumeration `name`.

@@ -7,6 +7,7 @@
 //! handles    what lives, by its handles, which are numbers and never followed
 //! detector   detectors; settings, questions, answers    their functions, by what they are for
 //! world      worlds, and their functions
+//! simulation cloth in motion, with the feature `cloth`: `include/selvedge_cloth.h`, and `.hpp` on it
 //! version    macros and functions
 //! ```
 //!
@@ -27,6 +28,8 @@ mod handles;
 mod input;
 mod questions;
 mod settings;
+#[cfg(feature = "cloth")]
+mod simulation;
 mod status;
 #[cfg(test)]
 mod tests;

@@ -21,7 +21,7 @@ pub enum Status {
     UnknownConstant = 4,
     /// There is no such detector: it was freed, or never made.
     NoSuchDetector = 5,
-    /// Another thread is using the detector or world.
+    /// Another thread is using the detector, world or simulation.
     Busy = 6,
     /// The detector or world is for positions in the other format.
     WrongScalar = 7,
@@ -43,7 +43,7 @@ pub enum Status {
     NoThreads = 15,
     /// The operating system refuses memory.
     NoMemory = 16,
-    /// The process was forked after the detector or world has started threads; they are not in the child.
+    /// The process was forked after the detector, world or simulation has started threads; they are not in the child.
     Forked = 17,
     /// The detector or world is cancelled.
     Cancelled = 18,
@@ -51,7 +51,7 @@ pub enum Status {
     TooManyPairs = 19,
     /// A contact's time is not in [0, 1].
     BadTime = 20,
-    /// A fault of the library's own. The detector or world can only be freed from now on.
+    /// A fault of the library's own. The detector, world or simulation can only be freed from now on.
     Internal = 21,
     /// There is no such world: it was freed, or never made.
     NoSuchWorld = 22,
@@ -61,10 +61,28 @@ pub enum Status {
     MovedTwice = 24,
     /// A pose is none: a number is not finite, the quaternion is zero, or the mesh would be out of the range of numbers.
     BadPose = 25,
+    /// There is no such simulation: it was freed, or never made.
+    NoSuchSimulation = 26,
+    /// A scene cannot be read or used: the words name its file, line and column where one is at fault.
+    BadScene = 27,
+    /// A step found no motion without an intersection, in a scene that stops then. What is done of the step stays.
+    Blocked = 28,
+    /// The scene has no such cloth, body, group of pins, or wind.
+    NoSuchPart = 29,
+    /// A body or a group of pins has a motion of its own: its scene does not say that it is driven.
+    NotDriven = 30,
+    /// A position or a velocity is not finite, or beyond its range.
+    BadValue = 31,
+    /// Bytes are no checkpoint, are damaged, or are one of another scene.
+    BadCheckpoint = 32,
+    /// There is no checkpoint after this step: one is every SELVEDGE_CHECKPOINT_STEPS steps.
+    NoCheckpoint = 33,
+    /// A text is not UTF-8.
+    BadText = 34,
 }
 
 impl Status {
-    const ALL: [Self; 26] = [
+    const ALL: [Self; 35] = [
         Self::Ok,
         Self::NullPointer,
         Self::MisalignedPointer,
@@ -91,6 +109,15 @@ impl Status {
         Self::NoSuchMesh,
         Self::MovedTwice,
         Self::BadPose,
+        Self::NoSuchSimulation,
+        Self::BadScene,
+        Self::Blocked,
+        Self::NoSuchPart,
+        Self::NotDriven,
+        Self::BadValue,
+        Self::BadCheckpoint,
+        Self::NoCheckpoint,
+        Self::BadText,
     ];
 
     const fn text(self) -> &'static CStr {
@@ -121,6 +148,15 @@ impl Status {
             Self::NoSuchMesh => c"no such mesh",
             Self::MovedTwice => c"moved twice",
             Self::BadPose => c"bad pose",
+            Self::NoSuchSimulation => c"no such simulation",
+            Self::BadScene => c"bad scene",
+            Self::Blocked => c"blocked",
+            Self::NoSuchPart => c"not in the scene",
+            Self::NotDriven => c"not driven",
+            Self::BadValue => c"not finite, or beyond its range",
+            Self::BadCheckpoint => c"bad checkpoint",
+            Self::NoCheckpoint => c"no checkpoint after this step",
+            Self::BadText => c"not UTF-8",
         }
     }
 }

@@ -1,0 +1,153 @@
+//! What the next step is told: where bodies and pins go, how the wind blows.
+
+use super::on;
+use super::run::SimulationHandle;
+use super::state::check_count;
+use crate::input::{Out, view};
+use crate::status::{Failure, Status};
+use crate::world::steps::Pose;
+use selvedge_cloth::glam::{DQuat, DVec3};
+use selvedge_cloth::{DriveError, Placement, Simulation};
+
+impl From<DriveError> for Failure {
+    fn from(error: DriveError) -> Self {
+        let (status, text) = match error {
+            DriveError::NoBody { .. } | DriveError::NoPins { .. } => (Status::NoSuchPart, error.to_string()),
+            DriveError::NoWind => (
+                Status::NoSuchPart,
+                "the scene has no wind: add [effects.wind] to it".to_owned(),
+            ),
+            DriveError::NotDriven { what } => {
+                let text = format!("{what} cannot be moved by hand: say `driven = true` of it in the scene");
+                (Status::NotDriven, text)
+            }
+            DriveError::VertexCount { .. } => (Status::WrongLength, error.to_string()),
+            DriveError::Value(_) => (Status::BadValue, error.to_string()),
+        };
+        Self::new(status, text)
+    }
+}
+
+/// Leads the body `body`, which the scene says is driven, to another placement in the next step: its mesh as the scene has it, turned
+/// and then moved. It turns about its origin, the shorter way round, and moves along, both evenly. Unless it is told again it stays
+/// there; a step that is cut or has to wait leaves it on the way, where selvedge_simulation_placement says.
+///
+/// # Safety
+/// `placement` points to one entry.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_simulation_place_body(
+    simulation: *mut SimulationHandle,
+    body: usize,
+    placement: *const Pose,
+) -> Status {
+    on(simulation, |it| {
+        // SAFETY: the caller's promise. Seven numbers in a row, whether as fields or as an array.
+        let given = unsafe { view::<f64, 7>("placement", placement.cast(), 1) }?;
+        for &[x, y, z, w, a, b, c] in given {
+            let placement = Placement {
+                rotation: DQuat::from_xyzw(x, y, z, w),
+                translation: DVec3::new(a, b, c),
+            };
+            it.simulation.place_body(body, placement)?;
+        }
+        Ok(())
+    })
+}
+
+/// Where a driven body stands now. `*is_known` tells whether it does: not of any other, nor of one that was moved vertex by vertex,
+/// and `*placement` is then left as it is.
+///
+/// # Safety
+/// `is_known` and `placement` point to one entry each.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_simulation_placement(
+    simulation: *const SimulationHandle,
+    body: usize,
+    is_known: *mut bool,
+    placement: *mut Pose,
+) -> Status {
+    on(simulation, |it| {
+        // SAFETY: the caller's promises.
+        let (is_known, out) = unsafe { (Out::new("is_known", is_known)?, Out::new("placement", placement)?) };
+        let bodies = it.simulation.body_names().len();
+        if body >= bodies {
+            return Err(DriveError::NoBody { body, bodies }.into());
+        }
+        let found = it.simulation.placement(body);
+        is_known.set(found.is_some());
+        if let Some(Placement { rotation, translation }) = found {
+            out.set(Pose {
+                rotation: rotation.to_array(),
+                origin: translation.to_array(),
+            });
+        }
+        Ok(())
+    })
+}
+
+/// Leads vertices to positions that came from C.
+///
+/// # Safety
+/// Unless it is null or misaligned, `start` points to three numbers for each of `count`.
+unsafe fn move_to(
+    simulation: *mut SimulationHandle,
+    (start, count): (*const f64, usize),
+    move_them: impl FnOnce(&mut Simulation, &[DVec3]) -> Result<(), DriveError>,
+) -> Status {
+    on(simulation, |it| {
+        let most = it.simulation.positions().len();
+        if count > most {
+            // Before one of them is looked at.
+            check_count("vertices in the scene", count, most)?;
+        }
+        // SAFETY: the caller's promise.
+        let given = unsafe { view::<f64, 3>("positions", start, count) }?;
+        let positions: Vec<DVec3> = given.iter().map(|&point| point.into()).collect();
+        Ok(move_them(&mut it.simulation, &positions)?)
+    })
+}
+
+/// Leads each vertex of a driven body straight to a position, in metres, in the next step: a body that changes its shape, such as a
+/// skinned figure. Pins that follow it know no way to go then, and stay: move them on their own.
+///
+/// # Safety
+/// `positions` points to 3 * `vertex_count` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_simulation_move_body(
+    simulation: *mut SimulationHandle,
+    body: usize,
+    positions: *const f64,
+    vertex_count: usize,
+) -> Status {
+    // SAFETY: the caller's promise.
+    unsafe {
+        move_to(simulation, (positions, vertex_count), |it, positions| {
+            it.move_body(body, positions)
+        })
+    }
+}
+
+/// The same for a group of pins that is driven, by its number in the scene, from 0 on.
+///
+/// # Safety
+/// As selvedge_simulation_move_body.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_simulation_move_pins(
+    simulation: *mut SimulationHandle,
+    group: usize,
+    positions: *const f64,
+    vertex_count: usize,
+) -> Status {
+    // SAFETY: the caller's promise.
+    unsafe {
+        move_to(simulation, (positions, vertex_count), |it, positions| {
+            it.move_pins(group, positions)
+        })
+    }
+}
+
+/// Lets the wind that the scene has blow so from now on, in m/s.
+#[unsafe(no_mangle)]
+pub extern "C" fn selvedge_simulation_set_wind(simulation: *mut SimulationHandle, x: f64, y: f64, z: f64) -> Status {
+    on(simulation, |it| Ok(it.simulation.set_wind(DVec3::new(x, y, z))?))
+}

@@ -1,0 +1,72 @@
+//! Simulations of cloth: what stands behind their handles.
+
+pub(crate) mod checkpoint;
+pub(crate) mod lead;
+pub(crate) mod run;
+pub(crate) mod state;
+#[cfg(test)]
+mod tests;
+
+use crate::handles::{self, Handled, Living};
+use crate::status::{Failure, Status};
+use run::SimulationHandle;
+use selvedge_cloth::{SceneError, SetupError, Simulation};
+use state::NearPairRow;
+
+/// What a call works on.
+pub(crate) struct HandledSimulation {
+    simulation: Simulation,
+    of_scene: OfScene,
+    has_threads: bool,
+    answers: Answers,
+}
+
+/// What a scene says, which the simulation of it does not.
+struct OfScene {
+    time_step: f64,
+    steps: u64,
+    steps_per_frame: u64,
+}
+
+/// The lists that pointers given to C show.
+#[derive(Default)]
+struct Answers {
+    near_pairs: Vec<NearPairRow>,
+    checkpoint: Vec<u8>,
+}
+
+impl Handled for HandledSimulation {
+    type Handle = SimulationHandle;
+    const NAME: &'static str = "simulation";
+    const NO_SUCH: Status = Status::NoSuchSimulation;
+
+    fn living() -> &'static Living<Self> {
+        static LIVING: Living<HandledSimulation> = Living::new();
+        &LIVING
+    }
+
+    fn has_threads(&self) -> bool {
+        self.has_threads
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        Self::new(Status::BadScene, error)
+    }
+}
+
+impl From<SetupError> for Failure {
+    fn from(error: SetupError) -> Self {
+        match error {
+            SetupError::Threads(error) => error.into(),
+            SetupError::Topology(error) => error.into(),
+            error => Self::new(Status::BadScene, error),
+        }
+    }
+}
+
+/// Does something with a simulation.
+fn on(handle: *const SimulationHandle, action: impl FnOnce(&mut HandledSimulation) -> Result<(), Failure>) -> Status {
+    handles::on(handle, |_, simulation| action(simulation))
+}
