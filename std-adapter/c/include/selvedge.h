@@ -191,7 +191,7 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_NO_CHECKPOINT = 33,
   /**
-   * A text is not UTF-8.
+   * A text is not UTF-8, or has a zero before its end.
    */
   SELVEDGE_STATUS_BAD_TEXT = 34,
 };

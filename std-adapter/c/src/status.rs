@@ -77,7 +77,7 @@ pub enum Status {
     BadCheckpoint = 32,
     /// There is no checkpoint after this step: one is every SELVEDGE_CHECKPOINT_STEPS steps.
     NoCheckpoint = 33,
-    /// A text is not UTF-8.
+    /// A text is not UTF-8, or has a zero before its end.
     BadText = 34,
 }
 

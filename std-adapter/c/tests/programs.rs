@@ -156,6 +156,69 @@ fn prints_what_rust_finds(language: Language) {
     assert!(String::from_utf8_lossy(&refused.stderr).contains("225 positions"));
 }
 
+/// What the flag's examples are to print, with coordinates as their bits, on a simulation of the scene that stands in the C one.
+#[cfg(feature = "cloth")]
+fn flag_in_rust() -> Vec<String> {
+    use selvedge_cloth::{Scene, Simulation};
+    let source = include_str!("../examples/flag.c");
+    let quoted = |line: &str| Some(line.strip_prefix("    \"")?.split_once("\\n\"")?.0.replace("\\\"", "\""));
+    let scene = source.lines().filter_map(quoted).collect::<Vec<_>>().join("\n");
+    let scene = Scene::parse(&scene, Path::new("flag.toml")).unwrap();
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let winds = [[6.0, 1.0, 0.0], [6.0, -4.0, 0.0], [-5.0, 3.0, 0.0], [12.0, 0.0, 1.0], [0.0; 3]];
+    let mut lines = Vec::new();
+    for step in 0..500 {
+        simulation.set_wind(winds[step / 100].into()).unwrap();
+        simulation.step().unwrap();
+        assert!(simulation.is_certified());
+        if (step + 1) % 50 == 0 {
+            let [x, y, z] = simulation.positions().last().unwrap().to_array().map(f64::to_bits);
+            lines.push(format!("step {:3}: {x:x} {y:x} {z:x} certified", step + 1));
+        }
+    }
+    lines.push("500 of 500 states are certified".to_owned());
+    lines
+}
+
+#[cfg(feature = "cloth")]
+fn flies_as_in_rust(language: Language) {
+    let Some(program) = build(language, "examples/flag") else {
+        return;
+    };
+    let output = succeed(&mut Command::new(program));
+    let word = |word: &str| match word.parse::<f64>() {
+        Ok(number) if word.contains('.') => format!("{:x}", number.to_bits()),
+        _ => word.to_owned(),
+    };
+    let line = |line: &str| line.split(' ').map(word).collect::<Vec<_>>().join(" ");
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(text.lines().map(line).collect::<Vec<_>>(), flag_in_rust());
+}
+
+#[cfg(feature = "cloth")]
+#[test]
+fn the_flag_in_c_flies_as_in_rust_bit_for_bit() {
+    flies_as_in_rust(Language::C);
+}
+
+#[cfg(feature = "cloth")]
+#[test]
+fn the_flag_in_cpp_flies_as_in_rust_bit_for_bit() {
+    flies_as_in_rust(Language::Cpp);
+}
+
+#[cfg(feature = "cloth")]
+#[test]
+fn what_is_wrong_with_a_simulation_from_c_is_refused_and_changes_nothing() {
+    runs(Language::C, "tests/programs/simulations");
+}
+
+#[cfg(feature = "cloth")]
+#[test]
+fn what_is_wrong_with_a_simulation_from_cpp_is_thrown_and_changes_nothing() {
+    runs(Language::Cpp, "tests/programs/simulations");
+}
+
 fn runs(language: Language, source: &str) {
     if let Some(program) = build(language, source) {
         succeed(&mut Command::new(program));

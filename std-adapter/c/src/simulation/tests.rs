@@ -1,1 +1,198 @@
+//! C's functions beside the simulation itself. Wrong calls are in `tests/programs/simulations.c`.
 
+use super::checkpoint::*;
+use super::lead::*;
+use super::run::*;
+use super::state::*;
+use super::{on, state};
+use crate::status::Status;
+use crate::world::steps::Pose;
+use selvedge_cloth::glam::DVec3;
+use selvedge_cloth::{Placement, Scene, Simulation, vertex_normals};
+use std::ffi::CStr;
+use std::path::Path;
+use std::ptr;
+
+const SCENE: &CStr = c"
+time_step = 0.002
+duration = 1
+frames_per_second = 50
+[[body]]
+name = 'ball'
+shape = 'ball'
+centre = [0.2, 0.2, -0.12]
+radius = 0.1
+around = 16
+driven = true
+[cloth]
+shape = 'sheet'
+sides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }
+cells = [10, 10]
+density = 0.15
+[effects.gravity]
+[effects.stretch]
+stiffness = 500
+[effects.wind]
+velocity = [0, 0, 0]
+[effects.self_collision]
+thickness = 0.005
+[effects.body_contact]
+thickness = 0.005
+[effects.friction]
+coefficient = 0.3
+[[effects.pins.group]]
+part = 'left'
+driven = true
+";
+
+fn in_c(threads: usize) -> *mut SimulationHandle {
+    let mut handle = ptr::null_mut();
+    // SAFETY: a text that ends, and a place for the handle.
+    let status = unsafe { selvedge_simulation_new(SCENE.as_ptr(), ptr::null(), threads, &raw mut handle) };
+    assert_eq!(status, Status::Ok);
+    handle
+}
+
+fn in_rust() -> Simulation {
+    let scene = Scene::parse(SCENE.to_str().unwrap(), Path::new("scene.toml")).unwrap();
+    Simulation::new(scene, 1).unwrap()
+}
+
+/// What one of C's functions copies, as bits.
+fn copied(count: usize, copy: impl FnOnce(*mut f64) -> Status) -> Vec<u64> {
+    let mut numbers = vec![f64::NAN; 3 * count];
+    assert_eq!(copy(numbers.as_mut_ptr()), Status::Ok);
+    numbers.into_iter().map(f64::to_bits).collect()
+}
+
+fn bits(vectors: &[DVec3]) -> Vec<u64> {
+    vectors.iter().flat_map(|it| it.to_array()).map(f64::to_bits).collect()
+}
+
+/// Tells both the same of their next step: the ball rises and turns, pins sway, the wind changes.
+fn lead(handle: *mut SimulationHandle, simulation: &mut Simulation, step: u32) {
+    let t = f64::from(step);
+    let placement = Placement {
+        rotation: selvedge_cloth::glam::DQuat::from_rotation_z(0.002 * t),
+        translation: DVec3::new(0.0, 0.0, 0.0002 * t),
+    };
+    simulation.place_body(0, placement).unwrap();
+    let pose = Pose {
+        rotation: placement.rotation.to_array(),
+        origin: placement.translation.to_array(),
+    };
+    // SAFETY: one entry.
+    assert_eq!(unsafe { selvedge_simulation_place_body(handle, 0, &raw const pose) }, Status::Ok);
+    let pins: Vec<[f64; 3]> = (0..11).map(|pin| [0.0, 0.04 * f64::from(pin), 0.0001 * t]).collect();
+    let positions: Vec<DVec3> = pins.iter().map(|&pin| pin.into()).collect();
+    simulation.move_pins(0, &positions).unwrap();
+    // SAFETY: as long as it says.
+    let status = unsafe { selvedge_simulation_move_pins(handle, 0, pins.as_ptr().cast(), pins.len()) };
+    assert_eq!(status, Status::Ok);
+    let wind = DVec3::new(0.0, f64::from(step % 7), -1.0);
+    simulation.set_wind(wind).unwrap();
+    assert_eq!(selvedge_simulation_set_wind(handle, wind.x, wind.y, wind.z), Status::Ok);
+}
+
+/// Returns how many pairs are near.
+fn are_alike(handle: *mut SimulationHandle, simulation: &Simulation) -> usize {
+    let count = simulation.positions().len();
+    let mut normals = Vec::new();
+    vertex_normals(simulation.positions(), simulation.triangles(), &mut normals);
+    let mut progress = ProgressRow::default();
+    let (mut pairs, mut pair_count) = (ptr::null(), 0);
+    // SAFETY: there is room for each.
+    unsafe {
+        let positions = copied(count, |to| selvedge_simulation_positions(handle, to, count));
+        assert_eq!(positions, bits(simulation.positions()));
+        let velocities = copied(count, |to| selvedge_simulation_velocities(handle, to, count));
+        assert_eq!(velocities, bits(simulation.velocities()));
+        assert_eq!(
+            copied(count, |to| selvedge_simulation_normals(handle, to, count)),
+            bits(&normals)
+        );
+        assert_eq!(selvedge_simulation_progress(handle, &raw mut progress), Status::Ok);
+        let status = selvedge_simulation_near_pairs(handle, &raw mut pairs, &raw mut pair_count);
+        assert_eq!(status, Status::Ok);
+    }
+    let known = ProgressRow {
+        steps_done: simulation.steps_done(),
+        time: simulation.time(),
+        lag: simulation.lag(),
+        blocked_steps: simulation.blocked_steps(),
+        is_certified: simulation.is_certified(),
+    };
+    assert_eq!(progress, known);
+    assert!(progress.is_certified);
+    let near: Vec<NearPairRow> = simulation.near_pairs().map(state::NearPairRow::from).collect();
+    if !near.is_empty() {
+        // SAFETY: the list that was shown last.
+        assert_eq!(unsafe { std::slice::from_raw_parts(pairs, pair_count) }, near);
+    }
+    assert_eq!(pair_count, near.len());
+    near.len()
+}
+
+#[test]
+fn a_simulation_goes_as_in_rust_bit_for_bit_and_goes_on_from_rusts_checkpoint() {
+    // On another number of threads, which changes nothing.
+    let (handle, mut simulation) = (in_c(2), in_rust());
+    let mut sizes = SizesRow::default();
+    // SAFETY: one entry, and as many triangles as there are.
+    let triangles = unsafe {
+        assert_eq!(selvedge_simulation_sizes(handle, &raw mut sizes), Status::Ok);
+        let mut triangles = vec![[0; 3]; sizes.triangle_count];
+        let to = triangles.as_mut_ptr().cast();
+        assert_eq!(selvedge_simulation_triangles(handle, to, triangles.len()), Status::Ok);
+        triangles
+    };
+    assert_eq!(triangles, simulation.triangles());
+    assert_eq!((sizes.cloth_vertex_count, sizes.cloth_triangle_count), (121, 200));
+    assert_eq!((sizes.cloth_count, sizes.body_count), (1, 1));
+    assert_eq!((sizes.time_step, sizes.steps, sizes.steps_per_frame), (0.002, 500, 10));
+    assert_eq!(sizes.vertex_count, simulation.positions().len());
+
+    let mut near = 0;
+    for step in 1..=200 {
+        lead(handle, &mut simulation, step);
+        simulation.step().unwrap();
+        assert_eq!(selvedge_simulation_step(handle), Status::Ok);
+        near += are_alike(handle, &simulation);
+    }
+    assert!(near > 1000, "{near} near pairs show little");
+
+    let resumed = in_c(1);
+    let kept = simulation.checkpoint().unwrap();
+    // SAFETY: as long as it says.
+    unsafe {
+        assert_eq!(selvedge_simulation_resume(resumed, kept.as_ptr(), kept.len()), Status::Ok);
+        let (mut bytes, mut count) = (ptr::null(), 0);
+        assert_eq!(
+            selvedge_simulation_checkpoint(resumed, &raw mut bytes, &raw mut count),
+            Status::Ok
+        );
+        // What was measured goes on as well.
+        assert_eq!(std::slice::from_raw_parts(bytes, count), kept);
+        // Its own bytes, while it shows them.
+        assert_eq!(selvedge_simulation_resume(resumed, bytes, count), Status::Ok);
+    }
+    for step in 201..=220 {
+        lead(resumed, &mut simulation, step);
+        simulation.step().unwrap();
+        assert_eq!(selvedge_simulation_step(resumed), Status::Ok);
+        are_alike(resumed, &simulation);
+    }
+    assert_eq!(selvedge_simulation_free(handle), Status::Ok);
+    assert_eq!(selvedge_simulation_free(resumed), Status::Ok);
+}
+
+#[test]
+fn a_panic_breaks_its_simulation_and_no_other() {
+    let [broken, other] = [in_c(1), in_c(1)];
+    assert_eq!(on(broken, |_| panic!("on purpose")), Status::Internal);
+    assert_eq!(selvedge_simulation_step(broken), Status::Internal);
+    assert_eq!(selvedge_simulation_step(other), Status::Ok);
+    assert_eq!(selvedge_simulation_free(broken), Status::Ok);
+    assert_eq!(selvedge_simulation_free(broken), Status::NoSuchSimulation);
+    assert_eq!(selvedge_simulation_free(other), Status::Ok);
+}

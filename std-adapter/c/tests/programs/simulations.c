@@ -1,0 +1,253 @@
+/* What is wrong with a simulation of cloth is refused by its own status, says why, and changes nothing: it goes on as one that was
+ * never asked.
+ *
+ * Run under the sanitizers by check.sh: nothing is read or written that is not there, and nothing is lost.
+ */
+#include <math.h>
+#include <selvedge_cloth.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int faults = 0;
+
+#define EXPECT(expected, call)                                                                                       \
+  do {                                                                                                               \
+    selvedge_status found_ = (call);                                                                                 \
+    if (found_ != SELVEDGE_STATUS_##expected) {                                                                      \
+      fprintf(stderr, "line %d: %s: \"%s\": %s\n", __LINE__, #call, selvedge_status_string(found_), selvedge_last_error()); \
+      faults++;                                                                                                      \
+    }                                                                                                                \
+    if (found_ != SELVEDGE_STATUS_OK && strlen(selvedge_last_error()) < 10) faults++;                                \
+  } while (0)
+
+#define HOLDS(condition)                                              \
+  do {                                                                \
+    if (!(condition)) {                                               \
+      fprintf(stderr, "line %d: not so: %s\n", __LINE__, #condition); \
+      faults++;                                                       \
+    }                                                                 \
+  } while (0)
+
+#define SAYS(words) HOLDS(strstr(selvedge_last_error(), words))
+
+/* A sheet of 25 vertices above a small ball that is driven, as the first of two groups of pins is. */
+#define HEAD "time_step = 0.002\nduration = 1\n"
+#define CLOTH                                                                                                             \
+  "[cloth]\nshape = \"sheet\"\nsides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }\ncells = [4, 4]\ndensity = 0.15\n" \
+  "[effects.gravity]\n[effects.stretch]\nstiffness = 500\n"
+#define BALL "[[body]]\nname = \"ball\"\nshape = \"ball\"\ncentre = [0.2, 0.2, -0.2]\nradius = 0.1\naround = 8\n"
+static const char SCENE[] = HEAD BALL
+    "driven = true\n"
+    "[[body]]\nname = \"rest\"\nshape = \"ball\"\ncentre = [0.2, 0.2, -1]\nradius = 0.1\naround = 8\n" CLOTH
+    "[effects.wind]\nvelocity = [0, 0, 0]\n"
+    "[effects.self_collision]\nthickness = 0.005\n[effects.body_contact]\nthickness = 0.005\n"
+    "[[effects.pins.group]]\npart = \"left\"\ndriven = true\n[[effects.pins.group]]\npart = \"right\"\n";
+static const char CALM[] = HEAD CLOTH;
+
+enum { CLOTH_VERTICES = 25, PINS = 5 };
+
+static void scenes(void) {
+  selvedge_simulation *made = NULL;
+  EXPECT(NULL_POINTER, selvedge_simulation_new(NULL, NULL, 1, &made));
+  EXPECT(NULL_POINTER, selvedge_simulation_new(SCENE, NULL, 1, NULL));
+  EXPECT(NULL_POINTER, selvedge_simulation_read(NULL, 1, &made));
+  EXPECT(BAD_TEXT, selvedge_simulation_new("name = \"\xff\"", NULL, 1, &made));
+  EXPECT(BAD_TEXT, selvedge_simulation_new(SCENE, "\xff", 1, &made));
+  EXPECT(BAD_TEXT, selvedge_simulation_read("\xff.toml", 1, &made));
+  EXPECT(BAD_SCENE, selvedge_simulation_new("", NULL, 1, &made));
+  EXPECT(BAD_SCENE, selvedge_simulation_new("time_step = \n", NULL, 1, &made));
+  SAYS("scene.toml:1:");
+  EXPECT(BAD_SCENE, selvedge_simulation_new(HEAD CLOTH "[effects.gravty]\n", "in/a/folder", 1, &made));
+  SAYS("gravity");
+  SAYS("in/a/folder");
+  EXPECT(BAD_SCENE, selvedge_simulation_new(HEAD "[cloth]\nshape = \"file\"\nfile = \"none.obj\"\ndensity = 0.1\n", NULL, 1, &made));
+  SAYS("none.obj");
+  EXPECT(BAD_SCENE, selvedge_simulation_read("there-is-none.toml", 1, &made));
+  SAYS("there-is-none.toml");
+  /* The ball is in the sheet. */
+  EXPECT(BAD_SCENE, selvedge_simulation_new(HEAD "[[body]]\nname = \"ball\"\nshape = \"ball\"\ncentre = [0.2, 0.2, 0]\nradius = 0.1\n"
+                                            CLOTH "[effects.body_contact]\nthickness = 0.005\n", NULL, 1, &made));
+  SAYS("intersection");
+  EXPECT(NO_THREADS, selvedge_simulation_new(SCENE, NULL, 100000, &made));
+  HOLDS(made == NULL);
+}
+
+static void handles(void) {
+  int nothing = 0;
+  selvedge_simulation *stale = NULL;
+  EXPECT(OK, selvedge_simulation_new(CALM, NULL, 1, &stale));
+  EXPECT(OK, selvedge_simulation_free(stale));
+  EXPECT(OK, selvedge_simulation_free(NULL));
+  EXPECT(NULL_POINTER, selvedge_simulation_step(NULL));
+  selvedge_detector *detector = NULL;
+  const uint32_t triangle[] = {0, 1, 2};
+  EXPECT(OK, selvedge_detector_new(SELVEDGE_SCALAR_F64, 3, triangle, 1, &detector));
+  selvedge_simulation *wrong[] = {stale, (selvedge_simulation *)(void *)&nothing, (selvedge_simulation *)(void *)detector};
+  for (int k = 0; k < 3; k++) {
+    selvedge_sizes sizes = {0};
+    double positions[3 * CLOTH_VERTICES];
+    EXPECT(NO_SUCH_SIMULATION, selvedge_simulation_step(wrong[k]));
+    EXPECT(NO_SUCH_SIMULATION, selvedge_simulation_sizes(wrong[k], &sizes));
+    EXPECT(NO_SUCH_SIMULATION, selvedge_simulation_positions(wrong[k], positions, CLOTH_VERTICES));
+    EXPECT(NO_SUCH_SIMULATION, selvedge_simulation_set_wind(wrong[k], 0, 0, 0));
+    EXPECT(NO_SUCH_SIMULATION, selvedge_simulation_free(wrong[k]));
+    HOLDS(sizes.vertex_count == 0);
+  }
+  EXPECT(OK, selvedge_detector_free(detector));
+}
+
+static void questions(selvedge_simulation *it, size_t vertices) {
+  double *numbers = malloc(3 * vertices * sizeof *numbers);
+  if (!numbers) exit(1);
+  const size_t lengths[] = {0, vertices - 1, vertices + 1, SIZE_MAX};
+  for (int k = 0; k < 4; k++) {
+    EXPECT(WRONG_LENGTH, selvedge_simulation_positions(it, numbers, lengths[k]));
+    EXPECT(WRONG_LENGTH, selvedge_simulation_velocities(it, numbers, lengths[k]));
+    EXPECT(WRONG_LENGTH, selvedge_simulation_normals(it, numbers, lengths[k]));
+    EXPECT(WRONG_LENGTH, selvedge_simulation_triangles(it, (uint32_t *)(void *)numbers, lengths[k]));
+  }
+  EXPECT(NULL_POINTER, selvedge_simulation_positions(it, NULL, vertices));
+  double *odd = (double *)(void *)((char *)numbers + 4);
+  EXPECT(MISALIGNED_POINTER, selvedge_simulation_velocities(it, odd, vertices));
+  EXPECT(OK, selvedge_simulation_normals(it, numbers, vertices));
+  HOLDS(fabs(numbers[0]) + fabs(numbers[1]) + fabs(numbers[2]) > 0.9);
+
+  selvedge_part part = {7, 7, 7};
+  EXPECT(NULL_POINTER, selvedge_simulation_sizes(it, NULL));
+  EXPECT(NULL_POINTER, selvedge_simulation_progress(it, NULL));
+  EXPECT(NULL_POINTER, selvedge_simulation_body(it, NULL, &part));
+  EXPECT(NULL_POINTER, selvedge_simulation_body(it, "ball", NULL));
+  EXPECT(BAD_TEXT, selvedge_simulation_cloth(it, "\xff", &part));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_body(it, "bal", &part));
+  SAYS("\"ball\"");
+  EXPECT(NO_SUCH_PART, selvedge_simulation_cloth(it, "ball", &part));
+  HOLDS(part.number == 7);
+  EXPECT(OK, selvedge_simulation_cloth(it, "cloth", &part));
+  HOLDS(part.number == 0 && part.first_vertex == 0 && part.vertex_count == CLOTH_VERTICES);
+  EXPECT(OK, selvedge_simulation_body(it, "rest", &part));
+  HOLDS(part.number == 1 && part.first_vertex + part.vertex_count == vertices);
+
+  const selvedge_near_pair *pairs = NULL;
+  size_t count = 7;
+  EXPECT(NULL_POINTER, selvedge_simulation_near_pairs(it, NULL, &count));
+  EXPECT(NULL_POINTER, selvedge_simulation_near_pairs(it, &pairs, NULL));
+  HOLDS(count == 7);
+  free(numbers);
+}
+
+static void leading(selvedge_simulation *it) {
+  const selvedge_pose here = {{0, 0, 0, 1}, {0, 0, 0}};
+  selvedge_pose wrong = here;
+  bool is_known = true;
+  EXPECT(NULL_POINTER, selvedge_simulation_place_body(it, 0, NULL));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_place_body(it, 2, &here));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_place_body(it, SIZE_MAX, &here));
+  EXPECT(NOT_DRIVEN, selvedge_simulation_place_body(it, 1, &here));
+  SAYS("driven = true");
+  wrong.origin[1] = (double)NAN;
+  EXPECT(BAD_VALUE, selvedge_simulation_place_body(it, 0, &wrong));
+  wrong = here;
+  wrong.rotation[3] = 0;
+  EXPECT(BAD_VALUE, selvedge_simulation_place_body(it, 0, &wrong));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_placement(it, 2, &is_known, &wrong));
+  EXPECT(NULL_POINTER, selvedge_simulation_placement(it, 0, NULL, &wrong));
+  EXPECT(NULL_POINTER, selvedge_simulation_placement(it, 0, &is_known, NULL));
+  EXPECT(OK, selvedge_simulation_placement(it, 1, &is_known, &wrong));
+  HOLDS(!is_known);
+
+  double pins[3 * (PINS + 1)] = {0};
+  EXPECT(NULL_POINTER, selvedge_simulation_move_pins(it, 0, NULL, PINS));
+  EXPECT(WRONG_LENGTH, selvedge_simulation_move_pins(it, 0, pins, PINS + 1));
+  EXPECT(WRONG_LENGTH, selvedge_simulation_move_pins(it, 0, pins, 0));
+  EXPECT(WRONG_LENGTH, selvedge_simulation_move_pins(it, 0, pins, SIZE_MAX));
+  EXPECT(WRONG_LENGTH, selvedge_simulation_move_body(it, 0, pins, PINS));
+  EXPECT(NOT_DRIVEN, selvedge_simulation_move_pins(it, 1, pins, PINS));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_move_pins(it, 2, pins, PINS));
+  EXPECT(NOT_DRIVEN, selvedge_simulation_move_body(it, 1, pins, PINS));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_move_body(it, 2, pins, PINS));
+  const double none[] = {(double)NAN, (double)INFINITY, 1e300};
+  for (int k = 0; k < 3; k++) {
+    pins[3 * PINS - 1] = none[k];
+    EXPECT(BAD_VALUE, selvedge_simulation_move_pins(it, 0, pins, PINS));
+    EXPECT(BAD_VALUE, selvedge_simulation_set_wind(it, none[k], 0, 0));
+  }
+}
+
+static void checkpoints(selvedge_simulation *it) {
+  const uint8_t *bytes = NULL;
+  size_t count = 7;
+  EXPECT(NO_CHECKPOINT, selvedge_simulation_checkpoint(it, &bytes, &count));
+  SAYS("after step 200");
+  EXPECT(NULL_POINTER, selvedge_simulation_checkpoint(it, NULL, &count));
+  EXPECT(NULL_POINTER, selvedge_simulation_resume(it, NULL, 9));
+  EXPECT(BAD_CHECKPOINT, selvedge_simulation_resume(it, NULL, 0));
+  EXPECT(BAD_CHECKPOINT, selvedge_simulation_resume(it, (const uint8_t *)SCENE, sizeof SCENE));
+  selvedge_simulation *other = NULL;
+  EXPECT(OK, selvedge_simulation_new(CALM, NULL, 1, &other));
+  EXPECT(NO_SUCH_PART, selvedge_simulation_set_wind(other, 1, 0, 0));
+  SAYS("[effects.wind]");
+  EXPECT(OK, selvedge_simulation_checkpoint(other, &bytes, &count));
+  EXPECT(BAD_CHECKPOINT, selvedge_simulation_resume(it, bytes, count));
+  SAYS("another scene");
+  EXPECT(BAD_CHECKPOINT, selvedge_simulation_resume(other, bytes, count - 1));
+  EXPECT(OK, selvedge_simulation_resume(other, bytes, count));
+  EXPECT(OK, selvedge_simulation_free(other));
+}
+
+/* Two plates close on a sheet that is pinned between them: there is no way out. */
+static void blocked(void) {
+  selvedge_simulation *it = NULL;
+  EXPECT(OK, selvedge_simulation_new(HEAD "on_blocked = \"stop\"\n" BALL "driven = true\n" CLOTH
+                                     "[effects.body_contact]\nthickness = 0.005\n"
+                                     "[[effects.pins.group]]\nbox = { lower = [-1, -1, -1], upper = [1, 1, 1] }\n", NULL, 1, &it));
+  const selvedge_pose above = {{0, 0, 0, 1}, {0, 0, 0.2}};
+  selvedge_progress before = {0}, after = {0};
+  EXPECT(OK, selvedge_simulation_step(it));
+  EXPECT(OK, selvedge_simulation_progress(it, &before));
+  EXPECT(OK, selvedge_simulation_place_body(it, 0, &above));
+  EXPECT(BLOCKED, selvedge_simulation_step(it));
+  SAYS("'ball'");
+  EXPECT(OK, selvedge_simulation_progress(it, &after));
+  HOLDS(before.steps_done == 1 && after.steps_done == 1 && after.is_certified);
+  EXPECT(OK, selvedge_simulation_free(it));
+}
+
+int main(void) {
+  scenes();
+  handles();
+  blocked();
+
+  /* One is asked all that is wrong after each step, the other nothing. */
+  selvedge_simulation *asked = NULL, *quiet = NULL;
+  selvedge_sizes sizes = {0};
+  EXPECT(OK, selvedge_simulation_new(SCENE, NULL, 2, &asked));
+  EXPECT(OK, selvedge_simulation_new(SCENE, NULL, 1, &quiet));
+  EXPECT(OK, selvedge_simulation_sizes(asked, &sizes));
+  HOLDS(sizes.cloth_vertex_count == CLOTH_VERTICES && sizes.body_count == 2 && sizes.steps == 500 && sizes.time_step == 0.002);
+  const size_t vertices = sizes.vertex_count, bytes = 3 * vertices * sizeof(double);
+  double *first = malloc(bytes), *second = malloc(bytes);
+  if (!first || !second) return 1;
+  for (int step = 0; step < 20; step++) {
+    const selvedge_pose up = {{0, 0, 0, 1}, {0, 0, 0.005 * step}};
+    selvedge_simulation *both[] = {asked, quiet};
+    for (int k = 0; k < 2; k++) {
+      EXPECT(OK, selvedge_simulation_place_body(both[k], 0, &up));
+      EXPECT(OK, selvedge_simulation_set_wind(both[k], 0, step, 1));
+      if (k == 0 && step > 0) {
+        questions(asked, vertices);
+        leading(asked);
+        checkpoints(asked);
+      }
+      EXPECT(OK, selvedge_simulation_step(both[k]));
+    }
+    EXPECT(OK, selvedge_simulation_positions(asked, first, vertices));
+    EXPECT(OK, selvedge_simulation_positions(quiet, second, vertices));
+    HOLDS(memcmp(first, second, bytes) == 0);
+  }
+  EXPECT(OK, selvedge_simulation_free(asked));
+  EXPECT(OK, selvedge_simulation_free(quiet));
+  free(first);
+  free(second);
+  return faults == 0 ? 0 : 1;
+}

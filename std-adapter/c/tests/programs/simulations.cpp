@@ -1,0 +1,107 @@
+// What C++ adds to simulations: exceptions, an owner that can be moved, lists and texts of C++'s.
+#include <cstdio>
+#include <selvedge_cloth.hpp>
+#include <type_traits>
+
+static int faults = 0;
+
+template <class Action>
+static void expect(int line, selvedge_status status, Action action) {
+  try {
+    action();
+  } catch (const selvedge::error &failed) {
+    if (failed.status() == status && *failed.what()) return;
+    std::fprintf(stderr, "line %d: not that, but: %s\n", line, failed.what());
+    faults++;
+    return;
+  }
+  std::fprintf(stderr, "line %d: nothing was thrown\n", line);
+  faults++;
+}
+
+static void holds(int line, bool condition) {
+  if (condition) return;
+  std::fprintf(stderr, "line %d: not so\n", line);
+  faults++;
+}
+
+static const char *const SCENE = R"(
+time_step = 0.002
+duration = 1
+[[body]]
+name = "ball"
+shape = "ball"
+centre = [0.2, 0.2, -0.12]
+radius = 0.1
+around = 8
+driven = true
+[cloth]
+shape = "sheet"
+sides = { first = [0.4, 0, 0], second = [0, 0.4, 0] }
+cells = [4, 4]
+density = 0.15
+[effects.gravity]
+[effects.stretch]
+stiffness = 500
+[effects.wind]
+velocity = [0, 0, 0]
+[effects.self_collision]
+thickness = 0.005
+[effects.body_contact]
+thickness = 0.005
+[[effects.pins.group]]
+part = "left"
+driven = true
+)";
+
+int main() {
+  using selvedge::simulation;
+  static_assert(!std::is_copy_constructible_v<simulation> && std::is_nothrow_move_constructible_v<simulation>);
+  expect(__LINE__, SELVEDGE_STATUS_BAD_SCENE, [] { simulation(""); });
+  expect(__LINE__, SELVEDGE_STATUS_BAD_TEXT, [] { simulation(std::string("a\0b", 3)); });
+  expect(__LINE__, SELVEDGE_STATUS_BAD_SCENE, [] { simulation::read("there-is-none.toml"); });
+
+  simulation first(SCENE);
+  const auto sizes = first.sizes();
+  const auto ball = first.body("ball");
+  holds(__LINE__, first.cloth("cloth").vertex_count == 25 && ball.first_vertex == 25 && sizes.cloth_count == 1);
+  expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_PART, [&] { first.body("none"); });
+  holds(__LINE__, first.triangles().size() == 3 * sizes.triangle_count && first.velocities()[14] == 0 && first.normals()[2] == 1);
+  const auto start = first.checkpoint();
+  std::size_t near = 0;
+  const auto told = [&](simulation &it) {
+    for (int step = 1; step <= 100; step++) {
+      it.set_wind(0, 1, -1);
+      it.place_body(0, {{0, 0, 0, 1}, {0, 0, 0.0001 * step}});
+      const auto now = it.positions();
+      std::vector<double> pins;
+      for (int pin = 0; pin < 5; pin++) {
+        for (int axis = 0; axis < 3; axis++) pins.push_back(now[static_cast<std::size_t>(15 * pin + axis)]);
+      }
+      it.move_pins(0, pins);
+      it.step();
+      near += it.near_pairs().size();
+    }
+    return it.positions();
+  };
+  const auto end = told(first);
+  holds(__LINE__, near > 0 && first.progress().is_certified && first.progress().steps_done == 100);
+  holds(__LINE__, first.placement(0).has_value() && first.placement(0)->origin[2] == 0.01);
+  expect(__LINE__, SELVEDGE_STATUS_NO_CHECKPOINT, [&] { first.checkpoint(); });
+  expect(__LINE__, SELVEDGE_STATUS_BAD_CHECKPOINT, [&] { first.resume({}); });
+  expect(__LINE__, SELVEDGE_STATUS_BAD_VALUE, [&] { first.set_wind(1e9, 0, 0); });
+  expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.move_body(0, end); });
+  expect(__LINE__, SELVEDGE_STATUS_WRONG_LENGTH, [&] { first.move_pins(0, std::vector<double>(4)); });
+  first.resume(start);
+  holds(__LINE__, told(first) == end);
+
+  simulation second = std::move(first);
+  expect(__LINE__, SELVEDGE_STATUS_NULL_POINTER, [&] { first.step(); });
+  const auto body = end.data() + 3 * ball.first_vertex;
+  second.move_body(0, {body, ball.vertex_count});
+  second.step();
+  holds(__LINE__, !second.placement(0).has_value());
+  selvedge_simulation_free(second.get());
+  expect(__LINE__, SELVEDGE_STATUS_NO_SUCH_SIMULATION, [&] { second.step(); });
+  return faults == 0 ? 0 : 1;
+}
