@@ -19,8 +19,14 @@ export LD_LIBRARY_PATH=$prefix/lib PKG_CONFIG_PATH=$prefix/lib/pkgconfig
 # A count beyond reason is to be refused as plainly as without a sanitizer.
 export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=8192:detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1
 
-say "library: make install"
+say "library without cloth: make install"
 make --no-print-directory install PREFIX="$prefix"
+stat -c '%s bytes %n' "$prefix"/lib/libselvedge.so.*.*.* "$prefix"/lib/libselvedge.a
+[ ! -e "$prefix/include/selvedge_cloth.h" ] || give_up "it installs the header of cloth"
+if is_there nm && nm -D "$prefix/lib/libselvedge.so" | grep selvedge_simulation; then give_up "it has cloth"; fi
+
+say "library: make install CLOTH=yes"
+make --no-print-directory install CLOTH=yes PREFIX="$prefix"
 
 say "what it shows to others"
 version=$(cargo pkgid | sed 's/.*[@#]//')
@@ -50,6 +56,7 @@ done
 warnings=(-pedantic -Wall -Wextra -Wconversion -Wshadow -Werror)
 sanitizers=(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
 printed=
+flown=
 
 # Builds a program and runs it, with frames if it takes them.
 try() { # NAME OUTPUT COMMAND...
@@ -62,6 +69,12 @@ try() { # NAME OUTPUT COMMAND...
         "$folder/program" --float "${frames[@]}" >>"$output"
         [ -z "$printed" ] || cmp "$printed" "$output" || give_up "$* gives a program that prints something else"
         [ -n "$printed" ] || cp "$output" "$folder/first" && printed=$folder/first
+        ;;
+    flag)
+        "$folder/program" >"$output"
+        [ -n "$flown" ] || { cp "$output" "$folder/flag" && flown=$folder/flag; }
+        cmp "$flown" "$output" || give_up "$* gives a flag that flies otherwise"
+        grep -q '^500 of 500 states are certified' "$output" || give_up "not every state of the flag is certified"
         ;;
     *) "$folder/program" ;;
     esac
@@ -78,11 +91,11 @@ for compiler in gcc clang g++ clang++; do
     *) standards="c11 c17" suffix=c ;;
     esac
     for standard in $standards; do
-        for source in examples/frames tests/programs/refusals tests/programs/fork; do
+        for source in examples/{frames,flag} tests/programs/{refusals,simulations,fork,fork_simulation}; do
             [ -e "$source.$suffix" ] || continue
             for mode in plain sanitized; do
                 # The sanitizers' own allocator may be locked by a thread that the child does not have: it waits now and then.
-                [ "$mode" = plain ] || [ "$source" != tests/programs/fork ] || continue
+                [ "$mode" = plain ] || [[ $source != tests/programs/fork* ]] || continue
                 extra=(-O2)
                 [ $mode = plain ] || extra=(-O1 "${sanitizers[@]}")
                 try "$(basename $source)" "$folder/output" "$compiler" "-std=$standard" "${warnings[@]}" "${extra[@]}" \

@@ -195,7 +195,7 @@ static void checkpoints(selvedge_simulation *it) {
   EXPECT(OK, selvedge_simulation_free(other));
 }
 
-/* Two plates close on a sheet that is pinned between them: there is no way out. */
+/* The ball is led into a sheet of which every vertex is pinned: there is no way out. */
 static void blocked(void) {
   selvedge_simulation *it = NULL;
   EXPECT(OK, selvedge_simulation_new(HEAD "on_blocked = \"stop\"\n" BALL "driven = true\n" CLOTH
