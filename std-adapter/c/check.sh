@@ -131,6 +131,7 @@ if is_there cmake && is_there g++; then
         cmp "$printed" "$folder/output" || give_up "$program prints something else"
         echo "$program: as it should be"
     done
+    "$folder/cmake/flag-static" | cmp "$flown" - || give_up "flag-static flies otherwise"
 else
     echo "skipped: cmake or g++ is missing"
 fi

@@ -165,7 +165,13 @@ fn flag_in_rust() -> Vec<String> {
     let scene = source.lines().filter_map(quoted).collect::<Vec<_>>().join("\n");
     let scene = Scene::parse(&scene, Path::new("flag.toml")).unwrap();
     let mut simulation = Simulation::new(scene, 1).unwrap();
-    let winds = [[6.0, 1.0, 0.0], [6.0, -4.0, 0.0], [-5.0, 3.0, 0.0], [12.0, 0.0, 1.0], [0.0; 3]];
+    let winds = [
+        [6.0, 1.0, 0.0],
+        [6.0, -4.0, 0.0],
+        [-5.0, 3.0, 0.0],
+        [12.0, 0.0, 1.0],
+        [0.0; 3],
+    ];
     let mut lines = Vec::new();
     for step in 0..500 {
         simulation.set_wind(winds[step / 100].into()).unwrap();

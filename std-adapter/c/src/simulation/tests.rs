@@ -82,7 +82,10 @@ fn lead(handle: *mut SimulationHandle, simulation: &mut Simulation, step: u32) {
         origin: placement.translation.to_array(),
     };
     // SAFETY: one entry.
-    assert_eq!(unsafe { selvedge_simulation_place_body(handle, 0, &raw const pose) }, Status::Ok);
+    assert_eq!(
+        unsafe { selvedge_simulation_place_body(handle, 0, &raw const pose) },
+        Status::Ok
+    );
     let pins: Vec<[f64; 3]> = (0..11).map(|pin| [0.0, 0.04 * f64::from(pin), 0.0001 * t]).collect();
     let positions: Vec<DVec3> = pins.iter().map(|&pin| pin.into()).collect();
     simulation.move_pins(0, &positions).unwrap();
