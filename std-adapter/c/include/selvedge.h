@@ -194,6 +194,10 @@ enum selvedge_status
    * A text is not UTF-8, or has a zero before its end.
    */
   SELVEDGE_STATUS_BAD_TEXT = 34,
+  /**
+   * A scene starts with surfaces that pass through each other: the words say where first, and what the scene may say of it.
+   */
+  SELVEDGE_STATUS_TANGLED = 35,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

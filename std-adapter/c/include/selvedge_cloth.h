@@ -92,8 +92,12 @@ typedef struct selvedge_progress {
    */
   uint64_t blocked_steps;
   /**
+   * Pairs that have left the promise since the start, in a scene that tolerates what is tangled there.
+   */
+  size_t tolerated_pairs;
+  /**
    * Whether the state is certified to be free of intersections of whatever the scene's contact effects name: not without any,
-   * and not while a body is let pass.
+   * not while a body is let pass, and not while what was tangled at the start is tolerated.
    */
   bool is_certified;
 } selvedge_progress;

@@ -79,10 +79,12 @@ pub enum Status {
     NoCheckpoint = 33,
     /// A text is not UTF-8, or has a zero before its end.
     BadText = 34,
+    /// A scene starts with surfaces that pass through each other: the words say where first, and what the scene may say of it.
+    Tangled = 35,
 }
 
 impl Status {
-    const ALL: [Self; 35] = [
+    const ALL: [Self; 36] = [
         Self::Ok,
         Self::NullPointer,
         Self::MisalignedPointer,
@@ -118,6 +120,7 @@ impl Status {
         Self::BadCheckpoint,
         Self::NoCheckpoint,
         Self::BadText,
+        Self::Tangled,
     ];
 
     const fn text(self) -> &'static CStr {
@@ -157,6 +160,7 @@ impl Status {
             Self::BadCheckpoint => c"bad checkpoint",
             Self::NoCheckpoint => c"no checkpoint after this step",
             Self::BadText => c"not UTF-8",
+            Self::Tangled => c"tangled at the start",
         }
     }
 }

@@ -61,7 +61,9 @@ impl From<SetupError> for Failure {
         match error {
             SetupError::Threads(error) => error.into(),
             SetupError::Topology(error) => error.into(),
-            error => Self::new(Status::BadScene, error),
+            SetupError::Positions(error) => error.into(),
+            SetupError::Tangled(tangled) => Self::new(Status::Tangled, tangled),
+            SetupError::Value(error) => Self::new(Status::BadScene, error),
         }
     }
 }

@@ -46,8 +46,10 @@ pub struct ProgressRow {
     pub lag: f64,
     /// Steps in which bodies or pins had to wait, or to be let pass.
     pub blocked_steps: u64,
+    /// Pairs that have left the promise since the start, in a scene that tolerates what is tangled there.
+    pub tolerated_pairs: usize,
     /// Whether the state is certified to be free of intersections of whatever the scene's contact effects name: not without any,
-    /// and not while a body is let pass.
+    /// not while a body is let pass, and not while what was tangled at the start is tolerated.
     pub is_certified: bool,
 }
 
@@ -160,6 +162,7 @@ pub unsafe extern "C" fn selvedge_simulation_progress(simulation: *const Simulat
             time: simulation.time(),
             lag: simulation.lag(),
             blocked_steps: simulation.blocked_steps(),
+            tolerated_pairs: simulation.tolerated_pairs(),
             is_certified: simulation.is_certified(),
         });
         Ok(())

@@ -123,6 +123,7 @@ fn are_alike(handle: *mut SimulationHandle, simulation: &Simulation) -> usize {
         time: simulation.time(),
         lag: simulation.lag(),
         blocked_steps: simulation.blocked_steps(),
+        tolerated_pairs: simulation.tolerated_pairs(),
         is_certified: simulation.is_certified(),
     };
     assert_eq!(progress, known);
