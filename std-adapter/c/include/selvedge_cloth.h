@@ -199,6 +199,26 @@ selvedge_status selvedge_simulation_progress(const struct selvedge_simulation *s
                                              struct selvedge_progress *progress);
 
 /**
+ * The body of this name.
+ *
+ * The caller promises:
+ * `name` points to a text that a zero ends, `part` to one entry.
+ */
+selvedge_status selvedge_simulation_body(const struct selvedge_simulation *simulation,
+                                         const char *name,
+                                         struct selvedge_part *part);
+
+/**
+ * The cloth of this name.
+ *
+ * The caller promises:
+ * As selvedge_simulation_body.
+ */
+selvedge_status selvedge_simulation_cloth(const struct selvedge_simulation *simulation,
+                                          const char *name,
+                                          struct selvedge_part *part);
+
+/**
  * Copies where all vertices are, in metres. `vertex_count` is that of selvedge_simulation_sizes.
  *
  * The caller promises:
@@ -238,26 +258,6 @@ selvedge_status selvedge_simulation_normals(const struct selvedge_simulation *si
 selvedge_status selvedge_simulation_triangles(const struct selvedge_simulation *simulation,
                                               uint32_t *triangles,
                                               size_t triangle_count);
-
-/**
- * The body of this name.
- *
- * The caller promises:
- * `name` points to a text that a zero ends, `part` to one entry.
- */
-selvedge_status selvedge_simulation_body(const struct selvedge_simulation *simulation,
-                                         const char *name,
-                                         struct selvedge_part *part);
-
-/**
- * The cloth of this name.
- *
- * The caller promises:
- * As selvedge_simulation_body.
- */
-selvedge_status selvedge_simulation_cloth(const struct selvedge_simulation *simulation,
-                                          const char *name,
-                                          struct selvedge_part *part);
 
 /**
  * The pairs that came near each other in the last part of the last step, as contact saw them at its start. None without a contact

@@ -16,7 +16,7 @@ const SOURCES: [&str; 7] = [
 ];
 
 /// Of `selvedge_cloth.h`.
-const CLOTH_SOURCES: [&str; 4] = ["run", "state", "lead", "checkpoint"];
+const CLOTH_SOURCES: [&str; 5] = ["run", "counts", "state", "lead", "checkpoint"];
 
 const CLOTH_HEAD: &str = "
 /* Selvedge's cloth: a simulation of which no state ever has an intersection.

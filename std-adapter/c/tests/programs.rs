@@ -172,11 +172,15 @@ fn flag_in_rust() -> Vec<String> {
         [12.0, 0.0, 1.0],
         [0.0; 3],
     ];
+    let topology = Topology::new(simulation.positions().len(), simulation.triangles().to_vec()).unwrap();
+    let mut detector = CollisionDetector::<f64>::new(topology);
     let mut lines = Vec::new();
     for step in 0..500 {
         simulation.set_wind(winds[step / 100].into()).unwrap();
         simulation.step().unwrap();
         assert!(simulation.is_certified());
+        let positions: Vec<[f64; 3]> = simulation.positions().iter().map(|it| it.to_array()).collect();
+        assert!(!detector.has_intersections(&positions).unwrap(), "step {step}, exactly");
         if (step + 1) % 50 == 0 {
             let [x, y, z] = simulation.positions().last().unwrap().to_array().map(f64::to_bits);
             lines.push(format!("step {:3}: {x:x} {y:x} {z:x} certified", step + 1));

@@ -1,6 +1,7 @@
 //! Simulations of cloth: what stands behind their handles.
 
 pub(crate) mod checkpoint;
+pub(crate) mod counts;
 pub(crate) mod lead;
 pub(crate) mod run;
 pub(crate) mod state;

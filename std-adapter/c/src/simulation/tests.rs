@@ -1,10 +1,11 @@
 //! C's functions beside the simulation itself. Wrong calls are in `tests/programs/simulations.c`.
 
 use super::checkpoint::*;
+use super::counts::*;
 use super::lead::*;
+use super::on;
 use super::run::*;
 use super::state::*;
-use super::{on, state};
 use crate::status::Status;
 use crate::world::steps::Pose;
 use selvedge_cloth::glam::DVec3;
@@ -82,10 +83,8 @@ fn lead(handle: *mut SimulationHandle, simulation: &mut Simulation, step: u32) {
         origin: placement.translation.to_array(),
     };
     // SAFETY: one entry.
-    assert_eq!(
-        unsafe { selvedge_simulation_place_body(handle, 0, &raw const pose) },
-        Status::Ok
-    );
+    let status = unsafe { selvedge_simulation_place_body(handle, 0, &raw const pose) };
+    assert_eq!(status, Status::Ok);
     let pins: Vec<[f64; 3]> = (0..11).map(|pin| [0.0, 0.04 * f64::from(pin), 0.0001 * t]).collect();
     let positions: Vec<DVec3> = pins.iter().map(|&pin| pin.into()).collect();
     simulation.move_pins(0, &positions).unwrap();
@@ -128,7 +127,7 @@ fn are_alike(handle: *mut SimulationHandle, simulation: &Simulation) -> usize {
     };
     assert_eq!(progress, known);
     assert!(progress.is_certified);
-    let near: Vec<NearPairRow> = simulation.near_pairs().map(state::NearPairRow::from).collect();
+    let near: Vec<NearPairRow> = simulation.near_pairs().map(NearPairRow::from).collect();
     if !near.is_empty() {
         // SAFETY: the list that was shown last.
         assert_eq!(unsafe { std::slice::from_raw_parts(pairs, pair_count) }, near);
