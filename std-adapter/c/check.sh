@@ -117,6 +117,9 @@ if is_there pkg-config && is_there gcc; then
     # shellcheck disable=SC2046
     try frames "$folder/output" gcc examples/frames.c $(pkg-config --cflags selvedge) "$prefix/lib/libselvedge.a" \
         $(pkg-config --static --libs-only-l selvedge | sed 's/-lselvedge//') -lm
+    # shellcheck disable=SC2046
+    try flag "$folder/output" gcc examples/flag.c $(pkg-config --cflags selvedge) "$prefix/lib/libselvedge.a" \
+        $(pkg-config --static --libs-only-l selvedge | sed 's/-lselvedge//') -lm
     echo "shared and static: as it should be"
 else
     echo "skipped: pkg-config or gcc is missing"
