@@ -580,7 +580,7 @@ fn float_is_answered_as_in_rust_bit_for_bit() {
 
 #[test]
 fn default_tolerances_are_the_detectors() {
-    assert_eq!(SELVEDGE_DEFAULT_TOLERANCE_F32, Limits::<f32>::default().tolerance.into());
+    assert_eq!(SELVEDGE_DEFAULT_TOLERANCE_F32, f64::from(Limits::<f32>::default().tolerance));
     assert_eq!(SELVEDGE_DEFAULT_TOLERANCE_F64, Limits::<f64>::default().tolerance);
 }
 
