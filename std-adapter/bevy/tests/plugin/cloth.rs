@@ -315,7 +315,7 @@ fn what_cannot_be_simulated_is_told_once_and_the_app_runs_on() {
         (cloth(|scene| _ = scene.add(Stretch::isotropic(0.0))), "stiffness"),
         (
             cloth(|scene| scene.bodies[0].motion = Motion::Driven(Placement::at(DVec3::Y * 0.12))),
-            "touches",
+            "starts with an intersection",
         ),
     ];
     for (cloth, what) in cases {
