@@ -36,6 +36,7 @@ mod contact;
 pub mod effects;
 mod energy;
 mod hierarchy;
+mod incidence;
 mod input;
 mod membrane;
 mod normals;

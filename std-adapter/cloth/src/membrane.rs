@@ -1,5 +1,6 @@
 //! What the effects in the plane of the cloth have in common.
 
+use crate::incidence::Incidence;
 use crate::schedule::On;
 use crate::world::Cloth;
 use selvedge_core::glam::{DVec2, DVec3};
@@ -107,53 +108,23 @@ impl SquaredStretch {
 }
 
 /// The triangles of each vertex, and the share of each in the vertex's mass.
-#[derive(Debug)]
-pub(crate) struct Incidence {
-    starts: Vec<u32>,
-    triangles: Vec<(u32, f64)>,
-}
-
-impl Incidence {
-    pub(crate) fn new(cloth: &Cloth) -> Self {
-        let mesh = &cloth.mesh;
-        let mut starts = vec![0_u32; mesh.positions.len() + 1];
-        for &vertex in mesh.triangles.iter().flatten() {
-            starts[vertex as usize + 1] += 1;
-        }
-        for vertex in 1..starts.len() {
-            starts[vertex] += starts[vertex - 1];
-        }
-        let mut next = starts.clone();
-        let mut triangles = vec![(0, 0.0); mesh.triangles.len() * 3];
-        for (index, triangle) in mesh.triangles.iter().enumerate() {
-            let [a, b, c] = triangle.map(|v| mesh.positions[v as usize]);
-            let area = (b - a).cross(c - a).length();
-            for &vertex in triangle {
-                let place = &mut next[vertex as usize];
-                triangles[*place as usize] = (index as u32, area);
-                *place += 1;
-            }
-        }
-        let mut incidence = Self { starts, triangles };
-        for vertex in 0..incidence.len() {
-            let range = incidence.range(vertex);
-            let around = &mut incidence.triangles[range];
-            let all: f64 = around.iter().map(|(_, area)| area).sum();
-            around.iter_mut().for_each(|(_, share)| *share /= all);
-        }
-        incidence
+pub(crate) fn triangles_around(cloth: &Cloth) -> Incidence<(u32, f64)> {
+    let mesh = &cloth.mesh;
+    let area = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|v| mesh.positions[v as usize]);
+        (b - a).cross(c - a).length()
+    };
+    let areas: Vec<f64> = mesh.triangles.iter().map(area).collect();
+    let all = mesh.triangles.iter().zip(&areas).zip(0..);
+    let corners = || {
+        all.clone()
+            .flat_map(|((triangle, &area), index)| triangle.map(|vertex| (vertex, (index, area))))
+    };
+    let mut around = Incidence::new(mesh.positions.len(), corners);
+    for vertex in 0..around.len() {
+        let own = around.of_mut(vertex);
+        let all: f64 = own.iter().map(|(_, area)| area).sum();
+        own.iter_mut().for_each(|(_, share)| *share /= all);
     }
-
-    /// Vertices.
-    pub(crate) fn len(&self) -> usize {
-        self.starts.len() - 1
-    }
-
-    pub(crate) fn of(&self, vertex: usize) -> &[(u32, f64)] {
-        &self.triangles[self.range(vertex)]
-    }
-
-    fn range(&self, vertex: usize) -> std::ops::Range<usize> {
-        self.starts[vertex] as usize..self.starts[vertex + 1] as usize
-    }
+    around
 }

@@ -1,31 +1,8 @@
 // What C++ adds to refusals: exceptions, owners that can be moved, frames of two lengths.
-#include <cstdio>
-#include <selvedge.hpp>
+#include "expect.hpp"
 #include <type_traits>
 #include <utility>
 #include <vector>
-
-static int faults = 0;
-
-template <class Action>
-static void expect(int line, selvedge_status status, Action action) {
-  try {
-    action();
-  } catch (const selvedge::error &failed) {
-    if (failed.status() == status && *failed.what()) return;
-    std::fprintf(stderr, "line %d: not that, but: %s\n", line, failed.what());
-    faults++;
-    return;
-  }
-  std::fprintf(stderr, "line %d: nothing was thrown\n", line);
-  faults++;
-}
-
-static void holds(int line, bool condition) {
-  if (condition) return;
-  std::fprintf(stderr, "line %d: not so\n", line);
-  faults++;
-}
 
 template <class Scalar>
 static void try_all() {

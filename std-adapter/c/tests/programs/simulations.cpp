@@ -1,29 +1,7 @@
 // What C++ adds to simulations: exceptions, an owner that can be moved, lists and texts of C++'s.
-#include <cstdio>
+#include "expect.hpp"
 #include <selvedge_cloth.hpp>
 #include <type_traits>
-
-static int faults = 0;
-
-template <class Action>
-static void expect(int line, selvedge_status status, Action action) {
-  try {
-    action();
-  } catch (const selvedge::error &failed) {
-    if (failed.status() == status && *failed.what()) return;
-    std::fprintf(stderr, "line %d: not that, but: %s\n", line, failed.what());
-    faults++;
-    return;
-  }
-  std::fprintf(stderr, "line %d: nothing was thrown\n", line);
-  faults++;
-}
-
-static void holds(int line, bool condition) {
-  if (condition) return;
-  std::fprintf(stderr, "line %d: not so\n", line);
-  faults++;
-}
 
 static const char *const SCENE = R"(
 time_step = 0.002

@@ -1,6 +1,7 @@
 //! The forces of all hinges at once, −Q·x: a sparse symmetric matrix, by rows.
 
 use super::hinge::Hinge;
+use crate::incidence::Incidence;
 use crate::schedule::On;
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
@@ -15,31 +16,22 @@ pub(super) struct Forces {
 
 impl Forces {
     pub(super) fn new(hinges: &[On<Hinge, 4>], vertex_count: usize) -> Self {
-        let mut starts = vec![0_u32; vertex_count + 1];
-        hinges
-            .iter()
-            .flat_map(|(own, _)| own)
-            .for_each(|&v| starts[v as usize + 1] += 3);
-        for vertex in 0..vertex_count {
-            starts[vertex + 1] += starts[vertex];
-        }
-        let mut entries = vec![(0, 0.0); starts[vertex_count] as usize];
-        let mut next = starts.clone();
-        for (vertices, hinge) in hinges {
-            for k in 0..4 {
-                for l in (0..4).filter(|&l| l != k) {
-                    let place = &mut next[vertices[k] as usize];
-                    entries[*place as usize] = (vertices[l], hinge.coefficient * hinge.weights[k] * hinge.weights[l]);
-                    *place += 1;
-                }
-            }
-        }
+        let entries = || {
+            hinges.iter().flat_map(|(vertices, hinge)| {
+                let ends = (0..4).flat_map(|k| (0..4).filter(move |&l| l != k).map(move |l| (k, l)));
+                ends.map(|(k, l)| {
+                    let value = hinge.coefficient * hinge.weights[k] * hinge.weights[l];
+                    (vertices[k], (vertices[l], value))
+                })
+            })
+        };
+        let mut rows = Incidence::new(vertex_count, entries);
         let mut forces = Self {
             starts: vec![0],
             entries: Vec::new(),
         };
-        for own in starts.windows(2) {
-            let row = &mut entries[own[0] as usize..own[1] as usize];
+        for vertex in 0..vertex_count {
+            let row = rows.of_mut(vertex);
             // Stable, so that sums are the same bits every time.
             row.sort_by_key(|(other, _)| *other);
             for same in row.chunk_by(|a, b| a.0 == b.0) {

@@ -20,15 +20,15 @@
 //! the edge goes to where its other end is, by ±n times how much smaller that side is.
 
 use super::crossing::share_to_plane;
-use super::incidence::Incidence;
 use super::sides::Sides;
+use crate::incidence::Incidence;
 use selvedge::{Intersection, Topology};
 use selvedge_core::glam::DVec3;
 
 /// What is known of the surfaces, and used again.
 #[derive(Debug)]
 pub(super) struct Contours {
-    edge_triangles: Incidence,
+    edge_triangles: Incidence<u32>,
     sides: Sides,
 }
 
@@ -71,7 +71,7 @@ impl Contours {
             }
             let mut pulls = [DVec3::ZERO; 2];
             let mut normals = DVec3::ZERO;
-            for &own in self.edge_triangles.of(edge) {
+            for &own in self.edge_triangles.of(edge as usize) {
                 let own = topology.triangles()[own as usize];
                 let Some(apex) = own.into_iter().find(|vertex| !ends.contains(vertex)) else {
                     continue;

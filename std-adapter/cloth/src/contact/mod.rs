@@ -24,7 +24,6 @@ mod contours;
 mod crossing;
 mod exempt;
 mod impact_zones;
-mod incidence;
 mod neighbours;
 mod pass;
 mod relaxation;

@@ -6,7 +6,7 @@
 //! side of any contour is that side's.
 
 use super::crossing::share_to_plane;
-use super::incidence::Incidence;
+use crate::incidence::Incidence;
 use selvedge::{Intersection, Topology};
 use selvedge_core::glam::DVec3;
 use std::cmp::Reverse;
@@ -15,7 +15,7 @@ use std::collections::BinaryHeap;
 /// Sides are told apart by ends of cut edges: each is a node of a forest, and the nodes of one side have one root.
 #[derive(Debug)]
 pub(super) struct Sides {
-    vertex_edges: Incidence,
+    vertex_edges: Incidence<u32>,
     /// Of each vertex, a third of the area of its triangles where untangling began.
     areas: Vec<f64>,
     /// Of each edge, the node of its first end, that of the second comes next; [`NONE`] if it is not cut.
@@ -129,8 +129,8 @@ impl Sides {
             if distance != nearest.to_bits() {
                 continue;
             }
-            for k in 0..self.vertex_edges.of(vertex).len() {
-                let edge = self.vertex_edges.of(vertex)[k] as usize;
+            for k in 0..self.vertex_edges.of(vertex as usize).len() {
+                let edge = self.vertex_edges.of(vertex as usize)[k] as usize;
                 if self.nodes[edge] == NONE {
                     let [a, b] = topology.edges()[edge];
                     let length = positions[a as usize].distance(positions[b as usize]);

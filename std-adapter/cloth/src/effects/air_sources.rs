@@ -5,7 +5,7 @@
 //! across it is 2^(−r²/half-width²). Behind the fan the air is still, as is what the jet draws in from its sides.
 //!
 //! **A vortex** turns about its axis with the velocity 2·v·(r/R)/(1 + (r/R)²), which is v at its core's radius R and most there
-//! (Kaufmann 1962).
+//! (Kaufmann 1962). Both works are quoted without having been at hand.
 
 use super::wind_field::Air;
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, SceneError, Table, ValueError};

@@ -3,7 +3,8 @@
 //! V = ⅙Σ a·(b × c), relative to the first vertex, so that it does not depend on where the cloth is. Its gradient at a vertex is a third of
 //! the area vectors around it: what a pressure of one pascal pushes it with, in N, whether the cloth is closed or not.
 
-use crate::membrane::Incidence;
+use crate::incidence::Incidence;
+use crate::membrane::triangles_around;
 use crate::world::Cloth;
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
@@ -12,7 +13,7 @@ use selvedge_core::glam::DVec3;
 #[derive(Debug)]
 pub(super) struct Walls {
     triangles: Vec<[u32; 3]>,
-    incidence: Incidence,
+    incidence: Incidence<(u32, f64)>,
     /// A sixth of each triangle's cross product.
     normals: Vec<DVec3>,
 }
@@ -21,7 +22,7 @@ impl Walls {
     pub(super) fn new(cloth: &Cloth) -> Self {
         Self {
             triangles: cloth.mesh.triangles.clone(),
-            incidence: Incidence::new(cloth),
+            incidence: triangles_around(cloth),
             normals: Vec::new(),
         }
     }

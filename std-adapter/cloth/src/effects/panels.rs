@@ -5,8 +5,9 @@
 //! solution over a step is v/(1 + k·h·|v|): so a step never overshoots the wind. Vertices take the changes of their triangles in
 //! the shares that these have in their mass, whose sum is one.
 
+use crate::incidence::Incidence;
 use crate::input::{AIR_DENSITY, Field, RATIO, SceneError, Table, ValueError};
-use crate::membrane::Incidence;
+use crate::membrane::triangles_around;
 use crate::step::TimeStep;
 use crate::world::Cloth;
 use selvedge::verification::parallel;
@@ -35,7 +36,7 @@ pub(super) struct Panels {
     /// k of the module.
     factor: f64,
     triangles: Vec<[u32; 3]>,
-    incidence: Incidence,
+    incidence: Incidence<(u32, f64)>,
     /// Of each triangle's velocity.
     changes: Vec<DVec3>,
 }
@@ -46,7 +47,7 @@ impl Panels {
         Self {
             factor: 0.5 * density * drag / cloth.density,
             triangles: cloth.mesh.triangles.clone(),
-            incidence: Incidence::new(cloth),
+            incidence: triangles_around(cloth),
             changes: Vec::new(),
         }
     }

@@ -9,8 +9,9 @@
 //! [the way out](crate::contact) by at most [`REACH`]. So stretch, shear, bending and strain limits keep the cloth together on the way, and no
 //! pairs come to meet but those next to such as do.
 
+use super::advance::begin_anew;
 use super::tangled::Tangled;
-use super::{EdgeStretch, SetupError, Simulation, begin_anew};
+use super::{EdgeStretch, SetupError, Simulation};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use std::time::Instant;

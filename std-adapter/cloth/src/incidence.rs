@@ -1,23 +1,23 @@
-//! What has which: of each vertex its edges, of each edge its triangles.
+//! What has which: of each vertex its edges or triangles, of each edge its triangles.
 
-/// Lists of numbers, one after the other in one buffer.
+/// Lists, one after the other in one buffer.
 #[derive(Debug)]
-pub(super) struct Incidence {
+pub(crate) struct Incidence<T> {
     /// Where each list begins, and the last one ends.
     starts: Vec<u32>,
-    items: Vec<u32>,
+    items: Vec<T>,
 }
 
-impl Incidence {
+impl<T: Copy + Default> Incidence<T> {
     /// So many lists, of `pairs`: the list that an item belongs to, and the item. Each list has its items in the order of the pairs.
-    pub(super) fn new<P: Iterator<Item = (u32, u32)>>(lists: usize, pairs: impl Fn() -> P) -> Self {
+    pub(crate) fn new<P: Iterator<Item = (u32, T)>>(lists: usize, pairs: impl Fn() -> P) -> Self {
         let mut starts = vec![0_u32; lists + 1];
         pairs().for_each(|(list, _)| starts[list as usize + 1] += 1);
         for list in 0..lists {
             starts[list + 1] += starts[list];
         }
         let mut next = starts.clone();
-        let mut items = vec![0; starts[lists] as usize];
+        let mut items = vec![T::default(); starts[lists] as usize];
         for (list, item) in pairs() {
             let place = &mut next[list as usize];
             items[*place as usize] = item;
@@ -26,9 +26,22 @@ impl Incidence {
         Self { starts, items }
     }
 
-    pub(super) fn of(&self, list: u32) -> &[u32] {
-        let [start, end] = [list as usize, list as usize + 1].map(|k| self.starts[k] as usize);
-        &self.items[start..end]
+    /// How many lists there are.
+    pub(crate) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    pub(crate) fn of(&self, list: usize) -> &[T] {
+        &self.items[self.range(list)]
+    }
+
+    pub(crate) fn of_mut(&mut self, list: usize) -> &mut [T] {
+        let range = self.range(list);
+        &mut self.items[range]
+    }
+
+    fn range(&self, list: usize) -> std::ops::Range<usize> {
+        self.starts[list] as usize..self.starts[list + 1] as usize
     }
 }
 

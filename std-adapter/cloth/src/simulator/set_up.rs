@@ -1,0 +1,158 @@
+//! From a scene to a simulation.
+
+use super::advance::begin_anew;
+use super::{EffectTime, SetupError, Simulation, Tangled, Untangling, Work};
+use crate::contact::ContactSolver;
+use crate::hierarchy::mesh_spacing;
+use crate::plan::Plan;
+use crate::scene::{Scene, TangledStart, append};
+use crate::state::State;
+use crate::step::{Carrier, FREE, Touches};
+use crate::world::{Kinematic, Pose};
+use selvedge::verification::parallel::Workers;
+use selvedge::{Mesh, Threads};
+use selvedge_core::glam::DVec3;
+
+impl Simulation {
+    /// Sets a scene up, on `threads` threads (0: one for each core). The number of threads changes no bit of the result.
+    ///
+    /// # Errors
+    /// If something in the scene cannot be, it starts with an intersection, or the operating system refuses the threads.
+    pub fn new(scene: Scene, threads: usize) -> Result<Self, SetupError> {
+        Self::new_telling(scene, threads, &mut |_| ())
+    }
+
+    /// The same, and tells how untangling goes, before each of its steps, if the scene is [to be untangled](TangledStart::Untangle).
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn new_telling(scene: Scene, threads: usize, tell: &mut (dyn FnMut(Untangling) + Send)) -> Result<Self, SetupError> {
+        scene.check()?;
+        let fingerprint = scene.fingerprint();
+        let threads = Workers::new(Threads::from_count(threads))?;
+        let mut plan = Plan::new(scene.parts()?);
+        let names = scene.called().register(&mut plan);
+        let times = names.into_iter().map(|name| EffectTime { name, seconds: 0.0 }).collect();
+        let Plan {
+            mut inverse_masses,
+            mut carriers,
+            mut motions,
+            pins,
+            forces,
+            constraints,
+            contact,
+            friction,
+            ..
+        } = plan;
+        let Scene {
+            name,
+            cloths,
+            bodies,
+            time_step,
+            on_blocked,
+            tangled_start,
+            ..
+        } = scene;
+        let mut all = Mesh::default();
+        let vertices_of_cloths: Vec<_> = cloths.iter().map(|cloth| append(&mut all, &cloth.mesh)).collect();
+        let (cloth_vertices, cloth_triangles) = (all.positions.len(), all.triangles.len());
+        let mut body_vertices = Vec::with_capacity(bodies.len());
+        for (carrier, body) in bodies.iter().enumerate() {
+            body_vertices.push(append(&mut all, &body.mesh));
+            carriers.resize(all.positions.len(), carrier as Carrier);
+        }
+        let Mesh {
+            positions: rest,
+            triangles,
+        } = all;
+        inverse_masses.resize(rest.len(), 0.0);
+        let remembers = |&index: &usize| constraints[index].action.memory().is_some();
+        let remembering = (0..constraints.len()).filter(remembers).collect();
+        let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
+        let mut carried = rest.clone();
+        for (point, &carrier) in carried[..cloth_vertices].iter_mut().zip(&carriers) {
+            // Pins that follow a driven body start where the cloth is, wherever that body stands.
+            let body = motions.get(carrier as usize).filter(|_| (carrier as usize) < bodies.len());
+            if let Some(standing) = body.and_then(Kinematic::driven).and_then(|driven| driven.placement) {
+                *point = standing.apply_inverse(*point);
+            }
+        }
+        let start = carried
+            .iter()
+            .zip(&carriers)
+            .map(|(&point, &carrier)| poses.get(carrier as usize).map_or(point, |pose| pose.apply(point)));
+        let mut positions: Vec<DVec3> = start.collect();
+        motions.iter_mut().for_each(|motion| motion.put(0.0, &mut positions));
+        let mut velocities = vec![DVec3::ZERO; rest.len()];
+        for (cloth, vertices) in cloths.iter().zip(&vertices_of_cloths) {
+            let free = vertices.clone().filter(|&vertex| carriers[vertex] == FREE);
+            free.for_each(|vertex| velocities[vertex] = cloth.velocity);
+        }
+        let state = State {
+            step: 0,
+            blocked_steps: 0,
+            clock: 0.0,
+            velocities,
+            positions,
+        };
+        let mut contact = ContactSolver::new(contact, &triangles, &rest, &carriers, cloth_vertices, bodies.len())?;
+        if let Some(contact) = &mut contact {
+            begin_anew(contact, &state, time_step);
+            let found = contact.tolerate(&state.positions)?;
+            if !found.is_empty() && tangled_start == TangledStart::Refuse {
+                return Err(SetupError::Tangled(Box::new(Tangled {
+                    crossings: found,
+                    mesh: Mesh {
+                        positions: state.positions,
+                        triangles,
+                    },
+                    cloth_triangles,
+                    body_names: bodies.into_iter().map(|body| body.name).collect(),
+                    untangled: None,
+                })));
+            }
+        }
+        let spacing = cloths.iter().map(mesh_spacing).fold(f64::INFINITY, f64::min);
+        let mut simulation = Self {
+            name,
+            time_step,
+            on_blocked,
+            tangled_start,
+            body_vertices,
+            pins,
+            body_names: bodies.into_iter().map(|body| body.name).collect(),
+            contact,
+            fingerprint,
+            cloth_names: cloths.into_iter().map(|cloth| cloth.name).collect(),
+            cloth_triangles,
+            cloth_vertices,
+            vertices_of_cloths,
+            triangles,
+            inverse_masses,
+            motions,
+            forces,
+            constraints,
+            remembering,
+            effects: times,
+            threads,
+            state,
+            work: Work {
+                touches: Touches {
+                    wanted: !friction.is_empty(),
+                    list: Vec::new(),
+                },
+                ..Work::default()
+            },
+            friction,
+            carriers,
+            rest,
+            carried,
+            untangled: None,
+        };
+        if tangled_start == TangledStart::Untangle && !simulation.is_apart() {
+            let untangled = simulation.untangle(spacing, tell);
+            simulation.check_untangled(untangled)?;
+        }
+        Ok(simulation)
+    }
+}
