@@ -1,12 +1,13 @@
 //! How many steps to look ahead: what costs least.
 //!
 //! Far ahead, pairs are looked for seldom, but more are found, and all of them have to be looked at in every step; and more vertices stray. What that
-//! costs depends on the motion: on a sheet of 130 thousand triangles eight steps are the best while it falls, and two take a fifth less than eight
-//! while it lands. So now and then twice as many steps are tried, or half as many, and kept if a step costs less than just before.
+//! costs depends on the motion: on a sheet of 130 thousand triangles that falls two steps take 1.3 times as long as four or eight, and a fifth less than
+//! eight while it lands. So now and then twice as many steps are tried, or half as many, and kept if a step costs less than just before.
 //!
 //! Costs are counts, not times, so that they are the same on every machine and every number of threads.
 
-/// For how many steps a number of them is kept before others are tried.
+/// For how many steps a number of them is kept before others are tried. Measured: after eight choices each a sleeve takes 2 to 4 % longer than with
+/// the best number, after twenty a sheet that lands takes as long as with one number always, after so many steps neither.
 const PATIENCE: f64 = 32.0;
 
 #[derive(Clone, Copy, Debug)]

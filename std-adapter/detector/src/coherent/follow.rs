@@ -24,8 +24,7 @@ const BEYOND: f64 = 0.1;
 /// strayed vertices again nearly twice as often; both take longer.
 const FARTHEST: u32 = 8;
 
-/// What a pair of the list costs in a step, most of which need no attention. Measured on the same, roughly: 4 ns where finding one that boxes leave
-/// takes 50.
+/// What a pair of the list costs in a step, in units of what finding one costs that boxes leave. An estimate: most of the list need no attention.
 const UPKEEP: f64 = 0.1;
 
 /// No distance that pairs are followed within, and no edge: sums of such might overflow.
