@@ -5,7 +5,7 @@ use super::crossing::{Crossing, CrossingFinder, PairKey};
 use super::neighbours::{Neighbours, are_many, at_rest};
 use super::settings::{ContactSettings, MARGIN, Thickness};
 use crate::step::{Carrier, FREE};
-use selvedge::verification::{Interest, NearPairs, Reach};
+use selvedge::verification::{Class, Interest, NearPairs, Reach};
 use selvedge::{Intersection, PairKind, Topology, TopologyError};
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
@@ -19,6 +19,8 @@ const REACH: f64 = 0.3;
 /// The same on a fine mesh. Measured on the sleeve with 134 thousand triangles where the elbow pinches (18 steps from the 1,000th): 15.0 s of
 /// processor time with 0.3, 20.5 s with 0.6; with 13 thousand triangles the same within a tenth from 0.15 to 0.6.
 const REACH_OF_FINE: f64 = 0.3;
+/// How much more than the thickness is asked for along directions that are no axes, of a pair with a body, in thicknesses.
+const MARGIN_OF_BODIES: f64 = 0.0;
 /// Most steps to look ahead.
 const FARTHEST: u32 = 4;
 /// The same on a fine mesh, of whose candidates a sieve leaves few.
@@ -44,8 +46,8 @@ pub(super) struct OfContact {
 /// `rest` and `carriers` are of all vertices, the cloth's first. Gives neighbours in `settings` a thickness of their own if they are
 /// many.
 ///
-/// More than the thickness is asked for along directions that are no axes: what comes that [near](MARGIN) is pushed apart before it is
-/// within the thickness. With less, cloth that is folded tightly was seen to slip more.
+/// Of cloth and cloth more than the thickness is asked for along directions that are no axes: what comes that [near](MARGIN) is pushed apart before
+/// it is within the thickness. With less, cloth that is folded tightly was seen to slip more.
 pub(super) fn candidates(
     settings: &mut ContactSettings,
     triangles: &[[u32; 3]],
@@ -53,35 +55,43 @@ pub(super) fn candidates(
     carriers: &[Carrier],
     cloth_vertices: usize,
 ) -> Result<Candidates, TopologyError> {
-    let largest = |pick: fn(Thickness) -> f64| settings.all().map(pick).fold(0.0, f64::max);
-    let thickness = largest(|thickness| thickness.thickness);
-    let separation = largest(|thickness| thickness.separation);
     let topology = Arc::new(Topology::new(rest.len(), triangles.to_vec())?);
+    let [cloth, bodies] = [false, true].map(|with_body| settings.largest(with_body));
     let mut neighbours = Neighbours::none();
-    let mut reach = Reach {
-        distances: [thickness; 2],
-        beyond: thickness * REACH,
-        spare: thickness - separation,
-        margin: MARGIN as f32,
-        farthest: FARTHEST,
-        upkeep: UPKEEP,
-        is_graded: false,
-    };
+    let mut of_neighbours = cloth;
+    let (mut reach, mut farthest) = (REACH, FARTHEST);
     if are_many(&topology, rest, cloth_vertices, settings) {
-        let smaller = settings.of_cloths().iter().map(|own| own.of_neighbours()).fold(0.0, f64::max);
         settings.has_neighbours = true;
         neighbours = Neighbours::new(
             rest,
             settings.ends().zip(settings.of_cloths().iter().map(|own| at_rest(*own))),
         );
-        reach = Reach {
-            distances: [smaller, thickness],
-            beyond: thickness * REACH_OF_FINE,
-            spare: smaller - separation,
-            farthest: FARTHEST_OF_FINE,
-            ..reach
-        };
+        let smaller = settings.of_cloths().iter().map(|own| own.of_neighbours()).fold(0.0, f64::max);
+        of_neighbours = cloth.map(|cloth| Thickness {
+            thickness: smaller,
+            ..cloth
+        });
+        (reach, farthest) = (REACH_OF_FINE, FARTHEST_OF_FINE);
     }
+    let class = |thickness: Option<Thickness>, margin: f64| Class {
+        distance: thickness.map_or(0.0, |thickness| thickness.thickness),
+        margin: margin as f32,
+    };
+    let asked = [of_neighbours, cloth, bodies];
+    let spare = asked.iter().flatten().map(|asked| asked.thickness - asked.separation);
+    let thickest = asked.iter().flatten().map(|asked| asked.thickness).fold(0.0, f64::max);
+    let reach = Reach {
+        classes: [
+            class(of_neighbours, MARGIN),
+            class(cloth, MARGIN),
+            class(bodies, MARGIN_OF_BODIES),
+        ],
+        beyond: thickest * reach,
+        spare: spare.fold(f64::INFINITY, f64::min),
+        farthest,
+        upkeep: UPKEEP,
+        is_graded: false,
+    };
     let interest = OfContact {
         topology: Arc::clone(&topology),
         cloth: settings.asks(false),
@@ -99,8 +109,13 @@ pub(super) fn candidates(
 impl Interest for OfContact {
     type Data = OfPair;
 
+    /// Neighbours in cloth, other pairs of cloth, pairs with a body.
     #[inline(always)]
     fn class(&self, kind: PairKind, vertices: [u32; 4]) -> usize {
+        let [one, .., other] = vertices;
+        if one.max(other) as usize >= self.cloth_vertices {
+            return 2;
+        }
         usize::from(!self.neighbours.are(kind, vertices))
     }
 

@@ -77,12 +77,13 @@ impl ContactSolver {
             error,
             ..
         } = self;
+        let separations = settings.separations(exempt);
         let mut looked_at = LookedAt::default();
         parallel::map_chunks(
             &mut candidates.list,
             |first, pairs, looked_at: &mut LookedAt| {
                 for (index, pair) in pairs.iter_mut().enumerate() {
-                    let Some(separation) = settings.separation(pair, exempt) else {
+                    let Some(separation) = separations.of(pair) else {
                         pair.forget_gap();
                         continue;
                     };
@@ -217,7 +218,7 @@ impl ContactSolver {
     }
 
     pub(super) fn separation(&self, pair: &Candidate) -> Option<f64> {
-        self.settings.separation(pair, &self.exempt)
+        self.settings.separations(&self.exempt).of(pair)
     }
 }
 

@@ -135,13 +135,14 @@ impl ContactSettings {
         }
     }
 
-    /// The separation that a pair is asked to keep; `None` if none is promised, as while it is `exempt`.
-    #[inline(always)]
-    pub(super) fn separation(&self, pair: &Candidate, exempt: &Exempt) -> Option<f64> {
-        if exempt.has(pair) {
-            return None;
+    /// The separations that pairs are asked to keep: none while they are `exempt`.
+    pub(super) fn separations<'a>(&'a self, exempt: &'a Exempt) -> Separations<'a> {
+        let are_alike = self.ends.len() == 1 && exempt.is_empty();
+        Separations {
+            of_all: are_alike.then(|| self.of_first.map(|of_first| of_first.map(|thickness| thickness.separation))),
+            settings: self,
+            exempt,
         }
-        self.of(pair).map(|thickness| thickness.separation)
     }
 
     /// What a pair has to keep where there are several cloths.
@@ -169,9 +170,42 @@ impl ContactSettings {
         self.asked(with_body).is_some()
     }
 
-    pub(super) fn all(&self) -> impl Iterator<Item = Thickness> {
-        let asked = [&self.cloth, &self.bodies].into_iter().flatten();
-        asked.flat_map(|asked| asked.of_cloths.iter().copied())
+    /// The largest of what any cloth is to keep from bodies, or from cloth; `None` if nobody asks for that.
+    pub(super) fn largest(&self, with_body: bool) -> Option<Thickness> {
+        let of_cloths = self.asked(with_body)?.of_cloths.iter().copied();
+        of_cloths.reduce(|one, other| Thickness {
+            thickness: one.thickness.max(other.thickness),
+            separation: one.separation.max(other.separation),
+        })
+    }
+}
+
+/// What each pair is to keep in a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Separations<'a> {
+    /// Of cloth, and of cloth and bodies, if it is the same for all such pairs: as it mostly is, and then nobody has to be asked.
+    of_all: Option<[Option<f64>; 2]>,
+    settings: &'a ContactSettings,
+    exempt: &'a Exempt,
+}
+
+impl Separations<'_> {
+    /// The separation that a pair is asked to keep; `None` if none is promised.
+    #[inline(always)]
+    pub(super) fn of(&self, pair: &Candidate) -> Option<f64> {
+        match self.of_all {
+            Some(of_all) => of_all[usize::from(pair.data.is_with_body())],
+            None => self.of_single(pair),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn of_single(&self, pair: &Candidate) -> Option<f64> {
+        if self.exempt.has(pair) {
+            return None;
+        }
+        self.settings.of(pair).map(|thickness| thickness.separation)
     }
 }
 

@@ -50,7 +50,7 @@ impl ContactSolver {
         cloth_vertices: usize,
         bodies: usize,
     ) -> Result<Option<Self>, TopologyError> {
-        if settings.all().next().is_none() {
+        if !(settings.asks(false) || settings.asks(true)) {
             return Ok(None);
         }
         Ok(Some(Self {

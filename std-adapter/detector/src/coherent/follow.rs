@@ -5,7 +5,7 @@
 //! has strayed is looked at in every step, at its end; at its start as well, unless it begins where the step before has ended, bit by bit.
 //! The distance is the separation and twice the tolerance, so that what is settled here is no contact of the elementary test's either.
 
-use super::{Interest, NearPairs, Reach};
+use super::{CLASSES, Class, Interest, NearPairs, Reach};
 use crate::PairKind;
 use crate::broad_phase::mapping_within;
 use crate::collision_filter::CollisionFilter;
@@ -135,10 +135,9 @@ impl Followed {
             near => {
                 self.distance = distance;
                 let reach = Reach {
-                    distances: [distance; 2],
+                    classes: [Class { distance, margin: 0.0 }; CLASSES],
                     beyond: BEYOND * mean_edge(topology, start),
                     spare: 0.0,
-                    margin: 0.0,
                     is_graded: true,
                     farthest: FARTHEST,
                     upkeep: UPKEEP,

@@ -37,24 +37,34 @@ pub trait Interest: Sync {
     /// What it keeps with a pair while that is near.
     type Data: Copy + Send + Sync;
 
-    /// Which of the two [distances](Reach::distances) is the pair's: 0 or 1. Asked of every pair that boxes leave.
+    /// Which of the [classes](Reach::classes) is the pair's, below [`CLASSES`]. Asked of every pair that boxes leave.
     fn class(&self, kind: PairKind, vertices: [u32; 4]) -> usize;
 
     /// What is to be kept with the pair at first; `None` if it is of no interest. Always the same but for what the caller writes there.
     fn about(&self, kind: PairKind, vertices: [u32; 4]) -> Option<Self::Data>;
 }
 
+/// How many classes of pairs there can be.
+pub const CLASSES: usize = 3;
+
+/// Pairs of one class.
+#[derive(Clone, Copy, Debug)]
+pub struct Class {
+    /// Those that come within this are near.
+    pub distance: f64,
+    /// So much of the distance more is asked for along directions that are no axes.
+    pub margin: f32,
+}
+
 /// Which pairs are near, and for how long: lengths in the unit of the positions.
 #[derive(Clone, Copy, Debug)]
 pub struct Reach {
-    /// Pairs of each class that come within this, and
-    pub distances: [f64; 2],
+    /// Pairs of each class that come within its distance, and
+    pub classes: [Class; CLASSES],
     /// this beyond it: twice as far as each vertex may stray along an axis. More makes longer lists that last longer.
     pub beyond: f64,
     /// How much less than its distance has to be kept of any pair.
     pub spare: f64,
-    /// So much of the distance more is asked for along directions that are no axes.
-    pub margin: f32,
     /// Steps to look ahead, at most.
     pub farthest: u32,
     /// What a pair of the list costs in a step, in units of what finding one costs.

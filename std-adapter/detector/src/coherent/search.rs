@@ -73,8 +73,8 @@ impl<I: Interest> Search<I> {
     /// # Errors
     /// If it is no length. Then it stays as it was.
     pub(super) fn set_reach(&mut self, reach: &Reach) -> Result<(), StepError> {
-        let [one, other] = reach.distances;
-        self.broad_phase.set_separation(one.max(other) + reach.beyond)
+        let largest = reach.classes.iter().map(|class| class.distance).fold(0.0, f64::max);
+        self.broad_phase.set_separation(largest + reach.beyond)
     }
 
     /// Replaces `pairs` by those of the motion from `start` to `end`, in ascending order of their keys: not that in which the hierarchies

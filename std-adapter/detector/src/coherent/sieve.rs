@@ -4,7 +4,7 @@
 //! they keep though their vertices stray, by half of what is looked for beyond their distance, is their
 //! [clearance](selvedge_core::separation::clearance).
 
-use super::Reach;
+use super::{CLASSES, Class, Reach};
 use crate::PairKind;
 use selvedge_core::glam::{DVec3, Vec3A};
 use selvedge_core::separation::clearance::Clearance;
@@ -15,7 +15,7 @@ use selvedge_core::separation::largest_coordinate;
 pub(super) struct Sieve {
     ways: Vec<Way>,
     /// What pairs of each class are to keep.
-    clearances: [Clearance; 2],
+    clearances: [Clearance; CLASSES],
 }
 
 /// Never on two cache lines.
@@ -35,15 +35,15 @@ impl Sieve {
         };
         Self {
             ways: vec![unknown; vertices],
-            clearances: [Clearance::UNKNOWN; 2],
+            clearances: [Clearance::UNKNOWN; CLASSES],
         }
     }
 
     /// From here on all is asked about this motion, which is the last one but for vertices that are in `only`, if there are any.
     pub(super) fn set_motion(&mut self, reach: &Reach, [start, end]: [&[DVec3]; 2], only: Option<&[bool]>) {
         let largest = largest_coordinate(start).max(largest_coordinate(end));
-        let clearance = |distance| Clearance::new(distance, reach.beyond, largest, reach.margin);
-        self.clearances = reach.distances.map(clearance);
+        let clearance = |class: Class| Clearance::new(class.distance, reach.beyond, largest, class.margin);
+        self.clearances = reach.classes.map(clearance);
         for (vertex, way) in self.ways.iter_mut().enumerate() {
             if only.is_none_or(|only| only[vertex]) {
                 (way.start, way.end) = (start[vertex].as_vec3a(), end[vertex].as_vec3a());
@@ -93,12 +93,11 @@ mod tests {
         if is_edge { PairKind::EdgeEdge } else { PairKind::VertexFace }
     }
 
-    fn reach(distances: [f64; 2], beyond: f64) -> Reach {
+    fn reach(distances: [f64; CLASSES], margin: f32, beyond: f64) -> Reach {
         Reach {
-            distances,
+            classes: distances.map(|distance| Class { distance, margin }),
             beyond,
             spare: 0.0,
-            margin: 0.5,
             farthest: 1,
             upkeep: 0.0,
             is_graded: false,
@@ -106,10 +105,10 @@ mod tests {
     }
 
     /// Of a pair of all four, in each class.
-    fn left_out(kind: PairKind, reach: &Reach, motion: [&[DVec3]; 2]) -> [bool; 2] {
+    fn left_out(kind: PairKind, reach: &Reach, motion: [&[DVec3]; 2]) -> [bool; CLASSES] {
         let mut sieve = Sieve::new(4);
         sieve.set_motion(reach, motion, None);
-        [0, 1].map(|class| sieve.keep_apart(kind, [0, 1, 2, 3], class))
+        [0, 1, 2].map(|class| sieve.keep_apart(kind, [0, 1, 2, 3], class))
     }
 
     proptest! {
@@ -127,8 +126,8 @@ mod tests {
         ) {
             let kind = kind(is_edge);
             let end = [0, 1, 2, 3].map(|k| start[k] + moves[k] * 0.5);
-            let distances = [distance * share, distance];
-            let left_out = left_out(kind, &reach(distances, beyond), [&start, &end]);
+            let distances = [distance * share, distance, distance * 0.5];
+            let left_out = left_out(kind, &reach(distances, 0.5, beyond), [&start, &end]);
             let middle = |is_first| -> DVec3 {
                 let own = (0..4).filter(|&k| first(kind, k) == is_first);
                 let count = own.clone().count() as f64;
@@ -142,7 +141,7 @@ mod tests {
                 Closest::of(kind, at).distance()
             });
             let least = least.fold(f64::INFINITY, f64::min) * (1.0 + 1e-9);
-            for class in [0, 1] {
+            for class in 0..CLASSES {
                 prop_assert!(!left_out[class] || least > distances[class]);
             }
         }
@@ -158,7 +157,7 @@ mod tests {
             let far = |by: f64| [0, 1, 2, 3].map(|k| start[k] + DVec3::X * if first(kind, k) { by } else { 0.0 });
             let smaller = distance * share;
             let asked = 2.0 + smaller + 0.1;
-            let reach = reach([smaller, distance], 0.1);
+            let reach = reach([smaller, distance, distance], 0.5, 0.1);
             prop_assert!(left_out(kind, &reach, [&far(asked + 1e-4), &far(asked + 1.0)])[0]);
         }
 
@@ -183,7 +182,7 @@ mod tests {
             };
             let points = points.map(|point| turn.normalize() * point);
             // The cloth's margin.
-            let reach = Reach { margin: 2.0 / 3.0, ..reach([0.16; 2], 0.05) };
+            let reach = reach([0.16; CLASSES], 2.0 / 3.0, 0.05);
             prop_assert!(left_out(kind(is_edge), &reach, [&points, &points])[1]);
         }
     }
