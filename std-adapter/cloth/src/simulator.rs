@@ -208,8 +208,8 @@ impl Simulation {
         self.body_vertices.get(body).cloned()
     }
 
-    /// The pairs that came near each other in the last part of the last step, as contact saw them at its start. None without a contact
-    /// effect.
+    /// The pairs that came near each other in the last part of the last step, as contact saw them at its start, but for those that pushes
+    /// between others were seen to keep apart. None without a contact effect.
     pub fn near_pairs(&self) -> impl Iterator<Item = NearPair> {
         self.contact.iter().flat_map(|contact| contact.near_pairs())
     }

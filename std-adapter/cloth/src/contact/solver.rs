@@ -2,7 +2,7 @@
 
 use super::candidate::{Candidate, time_of_impact_of};
 use super::candidates::{Candidates, candidates};
-use super::constraints::{self, ContactConstraint, NearPair, Rules};
+use super::constraints::{Contacts, NearPair, Rules};
 use super::crossing::{Crossing, PairKey};
 use super::exempt::{Exempt, Tangle};
 use super::impact_zones::ImpactZones;
@@ -28,7 +28,7 @@ pub(crate) struct ContactSolver {
     pub(super) rest: Vec<DVec3>,
     /// Of gaps between positions of this step.
     pub(super) error: GapError<f64>,
-    constraints: Vec<ContactConstraint>,
+    contacts: Contacts,
     pub(super) moved: Vec<bool>,
     pub(super) relaxation: Relaxation,
     pub(super) zones: ImpactZones,
@@ -59,7 +59,7 @@ impl ContactSolver {
             carriers: carriers.to_vec(),
             rest: rest.to_vec(),
             error: GapError::of_coordinates(0.0),
-            constraints: Vec::new(),
+            contacts: Contacts::default(),
             moved: vec![false; rest.len()],
             relaxation: Relaxation::default(),
             zones: ImpactZones::default(),
@@ -98,42 +98,40 @@ impl ContactSolver {
         Ok(crossings)
     }
 
-    /// Sets up the contacts of a step of `h` seconds that so far leads to `predicted`.
-    pub(crate) fn prepare(&mut self, start: &[DVec3], predicted: &[DVec3], h: f64) {
+    /// Sets up the contacts of a step that so far leads from `start` to `predicted`.
+    pub(crate) fn prepare(&mut self, start: &[DVec3], predicted: &[DVec3]) {
         let begin = Instant::now();
         self.error = gap_error(start, predicted);
-        if !self.pushes {
-            self.constraints.clear();
-            return;
+        if self.pushes {
+            let (contacts, pairs, rules) = self.parts();
+            contacts.collect(pairs, rules, predicted);
+        } else {
+            self.contacts.clear();
         }
-        let Self {
-            constraints,
-            candidates,
-            settings,
-            exempt,
-            rest,
-            error,
-            ..
-        } = self;
-        constraints::collect(
-            constraints,
-            &mut candidates.list,
-            Rules { settings, exempt, rest },
-            [start, predicted],
-            h,
-            *error,
-        );
         self.stages.constraints += begin.elapsed().as_secs_f64();
     }
 
     /// Pushes apart what is too near: cloth and bodies, or cloth and cloth.
     pub(crate) fn push(&mut self, with_body: bool, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) {
-        self.counts.pushed += constraints::project(&self.constraints, with_body, step, positions, touches);
+        let (contacts, pairs, rules) = self.parts();
+        let pushed = contacts.push(with_body, pairs, rules, (step, positions), touches);
+        self.counts.pushed += pushed;
     }
 
-    /// The pairs that the last part of a step had constraints on.
+    /// The contacts, the candidates that they are of, and what is asked of these.
+    fn parts(&mut self) -> (&mut Contacts, &mut [Candidate], Rules<'_>) {
+        let rules = Rules {
+            settings: &self.settings,
+            exempt: &self.exempt,
+            rest: &self.rest,
+            error: self.error,
+        };
+        (&mut self.contacts, &mut self.candidates.list, rules)
+    }
+
+    /// The pairs that came near in the last part of a step.
     pub(crate) fn near_pairs(&self) -> impl Iterator<Item = NearPair> {
-        constraints::near_pairs(&self.constraints)
+        self.contacts.near_pairs()
     }
 
     /// How many pairs of a tangle have left the promise, of those that the last step looked at.

@@ -185,7 +185,7 @@ impl Simulation {
             timed(effects, *effect, || action.project(&step, positions, touches));
         }
         if let Some(contact) = contact {
-            contact.prepare(step.start, positions, h);
+            contact.prepare(step.start, positions);
             for with_body in [true, false] {
                 if let Some(effect) = contact.settings.effect(with_body) {
                     timed(effects, effect, || contact.push(with_body, &step, positions, touches));
