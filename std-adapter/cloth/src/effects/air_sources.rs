@@ -1,11 +1,15 @@
 //! What moves air in a field of wind: velocities of fans and vortices, which add up.
 //!
 //! **A fan** is a round jet. Its middle goes straight on, and its half-width grows with the distance s as R + 0.094·s (Hussein, Capp and
-//! George 1994). The momentum that goes through each section is the same, ∝ U²R², so that the velocity in the middle falls as R/(R + 0.094·s);
-//! across it is 2^(−r²/half-width²). Behind the fan the air is still, as is what the jet draws in from its sides.
+//! George 1994, J. Fluid Mech. 258:31). The momentum that goes through each section is the same, ∝ U²R², so that the velocity in the
+//! middle falls as R/(R + 0.094·s); across it is 2^(−r²/half-width²). Behind the fan the air is still, as is what the jet draws in from
+//! its sides.
 //!
 //! **A vortex** turns about its axis with the velocity 2·v·(r/R)/(1 + (r/R)²), which is v at its core's radius R and most there
-//! (Kaufmann 1962). Both works are quoted without having been at hand.
+//! (Kaufmann 1962).
+//!
+//! Neither work was at hand. Others who use them quote a slope of 0.094 from page 44 of the first, with 0.086 to 0.096 in other
+//! measurements, and the second's profile as ∝ r/(R² + r²), which is this one.
 
 use super::wind_field::Air;
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, SceneError, Table, ValueError};

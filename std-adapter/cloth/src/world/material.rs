@@ -17,14 +17,17 @@
 //!    g/m² there are some from 2.5 to 58 µN m, of 55 to 80 g/m² from 1.1 to 33, most of them below 7.
 //! 4. Kawabata 1980: means of 214 suitings for winter on his instruments: a bending rigidity of 10^−0.867 gf cm²/cm, a shear stiffness of
 //!    10^−0.066 gf/(cm deg), 10^1.421 mg/cm². The cotton's shear stiffness is 1.16 gf/(cm deg) in his units, which is a choice.
-//! 5. De Boos and Tester 1994 (SiroFAST): suitings that make no trouble give by 2 to 6 % under 98 N/m: here by 3 and 4 %.
+//! 5. De Boos and Tester 1994 (SiroFAST, CSIRO report WT92.02): suitings that make no trouble give by 2 to 6 % under 98 N/m, which is their
+//!    100 gf/cm: here by 3 and 4 %.
 //! 6. Fitted to a drape coefficient: Memon, Chaklie, Yesuf and Zhu 2021 found 47 to 70 % for sheep leather of 0.64 to 0.96 mm.
 //! 7. Rubber of a Young's modulus of 1.2 MPa and 930 kg/m³ (Treloar 1975) that keeps its volume: stretch E·h, shear E·h/3, and bending
 //!    E·h³/9. No drape coefficient of it was found.
 //! 8. A choice of ours in what is usual: no measurement was at hand.
 //!
-//! Of these, 1 and 3, the weight of 2 and the range of 6 were read; 4, 5 and 7 are quoted without the works at hand, and so is Cusick's regression
-//! in the tests: look them up before something depends on them.
+//! **What was read.** Of these 1 and 3, the weight of 2 and the range of 6. Not at hand, and quoted from memory: the means of 4 (that there are
+//! 214 fabrics is in Mahar and Postle's study of the same set), the limits of 5, 1.2 MPa and 930 kg/m³ in 7, and Cusick's regression
+//! in the tests. Treloar's measurements of 1944, as later fits have them, are 0.286 MPa at a stretch of 1.427 and 0.383 MPa at 1.616: three
+//! times s/(λ − λ⁻²) is 0.91 and 0.93 MPa, and rubber that is stretched less is stiffer than that. Look these up before something depends on them.
 //!
 //! What real fabrics do beyond this: they get stiffer as they are stretched, and do not return on the way that they came.
 
