@@ -5,7 +5,8 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyModule;
 use selvedge::{Contact, ContactGeometry, Intersection, PairKind, Scalar, Topology};
-use selvedge_cloth::NearPair;
+use selvedge_cloth::effects::Release;
+use selvedge_cloth::{Crossing, EdgeStretch, NearPair, Untangled};
 
 /// A class of `selvedge/_answers.py`.
 pub(crate) fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
@@ -152,4 +153,41 @@ pub(crate) fn show_near_pairs<'py>(py: Python<'py>, pairs: &[NearPair]) -> PyRes
         rows(py, pairs.iter().map(|pair| pair.normal.to_array()).collect())?,
         column(py, pairs.iter().map(|pair| pair.thickness).collect()),
     ))
+}
+
+/// What is tangled.
+pub(crate) fn show_crossings<'py>(py: Python<'py>, crossings: &[Crossing]) -> PyResult<Bound<'py, PyAny>> {
+    let body = |crossing: &Crossing| crossing.body.map_or(-1, |body| body as i64);
+    class(py, "Crossings")?.call1((
+        rows(py, crossings.iter().map(|crossing| crossing.edge).collect())?,
+        rows(py, crossings.iter().map(|crossing| crossing.face).collect())?,
+        rows(py, crossings.iter().map(|crossing| crossing.point.to_array()).collect())?,
+        column(py, crossings.iter().map(body).collect()),
+    ))
+}
+
+/// None if nothing was untangled.
+pub(crate) fn show_untangled<'py>(py: Python<'py>, untangled: Option<&Untangled>) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let Some(&untangled) = untangled else {
+        return Ok(None);
+    };
+    let Untangled {
+        crossings,
+        left,
+        steps,
+        stretch: EdgeStretch { percentile_99, largest },
+        farthest,
+        seconds,
+    } = untangled;
+    let stretch = (percentile_99, largest);
+    class(py, "Untangled")?
+        .call1((crossings, left, steps, stretch, farthest, seconds))
+        .map(Some)
+}
+
+/// Vertices that attachments have let go of.
+pub(crate) fn show_released<'py>(py: Python<'py>, released: &[Release]) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let class = class(py, "Release")?;
+    let show = |release: &Release| class.call1((release.group, release.vertex, release.time));
+    released.iter().map(show).collect()
 }

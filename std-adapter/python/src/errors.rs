@@ -17,6 +17,7 @@ exceptions!(
     ForkedError,
     InputError,
     SceneError,
+    TangledError,
     ThreadsError,
     TooManyPairsError
 );

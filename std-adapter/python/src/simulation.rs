@@ -1,9 +1,9 @@
 //! A scene in motion, step by step.
 
-use crate::answers::{rows, show_near_pairs};
+use crate::answers::{rows, show_crossings, show_near_pairs, show_released, show_untangled};
 use crate::arrays::{Frames, with_frames};
 use crate::call::{Length, interruptible};
-use crate::errors::{self, BlockedError, BrokenError, CheckpointError, ForkedError, InputError, SceneError};
+use crate::errors::{self, BlockedError, BrokenError, CheckpointError, ForkedError, InputError, SceneError, TangledError};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict, PySlice, PyType};
@@ -37,9 +37,16 @@ struct OfScene {
     settings: Vec<(String, String)>,
 }
 
-fn setup_error(error: &SetupError) -> PyErr {
+fn setup_error(py: Python<'_>, error: &SetupError) -> PyErr {
     match error {
         SetupError::Threads(error) => errors::of_threads(error),
+        SetupError::Tangled(tangled) => {
+            let shown = show_crossings(py, &tangled.crossings).and_then(|crossings| {
+                let untangled = show_untangled(py, tangled.untangled.as_ref())?;
+                Ok((tangled.to_string(), crossings.unbind(), untangled.map(Bound::unbind)))
+            });
+            shown.map_or_else(|error| error, TangledError::new_err)
+        }
         error => SceneError::new_err(error.to_string()),
     }
 }
@@ -56,7 +63,7 @@ impl Simulation {
         let made = interruptible(py, Length::Long, || (), || selvedge_cloth::Simulation::new(scene, threads))?;
         let simulation = made
             .map_err(|words| errors::broken(&words))?
-            .map_err(|error| setup_error(&error))?;
+            .map_err(|error| setup_error(py, &error))?;
         let written = PyArray2::zeros(py, [simulation.positions().len(), 3], false);
         let shown = written.call_method0("view")?;
         shown.getattr("flags")?.setattr("writeable", false)?;
@@ -264,6 +271,26 @@ impl Simulation {
     fn near_pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let pairs: Vec<_> = self.simulation()?.near_pairs().collect();
         show_near_pairs(py, &pairs)
+    }
+
+    #[getter]
+    fn crossings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        show_crossings(py, self.simulation()?.crossings())
+    }
+
+    #[getter]
+    fn tolerated_pairs(&self) -> PyResult<usize> {
+        Ok(self.simulation()?.tolerated_pairs())
+    }
+
+    #[getter]
+    fn untangled<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        show_untangled(py, self.simulation()?.untangled())
+    }
+
+    #[getter]
+    fn released<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        show_released(py, &self.simulation()?.released())
     }
 
     #[getter]

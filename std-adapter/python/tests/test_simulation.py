@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from selvedge import ARM_SLEEVE, NearPairs, Simulation, errors
+from selvedge import ARM_SLEEVE, Crossings, NearPairs, Release, Simulation, errors
 
 
 @pytest.fixture
@@ -175,6 +175,49 @@ def test_near_pairs_say_where_the_cloth_nearly_touches():
     counts, seconds = simulation.contact_counts, simulation.contact_seconds
     assert counts["candidates"] >= counts["looked_at"] >= 0 and counts["pushed"] >= len(near)
     assert list(seconds) == ["candidates", "constraints", "certificates", "repairs"] and min(seconds.values()) >= 0
+
+
+def test_what_attachments_let_go_of_is_told():
+    scene = over_a_ball()
+    held = {"part": "left", "limit": 0.02}
+    scene["effects"] = {"gravity": {}, "stretch": {"stiffness": 200}, "attachments": {"group": [held]}}
+    simulation = Simulation.from_dict(scene)
+    assert simulation.released == []
+    simulation.step(100)
+    released = simulation.released
+    assert released and all(isinstance(release, Release) for release in released)
+    for group, vertex, time in released:
+        assert group == 0 and vertex % 13 == 0 and 0 <= time < simulation.time
+
+
+def through_a_ball(tangled_start: str) -> dict:
+    scene = over_a_ball()
+    scene["cloth"]["corner"] = [-0.15, -0.15, 0.03]
+    del scene["effects"]["pins"]
+    return scene | {"tangled_start": tangled_start}
+
+
+def test_a_tangled_start_says_where():
+    with pytest.raises(errors.TangledError, match="intersection") as caught:
+        Simulation.from_dict(through_a_ball("refuse"))
+    crossings = caught.value.crossings
+    assert isinstance(caught.value, errors.SceneError) and caught.value.untangled is None
+    assert isinstance(crossings, Crossings) and len(crossings) > 10
+    assert crossings.edges.shape == (len(crossings), 2) and crossings.faces.shape == (len(crossings), 3)
+    assert (crossings.bodies == 0).all()
+    np.testing.assert_allclose(crossings.points[:, 2], 0.03, atol=1e-12)
+
+    tolerant = Simulation.from_dict(through_a_ball("tolerate"))
+    np.testing.assert_array_equal(tolerant.crossings.edges, crossings.edges)
+    np.testing.assert_array_equal(tolerant.crossings.points, crossings.points)
+    assert tolerant.tolerated_pairs > len(crossings) and not tolerant.is_certified and tolerant.untangled is None
+
+    untangled = Simulation.from_dict(through_a_ball("untangle"))
+    done = untangled.untangled
+    assert done is not None and untangled.is_certified
+    assert done.crossings == len(crossings) and done.left == 0 and done.steps > 0 and done.seconds > 0
+    assert done.farthest > 0.01 and 1 <= done.edge_stretch[0] <= done.edge_stretch[1] < 2
+    assert len(untangled.crossings) == 0 and untangled.tolerated_pairs == 0
 
 
 def test_without_a_contact_effect_nothing_is_near_and_nothing_counted():

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -134,3 +134,50 @@ class NearPairs:
 
     def __len__(self) -> int:
         return len(self.vertices)
+
+
+@dataclass(frozen=True, eq=False)
+class Crossings:
+    """Edges that meet faces, of cloth with itself or with bodies. Where neighbours lie flat on each other, an edge may be a vertex twice, and a
+    face an edge with its second end twice."""
+
+    edges: NDArray[np.uint32]
+    """(n, 2) rows of the simulation's positions, those of bodies after the cloth's."""
+    faces: NDArray[np.uint32]
+    """(n, 3) likewise."""
+    points: NDArray[np.float64]
+    """(n, 3) where they meet, in metres."""
+    bodies: NDArray[np.int64]
+    """(n,) the body that one of them belongs to, by its index; -1 if both are cloth."""
+
+    def __len__(self) -> int:
+        return len(self.edges)
+
+
+@dataclass(frozen=True)
+class Untangled:
+    """What was pulled apart before the first step."""
+
+    crossings: int
+    """Edges that met faces where the scene starts."""
+    left: int
+    """Those that still do."""
+    steps: int
+    """Steps that were taken, without time."""
+    edge_stretch: tuple[float, float]
+    """The length of edges then over that in the scene: of the 99th percentile, and of the longest."""
+    farthest: float
+    """How far the cloth was moved where it was moved most, in metres."""
+    seconds: float
+    """How long it took."""
+
+
+class Release(NamedTuple):
+    """A vertex that an attachment has let go of, for good."""
+
+    group: int
+    """Of attachments, in the order of the scene."""
+    vertex: int
+    """Of the cloth."""
+    time: float
+    """When the step began in which it let go, in seconds."""

@@ -8,7 +8,18 @@ from typing import Any, Literal, final, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._answers import CandidatePairs, Contact, Contacts, ContactTimes, Intersections, NearPairs, Truncation
+from ._answers import (
+    CandidatePairs,
+    Contact,
+    Contacts,
+    ContactTimes,
+    Crossings,
+    Intersections,
+    NearPairs,
+    Release,
+    Truncation,
+    Untangled,
+)
 
 __all__ = ["ARM_SLEEVE", "EFFECTS", "Detector", "Simulation", "__version__", "time_of_impact", "touches"]
 
@@ -160,7 +171,8 @@ class Detector:
 class Simulation:
     """Cloth, step by step: certified free of intersections after each, on any number of threads with the same bits.
 
-    ``scene`` is a scene file (TOML). See the project's documentation of scenes for what it can say."""
+    ``scene`` is a scene file (TOML). See the project's documentation of scenes for what it can say. One that starts with surfaces that pass
+    through each other raises TangledError, which says where, unless it says otherwise (``tangled_start``)."""
 
     def __new__(cls, scene: str | PathLike[str], threads: int = 1) -> Simulation: ...
     @classmethod
@@ -188,6 +200,18 @@ class Simulation:
     @property
     def near_pairs(self) -> NearPairs:
         """What came near each other in the last part of the last step; nothing without a contact effect. A copy."""
+    @property
+    def crossings(self) -> Crossings:
+        """Where cloth still passes through itself or a body, of what the scene tolerates from its start. A copy."""
+    @property
+    def tolerated_pairs(self) -> int:
+        """How many pairs have left the promise since the start: those about :attr:`crossings`, and those not apart yet."""
+    @property
+    def untangled(self) -> Untangled | None:
+        """What was pulled apart before the first step, if anything was."""
+    @property
+    def released(self) -> list[Release]:
+        """What attachments have let go of so far, attachment by attachment."""
     @property
     def body_names(self) -> list[str]: ...
     def body_vertices(self, body: str | int) -> slice:

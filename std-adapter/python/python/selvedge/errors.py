@@ -4,6 +4,8 @@ Every exception is an :class:`Error`, and the built-in one that says the same in
 catches it too.
 """
 
+from ._answers import Crossings, Untangled
+
 
 class Error(Exception):
     """Of Selvedge's own."""
@@ -19,6 +21,19 @@ class DataTypeError(Error, TypeError):
 
 class SceneError(InputError):
     """A scene says what cannot be; the text names file, line and field."""
+
+
+class TangledError(SceneError):
+    """A scene starts with surfaces that pass through each other, and does not want that, or untangling has left something of it."""
+
+    crossings: Crossings
+    """All places."""
+    untangled: Untangled | None
+    """What untangling did, if the scene asks for that."""
+
+    def __init__(self, text: str, crossings: Crossings, untangled: Untangled | None) -> None:
+        super().__init__(text)
+        self.crossings, self.untangled = crossings, untangled
 
 
 class CheckpointError(InputError):
@@ -69,6 +84,7 @@ __all__ = [
     "ForkedError",
     "InputError",
     "SceneError",
+    "TangledError",
     "ThreadsError",
     "TooManyPairsError",
 ]
