@@ -52,7 +52,7 @@ impl Exempt {
     }
 
     /// Whether nothing is promised of this pair.
-    #[inline(always)]
+    #[inline]
     pub(super) fn has(&self, pair: &Candidate) -> bool {
         pair.data.is_with_body() && self.yielding[pair.data.body as usize]
             || self.tangle.as_ref().is_some_and(|tangle| tangle.has(pair))

@@ -62,7 +62,7 @@ pub struct Blocker {
 pub struct ContactSeconds {
     /// Finding candidate pairs.
     pub candidates: f64,
-    /// Setting up contacts as constraints.
+    /// Finding the pairs that may have to be pushed; what pushes them is counted with the effects.
     pub constraints: f64,
     /// Proving pairs free.
     pub certificates: f64,

@@ -47,12 +47,12 @@ pub trait Interest: Sync {
 /// How many classes of pairs there can be.
 pub const CLASSES: usize = 3;
 
-/// Pairs of one class.
+/// How near pairs of one class are.
 #[derive(Clone, Copy, Debug)]
 pub struct Class {
     /// Those that come within this are near.
     pub distance: f64,
-    /// So much of the distance more is asked for along directions that are no axes.
+    /// So much of the distance more is asked for along directions that are no axes: no part of any proof.
     pub margin: f32,
 }
 
