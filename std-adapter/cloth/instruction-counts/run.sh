@@ -1,54 +1,146 @@
 #!/usr/bin/env bash
-# What an effect costs that a scene does not name: counts the instructions of its steps in two programs, one with all effects and
-# one without those that the scene does not name. Both must end with the same positions, to the last bit.
+# What effects cost, in instructions of a simulation's steps (valgrind).
 #
-#   run.sh [SCENE.toml [STEPS_BEFORE STEPS]]      scenes/hanging.toml, 20 steps after 10
+#   run.sh                              all effects: that each costs nothing in a scene that does not name it, and what a step costs with it
+#   run.sh --each                       the same, with a program for each effect instead of two for all: half an hour
+#   run.sh SCENE.toml [BEFORE STEPS]    that the effects which this scene does not name cost it nothing: 20 steps after 10
 #
-# Needs Rust and valgrind. Both programs are built anew: some minutes. The exit status is 1 if the counts differ.
+# A scene's steps are counted in two programs, one with all effects and one from which effects that the scene does not name were left out
+# when it was compiled. Both must end with the same positions, to the last bit, and take as many instructions. The scenes for all effects
+# are parts of every-effect.toml, which has a table for each.
+#
+# Needs Rust and valgrind. The exit status is 1 if counts or positions differ.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-scene=$(realpath "${1:-$here/../scenes/hanging.toml}")
-before=${2:-10}
-steps=${3:-20}
-cd "$here"
+work=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../../target}/instruction-counts")
+every=$here/every-effect.toml
+mkdir -p "$work"
+export LC_ALL=C
 
-command -v valgrind >/dev/null 2>&1 || {
-    echo "run.sh: valgrind is missing; install it (apt-get install valgrind) and start again" >&2
+give_up() {
+    echo "run.sh: $*" >&2
     exit 1
 }
-work=${CARGO_TARGET_DIR:-$PWD/../../../target}/instruction-counts
-registry=$(sed -n '/= registry!\[/,/^\];/s/^ .*"\(.*\)"$/\1/p' ../src/effects/mod.rs)
-named=$(sed -n 's/^\[*effects\.\([a-z_]*\).*/\1/p' "$scene")
-flags="-Adead_code"
-out=
-for effect in $registry; do
-    if ! grep -qx "$effect" <<<"$named"; then
-        flags+=" --cfg without_effect=\"$effect\""
-        out+=" $effect"
+command -v valgrind >/dev/null 2>&1 || give_up "valgrind is missing; install it (apt-get install valgrind) and start again"
+
+# All effects, in the order in which they run.
+registry() { sed -n '/= registry!\[/,/^\];/s/^ .*"\(.*\)"$/\1/p' "$here/../src/effects/mod.rs"; }
+
+# The effects that a scene names.
+named() { sed -n 's/^\[*effects\.\([a-z_]*\).*/\1/p' "$1" | sort -u; }
+
+# All effects but these.
+but() { registry | grep -vxF -e "$1"; }
+
+# every-effect.toml with the tables of these effects alone: the path of such a scene.
+scene_with() {
+    cp "$here/ball.obj" "$work"
+    awk -v wanted="$(tr '\n' ' ' <<<" $1 ")" '
+        /^\[/ {
+            split($0, words, /[][.]+/)
+            keep = words[2] != "effects" || index(wanted, " " words[3] " ")
+            begun = 1
+        }
+        keep || !begun' "$every" >"$work/$2.toml"
+    echo "$work/$2.toml"
+}
+
+# Builds the program without these effects. What is compiled is selvedge-cloth and the program alone: the compiler's arguments for the rest
+# stay as they are.
+build() {
+    cat >"$work/rustc" <<'END'
+#!/bin/sh
+case " $* " in
+*" --crate-name selvedge_cloth "*) exec "$@" $LEFT_OUT ;;
+esac
+exec "$@"
+END
+    chmod +x "$work/rustc"
+    local effect left_out="-Adead_code"
+    for effect in $1; do
+        left_out+=" --cfg without_effect=\"$effect\""
+    done
+    cd "$here"
+    cargo clean --quiet --release --target-dir "$work/build" -p selvedge-cloth -p steps
+    LEFT_OUT=$left_out RUSTC_WRAPPER=$work/rustc cargo build --quiet --release --target-dir "$work/build"
+    cp "$work/build/release/steps" "$work/$2"
+}
+
+# What is not counted: how the clock subtracts two moments depends on the moments, and how the C library copies bytes on where they lie.
+# (That more is copied would show where it is called.)
+uncounted='std::time|Timespec|clock_gettime|vdso|:__mem(cpy|move|set|cmp)_'
+
+# Instructions of each function that a program's last count has.
+functions() {
+    awk -v uncounted="$uncounted" '$1 ~ /^[0-9,]+$/ && /:/ && $0 !~ uncounted { sub(/^ +/, ""); sub(/ \[.*$/, ""); print }' "$work/$1.txt" | sort -k2
+}
+
+# Instructions of steps of a scene in a program.
+count() {
+    local program=$1 scene=$2 before=$3 steps=$4
+    # Of one name, so that the stack begins where it does.
+    cp "$work/$program" "$work/steps"
+    env -i "$(command -v valgrind)" --tool=callgrind --callgrind-out-file="$work/$program.out" --collect-atstart=no \
+        --toggle-collect='*counted_steps*' "$work/steps" "$scene" "$before" "$steps" 2>/dev/null >"$work/$program.positions"
+    callgrind_annotate --auto=no --threshold=100 --show=Ir "$work/$program.out" >"$work/$program.txt" 2>/dev/null
+    functions "$program" | awk '{ gsub(",", "", $1); sum += $1 } END { printf "%.0f\n", sum }'
+}
+
+# Whether a program without these effects does the same steps of a scene in as many instructions as one with all: says it, and if not where.
+compare() {
+    local scene=$1 before=$2 steps=$3 left_out=$4 all without
+    build "$left_out" without
+    all=$(count all "$scene" "$before" "$steps")
+    without=$(count without "$scene" "$before" "$steps")
+    printf '%s, %s steps\n  with all effects in the program: %s instructions\n  without %s: %s\n' \
+        "$(basename "$scene")" "$steps" "$all" "${left_out//$'\n'/, }" "$without"
+    cmp "$work/all.positions" "$work/without.positions" || return 1
+    [ "$all" = "$without" ] && return
+    echo "  functions that differ:"
+    diff <(functions all) <(functions without) | grep '^[<>]' || true
+    return 1
+}
+
+# A table of what a step costs with the first effect, with the first two, and so on.
+costs() {
+    local before=$1 steps=$2 vertices scene last=0 now names= effect
+    vertices=$(grep -c '^v ' "$here/ball.obj")
+    printf '| effect | instructions a step | and for each vertex |\n|---|---:|---:|\n'
+    for effect in none $(registry); do
+        names+=$effect$'\n'
+        scene=$(scene_with "$names" costs)
+        now=$(count all "$scene" "$before" "$steps")
+        awk -v name="$effect" -v more=$(((now - last) / steps)) -v vertices="$vertices" \
+            'BEGIN { printf "| `%s` | %d | %.0f |\n", name, more, more / vertices }'
+        last=$now
+    done
+    awk -v all=$((now / steps)) -v vertices="$vertices" 'BEGIN { printf "| all | %d | %.0f |\n", all, all / vertices }'
+}
+
+build "" all
+status=0
+if [ $# -gt 0 ] && [ "$1" != --each ]; then
+    scene=$(realpath "$1")
+    compare "$scene" "${2:-10}" "${3:-20}" "$(but "$(named "$scene")")" || status=1
+    exit $status
+fi
+
+missing=$(but "$(named "$every")" || true)
+[ -z "$missing" ] || give_up "every-effect.toml has no table of ${missing//$'\n'/, }: give it one"
+before=50 steps=50
+count=$(registry | wc -l)
+# What an effect needs is in the same half.
+halves=("$(registry | head -n $((count / 2)))" "$(registry | tail -n +$((count / 2 + 1)))")
+for half in 0 1; do
+    left_out=${halves[1 - half]}
+    scene=$(scene_with "${halves[half]}" "half-$((half + 1))")
+    if [ "${1:-}" = --each ]; then
+        for effect in $left_out; do
+            compare "$scene" $before $steps "$effect" || status=1
+        done
+    else
+        compare "$scene" $before $steps "$left_out" || status=1
     fi
 done
-mkdir -p "$work"
-
-build() {
-    RUSTFLAGS="$1" cargo build --quiet --release --target-dir "$work/build"
-}
-
-# Instructions of the counted steps. Without those of the clock: how it subtracts two moments depends on the moments.
-count() {
-    local program=$work/steps
-    cp "$work/build/release/steps" "$program"
-    env -i "$(command -v valgrind)" --tool=callgrind --callgrind-out-file="$work/$1.out" --collect-atstart=no \
-        --toggle-collect='*counted_steps*' "$program" "$scene" "$before" "$steps" 2>/dev/null >"$work/$1.positions"
-    callgrind_annotate --auto=no --threshold=100 --show=Ir "$work/$1.out" >"$work/$1.txt" 2>/dev/null
-    awk '$1 ~ /^[0-9,]+$/ && /:/ && !/std::time|Timespec|clock_gettime|vdso/ { gsub(",", "", $1); sum += $1 }
-        END { printf "%.0f\n", sum }' "$work/$1.txt"
-}
-
-build ""
-all=$(count all)
-build "$flags"
-without=$(count without)
-cmp "$work/all.positions" "$work/without.positions"
-printf '%s, %s steps\n  all effects compiled in:              %15s instructions\n  without%s:\n%39s %15s instructions\n' \
-    "$(basename "$scene")" "$steps" "$all" "$out" "" "$without"
-[ "$all" = "$without" ]
+costs $before $steps
+exit $status

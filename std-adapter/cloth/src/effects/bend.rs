@@ -82,7 +82,7 @@ impl Effect for Bend {
     fn register(&self, plan: &mut Plan<'_>) {
         let hinges = hinges(plan.scene.cloth, |of_warp| self.along(of_warp));
         let folds = plan.fabric().folds;
-        let bending = Bending::new(hinges, plan.inverse_masses(), self.stages, plan.scene.time_step, folds);
+        let bending = Bending::new(&hinges, plan.inverse_masses(), self.stages, plan.scene.time_step, folds);
         plan.add_constraint(bending);
     }
 }

@@ -162,8 +162,9 @@ impl Simulation {
         motions.iter_mut().for_each(|motion| motion.put(clock + ticks, positions));
         work.held.clear();
         for &index in &self.remembering {
-            if let Some(memory) = self.constraints[index].action.memory() {
-                memory.hold(h, &mut work.held);
+            let Entry { effect, action } = &self.constraints[index];
+            if let Some(memory) = action.memory() {
+                timed(effects, *effect, || memory.hold(h, &mut work.held));
             }
         }
         let step = if work.held.is_empty() {
@@ -205,8 +206,9 @@ impl Simulation {
             contact.certify(&step, positions)?;
         }
         for &index in &self.remembering {
-            if let Some(memory) = self.constraints[index].action.memory_mut() {
-                memory.settle(&step, positions);
+            let Entry { effect, action } = &mut self.constraints[index];
+            if let Some(memory) = action.memory_mut() {
+                timed(effects, *effect, || memory.settle(&step, positions));
             }
         }
         for (vertex, &position) in positions.iter().enumerate() {
