@@ -93,14 +93,12 @@ MUTATIONS = [
 def prepare(folder):
     """A workspace of core and the program that writes the terms."""
     for source, name in [(ROOT / "core", "core"), (HERE.parent / "traced", "traced")]:
-        shutil.copytree(source, folder / name, copy_function=shutil.copy, ignore=shutil.ignore_patterns("benches", "examples", "tests"))
+        shutil.copytree(source, folder / name, copy_function=shutil.copy, ignore=shutil.ignore_patterns("tests", "target"))
     manifest = (ROOT / "Cargo.toml").read_text()
     manifest = re.sub(r"members = \[.*?\]", 'members = ["core", "traced"]', manifest, count=1, flags=re.S)
     manifest = re.sub(r"default-members = \[.*?\]\n", "", manifest, flags=re.S)
     (folder / "Cargo.toml").write_text(manifest)
     shutil.copy(ROOT / "Cargo.lock", folder)
-    core = folder / "core/Cargo.toml"
-    core.write_text(re.sub(r"\[\[bench\]\]\nname = .*\nharness = false\n", "", core.read_text()))
 
 
 def trace(folder):

@@ -1,6 +1,6 @@
 //! Broad phase against parry3d's `Bvh`: milliseconds to build, to refit, and to list all pairs in order.
 //!
-//! `cargo bench -p selvedge-laboratory --bench broad_phase` runs on generated tubes. `SELVEDGE_BENCH_BOXES=FILE` runs on boxes
+//! `cargo bench -p selvedge-benches --bench broad_phase` runs on generated tubes. `SELVEDGE_BENCH_BOXES=FILE` runs on boxes
 //! from a file instead: six little-endian `f32` each, the lower corner, then the upper.
 
 use std::hint::black_box;

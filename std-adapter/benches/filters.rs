@@ -1,5 +1,5 @@
 //! Every batched test and every filter tier, on tiles that stay in the first cache and on pairs gathered from a mesh of a
-//! million vertices. `cargo bench -p selvedge-core --bench filters`; a word behind it selects, such as `gathered/f32`.
+//! million vertices. `cargo bench -p selvedge-benches --bench filters`; a word behind it selects, such as `gathered/f32`.
 //!
 //! The time that criterion prints per element is the time per pair.
 
