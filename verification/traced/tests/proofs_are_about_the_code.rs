@@ -1,5 +1,5 @@
-//! The proofs in `gappa/` are about core as it is: scripts are what its code gives, constants and counts of roundings in them
-//! are its own. That the proofs hold is checked by `gappa/check.sh`.
+//! The proofs in `gappa/` and `proofs/` are about core as it is: what they read is what its code gives, constants and counts of
+//! roundings in scripts are its own. That the proofs hold is checked by `gappa/check.sh` and `proofs/check.sh`.
 
 use selvedge_core::Scalar;
 use selvedge_core::verification::advance::confirm::{contains_origin, doubled_bounds};
@@ -9,15 +9,15 @@ use selvedge_core::verification::advance::volume::SignedVolume;
 use selvedge_core::verification::lanes::Rounding;
 use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
 use selvedge_core::verification::vector::Vector;
-use selvedge_verification::proofs::{inside, scripts, tetrahedron};
-use selvedge_verification::terms::files;
-use selvedge_verification::traced::{Mask, Paths, Trace, Traced, trace};
+use selvedge_traced::gappa::{inside, tetrahedron};
+use selvedge_traced::symbols::{Mask, Paths, Trace, Traced, trace};
+use selvedge_traced::{Prover, accepted};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("gappa")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../gappa")
 }
 
 fn read(path: &Path) -> String {
@@ -33,40 +33,40 @@ fn by_hand() -> Vec<(String, String)> {
     scripts.map(named).collect()
 }
 
-/// `UPDATE_PROOFS=1 cargo test` writes them anew.
 #[test]
-fn traced_scripts_are_what_the_code_gives() {
-    let traced = folder().join("traced");
-    let scripts = scripts();
-    for (name, text) in &scripts {
-        let path = traced.join(name);
-        if std::env::var_os("UPDATE_PROOFS").is_some() {
-            fs::write(&path, text).expect("a folder that can be written");
-        }
-        assert!(
-            read(&path) == *text,
-            "{name} is not what the code gives; UPDATE_PROOFS=1 writes it anew"
-        );
-    }
-    assert_eq!(fs::read_dir(traced).expect("a folder").count(), scripts.len());
+fn what_gappa_reads_is_what_was_accepted() {
+    accepted::check(Prover::Gappa).unwrap_or_else(|why| panic!("{why}"));
 }
 
 /// Of these terms `proofs/Theorems.v` speaks.
 #[test]
-fn terms_of_the_proofs_are_what_the_code_gives() {
-    let generated = Path::new(env!("CARGO_MANIFEST_DIR")).join("proofs/generated");
-    let files = files();
-    for (name, text) in &files {
-        let path = generated.join(name);
-        if std::env::var_os("UPDATE_PROOFS").is_some() {
-            fs::write(&path, text).expect("a folder that can be written");
-        }
-        assert!(
-            read(&path) == *text,
-            "{name} is not what the code gives; UPDATE_PROOFS=1 writes it anew, and verification/proofs/check.sh proves it anew"
-        );
-    }
-    assert_eq!(fs::read_dir(generated).expect("a folder").count(), files.len());
+fn what_coq_reads_is_what_was_accepted() {
+    accepted::check(Prover::Coq).unwrap_or_else(|why| panic!("{why}"));
+}
+
+#[test]
+fn a_term_that_has_changed_is_named() {
+    let list = accepted::list();
+    let of_coq = |list: &str| -> Vec<String> {
+        list.lines()
+            .filter(|line| line.contains("  coq/"))
+            .map(str::to_owned)
+            .collect()
+    };
+    assert_eq!(accepted::compare(Prover::Coq, &of_coq(&list), &list), Ok(()));
+
+    let mut changed = of_coq(&list);
+    let line = changed
+        .iter_mut()
+        .find(|line| line.ends_with("Boxes.v two_edges.culled_by_three_axes"));
+    line.expect("a term").replace_range(..1, "g");
+    let complaint = accepted::compare(Prover::Coq, &changed, &list).expect_err("another digest");
+    let named: Vec<&str> = complaint.lines().filter_map(|line| line.strip_prefix("    ")).collect();
+    assert_eq!(named, ["coq/Boxes.v two_edges.culled_by_three_axes"]);
+
+    let fewer = &of_coq(&list)[1..];
+    let complaint = accepted::compare(Prover::Coq, fewer, &list).expect_err("a term is missing");
+    assert!(complaint.contains("(not there any more)"), "{complaint}");
 }
 
 /// Marked by `#!` (with the number, of which half is not enough) or `#~`: the file, and what stands in it.
@@ -80,7 +80,7 @@ fn constants_of_the_scripts_are_those_of_the_code() {
                 continue;
             };
             let (path, code) = line[mark + 2..].split_once(": ").expect("a file and its code");
-            let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path.trim());
+            let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path.trim());
             // Comments of lines in between do not count.
             let source: String = read(&source)
                 .lines()

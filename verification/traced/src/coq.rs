@@ -1,10 +1,10 @@
 //! What the certified filter, the box tests and the tests on corners compute, as terms of Coq, written from core's kernels themselves.
 //!
-//! `verification/proofs` speaks of them: what they compute, and what its signs prove. The files are kept in
-//! `verification/proofs/generated/`; a test demands that they are what the code gives.
+//! `verification/proofs` speaks of them: what they compute, and what its signs prove.
 
-use crate::proofs::tetrahedron;
-use crate::traced::{Mask, MaskStep, Step, Trace, Traced, if_any, trace};
+use crate::Text;
+use crate::gappa::tetrahedron;
+use crate::symbols::{Mask, MaskStep, Step, Trace, Traced, if_any, trace};
 use selvedge_core::Scalar;
 use selvedge_core::filter::Depth;
 use selvedge_core::verification::coplanarity::{Bound, MovingTetrahedron};
@@ -16,8 +16,7 @@ use std::fmt::Write;
 
 const HEAD: &str = "\
 (* What the certified filter computes: core/src/filter/certified.rs, core/src/kernels/coplanarity.rs, core/src/kernels/points.rs.
-   Written from the code by verification/src/terms.rs; a test demands that it is what the code gives.
-   UPDATE_PROOFS=1 cargo test -p selvedge-verification --test promises proofs_are_about *)
+   Written from the code by verification/traced/src/coq.rs. *)
 From Coq Require Import ZArith.
 From Selvedge Require Import Arithmetic Expressions.
 
@@ -25,8 +24,7 @@ From Selvedge Require Import Arithmetic Expressions.
 
 const BOXES_HEAD: &str = "\
 (* What relative and swept boxes ask: core/src/boxes/mod.rs, core/src/boxes/relative.rs, core/src/kernels/points.rs.
-   Written from the code by verification/src/terms.rs; a test demands that it is what the code gives.
-   UPDATE_PROOFS=1 cargo test -p selvedge-verification --test promises proofs_are_about *)
+   Written from the code by verification/traced/src/coq.rs. *)
 From Coq Require Import ZArith.
 From Selvedge Require Import Expressions Orders.
 
@@ -35,8 +33,7 @@ From Selvedge Require Import Expressions Orders.
 const CORNERS_HEAD: &str = "\
 (* What a fixed direction and the filter in parts of the step ask: core/src/boxes/direction.rs, core/src/filter/subdivided.rs,
    core/src/kernels/coplanarity.rs, core/src/kernels/points.rs.
-   Written from the code by verification/src/terms.rs; a test demands that it is what the code gives.
-   UPDATE_PROOFS=1 cargo test -p selvedge-verification --test promises proofs_are_about *)
+   Written from the code by verification/traced/src/coq.rs. *)
 From Coq Require Import ZArith.
 From Selvedge Require Import Arithmetic Expressions.
 Notation number := (expr_of span_component).
@@ -44,10 +41,12 @@ Notation test := (mask_of span_component).
 
 ";
 
-/// The files of `generated/`, each with its text.
+/// The files that `verification/proofs` builds on.
 #[must_use]
-pub fn files() -> [(&'static str, String); 3] {
+pub fn files() -> Vec<Text> {
     [("Filter.v", filter()), ("Boxes.v", boxes()), ("Corners.v", corners())]
+        .map(|(name, text)| (name.to_owned(), text))
+        .into()
 }
 
 fn filter() -> String {
@@ -216,6 +215,9 @@ fn step(number: Traced, trace: &Trace) -> &Step {
 struct Terms<'a> {
     trace: &'a Trace,
     names: BTreeMap<String, String>,
+    /// What steps and masks are called whose terms have been written.
+    steps: BTreeMap<usize, String>,
+    masks: BTreeMap<usize, String>,
     number_type: &'static str,
     /// Where masks have names too.
     mask_type: Option<&'static str>,
@@ -229,6 +231,8 @@ impl<'a> Terms<'a> {
         Self {
             trace,
             names: BTreeMap::new(),
+            steps: BTreeMap::new(),
+            masks: BTreeMap::new(),
             number_type,
             mask_type: None,
             spans: None,
@@ -294,6 +298,9 @@ impl<'a> Terms<'a> {
                 other => panic!("{other:?} is not known to the proof"),
             };
         };
+        if let Some(name) = self.steps.get(&index) {
+            return name.clone();
+        }
         let term = match self.trace.steps[index].clone() {
             Step::Input(name) if self.spans.is_some() => panic!("{name} alone is not known to the proof"),
             Step::Input(name) => leaf(&name),
@@ -309,7 +316,9 @@ impl<'a> Terms<'a> {
             Step::Magnitude(a) => format!("Magnitude {}", self.number(a)),
             other => panic!("{other:?} is not known to the proof"),
         };
-        self.named('s', self.number_type, term)
+        let name = self.named('s', self.number_type, term);
+        self.steps.insert(index, name.clone());
+        name
     }
 
     fn operation(&mut self, name: &str, a: Traced, b: Traced) -> String {
@@ -318,6 +327,9 @@ impl<'a> Terms<'a> {
     }
 
     fn mask(&mut self, mask: Mask) -> String {
+        if let Some(name) = self.masks.get(&mask.index) {
+            return name.clone();
+        }
         let term = match self.trace.masks[mask.index] {
             // Of finite numbers the proof says nothing but that.
             MaskStep::Greater(Traced::Infinity, _) => return "Finite".to_owned(),
@@ -335,10 +347,12 @@ impl<'a> Terms<'a> {
             }
             other => panic!("{other:?} is not known to the proof"),
         };
-        match self.mask_type {
+        let name = match self.mask_type {
             Some(mask_type) => self.named('m', mask_type, term),
             None => term,
-        }
+        };
+        self.masks.insert(mask.index, name.clone());
+        name
     }
 }
 

@@ -1,18 +1,15 @@
 //! Gappa scripts for what core's kernels compute, written from the kernels themselves.
 //!
-//! `verification/gappa/README.md` tells what is proven. The scripts are generated here from a [`Trace`] of core's code and kept
-//! in `verification/gappa/traced/`; a test demands that they are what the code gives.
+//! `verification/gappa/README.md` tells what is proven. In the scripts `@u@` and the like stand for a format's exponents.
 
-use crate::traced::{Step, Trace, Traced, trace};
+use crate::Text;
+use crate::symbols::{Step, Trace, Traced, trace};
 use selvedge_core::PairKind;
 use selvedge_core::verification::coplanarity::MovingTetrahedron;
 use selvedge_core::verification::points::{PairPoints, PairShape};
 use selvedge_core::verification::vector::Vector;
 use std::collections::BTreeSet;
 use std::fmt::Write;
-
-/// A script: its file's name, and its text, in which `@u@` and the like stand for a format's exponents.
-pub type Script = (String, String);
 
 /// What is claimed of one control value, in multiples of u and of λ.
 struct Claim {
@@ -59,9 +56,9 @@ const CONTROL_VALUES: [Claim; 4] = [
 
 /// All scripts.
 #[must_use]
-pub fn scripts() -> Vec<Script> {
+pub fn scripts() -> Vec<Text> {
     let (values, steps) = trace(|| tetrahedron().control_values().0);
-    let mut scripts: Vec<Script> = CONTROL_VALUES
+    let mut scripts: Vec<Text> = CONTROL_VALUES
         .iter()
         .map(|claim| control_value(claim, values[claim.index], &steps))
         .collect();
@@ -108,7 +105,7 @@ pub fn inside<P: PairShape>() -> ([[Traced; 2]; 5], Trace) {
     (values.map(|&[bound, value]| [value, bound]), steps)
 }
 
-fn control_value(claim: &Claim, value: Traced, trace: &Trace) -> Script {
+fn control_value(claim: &Claim, value: Traced, trace: &Trace) -> Text {
     let script = Writer::new(trace, value);
     let name = claim.name;
     let Traced::Step(last) = value else { unreachable!("a sum") };
@@ -132,7 +129,7 @@ fn control_value(claim: &Claim, value: Traced, trace: &Trace) -> Script {
     let text = format!(
         "\
 # The control value {name}: core/src/kernels/coplanarity.rs, MovingTetrahedron::control_values.
-# Written from the code by verification/src/proofs.rs; a test demands that it is what the code gives.
+# Written from the code by verification/traced/src/gappa.rs.
 #
 # Each difference of points (b0x, …) is at most 1 as computed: errors scale with each of the three edges, or axes. Its relative
 # error is at most 2u. A lower-case name is the result of one rounded step, the same in capitals is exact. The last addition
@@ -152,7 +149,7 @@ fn control_value(claim: &Claim, value: Traced, trace: &Trace) -> Script {
     (format!("{name}.g"), text)
 }
 
-fn normal(name: &str, length: Traced, trace: &Trace) -> Script {
+fn normal(name: &str, length: Traced, trace: &Trace) -> Text {
     let components = normal_components(length, trace);
     let mut script = Writer::default();
     for &component in components.iter().flatten() {
@@ -170,7 +167,7 @@ fn normal(name: &str, length: Traced, trace: &Trace) -> Script {
     let text = format!(
         "\
 # The control points of the normal: core/src/kernels/coplanarity.rs, MovingTetrahedron::largest_normal.
-# Written from the code by verification/src/proofs.rs; a test demands that it is what the code gives.
+# Written from the code by verification/traced/src/gappa.rs.
 #
 # Names and scale as in k0.g. Three components each of n0, h (twice the middle one) and n1: a component is off by at most 60u,
 # the vector by sqrt(3) times that.
