@@ -1,6 +1,6 @@
 //! Shear: C = w_u·w_v (Baraff and Witkin 1998), compliance 1/(k·A).
 
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::input::{Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::membrane::{Membrane, all, image, of_triangles};
 use crate::plan::{Fabric, Plan};
@@ -30,6 +30,10 @@ pub struct Shear {
 impl Effect for Shear {
     fn name(&self) -> &'static str {
         "shear"
+    }
+
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
     }
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
