@@ -34,7 +34,7 @@ const LEAST_SHARE: f64 = 1.0 / 3.0;
 pub(crate) fn hinges(cloth: &Cloth, rigidity: impl Fn(f64) -> f64) -> Vec<On<Hinge, 4>> {
     let topology = &cloth.topology;
     let mut opposite = vec![[u32::MAX; 2]; topology.edges().len()];
-    for (triangle, edges) in topology.triangles().iter().zip(topology.triangle_edges()) {
+    for (triangle, edges) in topology.proper_triangles().iter().zip(topology.triangle_edges()) {
         for (k, &edge) in edges.iter().enumerate() {
             if edge != Topology::NO_EDGE {
                 let [first, second] = &mut opposite[edge as usize];

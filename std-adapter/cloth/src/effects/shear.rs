@@ -1,6 +1,6 @@
 //! Shear: C = w_u·w_v (Baraff and Witkin 1998), compliance 1/(k·A), like [`stretch`](super::stretch) in one sweep a step or several.
 
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::membrane::{Membrane, all, image, of_triangles};
 use crate::plan::{Fabric, Plan};
@@ -44,6 +44,10 @@ impl Shear {
 impl Effect for Shear {
     fn name(&self) -> &'static str {
         "shear"
+    }
+
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
     }
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {

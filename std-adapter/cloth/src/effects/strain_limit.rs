@@ -6,7 +6,7 @@
 //! [`levels`](super::levels), all that there are.
 
 use super::levels::{self, OnLevels, Tension};
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::input::{Count, Field, RATIO, ValueError};
 use crate::membrane::{Membrane, SquaredStretch, all, image, of_triangles};
 use crate::plan::Plan;
@@ -55,6 +55,10 @@ impl StrainLimit {
 impl Effect for StrainLimit {
     fn name(&self) -> &'static str {
         "strain_limit"
+    }
+
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
     }
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {

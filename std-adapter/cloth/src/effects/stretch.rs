@@ -12,7 +12,7 @@
 //! in each h·√(k/ρ). Levels go on to [`REACH`] times that, where e⁻⁴ is left; a mesh that is coarser needs none.
 
 use super::levels::{self, OnLevels, Tension};
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::hierarchy::mesh_spacing;
 use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::membrane::{Membrane, all, image, of_triangles};
@@ -72,6 +72,10 @@ const REACH: f64 = 4.0;
 impl Effect for Stretch {
     fn name(&self) -> &'static str {
         "stretch"
+    }
+
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
     }
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {

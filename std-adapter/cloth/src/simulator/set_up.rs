@@ -10,7 +10,7 @@ use crate::state::State;
 use crate::step::{Carrier, FREE, Touches};
 use crate::world::{Kinematic, Pose};
 use selvedge::verification::parallel::Workers;
-use selvedge::{Mesh, Threads};
+use selvedge::{Mesh, Threads, Topology};
 use selvedge_core::glam::DVec3;
 
 impl Simulation {
@@ -44,6 +44,7 @@ impl Simulation {
             friction,
             ..
         } = plan;
+        let loose_edges = scene.all_loose_edges();
         let Scene {
             name,
             cloths,
@@ -95,7 +96,20 @@ impl Simulation {
             velocities,
             positions,
         };
-        let mut contact = ContactSolver::new(contact, &triangles, &rest, &carriers, cloth_vertices, bodies.len())?;
+        let mut contact = match contact.asks_for_any() {
+            true => {
+                let topology = Topology::with_loose_features(rest.len(), triangles.clone(), &loose_edges, &[])?;
+                Some(ContactSolver::new(
+                    contact,
+                    topology,
+                    &rest,
+                    &carriers,
+                    cloth_vertices,
+                    bodies.len(),
+                ))
+            }
+            false => None,
+        };
         if let Some(contact) = &mut contact {
             begin_anew(contact, &state, time_step);
             let found = contact.tolerate(&state.positions)?;
@@ -128,6 +142,7 @@ impl Simulation {
             cloth_vertices,
             vertices_of_cloths,
             triangles,
+            loose_edges,
             inverse_masses,
             motions,
             forces,

@@ -207,7 +207,7 @@ fn wrong_attachments_are_named_with_their_unit_and_range() {
         (
             "\"500 mN\"",
             "\"500 N/m\"",
-            "s.toml:18:13: `limit` must be a force, and 'N/m' is no unit of it; choose from N, mN",
+            "s.toml:18:13: `limit` must be a force, and 'N/m' is no unit of it; choose from N, mN, kN",
         ),
         (
             "give = \"2 mm\"",

@@ -182,11 +182,11 @@ fn wrong_seams_from_code_get_errors_that_say_what_would_be_right() {
         ),
         (
             of(|seam| seam.first.truncate(1)),
-            "seams: a row of a seam needs two vertices or more, each at another place than the one before",
+            "seams: a row of a seam needs two vertices or more, each at another place than the one before; or both rows are one vertex",
         ),
         (
             of(|seam| seam.second.insert(0, seam.second[0])),
-            "seams: a row of a seam needs two vertices or more, each at another place than the one before",
+            "seams: a row of a seam needs two vertices or more, each at another place than the one before; or both rows are one vertex",
         ),
         (
             of(|seam| seam.second[1] = seam.first[1]),
