@@ -16,7 +16,7 @@ use super::registration::{Effect, Registration};
 use crate::hierarchy::mesh_spacing;
 use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::membrane::{Membrane, all, image, of_triangles};
-use crate::plan::Plan;
+use crate::plan::{Fabric, Plan};
 use crate::schedule::{Local, Schedule};
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
@@ -79,6 +79,10 @@ impl Effect for Stretch {
         WEFT.check(self.weft_stiffness)?;
         SWEEPS.check(self.sweeps)?;
         levels::check(self.levels)
+    }
+
+    fn announce(&self, fabric: &mut Fabric) {
+        fabric.stretch = Some([self.stiffness, self.weft_stiffness]);
     }
 
     fn fabric(&self) -> Vec<(&'static str, String)> {

@@ -4,8 +4,9 @@ use super::{Material, shapes};
 use crate::effects::{Effect, Effects};
 use crate::input::{AREA_DENSITY, Count, Field, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, ValueError, suggestion};
 use crate::sleeve::{RefinementError, ring_sizes, sleeve};
-use selvedge::{Mesh, Topology};
+use selvedge::{Mesh, Topology, TopologyError};
 use selvedge_core::glam::DVec3;
+use std::borrow::Cow;
 
 /// A cloth at rest: its mesh, what it weighs, and what it has of its own.
 ///
@@ -24,6 +25,8 @@ pub struct Cloth {
     pub name: String,
     pub(crate) mesh: Mesh,
     pub(crate) topology: Topology,
+    /// Vertices of the mesh of which tears have made copies, in the order of these, which are its last ones; some are copies themselves.
+    copied: Vec<u32>,
     /// Mass per area in kg/m².
     pub density: f64,
     /// The direction that the warp takes, as far as it lies in each triangle.
@@ -164,6 +167,7 @@ impl Cloth {
             material: None,
             mesh,
             topology,
+            copied: Vec::new(),
             warp,
             parts,
             effects: Effects::default(),
@@ -214,6 +218,55 @@ impl Cloth {
         &self.topology
     }
 
+    /// How many vertices it had before it tore.
+    pub(crate) fn vertices_as_made(&self) -> usize {
+        self.mesh.positions.len() - self.copied.len()
+    }
+
+    /// The vertex that one was before the cloth tore.
+    pub(crate) fn as_made(&self, mut vertex: u32) -> u32 {
+        // What a copy is of comes before it.
+        while let Some(copy) = (vertex as usize).checked_sub(self.vertices_as_made()) {
+            vertex = self.copied[copy];
+        }
+        vertex
+    }
+
+    /// Vertices of which tears have made copies, in the order of these, which are its last ones; some are copies themselves.
+    pub(crate) fn copied(&self) -> &[u32] {
+        &self.copied
+    }
+
+    /// The vertices that these copies were before the cloth tore.
+    pub(crate) fn copied_as_made(&self) -> Vec<u32> {
+        self.copied.iter().map(|&vertex| self.as_made(vertex)).collect()
+    }
+
+    /// Its edges before it tore.
+    pub(crate) fn topology_as_made(&self) -> Cow<'_, Topology> {
+        let made = || {
+            let triangles = self.mesh.triangles.iter();
+            let triangles = triangles.map(|triangle| triangle.map(|vertex| self.as_made(vertex)));
+            Topology::new(self.vertices_as_made(), triangles.collect())
+        };
+        match made() {
+            Ok(made) if !self.copied.is_empty() => Cow::Owned(made),
+            _ => Cow::Borrowed(&self.topology),
+        }
+    }
+
+    /// Gives it copies of some of its vertices, instead of those that it has, each of one before it; and triangles that name them.
+    ///
+    /// # Errors
+    /// If there are too many.
+    pub(crate) fn tear(&mut self, copied: Vec<u32>, triangles: Vec<[u32; 3]>) -> Result<(), TopologyError> {
+        let mut positions = self.mesh.positions[..self.vertices_as_made()].to_vec();
+        copied.iter().for_each(|&vertex| positions.push(positions[vertex as usize]));
+        self.topology = Topology::new(positions.len(), triangles.clone())?;
+        (self.mesh, self.copied) = (Mesh { positions, triangles }, copied);
+        Ok(())
+    }
+
     /// The vertices of a part that has a name; `None` if there is no such part.
     #[must_use]
     pub fn part(&self, name: &str) -> Option<&[u32]> {
@@ -228,6 +281,7 @@ impl Cloth {
             name: NAME.to_owned(),
             effects: Effects::default(),
             topology: mesh.topology().unwrap(),
+            copied: Vec::new(),
             mesh,
             density: 0.1,
             warp: DVec3::X,
