@@ -66,13 +66,14 @@ pub(crate) struct Bending {
 }
 
 impl Bending {
-    /// Of hinges on vertices with these inverse masses, in 1/kg, in at most so many stages for a step of so many seconds.
+    /// Of hinges on vertices with these inverse masses, in 1/kg, in at most so many stages for a step of so many seconds. Of folds is told
+    /// when they stay, and of which vertices the last ones are copies.
     pub(crate) fn new(
         hinges: Vec<On<Hinge, 4>>,
         inverse_masses: &[f64],
         most_stages: u32,
         time_step: f64,
-        folds: Option<Yield>,
+        folds: Option<(Yield, &[u32])>,
     ) -> Self {
         let allowed = Stages::of(most_stages).reach() / (time_step * time_step);
         let [within, beyond] = parted(hinges, inverse_masses, allowed);
@@ -80,7 +81,7 @@ impl Bending {
         Self {
             fastest: forces.fastest(inverse_masses),
             forces,
-            folds: folds.map(|when| Folds::new(&within, inverse_masses.len(), when)),
+            folds: folds.map(|(when, copied)| Folds::new(&within, inverse_masses.len(), copied, when)),
             beyond: (!beyond.is_empty() && folds.is_none()).then(|| Schedule::once(beyond, inverse_masses.len())),
             work: Default::default(),
         }

@@ -201,6 +201,11 @@ impl Effect for Seams {
         let world = plan.scene();
         let rest = rest_of(&world);
         for seam in &self.seams {
+            let seam = &Seam {
+                first: world.numbered(&seam.first),
+                second: world.numbered(&seam.second),
+                ..*seam
+            };
             let gap = seam.gap.unwrap_or_else(|| thickness(seam, &world, &plan.fabrics));
             plan.add_constraint(Sewing {
                 stitches: seam.stitches(&rest),

@@ -16,7 +16,7 @@ use super::registration::{ActsOn, Effect, Registration};
 use crate::hierarchy::mesh_spacing;
 use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::membrane::{Membrane, all, image, of_triangles};
-use crate::plan::Plan;
+use crate::plan::{Fabric, Plan};
 use crate::schedule::{Local, Schedule};
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
@@ -83,6 +83,10 @@ impl Effect for Stretch {
         WEFT.check(self.weft_stiffness)?;
         SWEEPS.check(self.sweeps)?;
         levels::check(self.levels)
+    }
+
+    fn announce(&self, fabric: &mut Fabric) {
+        fabric.stretch = Some([self.stiffness, self.weft_stiffness]);
     }
 
     fn fabric(&self) -> Vec<(&'static str, String)> {
