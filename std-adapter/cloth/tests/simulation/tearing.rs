@@ -202,6 +202,7 @@ fn torn_cloth_is_the_same_bits_on_two_threads_and_resumed_from_a_checkpoint() {
     let mut torn = Vec::new();
     for _ in 0..3 {
         let checkpoint = whole.checkpoint().unwrap();
+        let before = whole.torn_edges().len();
         let mut resumed = load("tear.toml", fast, 1);
         resumed.resume(&checkpoint).unwrap();
         assert_eq!(resumed.torn_edges(), whole.torn_edges());
@@ -213,12 +214,13 @@ fn torn_cloth_is_the_same_bits_on_two_threads_and_resumed_from_a_checkpoint() {
         run(&mut resumed, CHECKPOINT_STEPS);
         assert_eq!(resumed.positions(), whole.positions());
         assert_eq!(resumed.triangles(), whole.triangles());
-        torn.push(whole.torn_edges().len());
+        torn.push([before, whole.torn_edges().len()]);
         // From what has torn already to what has torn more, and back.
         resumed.resume(&checkpoint).unwrap();
         assert_eq!(resumed.checkpoint(), Some(checkpoint));
     }
-    assert!(torn[0] < torn[1] && torn[1] > 20, "{torn:?}");
+    // From cloth that was torn already, and tore on.
+    assert!(torn.iter().any(|[before, after]| 0 < *before && before < after), "{torn:?}");
 }
 
 #[test]
