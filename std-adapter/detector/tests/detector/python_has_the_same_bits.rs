@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 const SIZE: u32 = 12;
 const STEPS: u32 = 8;
-const DIGESTS: &str = include_str!("../../python/tests/contacts.digests");
+const DIGESTS: &str = include_str!("../../../python/tests/contacts.digests");
 
 /// Two sheets of triangles, one above the other.
 fn faces() -> Vec<[u32; 3]> {

@@ -1,6 +1,6 @@
 //! Every kept input again: the corpus that campaigns grew, and what once broke a promise.
 
-use selvedge_fuzz::targets;
+use crate::targets;
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};

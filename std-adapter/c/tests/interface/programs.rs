@@ -1,8 +1,8 @@
 //! Programs in C and C++, built by the system's compilers with every warning an error, and run.
 //!
 //! `check.sh` does more of it: both compilers, sanitizers, an installed library, CMake, pkg-config.
-#![cfg(unix)]
 
+use crate::sheet;
 use selvedge::{CollisionDetector, Scalar, Topology};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -10,8 +10,6 @@ use std::process::{Command, Output};
 use std::sync::LazyLock;
 use std::{env, fs};
 use tempfile::TempDir;
-
-mod sheet;
 
 const FOLDER: &str = env!("CARGO_MANIFEST_DIR");
 
@@ -160,7 +158,7 @@ fn prints_what_rust_finds(language: Language) {
 #[cfg(feature = "cloth")]
 fn flag_in_rust() -> Vec<String> {
     use selvedge_cloth::{Scene, Simulation};
-    let source = include_str!("../examples/flag.c");
+    let source = include_str!("../../examples/flag.c");
     let quoted = |line: &str| Some(line.strip_prefix("    \"")?.split_once("\\n\"")?.0.replace("\\\"", "\""));
     let scene = source.lines().filter_map(quoted).collect::<Vec<_>>().join("\n");
     let scene = Scene::parse(&scene, Path::new("flag.toml")).unwrap();
