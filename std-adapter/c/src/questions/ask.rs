@@ -73,7 +73,11 @@ impl<S: Format, const N: usize> Asked<S, N> {
     }
 }
 
-pub(super) unsafe fn find_contacts<S: Format>(asked: AskedStep<S>, contacts: *mut *const ContactRow, count: *mut usize) -> Status {
+pub(super) unsafe fn find_contacts<S: Format>(
+    asked: AskedStep<S>,
+    contacts: *mut *const ContactRow,
+    count: *mut usize,
+) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
         asked.ask(|finder, answers, [start, end]| {

@@ -6,8 +6,8 @@ use crate::answers::{ContactRow, GeometryRow, IntersectionRow, Pair, TruncationR
 use crate::detector::Handle;
 use crate::status::Status;
 use ask::{
-    AskedState, AskedStep, find_candidates, find_contact_geometries, find_contacts, find_contacts_of, find_earliest, find_intersections,
-    find_near, tell_free, tell_intersections, truncate,
+    AskedState, AskedStep, find_candidates, find_contact_geometries, find_contacts, find_contacts_of, find_earliest,
+    find_intersections, find_near, tell_free, tell_intersections, truncate,
 };
 
 /// All contacts of the step from `start` to `end`. They stay where they are until this detector's contacts are asked for again,
