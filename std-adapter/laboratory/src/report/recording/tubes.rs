@@ -48,7 +48,11 @@ impl Shown {
     /// The place of one of the cloth's vertices, which has triangles.
     pub(super) fn place_of(&self, vertex: u32) -> u32 {
         let is_copy = vertex as usize >= self.vertices;
-        if is_copy { vertex + self.tube_vertices() as u32 } else { vertex }
+        if is_copy {
+            vertex + self.tube_vertices() as u32
+        } else {
+            vertex
+        }
     }
 
     /// How many vertices are shown, and the triangles on them, of the cloth as it was made.
