@@ -49,7 +49,8 @@ impl Tearable {
         let flat: Vec<Flat> = flat.collect();
         let topology = &cloth.topology;
         let mut triangles_of = vec![Vec::new(); topology.edges().len()];
-        for (triangle, edges) in (0..).zip(topology.triangle_edges()) {
+        // Faces of loose edges come after the triangles.
+        for (triangle, edges) in (0..).zip(topology.triangle_edges()).take(flat.len()) {
             edges
                 .iter()
                 .filter(|&&edge| edge != Topology::NO_EDGE)
