@@ -128,9 +128,8 @@ fi
 missing=$(but "$(named "$every")" || true)
 [ -z "$missing" ] || give_up "every-effect.toml has no table of ${missing//$'\n'/, }: give it one"
 before=50 steps=50
-count=$(registry | wc -l)
-# What an effect needs is in the same half.
-halves=("$(registry | head -n $((count / 2)))" "$(registry | tail -n +$((count / 2 + 1)))")
+# What acts from outside, and what cloth does by itself: what an effect needs is in the same half.
+halves=("$(registry | sed '/^stretch$/,$d')" "$(registry | sed -n '/^stretch$/,$p')")
 for half in 0 1; do
     left_out=${halves[1 - half]}
     scene=$(scene_with "${halves[half]}" "half-$((half + 1))")

@@ -10,10 +10,12 @@
 //! [`FASTEST`].
 
 mod advance;
+mod assembly;
 mod drive;
 mod resume;
 mod set_up;
 mod tangled;
+mod tear;
 mod untangle;
 
 pub use drive::DriveError;
@@ -32,6 +34,7 @@ use selvedge::verification::parallel::Workers;
 use selvedge::{StepError, ThreadError, TopologyError};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
+use tear::Tearing;
 
 /// In m/s: twice the speed of sound and more. What would move faster is slowed down to this.
 pub const FASTEST: f64 = 1000.0;
@@ -52,6 +55,8 @@ pub struct Simulation {
     cloth_vertices: usize,
     cloth_triangles: usize,
     triangles: Vec<[u32; 3]>,
+    /// Of the cloths.
+    loose_edges: Vec<[u32; 2]>,
     inverse_masses: Vec<f64>,
     /// Of each vertex: whose motion it follows.
     carriers: Vec<Carrier>,
@@ -79,6 +84,8 @@ pub struct Simulation {
     work: Work,
     /// Before the first step.
     untangled: Option<Untangled>,
+    /// If cloths may tear.
+    tearing: Option<Box<Tearing>>,
 }
 
 /// Filled anew in each step.
@@ -166,16 +173,24 @@ impl Simulation {
         self.state.step as f64 * self.time_step
     }
 
-    /// Where everything is: the vertices of each cloth, then the bodies'.
+    /// Where everything is: the vertices of each cloth, then the bodies'. Where cloth [tears](crate::effects::Tearing) there are more from then
+    /// on.
     #[must_use]
     pub fn positions(&self) -> &[DVec3] {
         &self.state.positions
     }
 
-    /// Triangles on [`positions`](Self::positions): those of each cloth, then the bodies'.
+    /// Triangles on [`positions`](Self::positions): those of each cloth, then the bodies'. Always as many, in the same order; where cloth
+    /// [tears](crate::effects::Tearing) some name other vertices from then on.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
+    }
+
+    /// Edges of cloths that belong to no triangle, of ropes, laces and fringes, on [`positions`](Self::positions).
+    #[must_use]
+    pub fn loose_edges(&self) -> &[[u32; 2]] {
+        &self.loose_edges
     }
 
     /// How fast each of the [`positions`](Self::positions) moves, in m/s.
@@ -226,12 +241,13 @@ impl Simulation {
         self.cloth_triangles
     }
 
-    /// How much cloth is stretched now, of all cloths together. Finds the edges anew, in O(n log n) time.
+    /// How much cloth is stretched now, of all cloths together, loose edges included. Finds the edges anew, in O(n log n) time.
     #[must_use]
     pub fn edge_stretch(&self) -> EdgeStretch {
         let cloth = self.triangles[..self.cloth_triangles].iter();
         let ends = cloth.flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
-        let mut edges: Vec<[u32; 2]> = ends.map(|(a, b)| [a.min(b), a.max(b)]).collect();
+        let loose = self.loose_edges.iter().map(|&[a, b]| (a, b));
+        let mut edges: Vec<[u32; 2]> = ends.chain(loose).map(|(a, b)| [a.min(b), a.max(b)]).collect();
         edges.sort_unstable();
         edges.dedup();
         let length = |all: &[DVec3], [a, b]: [u32; 2]| all[a as usize].distance(all[b as usize]);

@@ -73,13 +73,14 @@ pub(crate) struct Bending {
 }
 
 impl Bending {
-    /// Of hinges on vertices with these inverse masses, in 1/kg, in at most so many stages for a step of so many seconds.
+    /// Of hinges on vertices with these inverse masses, in 1/kg, in at most so many stages for a step of so many seconds. Of folds is told
+    /// when they stay, and of which vertices the last ones are copies.
     pub(crate) fn new(
         hinges: &[On<Hinge, 4>],
         inverse_masses: &[f64],
         most_stages: u32,
         time_step: f64,
-        folds: Option<Yield>,
+        folds: Option<(Yield, &[u32])>,
     ) -> Self {
         let vertex_count = inverse_masses.len();
         let reach = |stages| Stages::of(stages).reach() / (time_step * time_step);
@@ -104,7 +105,7 @@ impl Bending {
         Self {
             fastest,
             forces,
-            folds: folds.map(|when| Folds::new(&within, vertex_count, when)),
+            folds: folds.map(|(when, copied)| Folds::new(&within, vertex_count, copied, when)),
             beyond: (!beyond.is_empty() && folds.is_none()).then(|| Schedule::once(beyond, vertex_count)),
             work: Default::default(),
         }

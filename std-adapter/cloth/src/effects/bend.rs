@@ -1,6 +1,6 @@
 //! Bending: what a flexural rigidity costs ([`bending`](crate::bending)). Rest is flat.
 
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::bending::{Bending, hinges};
 use crate::input::{BENDING_STIFFNESS, Count, Field, ValueError};
 use crate::plan::Plan;
@@ -57,6 +57,10 @@ impl Effect for Bend {
         "bend"
     }
 
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
+    }
+
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         WARP.check(self.stiffness)?;
         WEFT.check(self.weft_stiffness)?;
@@ -81,7 +85,8 @@ impl Effect for Bend {
 
     fn register(&self, plan: &mut Plan<'_>) {
         let hinges = hinges(plan.scene.cloth, |of_warp| self.along(of_warp));
-        let folds = plan.fabric().folds;
+        let folds = plan.fabric().folds.map(|when| (when, plan.scene.cloth.copied_as_made()));
+        let folds = folds.as_ref().map(|(when, copied)| (*when, copied.as_slice()));
         let bending = Bending::new(&hinges, plan.inverse_masses(), self.stages, plan.scene.time_step, folds);
         plan.add_constraint(bending);
     }

@@ -2,7 +2,7 @@
 //! ([`Walls`]), so that a closed cloth gets neither a push nor a turn as a whole. It does work, like wind: it tells no energy.
 
 use super::enclosed::{Walls, open_edges};
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::input::{Field, PRESSURE, SceneError, Table, ValueError};
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
@@ -91,6 +91,10 @@ impl Effect for Inflation {
         "inflation"
     }
 
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
+    }
+
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
         if self.keyframes.is_empty() {
             let message = "inflation needs a `pressure`, or `keyframes` of it, such as [{ time = 0, pressure = \"2 kPa\" }]";
@@ -103,7 +107,7 @@ impl Effect for Inflation {
     fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
         let walls = Walls::new(cloth);
-        let is_inside_out = open_edges(cloth) == 0 && walls.volume(&cloth.mesh.positions) < 0.0;
+        let is_inside_out = open_edges(&cloth.topology_as_made()) == 0 && walls.volume(&cloth.mesh.positions) < 0.0;
         plan.add_force(Inflating {
             inflation: self.clone(),
             outward: if is_inside_out { -1.0 } else { 1.0 },

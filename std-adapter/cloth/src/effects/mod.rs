@@ -22,6 +22,8 @@ mod pins;
 mod plastic_folds;
 mod pressure;
 mod registration;
+mod rope_bend;
+mod rope_stretch;
 mod seams;
 mod selection;
 mod self_collision;
@@ -29,6 +31,7 @@ mod shear;
 mod stitches;
 mod strain_limit;
 mod stretch;
+mod tearing;
 mod thickness;
 mod vertices;
 mod wind;
@@ -50,12 +53,15 @@ pub use inflation::{Inflation, PressureKey};
 pub use pins::{PinGroup, PinMotion, Pins};
 pub use plastic_folds::PlasticFolds;
 pub use pressure::InternalPressure;
-pub use registration::{Effect, Scope};
+pub use registration::{ActsOn, Effect, Scope};
+pub use rope_bend::{RopeBend, RopeShape};
+pub use rope_stretch::RopeStretch;
 pub use seams::{Seam, Seams};
 pub use self_collision::SelfCollision;
 pub use shear::Shear;
 pub use strain_limit::StrainLimit;
 pub use stretch::Stretch;
+pub use tearing::{Perforation, Tearing};
 pub use wind::Wind;
 pub use wind_field::{Air, WindField};
 
@@ -91,10 +97,13 @@ const REGISTRY: &[(&str, Registration)] = registry![
     plastic_folds "plastic_folds"
     pressure "internal_pressure"
     strain_limit "strain_limit"
+    rope_bend "rope_bend"
+    rope_stretch "rope_stretch"
     seams "seams"
     body_contact "body_contact"
     self_collision "self_collision"
     friction "friction"
+    tearing "tearing"
 ];
 
 /// Reads the effects that `[effects]` names, and constructs no other; [`Called::check`] follows.

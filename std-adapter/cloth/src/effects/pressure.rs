@@ -3,7 +3,7 @@
 //! C = V(x) − r·V₀ with the volume V ([`Walls`]) and the energy ½·K·C²/(r·V₀), K a bulk modulus: compliance r·V₀/K.
 
 use super::enclosed::{Walls, open_edges};
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::energy::{Configuration, StoredEnergy};
 use crate::input::{Field, PRESSURE, RATIO, ValueError};
 use crate::plan::Plan;
@@ -48,10 +48,14 @@ impl Effect for InternalPressure {
         "internal_pressure"
     }
 
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
+    }
+
     fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
         VOLUME.check(self.volume)?;
         MODULUS.check(self.modulus)?;
-        match open_edges(world.cloth) {
+        match open_edges(&world.cloth.topology) {
             0 => Ok(()),
             open => {
                 let message = format!("internal pressure needs a closed cloth, but this one has {open} open edges");
@@ -62,6 +66,10 @@ impl Effect for InternalPressure {
 
     fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
+        if open_edges(&cloth.topology) > 0 {
+            // It has torn: nothing holds the gas any more.
+            return;
+        }
         let walls = Walls::new(cloth);
         let rest = walls.volume(&cloth.mesh.positions);
         plan.add_constraint(Filling {

@@ -13,11 +13,13 @@ mod garments;
 mod materials;
 mod paying_only;
 mod plastic_folds;
+mod ropes;
 mod seams;
 mod several_cloths;
 mod stability;
 mod stretch;
 mod tangled;
+mod tearing;
 mod wrong_scenes;
 
 #[path = "../../src/hierarchy/irregular.rs"]

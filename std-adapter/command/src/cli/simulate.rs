@@ -235,7 +235,7 @@ impl Simulate {
             let damaged = || of_file(CheckpointError::Damaged.to_string());
             let (state, recorded) = split(&saved).ok_or_else(damaged)?;
             simulation.resume(state).map_err(|error| of_file(error.to_string()))?;
-            Ok(recorder.restore(recorded).ok_or_else(damaged)?)
+            Ok(recorder.restore(recorded, simulation).ok_or_else(damaged)?)
         };
         let mut last_checkpoint: Option<Instant> = None;
         let after = |simulation: &Simulation, recorder: &SimulationRecorder, frame: Option<u64>, seconds: f64| {
@@ -330,6 +330,10 @@ impl Simulate {
             positions: simulation.positions().to_vec(),
             triangles: simulation.triangles().to_vec(),
         };
-        Ok(mesh::write(&self.output.join(name), &mesh)?)
+        Ok(mesh::write_with_loose_edges(
+            &self.output.join(name),
+            &mesh,
+            simulation.loose_edges(),
+        )?)
     }
 }

@@ -1,17 +1,21 @@
-//! Records a [`Simulation`].
+//! Records a [`Simulation`]. Loose edges are recorded as the [tubes](super::tubes) as which they are shown.
 
+use super::tubes::Shown;
 use super::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, PartKind, Recorder, Recording, SeriesKind};
 use super::{EDGES_99, GRAVITATIONAL, LONGEST_EDGE};
 use crate::report::{label, printed};
 use crate::study::EffectCost;
 use selvedge::Mesh;
 use selvedge_cloth::{Scene, Simulation, TangledStart};
+use selvedge_core::glam::DVec3;
 
 /// What a recording says of a scene, taken before a [`Simulation`] consumes it.
 #[derive(Clone, Debug)]
 pub struct Subject {
     about: About,
     parts: Vec<Part>,
+    /// Of the cloths, if any has loose edges.
+    shown: Vec<Shown>,
 }
 
 /// What a step costs with each effect added, as measured: for a [`Recording`]'s `added`.
@@ -42,21 +46,40 @@ impl Subject {
                 .map(|(name, value)| Knob::new(label(&name), value))
                 .collect(),
         };
-        let part = |name: &str, kind, mesh: &Mesh| Part::new(name, kind, mesh.positions.len(), mesh.triangles.clone());
-        let bodies = scene.bodies.iter();
-        let bodies = bodies.map(|body| part(&body.name, PartKind::Body, &body.mesh));
-        let cloths = scene.cloths.iter();
-        let cloths = cloths.map(|cloth| part(&cloth.name, PartKind::Cloth, cloth.mesh()));
+        let bodies = scene.bodies.iter().map(|body| {
+            let Mesh { positions, triangles } = &body.mesh;
+            Part::new(&body.name, PartKind::Body, positions.len(), triangles.clone())
+        });
+        let shown: Vec<Shown> = (0..scene.cloths.len()).map(|index| Shown::new(scene, index)).collect();
+        let cloths = scene.cloths.iter().zip(&shown).map(|(cloth, shown)| {
+            let (vertices, triangles) = shown.mesh(cloth);
+            Part::new(&cloth.name, PartKind::Cloth, vertices, triangles)
+        });
+        let parts = cloths.chain(bodies).collect();
+        let has_loose_edges = !scene.all_loose_edges().is_empty();
         Self {
             about,
-            parts: cloths.chain(bodies).collect(),
+            parts,
+            shown: if has_loose_edges { shown } else { Vec::new() },
         }
     }
 }
 
 /// A [`Recorder`] of a simulation: its effects, and its contacts if it looks for them, are the series; energy and stretch the measures.
-#[derive(Debug)]
-pub struct SimulationRecorder(Recorder);
+///
+/// Cloth that tears gets more vertices: all frames have those that there are in the end.
+#[derive(Clone, Debug)]
+pub struct SimulationRecorder {
+    recorder: Recorder,
+    /// Of the measures.
+    measured: Vec<&'static str>,
+    /// Of each cloth, how many vertices are copies.
+    copied: Vec<usize>,
+    /// Of the cloths, if any has loose edges.
+    shown: Vec<Shown>,
+    /// Where all that is shown is, then.
+    positions: Vec<DVec3>,
+}
 
 impl SimulationRecorder {
     /// Begins with the state and the counters that the simulation of `subject`'s scene has now.
@@ -69,17 +92,47 @@ impl SimulationRecorder {
     pub fn new(subject: Subject, simulation: &Simulation) -> Result<Self, FrameError> {
         let counters = counters(simulation, 0.0);
         let series: Vec<_> = counters.iter().map(|&(name, kind, _)| (name, kind)).collect();
-        let Subject { about, parts } = subject;
+        let Subject { about, parts, shown } = subject;
         let recorder = Recorder::new(about, parts, &series, &readings(simulation, 0.0));
         let measures: Vec<_> = measures(simulation).iter().map(|&(name, kind, _)| (name, kind)).collect();
-        let mut recorder = Self(recorder.with_measures(&measures));
+        let mut recorder = Self {
+            recorder: recorder.with_measures(&measures),
+            measured: measures.iter().map(|(name, _)| *name).collect(),
+            copied: vec![0; simulation.cloth_names().len()],
+            shown,
+            positions: Vec::new(),
+        };
         recorder.frame(simulation)?;
         Ok(recorder)
     }
 
     /// Records what the last step counted and took: `seconds` in all, by the clock on the wall.
     pub fn step(&mut self, simulation: &Simulation, seconds: f64) {
-        self.0.step(&readings(simulation, seconds));
+        self.follow_tears(simulation);
+        self.recorder.step(&readings(simulation, seconds));
+    }
+
+    /// Gives cloths the vertices that the simulation's have by now.
+    fn follow_tears(&mut self, simulation: &Simulation) {
+        for (cloth, known) in self.copied.iter_mut().enumerate() {
+            let copied = simulation.copied_vertices(cloth);
+            let own = simulation.vertices_of_cloth(cloth).filter(|_| copied.len() > *known);
+            if let Some(own) = own {
+                let shown = self.shown.get(cloth);
+                let placed = |vertex: u32| shown.map_or(vertex, |shown| shown.place_of(vertex));
+                let triangles = simulation.triangles()[..simulation.cloth_triangles()].iter();
+                let triangles = triangles.filter(|triangle| own.contains(&(triangle[0] as usize)));
+                let mut triangles: Vec<[u32; 3]> = triangles
+                    .map(|triangle| triangle.map(|vertex| placed(vertex - own.start as u32)))
+                    .collect();
+                if let Some(shown) = shown {
+                    shown.add_tubes(&mut triangles);
+                }
+                let copies: Vec<u32> = copied[*known..].iter().map(|&vertex| placed(vertex)).collect();
+                self.recorder.split(cloth, &copies, triangles);
+                *known = copied.len();
+            }
+        }
     }
 
     /// Offers the state as a frame, and measures its energy and how much the cloth is stretched.
@@ -88,35 +141,58 @@ impl SimulationRecorder {
     /// If a coordinate is no finite `f32`.
     pub fn frame(&mut self, simulation: &Simulation) -> Result<(), FrameError> {
         let step = simulation.steps_done();
-        self.0.frame(step, simulation.positions())?;
-        let measures = measures(simulation).into_iter();
-        let values: Vec<f64> = measures.map(|(_, _, value)| value).collect();
-        self.0.measure(step, &values);
+        self.follow_tears(simulation);
+        let mut positions = simulation.positions();
+        if !self.shown.is_empty() {
+            self.positions.clear();
+            for (cloth, shown) in self.shown.iter().enumerate() {
+                if let Some(own) = simulation.vertices_of_cloth(cloth) {
+                    shown.place(&positions[own], &mut self.positions);
+                }
+            }
+            self.positions.extend_from_slice(&positions[simulation.cloth_vertices()..]);
+            positions = &self.positions;
+        }
+        self.recorder.frame(step, positions)?;
+        let now = measures(simulation);
+        // What has burst holds no pressure, and no energy of it, any more.
+        let value = |wanted: &&str| {
+            now.iter()
+                .find(|(name, ..)| name == wanted)
+                .map_or(0.0, |(_, _, value)| *value)
+        };
+        let values: Vec<f64> = self.measured.iter().map(value).collect();
+        self.recorder.measure(step, &values);
         Ok(())
     }
 
     /// All that has been recorded in `seconds` by the clock on the wall, as bytes.
     #[must_use]
     pub fn save(&self, seconds: f64) -> Vec<u8> {
-        self.0.save(seconds)
+        self.recorder.save(seconds)
     }
 
-    /// Goes on with what another recorder of the same simulation has [saved](Self::save); returns its seconds. `None`, and nothing has
-    /// changed, if the bytes are damaged, or of other series or another number of vertices.
+    /// Goes on with what another recorder of the same simulation has [saved](Self::save) where that, `simulation`, has gone on from a checkpoint
+    /// of the same step; returns its seconds. `None`, and nothing has changed, if the bytes are damaged, or of other series or another
+    /// number of vertices.
     #[must_use]
-    pub fn restore(&mut self, bytes: &[u8]) -> Option<f64> {
-        self.0.restore(bytes)
+    pub fn restore(&mut self, bytes: &[u8], simulation: &Simulation) -> Option<f64> {
+        let mut restored = self.clone();
+        restored.follow_tears(simulation);
+        let seconds = restored.recorder.restore(bytes)?;
+        *self = restored;
+        Some(seconds)
     }
 
     /// Says something that a reader must know.
     pub fn remark(&mut self, sentence: impl Into<String>) {
-        self.0.remark(sentence);
+        self.recorder.remark(sentence);
     }
 
     /// Ends the recording of steps that took `seconds` by the clock on the wall.
     #[must_use]
     pub fn finish(self, seconds: f64) -> Recording {
-        let mut recording = self.0.finish(Some(seconds));
+        let mut recording = self.recorder.finish(Some(seconds));
         let lost = lost(&recording);
         let kinds = recording.measures_of(MeasureKind::Energy).count();
         recording.measures.insert(kinds, lost);
@@ -139,6 +215,12 @@ fn counters(simulation: &Simulation, seconds: f64) -> Vec<(&'static str, SeriesK
         add(SeriesKind::Events, &counts.events().map(number));
         let blocked = ("steps blocked", simulation.blocked_steps());
         add(SeriesKind::Events, &[blocked].map(number));
+    }
+    if simulation.effects().iter().any(|effect| effect.name == "tearing") {
+        add(
+            SeriesKind::Events,
+            &[number(("edges torn", simulation.torn_edges().len() as u64))],
+        );
     }
     if simulation.tangled_start() == TangledStart::Tolerate {
         let crossings = ("edges through faces, tolerated", simulation.crossings().len() as f64);
