@@ -10,7 +10,7 @@
 //!
 //! what is asked      input ▸ world ▸ scene
 //! what is simulated  effects ▸ plan, step
-//! how                membrane, hierarchy, schedule, contact, tearing, simulator
+//! how                membrane, rope, hierarchy, schedule, contact, tearing, simulator
 //! what changes       state ▸ checkpoint
 //! what is told       energy
 //! ```
@@ -42,6 +42,7 @@ mod membrane;
 mod normals;
 mod of_cloth;
 mod plan;
+mod rope;
 mod scene;
 mod schedule;
 mod simulator;

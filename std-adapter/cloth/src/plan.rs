@@ -140,7 +140,7 @@ impl<'a> Plan<'a> {
         self.scene
     }
 
-    /// The mass of each vertex of the cloth that it acts on, in kg: a third of its triangles'.
+    /// The mass of each vertex of the cloth that it acts on, in kg: a third of its triangles', and half of its loose edges'.
     #[must_use]
     pub fn masses(&self) -> Vec<f64> {
         masses_of(self.scene.cloth)
@@ -228,7 +228,7 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The mass of each cloth vertex: a third of its triangles', in kg.
+/// The mass of each cloth vertex: a third of its triangles', and half of its loose edges', in kg.
 pub(crate) fn masses_of(cloth: &Cloth) -> Vec<f64> {
     let mesh = &cloth.mesh;
     let mut masses = vec![0.0; mesh.positions.len()];
@@ -238,6 +238,11 @@ pub(crate) fn masses_of(cloth: &Cloth) -> Vec<f64> {
         for &vertex in triangle {
             masses[vertex as usize] += mass / 3.0;
         }
+    }
+    for edge in cloth.topology.loose_edges() {
+        let [a, b] = edge.map(|v| mesh.positions[v as usize]);
+        let mass = cloth.linear_density * a.distance(b);
+        edge.iter().for_each(|&vertex| masses[vertex as usize] += mass / 2.0);
     }
     masses
 }

@@ -28,7 +28,7 @@
 mod file;
 
 use super::effects::{Called, Effect, Effects};
-use super::input::{AREA_DENSITY, FREQUENCY, Field, LARGEST_TIME, TIME, ValueError};
+use super::input::{AREA_DENSITY, FREQUENCY, Field, LARGEST_TIME, LINEAR_DENSITY, TIME, ValueError};
 use super::world::{Body, Cloth, SceneParts};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
@@ -156,6 +156,24 @@ impl Scene {
         all
     }
 
+    /// The loose edges of all cloths, on the vertices of [`all_cloth`](Self::all_cloth).
+    #[must_use]
+    pub fn all_loose_edges(&self) -> Vec<[u32; 2]> {
+        let mut first = 0;
+        let mut all = Vec::new();
+        for Cloth { mesh, topology, .. } in &self.cloths {
+            all.extend(topology.loose_edges().map(|edge| edge.map(|vertex| first + vertex)));
+            first += mesh.positions.len() as u32;
+        }
+        all
+    }
+
+    /// What contact keeps a cloth from itself, in metres, by its index; `None` if nothing does. Of a rope that is its diameter.
+    #[must_use]
+    pub fn thickness_of(&self, cloth: usize) -> Option<f64> {
+        self.called().fabrics().get(cloth)?.thickness
+    }
+
     /// The vertices of a part of a cloth, as the scene numbers them: of pins and seams. `None` if there is no such cloth or part.
     #[must_use]
     pub fn part(&self, cloth: &str, part: &str) -> Option<Vec<u32>> {
@@ -221,8 +239,13 @@ impl Scene {
             if let Some(material) = cloth.material {
                 fabric.push((self.of_cloth(cloth, "material"), material.name.to_owned()));
             }
-            let weight = AREA_DENSITY.written_short(cloth.density);
-            fabric.push((self.of_cloth(cloth, "weight"), weight));
+            if cloth.has_triangles() {
+                fabric.push((self.of_cloth(cloth, "weight"), AREA_DENSITY.written_short(cloth.density)));
+            }
+            if cloth.has_loose_edges() {
+                let weight = LINEAR_DENSITY.written_short(cloth.linear_density);
+                fabric.push((self.of_cloth(cloth, "weight of loose edges"), weight));
+            }
         }
         self.each_acting(|cloth, effect| {
             for (what, value) in effect.fabric() {
@@ -297,10 +320,15 @@ impl Scene {
             velocity,
             warp,
             effects,
+            linear_density,
+            topology,
             ..
         } in &self.cloths
         {
             take(format!("{:?}", (name, density, velocity, warp, effects)).as_bytes());
+            if topology.loose_edges().len() > 0 {
+                take(format!("{:?}", (linear_density, topology.loose_edges().collect::<Vec<_>>())).as_bytes());
+            }
         }
         for body in &self.bodies {
             take(format!("{:?}", (&body.name, &body.motion)).as_bytes());

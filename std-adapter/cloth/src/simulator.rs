@@ -55,6 +55,8 @@ pub struct Simulation {
     cloth_vertices: usize,
     cloth_triangles: usize,
     triangles: Vec<[u32; 3]>,
+    /// Of the cloths.
+    loose_edges: Vec<[u32; 2]>,
     inverse_masses: Vec<f64>,
     /// Of each vertex: whose motion it follows.
     carriers: Vec<Carrier>,
@@ -185,6 +187,12 @@ impl Simulation {
         &self.triangles
     }
 
+    /// Edges of cloths that belong to no triangle, of ropes, laces and fringes, on [`positions`](Self::positions).
+    #[must_use]
+    pub fn loose_edges(&self) -> &[[u32; 2]] {
+        &self.loose_edges
+    }
+
     /// How fast each of the [`positions`](Self::positions) moves, in m/s.
     #[must_use]
     pub fn velocities(&self) -> &[DVec3] {
@@ -233,12 +241,13 @@ impl Simulation {
         self.cloth_triangles
     }
 
-    /// How much cloth is stretched now, of all cloths together. Finds the edges anew, in O(n log n) time.
+    /// How much cloth is stretched now, of all cloths together, loose edges included. Finds the edges anew, in O(n log n) time.
     #[must_use]
     pub fn edge_stretch(&self) -> EdgeStretch {
         let cloth = self.triangles[..self.cloth_triangles].iter();
         let ends = cloth.flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
-        let mut edges: Vec<[u32; 2]> = ends.map(|(a, b)| [a.min(b), a.max(b)]).collect();
+        let loose = self.loose_edges.iter().map(|&[a, b]| (a, b));
+        let mut edges: Vec<[u32; 2]> = ends.chain(loose).map(|(a, b)| [a.min(b), a.max(b)]).collect();
         edges.sort_unstable();
         edges.dedup();
         let length = |all: &[DVec3], [a, b]: [u32; 2]| all[a as usize].distance(all[b as usize]);

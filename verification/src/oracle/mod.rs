@@ -13,6 +13,7 @@
 //! | is it within a distance at some time, or where it rests? | [`within_at`], [`within_at_rest`] |
 //! | do two triangles at rest intersect? | [`triangles_intersect`] |
 //! | which triangles of a mesh intersect? | [`mesh_self_intersections`], [`mesh_intersections`] |
+//! | and which ropes, at rest and on their way? | [`intersections_with_loose_edges`], [`edges_that_meet`] |
 //!
 //! The method is kept apart from that of `selvedge-core`: coordinates are scaled to integers, motions
 //! are polynomials in the time `t` by powers of `t`, roots are counted with Sturm's theorem, and a
@@ -26,6 +27,7 @@ mod geometry;
 mod mesh;
 mod motion;
 mod polynomial;
+mod ropes;
 mod separation;
 mod signs;
 
@@ -34,5 +36,6 @@ pub use collision::{collides, coplanar, touches_at};
 pub use mesh::{mesh_intersections, mesh_self_intersections, triangles_intersect};
 pub use motion::{Pair, PairKind};
 pub use polynomial::Polynomial;
+pub use ropes::{edges_that_meet, intersections_with_loose_edges};
 pub use separation::{first_within, within, within_at, within_at_rest};
 pub use signs::triangles_intersect_by_signs;

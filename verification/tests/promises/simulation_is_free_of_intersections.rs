@@ -1,7 +1,10 @@
-//! Every state that a simulation accepts is free of intersections, exactly: cloth with itself and cloth with bodies.
+//! Every state that a simulation accepts is free of intersections, exactly: cloth with itself and cloth with bodies, ropes included.
 
-use selvedge_cloth::{Scene, Simulation};
-use selvedge_verification::oracle::mesh_intersections;
+use proptest::prelude::*;
+use selvedge_cloth::effects::{BodyContact, Friction, RopeBend, RopeStretch, SelfCollision, Stretch, Thickness};
+use selvedge_cloth::glam::DVec3;
+use selvedge_cloth::{Body, Cloth, Scene, SetupError, Simulation};
+use selvedge_verification::oracle::{edges_that_meet, intersections_with_loose_edges, mesh_intersections};
 use std::path::{Path, PathBuf};
 
 fn scene_file(name: &str) -> PathBuf {
@@ -178,4 +181,88 @@ fn without_self_collision_the_sleeve_passes_through_itself() {
         }
     }
     assert!(crossed > 0);
+}
+
+/// Ropes through these points, thrown as fast as told, at each other, at a sheet and at a ball.
+fn thrown(ropes: &[([DVec3; 3], DVec3)], is_kept: bool) -> Scene {
+    let sheet = Cloth::sheet(DVec3::new(-0.1, -0.1, -0.05), [DVec3::X * 0.2, DVec3::Y * 0.2], [6, 6], 0.2);
+    let mut scene = Scene::new(sheet.expect("a sheet").named("sheet"), 2e-3);
+    scene.cloths[0].add(Stretch::isotropic(500.0));
+    for (number, (points, velocity)) in ropes.iter().enumerate() {
+        let mut rope = Cloth::rope(points, 20, 0.02)
+            .expect("three places")
+            .named(&format!("rope {number}"));
+        rope.velocity = *velocity;
+        rope.add(RopeStretch::of(2e3)).add(RopeBend::straight(1e-6));
+        if is_kept {
+            rope.add(SelfCollision(Thickness::of(6e-3)));
+        }
+        scene.cloths.push(rope);
+    }
+    scene
+        .bodies
+        .push(Body::ball("ball", DVec3::Z * -0.2, 0.1, 12).expect("a ball"));
+    scene.add(BodyContact(Thickness::of(3e-3))).add(Friction { coefficient: 0.2 });
+    if is_kept {
+        scene.add(SelfCollision(Thickness::of(3e-3)));
+    }
+    scene
+}
+
+/// How many ways of steps were judged, and what met on them or after them.
+fn judge(simulation: &mut Simulation, steps: u64) -> (u64, Vec<String>) {
+    let (mut judged, mut found) = (0, Vec::new());
+    let cuts = |simulation: &Simulation| simulation.contact_counts().map_or(0, |counts| counts.cuts);
+    let at = |simulation: &Simulation| -> Vec<[f64; 3]> { simulation.positions().iter().map(|p| p.to_array()).collect() };
+    for _ in 0..steps {
+        let (before, cuts_before) = (at(simulation), cuts(simulation));
+        simulation.step().expect("nothing is forced to move");
+        let after = at(simulation);
+        let [triangles, count] = [simulation.triangles().len(), simulation.cloth_triangles()];
+        assert!(count < triangles);
+        let at_rest = intersections_with_loose_edges(&after, simulation.triangles(), simulation.loose_edges(), count);
+        found.extend(at_rest.iter().map(|pair| format!("{pair:?}")));
+        // In parts a way is not straight.
+        if cuts(simulation) == cuts_before {
+            judged += 1;
+            let on_the_way = edges_that_meet(&before, &after, simulation.loose_edges());
+            found.extend(on_the_way.iter().map(|pair| format!("{pair:?}")));
+        }
+    }
+    (judged, found)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn ropes_that_are_thrown_at_each_other_at_cloth_and_at_a_body_never_meet(
+        ropes in prop::collection::vec((
+            prop::array::uniform3(prop::array::uniform3(-0.2..0.2_f64).prop_map(DVec3::from)),
+            prop::array::uniform3(-8.0..8.0_f64).prop_map(DVec3::from),
+        ), 2..5),
+    ) {
+        let mut simulation = match Simulation::new(thrown(&ropes, true), 1) {
+            Ok(simulation) => simulation,
+            Err(SetupError::Tangled(_)) => return Err(TestCaseError::reject("through the sheet or the ball at the start")),
+            Err(error) => panic!("{error}"),
+        };
+        let (judged, found) = judge(&mut simulation, 60);
+        prop_assert!(found.is_empty(), "{found:?}");
+        prop_assert!(judged > 30, "{judged}");
+    }
+}
+
+/// So that the one above can fail.
+#[test]
+fn without_self_collision_ropes_pass_through_each_other() {
+    let rope = |axis: DVec3, z: f64, speed: f64| {
+        (
+            [axis * -0.2, DVec3::ZERO, axis * 0.2].map(|p| p + DVec3::Z * z),
+            DVec3::Z * speed,
+        )
+    };
+    let ropes = [rope(DVec3::X, 0.2, -2.0), rope(DVec3::Y, 0.1, 0.0)];
+    let found = |is_kept| judge(&mut Simulation::new(thrown(&ropes, is_kept), 1).expect("it starts free"), 60).1;
+    assert!(!found(false).is_empty() && found(true).is_empty());
 }

@@ -6,7 +6,7 @@ use super::neighbours::{Neighbours, are_many, at_rest};
 use super::settings::{ContactSettings, MARGIN, Thickness};
 use crate::step::{Carrier, FREE};
 use selvedge::verification::{CLASSES, Class, Interest, NearPairs, Reach};
-use selvedge::{Intersection, PairKind, Topology, TopologyError};
+use selvedge::{Intersection, PairKind, Topology};
 use selvedge_core::glam::DVec3;
 use std::array;
 use std::sync::Arc;
@@ -50,12 +50,12 @@ pub(super) struct OfContact {
 /// many.
 pub(super) fn candidates(
     settings: &mut ContactSettings,
-    triangles: &[[u32; 3]],
+    topology: Topology,
     rest: &[DVec3],
     carriers: &[Carrier],
     cloth_vertices: usize,
-) -> Result<Candidates, TopologyError> {
-    let topology = Arc::new(Topology::new(rest.len(), triangles.to_vec())?);
+) -> Candidates {
+    let topology = Arc::new(topology);
     let [cloth, bodies] = [false, true].map(|with_body| settings.largest(with_body));
     let mut neighbours = Neighbours::none();
     let mut of_neighbours = cloth;
@@ -99,7 +99,7 @@ pub(super) fn candidates(
     // Bodies among themselves are of no interest.
     let wanted = (0..rest.len()).map(|vertex| vertex < cloth_vertices).collect();
     let candidates = NearPairs::new(topology, interest, wanted, reach);
-    Ok(candidates.expect("scenes give a positive thickness"))
+    candidates.expect("scenes give a positive thickness")
 }
 
 impl Interest for OfContact {
@@ -195,9 +195,9 @@ mod tests {
         let mut settings = ContactSettings::new([6].into_iter());
         settings.keep_from_cloth(0, Thickness::of(of_cloth));
         settings.keep_from_bodies(1, Thickness::of(of_bodies));
-        let triangles = [[0, 1, 2], [3, 4, 5], [6, 7, 8]];
+        let topology = Topology::new(9, vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]]).unwrap();
         let carriers: Vec<Carrier> = [[FREE; 6].as_slice(), &[0; 3]].concat();
-        let mut near = candidates(&mut settings, &triangles, &at([0.0, 1.0, -1.0]), &carriers, 6).unwrap();
+        let mut near = candidates(&mut settings, topology, &at([0.0, 1.0, -1.0]), &carriers, 6);
         let positions = at([0.0, layers, -body]);
         near.find(&positions, &positions, 1e-3);
         let with_body = near.list.iter().filter(|pair| pair.data.is_with_body()).count();

@@ -170,6 +170,11 @@ impl ContactSettings {
         self.asked(with_body).is_some()
     }
 
+    /// Whether anybody asks for contacts at all.
+    pub(crate) fn asks_for_any(&self) -> bool {
+        self.asks(false) || self.asks(true)
+    }
+
     /// The largest of what any cloth is to keep from bodies, or from cloth; `None` if nobody asks for that.
     pub(super) fn largest(&self, with_body: bool) -> Option<Thickness> {
         let of_cloths = self.asked(with_body)?.of_cloths.iter().copied();

@@ -10,7 +10,7 @@ use super::relaxation::Relaxation;
 use super::report::{ContactCounts, ContactSeconds};
 use super::settings::ContactSettings;
 use crate::step::{Carrier, TimeStep, Touches};
-use selvedge::{StepError, TopologyError};
+use selvedge::{StepError, Topology};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
@@ -41,20 +41,17 @@ pub(crate) struct ContactSolver {
 }
 
 impl ContactSolver {
-    /// `None` if no effect asks for contact. `rest` and `carriers` are of all vertices, the cloth's first.
+    /// `rest` and `carriers` are of all vertices, the cloth's first; `topology` is of all triangles, and the cloth's loose edges.
     pub(crate) fn new(
         mut settings: ContactSettings,
-        triangles: &[[u32; 3]],
+        topology: Topology,
         rest: &[DVec3],
         carriers: &[Carrier],
         cloth_vertices: usize,
         bodies: usize,
-    ) -> Result<Option<Self>, TopologyError> {
-        if !(settings.asks(false) || settings.asks(true)) {
-            return Ok(None);
-        }
-        Ok(Some(Self {
-            candidates: candidates(&mut settings, triangles, rest, carriers, cloth_vertices)?,
+    ) -> Self {
+        Self {
+            candidates: candidates(&mut settings, topology, rest, carriers, cloth_vertices),
             settings,
             carriers: carriers.to_vec(),
             rest: rest.to_vec(),
@@ -67,7 +64,7 @@ impl ContactSolver {
             pushes: true,
             counts: ContactCounts::default(),
             stages: ContactSeconds::default(),
-        }))
+        }
     }
 
     /// Forgets the steps before; the next one is expected to lead from `start` to `end` in `h` seconds.

@@ -1,6 +1,6 @@
 //! Bending: what a flexural rigidity costs ([`bending`](crate::bending)). Rest is flat.
 
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::bending::{Bending, hinges};
 use crate::input::{BENDING_STIFFNESS, Count, Field, ValueError};
 use crate::plan::Plan;
@@ -55,6 +55,10 @@ impl Bend {
 impl Effect for Bend {
     fn name(&self) -> &'static str {
         "bend"
+    }
+
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
     }
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {

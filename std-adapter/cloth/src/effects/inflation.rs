@@ -2,7 +2,7 @@
 //! ([`Walls`]), so that a closed cloth gets neither a push nor a turn as a whole. It does work, like wind: it tells no energy.
 
 use super::enclosed::{Walls, open_edges};
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::input::{Field, PRESSURE, SceneError, Table, ValueError};
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
@@ -89,6 +89,10 @@ impl Inflation {
 impl Effect for Inflation {
     fn name(&self) -> &'static str {
         "inflation"
+    }
+
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
     }
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {

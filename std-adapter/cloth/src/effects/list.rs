@@ -83,14 +83,17 @@ impl<'a> Called<'a> {
         match of_scene {
             Some(effect) if effect.scope() == Scope::Scene => vec![(None, effect)],
             _ => {
-                let of_cloth = |(index, cloth): (usize, &'a Cloth)| Some((Some(index), cloth.effects.get(name).or(of_scene)?));
+                let of_cloth = |(index, cloth): (usize, &'a Cloth)| {
+                    let effect = cloth.effects.get(name).or(of_scene)?;
+                    effect.acts_on().is_in(cloth).then_some((Some(index), effect))
+                };
                 self.cloths.iter().enumerate().filter_map(of_cloth).collect()
             }
         }
     }
 
     /// What the effects say of each cloth.
-    fn fabrics(self) -> Vec<Fabric> {
+    pub(crate) fn fabrics(self) -> Vec<Fabric> {
         let mut fabrics = vec![Fabric::default(); self.cloths.len()];
         for name in self.names() {
             for (cloth, effect) in self.acting(name) {
@@ -116,6 +119,7 @@ impl<'a> Called<'a> {
             }
             let acting = self.acting(name);
             self.check_scope(name, own, acting.len())?;
+            self.check_acts(name, acting.len())?;
             for (cloth, effect) in acting {
                 let world = world.of_cloth(cloth);
                 let checked = effect.check(&world).and_then(|()| effect.check_fabrics(&world, &fabrics));
@@ -136,6 +140,23 @@ impl<'a> Called<'a> {
             Some(Scope::AllCloths) if acting < self.cloths.len() => wrong(format!(
                 "'{name}' has to do with what cloths do to each other: name it in [effects.{name}] for all of them, or in every cloth"
             )),
+            _ => Ok(()),
+        }
+    }
+
+    /// There is something to act on: in each cloth that has one of its own, and in some cloth for the scene's.
+    fn check_acts(self, name: &'static str, acting: usize) -> Result<(), Wrong> {
+        let wrong = |index: Option<usize>, effect: &dyn Effect| {
+            let message = effect.acts_on().complaint(name, index.map(|index| &self.cloths[index]));
+            Err(self.wrong(name, index, ValueError::new("", message)))
+        };
+        for (index, cloth) in self.cloths.iter().enumerate() {
+            if let Some(effect) = cloth.effects.get(name).filter(|effect| !effect.acts_on().is_in(cloth)) {
+                return wrong(Some(index), effect);
+            }
+        }
+        match self.by_scene.get(name) {
+            Some(effect) if acting == 0 => wrong(None, effect),
             _ => Ok(()),
         }
     }

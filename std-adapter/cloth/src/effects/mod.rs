@@ -22,6 +22,8 @@ mod pins;
 mod plastic_folds;
 mod pressure;
 mod registration;
+mod rope_bend;
+mod rope_stretch;
 mod seams;
 mod selection;
 mod self_collision;
@@ -51,7 +53,9 @@ pub use inflation::{Inflation, PressureKey};
 pub use pins::{PinGroup, PinMotion, Pins};
 pub use plastic_folds::PlasticFolds;
 pub use pressure::InternalPressure;
-pub use registration::{Effect, Scope};
+pub use registration::{ActsOn, Effect, Scope};
+pub use rope_bend::{RopeBend, RopeShape};
+pub use rope_stretch::RopeStretch;
 pub use seams::{Seam, Seams};
 pub use self_collision::SelfCollision;
 pub use shear::Shear;
@@ -93,6 +97,8 @@ const REGISTRY: &[(&str, Registration)] = registry![
     plastic_folds "plastic_folds"
     pressure "internal_pressure"
     strain_limit "strain_limit"
+    rope_bend "rope_bend"
+    rope_stretch "rope_stretch"
     seams "seams"
     body_contact "body_contact"
     self_collision "self_collision"

@@ -1,6 +1,6 @@
 //! Plasticity of folds: what is bent too far keeps some of it ([`bending`](crate::bending)). Bending does it; this says when.
 
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::bending::Yield;
 use crate::input::{CURVATURE, Field, LARGEST_TIME, TIME, ValueError};
 use crate::plan::{Fabric, Plan};
@@ -44,6 +44,10 @@ impl PlasticFolds {
 impl Effect for PlasticFolds {
     fn name(&self) -> &'static str {
         "plastic_folds"
+    }
+
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
     }
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {

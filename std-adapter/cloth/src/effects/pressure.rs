@@ -3,7 +3,7 @@
 //! C = V(x) − r·V₀ with the volume V ([`Walls`]) and the energy ½·K·C²/(r·V₀), K a bulk modulus: compliance r·V₀/K.
 
 use super::enclosed::{Walls, open_edges};
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::energy::{Configuration, StoredEnergy};
 use crate::input::{Field, PRESSURE, RATIO, ValueError};
 use crate::plan::Plan;
@@ -46,6 +46,10 @@ impl InternalPressure {
 impl Effect for InternalPressure {
     fn name(&self) -> &'static str {
         "internal_pressure"
+    }
+
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
     }
 
     fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {

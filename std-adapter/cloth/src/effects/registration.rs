@@ -2,7 +2,7 @@
 
 use crate::input::{SceneError, Table, ValueError};
 use crate::plan::{Fabric, Plan};
-use crate::world::SceneParts;
+use crate::world::{Cloth, SceneParts};
 use std::fmt::Debug;
 
 /// Something that acts on the cloth: one of [`effects`](crate::effects), or a caller's own.
@@ -27,6 +27,11 @@ pub trait Effect: Debug + Send + Sync {
     /// On what it acts at a time: how often it registers in a scene of several cloths.
     fn scope(&self) -> Scope {
         Scope::Cloth
+    }
+
+    /// Of what of a cloth it acts: on a cloth without that it does not register.
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Vertices
     }
 
     /// Whether its settings make sense with what all cloths' effects have announced.
@@ -60,6 +65,44 @@ pub enum Scope {
     AllCloths,
     /// On the whole scene: it sees the vertices of all cloths, one after the other in the order of the scene, then those of bodies.
     Scene,
+}
+
+/// What an effect needs of a cloth to have something to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActsOn {
+    /// Its vertices, which all have.
+    Vertices,
+    /// Its triangles, which ropes do not have.
+    Triangles,
+    /// Its loose edges: ropes, laces, fringes.
+    LooseEdges,
+}
+
+impl ActsOn {
+    pub(super) fn is_in(self, cloth: &Cloth) -> bool {
+        match self {
+            Self::Vertices => true,
+            Self::Triangles => cloth.has_triangles(),
+            Self::LooseEdges => cloth.has_loose_edges(),
+        }
+    }
+
+    /// What is told where there is none of it: in a cloth, or in all cloths.
+    pub(super) fn complaint(self, effect: &str, cloth: Option<&Cloth>) -> String {
+        let (what, instead) = match self {
+            Self::Vertices => ("vertices", ""),
+            Self::Triangles => ("triangles", "; what ropes resist is `rope_stretch` and `rope_bend`"),
+            Self::LooseEdges => (
+                "loose edges",
+                "; those of shape \"rope\" do, and those of a file with lines `l` for which `linear_density` is given",
+            ),
+        };
+        let none = cloth.map_or_else(
+            || format!("no cloth has {what}"),
+            |cloth| format!("the cloth '{}' has no {what}", cloth.name),
+        );
+        format!("'{effect}' has nothing to act on: {none}{instead}")
+    }
 }
 
 /// Reads an effect's table; [`check`](Effect::check) follows.

@@ -60,7 +60,7 @@ pub struct Seams {
     pub seams: Vec<Seam>,
 }
 
-/// Two rows of vertices that are sewn together.
+/// Two rows of vertices that are sewn together; or two vertices, such as the end of a rope and what it is tied to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seam {
     /// Vertices one after the other, as the scene numbers them, through all cloths; [`Scene::part`](crate::Scene::part) knows some by name.
@@ -96,8 +96,10 @@ impl Seam {
                 return wrong(no_vertex(vertex, rest.len()));
             }
             let is_step = |two: &[u32]| rest[two[0] as usize] != rest[two[1] as usize];
-            if row.len() < 2 || !row.windows(2).all(is_step) {
-                return wrong("a row of a seam needs two vertices or more, each at another place than the one before".to_owned());
+            let is_stitch = [&self.first, &self.second].iter().all(|row| row.len() == 1);
+            if row.len() < 2 && !is_stitch || !row.windows(2).all(is_step) {
+                let message = "a row of a seam needs two vertices or more, each at another place than the one before; or both rows are one vertex";
+                return wrong(message.to_owned());
             }
         }
         if let Some(vertex) = self.first.iter().find(|vertex| self.second.contains(vertex)) {

@@ -48,8 +48,12 @@ impl Stitch {
     }
 }
 
-/// Lays two rows along each other; each has two vertices or more, and a length.
+/// Lays two rows along each other; each has two vertices or more, and a length, or both are one vertex.
 pub(super) fn stitches(first: &[u32], second: &[u32], rest: &[DVec3]) -> Vec<Stitch> {
+    if let (&[first], &[second]) = (first, second) {
+        let vertices = [first, second, second];
+        return vec![Stitch { vertices, share: 0.0 }];
+    }
     let (finer, coarser) = if first.len() < second.len() {
         (second, first)
     } else {

@@ -3,7 +3,7 @@
 //! Gusts: the wind's speed varies as 1 + g·sin(2πft − q·x) with x along the wind, q one wave in [`GUST_LENGTH`] metres.
 
 use super::panels::{Panels, check_drag, read_drag};
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::input::{FREQUENCY, Field, RATIO, SPEED, ValueError};
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
@@ -75,6 +75,10 @@ impl Wind {
 impl Effect for Wind {
     fn name(&self) -> &'static str {
         "wind"
+    }
+
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
     }
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {

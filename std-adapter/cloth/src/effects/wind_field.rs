@@ -4,7 +4,7 @@
 
 use super::air_sources::{AirSource, Fan, Vortex};
 use super::panels::{Panels, check_drag, read_drag};
-use super::registration::{Effect, Registration};
+use super::registration::{ActsOn, Effect, Registration};
 use crate::input::ValueError;
 use crate::plan::Plan;
 use crate::step::{Force, TimeStep};
@@ -101,6 +101,10 @@ impl WindField {
 impl Effect for WindField {
     fn name(&self) -> &'static str {
         "wind_field"
+    }
+
+    fn acts_on(&self) -> ActsOn {
+        ActsOn::Triangles
     }
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {

@@ -77,14 +77,26 @@ impl<'a> Hierarchy<'a> {
     }
 }
 
-/// How far apart vertices are, about, in metres.
+/// How far apart vertices are, about, in metres: those of its triangles; those of its loose edges if it has no triangles.
 pub(crate) fn mesh_spacing(cloth: &Cloth) -> f64 {
+    let at = |v: u32| cloth.mesh.positions[v as usize];
+    let edges = cloth.topology.loose_edges();
+    if !cloth.has_triangles() {
+        let count = edges.len() as f64;
+        return edges.map(|[a, b]| at(a).distance(at(b))).sum::<f64>() / count;
+    }
     let area = |triangle: &[u32; 3]| {
-        let [a, b, c] = triangle.map(|v| cloth.mesh.positions[v as usize]);
+        let [a, b, c] = triangle.map(at);
         0.5 * (b - a).cross(c - a).length()
     };
     let area: f64 = cloth.mesh.triangles.iter().map(area).sum();
-    (area / cloth.mesh.positions.len() as f64).sqrt()
+    let mut is_of_triangle = vec![!cloth.has_loose_edges(); cloth.mesh.positions.len()];
+    if cloth.has_loose_edges() {
+        let corners = cloth.mesh.triangles.iter().flatten();
+        corners.for_each(|&vertex| is_of_triangle[vertex as usize] = true);
+    }
+    let vertices = is_of_triangle.into_iter().filter(|own| *own).count();
+    (area / vertices as f64).sqrt()
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ impl<'a> Surface<'a> {
     pub(super) fn new(cloth: &'a Cloth) -> Self {
         let (topology, count) = (&cloth.topology, cloth.mesh.positions.len());
         let mut tips = vec![([u32::MAX; 2], 0_u32); topology.edges().len()];
-        for (triangle, edges) in topology.triangles().iter().zip(topology.triangle_edges()) {
+        for (triangle, edges) in topology.proper_triangles().iter().zip(topology.triangle_edges()) {
             for (k, &edge) in edges.iter().enumerate() {
                 if edge != Topology::NO_EDGE {
                     let (tips, found) = &mut tips[edge as usize];
@@ -43,6 +43,10 @@ impl<'a> Surface<'a> {
         let mut ways = Vec::new();
         let mut add = |a: u32, b: u32, length: f64| ways.extend([(a, (b, length)), (b, (a, length))]);
         for (&[a, b], &([c, d], found)) in topology.edges().iter().zip(&tips) {
+            if found == 0 {
+                // A loose edge: nothing of the surface.
+                continue;
+            }
             add(a, b, at(a).distance(at(b)));
             if found != 2 {
                 is_border[a as usize] = true;
@@ -52,7 +56,7 @@ impl<'a> Surface<'a> {
             }
         }
         let ways = Grouped::new(count, &ways);
-        let corners = topology.triangles().iter().enumerate();
+        let corners = topology.proper_triangles().iter().enumerate();
         let corners = corners.flat_map(|(index, triangle)| triangle.map(|v| (v, index as u32)));
         let triangles = Grouped::new(count, &corners.collect::<Vec<_>>());
         let mut surface = Self {

@@ -29,10 +29,12 @@ quantities! {
     ACCELERATION = "an acceleration" ["m/s2" 1.0];
     FREQUENCY = "a frequency" ["Hz" 1.0, "1/s" 1.0];
     AREA_DENSITY = "a mass per area" ["kg/m2" 1.0, "g/m2" 1e-3];
+    LINEAR_DENSITY = "a mass per length" ["kg/m" 1.0, "g/m" 1e-3];
     AIR_DENSITY = "a density" ["kg/m3" 1.0];
     MEMBRANE_STIFFNESS = "a stiffness of a membrane" ["N/m" 1.0, "kN/m" 1e3];
     BENDING_STIFFNESS = "a bending stiffness" ["N m" 1.0, "mN m" 1e-3, "uN m" 1e-6];
-    FORCE = "a force" ["N" 1.0, "mN" 1e-3];
+    ROPE_BENDING_STIFFNESS = "a bending stiffness of a rope" ["N m2" 1.0, "mN m2" 1e-3, "uN m2" 1e-6];
+    FORCE = "a force" ["N" 1.0, "mN" 1e-3, "kN" 1e3];
     PRESSURE = "a pressure" ["Pa" 1.0, "kPa" 1e3];
 }
 

@@ -91,6 +91,11 @@ impl<'a> Table<'a> {
         self.get(count.name).map(|value| self.whole(count, value)).transpose()
     }
 
+    /// A whole number.
+    pub(crate) fn required_count(&self, count: &Count) -> Result<u32, SceneError> {
+        self.count(count)?.ok_or_else(|| self.missing(count.name, "20"))
+    }
+
     /// Two whole numbers.
     pub(crate) fn two_counts(&self, count: &Count) -> Result<[u32; 2], SceneError> {
         let example = "[20, 20]";
@@ -115,20 +120,21 @@ impl<'a> Table<'a> {
 
     /// A vector of three quantities, if the key is there.
     pub(crate) fn vector(&self, field: &Field) -> Result<Option<DVec3>, SceneError> {
-        let Some(value) = self.get(field.name) else {
-            return Ok(None);
-        };
-        match value.get_ref() {
-            DeValue::Array(array) if array.len() == 3 => {
-                let component = |k: usize| self.quantity(field, &array[k]);
-                Ok(Some(DVec3::new(component(0)?, component(1)?, component(2)?)))
-            }
-            _ => Err(self.wrong(field.name, value, "a list of three numbers, such as [0, 0, 1]")),
-        }
+        self.get(field.name).map(|value| self.three(field, value)).transpose()
     }
 
     pub(crate) fn required_vector(&self, field: &Field) -> Result<DVec3, SceneError> {
         self.vector(field)?.ok_or_else(|| self.missing(field.name, "[0, 0, 1]"))
+    }
+
+    /// Any number of vectors of three quantities each.
+    pub(crate) fn required_vectors(&self, field: &Field) -> Result<Vec<DVec3>, SceneError> {
+        let example = "[[0, 0, 0], [1, 0, 0]]";
+        let value = self.get(field.name).ok_or_else(|| self.missing(field.name, example))?;
+        match value.get_ref() {
+            DeValue::Array(array) => array.iter().map(|value| self.three(field, value)).collect(),
+            _ => Err(self.wrong(field.name, value, &format!("a list of points, such as {example}"))),
+        }
     }
 
     /// `true` or `false`; false if the key is not there.
@@ -316,6 +322,16 @@ impl<'a> Table<'a> {
         };
         field.check(number).map_err(|error| complain(error.message))?;
         Ok(number)
+    }
+
+    fn three(&self, field: &Field, value: &Value<'_>) -> Result<DVec3, SceneError> {
+        match value.get_ref() {
+            DeValue::Array(array) if array.len() == 3 => {
+                let component = |k: usize| self.quantity(field, &array[k]);
+                Ok(DVec3::new(component(0)?, component(1)?, component(2)?))
+            }
+            _ => Err(self.wrong(field.name, value, "a list of three numbers, such as [0, 0, 1]")),
+        }
     }
 
     fn whole(&self, count: &Count, value: &Value<'_>) -> Result<u32, SceneError> {

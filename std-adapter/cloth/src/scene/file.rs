@@ -118,8 +118,9 @@ fn read_effects(root: &Table<'_>, cloths: &mut [Cloth], bodies: &[Body], time_st
         Some(table) => effects::read(table, world),
         None => Ok(Effects::default()),
     };
-    // What it leaves to a material is of the only cloth: others of a material get effects of their own.
-    let plain = cloths.iter().position(|cloth| cloth.material.is_none());
+    // What it leaves to a material is of the only cloth: others of a material get effects of their own. Ropes are of none.
+    let is_plain = |cloth: &Cloth| cloth.material.is_none() && cloth.has_triangles();
+    let plain = cloths.iter().position(is_plain);
     let by_scene = of_scene(&parts(root, cloths, bodies, time_step)?.of_cloth(plain))?;
     for (index, table) in tables.iter().enumerate() {
         let world = parts(root, cloths, bodies, time_step)?.of_cloth(Some(index));

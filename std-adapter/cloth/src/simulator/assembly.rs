@@ -8,7 +8,7 @@ use crate::scene::{Scene, append};
 use crate::step::{Carrier, Constraint, Force, Memory};
 use crate::tearing::Tearable;
 use crate::world::Kinematic;
-use selvedge::Mesh;
+use selvedge::{Mesh, Topology};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
@@ -22,6 +22,7 @@ pub(super) struct Assembly {
     pub(super) cloth_vertices: usize,
     pub(super) cloth_triangles: usize,
     pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) loose_edges: Vec<[u32; 2]>,
     pub(super) rest: Vec<DVec3>,
     pub(super) inverse_masses: Vec<f64>,
     pub(super) carriers: Vec<Carrier>,
@@ -70,15 +71,31 @@ impl Assembly {
         inverse_masses.resize(rest.len(), 0.0);
         let remembers = |&index: &usize| constraints[index].action.memory().is_some();
         let remembering = (0..constraints.len()).filter(remembers).collect();
-        let bodies = scene.bodies.len();
+        let loose_edges = scene.all_loose_edges();
+        let contact = match contact.asks_for_any() {
+            true => {
+                let topology = Topology::with_loose_features(rest.len(), triangles.clone(), &loose_edges, &[])?;
+                let bodies = scene.bodies.len();
+                Some(ContactSolver::new(
+                    contact,
+                    topology,
+                    &rest,
+                    &carriers,
+                    cloth_vertices,
+                    bodies,
+                ))
+            }
+            false => None,
+        };
         Ok(Self {
             effects,
-            contact: ContactSolver::new(contact, &triangles, &rest, &carriers, cloth_vertices, bodies)?,
+            contact,
             vertices_of_cloths,
             body_vertices,
             cloth_vertices,
             cloth_triangles,
             triangles,
+            loose_edges,
             rest,
             inverse_masses,
             carriers,

@@ -238,6 +238,7 @@ impl Simulation {
             cloth_vertices,
             cloth_triangles,
             triangles,
+            loose_edges,
             rest,
             inverse_masses,
             carriers,
@@ -261,7 +262,7 @@ impl Simulation {
         self.state.velocities = gathered(&self.state.velocities, from);
         (self.vertices_of_cloths, self.body_vertices) = (vertices_of_cloths, body_vertices);
         (self.cloth_vertices, self.cloth_triangles) = (cloth_vertices, cloth_triangles);
-        (self.triangles, self.rest) = (triangles, rest);
+        (self.triangles, self.loose_edges, self.rest) = (triangles, loose_edges, rest);
         (self.inverse_masses, self.carriers) = (inverse_masses, carriers);
         (self.motions, self.pins) = (motions, pins);
         (self.forces, self.constraints, self.remembering) = (forces, constraints, remembering);

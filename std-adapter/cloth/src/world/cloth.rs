@@ -1,12 +1,16 @@
-//! A cloth: its mesh, its mass, and effects of its own.
+//! A cloth: its mesh, its mass, and effects of its own. It may have loose edges, of ropes, laces and fringes.
 
 use super::{Material, shapes};
 use crate::effects::{Effect, Effects};
-use crate::input::{AREA_DENSITY, Count, Field, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, ValueError, suggestion};
+use crate::input::{
+    AREA_DENSITY, Count, Field, LARGEST_COORDINATE, LENGTH, LINEAR_DENSITY, RATIO, SPEED, ValueError, suggestion,
+};
+use crate::rope::{Run, runs};
 use crate::sleeve::{RefinementError, ring_sizes, sleeve};
 use selvedge::{Mesh, Topology, TopologyError};
 use selvedge_core::glam::DVec3;
 use std::borrow::Cow;
+use std::collections::HashSet;
 
 /// A cloth at rest: its mesh, what it weighs, and what it has of its own.
 ///
@@ -24,11 +28,14 @@ pub struct Cloth {
     /// Its name in the scene and in messages; `cloth` unless it is given one. No two cloths of a scene have the same.
     pub name: String,
     pub(crate) mesh: Mesh,
+    /// Of triangles and loose edges.
     pub(crate) topology: Topology,
     /// Vertices of the mesh of which tears have made copies, in the order of these, which are its last ones; some are copies themselves.
     copied: Vec<u32>,
-    /// Mass per area in kg/m².
+    /// Mass per area in kg/m²; of no meaning without triangles.
     pub density: f64,
+    /// Mass per length of loose edges in kg/m; of no meaning without any.
+    pub linear_density: f64,
     /// The direction that the warp takes, as far as it lies in each triangle.
     pub(crate) warp: DVec3,
     /// The velocity that all of it starts with, in m/s.
@@ -55,6 +62,9 @@ pub(super) const TO: Field = Field::vector("to", LENGTH, LARGEST_COORDINATE);
 pub(super) const RADIUS: Field = Field::new("radius", LENGTH, 1e-3, LARGEST_COORDINATE);
 pub(super) const WARP: Field = Field::vector("warp", RATIO, LARGEST_COORDINATE);
 pub(super) const DENSITY: Field = Field::new("density", AREA_DENSITY, 1e-3, 100.0);
+pub(super) const LINEAR_DENSITY_OF_EDGES: Field = Field::new("linear_density", LINEAR_DENSITY, 1e-6, 100.0);
+pub(super) const POINTS: Field = Field::vector("points", LENGTH, LARGEST_COORDINATE);
+pub(super) const SEGMENTS: Count = Count::new("segments", 1, 100_000);
 pub(super) const VELOCITY: Field = Field::vector("velocity", SPEED, 1e3);
 
 impl Cloth {
@@ -140,11 +150,46 @@ impl Cloth {
         Self::with_parts(mesh, warp, density, Vec::new())
     }
 
+    /// As [`of_mesh`](Self::of_mesh), with edges that belong to no triangle: fringes, laces, or ropes alone. Each names two vertices of the
+    /// mesh; every vertex is in a triangle or in such an edge. `densities` are in kg/m² and, of loose edges, in kg/m.
+    ///
+    /// ```
+    /// use selvedge_cloth::{Cloth, Mesh, glam::DVec3};
+    ///
+    /// let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_X * 2.0];
+    /// let mesh = Mesh { positions, triangles: vec![[0, 1, 2]] };
+    /// let tail = [[0, 3], [3, 4]];
+    /// let kite = Cloth::of_mesh_with_loose_edges(mesh, &tail, DVec3::X, [0.05, 0.002])?;
+    /// assert_eq!(kite.topology().loose_edges().len(), 2);
+    /// # Ok::<(), selvedge_cloth::ValueError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`of_mesh`](Self::of_mesh), but for a mesh without triangles that has loose edges; and if an edge names a vertex that is not there,
+    /// joins what another one joins or a triangle does, or is shorter than a hundredth of a millimetre.
+    pub fn of_mesh_with_loose_edges(
+        mesh: Mesh,
+        loose_edges: &[[u32; 2]],
+        warp: DVec3,
+        densities: [f64; 2],
+    ) -> Result<Self, ValueError> {
+        Self::with_loose_edges(mesh, loose_edges, warp, densities, Vec::new())
+    }
+
     fn with_parts(mesh: Mesh, warp: DVec3, density: f64, parts: Vec<(&'static str, Vec<u32>)>) -> Result<Self, ValueError> {
-        DENSITY.check(density)?;
+        Self::with_loose_edges(mesh, &[], warp, [density, 0.0], parts)
+    }
+
+    pub(super) fn with_loose_edges(
+        mesh: Mesh,
+        loose_edges: &[[u32; 2]],
+        warp: DVec3,
+        [density, linear_density]: [f64; 2],
+        parts: Vec<(&'static str, Vec<u32>)>,
+    ) -> Result<Self, ValueError> {
         WARP.check_vector(warp)?;
         shapes::check(&mesh)?;
-        let topology = mesh.topology();
+        let topology = Topology::with_loose_features(mesh.positions.len(), mesh.triangles.clone(), loose_edges, &[]);
         let topology = topology.map_err(|error| ValueError::new("shape", error.to_string()))?;
         let statistics = topology.statistics();
         if statistics.degenerate_triangles > 0 || statistics.isolated_vertices > 0 {
@@ -160,9 +205,11 @@ impl Cloth {
                 format!("triangle {flat} of the cloth has an area below {SMALLEST_AREA:e} square metres; are the units metres?");
             return Err(ValueError::new("shape", message));
         }
-        Ok(Self {
+        check_loose_edges(&mesh, loose_edges)?;
+        let cloth = Self {
             name: NAME.to_owned(),
             density,
+            linear_density,
             velocity: DVec3::ZERO,
             material: None,
             mesh,
@@ -171,7 +218,9 @@ impl Cloth {
             warp,
             parts,
             effects: Effects::default(),
-        })
+        };
+        cloth.check_densities()?;
+        Ok(cloth)
     }
 
     /// The same with a name.
@@ -202,11 +251,30 @@ impl Cloth {
 
     /// What may have been changed since it was made.
     pub(crate) fn check(&self) -> Result<(), ValueError> {
-        let checked = DENSITY.check(self.density).and(VELOCITY.check_vector(self.velocity));
+        let checked = self.check_densities().and(VELOCITY.check_vector(self.velocity));
         checked.map_err(|error| error.of(&self.name))
     }
 
-    /// At rest, from which the simulation starts.
+    /// Those of what it has.
+    fn check_densities(&self) -> Result<(), ValueError> {
+        if self.has_triangles() {
+            DENSITY.check(self.density)?;
+        }
+        if self.has_loose_edges() {
+            LINEAR_DENSITY_OF_EDGES.check(self.linear_density)?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn has_triangles(&self) -> bool {
+        !self.mesh.triangles.is_empty()
+    }
+
+    pub(crate) fn has_loose_edges(&self) -> bool {
+        self.topology.loose_edges().len() > 0
+    }
+
+    /// Its vertices and triangles at rest, from which the simulation starts; [`topology`](Self::topology) has its loose edges.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
@@ -216,6 +284,18 @@ impl Cloth {
     #[must_use]
     pub fn topology(&self) -> &Topology {
         &self.topology
+    }
+
+    fn loose_edges(&self) -> Vec<[u32; 2]> {
+        self.topology.loose_edges().collect()
+    }
+
+    /// Its loose edges as rows of vertices, each joined with the next: from where a rope begins, ends or branches to the next such place. Where a
+    /// row is closed its first vertex is the last again.
+    #[must_use]
+    pub fn loose_rows(&self) -> Vec<Vec<u32>> {
+        let runs = runs(&self.loose_edges(), self.mesh.positions.len()).into_iter();
+        runs.map(Run::into_vertices).collect()
     }
 
     /// How many vertices it had before it tore.
@@ -247,7 +327,7 @@ impl Cloth {
         let made = || {
             let triangles = self.mesh.triangles.iter();
             let triangles = triangles.map(|triangle| triangle.map(|vertex| self.as_made(vertex)));
-            Topology::new(self.vertices_as_made(), triangles.collect())
+            Topology::with_loose_features(self.vertices_as_made(), triangles.collect(), &self.loose_edges(), &[])
         };
         match made() {
             Ok(made) if !self.copied.is_empty() => Cow::Owned(made),
@@ -255,14 +335,15 @@ impl Cloth {
         }
     }
 
-    /// Gives it copies of some of its vertices, instead of those that it has, each of one before it; and triangles that name them.
+    /// Gives it copies of some of its vertices, instead of those that it has, each of one before it; and triangles that name them. Loose edges stay
+    /// with what keeps its number.
     ///
     /// # Errors
     /// If there are too many.
     pub(crate) fn tear(&mut self, copied: Vec<u32>, triangles: Vec<[u32; 3]>) -> Result<(), TopologyError> {
         let mut positions = self.mesh.positions[..self.vertices_as_made()].to_vec();
         copied.iter().for_each(|&vertex| positions.push(positions[vertex as usize]));
-        self.topology = Topology::new(positions.len(), triangles.clone())?;
+        self.topology = Topology::with_loose_features(positions.len(), triangles.clone(), &self.loose_edges(), &[])?;
         (self.mesh, self.copied) = (Mesh { positions, triangles }, copied);
         Ok(())
     }
@@ -284,6 +365,7 @@ impl Cloth {
             copied: Vec::new(),
             mesh,
             density: 0.1,
+            linear_density: 0.0,
             warp: DVec3::X,
             velocity: DVec3::ZERO,
             material: None,
@@ -300,5 +382,34 @@ impl Cloth {
     }
 }
 
+/// Of a hundredth of a millimetre.
+const SMALLEST_EDGE: f64 = 1e-5;
 /// Edges of a hundredth of a millimetre.
-const SMALLEST_AREA: f64 = 1e-10;
+const SMALLEST_AREA: f64 = SMALLEST_EDGE * SMALLEST_EDGE;
+
+/// Whether each joins two vertices, some way apart, that no other edge joins.
+fn check_loose_edges(mesh: &Mesh, loose_edges: &[[u32; 2]]) -> Result<(), ValueError> {
+    if loose_edges.is_empty() {
+        return Ok(());
+    }
+    let wrong = |edge: usize, what: &str| {
+        let message = format!("loose edge {edge} of the cloth {what}");
+        Err(ValueError::new("shape", message))
+    };
+    let sorted = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
+    let of_triangles = mesh.triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let mut joined: HashSet<[u32; 2]> = of_triangles.map(sorted).collect();
+    for (edge, &ends) in loose_edges.iter().enumerate() {
+        let [from, to] = ends.map(|vertex| mesh.positions[vertex as usize]);
+        if !(from.distance(to) >= SMALLEST_EDGE) {
+            return wrong(
+                edge,
+                &format!("is shorter than {SMALLEST_EDGE:e} metres; are the units metres?"),
+            );
+        }
+        if !joined.insert(sorted(ends)) {
+            return wrong(edge, "joins two vertices that a triangle or another loose edge joins already");
+        }
+    }
+    Ok(())
+}

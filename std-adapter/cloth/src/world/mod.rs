@@ -8,6 +8,7 @@ mod material;
 mod motion;
 mod placement;
 mod read_cloth;
+mod rope;
 mod shapes;
 
 use crate::input::ValueError;

@@ -1,7 +1,8 @@
 //! `[cloth]`, or `[[cloth]]` for each of several.
 
 use super::cloth::{
-    CELLS, CELLS_AROUND, CORNER, Cloth, DENSITY, FIRST, FROM, NAME, RADIUS, REFINEMENT, SECOND, TO, VELOCITY, WARP,
+    CELLS, CELLS_AROUND, CORNER, Cloth, DENSITY, FIRST, FROM, LINEAR_DENSITY_OF_EDGES, NAME, POINTS, RADIUS, REFINEMENT, SECOND,
+    SEGMENTS, TO, VELOCITY, WARP,
 };
 use super::{Material, shapes};
 use crate::effects::effect_names;
@@ -13,13 +14,15 @@ enum ClothShape {
     Sleeve,
     Sheet,
     Tube,
+    Rope,
     File,
 }
 
-const SHAPES: [(&str, ClothShape); 4] = [
+const SHAPES: [(&str, ClothShape); 5] = [
     ("sleeve", ClothShape::Sleeve),
     ("sheet", ClothShape::Sheet),
     ("tube", ClothShape::Tube),
+    ("rope", ClothShape::Rope),
     ("file", ClothShape::File),
 ];
 
@@ -28,12 +31,13 @@ impl Cloth {
     pub(crate) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
         let shape = table.required_choice("shape", &SHAPES)?;
         let own: &[&str] = match shape {
-            ClothShape::Sleeve => &["refinement"],
-            ClothShape::Sheet => &["corner", "sides", "cells"],
-            ClothShape::Tube => &["from", "to", "radius", "cells"],
-            ClothShape::File => &["file", "warp"],
+            ClothShape::Sleeve => &["material", "density", "refinement"],
+            ClothShape::Sheet => &["material", "density", "corner", "sides", "cells"],
+            ClothShape::Tube => &["material", "density", "from", "to", "radius", "cells"],
+            ClothShape::Rope => &["points", "segments", LINEAR_DENSITY_OF_EDGES.name],
+            ClothShape::File => &["material", "density", "file", "warp", LINEAR_DENSITY_OF_EDGES.name],
         };
-        table.expect_keys(&[&["name", "shape", "material", "density", "velocity"], own, &effect_names()].concat())?;
+        table.expect_keys(&[&["name", "shape", "velocity"], own, &effect_names()].concat())?;
         let material = table.choice("material", &Material::ALL.map(|material| (material.name, material)))?;
         let density = || table.number_or(&DENSITY, |density| density, material.map(|material| material.density));
         let made = match shape {
@@ -54,9 +58,22 @@ impl Cloth {
                     density()?,
                 )
             }
+            ClothShape::Rope => Self::rope(
+                &table.required_vectors(&POINTS)?,
+                table.required_count(&SEGMENTS)?,
+                table.required_number(&LINEAR_DENSITY_OF_EDGES)?,
+            ),
             ClothShape::File => {
                 let warp = table.vector(&WARP)?.unwrap_or(DVec3::X);
-                Self::of_mesh(shapes::of_file(table)?, warp, density()?)
+                match table.number(&LINEAR_DENSITY_OF_EDGES)? {
+                    None => Self::of_mesh(shapes::of_file(table)?, warp, density()?),
+                    Some(linear_density) => {
+                        let (mesh, edges) = shapes::of_file_with_loose_edges(table)?;
+                        // What has no triangles has no mass per area.
+                        let density = if mesh.triangles.is_empty() { 0.0 } else { density()? };
+                        Self::of_mesh_with_loose_edges(mesh, &edges, warp, [density, linear_density])
+                    }
+                }
             }
         };
         let mut cloth = made.map_err(|error| table.placed(&error))?;

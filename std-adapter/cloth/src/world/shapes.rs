@@ -4,8 +4,9 @@ use crate::input::{LARGEST_COORDINATE, SceneError, Table, ValueError};
 use libm::{cos, sin};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
-use selvedge_files::mesh;
+use selvedge_files::mesh::{self, LooseMesh};
 use std::f64::consts::{FRAC_PI_2, TAU};
+use std::path::PathBuf;
 
 /// A parallelogram with a corner and two sides, in `cells` along each. Diagonals alternate, so that no direction is favoured.
 ///
@@ -105,14 +106,37 @@ pub(crate) fn capsule([from, to]: [DVec3; 2], radius: f64, around: u32) -> Mesh 
 
 /// The mesh of the file that `file` names.
 pub(super) fn of_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
+    let read = mesh::read(&path(table)?);
+    let mesh = read.map_err(|error| table.error("file", error.to_string()))?.mesh;
+    check(&mesh).map_err(|error| table.error("file", error.message))?;
+    Ok(mesh)
+}
+
+/// The same, perhaps without triangles, and its edges that belong to none.
+pub(super) fn of_file_with_loose_edges(table: &Table<'_>) -> Result<(Mesh, Vec<[u32; 2]>), SceneError> {
+    let wrong = |message: String| table.error("file", message);
+    let read = mesh::read_with_loose_features(&path(table)?);
+    let LooseMesh { positions, topology } = read.map_err(|error| wrong(error.to_string()))?;
+    let (edges, points) = (topology.loose_edges().collect::<Vec<_>>(), topology.points().len());
+    if edges.is_empty() || points > 0 {
+        let message = format!(
+            "`linear_density` is for edges that belong to no triangle (lines `l` of an OBJ file), but the file has {} of them and {points} points",
+            edges.len()
+        );
+        return Err(wrong(message));
+    }
+    let triangles = topology.proper_triangles().to_vec();
+    let mesh = Mesh { positions, triangles };
+    check(&mesh).map_err(|error| wrong(error.message))?;
+    Ok((mesh, edges))
+}
+
+fn path(table: &Table<'_>) -> Result<PathBuf, SceneError> {
     let Some(file) = table.text("file")? else {
         let message = "shape \"file\" needs `file`, such as \"shirt.obj\"".to_owned();
         return Err(table.error("file", message));
     };
-    let read = mesh::read(&table.folder().join(file));
-    let mesh = read.map_err(|error| table.error("file", error.to_string()))?.mesh;
-    check(&mesh).map_err(|error| table.error("file", error.message))?;
-    Ok(mesh)
+    Ok(table.folder().join(file))
 }
 
 /// Whether its vertices are within reach, and its triangles have vertices.

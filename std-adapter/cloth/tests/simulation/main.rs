@@ -13,6 +13,7 @@ mod garments;
 mod materials;
 mod paying_only;
 mod plastic_folds;
+mod ropes;
 mod seams;
 mod several_cloths;
 mod stability;

@@ -2,8 +2,8 @@
 
 use crate::{load, set_up};
 use selvedge_cloth::effects::{
-    AttachmentGroup, Attachments, Effect, Force, InternalPressure, PinGroup, PinMotion, Pins, Plan, SelfCollision, Shear,
-    Stretch, Tearing, Thickness, TimeStep,
+    AttachmentGroup, Attachments, Effect, Force, InternalPressure, PinGroup, PinMotion, Pins, Plan, RopeStretch, SelfCollision,
+    Shear, Stretch, Tearing, Thickness, TimeStep,
 };
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{CHECKPOINT_STEPS, CheckpointError, Cloth, Keyframe, RigidMotion, Scene, Simulation};
@@ -39,7 +39,7 @@ fn pulled(tearing: Tearing) -> Scene {
     scene.add(Pins {
         groups: vec![PinGroup::resting(column(0)), right],
     });
-    scene.add(Stretch::isotropic(1000.0)).add(Shear { stiffness: 100.0 });
+    scene.add(Stretch::isotropic(1000.0)).add(Shear::new(100.0));
     scene.add(SelfCollision(Thickness::of(1e-3))).add(tearing);
     scene
 }
@@ -258,6 +258,32 @@ fn what_names_vertices_of_a_cloth_behind_one_that_tears_goes_on_holding_them() {
         let made = strip("second", DVec3::Z * 0.1).mesh().positions[corner];
         assert!(simulation.positions()[own.start + corner].distance(made) < 1e-3);
     }
+}
+
+/// A strip with a tassel of two edges at a vertex, whose ends are 66 and 67.
+fn with_tassel(name: &str, at: DVec3, vertex: u32) -> Cloth {
+    let mut mesh = strip(name, at).mesh().clone();
+    let root = mesh.positions[vertex as usize];
+    mesh.positions.extend([root - DVec3::Y * 0.01, root - DVec3::Y * 0.02]);
+    let made = Cloth::of_mesh_with_loose_edges(mesh, &[[vertex, 66], [66, 67]], DVec3::X, [0.2, 0.001]);
+    made.unwrap().named(name)
+}
+
+#[test]
+fn tassels_stay_with_the_vertices_that_keep_their_numbers() {
+    let mut scene = pulled(Tearing::perforated(column(5), 50.0));
+    scene.cloths = vec![with_tassel("cloth", DVec3::ZERO, 5), with_tassel("second", DVec3::Z * 0.1, 3)];
+    scene.add(RopeStretch::of(1000.0));
+    let simulation = after(scene, 200);
+    assert_eq!(simulation.torn_edges().len(), 5);
+    let own = simulation.vertices_of_cloth(1).unwrap();
+    assert_eq!(own, 74..142);
+    assert_eq!(simulation.loose_edges(), [[5, 66], [66, 67], [77, 140], [140, 141]]);
+    for &[from, to] in simulation.loose_edges() {
+        let length = simulation.positions()[from as usize].distance(simulation.positions()[to as usize]);
+        assert!((length - 0.01).abs() < 1e-4, "{length}");
+    }
+    assert!(simulation.is_certified());
 }
 
 #[test]

@@ -330,6 +330,10 @@ impl Simulate {
             positions: simulation.positions().to_vec(),
             triangles: simulation.triangles().to_vec(),
         };
-        Ok(mesh::write(&self.output.join(name), &mesh)?)
+        Ok(mesh::write_with_loose_edges(
+            &self.output.join(name),
+            &mesh,
+            simulation.loose_edges(),
+        )?)
     }
 }

@@ -375,9 +375,31 @@ impl Topology {
         statistics
     }
 
-    /// Those that were given as triangles.
-    fn proper_triangles(&self) -> &[[u32; 3]] {
+    /// The vertices of what was given as triangles.
+    #[must_use]
+    pub fn proper_triangles(&self) -> &[[u32; 3]] {
         &self.triangles[..self.triangles.len() - self.loose[0] - self.loose[1]]
+    }
+
+    /// The ends of [loose edges](Self::with_loose_features), as given.
+    ///
+    /// ```
+    /// let topology = selvedge::Topology::with_loose_features(6, vec![[0, 1, 2]], &[[4, 3]], &[5])?;
+    /// assert!(topology.loose_edges().eq([[4, 3]]) && topology.points().eq([5]));
+    /// assert_eq!(topology.proper_triangles(), [[0, 1, 2]]);
+    /// # Ok::<(), selvedge::TopologyError>(())
+    /// ```
+    #[must_use]
+    pub fn loose_edges(&self) -> impl ExactSizeIterator<Item = [u32; 2]> {
+        let first = self.proper_triangles().len();
+        self.triangles[first..first + self.loose[0]].iter().map(|&[a, b, _]| [a, b])
+    }
+
+    /// The vertices of [points](Self::with_loose_features), as given.
+    #[must_use]
+    pub fn points(&self) -> impl ExactSizeIterator<Item = u32> {
+        let first = self.triangles.len() - self.loose[1];
+        self.triangles[first..].iter().map(|&[point, ..]| point)
     }
 
     /// How many triangles each edge has; a triangle (v, v, w) counts once for its edge v-w.

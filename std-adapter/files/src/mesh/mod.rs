@@ -173,8 +173,29 @@ pub fn read_bytes(bytes: &[u8], format: FileFormat) -> Result<MeshFile, FileProb
 /// If the extension is unknown, the file cannot be written, or the mesh is one that [`read`] would
 /// refuse.
 pub fn write(path: &Path, mesh: &Mesh) -> Result<(), MeshError> {
+    write_with_loose_edges(path, mesh, &[])
+}
+
+/// Writes `mesh` to `path` like [`write()`], and with it edges that belong to no triangle, each by its two vertices: lines `l` of an OBJ file,
+/// the element `edge` of a PLY file, which [`read_with_loose_features`] reads. The mesh needs no triangles if there are any.
+///
+/// ```
+/// use selvedge::{Mesh, glam::DVec3};
+/// use selvedge_files::mesh::{read_with_loose_features, write_with_loose_edges};
+///
+/// let rope = Mesh { positions: vec![DVec3::ZERO, DVec3::X, DVec3::X * 2.0], triangles: Vec::new() };
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("rope.obj");
+/// write_with_loose_edges(&path, &rope, &[[0, 1], [1, 2]])?;
+/// assert!(read_with_loose_features(&path)?.topology.loose_edges().eq([[0, 1], [1, 2]]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Those of [`write()`], and if an edge names a vertex that does not exist.
+pub fn write_with_loose_edges(path: &Path, mesh: &Mesh, loose_edges: &[[u32; 2]]) -> Result<(), MeshError> {
     match FileFormat::from_path(path) {
-        Some(format) => write_as(path, mesh, format),
+        Some(format) => write_checked(path, mesh, loose_edges, format),
         None => Err(MeshError::file(path, FileProblem::UnknownExtension)),
     }
 }
@@ -184,8 +205,12 @@ pub fn write(path: &Path, mesh: &Mesh) -> Result<(), MeshError> {
 /// # Errors
 /// Those of [`write()`], but for the extension.
 pub fn write_as(path: &Path, mesh: &Mesh, format: FileFormat) -> Result<(), MeshError> {
-    check(mesh)
-        .and_then(|()| save(path, mesh, format).map_err(FileProblem::Write))
+    write_checked(path, mesh, &[], format)
+}
+
+fn write_checked(path: &Path, mesh: &Mesh, loose_edges: &[[u32; 2]], format: FileFormat) -> Result<(), MeshError> {
+    check(mesh, loose_edges)
+        .and_then(|()| save(path, mesh, loose_edges, format).map_err(FileProblem::Write))
         .map_err(|problem| MeshError::file(path, problem))
 }
 
@@ -207,9 +232,9 @@ pub fn write_as(path: &Path, mesh: &Mesh, format: FileFormat) -> Result<(), Mesh
 /// # Ok::<(), selvedge_files::mesh::FileProblem>(())
 /// ```
 pub fn write_bytes(mesh: &Mesh, format: FileFormat) -> Result<Vec<u8>, FileProblem> {
-    check(mesh)?;
+    check(mesh, &[])?;
     let mut bytes = Vec::new();
-    write_to(&mut bytes, mesh, format).map_err(FileProblem::Write)?;
+    write_to(&mut bytes, mesh, &[], format).map_err(FileProblem::Write)?;
     Ok(bytes)
 }
 
@@ -282,14 +307,25 @@ fn parsed(bytes: &[u8], format: FileFormat, features: Features) -> Result<Parsed
 }
 
 /// Refuses what could not be read again.
-fn check(mesh: &Mesh) -> Result<(), FileProblem> {
+fn check(mesh: &Mesh, loose_edges: &[[u32; 2]]) -> Result<(), FileProblem> {
     for (vertex, position) in mesh.positions.iter().enumerate() {
         check_finite(vertex, *position, None)?;
     }
-    if mesh.triangles.is_empty() {
+    if mesh.triangles.is_empty() && loose_edges.is_empty() {
         return Err(TopologyError::NoTriangles.into());
     }
     let vertex_count = mesh.positions.len();
+    for (index, ends) in loose_edges.iter().enumerate() {
+        if let Some(&vertex) = ends.iter().find(|&&v| v as usize >= vertex_count) {
+            let error = TopologyError::LooseVertexOutOfRange {
+                index,
+                is_point: false,
+                vertex,
+                vertex_count,
+            };
+            return Err(error.into());
+        }
+    }
     for (face, triangle) in mesh.triangles.iter().enumerate() {
         if let Some(&vertex) = triangle.iter().find(|&&v| v as usize >= vertex_count) {
             return Err(FileProblem::IndexOutOfRange {
@@ -318,18 +354,18 @@ pub(crate) fn check_finite(vertex: usize, position: DVec3, line: Option<usize>) 
     Ok(())
 }
 
-fn save(path: &Path, mesh: &Mesh, format: FileFormat) -> io::Result<()> {
+fn save(path: &Path, mesh: &Mesh, loose_edges: &[[u32; 2]], format: FileFormat) -> io::Result<()> {
     let mut out = BufWriter::new(temporary_file::beside(path)?);
-    write_to(&mut out, mesh, format)?;
+    write_to(&mut out, mesh, loose_edges, format)?;
     out.flush()?;
     let file = out.into_inner().map_err(io::IntoInnerError::into_error)?;
     file.persist(path).map_err(|error| error.error)?;
     Ok(())
 }
 
-fn write_to(out: &mut impl Write, mesh: &Mesh, format: FileFormat) -> io::Result<()> {
+fn write_to(out: &mut impl Write, mesh: &Mesh, loose_edges: &[[u32; 2]], format: FileFormat) -> io::Result<()> {
     match format {
-        FileFormat::Obj => obj::write(out, mesh),
-        FileFormat::Ply(encoding) => ply::write(out, mesh, encoding),
+        FileFormat::Obj => obj::write(out, mesh, loose_edges),
+        FileFormat::Ply(encoding) => ply::write(out, mesh, loose_edges, encoding),
     }
 }

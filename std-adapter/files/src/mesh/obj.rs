@@ -38,14 +38,18 @@ pub(super) fn parse(bytes: &[u8], features: Features) -> Result<Parsed, FileProb
     reader.finish()
 }
 
-pub(super) fn write(out: &mut impl Write, mesh: &Mesh) -> io::Result<()> {
+pub(super) fn write(out: &mut impl Write, mesh: &Mesh, loose_edges: &[[u32; 2]]) -> io::Result<()> {
+    let number = |vertex: u32| u64::from(vertex) + 1;
     // `{:?}` is the shortest decimal that reads back as the same number.
     for p in &mesh.positions {
         writeln!(out, "v {:?} {:?} {:?}", p.x, p.y, p.z)?;
     }
     for &[a, b, c] in &mesh.triangles {
-        let [a, b, c] = [a, b, c].map(|vertex| u64::from(vertex) + 1);
+        let [a, b, c] = [a, b, c].map(number);
         writeln!(out, "f {a} {b} {c}")?;
+    }
+    for &[a, b] in loose_edges {
+        writeln!(out, "l {} {}", number(a), number(b))?;
     }
     Ok(())
 }

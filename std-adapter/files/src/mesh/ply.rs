@@ -120,7 +120,7 @@ pub(super) fn parse(bytes: &[u8], features: Features) -> Result<Parsed, FileProb
     Ok(parsed)
 }
 
-pub(super) fn write(out: &mut impl Write, mesh: &Mesh, encoding: PlyEncoding) -> io::Result<()> {
+pub(super) fn write(out: &mut impl Write, mesh: &Mesh, loose_edges: &[[u32; 2]], encoding: PlyEncoding) -> io::Result<()> {
     let mut vertex = ElementDef::new("vertex".to_owned());
     vertex.count = mesh.positions.len();
     for name in COORDINATES {
@@ -131,6 +131,12 @@ pub(super) fn write(out: &mut impl Write, mesh: &Mesh, encoding: PlyEncoding) ->
     face.count = mesh.triangles.len();
     let list = PropertyType::List(ScalarType::UChar, ScalarType::UInt);
     face.properties.add(PropertyDef::new(CORNERS[0].to_owned(), list));
+    let mut edge = ElementDef::new("edge".to_owned());
+    edge.count = loose_edges.len();
+    for name in ENDS {
+        let index = PropertyType::Scalar(ScalarType::UInt);
+        edge.properties.add(PropertyDef::new(name.to_owned(), index));
+    }
 
     let mut header = Header::new();
     header.encoding = match encoding {
@@ -140,12 +146,16 @@ pub(super) fn write(out: &mut impl Write, mesh: &Mesh, encoding: PlyEncoding) ->
     };
     header.elements.add(vertex.clone());
     header.elements.add(face.clone());
+    if edge.count > 0 {
+        header.elements.add(edge.clone());
+    }
 
     let writer = Writer::<Written>::new();
     writer.write_header(out, &header)?;
     let vertices = mesh.positions.iter().map(|p| (Written::Vertex(*p), &vertex));
     let faces = mesh.triangles.iter().map(|t| (Written::Face(*t), &face));
-    for (row, element) in vertices.chain(faces) {
+    let edges = loose_edges.iter().map(|ends| (Written::Edge(*ends), &edge));
+    for (row, element) in vertices.chain(faces).chain(edges) {
         match encoding {
             PlyEncoding::Ascii => writer.write_ascii_element(out, &row, element)?,
             PlyEncoding::LittleEndian => writer.write_little_endian_element(out, &row, element)?,
@@ -159,6 +169,7 @@ pub(super) fn write(out: &mut impl Write, mesh: &Mesh, encoding: PlyEncoding) ->
 enum Written {
     Vertex(DVec3),
     Face([u32; 3]),
+    Edge([u32; 2]),
 }
 
 impl PropertyAccess for Written {
@@ -175,10 +186,15 @@ impl PropertyAccess for Written {
         }
     }
 
+    fn get_uint(&self, name: &str) -> Option<u32> {
+        let Self::Edge(ends) = self else { return None };
+        ENDS.iter().position(|end| *end == name).map(|end| ends[end])
+    }
+
     fn get_list_uint(&self, _name: &str) -> Option<&[u32]> {
         match self {
             Self::Face(triangle) => Some(triangle),
-            Self::Vertex(_) => None,
+            Self::Vertex(_) | Self::Edge(_) => None,
         }
     }
 }

@@ -34,8 +34,8 @@ fn meshes() -> impl Strategy<Value = Mesh> {
 fn bytes_of(mesh: &Mesh, format: FileFormat) -> Vec<u8> {
     let mut bytes = Vec::new();
     match format {
-        FileFormat::Obj => obj::write(&mut bytes, mesh).unwrap(),
-        FileFormat::Ply(encoding) => ply::write(&mut bytes, mesh, encoding).unwrap(),
+        FileFormat::Obj => obj::write(&mut bytes, mesh, &[]).unwrap(),
+        FileFormat::Ply(encoding) => ply::write(&mut bytes, mesh, &[], encoding).unwrap(),
     }
     bytes
 }
@@ -611,6 +611,37 @@ fn edges_and_points_of_no_triangle_are_kept_where_they_are_wanted() {
             (mesh.positions.clone(), mesh.topology().unwrap())
         );
     }
+}
+
+#[test]
+fn loose_edges_are_read_as_they_were_written_with_triangles_and_without() {
+    let folder = TempDir::new().unwrap();
+    let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::splat(0.1)];
+    for triangles in [vec![], vec![[0, 1, 2]]] {
+        let mesh = Mesh {
+            positions: positions.clone(),
+            triangles,
+        };
+        for format in FORMATS {
+            let path = folder
+                .path()
+                .join(if format == FileFormat::Obj { "rope.obj" } else { "rope.ply" });
+            write_checked(&path, &mesh, &[[3, 0], [3, 2]], format).unwrap();
+            let read = read_with_loose_features(&path).unwrap();
+            assert_eq!(read.positions, mesh.positions);
+            assert_eq!(read.topology.proper_triangles(), mesh.triangles);
+            assert!(read.topology.loose_edges().eq([[3, 0], [3, 2]]));
+        }
+    }
+    let path = folder.path().join("rope.obj");
+    let mesh = Mesh {
+        positions,
+        triangles: Vec::new(),
+    };
+    let written = |edges: &[[u32; 2]]| write_with_loose_edges(&path, &mesh, edges).unwrap_err().to_string();
+    let no_vertex = "loose edge 1 names vertex 4, but there are 4 vertices, numbered from 0";
+    assert_eq!(written(&[[0, 1], [1, 4]]), format!("{}: {no_vertex}", path.display()));
+    assert!(written(&[]).ends_with("the mesh has no triangles"));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::Frames;
 use selvedge::glam::DVec3;
-use selvedge::{Topology, TopologyError};
+use selvedge::{Mesh, Topology, TopologyError};
 use selvedge_cloth::{Scene, Simulation};
 
 /// Some of a simulation's steps, evenly spread over it: its cloths alone, without bodies. Cloth that tears is taken to be whole: without the
@@ -52,9 +52,11 @@ impl SimulatedSteps {
     /// # Errors
     /// If the cloths together have too many triangles.
     pub fn new(scene: &Scene, count: usize) -> Result<Self, TopologyError> {
+        let Mesh { positions, triangles } = scene.all_cloth();
+        let topology = Topology::with_loose_features(positions.len(), triangles, &scene.all_loose_edges(), &[])?;
         Ok(Self {
             scene: scene.name.clone(),
-            topology: scene.all_cloth().topology()?,
+            topology,
             all: scene.steps(),
             count: scene.steps().min(count as u64),
             steps: Vec::new(),

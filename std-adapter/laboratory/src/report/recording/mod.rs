@@ -41,6 +41,7 @@ mod simulated;
 #[cfg(test)]
 mod tests;
 mod thinned;
+mod tubes;
 
 pub use recorder::{FrameError, Recorder};
 pub use simulated::{SimulationRecorder, Subject, costs_of_added_effects};

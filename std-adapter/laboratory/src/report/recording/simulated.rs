@@ -1,17 +1,21 @@
-//! Records a [`Simulation`].
+//! Records a [`Simulation`]. Loose edges are recorded as the [tubes](super::tubes) as which they are shown.
 
+use super::tubes::Shown;
 use super::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, PartKind, Recorder, Recording, SeriesKind};
 use super::{EDGES_99, GRAVITATIONAL, LONGEST_EDGE};
 use crate::report::{label, printed};
 use crate::study::EffectCost;
 use selvedge::Mesh;
 use selvedge_cloth::{Scene, Simulation, TangledStart};
+use selvedge_core::glam::DVec3;
 
 /// What a recording says of a scene, taken before a [`Simulation`] consumes it.
 #[derive(Clone, Debug)]
 pub struct Subject {
     about: About,
     parts: Vec<Part>,
+    /// Of the cloths, if any has loose edges.
+    shown: Vec<Shown>,
 }
 
 /// What a step costs with each effect added, as measured: for a [`Recording`]'s `added`.
@@ -42,14 +46,21 @@ impl Subject {
                 .map(|(name, value)| Knob::new(label(&name), value))
                 .collect(),
         };
-        let part = |name: &str, kind, mesh: &Mesh| Part::new(name, kind, mesh.positions.len(), mesh.triangles.clone());
-        let bodies = scene.bodies.iter();
-        let bodies = bodies.map(|body| part(&body.name, PartKind::Body, &body.mesh));
-        let cloths = scene.cloths.iter();
-        let cloths = cloths.map(|cloth| part(&cloth.name, PartKind::Cloth, cloth.mesh()));
+        let bodies = scene.bodies.iter().map(|body| {
+            let Mesh { positions, triangles } = &body.mesh;
+            Part::new(&body.name, PartKind::Body, positions.len(), triangles.clone())
+        });
+        let shown: Vec<Shown> = (0..scene.cloths.len()).map(|index| Shown::new(scene, index)).collect();
+        let cloths = scene.cloths.iter().zip(&shown).map(|(cloth, shown)| {
+            let (vertices, triangles) = shown.mesh(cloth);
+            Part::new(&cloth.name, PartKind::Cloth, vertices, triangles)
+        });
+        let parts = cloths.chain(bodies).collect();
+        let has_loose_edges = !scene.all_loose_edges().is_empty();
         Self {
             about,
-            parts: cloths.chain(bodies).collect(),
+            parts,
+            shown: if has_loose_edges { shown } else { Vec::new() },
         }
     }
 }
@@ -64,6 +75,10 @@ pub struct SimulationRecorder {
     measured: Vec<&'static str>,
     /// Of each cloth, how many vertices are copies.
     copied: Vec<usize>,
+    /// Of the cloths, if any has loose edges.
+    shown: Vec<Shown>,
+    /// Where all that is shown is, then.
+    positions: Vec<DVec3>,
 }
 
 impl SimulationRecorder {
@@ -77,13 +92,15 @@ impl SimulationRecorder {
     pub fn new(subject: Subject, simulation: &Simulation) -> Result<Self, FrameError> {
         let counters = counters(simulation, 0.0);
         let series: Vec<_> = counters.iter().map(|&(name, kind, _)| (name, kind)).collect();
-        let Subject { about, parts } = subject;
+        let Subject { about, parts, shown } = subject;
         let recorder = Recorder::new(about, parts, &series, &readings(simulation, 0.0));
         let measures: Vec<_> = measures(simulation).iter().map(|&(name, kind, _)| (name, kind)).collect();
         let mut recorder = Self {
             recorder: recorder.with_measures(&measures),
             measured: measures.iter().map(|(name, _)| *name).collect(),
             copied: vec![0; simulation.cloth_names().len()],
+            shown,
+            positions: Vec::new(),
         };
         recorder.frame(simulation)?;
         Ok(recorder)
@@ -101,10 +118,18 @@ impl SimulationRecorder {
             let copied = simulation.copied_vertices(cloth);
             let own = simulation.vertices_of_cloth(cloth).filter(|_| copied.len() > *known);
             if let Some(own) = own {
+                let shown = self.shown.get(cloth);
+                let placed = |vertex: u32| shown.map_or(vertex, |shown| shown.place_of(vertex));
                 let triangles = simulation.triangles()[..simulation.cloth_triangles()].iter();
                 let triangles = triangles.filter(|triangle| own.contains(&(triangle[0] as usize)));
-                let placed = |triangle: &[u32; 3]| triangle.map(|vertex| vertex - own.start as u32);
-                self.recorder.split(cloth, &copied[*known..], triangles.map(placed).collect());
+                let mut triangles: Vec<[u32; 3]> = triangles
+                    .map(|triangle| triangle.map(|vertex| placed(vertex - own.start as u32)))
+                    .collect();
+                if let Some(shown) = shown {
+                    shown.add_tubes(&mut triangles);
+                }
+                let copies: Vec<u32> = copied[*known..].iter().map(|&vertex| placed(vertex)).collect();
+                self.recorder.split(cloth, &copies, triangles);
                 *known = copied.len();
             }
         }
@@ -117,7 +142,18 @@ impl SimulationRecorder {
     pub fn frame(&mut self, simulation: &Simulation) -> Result<(), FrameError> {
         let step = simulation.steps_done();
         self.follow_tears(simulation);
-        self.recorder.frame(step, simulation.positions())?;
+        let mut positions = simulation.positions();
+        if !self.shown.is_empty() {
+            self.positions.clear();
+            for (cloth, shown) in self.shown.iter().enumerate() {
+                if let Some(own) = simulation.vertices_of_cloth(cloth) {
+                    shown.place(&positions[own], &mut self.positions);
+                }
+            }
+            self.positions.extend_from_slice(&positions[simulation.cloth_vertices()..]);
+            positions = &self.positions;
+        }
+        self.recorder.frame(step, positions)?;
         let now = measures(simulation);
         // What has burst holds no pressure, and no energy of it, any more.
         let value = |wanted: &&str| {

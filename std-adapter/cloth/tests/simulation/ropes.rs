@@ -1,0 +1,451 @@
+//! Ropes, laces and fringes: edges that belong to no triangle.
+
+use crate::{scene_file, set_up};
+use selvedge::{CollisionDetector, Topology};
+use selvedge_cloth::effects::{
+    AirDrag, BodyContact, Force, Friction, Gravity, PinGroup, Pins, Plan, RopeBend, RopeShape, RopeStretch, Seam, Seams,
+    SelfCollision, Stretch, Thickness, TimeStep,
+};
+use selvedge_cloth::glam::DVec3;
+use selvedge_cloth::{Body, CHECKPOINT_STEPS, Cloth, Mesh, Scene, Simulation};
+use std::path::Path;
+
+const G: f64 = 9.81;
+
+fn pinned(vertices: &[u32]) -> Pins {
+    Pins {
+        groups: vec![PinGroup::resting(vertices)],
+    }
+}
+
+fn run(scene: Scene, steps: usize) -> Simulation {
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    (0..steps).for_each(|_| simulation.step().unwrap());
+    simulation
+}
+
+fn length(points: &[DVec3]) -> f64 {
+    points.windows(2).map(|two| two[0].distance(two[1])).sum()
+}
+
+/// A weight without mass at the last vertex, in N.
+#[derive(Clone, Copy, Debug)]
+struct Weight(f64);
+
+impl selvedge_cloth::effects::Effect for Weight {
+    fn name(&self) -> &'static str {
+        "weight"
+    }
+
+    fn register(&self, plan: &mut Plan<'_>) {
+        plan.add_force(*self);
+    }
+}
+
+impl Force for Weight {
+    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
+        let last = velocities.len() - 1;
+        velocities[last] -= DVec3::Z * (self.0 * step.inverse_masses[last] * step.h);
+    }
+}
+
+/// A rope of 2 m and 50 g/m that hangs from its start.
+fn hanging(segments: u32, stiffness: f64, time_step: f64) -> Scene {
+    let rope = Cloth::rope(&[DVec3::ZERO, DVec3::Z * -2.0], segments, 0.05).unwrap();
+    let mut scene = Scene::new(rope, time_step);
+    scene
+        .add(Gravity::default())
+        .add(RopeStretch::of(stiffness))
+        .add(pinned(&[0]));
+    scene.add(AirDrag { rate: 5.0 });
+    scene
+}
+
+/// F·l/EA of the weight F, and μ·g·l²/(2·EA) of the rope itself: at any number of segments, and any length of a step.
+#[test]
+fn a_hung_rope_is_stretched_as_its_stiffness_says() {
+    for (segments, time_step) in [(20, 1e-3), (200, 1e-3), (200, 4e-3)] {
+        for (stiffness, weight) in [(1e3, 20.0), (1e5, 50.0)] {
+            let mut scene = hanging(segments, stiffness, time_step);
+            scene.add(Weight(weight));
+            let simulation = run(scene, (1.5 / time_step) as usize);
+            let stretch = length(simulation.positions()) - 2.0;
+            let theory = (weight * 2.0 + 0.05 * G * 2.0 * 2.0 / 2.0) / stiffness;
+            assert!(
+                (stretch / theory - 1.0).abs() < 0.01,
+                "{segments}, {stiffness}: {stretch} for {theory}"
+            );
+        }
+    }
+}
+
+/// Waves go along it 45 m/s fast, four and a half of its edges in a step.
+#[test]
+fn a_taut_rope_that_is_plucked_comes_to_rest() {
+    let rope = Cloth::rope(&[DVec3::ZERO, DVec3::X * 2.0], 200, 0.05).unwrap();
+    let mut scene = Scene::new(rope, 1e-3);
+    scene.add(RopeStretch::of(1e4)).add(AirDrag { rate: 3.0 });
+    scene.add(Pins {
+        groups: vec![PinGroup {
+            vertices: vec![0, 200],
+            motion: selvedge_cloth::effects::PinMotion::Own(selvedge_cloth::Motion::Driven(Default::default())),
+        }],
+    });
+    scene.cloths[0].velocity = DVec3::Z;
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    for _ in 0..3000 {
+        // Stretched by a hundredth, with a jerk.
+        simulation.move_pins(0, &[DVec3::ZERO, DVec3::X * 2.02]).unwrap();
+        simulation.step().unwrap();
+    }
+    let off = simulation.positions().iter().map(|p| p.z.abs()).fold(0.0, f64::max);
+    assert!(off < 1e-3, "{off}");
+    assert!((length(simulation.positions()) - 2.02).abs() < 1e-6);
+}
+
+/// w·l⁴/(8·D) at the tip, for a deflection that is small beside the length.
+#[test]
+fn a_clamped_rope_bends_under_its_weight_as_a_beam() {
+    for segments in [100, 200] {
+        let edge = 0.5 / f64::from(segments);
+        let rope = Cloth::rope(&[DVec3::X * -edge, DVec3::X * 0.5], segments + 1, 0.05).unwrap();
+        let mut scene = Scene::new(rope, 1e-3);
+        let rigidity = 0.15;
+        scene
+            .add(Gravity::default())
+            .add(RopeStretch::of(1e5))
+            .add(RopeBend::straight(rigidity));
+        scene.add(pinned(&[0, 1])).add(AirDrag { rate: 20.0 });
+        let simulation = run(scene, 1500);
+        let tip = -simulation.positions()[segments as usize + 1].z;
+        let theory = 0.05 * G * 0.5_f64.powi(4) / (8.0 * rigidity);
+        assert!((tip / theory - 1.0).abs() < 0.03, "{segments}: {tip} for {theory}");
+    }
+}
+
+/// The sag of a rope of the length s between two points of one height d apart: a·(cosh(d/2a) − 1), where 2a·sinh(d/2a) = s.
+#[test]
+fn a_slack_rope_hangs_in_a_catenary() {
+    let (distance, drop) = (1.0, 0.4);
+    let points = [DVec3::ZERO, DVec3::new(0.5, 0.0, -drop), DVec3::X * distance];
+    let rope = Cloth::rope(&points, 120, 0.03).unwrap();
+    let whole = length(&rope.mesh().positions);
+    let mut scene = Scene::new(rope, 1e-3);
+    scene
+        .add(Gravity::default())
+        .add(RopeStretch::of(1e5))
+        .add(AirDrag { rate: 5.0 });
+    scene.add(pinned(&[0, 120]));
+    let simulation = run(scene, 3000);
+    let (mut low, mut high) = (0.01, 100.0);
+    for _ in 0..100 {
+        let a: f64 = 0.5 * (low + high);
+        let is_long = 2.0 * a * (distance / (2.0 * a)).sinh() > whole;
+        *(if is_long { &mut low } else { &mut high }) = a;
+    }
+    let sag = low * ((distance / (2.0 * low)).cosh() - 1.0);
+    let found = -simulation.positions()[60].z;
+    assert!((found / sag - 1.0).abs() < 2e-3, "{found} for {sag}");
+}
+
+/// A hoop of 16 edges, which rest as built keeps round, and straight rest opens by no force but its ends': it has none, and stays closed.
+#[test]
+fn a_ring_keeps_the_shape_that_it_rests_in() {
+    let corner = |k: u32| {
+        let (sine, cosine) = (f64::from(k) * std::f64::consts::FRAC_PI_8).sin_cos();
+        DVec3::new(cosine, sine, 0.0) * 0.2
+    };
+    let mesh = Mesh {
+        positions: (0..16).map(corner).collect(),
+        triangles: Vec::new(),
+    };
+    let edges: Vec<_> = (0..16).map(|k| [k, (k + 1) % 16]).collect();
+    let hoop = Cloth::of_mesh_with_loose_edges(mesh, &edges, DVec3::X, [0.0, 0.1]).unwrap();
+    let rest = hoop.mesh().positions.clone();
+    let energy = |rest| {
+        let mut scene = Scene::new(hoop.clone(), 1e-3);
+        scene.add(RopeStretch::of(1e4)).add(RopeBend { stiffness: 1e-2, rest });
+        let mut simulation = run(scene, 0);
+        let energy = simulation.energy().elastic().unwrap();
+        (0..100).for_each(|_| simulation.step().unwrap());
+        (energy, simulation.positions().to_vec())
+    };
+    let (as_built, positions) = energy(RopeShape::AsBuilt);
+    assert!(as_built < 1e-12);
+    assert!(positions.iter().zip(&rest).all(|(a, b)| a.distance(*b) < 1e-9));
+    // ½D/r² for each metre of its circumference, 2πr long.
+    let (straight, _) = energy(RopeShape::Straight);
+    let theory = 0.5 * 1e-2 / (0.2 * 0.2) * std::f64::consts::TAU * 0.2;
+    assert!((straight / theory - 1.0).abs() < 0.02, "{straight} for {theory}");
+}
+
+/// Two ropes across each other, over a ball, with a sheet below that is sewn to one of them.
+fn tangle() -> Scene {
+    let along = Cloth::rope(&[DVec3::new(-0.3, 0.01, 0.14), DVec3::new(0.3, 0.0, 0.14)], 60, 0.04);
+    let across = Cloth::rope(&[DVec3::new(0.01, -0.3, 0.16), DVec3::new(0.0, 0.3, 0.16)], 60, 0.04);
+    let sheet = Cloth::sheet(DVec3::new(-0.1, -0.1, 0.12), [DVec3::X * 0.2, DVec3::Y * 0.2], [12, 12], 0.1);
+    let mut scene = Scene::new(along.unwrap().named("along"), 2e-3);
+    scene.cloths.push(across.unwrap().named("across"));
+    scene.cloths.push(sheet.unwrap().named("sheet"));
+    let tied = [scene.part("along", "end").unwrap(), scene.part("across", "end").unwrap()];
+    for cloth in &mut scene.cloths[..2] {
+        cloth
+            .add(SelfCollision(Thickness::of(8e-3)))
+            .add(BodyContact(Thickness::of(4e-3)));
+    }
+    scene.cloths[2].add(Stretch::isotropic(500.0));
+    scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.1, 24).unwrap());
+    scene
+        .add(Gravity::default())
+        .add(RopeStretch::of(5e3))
+        .add(RopeBend::straight(1e-5));
+    scene
+        .add(SelfCollision(Thickness::of(3e-3)))
+        .add(BodyContact(Thickness::of(3e-3)));
+    scene.add(Friction { coefficient: 0.3 });
+    let [first, second] = tied;
+    scene.add(Seams {
+        seams: vec![Seam {
+            closing: Some(0.3),
+            ..Seam::of(first, second)
+        }],
+    });
+    scene
+}
+
+#[test]
+fn ropes_stay_apart_from_each_other_from_cloth_and_from_bodies() {
+    let mut simulation = Simulation::new(tangle(), 1).unwrap();
+    let (triangles, loose) = (simulation.triangles().to_vec(), simulation.loose_edges().to_vec());
+    let topology = Topology::with_loose_features(simulation.positions().len(), triangles, &loose, &[]).unwrap();
+    let mut detector = CollisionDetector::<f64>::new(topology);
+    let mut found = Vec::new();
+    for step in 0..400 {
+        simulation.step().unwrap();
+        detector.intersections(simulation.positions(), &mut found).unwrap();
+        assert!(simulation.is_certified() && found.is_empty(), "{step}: {found:?}");
+    }
+    let closest = |from: usize| {
+        let [one, other] = [0, 1].map(|cloth| simulation.vertices_of_cloth(cloth).unwrap());
+        let others = &simulation.positions()[other];
+        others
+            .iter()
+            .map(|p| p.distance(simulation.positions()[one.start + from]))
+            .fold(1.0, f64::min)
+    };
+    assert!(closest(60) < 9e-3, "{}", closest(60));
+}
+
+#[test]
+fn ropes_have_the_same_bits_on_any_number_of_threads_and_resumed() {
+    let steps = |simulation: &mut Simulation, count: u64| (0..count).for_each(|_| simulation.step().unwrap());
+    let mut one = Simulation::new(tangle(), 1).unwrap();
+    let mut two = Simulation::new(tangle(), 2).unwrap();
+    steps(&mut one, CHECKPOINT_STEPS);
+    let mut resumed = Simulation::new(tangle(), 1).unwrap();
+    resumed.resume(&one.checkpoint().unwrap()).unwrap();
+    steps(&mut one, 60);
+    steps(&mut resumed, 60);
+    steps(&mut two, CHECKPOINT_STEPS + 60);
+    assert_eq!(one.positions(), resumed.positions());
+    assert_eq!(one.positions(), two.positions());
+}
+
+#[test]
+fn a_fringe_hangs_from_the_cloth_that_it_is_of() {
+    let mut mesh = Cloth::sheet(DVec3::ZERO, [DVec3::X * 0.2, DVec3::Z * 0.2], [8, 8], 0.1)
+        .unwrap()
+        .mesh()
+        .clone();
+    let mut loose = Vec::new();
+    for root in 0..9 {
+        let mut last = root;
+        for k in 1..=5 {
+            let next = mesh.positions.len() as u32;
+            mesh.positions
+                .push(mesh.positions[root as usize] - DVec3::Z * (0.01 * f64::from(k)));
+            loose.push([last, next]);
+            last = next;
+        }
+    }
+    let cloth = Cloth::of_mesh_with_loose_edges(mesh, &loose, DVec3::X, [0.1, 0.002]).unwrap();
+    let mut scene = Scene::new(cloth, 1e-3);
+    scene
+        .add(Gravity::default())
+        .add(Stretch::isotropic(1e3))
+        .add(RopeStretch::of(100.0));
+    scene.add(RopeBend::straight(1e-8)).add(SelfCollision(Thickness::of(2e-3)));
+    scene.add(pinned(&[72, 80]));
+    let masses: f64 = 0.2 * 0.2 * 0.1 + 9.0 * 0.05 * 0.002;
+    let simulation = run(scene, 300);
+    let weight = masses * G;
+    let kinetic = simulation.energy().kinetic;
+    assert!(simulation.is_certified() && kinetic < 0.01 * weight, "{kinetic}");
+    // The fringe is as long as it was made.
+    for root in 0..9 {
+        let tassel: Vec<DVec3> = [root]
+            .into_iter()
+            .chain(81 + 5 * root..86 + 5 * root)
+            .map(|v| simulation.positions()[v])
+            .collect();
+        assert!((length(&tassel) - 0.05).abs() < 1e-3, "{}", length(&tassel));
+    }
+}
+
+const ROPE: &str = r#"time_step = "2 ms"
+duration = "0.2 s"
+
+[cloth]
+shape = "rope"
+points = [[0, 0, 0], [1, 0, 0]]
+segments = 20
+linear_density = "50 g/m"
+
+[effects.gravity]
+
+[effects.rope_stretch]
+stiffness = "5 kN"
+
+[effects.rope_bend]
+stiffness = "100 uN m2"
+rest = "straight"
+
+[[effects.pins.group]]
+part = "start"
+"#;
+
+#[test]
+fn a_scene_file_says_what_code_does() {
+    let mut from_file = set_up(ROPE, "rope.toml", 1);
+    let mut scene = Scene::new(Cloth::rope(&[DVec3::ZERO, DVec3::X], 20, 0.05).unwrap(), 2e-3);
+    scene
+        .add(Gravity::default())
+        .add(RopeStretch::of(5e3))
+        .add(RopeBend::straight(1e-4))
+        .add(pinned(&[0]));
+    let mut from_code = Simulation::new(scene, 1).unwrap();
+    for _ in 0..50 {
+        from_file.step().unwrap();
+        from_code.step().unwrap();
+    }
+    assert_eq!(from_file.positions(), from_code.positions());
+    assert_eq!(from_file.loose_edges().len(), 20);
+    let told: Vec<_> = from_file.effects().iter().map(|effect| effect.name).collect();
+    assert_eq!(told, ["gravity", "pins", "rope_bend", "rope_stretch"]);
+    let energy = from_file.energy();
+    assert!(energy.stored.iter().any(|(name, _)| *name == "rope_bend") && energy.elastic().unwrap() > 0.0);
+    let fabric = Scene::parse(ROPE, &scene_file("rope.toml")).unwrap().fabric();
+    let told = |what: &str| fabric.iter().find(|(name, _)| name == what).map(|(_, value)| value.as_str());
+    assert_eq!(told("weight of loose edges"), Some("50 g/m"));
+    assert_eq!(told("axial stiffness of loose edges"), Some("5 kN"));
+    assert_eq!(told("bending stiffness of loose edges"), Some("0.1 mN m2"));
+    assert_eq!(told("weight"), None);
+}
+
+#[test]
+fn what_cannot_be_of_a_rope_is_told_with_its_place_and_unit() {
+    let message = |passage: &str, by: &str| {
+        assert_eq!(ROPE.matches(passage).count(), 1, "'{passage}' must be there once");
+        let error = Scene::parse(&ROPE.replacen(passage, by, 1), Path::new("r.toml")).unwrap_err();
+        error.to_string()
+    };
+    for (passage, by, expected) in [
+        (
+            "\"50 g/m\"",
+            "\"50 g/m2\"",
+            "r.toml:8:18: `linear_density` must be a mass per length, and 'g/m2' is no unit of it; did you mean 'g/m'?",
+        ),
+        (
+            "\"50 g/m\"",
+            "0",
+            "r.toml:8:18: `linear_density` is 0 kg/m, but must be from 1e-6 kg/m to 100 kg/m",
+        ),
+        (
+            "linear_density = \"50 g/m\"",
+            "",
+            "r.toml:4:1: [cloth] needs `linear_density`, such as 0.5 (in kg/m) or \"5 g/m\"",
+        ),
+        (
+            "segments = 20",
+            "segments = 0",
+            "r.toml:7:12: `segments` is 0, but must be from 1 to 100000",
+        ),
+        ("segments = 20", "", "r.toml:4:1: [cloth] needs `segments`, such as 20"),
+        (
+            "[1, 0, 0]]",
+            "[0, 0, 0]]",
+            "r.toml:6:10: a rope needs two points or more, each at another place than the one before",
+        ),
+        (
+            "[[0, 0, 0], [1, 0, 0]]",
+            "\"far\"",
+            "r.toml:6:10: `points` must be a list of points, such as [[0, 0, 0], [1, 0, 0]], but is the text 'far'",
+        ),
+        (
+            "segments = 20",
+            "segments = 20\ndensity = 1",
+            "r.toml:8:1: [cloth] has no key 'density'",
+        ),
+        (
+            "[effects.gravity]",
+            "[effects.shear]\nstiffness = 1",
+            "r.toml:10:1: 'shear' has nothing to act on: no cloth has triangles; what ropes resist is `rope_stretch` and `rope_bend`",
+        ),
+        (
+            "\"5 kN\"",
+            "\"5 kN/m\"",
+            "r.toml:13:13: `stiffness` must be a force, and 'kN/m' is no unit of it",
+        ),
+        (
+            "\"100 uN m2\"",
+            "\"100 uN m\"",
+            "r.toml:16:13: `stiffness` must be a bending stiffness of a rope, and 'uN m' is no unit of it",
+        ),
+        ("\"straight\"", "\"bent\"", "r.toml:17:8: `rest` cannot be 'bent'"),
+        (
+            "part = \"start\"",
+            "part = \"left\"",
+            "r.toml:20:8: this cloth has no part 'left'",
+        ),
+    ] {
+        let found = message(passage, by);
+        assert!(found.starts_with(expected), "{found}\n{expected}");
+    }
+}
+
+#[test]
+fn what_cannot_be_of_loose_edges_is_told_from_code() {
+    let triangle = || Mesh {
+        positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
+        triangles: vec![[0, 1, 2]],
+    };
+    let made = |edges: &[[u32; 2]], densities| {
+        let made = Cloth::of_mesh_with_loose_edges(triangle(), edges, DVec3::X, densities);
+        made.map_err(|error| error.to_string())
+    };
+    assert!(made(&[[0, 3]], [0.1, 0.1]).is_ok());
+    let no_vertex = "loose edge 0 names vertex 4, but there are 4 vertices, numbered from 0";
+    assert_eq!(made(&[[0, 4]], [0.1, 0.1]).unwrap_err(), no_vertex);
+    let twice = "joins two vertices that a triangle or another loose edge joins already";
+    assert_eq!(
+        made(&[[0, 3], [3, 0]], [0.1, 0.1]).unwrap_err(),
+        format!("loose edge 1 of the cloth {twice}")
+    );
+    assert_eq!(
+        made(&[[0, 3], [2, 1]], [0.1, 0.1]).unwrap_err(),
+        format!("loose edge 1 of the cloth {twice}")
+    );
+    let short = "loose edge 1 of the cloth is shorter than 1e-5 metres; are the units metres?";
+    assert_eq!(made(&[[0, 3], [1, 1]], [0.1, 0.1]).unwrap_err(), short);
+    let weightless = "`linear_density` is 0 kg/m, but must be from 1e-6 kg/m to 100 kg/m";
+    assert_eq!(made(&[[0, 3]], [0.1, 0.0]).unwrap_err(), weightless);
+    let mut scene = Scene::new(Cloth::rope(&[DVec3::ZERO, DVec3::X], 3, 0.1).unwrap().named("line"), 1e-3);
+    scene.cloths[0].add(Stretch::isotropic(1.0));
+    let none = "stretch: 'stretch' has nothing to act on: the cloth 'line' has no triangles; what ropes resist is `rope_stretch` and `rope_bend`";
+    assert_eq!(scene.check().unwrap_err().to_string(), none);
+    let sheet = Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [2, 2], 0.1).unwrap();
+    let mut scene = Scene::new(sheet, 1e-3);
+    scene.add(RopeStretch::of(1.0));
+    let none = "rope_stretch: 'rope_stretch' has nothing to act on: no cloth has loose edges";
+    assert!(scene.check().unwrap_err().to_string().starts_with(none));
+}
