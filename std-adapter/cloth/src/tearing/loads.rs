@@ -50,7 +50,9 @@ impl Tearable {
         let flat: Vec<Flat> = flat.collect();
         let topology = &cloth.topology;
         let mut triangles_of = vec![Vec::new(); topology.edges().len()];
-        for (triangle, edges) in (0..).zip(topology.triangle_edges()) {
+        // What is loose comes after them.
+        let triangles = cloth.mesh.triangles.len() as u32;
+        for (triangle, edges) in (0..triangles).zip(topology.triangle_edges()) {
             edges
                 .iter()
                 .filter(|&&edge| edge != Topology::NO_EDGE)
