@@ -3,6 +3,9 @@
 //! Each target is an ordinary function of bytes in [`targets`] that panics where a promise is broken. `cargo fuzz run NAME`
 //! feeds it to libFuzzer; `cargo test` feeds it the kept inputs, on any compiler.
 
+// Within the crate: tests beside it would have the programs of all targets built with them.
+#[cfg(test)]
+mod replay;
 pub mod targets;
 
 #[cfg(fuzzing)]

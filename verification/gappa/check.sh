@@ -63,10 +63,14 @@ proven=0
 halved=0
 checked=0
 
+# What the kernels compute, step by step: written from them, and refused if nobody has accepted it.
+mkdir "$folder/traced"
+cargo run --quiet --manifest-path ../Cargo.toml --package selvedge-traced -- gappa "$folder/traced"
+
 gappa_says() { gappa -Wno-hint-difference "$1" >"$folder/says" 2>&1; }
 
 for format in f32 f64; do
-    for script in *.g traced/*.g; do
+    for script in *.g "$folder"/traced/*.g; do
         name=$(basename "$script" .g)
         of_format=$folder/$name-$format.g
         sed -f "formats/$format.sed" "$script" >"$of_format"

@@ -3,7 +3,7 @@
 # Lemma (not Gappa's, a line of algebra): a computed value is the sum of its monomials m, each times a product of as many
 # factors 1 + d, |d| <= 2u, as it passes through roundings; so it is off by at most the sum of |m| times the largest
 # |product - 1|. The bound computed from the same monomials is at least that sum times a power of 1 - 2u. How many roundings
-# there are is counted on the code, by tests/proofs_are_about_the_code.rs:
+# there are is counted on the code, by traced/tests/proofs_are_about_the_code.rs:
 #= k0 7 11
 #= 3k1 9 13
 # (monomials of k0 and k3, but for the last addition, which is compared; of the bound, one more for a separation).

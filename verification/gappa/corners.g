@@ -2,7 +2,7 @@
 #
 # M_k is the largest |e_k| as computed, at both ends; S the sum of |w_k| M_k. An exact e_k is at most M_k / (1 - 2u).
 # 1. w.e(t), e(t) = fl((1 - t) e(0) + t e(1)): the difference, 1 - t, a product, a sum, a product, two additions: 7 roundings. Two
-#    such products, added (a direction that turns): 8. Counted on the code, by tests/promises/proofs_are_about_the_code.rs, like the
+#    such products, added (a direction that turns): 8. Counted on the code, by traced/tests/proofs_are_about_the_code.rs, like the
 #    roundings of what they must exceed, and its constant:
 #= product 7 6 20
 #= turning 8 7 20

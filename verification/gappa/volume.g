@@ -2,7 +2,7 @@
 #
 # The monomials of a control value sum up to at most S = 6 MxMyMz (3k1: a third of 18), which `permanent` is; exact differences are at
 # most 1/(1 - 2u) larger than computed ones.
-# 1. 10 roundings to 3k1 (tests/proofs_are_about_the_code.rs counts them), 2 by a rounded third, 9 by blossoming (three times
+# 1. 10 roundings to 3k1 (traced/tests/proofs_are_about_the_code.rs counts them), 2 by a rounded third, 9 by blossoming (three times
 #    1 - t, product, sum), 1 by subtracting what must be exceeded, 9 by looking ahead: 31. Counted on the code it is one
 #    less; the roundings of the bound and its constant are counted as well:
 #= volume 30 10 64

@@ -1,6 +1,6 @@
 (* What is proven, for a reader who reads nothing else. Words are defined in Geometry.v (contact, volume), Arithmetic.v (one operation),
-   Expressions.v (an execution), and generated/Filter.v (what the code of the certified filter computes); for boxes in Orders.v (an
-   execution) and generated/Boxes.v; for tests on corners in Direction.v (one environment) and generated/Corners.v. *)
+   Expressions.v (an execution), and Filter.v (what the code of the certified filter computes); for boxes in Orders.v (an
+   execution) and Boxes.v; for tests on corners in Direction.v (one environment) and Corners.v. *)
 From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes.
@@ -64,7 +64,7 @@ Qed.
       finite numbers; `value_of` any execution of the code's operations, in any rounding direction, with subnormal numbers kept or
       flushed, operands and results; `says` that the comparisons may come out so. *)
 Inductive decision := MagnitudesByEdge | MagnitudesByAxis | PermanentOfNoLane | PermanentOfSomeLane.
-(* What the code decides, word by word: generated/Filter.v. The permanent's tier leaves out its second half where no lane needs it. *)
+(* What the code decides, word by word: Filter.v. The permanent's tier leaves out its second half where no lane needs it. *)
 Definition culled_by decision := match decision with
   | MagnitudesByEdge => culled_by_edge
   | MagnitudesByAxis => culled_by_axis

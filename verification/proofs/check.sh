@@ -24,8 +24,8 @@ if ! is_there; then
     install || { as_root apt-get update >/dev/null && install; }
 fi
 
-# In the order in which they build on each other; the last one prints what its theorems assume. mutations.py reads what stands above the
-# generated files:
+# In the order in which they build on each other; the last one prints what its theorems assume. mutations.py reads what stands above those
+# that are written from the kernels:
 # above Filter: Permanent Magnitudes Parts Halves Witnesses Theorems
 # above Boxes: Apart Certificates Direction Parts Halves Witnesses Theorems
 # above Corners: Direction Parts Halves Witnesses Theorems
@@ -33,7 +33,9 @@ files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Pe
     Corners Direction Parts Halves Nearest Witnesses Integers Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-cp ./*.v generated/*.v "$folder"
+cp ./*.v "$folder"
+# What the kernels compute: refused if nobody has accepted it.
+cargo run --quiet --manifest-path ../Cargo.toml --package selvedge-traced -- coq "$folder"
 cd "$folder"
 
 if [ "$(ls ./*.v | wc -l)" -ne "${#files[@]}" ]; then

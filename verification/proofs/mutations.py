@@ -3,7 +3,7 @@
 
     mutations.py [FOLDER]    takes some minutes; needs cargo and what check.sh needs
 
-Each is made in a copy of core. Its terms are traced anew; if they are the kept ones, nothing has noticed it and this fails. Then Coq is
+Each is made in a copy of core. Its terms are traced anew; if they are the accepted ones, nothing has noticed it and this fails. Then Coq is
 asked about the new terms: it refuses those that it can not prove. What it accepts is refused by the comparison alone (a test), and is as sound
 as the code was. The table goes to docs/proof-mutations.md.
 """
@@ -17,7 +17,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-# What builds on each generated file, and which files do on both.
+# What builds on each file of terms, and which files do on both.
 ABOVE = {name: line.split() for name, line in re.findall(r"^# above (\w+): (.*)$", (HERE / "check.sh").read_text(), re.M)}
 
 # File of core/src, the code, what takes its place, and in which of several places (the first is 0).
@@ -89,55 +89,30 @@ MUTATIONS = [
     ("filter/subdivided.rs", "is_in_range(largest) & finite", "finite", 0),
 ]
 
-MANIFEST = """[package]
-name = "terms"
-version = "0.0.0"
-edition = "2024"
-[dependencies]
-selvedge-core = { path = "../core", features = ["verification"] }
-"""
-MAIN = """#![allow(dead_code)]
-mod proofs;
-mod terms;
-mod traced;
-fn main() {
-    let folder = std::env::args().nth(1).expect("a folder");
-    for (name, text) in terms::files() {
-        std::fs::write(format!("{folder}/{name}"), text).expect("a folder that can be written");
-    }
-}
-"""
-
 
 def prepare(folder):
-    """A workspace of core and a program that writes the terms."""
-    shutil.copytree(ROOT / "core", folder / "core", copy_function=shutil.copy, ignore=shutil.ignore_patterns("benches", "examples"))
+    """A workspace of core and the program that writes the terms."""
+    for source, name in [(ROOT / "core", "core"), (HERE.parent / "traced", "traced")]:
+        shutil.copytree(source, folder / name, copy_function=shutil.copy, ignore=shutil.ignore_patterns("tests", "target"))
     manifest = (ROOT / "Cargo.toml").read_text()
-    manifest = re.sub(r"members = \[.*?\]", 'members = ["core", "terms"]', manifest, count=1, flags=re.S)
+    manifest = re.sub(r"members = \[.*?\]", 'members = ["core", "traced"]', manifest, count=1, flags=re.S)
     manifest = re.sub(r"default-members = \[.*?\]\n", "", manifest, flags=re.S)
     (folder / "Cargo.toml").write_text(manifest)
     shutil.copy(ROOT / "Cargo.lock", folder)
-    core = folder / "core/Cargo.toml"
-    core.write_text(re.sub(r"\[\[bench\]\]\nname = .*\nharness = false\n", "", core.read_text()))
-    source = folder / "terms/src"
-    source.mkdir(parents=True)
-    (folder / "terms/Cargo.toml").write_text(MANIFEST)
-    (source / "main.rs").write_text(MAIN)
-    for name in ["traced.rs", "proofs.rs", "terms.rs"]:
-        shutil.copy(HERE.parent / "src" / name, source)
 
 
 def trace(folder):
-    """The traced files, or what went wrong."""
-    out = folder / "traced"
+    """The traced files and whether they are the accepted ones, or what went wrong."""
+    out = folder / "terms"
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir()
-    run = ["cargo", "run", "--quiet", "--package", "terms", "--", str(out)]
+    run = ["cargo", "run", "--quiet", "--package", "selvedge-traced", "--", "coq", str(out)]
     ran = subprocess.run(run, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
-    if ran.returncode != 0:
+    texts = {path.name: path.read_text() for path in sorted(out.iterdir())}
+    if ran.returncode != 0 and not texts:
         errors = [line for line in ran.stderr.splitlines() if "error" in line or "panicked" in line or "known" in line]
-        return None, (errors or ran.stderr.splitlines())[-1]
-    return {path.name: path.read_text() for path in sorted(out.iterdir())}, None
+        return None, False, (errors or ran.stderr.splitlines())[-1]
+    return texts, ran.returncode == 0, None
 
 
 def accepts(proofs, name):
@@ -164,20 +139,19 @@ ORDER = re.search(r"^files=\(([^)]*)\)$", (HERE / "check.sh").read_text(), re.M)
 def main():
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else tempfile.mkdtemp())
     folder.mkdir(parents=True, exist_ok=True)
-    for name in ["core", "terms", "proofs", "tried"]:
+    for name in ["core", "traced", "terms", "proofs", "tried"]:
         shutil.rmtree(folder / name, ignore_errors=True)
     prepare(folder)
+    kept, accepted, wrong = trace(folder)
+    if not accepted:
+        sys.exit(f"mutations: the terms that the code gives are not the accepted ones {wrong or ''}")
     proofs = folder / "proofs"
-    proofs.mkdir()
-    for path in [*HERE.glob("*.v"), *HERE.glob("generated/*.v")]:
+    shutil.copytree(folder / "terms", proofs)
+    for path in HERE.glob("*.v"):
         shutil.copy(path, proofs)
     for file in ORDER:
         if not accepts(proofs, file):
-            sys.exit(f"mutations: Coq does not accept {file}.v as it is kept")
-    kept = {path.name: path.read_text() for path in sorted(HERE.glob("generated/*.v"))}
-    traced, wrong = trace(folder)
-    if traced != kept:
-        sys.exit(f"mutations: the kept terms are not what the code gives {wrong or ''}")
+            sys.exit(f"mutations: Coq does not accept {file}.v as it is")
 
     rows, alive = [], 0
     for number, (name, old, new, place) in enumerate(MUTATIONS, 1):
@@ -188,14 +162,14 @@ def main():
             sys.exit(f"mutations: {name} does not have {old}")
         path.write_text(old.join(parts[: place + 1]) + new + old.join(parts[place + 1 :]))
         try:
-            traced, wrong = trace(folder)
+            traced, accepted, wrong = trace(folder)
         finally:
             path.write_text(source)
         if wrong and "known to the proof" not in wrong:
             sys.exit(f"mutations: {new} can not be tried: {wrong}")
         if wrong:
             said = "the tracer: it is no term of the proofs"
-        elif traced == kept:
+        elif accepted:
             said, alive = "**nothing**", alive + 1
         else:
             refused = coq(proofs, kept, traced)
@@ -205,7 +179,7 @@ def main():
         print(rows[-1], flush=True)
     head = (
         "# Mutations that the proofs notice\n\nWritten by `verification/proofs/mutations.py`, which makes each in a copy of core, traces its terms anew, "
-        "compares them with\nthe kept ones, and has Coq prove the new ones. See [proof.md](proof.md).\n\n"
+        "compares them with\nthe accepted ones, and has Coq prove the new ones. See [proof.md](proof.md).\n\n"
         "| | in `core/src` | mutation | refused by |\n|---|---|---|---|\n"
     )
     (ROOT / "docs/proof-mutations.md").write_text(head + "\n".join(rows) + "\n")

@@ -8,9 +8,6 @@
 //! | [`hard_cases`] | the hard cases of the literature, by name |
 //! | [`minifloat`] | a number format of a few bits, in which every input of a grid can be tried |
 //! | [`altered`] | core's kernels with other constants in their error bounds |
-//! | [`traced`] | core's kernels on symbols: what they compute, in which steps |
-//! | [`proofs`] | Gappa scripts written from such traces |
-//! | [`terms`] | Coq terms written from such traces |
 //! | [`culling`] | core's culling tests by name, one pair at a time |
 
 pub mod altered;
@@ -20,6 +17,3 @@ pub mod generator;
 pub mod hard_cases;
 pub mod minifloat;
 pub mod oracle;
-pub mod proofs;
-pub mod terms;
-pub mod traced;

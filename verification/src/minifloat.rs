@@ -57,7 +57,9 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
         }
     }
 
-    /// What an operation makes of the exact result `value`.
+    /// What an operation makes of the exact result `value`. Kernels have hundreds of operations, and several formats run each of them:
+    /// inlined everywhere this takes a minute to compile.
+    #[inline(never)]
     fn rounded(value: f64) -> Self {
         let mut number = Self::nearest(value);
         if Self::DIRECTION != TO_NEAREST && value.is_finite() {

@@ -2,7 +2,7 @@
 
 use crate::error::tell;
 use crate::place::{Place, Places};
-use crate::shape::{MeshError, Shape, positions_of};
+use crate::shape::{MeshError, Shape, positions_of, triangles_of};
 use crate::{SelvedgeError, SelvedgeProblem};
 use bevy_asset::{Assets, RenderAssetUsages};
 use bevy_ecs::component::Component;
@@ -22,6 +22,9 @@ use std::collections::BTreeMap;
 /// mesh would. The positions and normals of the cloth are written into the entity's own `Mesh3d`, if it has one: that of
 /// [`mesh_of`] the cloth, or the one that [`cloth_of_mesh`] was made of. No other entity should have the same mesh. The entity's `Transform` does
 /// not move the cloth.
+///
+/// Where cloth tears its mesh gets a vertex for each corner of a triangle, with all that they have; [`cloth_of_mesh`] and [`mesh_of`] have
+/// the cloth's triangles in its order, which is what this asks for.
 ///
 /// The scene's time step is made to fit: the nearest whole part of the fixed time step.
 ///
@@ -53,6 +56,8 @@ pub struct ClothSimulation {
     step: f64,
     /// Of each vertex of the mesh that is seen, the cloth's.
     vertices: Option<Vec<u32>>,
+    /// Edges that had torn when they were found.
+    torn: usize,
     normals: Vec<DVec3>,
     told: BTreeMap<Part, SelvedgeError>,
 }
@@ -86,6 +91,7 @@ impl ClothSimulation {
             threads: 1,
             step: 0.0,
             vertices: None,
+            torn: 0,
             normals: Vec::new(),
             told: BTreeMap::new(),
         }
@@ -317,6 +323,7 @@ impl ClothSimulation {
         let Self {
             state,
             vertices,
+            torn,
             normals,
             ..
         } = self;
@@ -324,6 +331,12 @@ impl ClothSimulation {
             return Ok(());
         };
         let cloth = &simulation.positions()[..simulation.cloth_vertices()];
+        let has_torn = simulation.torn_edges().len();
+        let is_known = |seen: usize| vertices.as_ref().is_some_and(|vertices| vertices.len() == seen);
+        if has_torn != *torn || has_torn > 0 && !is_known(positions_of(mesh)?.len()) {
+            *vertices = Some(tear(mesh, simulation)?);
+            *torn = has_torn;
+        }
         let seen = positions_of(mesh)?.len();
         if vertices.as_ref().is_none_or(|vertices| vertices.len() != seen) {
             *vertices = None;
@@ -360,6 +373,20 @@ impl ClothSimulation {
         put(mesh, false, of_vertices.iter().map(|&vertex| normal(vertex)));
         Ok(())
     }
+}
+
+/// Gives each corner of a mesh a vertex of its own, so that it may be torn anywhere; of each the cloth's.
+fn tear(mesh: &mut Mesh, simulation: &Simulation) -> Result<Vec<u32>, SelvedgeError> {
+    let triangles = &simulation.triangles()[..simulation.cloth_triangles()];
+    let seen = triangles_of(mesh)?.len();
+    if seen != triangles.len() {
+        return Err(SelvedgeError::OtherMesh {
+            seen: positions_of(mesh)?.len(),
+            cloth: simulation.cloth_vertices(),
+        });
+    }
+    mesh.try_duplicate_vertices().map_err(|_| MeshError::OnlyRendered)?;
+    Ok(triangles.as_flattened().to_vec())
 }
 
 /// Where the mesh has room for them nothing is allocated.

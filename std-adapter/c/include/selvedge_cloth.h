@@ -250,7 +250,8 @@ selvedge_status selvedge_simulation_normals(const struct selvedge_simulation *si
                                             size_t vertex_count);
 
 /**
- * Copies all triangles, three vertex numbers each. No step changes them. `triangle_count` is that of selvedge_simulation_sizes.
+ * Copies all triangles, three vertex numbers each. A step changes them only where cloth tears: then there are more vertices as well, and
+ * selvedge_simulation_sizes has new counts. `triangle_count` is that of selvedge_simulation_sizes.
  *
  * The caller promises:
  * `triangles` has room for 3 * `triangle_count` numbers.

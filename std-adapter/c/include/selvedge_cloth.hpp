@@ -55,7 +55,7 @@ class simulation {
   /// Which way the surface faces at each vertex, of length one.
   std::vector<double> normals() const { return copied<double>(selvedge_simulation_normals, sizes().vertex_count); }
 
-  /// Three vertex numbers for each triangle. No step changes them.
+  /// Three vertex numbers for each triangle. A step changes them only where cloth tears: then there are more vertices as well.
   std::vector<std::uint32_t> triangles() const {
     return copied<std::uint32_t>(selvedge_simulation_triangles, sizes().triangle_count);
   }

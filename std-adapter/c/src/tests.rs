@@ -1,4 +1,4 @@
-//! C's functions, called as C does, beside the detector itself. Programs in C and C++ are tried in `tests/programs.rs`.
+//! C's functions, called as C does, beside the detector itself. Programs in C and C++ are tried in `tests/interface/programs.rs`.
 
 use crate::answers::{Boxes, ContactRow, GeometryRow, IntersectionRow, Kind, Pair, TruncationRow};
 use crate::detector::{Handle, ScalarFormat, on, selvedge_detector_free, selvedge_detector_new, selvedge_detector_set_cancelled};

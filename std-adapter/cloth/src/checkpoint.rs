@@ -2,7 +2,8 @@
 
 use super::contact::{ContactCounts, ContactSeconds, PairKey};
 use super::state::State;
-use super::world::Placement;
+use super::tearing::TornEdge;
+use super::world::{Cloth, Placement};
 use selvedge::PairKind;
 use selvedge_core::glam::{DQuat, DVec3};
 use selvedge_files::bytes::Reader;
@@ -23,9 +24,89 @@ pub enum CheckpointError {
     Damaged,
 }
 
+/// A cloth in which something may have torn.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct TornCloth {
+    /// Which vertex each of the last ones is a copy of.
+    pub(super) copied: Vec<u32>,
+    pub(super) triangles: Vec<[u32; 3]>,
+}
+
+impl TornCloth {
+    /// Whether it is that cloth torn: copies aside its triangles are the same, and have all vertices.
+    pub(super) fn is_of(&self, cloth: &Cloth) -> bool {
+        let made = cloth.vertices_as_made();
+        let are_before = (made..).zip(&self.copied).all(|(copy, &vertex)| (vertex as usize) < copy);
+        let as_made = |mut vertex: u32| {
+            while let Some(copy) = (vertex as usize).checked_sub(made) {
+                vertex = *self.copied.get(copy)?;
+            }
+            Some(vertex)
+        };
+        let own = cloth
+            .mesh()
+            .triangles
+            .iter()
+            .flatten()
+            .map(|&vertex| Some(cloth.as_made(vertex)));
+        let mut has = vec![false; made + self.copied.len()];
+        let is_of = are_before && self.triangles.iter().flatten().map(|&vertex| as_made(vertex)).eq(own);
+        if is_of {
+            self.triangles
+                .iter()
+                .flatten()
+                .for_each(|&vertex| has[vertex as usize] = true);
+        }
+        is_of && !has.contains(&false)
+    }
+}
+
+/// What has torn: of each cloth what it is now, and the edges. Only in checkpoints of scenes that may tear, before all that depends on it.
+pub(super) type Torn = (Vec<TornCloth>, Vec<TornEdge>);
+
+fn write_torn((cloths, edges): &Torn, bytes: &mut Vec<u8>) {
+    for TornCloth { copied, triangles } in cloths {
+        bytes.extend((copied.len() as u64).to_le_bytes());
+        let vertices = copied.iter().chain(triangles.as_flattened());
+        bytes.extend(vertices.flat_map(|vertex| vertex.to_le_bytes()));
+    }
+    bytes.extend((edges.len() as u64).to_le_bytes());
+    for edge in edges {
+        let [first, second] = edge.vertices.map(u64::from);
+        let numbers = [edge.cloth as u64, first, second, edge.time.to_bits(), edge.load.to_bits()];
+        bytes.extend(numbers.into_iter().flat_map(u64::to_le_bytes));
+    }
+}
+
+/// What has torn of cloths with so many triangles each.
+fn read_torn(reader: &mut Reader<'_>, triangles_of_cloths: &[usize]) -> Option<Torn> {
+    let cloth = |&triangles: &usize| {
+        let copied = reader.count(size_of::<u32>())?;
+        let mut numbers = |count: usize| (0..count).map(|_| reader.u32()).collect::<Option<Vec<u32>>>();
+        let (copied, corners) = (numbers(copied)?, numbers(3 * triangles)?);
+        let triangles = corners.as_chunks().0.to_vec();
+        Some(TornCloth { copied, triangles })
+    };
+    let cloths = triangles_of_cloths.iter().map(cloth).collect::<Option<_>>()?;
+    let count = reader.count(5 * size_of::<u64>())?;
+    let edge = |_| {
+        let edge = TornEdge {
+            cloth: usize::try_from(reader.u64()?).ok()?,
+            vertices: [u32::try_from(reader.u64()?).ok()?, u32::try_from(reader.u64()?).ok()?],
+            time: reader.f64()?,
+            load: reader.f64()?,
+        };
+        (edge.cloth < triangles_of_cloths.len() && edge.time.is_finite() && edge.load.is_finite()).then_some(edge)
+    };
+    let edges = (0..count).map(edge).collect::<Option<_>>()?;
+    Some((cloths, edges))
+}
+
 /// A simulation at one moment. What was measured has no influence on how it goes on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Checkpoint {
+    /// `None` if nothing tears.
+    pub(super) torn: Option<Torn>,
     pub(super) state: State,
     /// Of each body; none without contact.
     pub(super) yielding: Vec<bool>,
@@ -56,8 +137,12 @@ pub(super) struct Sizes {
 impl Checkpoint {
     pub(super) fn write(&self, fingerprint: u64) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
+        bytes.extend(fingerprint.to_le_bytes());
+        if let Some(torn) = &self.torn {
+            write_torn(torn, &mut bytes);
+        }
         let state = &self.state;
-        let numbers = [fingerprint, state.step, state.blocked_steps, state.clock.to_bits()];
+        let numbers = [state.step, state.blocked_steps, state.clock.to_bits()];
         bytes.extend(numbers.into_iter().flat_map(u64::to_le_bytes));
         let vectors = state.positions.iter().chain(&state.velocities);
         let numbers = vectors.flat_map(|vector| vector.to_array());
@@ -96,13 +181,27 @@ impl Checkpoint {
         bytes
     }
 
-    pub(super) fn read(bytes: &[u8], fingerprint: u64, sizes: Sizes) -> Result<Self, CheckpointError> {
+    /// What of a simulation's checkpoint is read first, and the rest; of a scene that may tear the triangles of each cloth.
+    pub(super) fn begin<'a>(
+        bytes: &'a [u8],
+        fingerprint: u64,
+        triangles_of_cloths: Option<&[usize]>,
+    ) -> Result<(Option<Torn>, Reader<'a>), CheckpointError> {
         let bytes = bytes.strip_prefix(MAGIC).ok_or(CheckpointError::NotOne)?;
         let mut reader = Reader(bytes);
         let found = reader.u64().ok_or(CheckpointError::Damaged)?;
         if found != fingerprint {
             return Err(CheckpointError::OtherScene);
         }
+        let torn = match triangles_of_cloths {
+            Some(cloths) => Some(read_torn(&mut reader, cloths).ok_or(CheckpointError::Damaged)?),
+            None => None,
+        };
+        Ok((torn, reader))
+    }
+
+    /// The rest, but for what has torn.
+    pub(super) fn read(mut reader: Reader<'_>, sizes: Sizes) -> Result<Self, CheckpointError> {
         let checkpoint = Self::read_on(&mut reader, sizes).ok_or(CheckpointError::Damaged)?;
         let state = &checkpoint.state;
         let all = state.positions.iter().chain(&state.velocities);
@@ -138,6 +237,7 @@ impl Checkpoint {
         let placements: Option<Vec<_>> = (0..sizes.placements).map(|_| placement(reader)).collect();
         let memories: Option<Vec<_>> = (0..sizes.memories).map(|_| reader.f64()).collect();
         Some(Self {
+            torn: None,
             state: State {
                 step,
                 blocked_steps,
@@ -219,6 +319,18 @@ mod tests {
 
     fn checkpoint() -> Checkpoint {
         Checkpoint {
+            torn: Some((
+                vec![TornCloth {
+                    copied: vec![1],
+                    triangles: vec![[0, 1, 2], [3, 2, 0]],
+                }],
+                vec![TornEdge {
+                    cloth: 0,
+                    vertices: [1, 2],
+                    time: 0.5,
+                    load: 12.0,
+                }],
+            )),
             state: State {
                 step: 400,
                 blocked_steps: 3,
@@ -249,16 +361,29 @@ mod tests {
         }
     }
 
+    fn read(bytes: &[u8], fingerprint: u64) -> Result<Checkpoint, CheckpointError> {
+        let (torn, reader) = Checkpoint::begin(bytes, fingerprint, Some(&[2]))?;
+        Ok(Checkpoint {
+            torn,
+            ..Checkpoint::read(reader, SIZES)?
+        })
+    }
+
     #[test]
     fn what_is_written_is_read_back_to_the_last_bit() {
-        let bytes = checkpoint().write(7);
-        assert_eq!(Checkpoint::read(&bytes, 7, SIZES), Ok(checkpoint()));
+        assert_eq!(read(&checkpoint().write(7), 7), Ok(checkpoint()));
+        let whole = Checkpoint {
+            torn: None,
+            ..checkpoint()
+        };
+        let bytes = whole.write(7);
+        let (torn, reader) = Checkpoint::begin(&bytes, 7, None).unwrap();
+        assert!(torn.is_none() && Checkpoint::read(reader, SIZES) == Ok(whole));
     }
 
     #[test]
     fn other_scenes_and_damage_are_noticed() {
         let bytes = checkpoint().write(7);
-        let read = |bytes: &[u8], fingerprint| Checkpoint::read(bytes, fingerprint, SIZES);
         assert_eq!(read(&bytes, 8), Err(CheckpointError::OtherScene));
         assert_eq!(read(b"v 0 0 0", 7), Err(CheckpointError::NotOne));
         for length in MAGIC.len()..bytes.len() {
@@ -266,7 +391,26 @@ mod tests {
         }
         assert!(read(&[&bytes[..], &[0]].concat(), 7).is_err());
         let mut damaged = bytes.clone();
-        damaged[MAGIC.len() + 32..][..8].copy_from_slice(&f64::NAN.to_le_bytes());
+        let clock = bytes.windows(8).position(|eight| eight == 0.1_f64.to_le_bytes()).unwrap();
+        damaged[clock..][..8].copy_from_slice(&f64::NAN.to_le_bytes());
         assert_eq!(read(&damaged, 7), Err(CheckpointError::Damaged));
+    }
+
+    #[test]
+    fn a_torn_cloth_has_the_triangles_of_the_whole_one_and_all_its_vertices() {
+        let cloth = Cloth::of(crate::world::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [1, 1]));
+        let torn = |copied: &[u32], triangles: [[u32; 3]; 2]| {
+            let triangles = triangles.to_vec();
+            let copied = copied.to_vec();
+            TornCloth { copied, triangles }.is_of(&cloth)
+        };
+        assert_eq!(cloth.mesh().triangles, [[0, 1, 3], [0, 3, 2]]);
+        assert!(torn(&[], [[0, 1, 3], [0, 3, 2]]));
+        assert!(torn(&[3], [[0, 1, 3], [0, 4, 2]]));
+        assert!(!torn(&[0, 4], [[4, 1, 3], [5, 3, 2]]), "nothing has its first vertex");
+        assert!(!torn(&[0], [[0, 1, 3], [0, 4, 2]]), "a copy of another one");
+        assert!(!torn(&[4], [[0, 1, 3], [0, 4, 2]]), "a copy of itself");
+        assert!(!torn(&[3], [[0, 1, 3], [0, 3, 2]]), "a copy without a triangle");
+        assert!(!torn(&[], [[0, 1, 3], [0, 4, 2]]), "no such copy");
     }
 }

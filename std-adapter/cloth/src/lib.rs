@@ -10,7 +10,7 @@
 //!
 //! what is asked      input ▸ world ▸ scene
 //! what is simulated  effects ▸ plan, step
-//! how                membrane, rope, hierarchy, schedule, contact, simulator
+//! how                membrane, rope, hierarchy, schedule, contact, tearing, simulator
 //! what changes       state ▸ checkpoint
 //! what is told       energy
 //! ```
@@ -49,6 +49,7 @@ mod simulator;
 pub mod sleeve;
 mod state;
 mod step;
+mod tearing;
 mod world;
 
 pub use checkpoint::CheckpointError;
@@ -66,6 +67,7 @@ pub use simulator::{
     Blocked, CHECKPOINT_STEPS, DriveError, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation, Tangled, Untangled,
     Untangling,
 };
+pub use tearing::TornEdge;
 pub use world::{Animation, Body, Cloth, Keyframe, Material, Motion, Placement, RigidMotion};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].

@@ -107,6 +107,10 @@ impl<T: Constraint> Memory for OfCloth<T> {
         }
     }
 
+    fn keys(&self) -> Vec<[u32; 4]> {
+        self.action.memory().map_or_else(Vec::new, Memory::keys)
+    }
+
     fn released(&self) -> Vec<Release> {
         let mut released = self.action.memory().map_or_else(Vec::new, Memory::released);
         released

@@ -12,6 +12,7 @@ use super::hierarchy::{Hierarchy, Level};
 use super::of_cloth::OfCloth;
 use super::rope::Tie;
 use super::step::{Carrier, Constraint, FREE, Force};
+use super::tearing::Tearable;
 use super::world::{Cloth, Kinematic, Motion, SceneParts};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
@@ -28,6 +29,8 @@ pub(crate) struct Entry<T: ?Sized> {
 /// What the scene's effects say of the fabric before any of them registers.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Fabric {
+    /// How stiff warp and weft are, in N/m; `None`: no effect makes them so.
+    pub(crate) stretch: Option<[f64; 2]>,
     /// How stiff the angle between warp and weft is, in N/m; `None`: no effect makes it so.
     pub(crate) shear: Option<f64>,
     /// What it keeps from itself, in metres; `None`: no effect makes it so.
@@ -62,6 +65,8 @@ pub struct Plan<'a> {
     pub(crate) constraints: Vec<Entry<dyn Constraint>>,
     pub(crate) contact: ContactSettings,
     pub(crate) friction: Vec<Entry<dyn Constraint>>,
+    /// Of cloths that may tear.
+    pub(crate) tearable: Vec<Tearable>,
     /// Of each cloth: made for the first effect that asks for levels.
     hierarchies: Vec<Option<Hierarchy<'a>>>,
 }
@@ -92,6 +97,7 @@ impl<'a> Plan<'a> {
             constraints: Vec::new(),
             contact: ContactSettings::new(scene.cloths.iter().map(|cloth| cloth.mesh.positions.len())),
             friction: Vec::new(),
+            tearable: Vec::new(),
         }
     }
 
@@ -101,9 +107,14 @@ impl<'a> Plan<'a> {
         self.scene = self.scene.of_cloth(cloth);
     }
 
+    /// The cloth that the registering effect acts on: the first if it acts on the whole scene.
+    pub(crate) fn cloth(&self) -> usize {
+        self.cloth.unwrap_or(0)
+    }
+
     /// What the effects say of the cloth that the registering one acts on.
     pub(crate) fn fabric(&self) -> Fabric {
-        self.fabrics[self.cloth.unwrap_or(0)]
+        self.fabrics[self.cloth()]
     }
 
     /// Of the vertices that the registering effect sees of cloth, in 1/kg.
@@ -172,6 +183,11 @@ impl<'a> Plan<'a> {
         self.friction.push(self.entry(Box::new(friction)));
     }
 
+    /// Tears the cloth that it acts on.
+    pub(crate) fn add_tearable(&mut self, tearable: Tearable) {
+        self.tearable.push(tearable.placed(self.effect, self.cloth()));
+    }
+
     /// Coarser levels of the cloth that it acts on, from fine to coarse, whose seeds are no farther apart than `coarsest`: the `most` finest of them.
     ///
     /// Pins are known: they register before.
@@ -182,7 +198,8 @@ impl<'a> Plan<'a> {
         let scene = self.scene;
         let is_pinned: Vec<bool> = self.inverse_masses().iter().map(|&inverse| inverse == 0.0).collect();
         let make = || Hierarchy::new(scene.cloth, masses_of(scene.cloth), is_pinned);
-        let hierarchy = &mut self.hierarchies[self.cloth.unwrap_or(0)];
+        let cloth = self.cloth();
+        let hierarchy = &mut self.hierarchies[cloth];
         let mut levels = hierarchy.get_or_insert_with(make).levels_to(coarsest);
         levels.truncate(most.map_or(usize::MAX, |most| most as usize));
         levels
@@ -218,7 +235,7 @@ impl<'a> Plan<'a> {
         self.motions.len() as Carrier - 1
     }
 
-    /// Makes a vertex of cloth, as the scene numbers it, kinematic.
+    /// Makes a vertex of cloth kinematic.
     pub(crate) fn pin(&mut self, vertex: u32, carrier: Carrier) {
         self.inverse_masses[vertex as usize] = 0.0;
         self.carriers[vertex as usize] = carrier;

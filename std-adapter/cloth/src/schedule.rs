@@ -8,6 +8,10 @@
 //! coloured as well. Inside a block colours serve speed too: a constraint that had to wait for the vertices of the one before would take
 //! three times as long.
 //!
+//! **What gives way keeps its multipliers** from sweep to sweep of a step (Macklin et al. 2016, algorithm 1): a constraint C of compliance α̃ = α/h²
+//! whose sweeps came to λ so far gets Δλ = −(C + α̃λ)/(∇C·W∇C + α̃) from the next, so that sweeps go on until C = −α̃λ, which is the
+//! implicit step. Without λ each would begin at what the last has left, and the more of them the stiffer all would be.
+//!
 //! A block in which nothing moved sleeps until a block that shares a vertex with it moves something: what it would do is nothing.
 
 use super::energy::{Configuration, StoredEnergy};
@@ -15,17 +19,29 @@ use super::step::{Constraint, TimeStep, Touches};
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
+use std::iter::repeat;
 use std::ops::Range;
 
 /// A constraint on `N` vertices.
 pub(crate) trait Local<const N: usize>: Debug + Send + Sync {
+    /// What it keeps from sweep to sweep of a step, zero before the first: the multipliers of what gives way; `()` if nothing does.
+    type Multipliers: Copy + Debug + Default + Send + Sync;
+
     /// Whether all corrections are certainly zero there: a quick test, where there is one.
     fn moves_nothing(&self, _positions: [DVec3; N]) -> bool {
         false
     }
 
     /// By how much each vertex has to move. `stiffening` is 1/h²: what a compliance is multiplied by.
-    fn corrections(&self, positions: [DVec3; N], inverse_masses: [f64; N], stiffening: f64) -> [DVec3; N];
+    ///
+    /// `so_far` is what earlier sweeps of the step came to, and this one adds its own.
+    fn corrections(
+        &self,
+        positions: [DVec3; N],
+        inverse_masses: [f64; N],
+        stiffening: f64,
+        so_far: &mut Self::Multipliers,
+    ) -> [DVec3; N];
 
     /// The elastic energy that it holds, in J; `None`: it holds none, however it stands.
     fn energy(&self, _positions: [DVec3; N]) -> Option<f64> {
@@ -38,7 +54,7 @@ pub(crate) type On<C, const N: usize> = ([u32; N], C);
 
 /// Constraints that are projected in a fixed order, a number of times.
 #[derive(Debug)]
-pub(crate) struct Schedule<C, const N: usize> {
+pub(crate) struct Schedule<C: Local<N>, const N: usize> {
     /// By colour.
     blocks: Vec<Block<C, N>>,
     /// The blocks of each colour.
@@ -49,9 +65,11 @@ pub(crate) struct Schedule<C, const N: usize> {
 }
 
 #[derive(Debug)]
-struct Block<C, const N: usize> {
+struct Block<C: Local<N>, const N: usize> {
     /// By colour; each on the places that its vertices have among the block's.
     constraints: Vec<On<C, N>>,
+    /// Of the constraints, where several sweeps follow each other; else none.
+    multipliers: Vec<C::Multipliers>,
     /// The constraints of each colour that has so many that threads should share them.
     shared: Vec<Range<usize>>,
     vertices: Vec<u32>,
@@ -62,8 +80,8 @@ struct Block<C, const N: usize> {
     has_moved: bool,
     /// Of the vertices.
     inverse_masses: Vec<f64>,
-    /// Of the constraints that threads share.
-    corrections: Vec<[DVec3; N]>,
+    /// Of the constraints that threads share, and what they have come to.
+    corrections: Vec<([DVec3; N], C::Multipliers)>,
 }
 
 /// Most constraints of one of many blocks: its vertices, positions and constraints take some 30 kB.
@@ -154,6 +172,10 @@ impl<C: Local<N>, const N: usize> Constraint for Schedule<C, N> {
         for block in &mut self.blocks {
             block.inverse_masses.clear();
             block.inverse_masses.extend(at(&block.vertices, step.inverse_masses));
+            if self.sweeps > 1 {
+                block.multipliers.clear();
+                block.multipliers.resize(block.constraints.len(), C::Multipliers::default());
+            }
         }
         for _ in 0..self.sweeps {
             for colour in 0..self.colours.len() {
@@ -191,6 +213,7 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
         let colours = sort_by_colour(&mut constraints, |(places, _)| places, vertices.len());
         Self {
             constraints,
+            multipliers: Vec::new(),
             shared: colours.into_iter().filter(|colour| colour.len() >= WORTH_A_THREAD).collect(),
             vertices,
             neighbours: Vec::new(),
@@ -221,15 +244,20 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
     fn in_turn(&mut self, range: Range<usize>, step: &TimeStep<'_>) {
         let stiffening = stiffening(step);
         let (own, inverse_masses) = (&mut self.positions[..], &self.inverse_masses[..]);
-        for (places, constraint) in &self.constraints[range] {
+        let mut project = |(places, constraint): &On<C, N>, so_far: &mut C::Multipliers| {
             let at = of(places, own);
             if !constraint.moves_nothing(at) {
-                add(
-                    own,
-                    places,
-                    constraint.corrections(at, of(places, inverse_masses), stiffening),
-                );
+                let moves = constraint.corrections(at, of(places, inverse_masses), stiffening, so_far);
+                add(own, places, moves);
             }
+        };
+        let constraints = &self.constraints[range.clone()];
+        match self.multipliers.get_mut(range) {
+            Some(multipliers) => constraints
+                .iter()
+                .zip(multipliers)
+                .for_each(|(on, so_far)| project(on, so_far)),
+            None => constraints.iter().for_each(|on| project(on, &mut C::Multipliers::default())),
         }
     }
 
@@ -238,16 +266,26 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
         let stiffening = stiffening(step);
         let Self {
             constraints,
+            multipliers,
             positions,
             inverse_masses,
             corrections,
             ..
         } = self;
-        parallel::fill(corrections, &constraints[colour.clone()], |(places, constraint)| {
-            constraint.corrections(of(places, positions), of(places, inverse_masses), stiffening)
+        let constraints = &constraints[colour.clone()];
+        let multipliers = multipliers.get_mut(colour).unwrap_or_default();
+        let so_far = multipliers.iter().copied().chain(repeat(C::Multipliers::default()));
+        corrections.clear();
+        corrections.extend(so_far.take(constraints.len()).map(|so_far| ([DVec3::ZERO; N], so_far)));
+        parallel::for_each(corrections, |index, (moves, so_far)| {
+            let (places, constraint) = &constraints[index];
+            *moves = constraint.corrections(of(places, positions), of(places, inverse_masses), stiffening, so_far);
         });
-        for ((places, _), &moves) in constraints[colour].iter().zip(&*corrections) {
+        for ((places, _), &(moves, _)) in constraints.iter().zip(&*corrections) {
             add(positions, places, moves);
+        }
+        for (multipliers, &(_, so_far)) in multipliers.iter_mut().zip(&*corrections) {
+            *multipliers = so_far;
         }
     }
 }
@@ -338,7 +376,9 @@ mod tests {
     struct Rope;
 
     impl Local<2> for Rope {
-        fn corrections(&self, [a, b]: [DVec3; 2], _: [f64; 2], _: f64) -> [DVec3; 2] {
+        type Multipliers = ();
+
+        fn corrections(&self, [a, b]: [DVec3; 2], _: [f64; 2], _: f64, _: &mut ()) -> [DVec3; 2] {
             let way = b - a;
             let length = way.length();
             if length <= 1.0 {
@@ -353,7 +393,36 @@ mod tests {
         }
     }
 
-    fn run(start: &[DVec3], project: &mut dyn Constraint, threads: usize) -> Vec<DVec3> {
+    /// Pulls two vertices, of which it knows the way from one to the other at rest, back with so much compliance.
+    #[derive(Clone, Debug)]
+    struct Spring {
+        rest: DVec3,
+        compliance: f64,
+    }
+
+    impl Local<2> for Spring {
+        type Multipliers = DVec3;
+
+        fn corrections(&self, [a, b]: [DVec3; 2], [v, w]: [f64; 2], stiffening: f64, so_far: &mut DVec3) -> [DVec3; 2] {
+            let compliance = self.compliance * stiffening;
+            let multiplier = -(b - a - self.rest + *so_far * compliance) / (v + w + compliance);
+            *so_far += multiplier;
+            [multiplier * -v, multiplier * w]
+        }
+    }
+
+    fn springs(rest: &[DVec3], compliance: f64) -> Vec<On<Spring, 2>> {
+        let spring = |[a, b]: [u32; 2]| {
+            let rest = rest[b as usize] - rest[a as usize];
+            ([a, b], Spring { rest, compliance })
+        };
+        (0..rest.len() as u32 - 2)
+            .flat_map(|k| [[k, k + 1], [k, k + 2]])
+            .map(spring)
+            .collect()
+    }
+
+    fn run<C: Constraint>(start: &[DVec3], project: &mut C, threads: usize) -> Vec<DVec3> {
         let mut positions = start.to_vec();
         let step = TimeStep {
             time: 0.0,
@@ -435,19 +504,60 @@ mod tests {
             let all = (0..sweeps).fold(start.clone(), |at, _| run(&at, &mut once, 1));
             prop_assert_eq!(run(&start, &mut many, 1), all);
         }
+
+        /// One sweep is exact for what shares nothing with anything.
+        #[test]
+        fn more_sweeps_make_nothing_stiffer_by_itself(
+            pulled in -3.0..3.0_f64, compliance in 1e-3..1e3_f64, sweeps in 2..9_u64,
+        ) {
+            let mut start = wave(3, 1.0).0;
+            let spring = springs(&start, compliance)[..1].to_vec();
+            let rest = start.clone();
+            start[1] += DVec3::Y * pulled;
+            let once = run(&start, &mut Schedule::once(spring.clone(), 3), 1);
+            let many = run(&start, &mut Schedule::in_blocks(spring, &rest, sweeps), 1);
+            prop_assert!(once[1].distance(many[1]) < 1e-12, "{} and {}", once[1], many[1]);
+        }
+
+        /// In an implicit step of length one, of masses of one, what a vertex is moved by is the sum of the springs' forces there.
+        #[test]
+        fn many_sweeps_come_to_the_implicit_step(
+            count in 3..30_u32, pulled in any::<prop::sample::Index>(), compliance in 0.5..10.0_f64,
+        ) {
+            let mut start = wave(count, 0.5).0;
+            let all = springs(&start, compliance);
+            let rest = start.clone();
+            start[pulled.index(count as usize)] += DVec3::Y;
+            let end = run(&start, &mut Schedule::in_blocks(all.clone(), &rest, 400), 1);
+            let mut left: Vec<DVec3> = end.iter().zip(&start).map(|(end, start)| *end - *start).collect();
+            for ([a, b], Spring { rest, compliance }) in all {
+                let force = (end[b as usize] - end[a as usize] - rest) / compliance;
+                left[a as usize] -= force;
+                left[b as usize] += force;
+            }
+            prop_assert!(left.iter().all(|left| left.length() < 1e-9), "{left:?}");
+        }
     }
 
     #[test]
     fn any_number_of_threads_gives_the_same_bits() {
         let (start, ropes) = wave(8 * WORTH_A_THREAD as u32, 0.9);
-        for mut schedule in [
-            Schedule::once(ropes.clone(), start.len()),
-            Schedule::in_blocks(ropes.clone(), &start, 4),
-        ] {
-            let one = run(&start, &mut schedule, 1);
-            assert_ne!(one, start);
-            assert_eq!(one, run(&start, &mut schedule, 2));
-            assert_eq!(one, run(&start, &mut schedule, 3));
-        }
+        let give = springs(&wave(start.len() as u32, 0.4).0, 0.5);
+        are_the_same_for_any_number_of_threads(&start, Schedule::once(ropes.clone(), start.len()));
+        are_the_same_for_any_number_of_threads(&start, Schedule::in_blocks(ropes, &start, 4));
+        are_the_same_for_any_number_of_threads(&start, Schedule::in_blocks(give.clone(), &start, 4));
+        // In one block, whose colours threads share.
+        let in_one = Schedule {
+            sweeps: 3,
+            ..Schedule::once(give, start.len())
+        };
+        are_the_same_for_any_number_of_threads(&start, in_one);
+    }
+
+    fn are_the_same_for_any_number_of_threads<C: Local<2>>(start: &[DVec3], mut schedule: Schedule<C, 2>) {
+        let one = run(start, &mut schedule, 1);
+        assert_ne!(one, start);
+        assert_eq!(one, run(start, &mut schedule, 2));
+        assert_eq!(one, run(start, &mut schedule, 3));
     }
 }

@@ -10,10 +10,12 @@
 //! [`FASTEST`].
 
 mod advance;
+mod assembly;
 mod drive;
 mod resume;
 mod set_up;
 mod tangled;
+mod tear;
 mod untangle;
 
 pub use drive::DriveError;
@@ -32,6 +34,7 @@ use selvedge::verification::parallel::Workers;
 use selvedge::{StepError, ThreadError, TopologyError};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
+use tear::Tearing;
 
 /// In m/s: twice the speed of sound and more. What would move faster is slowed down to this.
 pub const FASTEST: f64 = 1000.0;
@@ -81,6 +84,8 @@ pub struct Simulation {
     work: Work,
     /// Before the first step.
     untangled: Option<Untangled>,
+    /// If cloths may tear.
+    tearing: Option<Box<Tearing>>,
 }
 
 /// Filled anew in each step.
@@ -168,13 +173,15 @@ impl Simulation {
         self.state.step as f64 * self.time_step
     }
 
-    /// Where everything is: the vertices of each cloth, then the bodies'.
+    /// Where everything is: the vertices of each cloth, then the bodies'. Where cloth [tears](crate::effects::Tearing) there are more from then
+    /// on.
     #[must_use]
     pub fn positions(&self) -> &[DVec3] {
         &self.state.positions
     }
 
-    /// Triangles on [`positions`](Self::positions): those of each cloth, then the bodies'.
+    /// Triangles on [`positions`](Self::positions): those of each cloth, then the bodies'. Always as many, in the same order; where cloth
+    /// [tears](crate::effects::Tearing) some name other vertices from then on.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles

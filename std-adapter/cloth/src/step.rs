@@ -82,6 +82,12 @@ pub trait Memory {
     /// Takes back what [`numbers`](Self::numbers) were once.
     fn recall(&mut self, numbers: &[f64]);
 
+    /// What each of its [`numbers`](Self::numbers) is about, in terms that do not change when cloth tears. Then effects register anew, and what they put
+    /// there takes back the numbers of the keys that it has as well. None, as here: it always has as many numbers, about the same things.
+    fn keys(&self) -> Vec<[u32; 4]> {
+        Vec::new()
+    }
+
     /// What has let go of its vertices so far.
     fn released(&self) -> Vec<Release> {
         Vec::new()

@@ -6,7 +6,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyModule;
 use selvedge::{Contact, ContactGeometry, Intersection, PairKind, Scalar, Topology};
 use selvedge_cloth::effects::Release;
-use selvedge_cloth::{Crossing, EdgeStretch, NearPair, Untangled};
+use selvedge_cloth::{Crossing, EdgeStretch, NearPair, TornEdge, Untangled};
 
 /// A class of `selvedge/_answers.py`.
 pub(crate) fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
@@ -183,6 +183,13 @@ pub(crate) fn show_untangled<'py>(py: Python<'py>, untangled: Option<&Untangled>
     class(py, "Untangled")?
         .call1((crossings, left, steps, stretch, farthest, seconds))
         .map(Some)
+}
+
+/// Edges of cloth that have torn.
+pub(crate) fn show_torn_edges<'py>(py: Python<'py>, torn: &[TornEdge]) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    let class = class(py, "TornEdge")?;
+    let show = |edge: &TornEdge| class.call1((edge.cloth, (edge.vertices[0], edge.vertices[1]), edge.time, edge.load));
+    torn.iter().map(show).collect()
 }
 
 /// Vertices that attachments have let go of.

@@ -1,6 +1,6 @@
 //! A scene in motion, step by step.
 
-use crate::answers::{rows, show_crossings, show_near_pairs, show_released, show_untangled};
+use crate::answers::{rows, show_crossings, show_near_pairs, show_released, show_torn_edges, show_untangled};
 use crate::arrays::{Frames, with_frames};
 use crate::call::{Length, interruptible};
 use crate::errors::{self, BlockedError, BrokenError, CheckpointError, ForkedError, InputError, SceneError, TangledError};
@@ -11,7 +11,7 @@ use selvedge_cloth::glam::{DQuat, DVec3};
 use selvedge_cloth::{ContactCounts, ContactSeconds, DriveError, Placement, Scene, SetupError, vertex_normals};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, TryLockError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
 /// In messages about a scene that is no file.
 const SCENE: &str = "scene.toml";
@@ -20,13 +20,33 @@ const SCENE: &str = "scene.toml";
 #[pyclass(frozen, module = "selvedge")]
 pub(crate) struct Simulation {
     simulation: Mutex<selvedge_cloth::Simulation>,
-    /// Written to after each call that does steps. What the caller sees of it cannot be written to.
-    written: Py<PyArray2<f64>>,
-    shown: Py<PyAny>,
+    shown: Mutex<Shown>,
     of_scene: OfScene,
     /// The process whose threads it has, if it has any of its own.
     threads_of: Option<u32>,
     is_broken: AtomicBool,
+}
+
+/// Where all is, for the caller.
+struct Shown {
+    /// Written to after each call that does steps.
+    written: Py<PyArray2<f64>>,
+    /// What the caller sees of it: cannot be written to.
+    view: Py<PyAny>,
+    vertices: usize,
+}
+
+impl Shown {
+    fn new(py: Python<'_>, vertices: usize) -> PyResult<Self> {
+        let written = PyArray2::zeros(py, [vertices, 3], false);
+        let view = written.call_method0("view")?;
+        view.getattr("flags")?.setattr("writeable", false)?;
+        Ok(Self {
+            written: written.unbind(),
+            view: view.unbind(),
+            vertices,
+        })
+    }
 }
 
 /// What a scene says, which the simulation of it does not.
@@ -64,13 +84,10 @@ impl Simulation {
         let simulation = made
             .map_err(|words| errors::broken(&words))?
             .map_err(|error| setup_error(py, &error))?;
-        let written = PyArray2::zeros(py, [simulation.positions().len(), 3], false);
-        let shown = written.call_method0("view")?;
-        shown.getattr("flags")?.setattr("writeable", false)?;
+        let shown = Shown::new(py, simulation.positions().len())?;
         let made = Self {
             simulation: Mutex::new(simulation),
-            written: written.unbind(),
-            shown: shown.unbind(),
+            shown: Mutex::new(shown),
             of_scene,
             threads_of: (threads != 1).then(std::process::id),
             is_broken: AtomicBool::new(false),
@@ -100,8 +117,21 @@ impl Simulation {
         }
     }
 
+    fn shown(&self) -> MutexGuard<'_, Shown> {
+        self.shown.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn show(&self, py: Python<'_>, simulation: &selvedge_cloth::Simulation) -> PyResult<()> {
-        let mut written = self.written.bind(py).try_readwrite()?;
+        let vertices = simulation.positions().len();
+        // Nothing of Python's is called while it is locked.
+        let known = self.shown().vertices;
+        if known != vertices {
+            // Cloth has torn.
+            let torn = Shown::new(py, vertices)?;
+            *self.shown() = torn;
+        }
+        let written = self.shown().written.clone_ref(py);
+        let mut written = written.bind(py).try_readwrite()?;
         let (rows, _) = written.as_slice_mut()?.as_chunks_mut::<3>();
         for (row, position) in rows.iter_mut().zip(simulation.positions()) {
             *row = position.to_array();
@@ -294,8 +324,13 @@ impl Simulation {
     }
 
     #[getter]
+    fn torn_edges<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        show_torn_edges(py, self.simulation()?.torn_edges())
+    }
+
+    #[getter]
     fn positions(&self, py: Python<'_>) -> Py<PyAny> {
-        self.shown.clone_ref(py)
+        self.shown().view.clone_ref(py)
     }
 
     #[getter]

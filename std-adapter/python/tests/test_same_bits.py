@@ -1,5 +1,5 @@
 """The contacts of some steps, to the last bit: those of Rust, whose test of the same steps reads the same digests
-(``std-adapter/detector/tests/python_has_the_same_bits.rs``)."""
+(``std-adapter/detector/tests/detector/python_has_the_same_bits.rs``)."""
 
 from pathlib import Path
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from selvedge import ARM_SLEEVE, Crossings, NearPairs, Release, Simulation, errors
+from selvedge import ARM_SLEEVE, Crossings, NearPairs, Release, Simulation, TornEdge, errors
 
 
 @pytest.fixture
@@ -188,6 +188,26 @@ def test_what_attachments_let_go_of_is_told():
     assert released and all(isinstance(release, Release) for release in released)
     for group, vertex, time in released:
         assert group == 0 and vertex % 13 == 0 and 0 <= time < simulation.time
+
+
+def test_cloth_that_tears_has_more_vertices_and_says_what_tore():
+    scene = over_a_ball()
+    held = [{"part": "left"}, {"part": "right", "keyframes": [{"time": 0}, {"time": 0.05, "translation": [0.1, 0, 0]}]}]
+    scene["effects"] = {
+        "pins": {"group": held},
+        "stretch": {"stiffness": 200},
+        "self_collision": {"thickness": 1e-3},
+        "tearing": {"strength": 20},
+    }
+    simulation = Simulation.from_dict(scene)
+    before, faces = simulation.positions, simulation.faces
+    assert simulation.torn_edges == []
+    simulation.step(60)
+    torn = simulation.torn_edges
+    assert torn and all(isinstance(edge, TornEdge) and edge.load > 20 and edge.cloth == 0 for edge in torn)
+    assert len(simulation.positions) > len(before) and simulation.positions is simulation.positions
+    assert simulation.faces.shape == faces.shape and (simulation.faces != faces).any()
+    assert simulation.is_certified
 
 
 def through_a_ball(tangled_start: str) -> dict:

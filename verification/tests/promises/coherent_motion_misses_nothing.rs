@@ -220,7 +220,7 @@ fn no_contact_of_any_step_is_missed() {
 /// Over a whole bend, and two components that pass each other, on every number of threads and instruction set: the same bits and order.
 #[test]
 fn threads_and_instruction_sets_change_nothing() {
-    let scene = ArmScene::new(12).expect("a refinement in range");
+    let scene = ArmScene::new(8).expect("a refinement in range");
     let count = scene.topology().vertex_count() as u32;
     let triangles = scene.topology().triangles();
     let second = triangles.iter().map(|triangle| triangle.map(|vertex| vertex + count));

@@ -46,7 +46,7 @@ fn agree_with_the_oracle<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseEr
     both_say(pair, collides(&pair.question()).is_some())
 }
 
-property!(verdicts_are_the_oracles, 30_000, pairs_of_any_kind(), |pair| {
+property!(verdicts_are_the_oracles, 15_000, pairs_of_any_kind(), |pair| {
     agree_with_the_oracle(pair)
 });
 
@@ -111,7 +111,7 @@ fn verdicts_are_the_oracles_on_pairs_in_a_cube() {
 
 property!(
     pairs_that_touch_by_construction_do,
-    100_000,
+    40_000,
     touching_pairs(),
     |moment: Moment| both_say(&moment.pair(), true)
 );
@@ -158,14 +158,14 @@ fn same<S: Format>(pair: &PairCase<S>, changed: &PairCase<S>) -> Result<(), Test
     Ok(())
 }
 
-property!(reversing_time_changes_no_verdict, 10_000, pairs_of_any_kind(), |pair| same(
+property!(reversing_time_changes_no_verdict, 3_000, pairs_of_any_kind(), |pair| same(
     pair,
     &pair.reversed()
 ));
 
 property!(
     mirroring_and_permuting_axes_changes_no_verdict,
-    5_000,
+    2_000,
     pairs_of_any_kind(),
     |pair| {
         for axis in 0..3 {
@@ -184,7 +184,7 @@ property!(
 
 property!(
     permuting_the_faces_vertices_changes_no_verdict,
-    10_000,
+    3_000,
     pairs(PairKind::VertexFace),
     |pair| {
         [[0, 2, 3, 1], [0, 3, 1, 2], [0, 2, 1, 3]]
@@ -195,7 +195,7 @@ property!(
 
 property!(
     exchanging_edges_and_their_ends_changes_no_verdict,
-    5_000,
+    2_000,
     pairs(PairKind::EdgeEdge),
     |pair| {
         [[2, 3, 0, 1], [1, 0, 2, 3], [0, 1, 3, 2], [3, 2, 0, 1]]
@@ -206,7 +206,7 @@ property!(
 
 property!(
     scaling_by_powers_of_two_changes_no_verdict,
-    10_000,
+    3_000,
     pairs_of_any_kind(),
     |pair| {
         // Each axis by its own: planes, and points in triangles, stay so.
@@ -226,7 +226,7 @@ property!(
 // More than that each is right: what floating point leaves open may differ.
 property!(
     verdicts_are_the_same_in_every_floating_point_environment,
-    4_000,
+    1_500,
     pairs_of_any_kind(),
     |pair| {
         let answers = |pair: &PairCase<S>| (touches(pair), verdict(pair).0);

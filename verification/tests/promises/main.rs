@@ -38,7 +38,6 @@ mod oracle_hard_cases;
 mod oracle_mesh;
 mod paths_need_not_be_straight;
 mod pipeline_distributes_each_pair_once;
-mod proofs_are_about_the_code;
 mod screw_motions_are_not_missed;
 mod separations_are_never_overstated;
 mod simulation_is_free_of_intersections;

@@ -92,6 +92,28 @@ fn a_tube_twisted_three_turns_is_free() {
     run(&mut simulation, 2000, 250);
 }
 
+/// Of all steps in which it tears, and of those after which much has come loose.
+#[test]
+fn a_sheet_that_rips_is_free_in_every_state() {
+    let coarser = |text: String| text.replace("cells = [60, 40]", "cells = [30, 20]");
+    let mut simulation = load("tear.toml", coarser);
+    run(&mut simulation, 200, 50);
+    while simulation.steps_done() < 800 {
+        let before = simulation.torn_edges().len();
+        run(&mut simulation, 1, 20);
+        if simulation.torn_edges().len() > before || simulation.steps_done() % 20 == 0 {
+            assert_eq!(
+                intersections(&simulation),
+                [[0; 2]; 0],
+                "after step {}",
+                simulation.steps_done()
+            );
+            assert!(simulation.is_certified());
+        }
+    }
+    assert!(simulation.torn_edges().len() >= 20);
+}
+
 #[test]
 fn a_hem_pulled_through_folds_at_high_speed_is_free() {
     let mut simulation = load("violent.toml", |text| text);

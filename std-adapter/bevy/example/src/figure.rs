@@ -146,7 +146,7 @@ fn cape(cells: [u32; 2]) -> Result<Scene, ValueError> {
     });
     scene
         .add(Stretch::isotropic(400.0))
-        .add(Shear { stiffness: 60.0 })
+        .add(Shear::new(60.0))
         .add(Bend::isotropic(2e-5));
     scene
         .add(StrainLimit::at(1.08))

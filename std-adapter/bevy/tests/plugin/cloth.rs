@@ -11,9 +11,11 @@ use bevy_mesh::{Mesh, Mesh3d, VertexAttributeValues};
 use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 use selvedge_bevy::selvedge::{CollisionDetector, Intersection, Topology};
-use selvedge_bevy::selvedge_cloth::effects::{BodyContact, Gravity, SelfCollision, Stretch, Thickness};
+use selvedge_bevy::selvedge_cloth::effects::{
+    BodyContact, Gravity, PinGroup, PinMotion, Pins, SelfCollision, Stretch, Tearing, Thickness,
+};
 use selvedge_bevy::selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_bevy::selvedge_cloth::{Body, Cloth, Motion, OnBlocked, Placement, Scene, Simulation};
+use selvedge_bevy::selvedge_cloth::{Body, Cloth, Keyframe, Motion, OnBlocked, Placement, RigidMotion, Scene, Simulation};
 use selvedge_bevy::{ClothSimulation, SelvedgeError, SelvedgeProblem, body_of_mesh, cloth_of_mesh, mesh_of};
 use std::time::Duration;
 
@@ -74,6 +76,44 @@ fn problem(entity: Entity, error: SelvedgeError) -> SelvedgeProblem {
         entity: Some(entity),
         error,
     }
+}
+
+#[test]
+fn the_mesh_of_cloth_that_tears_is_torn_as_well() {
+    let mut app = app();
+    let cloth = Cloth::sheet(DVec3::ZERO, [DVec3::X * 0.1, DVec3::Y * 0.05], [10, 5], 0.2).unwrap();
+    let seen = app.world_mut().resource_mut::<Assets<Mesh>>().add(mesh_of(cloth.mesh()));
+    let triangles = cloth.mesh().triangles.len();
+    let mut scene = Scene::new(cloth, 2e-3);
+    let [left, right] = ["left", "right"].map(|part| scene.part("cloth", part).unwrap());
+    let keys = [(0.0, 0.0), (0.2, 0.03)].map(|(time, x)| Keyframe {
+        time,
+        translation: DVec3::X * x,
+        ..Keyframe::default()
+    });
+    let away = PinMotion::Own(RigidMotion::new(DVec3::ZERO, DVec3::Z, keys.to_vec()).unwrap().into());
+    let right = PinGroup {
+        vertices: right,
+        motion: away,
+    };
+    scene.add(Pins {
+        groups: vec![PinGroup::resting(left), right],
+    });
+    scene.add(Stretch::isotropic(500.0)).add(SelfCollision(Thickness::of(1e-3)));
+    scene.add(Tearing::above(50.0));
+    let entity = app.world_mut().spawn((ClothSimulation::new(scene), Mesh3d(seen))).id();
+    while app.world().resource::<Time<Fixed>>().elapsed_secs() < 0.3 {
+        assert_eq!(step(&mut app).problems, []);
+    }
+    let simulation = simulation(&app, entity);
+    assert!(!simulation.torn_edges().is_empty());
+    let corners = simulation.triangles().as_flattened().iter();
+    let expected: Vec<[f32; 3]> = corners
+        .map(|&vertex| simulation.positions()[vertex as usize].as_vec3().to_array())
+        .collect();
+    assert_eq!(expected.len(), 3 * triangles);
+    assert_eq!(attribute(&app, entity, Mesh::ATTRIBUTE_POSITION), expected);
+    assert_eq!(attribute(&app, entity, Mesh::ATTRIBUTE_NORMAL).len(), expected.len());
 }
 
 #[test]

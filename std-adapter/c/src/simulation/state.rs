@@ -111,7 +111,8 @@ pub unsafe extern "C" fn selvedge_simulation_normals(
     unsafe { copy_rows(simulation, ("normals", normals, vertex_count), all) }
 }
 
-/// Copies all triangles, three vertex numbers each. No step changes them. `triangle_count` is that of selvedge_simulation_sizes.
+/// Copies all triangles, three vertex numbers each. A step changes them only where cloth tears: then there are more vertices as well, and
+/// selvedge_simulation_sizes has new counts. `triangle_count` is that of selvedge_simulation_sizes.
 ///
 /// # Safety
 /// `triangles` has room for 3 * `triangle_count` numbers.

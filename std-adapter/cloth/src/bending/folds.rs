@@ -29,6 +29,8 @@ pub(crate) struct Yield {
 pub(super) struct Folds {
     when: Yield,
     hinges: Vec<Fold>,
+    /// The vertices that the last ones are copies of: where the cloth has torn.
+    copied: Vec<u32>,
     /// On each vertex, in N.
     loads: Vec<DVec3>,
 }
@@ -53,8 +55,8 @@ impl Fold {
 }
 
 impl Folds {
-    /// All flat.
-    pub(super) fn new(hinges: &[On<Hinge, 4>], vertex_count: usize, when: Yield) -> Self {
+    /// All flat. Of the vertices the last ones are copies of those `copied`.
+    pub(super) fn new(hinges: &[On<Hinge, 4>], vertex_count: usize, copied: &[u32], when: Yield) -> Self {
         let fold = |&(vertices, hinge): &On<Hinge, 4>| Fold {
             vertices,
             hinge,
@@ -63,8 +65,21 @@ impl Folds {
         Self {
             when,
             hinges: hinges.iter().map(fold).collect(),
+            copied: copied.to_vec(),
             loads: vec![DVec3::ZERO; vertex_count],
         }
+    }
+
+    /// The vertices of a fold before the cloth tore, those of the edge in ascending order; and whether they are turned round by that,
+    /// which turns the normal.
+    fn as_made(&self, fold: &Fold) -> ([u32; 4], bool) {
+        let first_copy = self.loads.len() - self.copied.len();
+        let made = |vertex: u32| {
+            let copy = (vertex as usize).checked_sub(first_copy);
+            copy.map_or(vertex, |copy| self.copied[copy])
+        };
+        let [a, b, c, d] = fold.vertices.map(made);
+        ([a.min(b), a.max(b), c, d], a > b)
     }
 
     /// What folds add to the force on each vertex, with everything at these positions, in N.
@@ -104,14 +119,51 @@ impl Memory for Folds {
         });
     }
 
-    /// The rest of each fold, in m.
+    /// The rest of each fold, in m, with the normal as it was before the cloth tore.
     fn numbers(&self) -> Vec<f64> {
-        self.hinges.iter().map(|fold| fold.rest).collect()
+        let number = |fold: &Fold| match self.as_made(fold) {
+            (_, true) => -fold.rest,
+            (_, false) => fold.rest,
+        };
+        self.hinges.iter().map(number).collect()
     }
 
     fn recall(&mut self, numbers: &[f64]) {
-        for (fold, &rest) in self.hinges.iter_mut().zip(numbers) {
-            fold.rest = rest;
+        for (place, &number) in numbers.iter().enumerate().take(self.hinges.len()) {
+            let (_, is_turned) = self.as_made(&self.hinges[place]);
+            self.hinges[place].rest = if is_turned { -number } else { number };
         }
+    }
+
+    fn keys(&self) -> Vec<[u32; 4]> {
+        self.hinges.iter().map(|fold| self.as_made(fold).0).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Vertex 0 has a copy, so that the edge begins at its other end.
+    #[test]
+    fn a_fold_is_known_by_the_vertices_that_it_had_before_a_tear_and_bent_the_same_way() {
+        let hinge = Hinge {
+            weights: [0.0; 4],
+            coefficient: 1.0,
+            area: 1.0,
+        };
+        let when = Yield {
+            curvature: 1.0,
+            creep: 0.0,
+        };
+        let mut whole = Folds::new(&[([0, 1, 2, 3], hinge)], 4, &[], when);
+        let mut torn = Folds::new(&[([1, 4, 2, 3], hinge)], 5, &[0], when);
+        assert_eq!(whole.keys(), torn.keys());
+        whole.recall(&[0.25]);
+        torn.recall(&whole.numbers());
+        assert_eq!(torn.numbers(), [0.25]);
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(0.0, -1.0, 0.5), DVec3::ZERO];
+        let loads = whole.hinges[0].bent(&corners)[1] * whole.hinges[0].rest;
+        assert!(torn.hinges[0].bent(&corners)[1] * torn.hinges[0].rest == loads && loads != DVec3::ZERO);
     }
 }

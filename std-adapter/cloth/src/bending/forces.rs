@@ -6,6 +6,10 @@ use crate::schedule::On;
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 
+/// How often the bound of the fastest wave is made tighter. Measured on a shirt with slivers: 1.95 times the largest eigenvalue with one, 1.06 with five,
+/// 1.004 with nine, 1.00002 with seventeen.
+const TIGHTENINGS: u32 = 12;
+
 /// Rows of Q without the diagonal: a row sums to zero.
 #[derive(Debug)]
 pub(super) struct Forces {
@@ -51,14 +55,33 @@ impl Forces {
         &self.entries[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
     }
 
-    /// The largest sum of absolute values of a row of M⁻¹Q.
-    pub(super) fn fastest(&self, inverse_masses: &[f64]) -> f64 {
-        let sum = |vertex: usize| {
-            let row = self.row(vertex).iter().map(|(_, value)| *value);
-            let diagonal = row.clone().sum::<f64>().abs();
-            inverse_masses[vertex] * (diagonal + row.map(f64::abs).sum::<f64>())
+    /// No less than the largest eigenvalue of M⁻¹Q, in 1/s², and hardly more, or no more than is `enough`.
+    ///
+    /// With A the absolute values of M⁻¹Q it is at most the largest (A·d)ᵢ/dᵢ, whatever positive d is (Collatz 1942, Wielandt 1950): with ones
+    /// the largest sum of a row (Gershgorin), which slivers make twice as large as need be. Each d here is the mean of the one before and what A makes
+    /// of it, which never makes the bound larger, as A has no negative entry.
+    pub(super) fn fastest(&self, inverse_masses: &[f64], enough: f64) -> f64 {
+        let times = |vertex: usize, d: &[f64]| {
+            let row = self.row(vertex).iter();
+            let own = row.clone().map(|(_, value)| *value).sum::<f64>().abs() * d[vertex];
+            let others = row.map(|&(other, value)| value.abs() * d[other as usize]);
+            inverse_masses[vertex] * (own + others.sum::<f64>())
         };
-        (0..self.len()).map(sum).fold(0.0, f64::max)
+        let mut d = vec![1.0; self.len()];
+        let mut products: Vec<f64> = Vec::new();
+        let mut bound = 0.0;
+        for round in 0..TIGHTENINGS {
+            products.clear();
+            products.extend((0..self.len()).map(|vertex| times(vertex, &d)));
+            bound = products.iter().zip(&d).map(|(product, d)| product / d).fold(0.0, f64::max);
+            if bound <= enough {
+                return if round == 0 { bound } else { enough };
+            }
+            d.iter_mut()
+                .zip(&products)
+                .for_each(|(d, product)| *d = 0.5 * (*d + product / bound));
+        }
+        bound
     }
 
     /// On a vertex.
@@ -81,5 +104,47 @@ impl Forces {
     /// Calls `action` with each vertex, the force on it and its place in `results`.
     pub(super) fn for_each(&self, positions: &[DVec3], results: &mut [DVec3], action: impl Fn(usize, DVec3, &mut DVec3) + Sync) {
         parallel::for_each(results, |vertex, result| action(vertex, self.on(vertex, positions), result));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::hinges;
+    use super::*;
+    use crate::hierarchy::irregular;
+    use crate::plan::masses_of;
+    use crate::world::{Cloth, sheet};
+
+    /// From below: what M⁻¹Q multiplies the energy of a motion by that it has been applied to often.
+    fn largest_eigenvalue(forces: &Forces, inverse_masses: &[f64]) -> f64 {
+        let mut motion: Vec<_> = (0..forces.len()).map(|k| DVec3::Z * (k as f64).sin()).collect();
+        let mut largest = 0.0;
+        for _ in 0..3000 {
+            let mut next = vec![DVec3::ZERO; motion.len()];
+            forces.for_each(&motion, &mut next, |vertex, force, next| {
+                *next = -force * inverse_masses[vertex];
+            });
+            let squared = |motion: &[DVec3]| -> f64 {
+                let all = motion.iter().zip(inverse_masses).filter(|(_, inverse)| **inverse > 0.0);
+                all.map(|(motion, inverse)| motion.length_squared() / inverse).sum()
+            };
+            largest = (squared(&next) / squared(&motion)).sqrt();
+            let length = squared(&next).sqrt();
+            motion = next.into_iter().map(|motion| motion / length).collect();
+        }
+        largest
+    }
+
+    #[test]
+    fn the_fastest_wave_is_known_from_above_and_closely() {
+        let grid = sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [12, 10]);
+        for mesh in [grid, irregular::sheet(12, 0), irregular::sheet(12, 3)] {
+            let cloth = Cloth::of(mesh);
+            let mut inverse_masses: Vec<f64> = masses_of(&cloth).into_iter().map(f64::recip).collect();
+            inverse_masses[0] = 0.0;
+            let forces = Forces::new(&hinges(&cloth, |_| 1e-3), inverse_masses.len());
+            let over = forces.fastest(&inverse_masses, 0.0) / largest_eigenvalue(&forces, &inverse_masses);
+            assert!((1.0 - 1e-9..1.05).contains(&over), "{over}");
+        }
     }
 }

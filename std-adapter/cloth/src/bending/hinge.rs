@@ -75,8 +75,10 @@ fn share(opposite: f64) -> f64 {
 
 /// The hinge by itself, in one step of extended position-based dynamics.
 impl Local<4> for Hinge {
+    type Multipliers = ();
+
     #[inline(always)]
-    fn corrections(&self, x: [DVec3; 4], w: [f64; 4], stiffening: f64) -> [DVec3; 4] {
+    fn corrections(&self, x: [DVec3; 4], w: [f64; 4], stiffening: f64, _: &mut ()) -> [DVec3; 4] {
         let k = self.weights;
         let bent = self.bent(x);
         let mut weight = stiffening / self.coefficient;
@@ -108,11 +110,11 @@ mod tests {
         assert_eq!(hinges.len(), 3 * 3 + 2 * 3 * 2);
         for (vertices, hinge) in hinges {
             let rest = vertices.map(|v| cloth.mesh.positions[v as usize]);
-            let moves = hinge.corrections(rest, [1.0; 4], 1.0);
+            let moves = hinge.corrections(rest, [1.0; 4], 1.0, &mut ());
             assert!(moves.iter().all(|m| m.length() < 1e-14));
             let mut folded = rest;
             folded[3] += DVec3::Z * 0.1;
-            let moves = hinge.corrections(folded, [1.0; 4], 1.0);
+            let moves = hinge.corrections(folded, [1.0; 4], 1.0, &mut ());
             assert!(moves[3].z < 0.0 && moves.iter().sum::<DVec3>().length() < 1e-14);
         }
     }

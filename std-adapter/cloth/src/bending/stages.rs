@@ -49,6 +49,10 @@ impl Stages {
         stages
     }
 
+    pub(super) const fn count(self) -> u32 {
+        self.count
+    }
+
     /// The largest eigenvalue of h²M⁻¹Q that they are stable for.
     pub(super) fn reach(self) -> f64 {
         (1.0 + self.w0) / self.w1

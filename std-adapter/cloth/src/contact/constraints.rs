@@ -3,8 +3,8 @@
 //! A constraint is C = n·Σwᵢxᵢ − h ≥ 0 with the direction n and the weights w of the closest points at the start of the step. A pair that
 //! starts nearer than that comes apart at [`RECOVERY`] at most, whatever the length of the step: a push must not become a
 //! velocity. On a fine mesh neighbours at rest may be nearer than the thickness; such a pair's is at most half its distance at rest,
-//! or the mesh would lock, and [less](super::neighbours). What was tangled has no such distance at rest: it comes
-//! apart to at least the thickness of neighbours.
+//! or the mesh would lock, and [less](super::neighbours). What was tangled has no such distance at rest, and the two sides of a tear have none
+//! at all: they come apart to at least the thickness of neighbours.
 //!
 //! **Only where it matters.** Closest points are found when it is the turn of a pair to push, and not if the direction that it remembers
 //! keeps it at its thickness by then: where cloth lies on something each vertex has many pairs, and a push or two see to all of them. On a
@@ -18,6 +18,7 @@ use crate::step::{TimeStep, Touch, Touches};
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
+use selvedge_core::separation::largest_coordinate;
 
 /// The contacts of a step.
 #[derive(Debug, Default)]
@@ -170,7 +171,9 @@ fn thickness_of(pair: &Candidate, rules: Rules<'_>) -> Option<f64> {
         thickness
     };
     let own = own.min(0.5 * pair.closest(rest).distance());
-    Some(if exempt.is_parting(pair) {
+    let error = || GapError::of_coordinates(largest_coordinate(&pair.points(rest)));
+    let has_torn = || pair.distance_from_below(rest, error()) == 0.0;
+    Some(if exempt.is_parting(pair) || has_torn() {
         own.max(asked.of_neighbours())
     } else {
         own

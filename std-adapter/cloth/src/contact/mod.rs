@@ -12,6 +12,7 @@
 //! | `crossing` | where surfaces pass through each other |
 //! | `exempt` | what has left the promise: bodies that were let pass, what was tangled where the simulation started |
 //! | `contours`, `sides`, `incidence` | which way to go for what is tangled to come apart |
+//! | `opening` | whether cloth that has torn may open |
 //! | `untangling` | that, as the simulation calls it before its first step |
 //! | `report` | what was counted, what it took, what was in the way |
 //!
@@ -25,6 +26,7 @@ mod crossing;
 mod exempt;
 mod impact_zones;
 mod neighbours;
+mod opening;
 mod pass;
 mod relaxation;
 mod report;

@@ -231,7 +231,7 @@ struct LookedAt {
 }
 
 /// Whether the pair keeps its separation, or what is left of it.
-fn is_free(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
+pub(super) fn is_free(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
     if impact(pair, path, separation, error).is_none() {
         return true;
     }

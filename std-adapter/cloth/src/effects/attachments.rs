@@ -127,7 +127,7 @@ impl Effect for Attachments {
                 }
             };
             let place = |vertex: u32| start[vertex as usize];
-            all.extend(group.vertices.iter().map(|&vertex| Attachment {
+            all.extend(plan.scene.numbered(&group.vertices).into_iter().map(|vertex| Attachment {
                 group: index,
                 vertex,
                 anchor: anchor(place(vertex)),

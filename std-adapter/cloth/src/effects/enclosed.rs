@@ -6,6 +6,7 @@
 use crate::incidence::Incidence;
 use crate::membrane::triangles_around;
 use crate::world::Cloth;
+use selvedge::Topology;
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
 
@@ -58,7 +59,7 @@ impl Walls {
 }
 
 /// How many edges of a cloth are open: none if it is closed.
-pub(super) fn open_edges(cloth: &Cloth) -> usize {
-    let statistics = cloth.topology.statistics();
+pub(super) fn open_edges(topology: &Topology) -> usize {
+    let statistics = topology.statistics();
     statistics.boundary_edges + statistics.non_manifold_edges
 }

@@ -107,7 +107,7 @@ impl Effect for Inflation {
     fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
         let walls = Walls::new(cloth);
-        let is_inside_out = open_edges(cloth) == 0 && walls.volume(&cloth.mesh.positions) < 0.0;
+        let is_inside_out = open_edges(&cloth.topology_as_made()) == 0 && walls.volume(&cloth.mesh.positions) < 0.0;
         plan.add_force(Inflating {
             inflation: self.clone(),
             outward: if is_inside_out { -1.0 } else { 1.0 },

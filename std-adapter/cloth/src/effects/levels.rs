@@ -170,13 +170,15 @@ impl Tension {
 }
 
 impl Local<3> for Tension {
+    type Multipliers = ();
+
     #[inline(always)]
     fn moves_nothing(&self, x: [DVec3; 3]) -> bool {
         self.squared_side(x) <= self.slack * self.slack
     }
 
     #[inline(always)]
-    fn corrections(&self, x: [DVec3; 3], w: [f64; 3], stiffening: f64) -> [DVec3; 3] {
+    fn corrections(&self, x: [DVec3; 3], w: [f64; 3], stiffening: f64, _: &mut ()) -> [DVec3; 3] {
         let trusted = TRUST * (self.squared_side(x).sqrt() - self.slack);
         if !(trusted > 0.0) {
             return [DVec3::ZERO; 3];

@@ -31,6 +31,7 @@ mod shear;
 mod stitches;
 mod strain_limit;
 mod stretch;
+mod tearing;
 mod thickness;
 mod vertices;
 mod wind;
@@ -60,6 +61,7 @@ pub use self_collision::SelfCollision;
 pub use shear::Shear;
 pub use strain_limit::StrainLimit;
 pub use stretch::Stretch;
+pub use tearing::{Perforation, Tearing};
 pub use wind::Wind;
 pub use wind_field::{Air, WindField};
 
@@ -102,6 +104,7 @@ const REGISTRY: &[(&str, Registration)] = registry![
     body_contact "body_contact"
     self_collision "self_collision"
     friction "friction"
+    tearing "tearing"
 ];
 
 /// Reads the effects that `[effects]` names, and constructs no other; [`Called::check`] follows.

@@ -94,14 +94,13 @@ impl Effect for Pins {
 
     fn register(&self, plan: &mut Plan<'_>) {
         for group in &self.groups {
+            let vertices = plan.scene.numbered(&group.vertices);
             let carrier = match &group.motion {
                 PinMotion::Body(body) => *body as Carrier,
-                PinMotion::Own(motion) => plan.add_motion(motion.clone(), group.vertices.clone()),
+                PinMotion::Own(motion) => plan.add_motion(motion.clone(), vertices.clone()),
             };
             plan.pins.push(carrier);
-            for &vertex in &group.vertices {
-                plan.pin(vertex, carrier);
-            }
+            vertices.into_iter().for_each(|vertex| plan.pin(vertex, carrier));
         }
     }
 }

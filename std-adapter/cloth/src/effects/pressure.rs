@@ -55,7 +55,7 @@ impl Effect for InternalPressure {
     fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
         VOLUME.check(self.volume)?;
         MODULUS.check(self.modulus)?;
-        match open_edges(world.cloth) {
+        match open_edges(&world.cloth.topology) {
             0 => Ok(()),
             open => {
                 let message = format!("internal pressure needs a closed cloth, but this one has {open} open edges");
@@ -66,6 +66,10 @@ impl Effect for InternalPressure {
 
     fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
+        if open_edges(&cloth.topology) > 0 {
+            // It has torn: nothing holds the gas any more.
+            return;
+        }
         let walls = Walls::new(cloth);
         let rest = walls.volume(&cloth.mesh.positions);
         plan.add_constraint(Filling {

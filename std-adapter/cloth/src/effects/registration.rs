@@ -40,7 +40,8 @@ pub trait Effect: Debug + Send + Sync {
         Ok(())
     }
 
-    /// Puts what the effect does into the plan of a step: once for each cloth on which it acts, or once for the scene.
+    /// Puts what the effect does into the plan of a step: once for each cloth on which it acts, or once for the scene. And again, of other meshes,
+    /// whenever cloth has torn.
     fn register(&self, plan: &mut Plan<'_>);
 
     /// What it says of the fabric, for people to read: each property in words, and its value with its unit.

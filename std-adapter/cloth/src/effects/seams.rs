@@ -205,6 +205,11 @@ impl Effect for Seams {
         let world = plan.scene();
         let rest = rest_of(&world);
         for seam in &self.seams {
+            let seam = &Seam {
+                first: world.numbered(&seam.first),
+                second: world.numbered(&seam.second),
+                ..*seam
+            };
             let gap = seam.gap.unwrap_or_else(|| thickness(seam, &world, &plan.fabrics));
             let gap = if seam.first.len() == 1 { gap.max(TIED) } else { gap };
             let sewing = Sewing {

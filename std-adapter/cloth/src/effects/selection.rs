@@ -11,7 +11,7 @@ const CENTRE: Field = Field::vector("centre", LENGTH, LARGEST_COORDINATE);
 const RADIUS: Field = Field::new("radius", LENGTH, 1e-6, LARGEST_COORDINATE);
 
 /// How a table says which vertices.
-const WAYS: [&str; 4] = ["part", "vertices", "box", "ball"];
+pub(super) const WAYS: [&str; 4] = ["part", "vertices", "box", "ball"];
 
 /// What leads vertices.
 #[derive(Clone, Debug, PartialEq)]

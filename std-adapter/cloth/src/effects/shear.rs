@@ -1,7 +1,7 @@
-//! Shear: C = w_u·w_v (Baraff and Witkin 1998), compliance 1/(k·A).
+//! Shear: C = w_u·w_v (Baraff and Witkin 1998), compliance 1/(k·A), like [`stretch`](super::stretch) in one sweep a step or several.
 
 use super::registration::{ActsOn, Effect, Registration};
-use crate::input::{Field, MEMBRANE_STIFFNESS, ValueError};
+use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::membrane::{Membrane, all, image, of_triangles};
 use crate::plan::{Fabric, Plan};
 use crate::schedule::{Local, Schedule};
@@ -9,14 +9,18 @@ use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 
 const STIFFNESS: Field = Field::new("stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
+const SWEEPS: Count = Count::new("sweeps", 1, 100);
 
 pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["stiffness"],
+    keys: &["stiffness", "sweeps"],
     needs: &[],
     read: |table, world| {
         let of_material = world.cloth.material.map(|material| material.shear());
-        let shear = table.number_or(&STIFFNESS, |stiffness| Shear { stiffness }, of_material)?;
-        Ok(Box::new(shear))
+        let shear = table.number_or(&STIFFNESS, Shear::new, of_material)?;
+        Ok(Box::new(Shear {
+            sweeps: table.count(&SWEEPS)?.unwrap_or(shear.sweeps),
+            ..shear
+        }))
     },
 };
 
@@ -25,6 +29,16 @@ pub(super) const REGISTRATION: Registration = Registration {
 pub struct Shear {
     /// In N/m.
     pub stiffness: f64,
+    /// How often all triangles are looked at in a step.
+    pub sweeps: u32,
+}
+
+impl Shear {
+    /// In N/m, in one sweep.
+    #[must_use]
+    pub const fn new(stiffness: f64) -> Self {
+        Self { stiffness, sweeps: 1 }
+    }
 }
 
 impl Effect for Shear {
@@ -37,11 +51,19 @@ impl Effect for Shear {
     }
 
     fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
-        STIFFNESS.check(self.stiffness)
+        STIFFNESS.check(self.stiffness)?;
+        SWEEPS.check(self.sweeps)
     }
 
     fn fabric(&self) -> Vec<(&'static str, String)> {
         vec![("shear stiffness", MEMBRANE_STIFFNESS.written_short(self.stiffness))]
+    }
+
+    fn settings(&self) -> Vec<(&'static str, String)> {
+        (self.sweeps > 1)
+            .then(|| ("sweeps", self.sweeps.to_string()))
+            .into_iter()
+            .collect()
     }
 
     fn announce(&self, fabric: &mut Fabric) {
@@ -54,7 +76,7 @@ impl Effect for Shear {
             membrane,
             compliance: 1.0 / (self.stiffness * area),
         });
-        plan.add_constraint(Schedule::once(angles, cloth.mesh.positions.len()));
+        plan.add_constraint(Schedule::times(angles, &cloth.mesh.positions, self.sweeps));
     }
 }
 
@@ -65,18 +87,22 @@ struct Angle {
 }
 
 impl Local<3> for Angle {
+    type Multipliers = f64;
+
     #[inline(always)]
-    fn corrections(&self, x: [DVec3; 3], w: [f64; 3], stiffening: f64) -> [DVec3; 3] {
+    fn corrections(&self, x: [DVec3; 3], w: [f64; 3], stiffening: f64, so_far: &mut f64) -> [DVec3; 3] {
         let Membrane { a, b, .. } = self.membrane;
         let (warp, weft) = (image(a, x), image(b, x));
         let (a, b) = (all(a), all(b));
         let mut gradients = [DVec3::ZERO; 3];
-        let mut weight = self.compliance * stiffening;
+        let compliance = self.compliance * stiffening;
+        let mut weight = compliance;
         for k in 0..3 {
             gradients[k] = weft * a[k] + warp * b[k];
             weight += w[k] * gradients[k].length_squared();
         }
-        let multiplier = -warp.dot(weft) / weight;
+        let multiplier = (-warp.dot(weft) - compliance * *so_far) / weight;
+        *so_far += multiplier;
         for k in 0..3 {
             gradients[k] *= multiplier * w[k];
         }

@@ -103,13 +103,15 @@ impl Limit {
 }
 
 impl Local<3> for Limit {
+    type Multipliers = ();
+
     #[inline(always)]
     fn moves_nothing(&self, x: [DVec3; 3]) -> bool {
         self.is_far_below(SquaredStretch::new(self.membrane, x))
     }
 
     #[inline(always)]
-    fn corrections(&self, x: [DVec3; 3], w: [f64; 3], _: f64) -> [DVec3; 3] {
+    fn corrections(&self, x: [DVec3; 3], w: [f64; 3], _: f64, _: &mut ()) -> [DVec3; 3] {
         let stretch = SquaredStretch::new(self.membrane, x);
         if self.is_far_below(stretch) {
             return [DVec3::ZERO; 3];
@@ -141,7 +143,7 @@ mod tests {
             b: [0.0, 1.0],
         };
         let limit = Limit { membrane, limit: 1.1 };
-        let moves = limit.corrections(x, [1.0; 3], 0.0);
+        let moves = limit.corrections(x, [1.0; 3], 0.0, &mut ());
         [0, 1, 2].map(|k| x[k] + moves[k])
     }
 

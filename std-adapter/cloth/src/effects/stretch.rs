@@ -3,7 +3,7 @@
 //! Extended position-based dynamics (Macklin et al. 2016) with one iteration a step: Δx = −C·W∇C / (∇C·W∇C + α/h²). Where w
 //! vanishes it has no direction, and nothing is done.
 //!
-//! More `sweeps` leave less for the next step (an accuracy–time choice): on the sheet of `drop.toml` with 10 thousand triangles 99 % of the edges
+//! More `sweeps`, with multipliers kept from one to the next, leave less for the next step (an accuracy–time choice): on the sheet of `drop.toml` with 10 thousand triangles 99 % of the edges
 //! are stretched by up to 3.4 % with one after a second, 2.9 % with two, in 1.1 times the time.
 //!
 //! One iteration moves a pull by one edge, so that a cloth would be the softer the finer its mesh: before it come coarse
@@ -16,7 +16,7 @@ use super::registration::{ActsOn, Effect, Registration};
 use crate::hierarchy::mesh_spacing;
 use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::membrane::{Membrane, all, image, of_triangles};
-use crate::plan::Plan;
+use crate::plan::{Fabric, Plan};
 use crate::schedule::{Local, Schedule};
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
@@ -85,6 +85,10 @@ impl Effect for Stretch {
         levels::check(self.levels)
     }
 
+    fn announce(&self, fabric: &mut Fabric) {
+        fabric.stretch = Some([self.stiffness, self.weft_stiffness]);
+    }
+
     fn fabric(&self) -> Vec<(&'static str, String)> {
         let [warp, weft] = [self.stiffness, self.weft_stiffness].map(|k| MEMBRANE_STIFFNESS.written_short(k));
         if warp == weft {
@@ -127,18 +131,22 @@ struct Spring {
 }
 
 impl Local<3> for Spring {
+    /// Along warp and weft.
+    type Multipliers = [f64; 2];
+
     #[inline(always)]
-    fn corrections(&self, x: [DVec3; 3], w: [f64; 3], stiffening: f64) -> [DVec3; 3] {
+    fn corrections(&self, x: [DVec3; 3], w: [f64; 3], stiffening: f64, so_far: &mut [f64; 2]) -> [DVec3; 3] {
         let mut moves = [DVec3::ZERO; 3];
-        let [warp, weft] = self.compliance;
-        for (c, compliance) in [(self.membrane.a, warp), (self.membrane.b, weft)] {
+        for (which, c) in [self.membrane.a, self.membrane.b].into_iter().enumerate() {
             let stretched = image(c, [x[0] + moves[0], x[1] + moves[1], x[2] + moves[2]]);
             let length = stretched.length();
             let c = all(c);
             let weight = w[0] * c[0] * c[0] + w[1] * c[1] * c[1] + w[2] * c[2] * c[2];
             // Shorter than a millionth there is no direction to speak of.
             if length > 1e-6 && weight > 0.0 {
-                let multiplier = (1.0 - length) / (weight + compliance * stiffening);
+                let compliance = self.compliance[which] * stiffening;
+                let multiplier = (1.0 - length - compliance * so_far[which]) / (weight + compliance);
+                so_far[which] += multiplier;
                 let along = stretched * (multiplier / length);
                 for k in 0..3 {
                     moves[k] += along * (w[k] * c[k]);

@@ -74,9 +74,14 @@ impl Simulation {
         self.state.blocked_steps += u64::from(was_blocked);
         if let Some(contact) = &mut self.contact {
             contact.take_back(&self.state.positions);
-            if self.state.step.is_multiple_of(CHECKPOINT_STEPS) {
-                begin_anew(contact, &self.state, self.time_step);
-            }
+        }
+        if self.tearing.is_some() {
+            self.tear();
+        }
+        if let Some(contact) = &mut self.contact
+            && self.state.step.is_multiple_of(CHECKPOINT_STEPS)
+        {
+            begin_anew(contact, &self.state, self.time_step);
         }
         Ok(of_the_step)
     }

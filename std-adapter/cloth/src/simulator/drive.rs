@@ -105,6 +105,9 @@ impl Simulation {
         // Each of several cloths has its own.
         let taken = self.forces.iter_mut().map(|force| force.action.set_wind(velocity));
         let is_taken = taken.fold(false, |any, taken| any | taken);
+        if let Some(tearing) = &mut self.tearing {
+            tearing.wind = Some(velocity);
+        }
         if is_taken { Ok(()) } else { Err(DriveError::NoWind) }
     }
 

@@ -3,7 +3,8 @@
 use super::advance::begin_anew;
 use super::{CHECKPOINT_STEPS, Simulation};
 use crate::checkpoint::{Checkpoint, CheckpointError, Sizes};
-use crate::step::Memory;
+use crate::plan::Entry;
+use crate::step::{Constraint, Memory};
 use crate::world::{Driven, Kinematic};
 
 impl Simulation {
@@ -18,6 +19,7 @@ impl Simulation {
             state: self.state.clone(),
             effects: self.effects.iter().map(|effect| effect.seconds).collect(),
             placements: self.driven().map(|driven| driven.placement).collect(),
+            torn: self.torn_cloths(),
             memories: self.remembered(),
             ..Checkpoint::default()
         };
@@ -34,19 +36,40 @@ impl Simulation {
     /// # Errors
     /// If it is not a checkpoint, is damaged, or is one of another scene; then nothing has changed.
     pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), CheckpointError> {
+        let triangles = self.triangles_of_cloths();
+        let (torn, reader) = Checkpoint::begin(checkpoint, self.fingerprint, triangles.as_deref())?;
+        let mut torn = match torn {
+            Some((cloths, edges)) => Some((self.torn_as(cloths)?, edges)),
+            None => None,
+        };
+        let [vertices, memories] = match &torn {
+            Some((retorn, _)) => [
+                retorn.made.rest.len(),
+                retorn.made.memories().flat_map(Memory::numbers).count(),
+            ],
+            None => [self.state.positions.len(), self.remembered().len()],
+        };
         let sizes = Sizes {
-            vertices: self.state.positions.len(),
+            vertices,
             yielding: self.contact.as_ref().map_or(0, |c| c.exempt().yielding.len()),
             effects: self.effects.len(),
             placements: self.driven().count(),
-            memories: self.remembered().len(),
+            memories,
         };
-        let checkpoint = Checkpoint::read(checkpoint, self.fingerprint, sizes)?;
+        let checkpoint = Checkpoint::read(reader, sizes)?;
+        let contact = match &mut torn {
+            Some((retorn, _)) => &mut retorn.made.contact,
+            None => &mut self.contact,
+        };
+        if let Some(contact) = contact
+            && !contact.set_parting(checkpoint.parting.as_deref(), &checkpoint.state.positions)
+        {
+            return Err(CheckpointError::Damaged);
+        }
+        if let Some((retorn, edges)) = torn {
+            self.adopt_torn(retorn, edges);
+        }
         if let Some(contact) = &mut self.contact {
-            let positions = &checkpoint.state.positions;
-            if !contact.set_parting(checkpoint.parting.as_deref(), positions) {
-                return Err(CheckpointError::Damaged);
-            }
             contact.set_yielding(&checkpoint.yielding);
             begin_anew(contact, &checkpoint.state, self.time_step);
             (contact.counts, contact.stages) = (checkpoint.counts, checkpoint.stages);
@@ -80,11 +103,18 @@ impl Simulation {
     }
 
     pub(super) fn memories(&self) -> impl Iterator<Item = &dyn Memory> {
-        let all = self.remembering.iter();
-        all.filter_map(|&index| self.constraints[index].action.memory())
+        memories(&self.remembering, &self.constraints)
     }
 
     pub(super) fn driven(&self) -> impl Iterator<Item = &Driven> {
         self.motions.iter().filter_map(Kinematic::driven)
     }
+}
+
+/// What these constraints remember.
+pub(super) fn memories<'a>(
+    remembering: &'a [usize],
+    constraints: &'a [Entry<dyn Constraint>],
+) -> impl Iterator<Item = &'a dyn Memory> {
+    remembering.iter().filter_map(|&index| constraints[index].action.memory())
 }

@@ -1,16 +1,16 @@
 //! From a scene to a simulation.
 
 use super::advance::begin_anew;
+use super::assembly::Assembly;
+use super::tear::Tearing;
 use super::{EffectTime, SetupError, Simulation, Tangled, Untangling, Work};
-use crate::contact::ContactSolver;
 use crate::hierarchy::mesh_spacing;
-use crate::plan::Plan;
-use crate::scene::{Scene, TangledStart, append};
+use crate::scene::{Scene, TangledStart};
 use crate::state::State;
-use crate::step::{Carrier, FREE, Touches};
+use crate::step::{FREE, Touches};
 use crate::world::{Kinematic, Pose};
 use selvedge::verification::parallel::Workers;
-use selvedge::{Mesh, Threads, Topology};
+use selvedge::{Mesh, Threads};
 use selvedge_core::glam::DVec3;
 
 impl Simulation {
@@ -30,45 +30,34 @@ impl Simulation {
         scene.check()?;
         let fingerprint = scene.fingerprint();
         let threads = Workers::new(Threads::from_count(threads))?;
-        let mut plan = Plan::new(scene.parts()?);
-        let names = scene.called().register(&mut plan);
-        let times = names.into_iter().map(|name| EffectTime { name, seconds: 0.0 }).collect();
-        let Plan {
-            mut inverse_masses,
-            mut carriers,
+        let Assembly {
+            effects,
+            vertices_of_cloths,
+            body_vertices,
+            cloth_vertices,
+            cloth_triangles,
+            triangles,
+            loose_edges,
+            rest,
+            inverse_masses,
+            carriers,
             mut motions,
             pins,
             forces,
             constraints,
-            contact,
+            remembering,
             friction,
-            ..
-        } = plan;
-        let loose_edges = scene.all_loose_edges();
+            mut contact,
+            tearable,
+        } = Assembly::of(&scene)?;
         let Scene {
-            name,
-            cloths,
             bodies,
+            cloths,
             time_step,
-            on_blocked,
             tangled_start,
             ..
-        } = scene;
-        let mut all = Mesh::default();
-        let vertices_of_cloths: Vec<_> = cloths.iter().map(|cloth| append(&mut all, &cloth.mesh)).collect();
-        let (cloth_vertices, cloth_triangles) = (all.positions.len(), all.triangles.len());
-        let mut body_vertices = Vec::with_capacity(bodies.len());
-        for (carrier, body) in bodies.iter().enumerate() {
-            body_vertices.push(append(&mut all, &body.mesh));
-            carriers.resize(all.positions.len(), carrier as Carrier);
-        }
-        let Mesh {
-            positions: rest,
-            triangles,
-        } = all;
-        inverse_masses.resize(rest.len(), 0.0);
-        let remembers = |&index: &usize| constraints[index].action.memory().is_some();
-        let remembering = (0..constraints.len()).filter(remembers).collect();
+        } = &scene;
+        let (time_step, tangled_start) = (*time_step, *tangled_start);
         let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
         let mut carried = rest.clone();
         for (point, &carrier) in carried[..cloth_vertices].iter_mut().zip(&carriers) {
@@ -96,20 +85,6 @@ impl Simulation {
             velocities,
             positions,
         };
-        let mut contact = match contact.asks_for_any() {
-            true => {
-                let topology = Topology::with_loose_features(rest.len(), triangles.clone(), &loose_edges, &[])?;
-                Some(ContactSolver::new(
-                    contact,
-                    topology,
-                    &rest,
-                    &carriers,
-                    cloth_vertices,
-                    bodies.len(),
-                ))
-            }
-            false => None,
-        };
         if let Some(contact) = &mut contact {
             begin_anew(contact, &state, time_step);
             let found = contact.tolerate(&state.positions)?;
@@ -121,23 +96,23 @@ impl Simulation {
                         triangles,
                     },
                     cloth_triangles,
-                    body_names: bodies.into_iter().map(|body| body.name).collect(),
+                    body_names: bodies.iter().map(|body| body.name.clone()).collect(),
                     untangled: None,
                 })));
             }
         }
         let spacing = cloths.iter().map(mesh_spacing).fold(f64::INFINITY, f64::min);
         let mut simulation = Self {
-            name,
+            name: scene.name.clone(),
             time_step,
-            on_blocked,
+            on_blocked: scene.on_blocked,
             tangled_start,
             body_vertices,
             pins,
-            body_names: bodies.into_iter().map(|body| body.name).collect(),
+            body_names: bodies.iter().map(|body| body.name.clone()).collect(),
             contact,
             fingerprint,
-            cloth_names: cloths.into_iter().map(|cloth| cloth.name).collect(),
+            cloth_names: cloths.iter().map(|cloth| cloth.name.clone()).collect(),
             cloth_triangles,
             cloth_vertices,
             vertices_of_cloths,
@@ -148,7 +123,7 @@ impl Simulation {
             forces,
             constraints,
             remembering,
-            effects: times,
+            effects: effects.into_iter().map(|name| EffectTime { name, seconds: 0.0 }).collect(),
             threads,
             state,
             work: Work {
@@ -163,6 +138,7 @@ impl Simulation {
             rest,
             carried,
             untangled: None,
+            tearing: Tearing::new(scene, tearable),
         };
         if tangled_start == TangledStart::Untangle && !simulation.is_apart() {
             let untangled = simulation.untangle(spacing, tell);

@@ -7,8 +7,9 @@ use crate::input::{
 };
 use crate::rope::{Run, runs};
 use crate::sleeve::{RefinementError, ring_sizes, sleeve};
-use selvedge::{Mesh, Topology};
+use selvedge::{Mesh, Topology, TopologyError};
 use selvedge_core::glam::DVec3;
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 /// A cloth at rest: its mesh, what it weighs, and what it has of its own.
@@ -29,6 +30,8 @@ pub struct Cloth {
     pub(crate) mesh: Mesh,
     /// Of triangles and loose edges.
     pub(crate) topology: Topology,
+    /// Vertices of the mesh of which tears have made copies, in the order of these, which are its last ones; some are copies themselves.
+    copied: Vec<u32>,
     /// Mass per area in kg/m²; of no meaning without triangles.
     pub density: f64,
     /// Mass per length of loose edges in kg/m; of no meaning without any.
@@ -216,6 +219,7 @@ impl Cloth {
             material: None,
             mesh,
             topology,
+            copied: Vec::new(),
             warp,
             parts,
             effects: Effects::default(),
@@ -287,13 +291,66 @@ impl Cloth {
         &self.topology
     }
 
+    fn loose_edges(&self) -> Vec<[u32; 2]> {
+        self.topology.loose_edges().collect()
+    }
+
     /// Its loose edges as rows of vertices, each joined with the next: from where a rope begins, ends or branches to the next such place. Where a
     /// row is closed its first vertex is the last again.
     #[must_use]
     pub fn loose_rows(&self) -> Vec<Vec<u32>> {
-        let edges: Vec<[u32; 2]> = self.topology.loose_edges().collect();
-        let runs = runs(&edges, self.mesh.positions.len()).into_iter();
+        let runs = runs(&self.loose_edges(), self.mesh.positions.len()).into_iter();
         runs.map(Run::into_vertices).collect()
+    }
+
+    /// How many vertices it had before it tore.
+    pub(crate) fn vertices_as_made(&self) -> usize {
+        self.mesh.positions.len() - self.copied.len()
+    }
+
+    /// The vertex that one was before the cloth tore.
+    pub(crate) fn as_made(&self, mut vertex: u32) -> u32 {
+        // What a copy is of comes before it.
+        while let Some(copy) = (vertex as usize).checked_sub(self.vertices_as_made()) {
+            vertex = self.copied[copy];
+        }
+        vertex
+    }
+
+    /// Vertices of which tears have made copies, in the order of these, which are its last ones; some are copies themselves.
+    pub(crate) fn copied(&self) -> &[u32] {
+        &self.copied
+    }
+
+    /// The vertices that these copies were before the cloth tore.
+    pub(crate) fn copied_as_made(&self) -> Vec<u32> {
+        self.copied.iter().map(|&vertex| self.as_made(vertex)).collect()
+    }
+
+    /// Its edges before it tore.
+    pub(crate) fn topology_as_made(&self) -> Cow<'_, Topology> {
+        let made = || {
+            let triangles = self.mesh.triangles.iter();
+            let triangles = triangles.map(|triangle| triangle.map(|vertex| self.as_made(vertex)));
+            Topology::with_loose_features(self.vertices_as_made(), triangles.collect(), &self.loose_edges(), &[])
+        };
+        match made() {
+            Ok(made) if !self.copied.is_empty() => Cow::Owned(made),
+            _ => Cow::Borrowed(&self.topology),
+        }
+    }
+
+    /// Gives it copies of some of its vertices, instead of those that it has, each of one before it; and triangles that name them. Loose edges stay
+    /// with what keeps its number.
+    ///
+    /// # Errors
+    /// If there are too many.
+    pub(crate) fn tear(&mut self, copied: Vec<u32>, triangles: Vec<[u32; 3]>) -> Result<(), TopologyError> {
+        let mut positions = self.mesh.positions[..self.vertices_as_made()].to_vec();
+        copied.iter().for_each(|&vertex| positions.push(positions[vertex as usize]));
+        self.topology = Topology::with_loose_features(positions.len(), triangles.clone(), &self.loose_edges(), &[])?;
+        (self.mesh, self.copied) = (Mesh { positions, triangles }, copied);
+        Ok(())
     }
 
     /// The vertices of a part that has a name; `None` if there is no such part.
@@ -310,6 +367,7 @@ impl Cloth {
             name: NAME.to_owned(),
             effects: Effects::default(),
             topology: mesh.topology().unwrap(),
+            copied: Vec::new(),
             mesh,
             density: 0.1,
             linear_density: 0.0,

@@ -104,6 +104,14 @@ impl Kinematic {
         }
     }
 
+    /// Goes on where another one is that does the same to the same vertices, which have other numbers now.
+    pub(crate) fn take_over(&mut self, other: Self) {
+        if let (Self::Driven(own), Self::Driven(other)) = (self, other) {
+            let vertices = std::mem::take(&mut own.vertices);
+            **own = Driven { vertices, ..*other };
+        }
+    }
+
     pub(crate) fn driven(&self) -> Option<&Driven> {
         match self {
             Self::Keyframes(_) | Self::Animated(_) => None,

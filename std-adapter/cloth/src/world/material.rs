@@ -132,7 +132,7 @@ impl Material {
 
     /// Its resistance to being sheared.
     pub(crate) const fn shear(&self) -> Shear {
-        Shear { stiffness: self.shear }
+        Shear::new(self.shear)
     }
 
     /// Its resistance to being bent.

@@ -69,6 +69,32 @@ impl<'a> SceneParts<'a> {
         })
     }
 
+    /// The same as the scene was made, of which tears have made more: so effects' settings number them.
+    pub(crate) fn vertices_as_made(self) -> impl Iterator<Item = Range<usize>> + use<'a> {
+        self.cloths.iter().scan(0, |end, cloth| {
+            let first = *end;
+            *end += cloth.vertices_as_made();
+            Some(first..*end)
+        })
+    }
+
+    /// Where vertices are now that effects' settings name.
+    pub(crate) fn numbered(self, named: &[u32]) -> Vec<u32> {
+        let now = |&vertex: &u32| {
+            let mut cloths = self.vertices_as_made().zip(self.vertices_of_cloths());
+            let own = cloths.find(|(made, _)| made.contains(&(vertex as usize)));
+            own.map_or(vertex, |(made, now)| vertex - made.start as u32 + now.start as u32)
+        };
+        named.iter().map(now).collect()
+    }
+
+    /// Of each vertex as the scene was made, whether it is among the `named`.
+    pub(crate) fn named(self, named: &[u32]) -> Vec<bool> {
+        let mut is_named = vec![false; self.vertices_as_made().map(|own| own.len()).sum()];
+        named.iter().for_each(|&vertex| is_named[vertex as usize] = true);
+        is_named
+    }
+
     /// How many vertices all cloths have.
     pub(crate) fn cloth_vertices(self) -> usize {
         self.cloths.iter().map(|cloth| cloth.mesh.positions.len()).sum()

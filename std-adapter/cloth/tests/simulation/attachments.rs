@@ -19,7 +19,7 @@ const CORNERS: [u32; 2] = [42, 48];
 fn hung(groups: Vec<AttachmentGroup>) -> Scene {
     let mut scene = Scene::new(sheet(), 1e-3);
     scene.add(Gravity::default()).add(Stretch::isotropic(500.0));
-    scene.add(Shear { stiffness: 100.0 }).add(AirDrag { rate: 5.0 });
+    scene.add(Shear::new(100.0)).add(AirDrag { rate: 5.0 });
     scene.add(Attachments { groups });
     scene
 }

@@ -74,7 +74,7 @@ fn found_over_given(mesh: &Mesh, cells: u32, turn: f64) -> f64 {
     scene
         .add(Gravity::default())
         .add(Stretch::isotropic(1000.0))
-        .add(Shear { stiffness: 300.0 })
+        .add(Shear::new(300.0))
         .add(Bend {
             stages: 300,
             ..Bend::isotropic(RIGIDITY)

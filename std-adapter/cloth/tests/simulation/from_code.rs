@@ -155,7 +155,7 @@ fn code_and_file_make_the_same_scene_to_the_last_bit() {
             ..Stretch::isotropic(400.0)
         })
         .add(StrainLimit::at(1.1));
-    scene.add(Shear { stiffness: 50.0 }).add(Bend::isotropic(1e-5));
+    scene.add(Shear::new(50.0)).add(Bend::isotropic(1e-5));
     let follows = PinGroup {
         vertices: start,
         motion: PinMotion::Body(0),
@@ -597,7 +597,7 @@ fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_b
             }),
             "stretch: `levels` is 99, but must be from 0 to 32",
         ),
-        (of(Shear { stiffness: 1e10 }), "shear: `stiffness` is 1e10 N/m"),
+        (of(Shear::new(1e10)), "shear: `stiffness` is 1e10 N/m"),
         (
             of(Bend::isotropic(100.0)),
             "bend: `stiffness` is 100 N m, but must be from 1e-12 N m to 10 N m",

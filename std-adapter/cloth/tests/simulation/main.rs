@@ -19,6 +19,7 @@ mod several_cloths;
 mod stability;
 mod stretch;
 mod tangled;
+mod tearing;
 mod wrong_scenes;
 
 #[path = "../../src/hierarchy/irregular.rs"]

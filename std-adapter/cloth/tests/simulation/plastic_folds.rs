@@ -35,7 +35,7 @@ fn strip(is_clamped: bool, folds: Option<PlasticFolds>) -> Scene {
     let strip = Cloth::sheet(DVec3::ZERO, [DVec3::X * 0.1, DVec3::Y * 0.02], [20, 4], 0.2).unwrap();
     let clamped: Vec<u32> = (0..105).filter(|v| v % 21 < 2).collect();
     let mut scene = Scene::new(strip, 1e-3);
-    scene.add(Stretch::isotropic(1000.0)).add(Shear { stiffness: 300.0 });
+    scene.add(Stretch::isotropic(1000.0)).add(Shear::new(300.0));
     scene.add(Bend::isotropic(1e-4)).add(AirDrag { rate: 10.0 }).add(Hand);
     if is_clamped {
         scene.add(Pins {

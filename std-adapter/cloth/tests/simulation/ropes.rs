@@ -111,10 +111,7 @@ fn a_rope_of_two_hundred_edges_that_holds_a_weight_is_stretched_by_a_thousandth_
             .add(Gravity::default())
             .add(RopeStretch::of(stiffness))
             .add(AirDrag { rate: 5.0 });
-        scene
-            .add(Stretch::isotropic(1e5))
-            .add(Shear { stiffness: 1e5 })
-            .add(pinned(&[0]));
+        scene.add(Stretch::isotropic(1e5)).add(Shear::new(1e5)).add(pinned(&[0]));
         if is_tied {
             let seam = Seam {
                 gap: Some(gap),

@@ -20,7 +20,7 @@ fn panels() -> Scene {
     scene
         .add(Gravity::default())
         .add(Stretch::isotropic(300.0))
-        .add(Shear { stiffness: 60.0 });
+        .add(Shear::new(60.0));
     scene.add(Bend::isotropic(1e-5)).add(StrainLimit::at(1.1));
     scene.add(SelfCollision(Thickness::of(THICKNESS)));
     scene
@@ -99,7 +99,7 @@ fn a_seam_without_a_time_holds_rows_as_they_lie_and_one_that_is_not_named_lets_t
         scene
             .add(Gravity::default())
             .add(Stretch::isotropic(300.0))
-            .add(Shear { stiffness: 60.0 });
+            .add(Shear::new(60.0));
         scene.add(SelfCollision(Thickness::of(THICKNESS)));
         let row = |cloth, part| scene.part(cloth, part).unwrap();
         let [top, first, second] = [row("upper", "top"), row("upper", "bottom"), row("lower", "top")];

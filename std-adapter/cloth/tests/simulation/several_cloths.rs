@@ -98,7 +98,7 @@ fn from_code() -> Scene {
         ..Wind::default()
     };
     scene.add(Gravity::default()).add(wind).add(Stretch::isotropic(400.0));
-    scene.add(Shear { stiffness: 40.0 }).add(Friction { coefficient: 0.3 });
+    scene.add(Shear::new(40.0)).add(Friction { coefficient: 0.3 });
     scene.add(BodyContact(Thickness::of(4e-3)));
     let corner = scene.part("lining", "bottom-left").unwrap();
     scene.add(Pins {

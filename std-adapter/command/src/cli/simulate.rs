@@ -235,7 +235,7 @@ impl Simulate {
             let damaged = || of_file(CheckpointError::Damaged.to_string());
             let (state, recorded) = split(&saved).ok_or_else(damaged)?;
             simulation.resume(state).map_err(|error| of_file(error.to_string()))?;
-            Ok(recorder.restore(recorded).ok_or_else(damaged)?)
+            Ok(recorder.restore(recorded, simulation).ok_or_else(damaged)?)
         };
         let mut last_checkpoint: Option<Instant> = None;
         let after = |simulation: &Simulation, recorder: &SimulationRecorder, frame: Option<u64>, seconds: f64| {

@@ -1,6 +1,6 @@
 //! `selvedge accuracy`.
 
-use crate::support::{Workplace, keys};
+use crate::support::{Run, Workplace, keys};
 use serde_json::Value;
 
 /// Small enough for a test.
@@ -168,13 +168,11 @@ fn elementary_tests_are_measured_at_every_tolerance_and_the_unsafe_ones_are_caug
 
 #[test]
 fn without_only_one_document_has_both_parts_and_a_plot_needs_its_part() {
-    let place = Workplace::new();
-    let short = ["accuracy", "--pairs", "100", "--repeat", "1", "--json"];
-    let document = place.json(&short);
+    let document: Value = serde_json::from_str(Run::of_accuracy().read("rows.json")).unwrap();
     assert_eq!(
         keys(&document),
         ["seed", "repeat", "separation", "sets", "rows", "elementary"]
     );
-    let message = place.refusal(1, &[&SHORT[..], &["--elementary-svg", "a.svg"]].concat());
+    let message = Workplace::new().refusal(1, &[&SHORT[..], &["--elementary-svg", "a.svg"]].concat());
     assert!(message.contains("--elementary-svg needs what --only leaves out"), "{message}");
 }

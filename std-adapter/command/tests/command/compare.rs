@@ -1,6 +1,6 @@
 //! `selvedge`, `selvedge compare` and `selvedge scaling`.
 
-use crate::support::{SHEET, Workplace, keys};
+use crate::support::{Run, SHEET, Workplace, keys};
 use selvedge_laboratory::methods::Preset;
 
 /// Small enough for a test.
@@ -10,8 +10,8 @@ const REPORT: [&str; 4] = ["comparison.csv", "comparison.html", "comparison.md",
 
 #[test]
 fn the_main_job_simulates_the_sleeve_compares_every_method_and_writes_its_report() {
-    let place = Workplace::new();
-    let text = place.stdout(&SHORT);
+    let run = Run::of_main_job();
+    let text = &run.text;
     assert!(text.starts_with("arm sleeve: 1,500 steps in "), "{text}");
     assert!(text.contains("arm sleeve, 2 of its 1500 simulated steps"));
     for preset in Preset::ALL {
@@ -20,13 +20,13 @@ fn the_main_job_simulates_the_sleeve_compares_every_method_and_writes_its_report
     assert!(text.contains("693 vertices") && text.contains("1,345 triangles"));
     let written = REPORT.map(|name| format!("selvedge-out/{name}"));
     let first = ["selvedge-out", "selvedge-out/arm-sleeve.html"].map(str::to_owned);
-    assert_eq!(place.listing(), [&first[..], &written].concat());
-    let page = place.read("selvedge-out/arm-sleeve.html");
+    assert_eq!(run.listing, [&first[..], &written].concat());
+    let page = run.read("selvedge-out/arm-sleeve.html");
     assert!(page.contains("<h1>arm sleeve</h1>"));
-    let picture = std::fs::read(place.path("selvedge-out/figure-3.png")).unwrap();
+    let picture = run.bytes("selvedge-out/figure-3.png");
     assert_eq!(&picture[..8], b"\x89PNG\r\n\x1a\n");
-    assert!(place.read("selvedge-out/comparison.html").contains("</table>"));
-    let rows = place.read("selvedge-out/comparison.md");
+    assert!(run.read("selvedge-out/comparison.html").contains("</table>"));
+    let rows = run.read("selvedge-out/comparison.md");
     assert_eq!(
         rows.lines().filter(|line| line.starts_with("| ")).count(),
         1 + Preset::ALL.len()

@@ -192,6 +192,60 @@ fn a_resumed_run_ends_with_the_same_bits_on_any_number_of_threads() {
     assert_eq!(whole, run(&["--threads", "2"]));
 }
 
+/// A sheet whose right side is drawn away from its left one, and that tears.
+const TEARING: &str = r#"
+time_step = "1 ms"
+duration = "0.5 s"
+frames_per_second = 30
+[cloth]
+shape = "sheet"
+sides = { first = [0.3, 0, 0], second = [0, 0.2, 0] }
+cells = [12, 8]
+density = "200 g/m2"
+[effects.stretch]
+stiffness = "200 N/m"
+[effects.shear]
+stiffness = "50 N/m"
+[effects.tearing]
+strength = "30 N/m"
+[[effects.tearing.perforation]]
+vertices = [6, 19]
+strength = "5 N/m"
+[[effects.pins.group]]
+part = "left"
+[[effects.pins.group]]
+part = "right"
+keyframes = [{ time = 0 }, { time = "0.5 s", translation = [0.09, 0, 0] }]
+[effects.self_collision]
+thickness = "2 mm"
+"#;
+
+#[test]
+fn cloth_that_tears_is_told_and_shown_and_resumed_as_it_is_torn() {
+    let place = Workplace::new();
+    place.write("tear.toml", TEARING);
+    let command = |more: &[&str]| {
+        let all = [
+            &["simulate", "tear.toml", "--json", "--frames", "gltf", "--picture", "end.png"],
+            more,
+        ]
+        .concat();
+        place.json(&all)
+    };
+    let whole = command(&["--output", "whole"]);
+    let torn = whole["torn"].as_array().unwrap();
+    assert!(torn.len() > 8 && torn.iter().all(|edge| edge["newtons_per_metre"].as_f64().unwrap() > 5.0));
+    assert_eq!(whole["intersections_at_end"], 0);
+    // From the checkpoint of the 200th step, when the perforation is torn already.
+    command(&["--output", "again"]);
+    let resumed = command(&["--output", "again", "--resume", "--threads", "2"]);
+    assert_eq!(resumed["torn"], whole["torn"]);
+    for file in ["end.png", "tear.glb"] {
+        let [one, other] = ["whole", "again"].map(|folder| fs::read(place.path(folder).join(file)).unwrap());
+        assert!(one == other, "{file}");
+    }
+}
+
 #[test]
 fn what_is_wrong_with_a_scene_is_said_with_its_place() {
     let place = Workplace::new();

@@ -1,9 +1,11 @@
 //! A folder to work in, and the program.
 
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 use tempfile::TempDir;
 
 /// A small triangle one unit above a large one.
@@ -150,6 +152,57 @@ impl Workplace {
         assert_eq!(self.listing(), before, "files were left behind");
         let start = text.find("error: ").expect("no error message");
         text[start..].to_owned()
+    }
+}
+
+/// A run that several tests look at, since it takes seconds: what it printed, its notes, and what it wrote.
+pub(crate) struct Run {
+    pub(crate) text: String,
+    pub(crate) notes: String,
+    /// Every file and folder, as [`Workplace::listing`] has them.
+    pub(crate) listing: Vec<String>,
+    files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Run {
+    #[track_caller]
+    fn new(arguments: &[&str]) -> Self {
+        let place = Workplace::new();
+        let Output { status, stdout, stderr } = place.run(arguments);
+        let [text, notes] = [stdout, stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+        assert!(status.success(), "{notes}");
+        let listing = place.listing();
+        let files = listing.iter().filter(|name| place.path(name).is_file());
+        let files = files.map(|name| (name.clone(), fs::read(place.path(name)).unwrap()));
+        Self {
+            text,
+            notes,
+            files: files.collect(),
+            listing,
+        }
+    }
+
+    #[track_caller]
+    pub(crate) fn bytes(&self, name: &str) -> &[u8] {
+        &self.files[name]
+    }
+
+    #[track_caller]
+    pub(crate) fn read(&self, name: &str) -> &str {
+        std::str::from_utf8(self.bytes(name)).unwrap()
+    }
+
+    /// `selvedge`, without a subcommand.
+    pub(crate) fn of_main_job() -> &'static Self {
+        static RUN: LazyLock<Run> = LazyLock::new(|| Run::new(&["--steps", "2", "--rounds", "1"]));
+        &RUN
+    }
+
+    /// `selvedge accuracy`, both parts; the document goes to `rows.json`.
+    pub(crate) fn of_accuracy() -> &'static Self {
+        static RUN: LazyLock<Run> =
+            LazyLock::new(|| Run::new(&["accuracy", "--pairs", "1500", "--repeat", "1", "--json=rows.json"]));
+        &RUN
     }
 }
 

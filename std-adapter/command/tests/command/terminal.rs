@@ -1,6 +1,6 @@
 //! How the output behaves where it ends up.
 
-use crate::support::Workplace;
+use crate::support::{Run, Workplace};
 use std::process::Stdio;
 
 /// Lines of more than 80 columns.
@@ -17,11 +17,11 @@ fn every_table_fits_80_columns() {
         &["compare", "--steps", "1", "--rounds", "1"],
         &["queries", "q-vf.csv"],
         &["scaling", "--sizes", "1,4"],
-        &["accuracy", "--pairs", "2000", "--repeat", "1"],
     ] {
         let text = place.stdout(arguments);
         assert_eq!(wide_lines(&text), [""; 0], "{arguments:?}");
     }
+    assert_eq!(wide_lines(&Run::of_accuracy().text), [""; 0]);
 }
 
 #[test]
@@ -49,9 +49,7 @@ fn a_reader_that_closes_early_is_no_error() {
 
 #[test]
 fn no_progress_is_drawn_where_nobody_watches() {
-    let place = Workplace::new();
-    let output = place.run(&["--steps", "1", "--rounds", "1"]);
-    let notes = String::from_utf8(output.stderr).unwrap();
+    let notes = &Run::of_main_job().notes;
     assert!(notes.lines().all(|line| line.starts_with("wrote ")), "{notes}");
 }
 

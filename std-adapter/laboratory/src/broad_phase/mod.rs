@@ -16,7 +16,7 @@
 //!
 //! # Why not a library's hierarchy
 //!
-//! Measured against parry3d 0.31 (`cargo bench -p selvedge-laboratory --bench broad_phase`), one thread, refit and all pairs of a cloth of 92,230
+//! Measured against parry3d 0.31 (`cargo bench -p selvedge-benches --bench broad_phase`), one thread, refit and all pairs of a cloth of 92,230
 //! triangles with 4.5 million pairs: 41 to 46 ms here, in order; 62 to 66 ms there, in tree order, and 175 ms more to sort
 //! them. On tubes of 1.3 thousand to 1.3 million triangles both are level before sorting. parry3d's traversal also makes a new
 //! vector each time, where the pipeline keeps and reuses its own.

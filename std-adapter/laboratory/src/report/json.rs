@@ -17,7 +17,7 @@ use crate::study::{Accuracy, AccuracySet};
 use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
 use crate::study::{HardAnswer, HardResult, QueryResult};
 use selvedge::verification::PairCounts;
-use selvedge_cloth::TangledStart;
+use selvedge_cloth::{TangledStart, TornEdge};
 use serde_json::{Value, json};
 
 /// One step: `selvedge cull`.
@@ -189,6 +189,16 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
     let stretch = simulation.edge_stretch();
     let released = simulation.released().into_iter();
     let released = released.map(|release| json!({"group": release.group, "vertex": release.vertex, "seconds": release.time}));
+    let torn = simulation.torn_edges().iter();
+    let torn = torn.map(|edge| {
+        let TornEdge {
+            cloth,
+            vertices,
+            time,
+            load,
+        } = *edge;
+        json!({"cloth": cloth, "edge": vertices, "seconds": time, "newtons_per_metre": load})
+    });
     let slowest = recording.step_times();
     json!({
         "scene": simulation.name(),
@@ -207,6 +217,7 @@ pub fn simulation(simulation: &selvedge_cloth::Simulation, recording: &Recording
         "vertices_held": counts.map(|counts| counts.held),
         "cuts": counts.map(|counts| counts.cuts),
         "released": released.collect::<Vec<_>>(),
+        "torn": torn.collect::<Vec<_>>(),
         "blocked_steps": simulation.blocked_steps(),
         "lag_seconds": simulation.lag(),
         "untangled": simulation.untangled().map(untangled_json),

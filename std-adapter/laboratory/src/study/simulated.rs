@@ -5,7 +5,8 @@ use selvedge::glam::DVec3;
 use selvedge::{Mesh, Topology, TopologyError};
 use selvedge_cloth::{Scene, Simulation};
 
-/// Some of a simulation's steps, evenly spread over it: its cloths alone, without bodies.
+/// Some of a simulation's steps, evenly spread over it: its cloths alone, without bodies. Cloth that tears is taken to be whole: without the
+/// copies of its vertices.
 ///
 /// They are collected while the simulation runs, which shows each of its states to [`observe`](Self::observe):
 ///
@@ -72,7 +73,16 @@ impl SimulatedSteps {
     /// Looks at a state: the start first, then the state after each step.
     pub fn observe(&mut self, simulation: &Simulation) {
         let done = simulation.steps_done();
-        let state = || simulation.positions()[..simulation.cloth_vertices()].to_vec();
+        let as_made = |cloth| {
+            let own = simulation.vertices_of_cloth(cloth).unwrap_or_default();
+            &simulation.positions()[own.start..own.end - simulation.copied_vertices(cloth).len()]
+        };
+        let state = || {
+            (0..simulation.cloth_names().len())
+                .flat_map(as_made)
+                .copied()
+                .collect::<Vec<_>>()
+        };
         if let Some(last) = self.steps.len().checked_sub(1)
             && self.steps[last][1].is_empty()
             && self.end(last) == done

@@ -20,6 +20,7 @@ from ._answers import (
     Kind,
     NearPairs,
     Release,
+    TornEdge,
     Truncation,
     Untangled,
 )
@@ -40,6 +41,7 @@ __all__ = [
     "NearPairs",
     "Release",
     "Simulation",
+    "TornEdge",
     "Truncation",
     "Untangled",
     "__version__",

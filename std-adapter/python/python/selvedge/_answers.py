@@ -172,6 +172,19 @@ class Untangled:
     """How long it took."""
 
 
+class TornEdge(NamedTuple):
+    """An edge of cloth that has torn."""
+
+    cloth: int
+    """In the order of the scene."""
+    vertices: tuple[int, int]
+    """Its ends, as the cloth's mesh in the scene numbers them."""
+    time: float
+    """When the step had ended after which it tore, in seconds."""
+    load: float
+    """What it was loaded with, in N for each metre of its length at rest."""
+
+
 class Release(NamedTuple):
     """A vertex that an attachment has let go of, for good."""
 

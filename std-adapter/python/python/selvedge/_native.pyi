@@ -17,6 +17,7 @@ from ._answers import (
     Intersections,
     NearPairs,
     Release,
+    TornEdge,
     Truncation,
     Untangled,
 )
@@ -190,7 +191,7 @@ class Simulation:
     @property
     def positions(self) -> NDArray[np.float64]:
         """(n, 3) in metres: the cloth's vertices, then the bodies'. Always the same array, which shows where they are now: copy it to
-        keep it. It cannot be written to."""
+        keep it. It cannot be written to. Where cloth tears there are more vertices, hence another array, and :attr:`faces` are others."""
     @property
     def velocities(self) -> NDArray[np.float64]:
         """(n, 3) in m/s, of :attr:`positions`; a copy."""
@@ -212,6 +213,9 @@ class Simulation:
     @property
     def released(self) -> list[Release]:
         """What attachments have let go of so far, attachment by attachment."""
+    @property
+    def torn_edges(self) -> list[TornEdge]:
+        """What has torn so far, in the order in which it did."""
     @property
     def body_names(self) -> list[str]: ...
     def body_vertices(self, body: str | int) -> slice:

@@ -136,6 +136,26 @@ impl Recorder {
         Ok(())
     }
 
+    /// Gives a part more vertices, behind those that it has, each a copy of one before it, and the triangles that name them: cloth that has torn.
+    /// In the frames so far copies are where the vertices are that they are made of, so that they look as they did.
+    ///
+    /// # Panics
+    /// If there is no such part, a copy is of no vertex before it, or a triangle names a vertex that does not exist.
+    pub fn split(&mut self, part: usize, copied: &[u32], triangles: Vec<[u32; 3]>) {
+        let parts = &mut self.recording.parts;
+        let first: usize = parts[..part].iter().map(Part::vertex_count).sum();
+        let own = &parts[part];
+        let end = first + own.vertex_count;
+        self.frames.change(|positions| {
+            for (place, &vertex) in copied.iter().enumerate() {
+                let of = first + vertex as usize;
+                assert!(of < end + place, "a copy is of a vertex before it");
+                positions.insert(end + place, positions[of]);
+            }
+        });
+        parts[part] = Part::new(own.name.clone(), own.kind, own.vertex_count + copied.len(), triangles);
+    }
+
     /// Records what each measure is after `step` steps, in their order; steps as for [`frame`](Self::frame).
     ///
     /// # Panics

@@ -66,9 +66,15 @@ impl Subject {
 }
 
 /// A [`Recorder`] of a simulation: its effects, and its contacts if it looks for them, are the series; energy and stretch the measures.
-#[derive(Debug)]
+///
+/// Cloth that tears gets more vertices: all frames have those that there are in the end.
+#[derive(Clone, Debug)]
 pub struct SimulationRecorder {
     recorder: Recorder,
+    /// Of the measures.
+    measured: Vec<&'static str>,
+    /// Of each cloth, how many vertices are copies.
+    copied: Vec<usize>,
     /// Of the cloths, if any has loose edges.
     shown: Vec<Shown>,
     /// Where all that is shown is, then.
@@ -91,6 +97,8 @@ impl SimulationRecorder {
         let measures: Vec<_> = measures(simulation).iter().map(|&(name, kind, _)| (name, kind)).collect();
         let mut recorder = Self {
             recorder: recorder.with_measures(&measures),
+            measured: measures.iter().map(|(name, _)| *name).collect(),
+            copied: vec![0; simulation.cloth_names().len()],
             shown,
             positions: Vec::new(),
         };
@@ -100,7 +108,31 @@ impl SimulationRecorder {
 
     /// Records what the last step counted and took: `seconds` in all, by the clock on the wall.
     pub fn step(&mut self, simulation: &Simulation, seconds: f64) {
+        self.follow_tears(simulation);
         self.recorder.step(&readings(simulation, seconds));
+    }
+
+    /// Gives cloths the vertices that the simulation's have by now.
+    fn follow_tears(&mut self, simulation: &Simulation) {
+        for (cloth, known) in self.copied.iter_mut().enumerate() {
+            let copied = simulation.copied_vertices(cloth);
+            let own = simulation.vertices_of_cloth(cloth).filter(|_| copied.len() > *known);
+            if let Some(own) = own {
+                let shown = self.shown.get(cloth);
+                let placed = |vertex: u32| shown.map_or(vertex, |shown| shown.place_of(vertex));
+                let triangles = simulation.triangles()[..simulation.cloth_triangles()].iter();
+                let triangles = triangles.filter(|triangle| own.contains(&(triangle[0] as usize)));
+                let mut triangles: Vec<[u32; 3]> = triangles
+                    .map(|triangle| triangle.map(|vertex| placed(vertex - own.start as u32)))
+                    .collect();
+                if let Some(shown) = shown {
+                    shown.add_tubes(&mut triangles);
+                }
+                let copies: Vec<u32> = copied[*known..].iter().map(|&vertex| placed(vertex)).collect();
+                self.recorder.split(cloth, &copies, triangles);
+                *known = copied.len();
+            }
+        }
     }
 
     /// Offers the state as a frame, and measures its energy and how much the cloth is stretched.
@@ -109,20 +141,27 @@ impl SimulationRecorder {
     /// If a coordinate is no finite `f32`.
     pub fn frame(&mut self, simulation: &Simulation) -> Result<(), FrameError> {
         let step = simulation.steps_done();
+        self.follow_tears(simulation);
         let mut positions = simulation.positions();
         if !self.shown.is_empty() {
             self.positions.clear();
-            for shown in &self.shown {
-                let (own, others) = positions.split_at(shown.cloth_vertices());
-                shown.place(own, &mut self.positions);
-                positions = others;
+            for (cloth, shown) in self.shown.iter().enumerate() {
+                if let Some(own) = simulation.vertices_of_cloth(cloth) {
+                    shown.place(&positions[own], &mut self.positions);
+                }
             }
-            self.positions.extend_from_slice(positions);
+            self.positions.extend_from_slice(&positions[simulation.cloth_vertices()..]);
             positions = &self.positions;
         }
         self.recorder.frame(step, positions)?;
-        let measures = measures(simulation).into_iter();
-        let values: Vec<f64> = measures.map(|(_, _, value)| value).collect();
+        let now = measures(simulation);
+        // What has burst holds no pressure, and no energy of it, any more.
+        let value = |wanted: &&str| {
+            now.iter()
+                .find(|(name, ..)| name == wanted)
+                .map_or(0.0, |(_, _, value)| *value)
+        };
+        let values: Vec<f64> = self.measured.iter().map(value).collect();
         self.recorder.measure(step, &values);
         Ok(())
     }
@@ -133,11 +172,16 @@ impl SimulationRecorder {
         self.recorder.save(seconds)
     }
 
-    /// Goes on with what another recorder of the same simulation has [saved](Self::save); returns its seconds. `None`, and nothing has
-    /// changed, if the bytes are damaged, or of other series or another number of vertices.
+    /// Goes on with what another recorder of the same simulation has [saved](Self::save) where that, `simulation`, has gone on from a checkpoint
+    /// of the same step; returns its seconds. `None`, and nothing has changed, if the bytes are damaged, or of other series or another
+    /// number of vertices.
     #[must_use]
-    pub fn restore(&mut self, bytes: &[u8]) -> Option<f64> {
-        self.recorder.restore(bytes)
+    pub fn restore(&mut self, bytes: &[u8], simulation: &Simulation) -> Option<f64> {
+        let mut restored = self.clone();
+        restored.follow_tears(simulation);
+        let seconds = restored.recorder.restore(bytes)?;
+        *self = restored;
+        Some(seconds)
     }
 
     /// Says something that a reader must know.
@@ -171,6 +215,12 @@ fn counters(simulation: &Simulation, seconds: f64) -> Vec<(&'static str, SeriesK
         add(SeriesKind::Events, &counts.events().map(number));
         let blocked = ("steps blocked", simulation.blocked_steps());
         add(SeriesKind::Events, &[blocked].map(number));
+    }
+    if simulation.effects().iter().any(|effect| effect.name == "tearing") {
+        add(
+            SeriesKind::Events,
+            &[number(("edges torn", simulation.torn_edges().len() as u64))],
+        );
     }
     if simulation.tangled_start() == TangledStart::Tolerate {
         let crossings = ("edges through faces, tolerated", simulation.crossings().len() as f64);

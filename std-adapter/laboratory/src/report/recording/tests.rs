@@ -130,6 +130,27 @@ fn a_frames_mesh_numbers_vertices_across_parts() {
     assert_eq!(mesh.positions, all);
 }
 
+/// The last of two parts stays where it is behind the first, which is torn twice.
+#[test]
+fn what_is_split_looks_in_earlier_frames_as_it_did_and_copies_of_copies_are_where_these_were() {
+    let parts = vec![triangle(), Part::new("ball", PartKind::Body, 3, vec![[2, 1, 0]])];
+    let mut recorder = Recorder::new(about(), parts, &[], &[]);
+    let (cloth, ball) = (positions(0), positions(9));
+    recorder.frame(0, &[&cloth[..], &ball].concat()).unwrap();
+    recorder.split(0, &[1], vec![[0, 3, 2]]);
+    let apart = DVec3::new(0.5, 0.25, 0.0);
+    recorder.frame(1, &[&cloth[..], &[apart], &ball].concat()).unwrap();
+    recorder.split(0, &[3, 4], vec![[0, 5, 2]]);
+    let recording = recorder.finish(None);
+    for (frame, copy) in [(0, cloth[1]), (1, apart)] {
+        let mesh = recording.mesh(frame);
+        assert_eq!(mesh.positions[..3], cloth);
+        assert_eq!(mesh.positions[4..6], [copy; 2]);
+        assert_eq!(mesh.positions[6..], ball);
+        assert_eq!(mesh.triangles, [[0, 5, 2], [8, 7, 6]]);
+    }
+}
+
 #[test]
 #[should_panic(expected = "not among the 3")]
 fn a_part_refuses_a_triangle_beyond_its_vertices() {

@@ -72,6 +72,12 @@ impl<N> Thinned<N> {
         self.offered += 1;
     }
 
+    /// Changes all values so far.
+    pub(super) fn change(&mut self, mut change: impl FnMut(&mut Vec<N>)) {
+        let all = self.kept.iter_mut().chain(&mut self.skipped);
+        all.for_each(|(_, values)| change(values));
+    }
+
     /// All that is kept, and the last.
     pub(super) fn finish(mut self) -> Vec<AfterStep<N>> {
         self.kept.extend(self.skipped);

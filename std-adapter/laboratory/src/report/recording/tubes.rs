@@ -9,9 +9,10 @@ const SIDES: u32 = 8;
 /// Where no contact says how thick a rope is: its radius, in lengths of its edges.
 const THIN: f64 = 0.15;
 
-/// What is shown of a cloth: its vertices, if it has triangles, then the rings of its tubes.
+/// What is shown of a cloth: its vertices, if it has triangles, then the rings of its tubes, then the copies of vertices that tears have made.
 #[derive(Clone, Debug)]
 pub(super) struct Shown {
+    /// As it was made.
     vertices: usize,
     has_triangles: bool,
     /// Vertices of the cloth, each joined with the next.
@@ -36,18 +37,33 @@ impl Shown {
         }
     }
 
-    /// How many vertices the cloth has itself.
-    pub(super) fn cloth_vertices(&self) -> usize {
-        self.vertices
-    }
-
     fn own_vertices(&self) -> usize {
         if self.has_triangles { self.vertices } else { 0 }
     }
 
-    /// How many vertices are shown, and the triangles on them.
+    fn tube_vertices(&self) -> usize {
+        self.rows.iter().map(|row| row.len() * SIDES as usize).sum()
+    }
+
+    /// The place of one of the cloth's vertices, which has triangles.
+    pub(super) fn place_of(&self, vertex: u32) -> u32 {
+        let is_copy = vertex as usize >= self.vertices;
+        if is_copy {
+            vertex + self.tube_vertices() as u32
+        } else {
+            vertex
+        }
+    }
+
+    /// How many vertices are shown, and the triangles on them, of the cloth as it was made.
     pub(super) fn mesh(&self, cloth: &Cloth) -> (usize, Vec<[u32; 3]>) {
         let mut triangles = cloth.mesh().triangles.clone();
+        self.add_tubes(&mut triangles);
+        (self.own_vertices() + self.tube_vertices(), triangles)
+    }
+
+    /// Adds the triangles of its tubes.
+    pub(super) fn add_tubes(&self, triangles: &mut Vec<[u32; 3]>) {
         let mut next = self.own_vertices() as u32;
         for row in &self.rows {
             let rings = row.len() as u32;
@@ -65,7 +81,6 @@ impl Shown {
             }
             next += rings * SIDES;
         }
-        (next as usize, triangles)
     }
 
     /// Adds where they are, when the cloth's vertices are at `own`.
@@ -87,6 +102,7 @@ impl Shown {
                 }));
             }
         }
+        shown.extend_from_slice(&own[self.vertices..]);
     }
 }
 

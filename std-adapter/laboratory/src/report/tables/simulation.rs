@@ -74,6 +74,14 @@ pub fn simulation(simulation: &Simulation, recording: &Recording) -> String {
             moment(last)
         );
     }
+    if let [first, .., last] | [first @ last] = simulation.torn_edges() {
+        text += &format!(
+            "\nedges that tore: {}, from {} to {}\n",
+            simulation.torn_edges().len(),
+            moment(first.time),
+            moment(last.time)
+        );
+    }
     if simulation.blocked_steps() > 0 {
         let blocked = counted(simulation.blocked_steps(), "step");
         text += &format!(

@@ -1,0 +1,253 @@
+//! Each question once, for either format.
+
+use crate::answers::{Answers, Boxes, CandidatePairs, ContactRow, GeometryRow, IntersectionRow, Pair, TruncationRow};
+use crate::detector::{Detector, Finder, Format, Handle, on};
+use crate::input::{Out, OutFrame, OutList, unknown, view};
+use crate::settings::length;
+use crate::status::{Failure, Status};
+use selvedge::{CandidateBoxes, Frame, StepError};
+
+/// What a question is about, as it came: `N` frames of a mesh, with their names.
+pub(super) struct Asked<S, const N: usize> {
+    detector: *mut Handle,
+    frames: [(&'static str, *const S); N],
+    vertex_count: usize,
+}
+
+/// A question about a step.
+pub(super) type AskedStep<S> = Asked<S, 2>;
+
+impl<S> AskedStep<S> {
+    pub(super) const fn new(detector: *mut Handle, start: *const S, end: *const S, vertex_count: usize) -> Self {
+        Self::between(detector, [("start", start), ("end", end)], vertex_count)
+    }
+
+    pub(super) const fn between(detector: *mut Handle, frames: [(&'static str, *const S); 2], vertex_count: usize) -> Self {
+        Self {
+            detector,
+            frames,
+            vertex_count,
+        }
+    }
+}
+
+/// A question about a mesh at rest.
+pub(super) type AskedState<S> = Asked<S, 1>;
+
+impl<S> AskedState<S> {
+    pub(super) const fn new(detector: *mut Handle, positions: *const S, vertex_count: usize) -> Self {
+        Self {
+            detector,
+            frames: [("positions", positions)],
+            vertex_count,
+        }
+    }
+}
+
+impl<S: Format, const N: usize> Asked<S, N> {
+    /// Puts the question, with the frames.
+    ///
+    /// # Safety
+    /// Unless they are null, misaligned or too few, the frames have 3 * `vertex_count` numbers, which nobody writes to meanwhile.
+    unsafe fn ask(self, question: impl FnOnce(&mut Finder<S>, &mut Answers, [&[[S; 3]]; N]) -> Result<(), Failure>) -> Status {
+        on(self.detector, |it| {
+            let found = self.vertex_count;
+            let expected = it.topology().vertex_count();
+            let Detector { finder, answers, .. } = it;
+            let Some(finder) = S::of(finder) else {
+                let text = format!("the detector is not for positions in {}", S::NAME);
+                return Err(Failure::new(Status::WrongScalar, text));
+            };
+            if found != expected {
+                // Before one of them is looked at.
+                let frame = Frame::Start;
+                return Err(StepError::WrongLength { frame, found, expected }.into());
+            }
+            let mut frames: [&[[S; 3]]; N] = [&[]; N];
+            for (frame, (name, start)) in frames.iter_mut().zip(self.frames) {
+                // SAFETY: the caller's promise.
+                *frame = unsafe { view(name, start, found) }?;
+            }
+            question(finder, answers, frames)
+        })
+    }
+}
+
+pub(super) unsafe fn find_contacts<S: Format>(
+    asked: AskedStep<S>,
+    contacts: *mut *const ContactRow,
+    count: *mut usize,
+) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, answers, [start, end]| {
+            let out = OutList::new("contacts", contacts, count)?;
+            finder.detector.contacts(start, end, &mut finder.contacts)?;
+            out.set(answers.show_contacts(finder));
+            Ok(())
+        })
+    }
+}
+
+pub(super) unsafe fn find_contacts_of<S: Format>(
+    asked: AskedStep<S>,
+    vertex_face: (*const Pair, usize),
+    edge_edge: (*const Pair, usize),
+    contacts: *mut *const ContactRow,
+    count: *mut usize,
+) -> Status {
+    // SAFETY: the caller's promises. The pairs may be this detector's candidates, to which nothing is written here.
+    unsafe {
+        asked.ask(|finder, answers, [start, end]| {
+            let out = OutList::new("contacts", contacts, count)?;
+            let vertex_face = view("vertex_face", vertex_face.0.cast::<u32>(), vertex_face.1)?;
+            let edge_edge = view("edge_edge", edge_edge.0.cast::<u32>(), edge_edge.1)?;
+            let found = &mut finder.contacts;
+            finder.detector.contacts_of(start, end, vertex_face, edge_edge, found)?;
+            out.set(answers.show_contacts(finder));
+            Ok(())
+        })
+    }
+}
+
+pub(super) unsafe fn find_earliest<S: Format>(asked: AskedStep<S>, found: *mut bool, contact: *mut ContactRow) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, _, [start, end]| {
+            let (found, out) = (Out::new("found", found)?, Out::new("contact", contact)?);
+            let earliest = finder.detector.earliest(start, end)?;
+            found.set(earliest.is_some());
+            if let Some(earliest) = earliest {
+                out.set(ContactRow::new(&earliest, finder.detector.topology()));
+            }
+            Ok(())
+        })
+    }
+}
+
+pub(super) unsafe fn tell_free<S: Format>(asked: AskedStep<S>, is_free: *mut bool) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, _, [start, end]| {
+            let out = Out::new("is_free", is_free)?;
+            out.set(finder.detector.is_free(start, end)?);
+            Ok(())
+        })
+    }
+}
+
+pub(super) unsafe fn find_candidates<S: Format>(
+    asked: AskedStep<S>,
+    boxes: u32,
+    vertex_face: (*mut *const Pair, *mut usize),
+    edge_edge: (*mut *const Pair, *mut usize),
+) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, answers, [start, end]| {
+            let vf = OutList::new("vertex_face", vertex_face.0, vertex_face.1)?;
+            let ee = OutList::new("edge_edge", edge_edge.0, edge_edge.1)?;
+            let boxes = match boxes {
+                number if number == Boxes::Moving as u32 => CandidateBoxes::Moving,
+                number if number == Boxes::Swept as u32 => CandidateBoxes::Swept,
+                number => return Err(unknown("selvedge_boxes", number)),
+            };
+            let CandidatePairs { vertex_face, edge_edge } = &mut answers.found_candidates;
+            finder.detector.candidates(start, end, boxes, vertex_face, edge_edge)?;
+            let shown = answers.show_candidates();
+            vf.set_pairs(&shown.vertex_face);
+            ee.set_pairs(&shown.edge_edge);
+            Ok(())
+        })
+    }
+}
+
+pub(super) unsafe fn find_intersections<S: Format>(
+    asked: AskedState<S>,
+    intersections: *mut *const IntersectionRow,
+    count: *mut usize,
+) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, answers, [positions]| {
+            let out = OutList::new("intersections", intersections, count)?;
+            finder.detector.intersections(positions, &mut answers.found_at_rest)?;
+            out.set(answers.show_intersections());
+            Ok(())
+        })
+    }
+}
+
+pub(super) unsafe fn tell_intersections<S: Format>(asked: AskedState<S>, has_any: *mut bool) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, _, [positions]| {
+            let out = Out::new("has_any", has_any)?;
+            out.set(finder.detector.has_intersections(positions)?);
+            Ok(())
+        })
+    }
+}
+
+pub(super) unsafe fn find_contact_geometries<S: Format>(
+    asked: AskedStep<S>,
+    contacts: (*const ContactRow, usize),
+    geometries: *mut *const GeometryRow,
+    count: *mut usize,
+) -> Status {
+    // SAFETY: the caller's promises. The contacts may be this detector's own, to which nothing is written here.
+    unsafe {
+        asked.ask(|finder, answers, [start, end]| {
+            let out = OutList::new("geometries", geometries, count)?;
+            let rows = view::<_, 1>("contacts", contacts.0, contacts.1)?;
+            let given = &mut finder.contacts;
+            given.clear();
+            for [row] in rows {
+                given.push(row.contact()?);
+            }
+            let found = &mut answers.found_geometries;
+            finder.detector.contact_geometries(start, end, given, found)?;
+            out.set(answers.show_contact_geometries());
+            Ok(())
+        })
+    }
+}
+
+pub(super) unsafe fn find_near<S: Format>(
+    asked: AskedState<S>,
+    distance: f64,
+    geometries: *mut *const GeometryRow,
+    count: *mut usize,
+) -> Status {
+    // SAFETY: the caller's promises.
+    unsafe {
+        asked.ask(|finder, answers, [positions]| {
+            let out = OutList::new("geometries", geometries, count)?;
+            finder
+                .detector
+                .near(positions, length(distance)?, &mut answers.found_geometries)?;
+            out.set(answers.show_near());
+            Ok(())
+        })
+    }
+}
+
+pub(super) unsafe fn truncate<S: Format>(asked: AskedStep<S>, end: *mut S, truncation: *mut TruncationRow) -> Status {
+    let vertex_count = asked.vertex_count;
+    let (mut out, mut positions) = (None, Vec::new());
+    // SAFETY: the caller's promises.
+    let status = unsafe {
+        asked.ask(|finder, _, [start, wanted]| {
+            let (end, truncation) = (OutFrame::new("end", end, vertex_count)?, Out::new("truncation", truncation)?);
+            let found = finder.detector.truncate(start, wanted, &mut positions)?;
+            out = Some((end, truncation, found.into()));
+            Ok(())
+        })
+    };
+    // Not before the frames are looked at no more: the end may be one of them.
+    if let Some((end, truncation, found)) = out {
+        end.set(&positions);
+        truncation.set(found);
+    }
+    status
+}

@@ -1,0 +1,63 @@
+//! Whether cloth that has torn may open.
+//!
+//! Where a tear is closed its two sides touch: no certificate can begin there. But what touches had a vertex in common just before, and could
+//! not have passed through itself. So an opening is free if
+//!
+//! * all other pairs keep on the way what a step would have to keep of them, and
+//! * at its end nothing meets, by the exact test, nor comes so near that rounding cannot tell: then what had the vertex in common is
+//!   apart as well, and certified from there on like any other pair.
+
+use super::candidate::Candidate;
+use super::pass::is_free;
+use super::solver::{ContactSolver, gap_error};
+use selvedge::PairKind;
+use selvedge_core::glam::DVec3;
+
+impl ContactSolver {
+    /// The vertices of what is in the way when cloth that has torn opens: none if it may. `from` tells of each vertex which one it was before
+    /// it tore; the steps are expected to take `h` seconds. Nothing may have left the promise.
+    pub(crate) fn in_the_way(&mut self, [closed, open]: [&[DVec3]; 2], from: &[u32], h: f64) -> Vec<u32> {
+        self.refresh(closed, open, h);
+        let mut found = Vec::new();
+        let error = gap_error(closed, open);
+        let separations = self.settings.separations(&self.exempt);
+        let moves = |pair: &Candidate| pair.vertices.iter().any(|&v| closed[v as usize] != open[v as usize]);
+        for pair in &mut self.candidates.list {
+            if moves(pair)
+                && !were_one(pair, from)
+                && let Some(separation) = separations.of(pair)
+                && !is_free(pair, [closed, open], separation, error)
+            {
+                found.extend(pair.vertices);
+            }
+        }
+        if found.is_empty() {
+            self.refresh(open, open, h);
+            let meeting = self.tolerate(open);
+            self.exempt.tangle = None;
+            match meeting {
+                Ok(crossings) => found.extend(crossings.iter().flat_map(|own| own.edge.into_iter().chain(own.face))),
+                Err(_) => found.extend(0..from.len() as u32),
+            }
+        }
+        found
+    }
+
+    /// Goes on where another one is, of whose vertices those of this one are made.
+    pub(crate) fn take_over(&mut self, other: &Self, from: &[u32]) {
+        self.rest.clear();
+        self.rest.extend(from.iter().map(|&vertex| other.rest[vertex as usize]));
+        (self.counts, self.stages, self.pushes) = (other.counts, other.stages, other.pushes);
+    }
+}
+
+/// Whether the two sides of a pair had a vertex in common.
+fn were_one(pair: &Candidate, from: &[u32]) -> bool {
+    let vertices = pair.vertices.map(|vertex| from[vertex as usize]);
+    let of_first = match pair.kind {
+        PairKind::VertexFace => 1,
+        PairKind::EdgeEdge => 2,
+    };
+    let (first, second) = vertices.split_at(of_first);
+    first.iter().any(|vertex| second.contains(vertex))
+}

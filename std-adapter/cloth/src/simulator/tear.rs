@@ -1,0 +1,358 @@
+//! What happens between two steps where edges are loaded above their strength ([`tearing`](crate::tearing)).
+//!
+//! ```text
+//! what tears ─▶ cloths with copies of vertices ─▶ all that depends on meshes, made anew ─▶ opened a little ─▶ is it free? ─▶ taken
+//!                       ▲                                                                                        └▶ less, then fewer
+//!                       └────────────────────────────────────────────────────────────────────────────────────────────┘
+//! ```
+//!
+//! What is made anew sees the scene as it was made, but for its cloths' meshes; where a simulation has come to is carried over.
+
+use super::Simulation;
+use super::advance::begin_anew;
+use super::assembly::Assembly;
+use crate::checkpoint::{CheckpointError, TornCloth};
+use crate::scene::Scene;
+use crate::step::FREE;
+use crate::tearing::{Tear, Tearable, TornEdge, open};
+use crate::world::Cloth;
+use selvedge_core::glam::DVec3;
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+/// By what share of its shortest edge the copies of a vertex move apart: less if more cannot be.
+const OPENINGS: [f64; 3] = [0.05, 0.01, 0.001];
+
+/// What a simulation keeps if its cloths may tear.
+#[derive(Debug)]
+pub(super) struct Tearing {
+    /// As it was made, but for the meshes of its cloths.
+    scene: Scene,
+    tearable: Vec<Tearable>,
+    /// What has torn so far.
+    torn: Vec<TornEdge>,
+    /// As the caller has set it last.
+    pub(super) wind: Option<DVec3>,
+}
+
+/// Meshes of a scene's cloths in which something has torn.
+struct Meshes {
+    cloths: Vec<Cloth>,
+    /// Of each vertex among all, which it was, or is made of.
+    from: Vec<u32>,
+}
+
+/// The vertex of a cloth that a fan has, of a cloth's vertex that is split and the fan's place.
+type Copies = BTreeMap<(usize, u32, usize), u32>;
+
+impl Tearing {
+    /// `None` if nothing tears.
+    pub(super) fn new(scene: Scene, tearable: Vec<Tearable>) -> Option<Box<Self>> {
+        if tearable.is_empty() {
+            return None;
+        }
+        Some(Box::new(Self {
+            scene,
+            tearable,
+            torn: Vec::new(),
+            wind: None,
+        }))
+    }
+
+    /// Puts the scene together with other meshes for its cloths, which are put back if that cannot be.
+    fn assemble(&mut self, cloths: Vec<Cloth>) -> Option<Assembly> {
+        let before = std::mem::replace(&mut self.scene.cloths, cloths);
+        let made = Assembly::of(&self.scene).ok();
+        if made.is_none() {
+            self.scene.cloths = before;
+        }
+        made
+    }
+
+    /// The meshes, torn.
+    fn cut(&self, tears: &[Tear], numbered: &Numbering) -> Option<(Meshes, Copies)> {
+        let mut cloths = self.scene.cloths.clone();
+        let (mut copies, mut of_copies) = (Copies::new(), vec![Vec::new(); cloths.len()]);
+        for tear in tears {
+            let mesh = &mut cloths[tear.cloth].mesh;
+            for (vertex, fans) in &tear.splits {
+                for (place, fan) in fans.iter().enumerate().skip(1) {
+                    let copy = (mesh.positions.len() + of_copies[tear.cloth].len()) as u32;
+                    of_copies[tear.cloth].push(*vertex);
+                    copies.insert((tear.cloth, *vertex, place), copy);
+                    for &triangle in fan {
+                        let corners = mesh.triangles[triangle as usize].iter_mut();
+                        corners.filter(|corner| *corner == vertex).for_each(|corner| *corner = copy);
+                    }
+                }
+            }
+        }
+        let mut from = Vec::new();
+        for (index, (cloth, copied)) in cloths.iter_mut().zip(&of_copies).enumerate() {
+            let first = numbered.first_of_cloths[index];
+            from.extend(
+                (0..cloth.mesh.positions.len() as u32)
+                    .chain(copied.iter().copied())
+                    .map(|own| first + own),
+            );
+            let all = [cloth.copied(), copied].concat();
+            let triangles = std::mem::take(&mut cloth.mesh.triangles);
+            cloth.tear(all, triangles).ok()?;
+        }
+        from.extend(numbered.bodies.clone());
+        Some((Meshes { cloths, from }, copies))
+    }
+}
+
+/// Where cloths and bodies are among all vertices.
+struct Numbering {
+    first_of_cloths: Vec<u32>,
+    bodies: std::ops::Range<u32>,
+}
+
+impl Simulation {
+    /// The edges that have torn so far, in the order in which they did; none unless [`Tearing`](crate::effects::Tearing) is called for.
+    #[must_use]
+    pub fn torn_edges(&self) -> &[TornEdge] {
+        self.tearing.as_ref().map_or(&[], |tearing| &tearing.torn)
+    }
+
+    /// Of a cloth that has torn: of which of its vertices it has copies now, in the order of these, which are the last of
+    /// [its vertices](Self::vertices_of_cloth). What one is of comes before it, and may be a copy itself. None if it has not torn, or there
+    /// is no such cloth.
+    #[must_use]
+    pub fn copied_vertices(&self, cloth: usize) -> &[u32] {
+        let tearing = self.tearing.as_ref();
+        let torn = tearing.and_then(|tearing| tearing.scene.cloths.get(cloth));
+        torn.map_or(&[], Cloth::copied)
+    }
+
+    /// Tears what is loaded above its strength, unless something has left the promise.
+    pub(super) fn tear(&mut self) {
+        let Some(mut tearing) = self.tearing.take() else { return };
+        if self.is_apart() {
+            let begin = Instant::now();
+            let effect = tearing.tearable[0].effect;
+            self.tear_what_is_loaded(&mut tearing);
+            self.effects[effect].seconds += begin.elapsed().as_secs_f64();
+        }
+        self.tearing = Some(tearing);
+    }
+
+    fn tear_what_is_loaded(&mut self, tearing: &mut Tearing) {
+        let mut tears = Vec::new();
+        for tearable in &mut tearing.tearable {
+            let own = self.vertices_of_cloths[tearable.cloth].clone();
+            let carriers = &self.carriers[own.clone()];
+            tears.extend(tearable.tears(&self.state.positions[own], |vertex| carriers[vertex as usize] == FREE));
+        }
+        while !tears.is_empty() {
+            let Some((meshes, copies)) = tearing.cut(&tears, &self.numbering()) else {
+                return;
+            };
+            let Meshes { cloths, from } = meshes;
+            let whole = tearing.scene.cloths.clone();
+            let Some(mut made) = tearing.assemble(cloths) else { return };
+            match self.opened(&mut made, &tears, &copies, &from) {
+                Ok(positions) => {
+                    self.note(&mut tearing.torn, &tears, &tearing.scene.cloths);
+                    self.adopt(tearing, made, &from);
+                    self.state.positions = positions;
+                    if let Some(contact) = &mut self.contact {
+                        begin_anew(contact, &self.state, self.time_step);
+                    }
+                    return;
+                }
+                Err(in_the_way) => {
+                    tearing.scene.cloths = whole;
+                    let before = tears.len();
+                    tears.retain(|tear| {
+                        let first = self.vertices_of_cloths[tear.cloth].start as u32;
+                        !tear.around.iter().any(|vertex| in_the_way.contains(&(first + vertex)))
+                    });
+                    if tears.len() == before {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Where all is when the tears have opened; the vertices, as they are numbered now, that are in the way if they cannot.
+    fn opened(&self, made: &mut Assembly, tears: &[Tear], copies: &Copies, from: &[u32]) -> Result<Vec<DVec3>, Vec<u32>> {
+        let closed = gathered(&self.state.positions, from);
+        let mut in_the_way = Vec::new();
+        for share in OPENINGS {
+            let mut positions = closed.clone();
+            for tear in tears {
+                let first = made.vertices_of_cloths[tear.cloth].start as u32;
+                let before = self.triangles_before(tear.cloth);
+                let copy = |vertex, place| first + copies.get(&(tear.cloth, vertex, place)).copied().unwrap_or(vertex);
+                let triangle = |index: u32| made.triangles[before + index as usize];
+                open(tear, share, &made.inverse_masses, copy, triangle, &mut positions);
+            }
+            in_the_way = match &mut made.contact {
+                Some(contact) => contact.in_the_way([&closed, &positions], from, self.time_step),
+                None => Vec::new(),
+            };
+            if in_the_way.is_empty() {
+                return Ok(positions);
+            }
+        }
+        Err(in_the_way.into_iter().map(|vertex| from[vertex as usize]).collect())
+    }
+
+    /// How many triangles the cloths before this one have.
+    fn triangles_before(&self, cloth: usize) -> usize {
+        let first = self.vertices_of_cloths[cloth].start as u32;
+        self.triangles[..self.cloth_triangles].partition_point(|triangle| triangle[0] < first)
+    }
+
+    fn note(&self, torn: &mut Vec<TornEdge>, tears: &[Tear], cloths: &[Cloth]) {
+        let time = self.time();
+        for tear in tears {
+            torn.extend(tear.edges.iter().map(|&(edge, load)| TornEdge {
+                cloth: tear.cloth,
+                vertices: edge.map(|end| cloths[tear.cloth].as_made(end)),
+                time,
+                load,
+            }));
+        }
+    }
+
+    fn numbering(&self) -> Numbering {
+        let firsts = self.vertices_of_cloths.iter().map(|vertices| vertices.start as u32);
+        Numbering {
+            first_of_cloths: firsts.collect(),
+            bodies: self.cloth_vertices as u32..self.state.positions.len() as u32,
+        }
+    }
+
+    /// Goes on with what was made of other meshes; `from`: of each vertex, which it was, or is made of. New vertices are where the old ones were.
+    fn adopt(&mut self, tearing: &mut Tearing, made: Assembly, from: &[u32]) {
+        let remembered: Vec<_> = self.memories().map(|memory| (memory.keys(), memory.numbers())).collect();
+        let Assembly {
+            effects: _,
+            vertices_of_cloths,
+            body_vertices,
+            cloth_vertices,
+            cloth_triangles,
+            triangles,
+            loose_edges,
+            rest,
+            inverse_masses,
+            carriers,
+            mut motions,
+            pins,
+            forces,
+            constraints,
+            remembering,
+            friction,
+            mut contact,
+            tearable,
+        } = made;
+        for (new, old) in motions.iter_mut().zip(std::mem::take(&mut self.motions)) {
+            new.take_over(old);
+        }
+        if let (Some(new), Some(old)) = (&mut contact, &self.contact) {
+            new.take_over(old, from);
+        }
+        self.carried = gathered(&self.carried, from);
+        self.state.positions = gathered(&self.state.positions, from);
+        self.state.velocities = gathered(&self.state.velocities, from);
+        (self.vertices_of_cloths, self.body_vertices) = (vertices_of_cloths, body_vertices);
+        (self.cloth_vertices, self.cloth_triangles) = (cloth_vertices, cloth_triangles);
+        (self.triangles, self.loose_edges, self.rest) = (triangles, loose_edges, rest);
+        (self.inverse_masses, self.carriers) = (inverse_masses, carriers);
+        (self.motions, self.pins) = (motions, pins);
+        (self.forces, self.constraints, self.remembering) = (forces, constraints, remembering);
+        (self.friction, self.contact) = (friction, contact);
+        tearing.tearable = tearable;
+        let numbers: Vec<f64> = { self.memories().zip(remembered) }
+            .flat_map(|(memory, before)| {
+                let (keys, known) = (memory.keys(), memory.numbers());
+                carried_over(&keys, known, before)
+            })
+            .collect();
+        self.recall(&numbers);
+        if let Some(wind) = tearing.wind {
+            self.forces.iter_mut().for_each(|force| {
+                force.action.set_wind(wind);
+            });
+        }
+    }
+
+    /// What a checkpoint has of tears; `None` if nothing tears.
+    pub(super) fn torn_cloths(&self) -> Option<(Vec<TornCloth>, Vec<TornEdge>)> {
+        let tearing = self.tearing.as_ref()?;
+        let of = |cloth: &Cloth| TornCloth {
+            copied: cloth.copied().to_vec(),
+            triangles: cloth.mesh.triangles.clone(),
+        };
+        Some((tearing.scene.cloths.iter().map(of).collect(), tearing.torn.clone()))
+    }
+
+    /// How many each cloth has; `None` if nothing tears.
+    pub(super) fn triangles_of_cloths(&self) -> Option<Vec<usize>> {
+        let cloths = self.tearing.as_ref()?.scene.cloths.iter();
+        Some(cloths.map(|cloth| cloth.mesh.triangles.len()).collect())
+    }
+
+    /// What is made anew of a checkpoint's cloths.
+    ///
+    /// # Errors
+    /// If these are not the scene's.
+    pub(super) fn torn_as(&mut self, torn: Vec<TornCloth>) -> Result<Retorn, CheckpointError> {
+        let numbering = self.numbering();
+        let tearing = self.tearing.as_mut().ok_or(CheckpointError::Damaged)?;
+        let whole = tearing.scene.cloths.clone();
+        let mut cloths = whole.clone();
+        let mut from = Vec::new();
+        for ((cloth, torn), first) in cloths.iter_mut().zip(torn).zip(numbering.first_of_cloths) {
+            if !torn.is_of(cloth) {
+                return Err(CheckpointError::Damaged);
+            }
+            cloth
+                .tear(torn.copied, torn.triangles)
+                .map_err(|_| CheckpointError::Damaged)?;
+            let all = 0..cloth.mesh.positions.len() as u32;
+            from.extend(all.map(|vertex| first + cloth.as_made(vertex)));
+        }
+        from.extend(numbering.bodies);
+        let made = tearing.assemble(cloths).ok_or(CheckpointError::Damaged)?;
+        let cloths = std::mem::replace(&mut tearing.scene.cloths, whole);
+        Ok(Retorn { made, cloths, from })
+    }
+
+    /// Goes on with that.
+    pub(super) fn adopt_torn(&mut self, Retorn { made, cloths, from }: Retorn, torn: Vec<TornEdge>) {
+        if let Some(mut tearing) = self.tearing.take() {
+            (tearing.scene.cloths, tearing.torn) = (cloths, torn);
+            self.adopt(&mut tearing, made, &from);
+            self.tearing = Some(tearing);
+        }
+    }
+}
+
+/// A simulation of a checkpoint's cloths, which is not gone on with yet.
+pub(super) struct Retorn {
+    pub(super) made: Assembly,
+    cloths: Vec<Cloth>,
+    from: Vec<u32>,
+}
+
+fn gathered<T: Copy>(all: &[T], from: &[u32]) -> Vec<T> {
+    from.iter().map(|&vertex| all[vertex as usize]).collect()
+}
+
+/// What something remembers of what it had by other keys before; `known` where it had nothing.
+fn carried_over(keys: &[[u32; 4]], mut known: Vec<f64>, (before, numbers): (Vec<[u32; 4]>, Vec<f64>)) -> Vec<f64> {
+    if keys.is_empty() {
+        return if numbers.len() == known.len() { numbers } else { known };
+    }
+    let before: BTreeMap<[u32; 4], f64> = before.into_iter().zip(numbers).collect();
+    for (key, number) in keys.iter().zip(&mut known) {
+        *number = before.get(key).copied().unwrap_or(*number);
+    }
+    known
+}

@@ -1,0 +1,451 @@
+//! Cloth that tears: above its strength and nowhere else, with nothing lost, and the same bits however it is run.
+
+use crate::{load, set_up};
+use selvedge_cloth::effects::{
+    AttachmentGroup, Attachments, Effect, Force, InternalPressure, PinGroup, PinMotion, Pins, Plan, RopeStretch, SelfCollision,
+    Shear, Stretch, Tearing, Thickness, TimeStep,
+};
+use selvedge_cloth::glam::DVec3;
+use selvedge_cloth::{CHECKPOINT_STEPS, CheckpointError, Cloth, Keyframe, RigidMotion, Scene, Simulation};
+use std::path::Path;
+
+/// Cells along and across a strip, of a centimetre each.
+const CELLS: [u32; 2] = [10, 5];
+
+fn strip(name: &str, at: DVec3) -> Cloth {
+    let sides = [DVec3::X * 0.01 * f64::from(CELLS[0]), DVec3::Y * 0.01 * f64::from(CELLS[1])];
+    Cloth::sheet(at, sides, CELLS, 0.2).unwrap().named(name)
+}
+
+/// Vertices of the strip in a column.
+fn column(column: u32) -> Vec<u32> {
+    (0..=CELLS[1]).map(|row| (CELLS[0] + 1) * row + column).collect()
+}
+
+/// A strip of 1 kN/m whose ends are drawn apart by a centimetre in a tenth of a second: it is stretched by a tenth, so that 100 N go through each
+/// metre of its width.
+fn pulled(tearing: Tearing) -> Scene {
+    let mut scene = Scene::new(strip("cloth", DVec3::ZERO), 1e-3);
+    let keys = [(0.0, 0.0), (0.1, 0.01)].map(|(time, x)| Keyframe {
+        time,
+        translation: DVec3::X * x,
+        ..Keyframe::default()
+    });
+    let motion = RigidMotion::new(DVec3::ZERO, DVec3::Z, keys.to_vec()).unwrap();
+    let right = PinGroup {
+        vertices: column(CELLS[0]),
+        motion: PinMotion::Own(motion.into()),
+    };
+    scene.add(Pins {
+        groups: vec![PinGroup::resting(column(0)), right],
+    });
+    scene.add(Stretch::isotropic(1000.0)).add(Shear::new(100.0));
+    scene.add(SelfCollision(Thickness::of(1e-3))).add(tearing);
+    scene
+}
+
+fn run(simulation: &mut Simulation, steps: u64) {
+    (0..steps).for_each(|_| simulation.step().unwrap());
+}
+
+fn after(scene: Scene, steps: u64) -> Simulation {
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    run(&mut simulation, steps);
+    simulation
+}
+
+/// How many pieces the cloth is in, by its triangles.
+fn pieces(simulation: &Simulation) -> usize {
+    let mut piece: Vec<usize> = (0..simulation.cloth_vertices()).collect();
+    let triangles = &simulation.triangles()[..simulation.cloth_triangles()];
+    let mut has_changed = true;
+    while has_changed {
+        has_changed = false;
+        for triangle in triangles {
+            let own = triangle.map(|vertex| piece[vertex as usize]);
+            let least = own[0].min(own[1]).min(own[2]);
+            has_changed |= own != [least; 3];
+            triangle.iter().for_each(|&vertex| piece[vertex as usize] = least);
+        }
+    }
+    piece.sort_unstable();
+    piece.dedup();
+    piece.len()
+}
+
+#[test]
+fn a_strip_tears_through_above_its_strength_and_not_at_all_below() {
+    for (strength, expected) in [(120.0, 1), (60.0, 2)] {
+        let simulation = after(pulled(Tearing::perforated(column(5), strength)), 200);
+        assert_eq!(pieces(&simulation), expected, "{strength} N/m");
+        let torn = simulation.torn_edges();
+        assert_eq!(torn.len(), if expected == 1 { 0 } else { 5 });
+        assert_eq!(simulation.positions().len(), 66 + if expected == 1 { 0 } else { 6 });
+        assert!(
+            torn.iter()
+                .all(|edge| edge.load > strength && edge.cloth == 0 && edge.time > 0.03)
+        );
+        assert!(simulation.is_certified());
+    }
+}
+
+#[test]
+fn a_perforation_tears_where_the_cloth_would_hold_and_nothing_else_does() {
+    let tearing = Tearing {
+        strength: Some(150.0),
+        ..Tearing::perforated(column(5), 50.0)
+    };
+    let simulation = after(pulled(tearing), 200);
+    let torn = simulation.torn_edges();
+    assert_eq!(torn.len(), 5);
+    assert!(
+        torn.iter()
+            .all(|edge| edge.vertices.iter().all(|end| column(5).contains(end)))
+    );
+    let mut copied = simulation.copied_vertices(0).to_vec();
+    copied.sort_unstable();
+    assert_eq!(copied, column(5));
+}
+
+#[test]
+fn a_tear_within_the_cloth_is_a_slit_and_vertices_that_are_not_split_keep_their_numbers() {
+    let slit = &column(5)[1..4];
+    let simulation = after(pulled(Tearing::perforated(slit, 50.0)), 200);
+    assert_eq!((pieces(&simulation), simulation.torn_edges().len()), (1, 2));
+    assert_eq!(simulation.copied_vertices(0), [slit[1]]);
+    let gap = simulation.positions()[slit[1] as usize].distance(simulation.positions()[66]);
+    assert!(gap > 1e-4, "the slit is {gap} m wide");
+    // Those of the border are where they were: between the ends.
+    assert!(column(0).iter().all(|&pin| simulation.positions()[pin as usize].x == 0.0));
+}
+
+#[test]
+fn what_pins_hold_is_not_split() {
+    // Nothing but edges to pinned vertices, and of those an end is at the border only where it is pinned.
+    let held = [column(0), column(1)[2..4].to_vec()].concat();
+    let simulation = after(pulled(Tearing::perforated(held, 10.0)), 200);
+    assert!(simulation.copied_vertices(0).iter().all(|copied| !column(0).contains(copied)));
+}
+
+/// Pulls both halves of a cloth apart, evenly.
+#[derive(Debug)]
+struct Apart;
+
+const ACCELERATION: f64 = 2000.0;
+
+impl Effect for Apart {
+    fn name(&self) -> &'static str {
+        "apart"
+    }
+
+    fn register(&self, plan: &mut Plan<'_>) {
+        plan.add_force(Self);
+    }
+}
+
+impl Force for Apart {
+    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
+        for (velocity, start) in velocities.iter_mut().zip(step.start) {
+            let side = if start.x > 0.05 { 1.0 } else { -0.5 };
+            *velocity += DVec3::new(side, 0.3, 0.1) * (ACCELERATION * step.h);
+        }
+    }
+}
+
+/// Of each vertex a third of its triangles', as it is torn now.
+fn masses(simulation: &Simulation) -> Vec<f64> {
+    let mut rest = strip("cloth", DVec3::ZERO).mesh().positions.clone();
+    { simulation.copied_vertices(0).iter() }.for_each(|&vertex| rest.push(rest[vertex as usize]));
+    let mut masses = vec![0.0; rest.len()];
+    for triangle in simulation.triangles() {
+        let [a, b, c] = triangle.map(|vertex| rest[vertex as usize]);
+        let mass = 0.2 * 0.5 * (b - a).cross(c - a).length();
+        triangle.iter().for_each(|&vertex| masses[vertex as usize] += mass / 3.0);
+    }
+    masses
+}
+
+fn sum(masses: &[f64], of: &[DVec3]) -> DVec3 {
+    masses.iter().zip(of).map(|(mass, of)| *of * *mass).sum()
+}
+
+#[test]
+fn a_tear_keeps_mass_momentum_and_the_centre_of_mass() {
+    let mut scene = Scene::new(strip("cloth", DVec3::ZERO), 1e-3);
+    scene.add(Stretch::isotropic(1000.0)).add(SelfCollision(Thickness::of(1e-3)));
+    scene.add(Tearing::above(4.0)).add(Apart);
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    let all: f64 = masses(&simulation).iter().sum();
+    let mut expected = DVec3::ZERO;
+    for _ in 0..60 {
+        let (before, positions) = (masses(&simulation), simulation.positions().to_vec());
+        let pulls: Vec<DVec3> = { positions.iter() }
+            .map(|p| DVec3::new(if p.x > 0.05 { 1.0 } else { -0.5 }, 0.3, 0.1) * ACCELERATION * 1e-3)
+            .collect();
+        expected += sum(&before, &pulls);
+        simulation.step().unwrap();
+        let now = masses(&simulation);
+        let momentum = sum(&now, simulation.velocities());
+        assert!((now.iter().sum::<f64>() - all).abs() < 1e-15);
+        assert!(momentum.distance(expected) < 1e-9 * expected.length());
+        let moved = sum(&now, simulation.positions()) - sum(&before, &positions);
+        assert!(moved.distance(momentum * 1e-3) < 1e-12);
+    }
+    assert!(simulation.torn_edges().len() >= 5, "{}", simulation.torn_edges().len());
+}
+
+#[test]
+fn torn_cloth_is_the_same_bits_on_two_threads_and_resumed_from_a_checkpoint() {
+    let fast = |text: String| text.replace("cells = [60, 40]", "cells = [30, 20]");
+    let mut whole = load("tear.toml", fast, 2);
+    run(&mut whole, CHECKPOINT_STEPS);
+    let mut torn = Vec::new();
+    for _ in 0..3 {
+        let checkpoint = whole.checkpoint().unwrap();
+        let before = whole.torn_edges().len();
+        let mut resumed = load("tear.toml", fast, 1);
+        resumed.resume(&checkpoint).unwrap();
+        assert_eq!(resumed.torn_edges(), whole.torn_edges());
+        assert_eq!(
+            (resumed.triangles(), resumed.positions()),
+            (whole.triangles(), whole.positions())
+        );
+        run(&mut whole, CHECKPOINT_STEPS);
+        run(&mut resumed, CHECKPOINT_STEPS);
+        assert_eq!(resumed.positions(), whole.positions());
+        assert_eq!(resumed.triangles(), whole.triangles());
+        torn.push([before, whole.torn_edges().len()]);
+        // From what has torn already to what has torn more, and back.
+        resumed.resume(&checkpoint).unwrap();
+        assert_eq!(resumed.checkpoint(), Some(checkpoint));
+    }
+    // From cloth that was torn already, and tore on.
+    assert!(torn.iter().any(|[before, after]| 0 < *before && before < after), "{torn:?}");
+}
+
+#[test]
+fn a_checkpoint_of_torn_cloth_that_is_damaged_changes_nothing() {
+    let scene = || pulled(Tearing::perforated(column(5), 60.0));
+    let simulation = after(scene(), CHECKPOINT_STEPS);
+    let checkpoint = simulation.checkpoint().unwrap();
+    // The first triangle's first vertex, after magic, fingerprint, and the number of copies and these.
+    let corner = 16 + 8 + 8 + 4 * simulation.copied_vertices(0).len();
+    let mut damaged = checkpoint.clone();
+    damaged[corner] ^= 1;
+    let mut fresh = Simulation::new(scene(), 1).unwrap();
+    assert_eq!(fresh.resume(&damaged), Err(CheckpointError::Damaged));
+    assert_eq!((fresh.torn_edges().len(), fresh.positions().len()), (0, 66));
+    fresh.resume(&checkpoint).unwrap();
+    assert_eq!(fresh.positions(), simulation.positions());
+}
+
+/// The first of two cloths tears; the second one is held by attachments and pins that its scene's numbers name.
+#[test]
+fn what_names_vertices_of_a_cloth_behind_one_that_tears_goes_on_holding_them() {
+    let mut scene = pulled(Tearing::perforated(column(5), 60.0));
+    let mut second = strip("second", DVec3::Z * 0.1);
+    second.velocity = DVec3::Y;
+    scene.cloths.push(second);
+    let corners = [66, 66 + CELLS[0]];
+    scene.add(Attachments {
+        groups: vec![AttachmentGroup::resting(corners, 1000.0)],
+    });
+    let simulation = after(scene, 300);
+    assert_eq!(simulation.torn_edges().len(), 5);
+    let own = simulation.vertices_of_cloth(1).unwrap();
+    assert_eq!(own, 72..138);
+    for corner in [0, CELLS[0] as usize] {
+        let made = strip("second", DVec3::Z * 0.1).mesh().positions[corner];
+        assert!(simulation.positions()[own.start + corner].distance(made) < 1e-3);
+    }
+}
+
+/// A strip with a tassel of two edges at a vertex, whose ends are 66 and 67.
+fn with_tassel(name: &str, at: DVec3, vertex: u32) -> Cloth {
+    let mut mesh = strip(name, at).mesh().clone();
+    let root = mesh.positions[vertex as usize];
+    mesh.positions.extend([root - DVec3::Y * 0.01, root - DVec3::Y * 0.02]);
+    let made = Cloth::of_mesh_with_loose_edges(mesh, &[[vertex, 66], [66, 67]], DVec3::X, [0.2, 0.001]);
+    made.unwrap().named(name)
+}
+
+#[test]
+fn tassels_stay_with_the_vertices_that_keep_their_numbers() {
+    let mut scene = pulled(Tearing::perforated(column(5), 50.0));
+    scene.cloths = vec![with_tassel("cloth", DVec3::ZERO, 5), with_tassel("second", DVec3::Z * 0.1, 3)];
+    scene.add(RopeStretch::of(1000.0));
+    let simulation = after(scene, 200);
+    assert_eq!(simulation.torn_edges().len(), 5);
+    let own = simulation.vertices_of_cloth(1).unwrap();
+    assert_eq!(own, 74..142);
+    assert_eq!(simulation.loose_edges(), [[5, 66], [66, 67], [77, 140], [140, 141]]);
+    for &[from, to] in simulation.loose_edges() {
+        let length = simulation.positions()[from as usize].distance(simulation.positions()[to as usize]);
+        assert!((length - 0.01).abs() < 1e-4, "{length}");
+    }
+    assert!(simulation.is_certified());
+}
+
+#[test]
+fn a_balloon_that_has_torn_holds_no_pressure_any_more() {
+    let tetrahedron = {
+        let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]].map(|c| DVec3::from(c) * 0.05);
+        let faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]];
+        refined(refined((corners.to_vec(), faces.to_vec())))
+    };
+    let (positions, triangles) = tetrahedron;
+    let mesh = selvedge_cloth::Mesh { positions, triangles };
+    let scene = |strength| {
+        let mut scene = Scene::new(Cloth::of_mesh(mesh.clone(), DVec3::X, 0.2).unwrap(), 1e-3);
+        scene.add(Stretch::isotropic(500.0)).add(SelfCollision(Thickness::of(1e-3)));
+        scene.add(InternalPressure::of_volume(2.0));
+        scene.add(Tearing::above(strength));
+        scene
+    };
+    let elastic = |simulation: &Simulation| {
+        simulation
+            .energy()
+            .stored
+            .iter()
+            .any(|(name, _)| *name == "internal_pressure")
+    };
+    let whole = after(scene(1e4), 100);
+    assert!(whole.torn_edges().is_empty() && elastic(&whole));
+    let burst = after(scene(20.0), 100);
+    assert!(!burst.torn_edges().is_empty() && !elastic(&burst) && burst.is_certified());
+}
+
+/// Each triangle in four.
+fn refined((mut positions, triangles): (Vec<DVec3>, Vec<[u32; 3]>)) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let mut middles = std::collections::BTreeMap::new();
+    let mut middle = |a: u32, b: u32| {
+        *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+            positions.push((positions[a as usize] + positions[b as usize]) / 2.0);
+            positions.len() as u32 - 1
+        })
+    };
+    let finer = triangles.iter().flat_map(|&[a, b, c]| {
+        let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+        [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+    });
+    let finer = finer.collect();
+    (positions, finer)
+}
+
+#[test]
+fn wind_that_the_caller_has_set_blows_on_through_a_tear() {
+    let text = |strength: &str| {
+        format!(
+            r#"
+            time_step = "1 ms"
+            duration = "1 s"
+            [cloth]
+            shape = "sheet"
+            sides = {{ first = [0.1, 0, 0], second = [0, 0.05, 0] }}
+            cells = [10, 5]
+            density = "20 g/m2"
+            [effects.wind]
+            velocity = [0, 0, 0]
+            [effects.stretch]
+            stiffness = 500
+            [effects.tearing]
+            strength = "{strength}"
+            [[effects.pins.group]]
+            part = "left"
+            [effects.self_collision]
+            thickness = "1 mm"
+            "#
+        )
+    };
+    let mut simulation = set_up(&text("1 N/m"), "sheet.toml", 1);
+    simulation.set_wind(DVec3::new(0.0, 3.0, 25.0)).unwrap();
+    run(&mut simulation, 60);
+    assert!(!simulation.torn_edges().is_empty());
+    let torn = simulation.torn_edges().len();
+    let free = simulation.positions().iter().map(|p| p.z).fold(0.0, f64::max);
+    run(&mut simulation, 40);
+    let farther = simulation.positions().iter().map(|p| p.z).fold(0.0, f64::max);
+    assert!(farther > free + 0.01, "{torn} torn, from {free} to {farther}");
+}
+
+const FILE: &str = r#"time_step = "1 ms"
+duration = "1 s"
+[cloth]
+shape = "sheet"
+sides = { first = [0.1, 0, 0], second = [0, 0.05, 0] }
+cells = [10, 5]
+density = "200 g/m2"
+[effects.stretch]
+stiffness = "1 kN/m"
+[effects.tearing]
+strength = "2 kN/m"
+[[effects.tearing.perforation]]
+vertices = [5, 16, 27]
+strength = "50 N/m"
+"#;
+
+#[test]
+fn wrong_ways_to_tear_are_told_with_place_and_unit() {
+    assert!(Scene::parse(FILE, Path::new("s.toml")).is_ok());
+    let no_perforation = &FILE[FILE.find("[[effects").unwrap()..];
+    let cases = [
+        (
+            "strength = \"2 kN/m\"",
+            "strength = \"2 N\"",
+            "s.toml:11:12: `strength` must be a stiffness of a membrane, and 'N' is no unit of it; choose from N/m, kN/m",
+        ),
+        (
+            "strength = \"2 kN/m\"",
+            "strength = 0",
+            "s.toml:11:12: `strength` is 0 N/m, but must be from 0.001 N/m to 1e9 N/m",
+        ),
+        (
+            "strength = \"50 N/m\"\n",
+            "",
+            "s.toml:12:1: [effects.tearing.perforation] needs `strength`, such as 0.5 (in N/m) or \"5 kN/m\"",
+        ),
+        (
+            "vertices = [5, 16, 27]",
+            "vertices = [5, 27]",
+            "s.toml:13:12: no edge of the cloth has both its ends in this perforation",
+        ),
+        (
+            "vertices = [5, 16, 27]",
+            "vertices = [5, 16, 5]",
+            "s.toml:13:12: vertex 5 is in this perforation twice",
+        ),
+        (
+            "vertices = [5, 16, 27]",
+            "vertices = [5, 66]",
+            "s.toml:13:16: `vertices` is 66, but must be from 0 to 65",
+        ),
+        (
+            "vertices = [5, 16, 27]",
+            "part = \"middle\"",
+            "s.toml:13:8: this cloth has no part 'middle'; choose from",
+        ),
+        (
+            "[effects.stretch]\nstiffness = \"1 kN/m\"\n",
+            "",
+            "s.toml:8:1: 'tearing' has nothing to act on: it needs [effects.stretch] in the scene",
+        ),
+        (
+            "strength = \"2 kN/m\"",
+            "force = \"2 kN/m\"",
+            "s.toml:11:1: [effects.tearing] has no key 'force'; choose from strength, perforation",
+        ),
+    ];
+    for (passage, by, expected) in cases {
+        assert_eq!(FILE.matches(passage).count(), 1, "'{passage}' must be there once");
+        let error = Scene::parse(&FILE.replace(passage, by), Path::new("s.toml")).unwrap_err();
+        assert!(error.to_string().starts_with(expected), "{error}\n{expected}");
+    }
+    let none = FILE.replace("strength = \"2 kN/m\"\n", "").replace(no_perforation, "");
+    let error = Scene::parse(&none, Path::new("s.toml")).unwrap_err().to_string();
+    assert!(error.contains("tearing needs a `strength`"), "{error}");
+    let beyond = pulled(Tearing::perforated([400, 401], 50.0));
+    let error = Simulation::new(beyond, 1).unwrap_err().to_string();
+    assert_eq!(error, "tearing: the scene has no vertex 400 of cloth: it has 66, from 0 on");
+    let error = Simulation::new(pulled(Tearing::above(f64::NAN)), 1).unwrap_err().to_string();
+    assert_eq!(error, "tearing: `strength` is NaN N/m, but must be from 0.001 N/m to 1e9 N/m");
+}

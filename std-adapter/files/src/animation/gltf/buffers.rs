@@ -1,0 +1,61 @@
+//! The bytes that a file points to: within it, beside it, or written in it as text.
+
+use super::short;
+use crate::animation::error::AnimationProblem;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use gltf::buffer::Source;
+use std::path::Path;
+
+/// The bytes of all buffers, each as long as the file says.
+pub(super) fn read(document: &gltf::Document, blob: Option<Vec<u8>>, path: &Path) -> Result<Vec<Vec<u8>>, AnimationProblem> {
+    let mut blob = blob;
+    let one = |buffer: gltf::Buffer<'_>| {
+        let wrong = |reason: String| AnimationProblem::Buffer {
+            buffer: buffer.index(),
+            reason,
+        };
+        let mut bytes = match buffer.source() {
+            Source::Bin => blob
+                .take()
+                .ok_or_else(|| wrong("is to be the file's binary part, but it has none".to_owned()))?,
+            Source::Uri(uri) => match uri.strip_prefix("data:") {
+                Some(data) => inline(data).map_err(wrong)?,
+                None => {
+                    let name = plain(uri);
+                    let read = std::fs::read(path.parent().unwrap_or(Path::new("")).join(&name));
+                    read.map_err(|error| wrong(format!("is the file '{}', which cannot be read: {error}", short(&name))))?
+                }
+            },
+        };
+        if bytes.len() < buffer.length() {
+            let (found, said) = (bytes.len(), buffer.length());
+            return Err(wrong(format!(
+                "is to have {said} bytes, but has {found}; is the file complete?"
+            )));
+        }
+        bytes.truncate(buffer.length());
+        Ok(bytes)
+    };
+    document.buffers().map(one).collect()
+}
+
+/// The bytes of `TYPE;base64,TEXT`.
+fn inline(data: &str) -> Result<Vec<u8>, String> {
+    let text = data.split_once(";base64,").map(|(_, text)| text);
+    let text = text.ok_or("is given in the file, but not in base64")?;
+    STANDARD.decode(text).map_err(|error| format!("is no valid base64: {error}"))
+}
+
+/// A file's name with what is escaped in an URI (`%20`).
+fn plain(uri: &str) -> String {
+    let mut bytes = Vec::new();
+    let mut rest = uri.as_bytes();
+    while let Some((&first, after)) = rest.split_first() {
+        let code = after.get(..2).filter(|_| first == b'%');
+        let code = code.and_then(|code| u8::from_str_radix(std::str::from_utf8(code).ok()?, 16).ok());
+        bytes.push(code.unwrap_or(first));
+        rest = if code.is_some() { &after[2..] } else { after };
+    }
+    String::from_utf8(bytes).unwrap_or_else(|_| uri.to_owned())
+}

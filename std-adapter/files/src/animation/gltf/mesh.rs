@@ -1,0 +1,134 @@
+//! All primitives of a mesh as one: triangles, vertices, morph targets, and which joints move each vertex.
+
+use super::{File, wrong};
+use crate::animation::error::AnimationProblem;
+use crate::mesh::FileProblem;
+use gltf::accessor::Dimensions;
+use gltf::mesh::{Mode, Primitive, Semantic};
+use selvedge_core::glam::DVec3;
+
+/// All primitives of a mesh as one.
+#[derive(Default)]
+pub(super) struct Parts {
+    pub(super) positions: Vec<DVec3>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) targets: Vec<Vec<DVec3>>,
+    pub(super) ends: Vec<u32>,
+    pub(super) influences: Vec<(u32, f64)>,
+}
+
+impl<'a> File<'a> {
+    /// Adds the triangles and vertices of a primitive.
+    pub(super) fn add(
+        &self,
+        primitive: &Primitive<'a>,
+        skin: Option<&gltf::Skin<'a>>,
+        parts: &mut Parts,
+    ) -> Result<(), AnimationProblem> {
+        let what = format!("primitive {} of the mesh", primitive.index());
+        if primitive.mode() != Mode::Triangles {
+            return Err(wrong(
+                &what,
+                format!("is of {:?}, but must be of triangles", primitive.mode()),
+            ));
+        }
+        let positions = primitive
+            .get(&Semantic::Positions)
+            .ok_or_else(|| wrong(&what, "has no positions"))?;
+        let positions = self.vectors(&positions, None, &format!("{what}, positions"))?;
+        let (first, count) = (parts.positions.len(), positions.len());
+        let indices = match primitive.indices() {
+            None => (0..count as u32).map(f64::from).collect(),
+            Some(indices) => self.numbers(&indices, Dimensions::Scalar, None, &format!("{what}, indices"))?,
+        };
+        if indices.len() % 3 != 0 {
+            return Err(wrong(&what, format!("has {} indices, no multiple of three", indices.len())));
+        }
+        for (face, corners) in indices.chunks_exact(3).enumerate() {
+            if let Some(&vertex) = corners.iter().find(|&&vertex| vertex >= count as f64) {
+                let problem = FileProblem::IndexOutOfRange {
+                    line: None,
+                    face: parts.triangles.len() + face,
+                    vertex: vertex as i64,
+                    first: 0,
+                    vertex_count: count,
+                };
+                return Err(problem.into());
+            }
+        }
+        let corners = indices
+            .chunks_exact(3)
+            .map(|t| [t[0], t[1], t[2]].map(|vertex| first as u32 + vertex as u32));
+        parts.triangles.extend(corners);
+        let targets: Vec<_> = primitive.morph_targets().collect();
+        if first > 0 && targets.len() != parts.targets.len() {
+            return Err(wrong(&what, "has another number of morph targets than the first"));
+        }
+        parts.targets.resize(targets.len(), Vec::new());
+        for (index, target) in targets.iter().enumerate() {
+            let moves = match target.positions() {
+                None => vec![DVec3::ZERO; count],
+                Some(moves) => self.vectors(&moves, Some(count), &format!("{what}, morph target {index}"))?,
+            };
+            parts.targets[index].extend(moves);
+        }
+        parts.positions.extend(positions);
+        match skin {
+            None => Ok(()),
+            Some(skin) => self.add_influences(primitive, &what, skin.joints().count(), count, parts),
+        }
+    }
+
+    /// Adds which joints move the `count` vertices of a primitive.
+    fn add_influences(
+        &self,
+        primitive: &Primitive<'a>,
+        what: &str,
+        joint_count: usize,
+        count: usize,
+        parts: &mut Parts,
+    ) -> Result<(), AnimationProblem> {
+        let mut sets = Vec::new();
+        while let Some(joints) = primitive.get(&Semantic::Joints(sets.len() as u32)) {
+            let set = sets.len();
+            let weights = primitive.get(&Semantic::Weights(set as u32));
+            let weights = weights.ok_or_else(|| wrong(what, format!("has JOINTS_{set}, but no WEIGHTS_{set}")))?;
+            let read = |accessor, name| self.numbers(accessor, Dimensions::Vec4, Some(count), &format!("{what}, {name}_{set}"));
+            sets.push((read(&joints, "JOINTS")?, read(&weights, "WEIGHTS")?));
+        }
+        if sets.is_empty() {
+            return Err(wrong(
+                what,
+                "has a skin, but no JOINTS_0 that say which joints its vertices follow",
+            ));
+        }
+        for vertex in 0..count {
+            let of_vertex = 4 * vertex..4 * vertex + 4;
+            let all = sets
+                .iter()
+                .flat_map(|(joints, weights)| joints[of_vertex.clone()].iter().zip(&weights[of_vertex.clone()]));
+            let begin = parts.influences.len();
+            for (&joint, &weight) in all.filter(|(_, weight)| **weight != 0.0) {
+                if weight < 0.0 {
+                    return Err(wrong(
+                        what,
+                        format!("vertex {vertex} has the weight {weight}, but none may be negative"),
+                    ));
+                }
+                if joint >= joint_count as f64 {
+                    let reason = format!("vertex {vertex} follows joint {joint}, but the skin has {joint_count}, from 0 on");
+                    return Err(wrong(what, reason));
+                }
+                parts.influences.push((joint as u32, weight));
+            }
+            let own = &mut parts.influences[begin..];
+            let sum: f64 = own.iter().map(|(_, weight)| weight).sum();
+            if sum <= 0.0 {
+                return Err(wrong(what, format!("vertex {vertex} follows no joint: its weights are zero")));
+            }
+            own.iter_mut().for_each(|(_, weight)| *weight /= sum);
+            parts.ends.push(parts.influences.len() as u32);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,89 @@
+//! What an animation says of how nodes move.
+
+use super::{File, label, short, wrong};
+use crate::animation::error::AnimationProblem;
+use crate::animation::track::{Interpolation, Property, Track};
+use gltf::accessor::Dimensions;
+use gltf::scene::Transform;
+use selvedge_core::glam::DQuat;
+
+impl<'a> File<'a> {
+    /// The channels that move one of the nodes that are there, or the weights of the mesh's node.
+    pub(super) fn tracks(
+        &self,
+        animation: &gltf::Animation<'a>,
+        mesh_node: usize,
+        target_count: usize,
+        places: &[Option<usize>],
+    ) -> Result<Vec<Track>, AnimationProblem> {
+        let mut tracks: Vec<Track> = Vec::new();
+        for (index, channel) in animation.channels().enumerate() {
+            let target = channel.target();
+            let node = target.node();
+            let (property, dimensions, width) = match target.property() {
+                gltf::animation::Property::Translation => (Property::Translation, Dimensions::Vec3, 3),
+                gltf::animation::Property::Rotation => (Property::Rotation, Dimensions::Vec4, 4),
+                gltf::animation::Property::Scale => (Property::Scale, Dimensions::Vec3, 3),
+                gltf::animation::Property::MorphTargetWeights => (Property::Weights, Dimensions::Scalar, target_count),
+            };
+            let place = match property {
+                Property::Weights if node.index() == mesh_node && target_count > 0 => 0,
+                Property::Weights => continue,
+                _ => match places[node.index()] {
+                    Some(place) => place,
+                    None => continue,
+                },
+            };
+            let what = format!(
+                "channel {index} of the animation ({property:?} of '{}')",
+                short(&label(&node))
+            );
+            if matches!(node.transform(), Transform::Matrix { .. }) && property != Property::Weights {
+                return Err(wrong(
+                    &what,
+                    "moves a node that has a `matrix`; it must have `translation`, `rotation`, `scale`",
+                ));
+            }
+            if tracks.iter().any(|track| (track.node, track.property) == (place, property)) {
+                return Err(wrong(&what, "there is another channel of the same"));
+            }
+            let sampler = channel.sampler();
+            let times = self.numbers(&sampler.input(), Dimensions::Scalar, None, &format!("{what}, times"))?;
+            let (interpolation, parts) = match sampler.interpolation() {
+                gltf::animation::Interpolation::Step => (Interpolation::Step, 1),
+                gltf::animation::Interpolation::Linear => (Interpolation::Linear, 1),
+                gltf::animation::Interpolation::CubicSpline => (Interpolation::Cubic, 3),
+            };
+            if times.is_empty() || times[0] < 0.0 || !times.is_sorted_by(|a, b| a < b) {
+                return Err(wrong(
+                    &what,
+                    "its times must be zero or more, each later than the one before, and one at least",
+                ));
+            }
+            let each = if property == Property::Weights { width } else { 1 };
+            let count = times.len().saturating_mul(parts).saturating_mul(each);
+            let mut values = self.numbers(&sampler.output(), dimensions, Some(count), &format!("{what}, values"))?;
+            if property == Property::Rotation && interpolation != Interpolation::Cubic {
+                for (key, value) in values.chunks_exact_mut(4).enumerate() {
+                    let rotation = DQuat::from_slice(value);
+                    if rotation.length_squared() <= 0.0 {
+                        return Err(wrong(
+                            &what,
+                            format!("the rotation of key {key} is zero, but must be a quaternion of length one"),
+                        ));
+                    }
+                    value.copy_from_slice(&rotation.normalize().to_array());
+                }
+            }
+            tracks.push(Track {
+                node: place,
+                property,
+                interpolation,
+                times,
+                values,
+                width,
+            });
+        }
+        Ok(tracks)
+    }
+}

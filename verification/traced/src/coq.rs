@@ -1,0 +1,375 @@
+//! What the certified filter, the box tests and the tests on corners compute, as terms of Coq, written from core's kernels themselves.
+//!
+//! `verification/proofs` speaks of them: what they compute, and what its signs prove.
+
+use crate::Text;
+use crate::gappa::tetrahedron;
+use crate::symbols::{Mask, MaskStep, Step, Trace, Traced, if_any, trace};
+use selvedge_core::Scalar;
+use selvedge_core::filter::Depth;
+use selvedge_core::verification::coplanarity::{Bound, MovingTetrahedron};
+use selvedge_core::verification::lanes::Rounding;
+use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
+use selvedge_core::verification::vector::Vector;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+const HEAD: &str = "\
+(* What the certified filter computes: core/src/filter/certified.rs, core/src/kernels/coplanarity.rs, core/src/kernels/points.rs.
+   Written from the code by verification/traced/src/coq.rs. *)
+From Coq Require Import ZArith.
+From Selvedge Require Import Arithmetic Expressions.
+
+";
+
+const BOXES_HEAD: &str = "\
+(* What relative and swept boxes ask: core/src/boxes/mod.rs, core/src/boxes/relative.rs, core/src/kernels/points.rs.
+   Written from the code by verification/traced/src/coq.rs. *)
+From Coq Require Import ZArith.
+From Selvedge Require Import Expressions Orders.
+
+";
+
+const CORNERS_HEAD: &str = "\
+(* What a fixed direction and the filter in parts of the step ask: core/src/boxes/direction.rs, core/src/filter/subdivided.rs,
+   core/src/kernels/coplanarity.rs, core/src/kernels/points.rs.
+   Written from the code by verification/traced/src/coq.rs. *)
+From Coq Require Import ZArith.
+From Selvedge Require Import Arithmetic Expressions.
+Notation number := (expr_of span_component).
+Notation test := (mask_of span_component).
+
+";
+
+/// The files that `verification/proofs` builds on.
+#[must_use]
+pub fn files() -> Vec<Text> {
+    [("Filter.v", filter()), ("Boxes.v", boxes()), ("Corners.v", corners())]
+        .map(|(name, text)| (name.to_owned(), text))
+        .into()
+}
+
+fn filter() -> String {
+    let mut text = String::from(HEAD);
+    format::<f32>("binary32", [24, -149, 128], &mut text);
+    format::<f64>("binary64", [53, -1074, 1024], &mut text);
+    differences::<VertexFace>("vertex_face", "vertex, a, b, c", &mut text);
+    differences::<EdgeEdge>("edge_edge", "u, v, k, l", &mut text);
+
+    let ((values, bounds, masks), steps) = trace(|| {
+        let points = tetrahedron();
+        let by_permanent = points.is_never_coplanar(Bound::Permanent);
+        let masks = [
+            ("by_edge", points.is_never_coplanar(Bound::MagnitudesByEdge)),
+            ("by_axis", points.is_never_coplanar(Bound::MagnitudesByAxis)),
+            // Where no lane needs the permanent, and where one does.
+            ("by_permanent_alone", by_permanent),
+            ("by_permanent", if_any(|| points.is_never_coplanar(Bound::Permanent))),
+        ];
+        (points.control_values().0, points.error_bounds(), masks)
+    });
+    let mut terms = Terms::new("expr", &steps);
+    for (index, value) in values.into_iter().enumerate() {
+        terms.define(&format!("control_value_{index}"), value);
+    }
+    for (index, bound) in bounds.into_iter().enumerate() {
+        terms.define(&format!("error_bound_{index}"), bound);
+    }
+    for (name, mask) in masks {
+        let formula = terms.mask(mask);
+        writeln!(terms.text, "Definition culled_{name} : mask := {formula}.").expect("a string");
+    }
+    text + &terms.text
+}
+
+fn boxes() -> String {
+    let mut text = String::from(BOXES_HEAD);
+    for (format, gap) in [("binary32", f32::SUM_GAP.to_f64()), ("binary64", f64::SUM_GAP)] {
+        writeln!(text, "Definition gap_of_{format} := ({})%Z.", exponent(gap)).expect("a string");
+    }
+    text.push('\n');
+    box_tests::<VertexFace>("a_vertex_and_a_face", &mut text);
+    box_tests::<EdgeEdge>("two_edges", &mut text);
+    text
+}
+
+fn box_tests<P: PairShape>(of: &str, text: &mut String) {
+    let (masks, steps) = trace(|| {
+        let points = coordinates();
+        [
+            ("swept_boxes", points.have_disjoint_swept_boxes::<P>()),
+            ("three_axes", points.are_apart_along_three_axes::<P>()),
+            ("nine_directions", points.are_apart_along_nine_directions::<P>()),
+        ]
+    });
+    let mut terms = Terms::new("number", &steps);
+    let formulas = masks.map(|(name, mask)| (name, terms.mask(mask)));
+    writeln!(text, "Module {of}.\n{}", terms.text.trim_end()).expect("a string");
+    for (name, formula) in formulas {
+        writeln!(text, "Definition culled_by_{name} := {formula}.").expect("a string");
+    }
+    writeln!(text, "End {of}.\n").expect("a string");
+}
+
+fn corners() -> String {
+    let mut text = String::from(CORNERS_HEAD);
+    tests_on_corners::<VertexFace>("a_vertex_and_a_face", "vertex, a, b, c", &mut text);
+    tests_on_corners::<EdgeEdge>("two_edges", "u, v, k, l", &mut text);
+    text
+}
+
+fn tests_on_corners<P: PairShape>(of: &str, order: &str, text: &mut String) {
+    let (masks, steps) = trace(|| {
+        let points = coordinates();
+        let in_parts = |depth| if_any(|| points.never_touch_in_parts::<P>(None, depth));
+        [
+            ("by_normal", points.are_apart_along_normal::<P>()),
+            ("in_2_parts", in_parts(Depth::One)),
+            ("in_4_parts", in_parts(Depth::Two)),
+            ("in_8_parts", in_parts(Depth::Three)),
+            ("in_16_parts", in_parts(Depth::Four)),
+        ]
+    });
+    let mut terms = Terms::of_spans(&steps);
+    for (name, mask) in masks {
+        let formula = terms.mask(mask);
+        writeln!(terms.text, "Definition culled_{name} : test := {formula}.").expect("a string");
+    }
+    writeln!(
+        text,
+        "Module {of}.\n(* Points 0 to 3 are {order}; of these two each span is the difference. *)"
+    )
+    .expect("a string");
+    writeln!(text, "Definition ends span := match span with").expect("a string");
+    for (index, [to, from]) in terms.spans.iter().flatten().enumerate() {
+        writeln!(text, "| S{index} => ({to}, {from})").expect("a string");
+    }
+    writeln!(text, "end.\n{}End {of}.\n", terms.text).expect("a string");
+}
+
+/// A pair's 24 coordinates.
+fn coordinates() -> PairPoints<Traced> {
+    let points = |end: &str| {
+        [0, 1, 2, 3]
+            .map(|point| Vector::from(["X", "Y", "Z_"].map(|axis| Traced::input(format!("Coordinate {point} {end} {axis}")))))
+    };
+    PairPoints {
+        start: points("Start"),
+        end: points("End"),
+    }
+}
+
+fn exponent(power_of_two: f64) -> i32 {
+    let exponent = power_of_two.log2();
+    assert_eq!(exponent.exp2(), power_of_two);
+    exponent as i32
+}
+
+/// The three numbers are the format's, by definition; the other two are core's constants.
+fn format<S: Scalar>(name: &str, [precision, least, greatest]: [i32; 3], text: &mut String) {
+    assert_eq!(<S as Rounding>::UNIT_ROUNDOFF.to_f64(), f64::from(-precision).exp2());
+    let underflow = exponent(S::UNDERFLOW.to_f64());
+    let largest_edge = exponent(S::LARGEST_EDGE.to_f64());
+    writeln!(
+        text,
+        "Definition {name} := Format {precision} ({least}) {greatest} ({underflow}) {largest_edge}."
+    )
+    .expect("a string");
+}
+
+/// Which coordinates each difference is made of, the one that is subtracted second.
+fn differences<P: PairShape>(name: &str, order: &str, text: &mut String) {
+    let (differences, steps) = trace(|| {
+        let points = coordinates();
+        let MovingTetrahedron { b, c, p } = points.tetrahedron::<P>();
+        [b, c, p]
+    });
+    let input = |number: Traced| match step(number, &steps) {
+        Step::Input(name) => name.clone(),
+        other => panic!("{other:?} is no coordinate"),
+    };
+    writeln!(text, "\n(* Points 0 to 3 are {order}. *)").expect("a string");
+    writeln!(text, "Definition {name} c := match c with").expect("a string");
+    for (edge, ends) in ["B", "C", "P"].into_iter().zip(differences) {
+        for (end, vector) in ["Start", "End"].into_iter().zip(ends) {
+            for (axis, difference) in [("X", vector.x), ("Y", vector.y), ("Z_", vector.z)] {
+                let Step::Difference(to, from) = step(difference, &steps) else {
+                    panic!("no difference")
+                };
+                let (to, from) = (input(*to), input(*from));
+                writeln!(text, "| Component {edge} {end} {axis} => ({to}, {from})").expect("a string");
+            }
+        }
+    }
+    writeln!(text, "end.\n").expect("a string");
+}
+
+fn step(number: Traced, trace: &Trace) -> &Step {
+    match number {
+        Traced::Step(index) => &trace.steps[index],
+        other => panic!("{other:?} is no step"),
+    }
+}
+
+/// Definitions of what is used, each term once.
+struct Terms<'a> {
+    trace: &'a Trace,
+    names: BTreeMap<String, String>,
+    /// What steps and masks are called whose terms have been written.
+    steps: BTreeMap<usize, String>,
+    masks: BTreeMap<usize, String>,
+    number_type: &'static str,
+    /// Where masks have names too.
+    mask_type: Option<&'static str>,
+    /// Pairs of points whose differences are leaves, in the order in which they are met; without them leaves have names.
+    spans: Option<Vec<[usize; 2]>>,
+    text: String,
+}
+
+impl<'a> Terms<'a> {
+    fn new(number_type: &'static str, trace: &'a Trace) -> Self {
+        Self {
+            trace,
+            names: BTreeMap::new(),
+            steps: BTreeMap::new(),
+            masks: BTreeMap::new(),
+            number_type,
+            mask_type: None,
+            spans: None,
+            text: String::new(),
+        }
+    }
+
+    /// From differences of coordinates on; masks have names.
+    fn of_spans(trace: &'a Trace) -> Self {
+        Self {
+            mask_type: Some("test"),
+            spans: Some(Vec::new()),
+            ..Self::new("number", trace)
+        }
+    }
+
+    fn define(&mut self, name: &str, number: Traced) {
+        let term = self.number(number);
+        writeln!(self.text, "Definition {name} : expr := {term}.").expect("a string");
+    }
+
+    /// The name of a term, which is defined if it has none.
+    fn named(&mut self, letter: char, kind: &str, term: String) -> String {
+        if let Some(name) = self.names.get(&term) {
+            return name.clone();
+        }
+        let name = format!("{letter}{}", self.names.len());
+        writeln!(self.text, "Definition {name} : {kind} := {term}.").expect("a string");
+        self.names.insert(term, name.clone());
+        name
+    }
+
+    /// A difference of two points' coordinates as a leaf, if leaves are such.
+    fn span(&mut self, to: Traced, from: Traced) -> Option<String> {
+        let spans = self.spans.as_mut()?;
+        let coordinate = |number| match number {
+            Traced::Step(index) => match &self.trace.steps[index] {
+                Step::Input(name) => name.strip_prefix("Coordinate ")?.split_once(' '),
+                _ => None,
+            },
+            _ => None,
+        };
+        let ((to, place), (from, same_place)) = (coordinate(to)?, coordinate(from)?);
+        if place != same_place {
+            return None;
+        }
+        let ends = [to, from].map(|point| point.parse().expect("a point's number"));
+        let index = spans.iter().position(|span| *span == ends).unwrap_or_else(|| {
+            spans.push(ends);
+            spans.len() - 1
+        });
+        Some(format!("Difference (Span S{index} {place})"))
+    }
+
+    fn number(&mut self, number: Traced) -> String {
+        let Traced::Step(index) = number else {
+            return match number {
+                Traced::UnitRoundoff | Traced::Underflow | Traced::LargestEdge | Traced::Half => {
+                    format!("(Constant {number:?})")
+                }
+                Traced::SumGap => "Gap".to_owned(),
+                Traced::Small(count) => format!("(Constant (Small {count}))"),
+                other => panic!("{other:?} is not known to the proof"),
+            };
+        };
+        if let Some(name) = self.steps.get(&index) {
+            return name.clone();
+        }
+        let term = match self.trace.steps[index].clone() {
+            Step::Input(name) if self.spans.is_some() => panic!("{name} alone is not known to the proof"),
+            Step::Input(name) => leaf(&name),
+            Step::Sum(a, b) => self.operation("Sum", a, b),
+            Step::Difference(a, b) => match self.span(a, b) {
+                Some(leaf) => leaf,
+                None => self.operation("Minus", a, b),
+            },
+            Step::Product(a, b) => self.operation("Product", a, b),
+            Step::Larger(a, b) => self.operation("Larger", a, b),
+            Step::Smaller(a, b) => self.operation("Smaller", a, b),
+            Step::Negative(a) => format!("Negative {}", self.number(a)),
+            Step::Magnitude(a) => format!("Magnitude {}", self.number(a)),
+            other => panic!("{other:?} is not known to the proof"),
+        };
+        let name = self.named('s', self.number_type, term);
+        self.steps.insert(index, name.clone());
+        name
+    }
+
+    fn operation(&mut self, name: &str, a: Traced, b: Traced) -> String {
+        let (a, b) = (self.number(a), self.number(b));
+        format!("{name} {a} {b}")
+    }
+
+    fn mask(&mut self, mask: Mask) -> String {
+        if let Some(name) = self.masks.get(&mask.index) {
+            return name.clone();
+        }
+        let term = match self.trace.masks[mask.index] {
+            // Of finite numbers the proof says nothing but that.
+            MaskStep::Greater(Traced::Infinity, _) => return "Finite".to_owned(),
+            MaskStep::Greater(a, b) => {
+                let (a, b) = (self.number(a), self.number(b));
+                return format!("(Greater {a} {b})");
+            }
+            MaskStep::And(a, b) => {
+                let (a, b) = (self.mask(a), self.mask(b));
+                format!("(Both {a} {b})")
+            }
+            MaskStep::Or(a, b) => {
+                let (a, b) = (self.mask(a), self.mask(b));
+                format!("(Either {a} {b})")
+            }
+            other => panic!("{other:?} is not known to the proof"),
+        };
+        let name = match self.mask_type {
+            Some(mask_type) => self.named('m', mask_type, term),
+            None => term,
+        };
+        self.masks.insert(mask.index, name.clone());
+        name
+    }
+}
+
+/// The term of an input, from its name: a coordinate's, or one like `b0x`.
+fn leaf(name: &str) -> String {
+    if name.starts_with("Coordinate") {
+        return format!("Value ({name})");
+    }
+    let [edge, end, axis] = name.as_bytes() else {
+        panic!("{name} is no component")
+    };
+    let edge = char::from(edge.to_ascii_uppercase());
+    let end = if *end == b'0' { "Start" } else { "End" };
+    let axis = match axis {
+        b'x' => "X",
+        b'y' => "Y",
+        _ => "Z_",
+    };
+    format!("Difference (Component {edge} {end} {axis})")
+}

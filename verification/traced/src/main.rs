@@ -1,0 +1,44 @@
+//! Writes what core's kernels compute for Gappa or Coq to read, or accepts it: see `usage` below.
+
+use selvedge_traced::{Prover, accepted};
+use std::path::Path;
+use std::process::ExitCode;
+use std::{env, fs};
+
+const USAGE: &str = "\
+usage: selvedge-traced gappa|coq FOLDER    writes what the code gives, and fails if that is not what was accepted
+       selvedge-traced accept              accepts what the code gives";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let done = match arguments[..] {
+        ["accept"] => accept(),
+        [name, folder] => match Prover::ALL.into_iter().find(|prover| prover.name() == name) {
+            Some(prover) => write(prover, Path::new(folder)),
+            None => Err(USAGE.to_owned()),
+        },
+        _ => Err(USAGE.to_owned()),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// In any case: whoever wants to see what has changed needs the texts.
+fn write(prover: Prover, folder: &Path) -> Result<(), String> {
+    for (name, text) in prover.texts() {
+        let path = folder.join(name);
+        fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    accepted::check(prover)
+}
+
+fn accept() -> Result<(), String> {
+    let path = accepted::path();
+    fs::write(&path, accepted::list()).map_err(|error| format!("{}: {error}", path.display()))
+}
