@@ -122,7 +122,7 @@ mod tests {
         for _ in 0..3000 {
             let mut next = vec![DVec3::ZERO; motion.len()];
             forces.for_each(&motion, &mut next, |vertex, force, next| {
-                *next = -force * inverse_masses[vertex]
+                *next = -force * inverse_masses[vertex];
             });
             let squared = |motion: &[DVec3]| -> f64 {
                 let all = motion.iter().zip(inverse_masses).filter(|(_, inverse)| **inverse > 0.0);

@@ -76,7 +76,7 @@ impl Bending {
     /// Of hinges on vertices with these inverse masses, in 1/kg, in at most so many stages for a step of so many seconds. Of folds is told
     /// when they stay, and of which vertices the last ones are copies.
     pub(crate) fn new(
-        hinges: Vec<On<Hinge, 4>>,
+        hinges: &[On<Hinge, 4>],
         inverse_masses: &[f64],
         most_stages: u32,
         time_step: f64,
@@ -86,7 +86,7 @@ impl Bending {
         let reach = |stages| Stages::of(stages).reach() / (time_step * time_step);
         // A little less, or rounding might ask for one stage more.
         let [enough, allowed] = [reach(ENOUGH_STAGES) * (1.0 - 1e-9), reach(most_stages)];
-        let parted = |few| Parted::new(&hinges, inverse_masses, [enough, allowed], few);
+        let parted = |few| Parted::new(hinges, inverse_masses, [enough, allowed], few);
         let stages_of = |parted: &Parted| Stages::to_reach(time_step * time_step * parted.fastest).count();
         let mut least = parted(0.0);
         // Folds have no rest to leave anything to.
@@ -247,7 +247,7 @@ mod tests {
         let of_hinge = |(own, hinge): &On<Hinge, 4>| hinge.energy(own.map(|v| wavy[v as usize])).unwrap();
         let expected: f64 = all.iter().map(of_hinge).sum();
         for (stages, is_parted) in [(100, false), (1, true)] {
-            let bending = Bending::new(all.clone(), &inverse_masses, stages, 0.1, None);
+            let bending = Bending::new(&all, &inverse_masses, stages, 0.1, None);
             assert_eq!(bending.beyond.is_some(), is_parted);
             let of = |positions: &[DVec3]| {
                 let now = Configuration {

@@ -87,7 +87,7 @@ impl Effect for Bend {
         let hinges = hinges(plan.scene.cloth, |of_warp| self.along(of_warp));
         let folds = plan.fabric().folds.map(|when| (when, plan.scene.cloth.copied_as_made()));
         let folds = folds.as_ref().map(|(when, copied)| (*when, copied.as_slice()));
-        let bending = Bending::new(hinges, plan.inverse_masses(), self.stages, plan.scene.time_step, folds);
+        let bending = Bending::new(&hinges, plan.inverse_masses(), self.stages, plan.scene.time_step, folds);
         plan.add_constraint(bending);
     }
 }
