@@ -35,7 +35,7 @@ fi
 
 say "Python: the wheel"
 rm -rf "$wheels"
-"$tools/bin/maturin" build --release --locked --interpreter "$tools/bin/python" --out "$wheels" </dev/null
+"$tools/bin/maturin" build --release --locked --compression-level 9 --interpreter "$tools/bin/python" --out "$wheels" </dev/null
 size=$(stat -c %s "$wheels"/*.whl 2>/dev/null || stat -f %z "$wheels"/*.whl)
 echo "$(basename "$wheels"/*.whl): $size bytes"
 # What users are told; issue a new figure with the reason if it has to grow.

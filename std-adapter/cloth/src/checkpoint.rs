@@ -33,7 +33,7 @@ pub(super) struct TornCloth {
 }
 
 impl TornCloth {
-    /// Whether it is that cloth torn: copies aside its triangles are the same, and have all vertices.
+    /// Whether it is that cloth torn: copies aside its triangles are the same, and with its loose edges they have all vertices.
     pub(super) fn is_of(&self, cloth: &Cloth) -> bool {
         let made = cloth.vertices_as_made();
         let are_before = (made..).zip(&self.copied).all(|(copy, &vertex)| (vertex as usize) < copy);
@@ -52,10 +52,9 @@ impl TornCloth {
         let mut has = vec![false; made + self.copied.len()];
         let is_of = are_before && self.triangles.iter().flatten().map(|&vertex| as_made(vertex)).eq(own);
         if is_of {
-            self.triangles
-                .iter()
-                .flatten()
-                .for_each(|&vertex| has[vertex as usize] = true);
+            let loose = cloth.topology().loose_edges().flatten();
+            let named = self.triangles.iter().copied().flatten().chain(loose);
+            named.for_each(|vertex| has[vertex as usize] = true);
         }
         is_of && !has.contains(&false)
     }

@@ -49,15 +49,45 @@ pub(crate) fn warp_and_weft(first: DVec3, second: DVec3, warp: DVec3) -> [DVec3;
     [along, normal.cross(along)]
 }
 
+/// A triangle of cloth at rest, in its plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Flat {
+    pub(crate) membrane: Membrane,
+    /// Which way warp and weft go.
+    directions: [DVec3; 2],
+    /// In m².
+    area: f64,
+}
+
+impl Flat {
+    pub(crate) fn new(cloth: &Cloth, triangle: [u32; 3]) -> Self {
+        let [p, q, r] = triangle.map(|v| cloth.mesh.positions[v as usize]);
+        let (first, second) = (q - p, r - p);
+        let directions = warp_and_weft(first, second, cloth.warp);
+        let [first_flat, second_flat] = [first, second].map(|side| along(directions, side));
+        Self {
+            membrane: Membrane::new(first_flat, second_flat),
+            directions,
+            area: 0.5 * first.cross(second).length(),
+        }
+    }
+
+    /// Parts along warp and weft of what is perpendicular to one of its sides, of length one.
+    pub(crate) fn across(&self, side: DVec3) -> DVec2 {
+        along(self.directions, side).normalize_or_zero().perp()
+    }
+}
+
+/// Parts along warp and weft.
+fn along([warp, weft]: [DVec3; 2], side: DVec3) -> DVec2 {
+    DVec2::new(side.dot(warp), side.dot(weft))
+}
+
 /// A constraint for each triangle, made from its material directions and its area at rest, in m².
 pub(crate) fn of_triangles<C>(cloth: &Cloth, constraint: impl Fn(Membrane, f64) -> C) -> Vec<On<C, 3>> {
     let make = |&vertices: &[u32; 3]| {
-        let [p, q, r] = vertices.map(|v| cloth.mesh.positions[v as usize]);
-        let (first, second) = (q - p, r - p);
-        let [along, across] = warp_and_weft(first, second, cloth.warp);
-        let [first_flat, second_flat] = [first, second].map(|side| DVec2::new(side.dot(along), side.dot(across)));
-        let membrane = Membrane::new(first_flat, second_flat);
-        (vertices, constraint(membrane, 0.5 * first.cross(second).length()))
+        let Flat { membrane, area, .. } = Flat::new(cloth, vertices);
+        (vertices, constraint(membrane, area))
     };
     cloth.mesh.triangles.iter().map(make).collect()
 }

@@ -10,6 +10,7 @@ use super::bending::Yield;
 use super::contact::ContactSettings;
 use super::hierarchy::{Hierarchy, Level};
 use super::of_cloth::OfCloth;
+use super::rope::Tie;
 use super::step::{Carrier, Constraint, FREE, Force};
 use super::tearing::Tearable;
 use super::world::{Cloth, Kinematic, Motion, SceneParts};
@@ -58,6 +59,8 @@ pub struct Plan<'a> {
     pub(crate) motions: Vec<Kinematic>,
     /// Of each group of pins.
     pub(crate) pins: Vec<Carrier>,
+    /// Single vertices that seams join: those of ropes are to know of it.
+    pub(crate) ties: Vec<Tie>,
     pub(crate) forces: Vec<Entry<dyn Force>>,
     pub(crate) constraints: Vec<Entry<dyn Constraint>>,
     pub(crate) contact: ContactSettings,
@@ -81,6 +84,7 @@ impl<'a> Plan<'a> {
         Self {
             motions: motions.collect(),
             pins: Vec::new(),
+            ties: Vec::new(),
             scene,
             effect: 0,
             cloth: None,
@@ -162,6 +166,16 @@ impl<'a> Plan<'a> {
             None => Box::new(constraint),
         };
         self.constraints.push(self.entry(constraint));
+    }
+
+    /// The same, of a constraint that knows vertices as the scene numbers them.
+    pub(crate) fn add_constraint_on_scene(&mut self, constraint: impl Constraint + 'static) {
+        self.constraints.push(self.entry(Box::new(constraint)));
+    }
+
+    /// The number in the scene of the first vertex of the cloth that it acts on.
+    pub(crate) fn first_vertex(&self) -> u32 {
+        self.part().map_or(0, |vertices| vertices.start as u32)
     }
 
     /// Runs after all contacts.

@@ -69,6 +69,7 @@ use super::input::{SceneError, Table, suggestion};
 use registration::Registration;
 
 pub(crate) use list::{Called, Effects, Wrong};
+pub(crate) use stitches::length_at_end;
 
 /// The registrations of these modules, but for those that `--cfg without_effect="NAME"` leaves out of the program: with it
 /// `std-adapter/cloth/instruction-counts/run.sh` shows that an effect costs nothing where it is not named.
@@ -97,9 +98,9 @@ const REGISTRY: &[(&str, Registration)] = registry![
     plastic_folds "plastic_folds"
     pressure "internal_pressure"
     strain_limit "strain_limit"
+    seams "seams"
     rope_bend "rope_bend"
     rope_stretch "rope_stretch"
-    seams "seams"
     body_contact "body_contact"
     self_collision "self_collision"
     friction "friction"

@@ -54,6 +54,7 @@ impl Effect for RopeStretch {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
-        plan.add_constraint(Stretching::new(plan.scene.cloth, self.stiffness));
+        let stretching = Stretching::new(plan.scene.cloth, self.stiffness, plan.first_vertex(), &plan.ties);
+        plan.add_constraint_on_scene(stretching);
     }
 }

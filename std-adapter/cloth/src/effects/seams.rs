@@ -31,6 +31,10 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
+/// How far apart two vertices are that are tied to each other without a gap, in metres: what has no length has no direction, along which a rope
+/// could pull.
+const TIED: f64 = 1e-6;
+
 /// Rows of vertices of one cloth or of two that are sewn together.
 ///
 /// ```
@@ -207,11 +211,14 @@ impl Effect for Seams {
                 ..*seam
             };
             let gap = seam.gap.unwrap_or_else(|| thickness(seam, &world, &plan.fabrics));
-            plan.add_constraint(Sewing {
+            let gap = if seam.first.len() == 1 { gap.max(TIED) } else { gap };
+            let sewing = Sewing {
                 stitches: seam.stitches(&rest),
                 gap,
                 closing: seam.closing,
-            });
+            };
+            plan.ties.extend(sewing.tie());
+            plan.add_constraint(sewing);
         }
     }
 }

@@ -7,6 +7,7 @@
 //! A stitch is C = |a − (1 − s)·b − s·c| ≤ L, without compliance: Δx = −(|p| − L)·wₖ·∇C/Σw·|∇C|². It only pulls; that the rows keep their
 //! distance is a matter of contact.
 
+use crate::rope::Tie;
 use crate::step::{Constraint, TimeStep, Touches};
 use selvedge_core::glam::DVec3;
 
@@ -96,13 +97,40 @@ pub(super) struct Sewing {
     pub(super) closing: Option<f64>,
 }
 
+impl Sewing {
+    /// The one stitch that it may consist of, of two vertices.
+    pub(super) fn tie(&self) -> Option<Tie> {
+        let &[
+            (
+                Stitch {
+                    vertices: [one, other, also],
+                    ..
+                },
+                start,
+            ),
+        ] = self.stitches.as_slice()
+        else {
+            return None;
+        };
+        (other == also).then_some(Tie {
+            vertices: [one, other],
+            start,
+            gap: self.gap,
+            closing: self.closing,
+        })
+    }
+}
+
+/// How far apart the points of a stitch may be at the end of a step: of a seam that is drawn together from `start` to `gap`.
+pub(crate) fn length_at_end(step: &TimeStep<'_>, start: f64, gap: f64, closing: Option<f64>) -> f64 {
+    let left = closing.map_or(1.0, |closing| (1.0 - (step.time + step.h) / closing).max(0.0));
+    gap + left * (start - gap).max(0.0)
+}
+
 impl Constraint for Sewing {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
-        let left = self
-            .closing
-            .map_or(1.0, |closing| (1.0 - (step.time + step.h) / closing).max(0.0));
         for (stitch, start) in &self.stitches {
-            let length = self.gap + left * (start - self.gap).max(0.0);
+            let length = length_at_end(step, *start, self.gap, self.closing);
             stitch.draw(length, step.inverse_masses, positions);
         }
     }

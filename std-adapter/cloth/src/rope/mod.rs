@@ -15,4 +15,4 @@ mod stretching;
 
 pub(crate) use bending::Bending;
 pub(crate) use runs::{Run, runs};
-pub(crate) use stretching::Stretching;
+pub(crate) use stretching::{Stretching, Tie};

@@ -15,19 +15,26 @@
 //! So the equations are solved twice: with the tension at y, of which only T + k·n·(d of the one end − d of the other) is kept, the tension that comes
 //! of it, and with that.
 //!
+//! **Tied.** A rope whose end a seam joins with one other vertex is solved together with that vertex, by a spring as stiff as can be where the two
+//! are as far apart as they may: a light end would else give way to what hangs from it, by so many times its own fall as that is heavier.
+//!
 //! **Elimination** keeps masses beside stiffnesses that may be 10⁹ times theirs: what a vertex of the effective mass E feels through a spring
 //! K at the next vertex is K(E + K)⁻¹E, the two one after the other, in which nothing is subtracted; and E + K is never inverted but factorised,
 //! with which a solution is off by its condition number times rounding, not by the square of that.
 
 use super::runs::runs;
+use crate::effects::length_at_end;
 use crate::energy::{Configuration, StoredEnergy};
 use crate::step::{Constraint, TimeStep, Touches};
 use crate::world::Cloth;
 use selvedge_core::glam::{DMat3, DVec3};
 
-/// Stiffer than so many times a vertex's mass over h² is not asked for, so that rounding is 10⁻⁷ of a move: under its own weight a rope of n
+/// Stiffer than so many times the lighter vertex's mass over h² is not asked for, so that rounding is 10⁻⁷ of a move: under its own weight a rope of n
 /// vertices is stretched there by n·g·h²/10⁹ an edge, with n = 1,000 and h = 1 ms by a hundredth of a nanometre.
 const STIFFEST: f64 = 1e9;
+
+/// A tie that is as long as this share of what it may be is taut: stitches that ran before leave it so, but for rounding.
+const TAUT: f64 = 0.999;
 
 /// The loose edges of a cloth, as springs.
 #[derive(Debug)]
@@ -38,11 +45,30 @@ pub(crate) struct Stretching {
     work: Work,
 }
 
+/// Two vertices that a seam joins.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tie {
+    pub(crate) vertices: [u32; 2],
+    /// How far apart they are at the start, and may be in the end, in metres.
+    pub(crate) start: f64,
+    pub(crate) gap: f64,
+    /// When that is, in seconds, as a [`Seam`](crate::effects::Seam) has it.
+    pub(crate) closing: Option<f64>,
+}
+
 #[derive(Debug)]
 struct Piece {
+    /// As the scene numbers them; what the first and the last of the rope are tied to comes before and after them.
     vertices: Vec<u32>,
-    /// Of its edges at rest, in m.
-    lengths: Vec<f64>,
+    /// Each from a vertex to the next.
+    edges: Vec<Edge>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Edge {
+    /// Of a length at rest, in m.
+    Rope(f64),
+    Tied(Tie),
 }
 
 /// Of the piece that is being solved.
@@ -78,16 +104,18 @@ struct Link {
 }
 
 impl Stretching {
-    /// Of an axial stiffness, in N.
-    pub(crate) fn new(cloth: &Cloth, stiffness: f64) -> Self {
+    /// Of an axial stiffness, in N, of a cloth with this first vertex in the scene.
+    pub(crate) fn new(cloth: &Cloth, stiffness: f64, first: u32, ties: &[Tie]) -> Self {
         let edges: Vec<[u32; 2]> = cloth.topology.loose_edges().collect();
         let rest = &cloth.mesh.positions;
-        let piece = |vertices: Vec<u32>| {
-            let edges = vertices.windows(2).map(|two| [two[0], two[1]].map(|v| rest[v as usize]));
-            Piece {
-                lengths: edges.map(|[a, b]| a.distance(b)).collect(),
-                vertices,
-            }
+        let piece = |row: Vec<u32>| {
+            let ends = row.windows(2).map(|two| [two[0], two[1]].map(|v| rest[v as usize]));
+            let mut piece = Piece {
+                edges: ends.map(|[a, b]| Edge::Rope(a.distance(b))).collect(),
+                vertices: row.into_iter().map(|vertex| first + vertex).collect(),
+            };
+            piece.tie(ties);
+            piece
         };
         let runs = runs(&edges, rest.len());
         Self {
@@ -98,11 +126,35 @@ impl Stretching {
     }
 }
 
+impl Piece {
+    /// Adds what its ends are tied to, if that is no vertex of its own.
+    fn tie(&mut self, ties: &[Tie]) {
+        for is_last in [false, true] {
+            let end = if is_last {
+                self.vertices.last()
+            } else {
+                self.vertices.first()
+            };
+            let Some(&end) = end else { continue };
+            let tied = ties.iter().find_map(|tie| {
+                let [one, other] = tie.vertices;
+                let partner = if one == end { other } else { one };
+                let is_own = self.vertices.contains(&partner);
+                (tie.vertices.contains(&end) && !is_own).then_some((partner, Edge::Tied(*tie)))
+            });
+            if let Some((partner, edge)) = tied {
+                let place = |count: usize| if is_last { count } else { 0 };
+                self.vertices.insert(place(self.vertices.len()), partner);
+                self.edges.insert(place(self.edges.len()), edge);
+            }
+        }
+    }
+}
+
 impl Constraint for Stretching {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
         for piece in &self.pieces {
-            self.work
-                .begin(piece, self.stiffness * step.h * step.h, step.inverse_masses, positions);
+            self.work.begin(piece, self.stiffness, step, positions);
             self.work.solve();
             self.work.take_tension();
             self.work.solve();
@@ -115,10 +167,12 @@ impl Constraint for Stretching {
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
         let at = |vertex: u32| now.positions[vertex as usize];
         let of_piece = |piece: &Piece| -> f64 {
-            let edges = piece.vertices.windows(2).zip(&piece.lengths);
-            edges
-                .map(|(two, length)| (at(two[0]).distance(at(two[1])) - length).powi(2) / length)
-                .sum()
+            let edges = piece.vertices.windows(2).zip(&piece.edges);
+            let energy = |(two, edge): (&[u32], &Edge)| match edge {
+                Edge::Rope(length) => (at(two[0]).distance(at(two[1])) - length).powi(2) / length,
+                Edge::Tied(_) => 0.0,
+            };
+            edges.map(energy).sum()
         };
         let all: f64 = self.pieces.iter().map(of_piece).sum();
         Some(StoredEnergy::Elastic(0.5 * self.stiffness * all))
@@ -126,17 +180,26 @@ impl Constraint for Stretching {
 }
 
 impl Work {
-    /// `stiffness` is times h².
-    fn begin(&mut self, piece: &Piece, stiffness: f64, inverse_masses: &[f64], positions: &[DVec3]) {
-        let inverse = piece.vertices.iter().map(|&vertex| inverse_masses[vertex as usize]);
+    fn begin(&mut self, piece: &Piece, stiffness: f64, step: &TimeStep<'_>, positions: &[DVec3]) {
+        let inverse = piece.vertices.iter().map(|&vertex| step.inverse_masses[vertex as usize]);
         self.masses.clear();
         self.masses
             .extend(inverse.map(|inverse| (inverse > 0.0).then(|| inverse.recip())));
-        let heavier = |k: usize| self.masses[k].unwrap_or(0.0).max(self.masses[k + 1].unwrap_or(0.0));
-        let edges = piece.vertices.windows(2).zip(&piece.lengths).enumerate();
-        let spring = |(k, (two, &length)): (usize, (&[u32], &f64))| {
+        let lighter = |k: usize| match [self.masses[k], self.masses[k + 1]] {
+            [Some(one), Some(other)] => one.min(other),
+            [one, other] => one.or(other).unwrap_or(0.0),
+        };
+        let edges = piece.vertices.windows(2).zip(&piece.edges).enumerate();
+        let spring = |(k, (two, edge)): (usize, (&[u32], &Edge))| {
             let [from, to] = [two[0], two[1]].map(|vertex| positions[vertex as usize]);
-            Spring::new(to - from, length, (stiffness / length).min(STIFFEST * heavier(k)))
+            let stiffest = STIFFEST * lighter(k);
+            match *edge {
+                Edge::Rope(length) => Spring::new(to - from, length, (stiffness * step.h * step.h / length).min(stiffest)),
+                Edge::Tied(tie) => {
+                    let length = length_at_end(step, tie.start, tie.gap, tie.closing);
+                    Spring::tied(to - from, length, stiffest)
+                }
+            }
         };
         self.springs.clear();
         self.springs.extend(edges.map(spring));
@@ -238,6 +301,19 @@ impl Spring {
         }
     }
 
+    /// Of two vertices that may be as far apart as told, and no farther: it does nothing where they are nearer, but for what rounding makes of it.
+    fn tied(way: DVec3, length: f64, stiffness: f64) -> Self {
+        let spring = Self::new(way, length, stiffness);
+        if way.length() >= TAUT * spring.length {
+            return spring;
+        }
+        Self {
+            along: DVec3::ZERO,
+            pull: 0.0,
+            ..spring
+        }
+    }
+
     /// K of the module. As long as it is under its tension, a is less than its stiffness.
     fn matrix(&self) -> DMat3 {
         let n = self.along;
@@ -285,12 +361,12 @@ mod tests {
             let masses = masses_of(&cloth);
             let inverse: Vec<f64> = masses.iter().zip(&pinned).map(|(mass, &pinned)| if pinned { 0.0 } else { mass.recip() }).collect();
             let mut end = start.clone();
-            Stretching::new(&cloth, stiffness).project(&step(&start, &inverse), &mut end, &mut Touches::default());
+            Stretching::new(&cloth, stiffness, 0, &[]).project(&step(&start, &inverse), &mut end, &mut Touches::default());
             let moved: Vec<DVec3> = start.iter().zip(&end).map(|(from, to)| *to - *from).collect();
             // With the tension that comes of the first solution.
             let mut work = Work::default();
-            let own = Stretching::new(&cloth, stiffness);
-            work.begin(&own.pieces[0], stiffness * 1e-4, &inverse, &start);
+            let own = Stretching::new(&cloth, stiffness, 0, &[]);
+            work.begin(&own.pieces[0], stiffness, &step(&start, &inverse), &start);
             work.solve();
             work.take_tension();
             let springs: Vec<_> = work.springs.iter().map(|spring| (spring.matrix(), spring.along * spring.pull)).collect();
@@ -321,9 +397,9 @@ mod tests {
         (inverse[0], inverse[1000]) = (0.0, 0.0);
         let shaken = |(k, p): (usize, &DVec3)| *p + DVec3::new((k as f64).sin(), 0.1, (k as f64 * 1.7).cos()) * 1e-6;
         let start: Vec<DVec3> = cloth.mesh.positions.iter().enumerate().map(shaken).collect();
-        let mut stretching = Stretching::new(&cloth, 1e6);
+        let mut stretching = Stretching::new(&cloth, 1e4, 0, &[]);
         let work = &mut stretching.work;
-        work.begin(&stretching.pieces[0], 1e6 * 1e-6, &inverse, &start);
+        work.begin(&stretching.pieces[0], 1e4, &step(&start, &inverse), &start);
         for _ in 0..2 {
             work.solve();
             let turned = |k: usize| work.springs[k].matrix() * (work.moves[k + 1] - work.moves[k]);
@@ -346,7 +422,7 @@ mod tests {
         let centre = |at: &[DVec3]| at.iter().zip(&masses).map(|(p, mass)| *p * *mass).sum::<DVec3>() / 0.01;
         let start: Vec<DVec3> = cloth.mesh.positions.iter().map(|p| *p * 1.1 + DVec3::Y).collect();
         let mut end = start.clone();
-        Stretching::new(&cloth, 1e9).project(&step(&start, &inverse), &mut end, &mut Touches::default());
+        Stretching::new(&cloth, 1e9, 0, &[]).project(&step(&start, &inverse), &mut end, &mut Touches::default());
         assert!(centre(&start).distance(centre(&end)) < 1e-6, "{}", centre(&end));
         let length: f64 = end.windows(2).map(|two| two[0].distance(two[1])).sum();
         assert!((length - 1.0).abs() < 1e-4, "{length}");

@@ -66,6 +66,9 @@ impl Tearable {
         let mut taken = BTreeSet::new();
         let mut tears = Vec::new();
         for (place, &(edge, load)) in above.iter().enumerate() {
+            if edge.vertices.iter().any(|end| taken.contains(end)) {
+                continue;
+            }
             let alone = this.tear(&[(edge.vertices, load)], &may_split);
             let tear = alone.or_else(|| {
                 // With any before it, it was tried as that one's second.

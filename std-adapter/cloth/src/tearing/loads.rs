@@ -6,7 +6,7 @@
 //! two triangles pull with across it. Shear, and what a strain limit holds back, are not in it.
 
 use super::choice::Fabric;
-use crate::membrane::{Membrane, image, triangles_around, warp_and_weft};
+use crate::membrane::{Flat, Membrane, image, triangles_around};
 use crate::world::Cloth;
 use selvedge::Topology;
 use selvedge::verification::parallel;
@@ -22,10 +22,10 @@ pub(crate) struct Tearable {
     /// k_u and k_v of the module, in N/m.
     stiffness: [f64; 2],
     pub(super) fabric: Fabric,
-    /// Each with its corners.
+    /// Of the triangles that have such edges, each with its corners.
     membranes: Vec<(Membrane, [u32; 3])>,
     pub(super) edges: Vec<Edge>,
-    /// T_u and T_v of each triangle.
+    /// T_u and T_v of each of these triangles.
     tensions: Vec<[DVec3; 2]>,
 }
 
@@ -34,6 +34,7 @@ pub(crate) struct Tearable {
 pub(super) struct Edge {
     /// Of the cloth.
     pub(super) vertices: [u32; 2],
+    /// By their places among those that are looked at.
     triangles: [u32; 2],
     /// ν of the module, in each of them: along warp and weft.
     across: [DVec2; 2],
@@ -49,8 +50,9 @@ impl Tearable {
         let flat: Vec<Flat> = flat.collect();
         let topology = &cloth.topology;
         let mut triangles_of = vec![Vec::new(); topology.edges().len()];
-        // Faces of loose edges come after the triangles.
-        for (triangle, edges) in (0..).zip(topology.triangle_edges()).take(flat.len()) {
+        // What is loose comes after them.
+        let triangles = cloth.mesh.triangles.len() as u32;
+        for (triangle, edges) in (0..triangles).zip(topology.triangle_edges()) {
             edges
                 .iter()
                 .filter(|&&edge| edge != Topology::NO_EDGE)
@@ -67,16 +69,19 @@ impl Tearable {
                 strength: strength(vertices)?,
             })
         };
+        let mut edges: Vec<Edge> = topology.edges().iter().zip(&triangles_of).filter_map(edge).collect();
+        let mut looked_at: Vec<u32> = edges.iter().flat_map(|edge| edge.triangles).collect();
+        looked_at.sort_unstable();
+        looked_at.dedup();
+        let place = |triangle: u32| looked_at.partition_point(|&other| other < triangle) as u32;
+        edges.iter_mut().for_each(|edge| edge.triangles = edge.triangles.map(place));
+        let membrane = |&triangle: &u32| (flat[triangle as usize].membrane, cloth.mesh.triangles[triangle as usize]);
         Self {
             effect: 0,
             cloth: 0,
             stiffness,
-            edges: topology.edges().iter().zip(&triangles_of).filter_map(edge).collect(),
-            membranes: flat
-                .iter()
-                .map(|flat| flat.membrane)
-                .zip(cloth.mesh.triangles.iter().copied())
-                .collect(),
+            membranes: looked_at.iter().map(membrane).collect(),
+            edges,
             fabric: Fabric {
                 around: triangles_around(cloth),
                 triangles: cloth.mesh.triangles.clone(),
@@ -122,32 +127,6 @@ impl Tearable {
         };
         let [first, second] = edge.triangles;
         0.5 * (pull((&first, edge.across[0])) + pull((&second, edge.across[1])))
-    }
-}
-
-/// A triangle at rest, in its plane.
-struct Flat {
-    membrane: Membrane,
-    /// Which way warp and weft go.
-    directions: [DVec3; 2],
-}
-
-impl Flat {
-    fn new(cloth: &Cloth, triangle: [u32; 3]) -> Self {
-        let [p, q, r] = triangle.map(|vertex| cloth.mesh.positions[vertex as usize]);
-        let directions = warp_and_weft(q - p, r - p, cloth.warp);
-        let flat = |side: DVec3| DVec2::new(side.dot(directions[0]), side.dot(directions[1]));
-        Self {
-            membrane: Membrane::new(flat(q - p), flat(r - p)),
-            directions,
-        }
-    }
-
-    /// Along warp and weft, of length one and perpendicular to one of its edges.
-    fn across(&self, edge: DVec3) -> DVec2 {
-        DVec2::new(edge.dot(self.directions[0]), edge.dot(self.directions[1]))
-            .normalize_or_zero()
-            .perp()
     }
 }
 

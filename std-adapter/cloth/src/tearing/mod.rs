@@ -9,9 +9,9 @@
 //! there were is split: one fan keeps it, each other gets a copy. So a tear begins at the border with one edge, within the cloth with two at a
 //! vertex, and goes on from its ends; when it comes to the border a piece falls off. Pinned vertices are never split.
 //!
-//! That is the remeshing-free form of O'Brien and Hodgins 1999, with the plane of the split snapped to edges, as Müller and Gross 2004 have it for games:
-//! where a tear goes depends on the mesh as far as its edges go. Here the load is that of each edge instead of an eigenvector at a vertex, so
-//! that a strength can be compared with what is measured of a fabric's seams and tears, in newtons for each metre.
+//! That is fracture after O'Brien and Hodgins 1999 without remeshing, the split snapped to edges as Müller and Gross 2004 snap it to faces (both
+//! from memory): where a tear goes depends on the mesh as far as its edges go. Here the load is that of each edge instead of an eigenvector at a
+//! vertex, so that a strength can be compared with what is measured of a fabric's seams and tears, in newtons for each metre.
 //!
 //! **At most an edge a step at each end of a tear**: what a tear does to the loads around it is known after the next step only. Of edges that
 //! share a triangle at a split vertex the one tears that is loaded most.

@@ -193,7 +193,12 @@ impl Cloth {
         let topology = topology.map_err(|error| ValueError::new("shape", error.to_string()))?;
         let statistics = topology.statistics();
         if statistics.degenerate_triangles > 0 || statistics.isolated_vertices > 0 {
-            let message = format!("cloth must consist of proper triangles, but the mesh has {statistics}");
+            let hint = if statistics.isolated_vertices > 0 && loose_edges.is_empty() {
+                "; give `linear_density` if lines `l` of the file join them"
+            } else {
+                ""
+            };
+            let message = format!("cloth must consist of proper triangles, but the mesh has {statistics}{hint}");
             return Err(ValueError::new("file", message));
         }
         let area = |t: &[u32; 3]| {

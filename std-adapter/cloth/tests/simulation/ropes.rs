@@ -4,7 +4,7 @@ use crate::{scene_file, set_up};
 use selvedge::{CollisionDetector, Topology};
 use selvedge_cloth::effects::{
     AirDrag, BodyContact, Force, Friction, Gravity, PinGroup, Pins, Plan, RopeBend, RopeShape, RopeStretch, Seam, Seams,
-    SelfCollision, Stretch, Thickness, TimeStep,
+    SelfCollision, Shear, Stretch, Thickness, TimeStep,
 };
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Body, CHECKPOINT_STEPS, Cloth, Mesh, Scene, Simulation};
@@ -76,6 +76,56 @@ fn a_hung_rope_is_stretched_as_its_stiffness_says() {
                 "{segments}, {stiffness}: {stretch} for {theory}"
             );
         }
+    }
+}
+
+/// A plate of 0.98 kg below a rope of 0.1 kg, of which an edge weighs 0.5 g: of one mesh with it, or tied to its end by a seam.
+#[test]
+fn a_rope_of_two_hundred_edges_that_holds_a_weight_is_stretched_by_a_thousandth_as_its_stiffness_says() {
+    let (length_at_rest, stiffness, gap) = (2.0, 1e4, 1e-3);
+    let rope = || {
+        Cloth::rope(&[DVec3::ZERO, DVec3::Z * -length_at_rest], 200, 0.05)
+            .unwrap()
+            .named("rope")
+    };
+    let plate = |top: f64| [[0.0, 0.0], [0.07, -0.07], [-0.07, -0.07], [0.0, -0.14]].map(|[x, z]| DVec3::new(x, 0.0, top + z));
+    let one_mesh = || {
+        let mut mesh = rope().mesh().clone();
+        mesh.positions.extend(&plate(-length_at_rest)[1..]);
+        mesh.triangles = vec![[200, 201, 202], [201, 203, 202]];
+        let edges: Vec<[u32; 2]> = (0..200).map(|k| [k, k + 1]).collect();
+        vec![Cloth::of_mesh_with_loose_edges(mesh, &edges, DVec3::X, [100.0, 0.05]).unwrap()]
+    };
+    let tied = || {
+        let mesh = Mesh {
+            positions: plate(-length_at_rest - gap).to_vec(),
+            triangles: vec![[0, 1, 2], [1, 3, 2]],
+        };
+        vec![rope(), Cloth::of_mesh(mesh, DVec3::X, 100.0).unwrap().named("plate")]
+    };
+    for (is_tied, time_step) in [(false, 1e-3), (false, 4e-3), (true, 1e-3), (true, 4e-3)] {
+        let mut cloths = if is_tied { tied() } else { one_mesh() }.into_iter();
+        let mut scene = Scene::new(cloths.next().unwrap(), time_step);
+        scene.cloths.extend(cloths);
+        scene
+            .add(Gravity::default())
+            .add(RopeStretch::of(stiffness))
+            .add(AirDrag { rate: 5.0 });
+        scene.add(Stretch::isotropic(1e5)).add(Shear::new(1e5)).add(pinned(&[0]));
+        if is_tied {
+            let seam = Seam {
+                gap: Some(gap),
+                ..Seam::of(vec![200], vec![201])
+            };
+            scene.add(Seams { seams: vec![seam] });
+        }
+        let simulation = run(scene, (2.0 / time_step) as usize);
+        let stretch = length(&simulation.positions()[..=200]) - length_at_rest;
+        let theory = (0.98 * length_at_rest + 0.05 * length_at_rest.powi(2) / 2.0) * G / stiffness;
+        assert!(
+            (stretch / theory - 1.0).abs() < 0.03,
+            "{is_tied}, {time_step}: {stretch} for {theory}"
+        );
     }
 }
 
@@ -290,6 +340,40 @@ fn a_fringe_hangs_from_the_cloth_that_it_is_of() {
             .collect();
         assert!((length(&tassel) - 0.05).abs() < 1e-3, "{}", length(&tassel));
     }
+}
+
+/// A square with two tassels of a file, of which the lines are read if `linear_density` asks for them.
+#[test]
+fn the_lines_of_a_file_are_loose_edges_if_they_are_given_a_weight() {
+    let folder = tempfile::tempdir().unwrap();
+    let square = "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\nf 1 2 3 4\n";
+    let tassels = "v 0 0 -0.01\nv 0 0 -0.02\nv 0.1 0 -0.01\nl 1 5 6\nl 2 7\n";
+    let read = |content: &str, keys: &str| {
+        std::fs::write(folder.path().join("shawl.obj"), content).unwrap();
+        let cloth = format!("[cloth]\nshape = \"file\"\nfile = \"shawl.obj\"\n{keys}\n");
+        let effects = "[effects.rope_stretch]\nstiffness = 50\n";
+        let text = format!("time_step = 0.001\nduration = 1\n{cloth}{effects}");
+        Scene::parse(&text, &folder.path().join("s.toml")).map_err(|error| error.to_string())
+    };
+    let scene = read(&(square.to_owned() + tassels), "density = 0.1\nlinear_density = \"2 g/m\"").unwrap();
+    assert_eq!(scene.all_loose_edges(), [[0, 4], [4, 5], [1, 6]]);
+    let simulation = Simulation::new(scene, 1).unwrap();
+    assert_eq!((simulation.triangles().len(), simulation.loose_edges().len()), (2, 3));
+    // A net has no area, and needs no weight of one.
+    assert!(
+        read(
+            tassels.replace("l 1 5 6\nl 2 7", "l 1 2 3").as_str(),
+            "linear_density = 0.002"
+        )
+        .is_ok()
+    );
+
+    let none = read(square, "density = 0.1\nlinear_density = 0.002").unwrap_err();
+    let expected = "`linear_density` is for edges that belong to no triangle (lines `l` of an OBJ file), but the file has 0 of them and 0 points";
+    assert!(none.ends_with(expected), "{none}");
+    let weightless = read(&(square.to_owned() + tassels), "density = 0.1").unwrap_err();
+    let expected = "cloth must consist of proper triangles, but the mesh has 1 component, 4 boundary and 1 interior edges, 3 isolated vertices; give `linear_density` if lines `l` of the file join them";
+    assert!(weightless.ends_with(expected), "{weightless}");
 }
 
 const ROPE: &str = r#"time_step = "2 ms"

@@ -269,12 +269,27 @@ fn with_tassel(name: &str, at: DVec3, vertex: u32) -> Cloth {
     made.unwrap().named(name)
 }
 
-#[test]
-fn tassels_stay_with_the_vertices_that_keep_their_numbers() {
+fn with_tassels() -> Scene {
     let mut scene = pulled(Tearing::perforated(column(5), 50.0));
     scene.cloths = vec![with_tassel("cloth", DVec3::ZERO, 5), with_tassel("second", DVec3::Z * 0.1, 3)];
     scene.add(RopeStretch::of(1000.0));
-    let simulation = after(scene, 200);
+    scene
+}
+
+#[test]
+fn torn_cloth_with_tassels_is_resumed_from_a_checkpoint() {
+    let mut whole = after(with_tassels(), CHECKPOINT_STEPS);
+    let mut resumed = Simulation::new(with_tassels(), 1).unwrap();
+    resumed.resume(&whole.checkpoint().unwrap()).unwrap();
+    run(&mut whole, 50);
+    run(&mut resumed, 50);
+    assert_eq!(resumed.positions(), whole.positions());
+    assert_eq!(resumed.loose_edges(), whole.loose_edges());
+}
+
+#[test]
+fn tassels_stay_with_the_vertices_that_keep_their_numbers() {
+    let simulation = after(with_tassels(), 200);
     assert_eq!(simulation.torn_edges().len(), 5);
     let own = simulation.vertices_of_cloth(1).unwrap();
     assert_eq!(own, 74..142);

@@ -72,7 +72,7 @@ fn twenty_mistakes_get_twenty_messages_that_say_what_to_do() {
         (
             "effects.stretch",
             "effects.magnetism",
-            "s.toml:21:10: there is no effect 'magnetism'; choose from gravity, wind, wind_field, inflation, air_drag, pins, attachments, stretch, shear, bend, plastic_folds, internal_pressure, strain_limit, rope_bend, rope_stretch, seams, body_contact, self_collision, friction, tearing",
+            "s.toml:21:10: there is no effect 'magnetism'; choose from gravity, wind, wind_field, inflation, air_drag, pins, attachments, stretch, shear, bend, plastic_folds, internal_pressure, strain_limit, seams, rope_bend, rope_stretch, body_contact, self_collision, friction, tearing",
         ),
         (
             "coefficient",
