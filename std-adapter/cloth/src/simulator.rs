@@ -22,14 +22,14 @@ pub use drive::DriveError;
 pub use tangled::Tangled;
 pub use untangle::{Untangled, Untangling};
 
-use super::contact::{ContactCounts, ContactSeconds, ContactSolver, Crossing, NearPair};
+use super::contact::{ContactCounts, ContactSeconds, Crossing, NearPair};
 use super::energy::{Configuration, Energy};
 use super::input::ValueError;
-use super::plan::Entry;
 use super::scene::{OnBlocked, TangledStart};
 use super::state::State;
-use super::step::{Carrier, Constraint, Force, Release, Touches};
-use super::world::{Kinematic, Pose};
+use super::step::{Release, Touches};
+use super::world::Pose;
+use assembly::Assembly;
 use selvedge::verification::parallel::Workers;
 use selvedge::{StepError, ThreadError, TopologyError};
 use selvedge_core::glam::DVec3;
@@ -50,35 +50,14 @@ pub struct Simulation {
     time_step: f64,
     fingerprint: u64,
     cloth_names: Vec<String>,
-    /// Of each cloth.
-    vertices_of_cloths: Vec<Range<usize>>,
-    cloth_vertices: usize,
-    cloth_triangles: usize,
-    triangles: Vec<[u32; 3]>,
-    /// Of the cloths.
-    loose_edges: Vec<[u32; 2]>,
-    inverse_masses: Vec<f64>,
-    /// Of each vertex: whose motion it follows.
-    carriers: Vec<Carrier>,
-    /// Where all vertices are at rest: the cloth's in the scene, bodies' as their meshes have them.
-    rest: Vec<DVec3>,
+    /// What its meshes and effects are put together to.
+    made: Assembly,
     /// Of kinematic vertices, where what carries them takes them from.
     carried: Vec<DVec3>,
-    /// Kinematic ones: bodies', then those of pins.
-    motions: Vec<Kinematic>,
-    /// Of each group of pins.
-    pins: Vec<Carrier>,
-    forces: Vec<Entry<dyn Force>>,
-    constraints: Vec<Entry<dyn Constraint>>,
-    /// Those of them that remember something.
-    remembering: Vec<usize>,
-    contact: Option<ContactSolver>,
-    friction: Vec<Entry<dyn Constraint>>,
     effects: Vec<EffectTime>,
     on_blocked: OnBlocked,
     tangled_start: TangledStart,
     body_names: Vec<String>,
-    body_vertices: Vec<Range<usize>>,
     threads: Workers,
     state: State,
     work: Work,
@@ -184,13 +163,13 @@ impl Simulation {
     /// [tears](crate::effects::Tearing) some name other vertices from then on.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
-        &self.triangles
+        &self.made.triangles
     }
 
     /// Edges of cloths that belong to no triangle, of ropes, laces and fringes, on [`positions`](Self::positions).
     #[must_use]
     pub fn loose_edges(&self) -> &[[u32; 2]] {
-        &self.loose_edges
+        &self.made.loose_edges
     }
 
     /// How fast each of the [`positions`](Self::positions) moves, in m/s.
@@ -214,44 +193,44 @@ impl Simulation {
     /// The vertices of a cloth, among the [`positions`](Self::positions); `None` if there is no such cloth.
     #[must_use]
     pub fn vertices_of_cloth(&self, cloth: usize) -> Option<Range<usize>> {
-        self.vertices_of_cloths.get(cloth).cloned()
+        self.made.vertices_of_cloths.get(cloth).cloned()
     }
 
     /// The vertices of a body, among the [`positions`](Self::positions); `None` if there is no such body.
     #[must_use]
     pub fn body_vertices(&self, body: usize) -> Option<Range<usize>> {
-        self.body_vertices.get(body).cloned()
+        self.made.body_vertices.get(body).cloned()
     }
 
     /// The pairs that came near each other in the last part of the last step, as contact saw them at its start, but for those that pushes
     /// between others were seen to keep apart. None without a contact effect.
     pub fn near_pairs(&self) -> impl Iterator<Item = NearPair> {
-        self.contact.iter().flat_map(|contact| contact.near_pairs())
+        self.made.contact.iter().flat_map(|contact| contact.near_pairs())
     }
 
     /// How many of the vertices are of cloth.
     #[must_use]
     pub fn cloth_vertices(&self) -> usize {
-        self.cloth_vertices
+        self.made.cloth_vertices
     }
 
     /// How many of the triangles are of cloth.
     #[must_use]
     pub fn cloth_triangles(&self) -> usize {
-        self.cloth_triangles
+        self.made.cloth_triangles
     }
 
     /// How much cloth is stretched now, of all cloths together, loose edges included. Finds the edges anew, in O(n log n) time.
     #[must_use]
     pub fn edge_stretch(&self) -> EdgeStretch {
-        let cloth = self.triangles[..self.cloth_triangles].iter();
+        let cloth = self.made.triangles[..self.made.cloth_triangles].iter();
         let ends = cloth.flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
-        let loose = self.loose_edges.iter().map(|&[a, b]| (a, b));
+        let loose = self.made.loose_edges.iter().map(|&[a, b]| (a, b));
         let mut edges: Vec<[u32; 2]> = ends.chain(loose).map(|(a, b)| [a.min(b), a.max(b)]).collect();
         edges.sort_unstable();
         edges.dedup();
         let length = |all: &[DVec3], [a, b]: [u32; 2]| all[a as usize].distance(all[b as usize]);
-        let stretch = |&edge: &[u32; 2]| length(&self.state.positions, edge) / length(&self.rest, edge);
+        let stretch = |&edge: &[u32; 2]| length(&self.state.positions, edge) / length(&self.made.rest, edge);
         let mut all: Vec<f64> = edges.iter().map(stretch).collect();
         all.sort_unstable_by(f64::total_cmp);
         let at = |index: usize| all.get(index).copied().unwrap_or(1.0);
@@ -268,11 +247,15 @@ impl Simulation {
     pub fn energy(&self) -> Energy {
         let now = Configuration {
             positions: &self.state.positions,
-            inverse_masses: &self.inverse_masses,
+            inverse_masses: &self.made.inverse_masses,
         };
-        let forces = self.forces.iter().map(|entry| (entry.effect, entry.action.energy(&now)));
-        let constraints = self.constraints.iter().map(|entry| (entry.effect, entry.action.energy(&now)));
-        let mut energy = Energy::of_motion(&self.inverse_masses, &self.state.velocities);
+        let forces = self.made.forces.iter().map(|entry| (entry.effect, entry.action.energy(&now)));
+        let constraints = self
+            .made
+            .constraints
+            .iter()
+            .map(|entry| (entry.effect, entry.action.energy(&now)));
+        let mut energy = Energy::of_motion(&self.made.inverse_masses, &self.state.velocities);
         for (effect, stored) in forces.chain(constraints) {
             if let Some(stored) = stored {
                 energy.add(self.effects[effect].name, stored);
@@ -285,7 +268,7 @@ impl Simulation {
     /// [remember](crate::effects::Memory) may add to it.
     #[must_use]
     pub fn released(&self) -> Vec<Release> {
-        self.memories().flat_map(|memory| memory.released()).collect()
+        self.made.memories().flat_map(|memory| memory.released()).collect()
     }
 
     /// The effects that were constructed, in the order in which they run, and the time that each has taken.
@@ -297,13 +280,13 @@ impl Simulation {
     /// What contact has counted so far; `None` if the scene has no contact effect.
     #[must_use]
     pub fn contact_counts(&self) -> Option<&ContactCounts> {
-        self.contact.as_ref().map(|contact| &contact.counts)
+        self.made.contact.as_ref().map(|contact| &contact.counts)
     }
 
     /// What contact has taken so far, besides the pushes; `None` if the scene has no contact effect.
     #[must_use]
     pub fn contact_seconds(&self) -> Option<&ContactSeconds> {
-        self.contact.as_ref().map(|contact| &contact.stages)
+        self.made.contact.as_ref().map(|contact| &contact.stages)
     }
 
     /// Steps in which bodies or pins had to wait, or to be let pass.
@@ -316,14 +299,14 @@ impl Simulation {
     /// [tolerates](TangledStart::Tolerate) that; empty for good once all is apart.
     #[must_use]
     pub fn crossings(&self) -> &[Crossing] {
-        self.contact.as_ref().map_or(&[], |contact| contact.exempt().crossings())
+        self.made.contact.as_ref().map_or(&[], |contact| contact.exempt().crossings())
     }
 
     /// How many pairs have left the promise since the start: those about [`crossings`](Self::crossings), and those that are not apart by their
     /// separation yet.
     #[must_use]
     pub fn tolerated_pairs(&self) -> usize {
-        self.contact.as_ref().map_or(0, |contact| contact.tolerated_pairs())
+        self.made.contact.as_ref().map_or(0, |contact| contact.tolerated_pairs())
     }
 
     /// What the scene wants of a tangled start.
@@ -342,7 +325,7 @@ impl Simulation {
     /// not while a body is let pass, and not while what was tangled at the start is tolerated.
     #[must_use]
     pub fn is_certified(&self) -> bool {
-        let contact = self.contact.as_ref();
+        let contact = self.made.contact.as_ref();
         contact.is_some_and(|contact| contact.exempt().is_empty())
     }
 

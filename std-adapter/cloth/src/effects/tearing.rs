@@ -6,7 +6,7 @@
 //! and after it. While something has left the promise (a body that is let pass, what was tangled at the start) nothing tears.
 //!
 //! **What it costs.** In each step the tension of each triangle and the load of each edge. A step after which something tears makes anew all
-//! that depends on the mesh, as setting up does: constraints, levels, candidates.
+//! that depends on the mesh, as setting up does: constraints, levels, candidates. So does each step in which a tear waits.
 //!
 //! A [`StrainLimit`](super::StrainLimit) of L holds loads below k·(L − 1): a strength above that is never reached.
 

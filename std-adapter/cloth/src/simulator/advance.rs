@@ -1,5 +1,6 @@
 //! A step, whole or in parts: forces, prediction, constraints, contact, and the certified end.
 
+use super::assembly::Assembly;
 use super::{Blocked, CHECKPOINT_STEPS, EffectTime, FASTEST, Simulation};
 use crate::contact::{Blocker, ContactSolver, LARGEST_TURN};
 use crate::plan::Entry;
@@ -29,13 +30,13 @@ impl Simulation {
         // Taken out so that they can run what borrows the rest.
         let threads = std::mem::take(&mut self.threads);
         let clock = self.state.clock;
-        for driven in self.motions.iter_mut().filter_map(Kinematic::driven_mut) {
+        for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
             driven.begin(clock, self.time_step, &self.state.positions, &self.carried);
         }
         let result = threads.run(|| self.whole_step());
         let clock = self.state.clock;
         let has_arrived = matches!(result, Ok(Clock::Went));
-        for driven in self.motions.iter_mut().filter_map(Kinematic::driven_mut) {
+        for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
             driven.end(clock, has_arrived);
         }
         self.threads = threads;
@@ -59,7 +60,7 @@ impl Simulation {
                 Err(blocker) => blocker,
             };
             was_blocked = true;
-            match (self.on_blocked, blocker.body, &mut self.contact) {
+            match (self.on_blocked, blocker.body, &mut self.made.contact) {
                 (OnBlocked::Yield, Some(body), Some(contact)) => contact.let_pass(body),
                 (OnBlocked::Yield | OnBlocked::Hold, ..) => {
                     // Without anything that is forced to move a step can always be made.
@@ -72,13 +73,11 @@ impl Simulation {
         }
         self.state.step += 1;
         self.state.blocked_steps += u64::from(was_blocked);
-        if let Some(contact) = &mut self.contact {
+        if let Some(contact) = &mut self.made.contact {
             contact.take_back(&self.state.positions);
         }
-        if self.tearing.is_some() {
-            self.tear();
-        }
-        if let Some(contact) = &mut self.contact
+        self.tear();
+        if let Some(contact) = &mut self.made.contact
             && self.state.step.is_multiple_of(CHECKPOINT_STEPS)
         {
             begin_anew(contact, &self.state, self.time_step);
@@ -94,7 +93,7 @@ impl Simulation {
             match self.attempt(h, h) {
                 Err(_) if 0.5 * h >= shortest => {
                     h *= 0.5;
-                    if let Some(contact) = &mut self.contact {
+                    if let Some(contact) = &mut self.made.contact {
                         contact.counts.cuts += 1;
                     }
                 }
@@ -108,8 +107,8 @@ impl Simulation {
         let clock = self.state.clock;
         let turns_too_far =
             |motion: &Kinematic, h: f64| (motion.pose(clock + h).angle - motion.pose(clock).angle).abs() > LARGEST_TURN;
-        if self.contact.is_some() {
-            while self.motions.iter().any(|motion| turns_too_far(motion, h)) {
+        if self.made.contact.is_some() {
+            while self.made.motions.iter().any(|motion| turns_too_far(motion, h)) {
                 h *= 0.5;
             }
         }
@@ -129,14 +128,22 @@ impl Simulation {
         let Self {
             state,
             work,
-            inverse_masses,
-            carriers,
             carried,
             effects,
-            contact,
-            motions,
+            made,
             ..
         } = self;
+        let Assembly {
+            inverse_masses,
+            carriers,
+            contact,
+            motions,
+            forces,
+            constraints,
+            friction,
+            remembering,
+            ..
+        } = made;
         let clock = state.clock;
         work.poses.clear();
         let poses = |motion: &Kinematic| [clock, clock + ticks].map(|time| motion.pose(time));
@@ -152,7 +159,7 @@ impl Simulation {
         };
         let velocities = &mut work.velocities;
         velocities.clone_from(&state.velocities);
-        for Entry { effect, action } in &mut self.forces {
+        for Entry { effect, action } in &mut *forces {
             timed(effects, *effect, || action.apply(&step, velocities));
         }
         // Where inertia leads, and bodies and pins go.
@@ -166,8 +173,8 @@ impl Simulation {
         positions.extend((0..step.start.len()).map(predicted));
         motions.iter_mut().for_each(|motion| motion.put(clock + ticks, positions));
         work.held.clear();
-        for &index in &self.remembering {
-            let Entry { effect, action } = &self.constraints[index];
+        for &index in &*remembering {
+            let Entry { effect, action } = &constraints[index];
             if let Some(memory) = action.memory() {
                 timed(effects, *effect, || memory.hold(h, &mut work.held));
             }
@@ -187,7 +194,7 @@ impl Simulation {
                 ..step
             }
         };
-        for Entry { effect, action } in &mut self.constraints {
+        for Entry { effect, action } in &mut *constraints {
             timed(effects, *effect, || action.project(&step, positions, touches));
         }
         if let Some(contact) = contact {
@@ -198,7 +205,7 @@ impl Simulation {
                 }
             }
         }
-        for Entry { effect, action } in &mut self.friction {
+        for Entry { effect, action } in &mut *friction {
             timed(effects, *effect, || action.project(&step, positions, touches));
         }
         for (vertex, position) in positions.iter_mut().enumerate() {
@@ -210,8 +217,8 @@ impl Simulation {
         if let Some(contact) = contact {
             contact.certify(&step, positions)?;
         }
-        for &index in &self.remembering {
-            let Entry { effect, action } = &mut self.constraints[index];
+        for &index in &*remembering {
+            let Entry { effect, action } = &mut constraints[index];
             if let Some(memory) = action.memory_mut() {
                 timed(effects, *effect, || memory.settle(&step, positions));
             }

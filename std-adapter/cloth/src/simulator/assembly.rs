@@ -1,7 +1,6 @@
 //! What a simulation has of a scene's meshes and effects: made where it begins, and anew when cloth has torn.
 
 use super::SetupError;
-use super::resume::memories;
 use crate::contact::ContactSolver;
 use crate::plan::{Entry, Plan};
 use crate::scene::{Scene, append};
@@ -12,24 +11,31 @@ use selvedge::{Mesh, Topology};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
-/// See [`Simulation`](super::Simulation), whose fields these become.
+/// See the [module](self).
 #[derive(Debug)]
 pub(super) struct Assembly {
     /// Of the effects, in the order in which they run.
     pub(super) effects: Vec<&'static str>,
+    /// Of each cloth.
     pub(super) vertices_of_cloths: Vec<Range<usize>>,
     pub(super) body_vertices: Vec<Range<usize>>,
     pub(super) cloth_vertices: usize,
     pub(super) cloth_triangles: usize,
     pub(super) triangles: Vec<[u32; 3]>,
+    /// Of the cloths.
     pub(super) loose_edges: Vec<[u32; 2]>,
+    /// Where all vertices are at rest: the cloth's in the scene, bodies' as their meshes have them.
     pub(super) rest: Vec<DVec3>,
     pub(super) inverse_masses: Vec<f64>,
+    /// Of each vertex: whose motion it follows.
     pub(super) carriers: Vec<Carrier>,
+    /// Kinematic ones: bodies', then those of pins.
     pub(super) motions: Vec<Kinematic>,
+    /// Of each group of pins.
     pub(super) pins: Vec<Carrier>,
     pub(super) forces: Vec<Entry<dyn Force>>,
     pub(super) constraints: Vec<Entry<dyn Constraint>>,
+    /// Those of them that remember something.
     pub(super) remembering: Vec<usize>,
     pub(super) friction: Vec<Entry<dyn Constraint>>,
     pub(super) contact: Option<ContactSolver>,
@@ -111,6 +117,7 @@ impl Assembly {
 
     /// What its constraints remember.
     pub(super) fn memories(&self) -> impl Iterator<Item = &dyn Memory> {
-        memories(&self.remembering, &self.constraints)
+        let all = self.remembering.iter();
+        all.filter_map(|&index| self.constraints[index].action.memory())
     }
 }

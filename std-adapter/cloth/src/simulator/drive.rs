@@ -77,9 +77,9 @@ impl Simulation {
     /// # Errors
     /// If there is no such group, it is not driven, or the positions are not one for each vertex, finite and within a kilometre.
     pub fn move_pins(&mut self, group: usize, positions: &[DVec3]) -> Result<(), DriveError> {
-        let groups = self.pins.len();
-        let carrier = *self.pins.get(group).ok_or(DriveError::NoPins { group, groups })? as usize;
-        let own = (carrier >= self.body_names.len()).then(|| self.motions[carrier].driven_mut());
+        let groups = self.made.pins.len();
+        let carrier = *self.made.pins.get(group).ok_or(DriveError::NoPins { group, groups })? as usize;
+        let own = (carrier >= self.body_names.len()).then(|| self.made.motions[carrier].driven_mut());
         let driven = own.flatten().ok_or_else(|| DriveError::NotDriven {
             what: format!("the group {group} of pins"),
         })?;
@@ -92,7 +92,7 @@ impl Simulation {
     #[must_use]
     pub fn placement(&self, body: usize) -> Option<Placement> {
         let is_body = body < self.body_names.len();
-        let driven = is_body.then(|| self.motions[body].driven()).flatten();
+        let driven = is_body.then(|| self.made.motions[body].driven()).flatten();
         driven.and_then(|driven| driven.placement)
     }
 
@@ -103,7 +103,7 @@ impl Simulation {
     pub fn set_wind(&mut self, velocity: DVec3) -> Result<(), DriveError> {
         Wind::check_velocity(velocity).map_err(|error| error.of("wind"))?;
         // Each of several cloths has its own.
-        let taken = self.forces.iter_mut().map(|force| force.action.set_wind(velocity));
+        let taken = self.made.forces.iter_mut().map(|force| force.action.set_wind(velocity));
         let is_taken = taken.fold(false, |any, taken| any | taken);
         if let Some(tearing) = &mut self.tearing {
             tearing.wind = Some(velocity);
@@ -116,8 +116,8 @@ impl Simulation {
         if body >= bodies {
             return Err(DriveError::NoBody { body, bodies });
         }
-        let Self { motions, body_names, .. } = self;
-        motions[body].driven_mut().ok_or_else(|| DriveError::NotDriven {
+        let Self { made, body_names, .. } = self;
+        made.motions[body].driven_mut().ok_or_else(|| DriveError::NotDriven {
             what: format!("the body '{}'", body_names[body]),
         })
     }

@@ -3,8 +3,7 @@
 use super::advance::begin_anew;
 use super::{CHECKPOINT_STEPS, Simulation};
 use crate::checkpoint::{Checkpoint, CheckpointError, Sizes};
-use crate::plan::Entry;
-use crate::step::{Constraint, Memory};
+use crate::step::Memory;
 use crate::world::{Driven, Kinematic};
 
 impl Simulation {
@@ -23,7 +22,7 @@ impl Simulation {
             memories: self.remembered(),
             ..Checkpoint::default()
         };
-        if let Some(contact) = &self.contact {
+        if let Some(contact) = &self.made.contact {
             checkpoint.yielding = contact.exempt().yielding.clone();
             checkpoint.parting = contact.exempt().parting().map(<[_]>::to_vec);
             (checkpoint.counts, checkpoint.stages) = (contact.counts, contact.stages);
@@ -51,7 +50,7 @@ impl Simulation {
         };
         let sizes = Sizes {
             vertices,
-            yielding: self.contact.as_ref().map_or(0, |c| c.exempt().yielding.len()),
+            yielding: self.made.contact.as_ref().map_or(0, |c| c.exempt().yielding.len()),
             effects: self.effects.len(),
             placements: self.driven().count(),
             memories,
@@ -59,7 +58,7 @@ impl Simulation {
         let checkpoint = Checkpoint::read(reader, sizes)?;
         let contact = match &mut torn {
             Some((retorn, _)) => &mut retorn.made.contact,
-            None => &mut self.contact,
+            None => &mut self.made.contact,
         };
         if let Some(contact) = contact
             && !contact.set_parting(checkpoint.parting.as_deref(), &checkpoint.state.positions)
@@ -69,7 +68,7 @@ impl Simulation {
         if let Some((retorn, edges)) = torn {
             self.adopt_torn(retorn, edges);
         }
-        if let Some(contact) = &mut self.contact {
+        if let Some(contact) = &mut self.made.contact {
             contact.set_yielding(&checkpoint.yielding);
             begin_anew(contact, &checkpoint.state, self.time_step);
             (contact.counts, contact.stages) = (checkpoint.counts, checkpoint.stages);
@@ -77,7 +76,7 @@ impl Simulation {
         for (effect, seconds) in self.effects.iter_mut().zip(checkpoint.effects) {
             effect.seconds = seconds;
         }
-        let driven = self.motions.iter_mut().filter_map(Kinematic::driven_mut);
+        let driven = self.made.motions.iter_mut().filter_map(Kinematic::driven_mut);
         for (driven, placement) in driven.zip(checkpoint.placements) {
             driven.placement = placement;
         }
@@ -88,13 +87,13 @@ impl Simulation {
 
     /// What all constraints remember, one after the other.
     pub(super) fn remembered(&self) -> Vec<f64> {
-        self.memories().flat_map(Memory::numbers).collect()
+        self.made.memories().flat_map(Memory::numbers).collect()
     }
 
     /// Takes back what was [`remembered`](Self::remembered) once.
     pub(super) fn recall(&mut self, mut numbers: &[f64]) {
-        for &index in &self.remembering {
-            if let Some(memory) = self.constraints[index].action.memory_mut() {
+        for &index in &self.made.remembering {
+            if let Some(memory) = self.made.constraints[index].action.memory_mut() {
                 let own;
                 (own, numbers) = numbers.split_at(memory.numbers().len());
                 memory.recall(own);
@@ -102,19 +101,7 @@ impl Simulation {
         }
     }
 
-    pub(super) fn memories(&self) -> impl Iterator<Item = &dyn Memory> {
-        memories(&self.remembering, &self.constraints)
-    }
-
     pub(super) fn driven(&self) -> impl Iterator<Item = &Driven> {
-        self.motions.iter().filter_map(Kinematic::driven)
+        self.made.motions.iter().filter_map(Kinematic::driven)
     }
-}
-
-/// What these constraints remember.
-pub(super) fn memories<'a>(
-    remembering: &'a [usize],
-    constraints: &'a [Entry<dyn Constraint>],
-) -> impl Iterator<Item = &'a dyn Memory> {
-    remembering.iter().filter_map(|&index| constraints[index].action.memory())
 }

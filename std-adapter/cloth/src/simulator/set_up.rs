@@ -30,26 +30,7 @@ impl Simulation {
         scene.check()?;
         let fingerprint = scene.fingerprint();
         let threads = Workers::new(Threads::from_count(threads))?;
-        let Assembly {
-            effects,
-            vertices_of_cloths,
-            body_vertices,
-            cloth_vertices,
-            cloth_triangles,
-            triangles,
-            loose_edges,
-            rest,
-            inverse_masses,
-            carriers,
-            mut motions,
-            pins,
-            forces,
-            constraints,
-            remembering,
-            friction,
-            mut contact,
-            tearable,
-        } = Assembly::of(&scene)?;
+        let mut made = Assembly::of(&scene)?;
         let Scene {
             bodies,
             cloths,
@@ -58,9 +39,17 @@ impl Simulation {
             ..
         } = &scene;
         let (time_step, tangled_start) = (*time_step, *tangled_start);
+        let Assembly {
+            cloth_vertices,
+            vertices_of_cloths,
+            rest,
+            carriers,
+            motions,
+            ..
+        } = &mut made;
         let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
         let mut carried = rest.clone();
-        for (point, &carrier) in carried[..cloth_vertices].iter_mut().zip(&carriers) {
+        for (point, &carrier) in carried[..*cloth_vertices].iter_mut().zip(&*carriers) {
             // Pins that follow a driven body start where the cloth is, wherever that body stands.
             let body = motions.get(carrier as usize).filter(|_| (carrier as usize) < bodies.len());
             if let Some(standing) = body.and_then(Kinematic::driven).and_then(|driven| driven.placement) {
@@ -69,12 +58,12 @@ impl Simulation {
         }
         let start = carried
             .iter()
-            .zip(&carriers)
+            .zip(&*carriers)
             .map(|(&point, &carrier)| poses.get(carrier as usize).map_or(point, |pose| pose.apply(point)));
         let mut positions: Vec<DVec3> = start.collect();
         motions.iter_mut().for_each(|motion| motion.put(0.0, &mut positions));
         let mut velocities = vec![DVec3::ZERO; rest.len()];
-        for (cloth, vertices) in cloths.iter().zip(&vertices_of_cloths) {
+        for (cloth, vertices) in cloths.iter().zip(&*vertices_of_cloths) {
             let free = vertices.clone().filter(|&vertex| carriers[vertex] == FREE);
             free.for_each(|vertex| velocities[vertex] = cloth.velocity);
         }
@@ -85,7 +74,7 @@ impl Simulation {
             velocities,
             positions,
         };
-        if let Some(contact) = &mut contact {
+        if let Some(contact) = &mut made.contact {
             begin_anew(contact, &state, time_step);
             let found = contact.tolerate(&state.positions)?;
             if !found.is_empty() && tangled_start == TangledStart::Refuse {
@@ -93,52 +82,38 @@ impl Simulation {
                     crossings: found,
                     mesh: Mesh {
                         positions: state.positions,
-                        triangles,
+                        triangles: made.triangles,
                     },
-                    cloth_triangles,
+                    cloth_triangles: made.cloth_triangles,
                     body_names: bodies.iter().map(|body| body.name.clone()).collect(),
                     untangled: None,
                 })));
             }
         }
         let spacing = cloths.iter().map(mesh_spacing).fold(f64::INFINITY, f64::min);
+        let effects = made.effects.iter().map(|&name| EffectTime { name, seconds: 0.0 }).collect();
         let mut simulation = Self {
             name: scene.name.clone(),
             time_step,
             on_blocked: scene.on_blocked,
             tangled_start,
-            body_vertices,
-            pins,
             body_names: bodies.iter().map(|body| body.name.clone()).collect(),
-            contact,
             fingerprint,
             cloth_names: cloths.iter().map(|cloth| cloth.name.clone()).collect(),
-            cloth_triangles,
-            cloth_vertices,
-            vertices_of_cloths,
-            triangles,
-            loose_edges,
-            inverse_masses,
-            motions,
-            forces,
-            constraints,
-            remembering,
-            effects: effects.into_iter().map(|name| EffectTime { name, seconds: 0.0 }).collect(),
+            effects,
             threads,
             state,
             work: Work {
                 touches: Touches {
-                    wanted: !friction.is_empty(),
+                    wanted: !made.friction.is_empty(),
                     list: Vec::new(),
                 },
                 ..Work::default()
             },
-            friction,
-            carriers,
-            rest,
             carried,
             untangled: None,
-            tearing: Tearing::new(scene, tearable),
+            tearing: (!made.tearable.is_empty()).then(|| Box::new(Tearing::new(scene))),
+            made,
         };
         if tangled_start == TangledStart::Untangle && !simulation.is_apart() {
             let untangled = simulation.untangle(spacing, tell);

@@ -13,8 +13,8 @@ use super::advance::begin_anew;
 use super::assembly::Assembly;
 use crate::checkpoint::{CheckpointError, TornCloth};
 use crate::scene::Scene;
-use crate::step::FREE;
-use crate::tearing::{Tear, Tearable, TornEdge, open};
+use crate::step::{FREE, Memory};
+use crate::tearing::{Tear, TornEdge, open};
 use crate::world::Cloth;
 use selvedge_core::glam::DVec3;
 use std::collections::BTreeMap;
@@ -28,7 +28,6 @@ const OPENINGS: [f64; 3] = [0.05, 0.01, 0.001];
 pub(super) struct Tearing {
     /// As it was made, but for the meshes of its cloths.
     scene: Scene,
-    tearable: Vec<Tearable>,
     /// What has torn so far.
     torn: Vec<TornEdge>,
     /// As the caller has set it last.
@@ -46,17 +45,12 @@ struct Meshes {
 type Copies = BTreeMap<(usize, u32, usize), u32>;
 
 impl Tearing {
-    /// `None` if nothing tears.
-    pub(super) fn new(scene: Scene, tearable: Vec<Tearable>) -> Option<Box<Self>> {
-        if tearable.is_empty() {
-            return None;
-        }
-        Some(Box::new(Self {
+    pub(super) fn new(scene: Scene) -> Self {
+        Self {
             scene,
-            tearable,
             torn: Vec::new(),
             wind: None,
-        }))
+        }
     }
 
     /// Puts the scene together with other meshes for its cloths, which are put back if that cannot be.
@@ -132,18 +126,19 @@ impl Simulation {
         let Some(mut tearing) = self.tearing.take() else { return };
         if self.is_apart() {
             let begin = Instant::now();
-            let effect = tearing.tearable[0].effect;
             self.tear_what_is_loaded(&mut tearing);
-            self.effects[effect].seconds += begin.elapsed().as_secs_f64();
+            if let Some(tearable) = self.made.tearable.first() {
+                self.effects[tearable.effect].seconds += begin.elapsed().as_secs_f64();
+            }
         }
         self.tearing = Some(tearing);
     }
 
     fn tear_what_is_loaded(&mut self, tearing: &mut Tearing) {
         let mut tears = Vec::new();
-        for tearable in &mut tearing.tearable {
-            let own = self.vertices_of_cloths[tearable.cloth].clone();
-            let carriers = &self.carriers[own.clone()];
+        for tearable in &mut self.made.tearable {
+            let own = self.made.vertices_of_cloths[tearable.cloth].clone();
+            let carriers = &self.made.carriers[own.clone()];
             tears.extend(tearable.tears(&self.state.positions[own], |vertex| carriers[vertex as usize] == FREE));
         }
         while !tears.is_empty() {
@@ -156,9 +151,9 @@ impl Simulation {
             match self.opened(&mut made, &tears, &copies, &from) {
                 Ok(positions) => {
                     self.note(&mut tearing.torn, &tears, &tearing.scene.cloths);
-                    self.adopt(tearing, made, &from);
+                    self.adopt(made, &from, tearing.wind);
                     self.state.positions = positions;
-                    if let Some(contact) = &mut self.contact {
+                    if let Some(contact) = &mut self.made.contact {
                         begin_anew(contact, &self.state, self.time_step);
                     }
                     return;
@@ -167,7 +162,7 @@ impl Simulation {
                     tearing.scene.cloths = whole;
                     let before = tears.len();
                     tears.retain(|tear| {
-                        let first = self.vertices_of_cloths[tear.cloth].start as u32;
+                        let first = self.made.vertices_of_cloths[tear.cloth].start as u32;
                         !tear.around.iter().any(|vertex| in_the_way.contains(&(first + vertex)))
                     });
                     if tears.len() == before {
@@ -204,8 +199,8 @@ impl Simulation {
 
     /// How many triangles the cloths before this one have.
     fn triangles_before(&self, cloth: usize) -> usize {
-        let first = self.vertices_of_cloths[cloth].start as u32;
-        self.triangles[..self.cloth_triangles].partition_point(|triangle| triangle[0] < first)
+        let first = self.made.vertices_of_cloths[cloth].start as u32;
+        self.made.triangles[..self.made.cloth_triangles].partition_point(|triangle| triangle[0] < first)
     }
 
     fn note(&self, torn: &mut Vec<TornEdge>, tears: &[Tear], cloths: &[Cloth]) {
@@ -221,62 +216,30 @@ impl Simulation {
     }
 
     fn numbering(&self) -> Numbering {
-        let firsts = self.vertices_of_cloths.iter().map(|vertices| vertices.start as u32);
+        let firsts = self.made.vertices_of_cloths.iter().map(|vertices| vertices.start as u32);
         Numbering {
             first_of_cloths: firsts.collect(),
-            bodies: self.cloth_vertices as u32..self.state.positions.len() as u32,
+            bodies: self.made.cloth_vertices as u32..self.state.positions.len() as u32,
         }
     }
 
     /// Goes on with what was made of other meshes; `from`: of each vertex, which it was, or is made of. New vertices are where the old ones were.
-    fn adopt(&mut self, tearing: &mut Tearing, made: Assembly, from: &[u32]) {
-        let remembered: Vec<_> = self.memories().map(|memory| (memory.keys(), memory.numbers())).collect();
-        let Assembly {
-            effects: _,
-            vertices_of_cloths,
-            body_vertices,
-            cloth_vertices,
-            cloth_triangles,
-            triangles,
-            loose_edges,
-            rest,
-            inverse_masses,
-            carriers,
-            mut motions,
-            pins,
-            forces,
-            constraints,
-            remembering,
-            friction,
-            mut contact,
-            tearable,
-        } = made;
-        for (new, old) in motions.iter_mut().zip(std::mem::take(&mut self.motions)) {
+    fn adopt(&mut self, made: Assembly, from: &[u32], wind: Option<DVec3>) {
+        let before = std::mem::replace(&mut self.made, made);
+        let memories = self.made.memories().zip(before.memories());
+        let numbers: Vec<f64> = memories.flat_map(|(new, old)| carried_over(new, old)).collect();
+        self.recall(&numbers);
+        for (new, old) in self.made.motions.iter_mut().zip(before.motions) {
             new.take_over(old);
         }
-        if let (Some(new), Some(old)) = (&mut contact, &self.contact) {
+        if let (Some(new), Some(old)) = (&mut self.made.contact, &before.contact) {
             new.take_over(old, from);
         }
         self.carried = gathered(&self.carried, from);
         self.state.positions = gathered(&self.state.positions, from);
         self.state.velocities = gathered(&self.state.velocities, from);
-        (self.vertices_of_cloths, self.body_vertices) = (vertices_of_cloths, body_vertices);
-        (self.cloth_vertices, self.cloth_triangles) = (cloth_vertices, cloth_triangles);
-        (self.triangles, self.loose_edges, self.rest) = (triangles, loose_edges, rest);
-        (self.inverse_masses, self.carriers) = (inverse_masses, carriers);
-        (self.motions, self.pins) = (motions, pins);
-        (self.forces, self.constraints, self.remembering) = (forces, constraints, remembering);
-        (self.friction, self.contact) = (friction, contact);
-        tearing.tearable = tearable;
-        let numbers: Vec<f64> = { self.memories().zip(remembered) }
-            .flat_map(|(memory, before)| {
-                let (keys, known) = (memory.keys(), memory.numbers());
-                carried_over(&keys, known, before)
-            })
-            .collect();
-        self.recall(&numbers);
-        if let Some(wind) = tearing.wind {
-            self.forces.iter_mut().for_each(|force| {
+        if let Some(wind) = wind {
+            self.made.forces.iter_mut().for_each(|force| {
                 force.action.set_wind(wind);
             });
         }
@@ -326,10 +289,10 @@ impl Simulation {
 
     /// Goes on with that.
     pub(super) fn adopt_torn(&mut self, Retorn { made, cloths, from }: Retorn, torn: Vec<TornEdge>) {
-        if let Some(mut tearing) = self.tearing.take() {
+        if let Some(tearing) = &mut self.tearing {
             (tearing.scene.cloths, tearing.torn) = (cloths, torn);
-            self.adopt(&mut tearing, made, &from);
-            self.tearing = Some(tearing);
+            let wind = tearing.wind;
+            self.adopt(made, &from, wind);
         }
     }
 }
@@ -345,12 +308,13 @@ fn gathered<T: Copy>(all: &[T], from: &[u32]) -> Vec<T> {
     from.iter().map(|&vertex| all[vertex as usize]).collect()
 }
 
-/// What something remembers of what it had by other keys before; `known` where it had nothing.
-fn carried_over(keys: &[[u32; 4]], mut known: Vec<f64>, (before, numbers): (Vec<[u32; 4]>, Vec<f64>)) -> Vec<f64> {
+/// What `new` remembers of what `old` knew by the same keys; what it knows itself where that had nothing.
+fn carried_over(new: &dyn Memory, old: &dyn Memory) -> Vec<f64> {
+    let (keys, mut known, before) = (new.keys(), new.numbers(), old.numbers());
     if keys.is_empty() {
-        return if numbers.len() == known.len() { numbers } else { known };
+        return if before.len() == known.len() { before } else { known };
     }
-    let before: BTreeMap<[u32; 4], f64> = before.into_iter().zip(numbers).collect();
+    let before: BTreeMap<[u32; 4], f64> = old.keys().into_iter().zip(before).collect();
     for (key, number) in keys.iter().zip(&mut known) {
         *number = before.get(key).copied().unwrap_or(*number);
     }

@@ -56,12 +56,14 @@ pub struct Untangled {
 impl Simulation {
     /// Whether nothing is tangled.
     pub(super) fn is_apart(&self) -> bool {
-        self.contact.as_ref().is_none_or(|contact| contact.exempt().is_empty())
+        self.made.contact.as_ref().is_none_or(|contact| contact.exempt().is_empty())
     }
 
     /// Looks at the state after untangling as at any start.
     pub(super) fn check_untangled(&mut self, untangled: Untangled) -> Result<(), SetupError> {
-        let Some(contact) = &mut self.contact else { return Ok(()) };
+        let Some(contact) = &mut self.made.contact else {
+            return Ok(());
+        };
         contact.end_untangling(&self.state.positions);
         begin_anew(contact, &self.state, self.time_step);
         let crossings = contact.tolerate(&self.state.positions)?;
@@ -73,9 +75,9 @@ impl Simulation {
             crossings,
             mesh: Mesh {
                 positions: self.state.positions.clone(),
-                triangles: self.triangles.clone(),
+                triangles: self.made.triangles.clone(),
             },
-            cloth_triangles: self.cloth_triangles,
+            cloth_triangles: self.made.cloth_triangles,
             body_names: self.body_names.clone(),
             untangled: Some(untangled),
         })))
@@ -84,7 +86,7 @@ impl Simulation {
     /// Pulls apart what is tangled. What is left of it is for the caller to look at.
     pub(super) fn untangle(&mut self, spacing: f64, tell: &mut (dyn FnMut(Untangling) + Send)) -> Untangled {
         let begin = Instant::now();
-        let forces = std::mem::take(&mut self.forces);
+        let forces = std::mem::take(&mut self.made.forces);
         let velocities = self.state.velocities.clone();
         let start = self.state.positions.clone();
         let times = self.effects.clone();
@@ -93,7 +95,7 @@ impl Simulation {
         let threads = std::mem::take(&mut self.threads);
         let steps = threads.run(|| self.pull_apart(REACH * spacing, tell));
         self.threads = threads;
-        (self.forces, self.effects) = (forces, times);
+        (self.made.forces, self.effects) = (forces, times);
         self.state.velocities = velocities;
         // Nothing lets go, and no fold stays, before the first step.
         self.recall(&remembered);
@@ -111,7 +113,7 @@ impl Simulation {
     /// The steps of it; how many.
     fn pull_apart(&mut self, reach: f64, tell: &mut (dyn FnMut(Untangling) + Send)) -> u32 {
         let mut ways = vec![DVec3::ZERO; self.state.positions.len()];
-        let Some(contact) = &self.contact else { return 0 };
+        let Some(contact) = &self.made.contact else { return 0 };
         let mut untangler = contact.untangler(&self.state.positions);
         let (mut pulled, mut relaxed) = (0, 0);
         let (mut best, mut at_best) = (f64::INFINITY, 0);
@@ -136,7 +138,7 @@ impl Simulation {
                 }
                 relaxed += 1;
             }
-            let Some(contact) = &mut self.contact else { break };
+            let Some(contact) = &mut self.made.contact else { break };
             contact.set_pushes(!is_tangled);
             untangler.find_ways(contact, &self.state.positions, &mut ways);
             if !self.lead(&ways, reach) {
@@ -155,7 +157,7 @@ impl Simulation {
                 *velocity = *way * (reach / (1.0 + way.length_squared()).sqrt() / h);
             }
             if self.attempt(h, 0.0).is_ok() {
-                if let Some(contact) = &mut self.contact {
+                if let Some(contact) = &mut self.made.contact {
                     contact.take_back(&self.state.positions);
                 }
                 return true;
