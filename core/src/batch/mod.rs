@@ -5,8 +5,8 @@
 //!
 //! Pairs come from a mesh, as indices into [`VertexRow`]s: any number of them. [`culled_from_rows`] answers with one [`Mask`] for every
 //! sixteen pairs: a set bit says that the pair is culled. [`advance_from_rows`] is one round of the certified
-//! [time of impact](crate::elementary::advance) for each, for pairs that tests leave. (The feature `verification` adds tests of boxes,
-//! and pairs that lie side by side already.)
+//! [time of impact](crate::elementary::advance) for each, for pairs that tests leave. [`largest_strays_from_rows`] says how far points may
+//! stray for each pair to keep its distance. (The feature `verification` adds tests of boxes, and pairs that lie side by side already.)
 //!
 //! The caller names the instruction set by a [`Level`]; `selvedge` detects the best one at run time.
 //!
@@ -30,11 +30,13 @@
 mod advance;
 mod chunk;
 mod compared;
+#[macro_use]
 mod kernels;
 mod lane_test;
 mod rows;
 #[cfg(not(unoptimised))]
 mod simd;
+mod strays;
 #[cfg(feature = "verification")]
 mod tile;
 
@@ -47,6 +49,7 @@ use lane_test::VolumeTest;
 pub use lane_test::{ByPoints, ByVolume, PointsTest, Test, VolumeTest};
 use rows::Padded;
 pub use rows::VertexRow;
+pub use strays::largest_strays_from_rows;
 #[cfg(feature = "verification")]
 pub use tile::{Tile, culled, culled_from_tiles};
 

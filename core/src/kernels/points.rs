@@ -32,6 +32,9 @@ pub trait PairShape {
     /// The differences of a point of one set and a point of the other: three for VF (the first twice), four for EE. The
     /// sets touch exactly when 0 lies in their convex hull.
     fn corners<L: Lanes>(points: [Vector<L>; 4]) -> [Vector<L>; 4];
+
+    /// From the middle of the second set to that of the first: a direction, some times as long as that way.
+    fn between_middles<L: Lanes>(points: [Vector<L>; 4]) -> Vector<L>;
 }
 
 /// One point against three.
@@ -60,6 +63,11 @@ impl PairShape for VertexFace {
     fn corners<L: Lanes>([vertex, a, b, c]: [Vector<L>; 4]) -> [Vector<L>; 4] {
         [vertex - a, vertex - a, vertex - b, vertex - c]
     }
+
+    #[inline(always)]
+    fn between_middles<L: Lanes>([vertex, a, b, c]: [Vector<L>; 4]) -> Vector<L> {
+        vertex.scaled(vertex.x.splat(L::Scalar::small(3))) - (a + b + c)
+    }
 }
 
 impl PairShape for EdgeEdge {
@@ -79,6 +87,11 @@ impl PairShape for EdgeEdge {
     #[inline(always)]
     fn corners<L: Lanes>([u, v, k, l]: [Vector<L>; 4]) -> [Vector<L>; 4] {
         [u - k, u - l, v - k, v - l]
+    }
+
+    #[inline(always)]
+    fn between_middles<L: Lanes>([u, v, k, l]: [Vector<L>; 4]) -> Vector<L> {
+        (u + v) - (k + l)
     }
 }
 

@@ -10,14 +10,16 @@
 //! (`f32`; any direction: ε = 2u = 2⁻²³ an operation.) A coordinate of at most B is rounded by εB at most, and the difference of
 //! two, at most 2B, by 2εB more: together 4εB along an axis. A product with d errs by √3·εB·|d| from the coordinates and by 3ε·√3·B·|d|
 //! from its own operations, to first order; the difference of two of them by twice that and 2√3·εB·|d| more: together 18εB·|d|. |d|, the
-//! sum and what is asked for err by less than 8ε of themselves. 32ε of B and of each distance are added ([`Clearance::new`]).
+//! sum and what is asked for err by less than 8ε of themselves. 32ε of B and of the distance are added ([`Clearance::new`]).
 //!
 //! **Underflow.** Flushed operands and results, of λ each, make less than 40λ(1 + |d|) along d. 2⁻⁸⁰ is added to h, and a direction whose
 //! square is not above 10⁻¹⁸ proves nothing: |d| is then above 2⁻³⁰, and 2⁻⁸⁰|d| ≥ 40λ(1 + |d|).
 //! **Overflow.** B must not exceed 2³⁰, or nothing is proven, as if h were infinite; nor if a distance is NaN.
 
 use crate::kind::PairKind;
-use crate::lanes::Rounding;
+use crate::lanes::{Lanes, Rounding};
+use crate::points::{PairPoints, PairShape};
+use crate::vector::Vector;
 use glam::Vec3A;
 
 /// What a pair must keep to need no attention, of positions rounded to `f32`; in the unit of the positions.
@@ -26,7 +28,7 @@ pub struct Clearance {
     /// h with what rounding may take of it, rounded up; and the same along a direction that is no axis.
     along_axis: f32,
     along_direction: f32,
-    /// b, rounded up.
+    /// b.
     stray: f32,
 }
 
@@ -63,7 +65,7 @@ impl Clearance {
         Self {
             along_axis,
             along_direction: along_axis * (1.0 + margin),
-            stray: narrowed(stray * (1.0 + rounding())),
+            stray: narrowed(stray),
         }
     }
 
@@ -81,29 +83,14 @@ impl Clearance {
     /// assert!(is_kept(0.3, 0.05));
     /// assert!(!is_kept(0.41, 0.0) && !is_kept(0.3, 0.2));
     /// ```
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub fn is_kept(&self, kind: PairKind, start: [Vec3A; 4], end: [Vec3A; 4]) -> bool {
-        let [ahead, behind] = gaps(kind, start);
-        let [ahead_later, behind_later] = gaps(kind, end);
-        let kept = ahead.min(ahead_later).max(behind.min(behind_later));
-        if kept.cmpgt(Vec3A::splat(self.along_axis + self.stray)).any() {
-            return true;
-        }
-        let middle = between_middles(kind, start, end);
-        let squared = middle.dot(middle);
-        let at_start = gap_along(kind, middle, start);
-        let at_end = gap_along(kind, middle, end);
-        let asked = self.along_direction * libm::sqrtf(squared) + self.stray * middle.abs().element_sum();
-        at_start.min(at_end) > asked && squared > SHORTEST
+        self.largest_stray(kind, start, end) >= self.stray
     }
-}
 
-impl Clearance {
     /// How far points may stray, in place of what [`new`](Self::new) was told, for the pair to keep its distance certainly in the same way;
-    /// less than zero if they may not.
-    ///
-    /// The division, and what led to it, err by less than 8ε of the result: 2⁻¹⁷ is taken off, of which `new` adds half to what it is told.
+    /// less than zero if they may not. [`largest_strays_from_rows`](crate::batch::largest_strays_from_rows) says it of many pairs.
     ///
     /// ```
     /// use selvedge_core::{PairKind, glam::Vec3A, separation::clearance::Clearance};
@@ -112,33 +99,61 @@ impl Clearance {
     /// assert!(stray < 0.1 && stray > 0.0999);
     /// assert!(Clearance::new(0.3, stray.into(), 1.0, 0.0).is_kept(PairKind::VertexFace, at(0.5), at(0.4)));
     /// ```
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub fn largest_stray(&self, kind: PairKind, start: [Vec3A; 4], end: [Vec3A; 4]) -> f32 {
-        let [ahead, behind] = gaps(kind, start);
-        let [ahead_later, behind_later] = gaps(kind, end);
-        let kept = ahead.min(ahead_later).max(behind.min(behind_later));
-        let along_axis = kept.max_element() - self.along_axis;
-        let middle = between_middles(kind, start, end);
-        let squared = middle.dot(middle);
-        let gap = gap_along(kind, middle, start).min(gap_along(kind, middle, end));
-        let left = gap - self.along_direction * libm::sqrtf(squared);
-        let along_direction = if squared > SHORTEST {
-            left / middle.abs().element_sum()
-        } else {
-            f32::NEG_INFINITY
-        };
-        along_axis.max(along_direction) * (1.0 - 1.0 / 131_072.0)
+        let [start, end] = [start, end].map(|points| points.map(|point| Vector::from(point.to_array())));
+        let points = PairPoints { start, end };
+        let asked = self.asked();
+        of_kind!(kind, P => largest_stray::<P, f32>(&points, asked))
+    }
+
+    /// What is asked for along an axis, and along a direction times its length, before anything strays.
+    #[inline(always)]
+    pub(crate) const fn asked(&self) -> [f32; 2] {
+        [self.along_axis, self.along_direction]
     }
 }
 
-/// Twice the way from the middle of the second set to that of the first, or four times, all at both ends together.
+/// How far points may stray, given what is [asked](Clearance::asked) of each pair.
+///
+/// The division, and what led to it, and what is compared with it, err by less than 8ε of the result: 2⁻¹⁷ is taken off.
 #[inline(always)]
-fn between_middles(kind: PairKind, [a, b, c, d]: [Vec3A; 4], [e, f, g, h]: [Vec3A; 4]) -> Vec3A {
-    match kind {
-        PairKind::VertexFace => (a + e) - (b + f + c + g + d + h) * (1.0 / 3.0),
-        PairKind::EdgeEdge => (a + e + b + f) - (c + g + d + h),
-    }
+pub(crate) fn largest_stray<P: PairShape, L: Lanes<Scalar = f32>>(points: &PairPoints<L>, asked: [L; 2]) -> L {
+    let [along_axis, along_direction] = asked;
+    let ([a, b, c, d], [e, f, g, h]) = (points.start, points.end);
+    let [ahead, behind] = kept::<P, L>([a.x, b.x, c.x, d.x], [e.x, f.x, g.x, h.x]);
+    let [ahead_y, behind_y] = kept::<P, L>([a.y, b.y, c.y, d.y], [e.y, f.y, g.y, h.y]);
+    let [ahead_z, behind_z] = kept::<P, L>([a.z, b.z, c.z, d.z], [e.z, f.z, g.z, h.z]);
+    let most = ahead
+        .larger(behind)
+        .larger(ahead_y.larger(behind_y))
+        .larger(ahead_z.larger(behind_z));
+    let by_axis = most - along_axis;
+
+    let middle = P::between_middles([a + e, b + f, c + g, d + h]);
+    let squared = middle.dot(middle);
+    let at_start = [middle.dot(a), middle.dot(b), middle.dot(c), middle.dot(d)];
+    let at_end = [middle.dot(e), middle.dot(f), middle.dot(g), middle.dot(h)];
+    let [gap, _] = kept::<P, L>(at_start, at_end);
+    let left = gap - along_direction * squared.sqrt();
+    let sizes = middle.abs();
+    let by_direction = left / ((sizes.x + sizes.y) + sizes.z);
+    let is_long = squared.greater(gap.splat(SHORTEST));
+    let by_direction = L::select(is_long, by_direction, gap.splat(f32::NEG_INFINITY));
+    by_axis.larger(by_direction) * gap.splat(1.0 - 1.0 / 131_072.0)
+}
+
+/// By how much the first set of a pair is ahead of the second at both ends, and by how much it is behind, along a line on which the points
+/// are there.
+#[inline(always)]
+fn kept<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) -> [L; 2] {
+    let [[low, high], [other_low, other_high]] = P::ranges(start);
+    let [[later_low, later_high], [later_other_low, later_other_high]] = P::ranges(end);
+    [
+        (low - other_high).smaller(later_low - later_other_high),
+        (other_low - high).smaller(later_other_low - later_high),
+    ]
 }
 
 /// How near boxes of positions, rounded to `f32`, must be for those of the positions themselves to be within `distance`, rounded down; less
@@ -177,14 +192,4 @@ fn gaps(kind: PairKind, [a, b, c, d]: [Vec3A; 4]) -> [Vec3A; 2] {
         PairKind::EdgeEdge => (a.min(b), a.max(b), c.min(d), c.max(d)),
     };
     [low - other_high, other_low - high]
-}
-
-/// By how much the first set is ahead of the second along a direction, times its length.
-#[inline(always)]
-fn gap_along(kind: PairKind, direction: Vec3A, [a, b, c, d]: [Vec3A; 4]) -> f32 {
-    let (a, b, c, d) = (direction.dot(a), direction.dot(b), direction.dot(c), direction.dot(d));
-    match kind {
-        PairKind::VertexFace => a - b.max(c).max(d),
-        PairKind::EdgeEdge => a.min(b) - c.max(d),
-    }
 }

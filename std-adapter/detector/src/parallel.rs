@@ -75,26 +75,21 @@ pub fn fill<I: Sync, O: Send>(output: &mut Vec<O>, input: &[I], make: impl Fn(&I
     output.extend(input.iter().map(make));
 }
 
-/// Replaces `output` by what is made of the items that are to be kept, in their order: `make` says of each whether it is.
-pub fn sift<I: Sync, O: Copy + Default + Send>(output: &mut Vec<O>, items: &[I], make: impl Fn(&I) -> (bool, O) + Sync + Send) {
+/// Replaces `output` by what `add` adds of chunks of the items, in their order.
+pub fn gather<I: Sync, O: Copy + Send>(output: &mut Vec<O>, items: &[I], add: impl Fn(&[I], &mut Vec<O>) + Sync + Send) {
     output.clear();
     #[cfg(feature = "parallel")]
-    if has_many_threads() {
-        let kept = |item: &I| Some(make(item)).filter(|made| made.0).map(|made| made.1);
-        let kept = |chunk: &[I]| -> Vec<O> { chunk.iter().filter_map(kept).collect() };
-        let chunks: Vec<_> = items.par_chunks(CHUNK).map(kept).collect();
+    if items.len() > CHUNK && has_many_threads() {
+        let of_chunk = |chunk: &[I]| {
+            let mut own = Vec::new();
+            add(chunk, &mut own);
+            own
+        };
+        let chunks: Vec<_> = items.par_chunks(CHUNK).map(of_chunk).collect();
         chunks.iter().for_each(|chunk| output.extend_from_slice(chunk));
         return;
     }
-    // Without a branch that nobody could foretell.
-    output.resize(items.len(), O::default());
-    let mut kept = 0;
-    for item in items {
-        let (is_kept, made) = make(item);
-        output[kept] = made;
-        kept += usize::from(is_kept);
-    }
-    output.truncate(kept);
+    add(items, output);
 }
 
 /// Calls `action` with chunks of the items and the index at which each begins; joins their results to `result` by `take`, in order.

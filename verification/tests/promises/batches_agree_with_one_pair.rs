@@ -6,9 +6,12 @@ use selvedge_core::PairKind;
 use selvedge_core::Verdict;
 use selvedge_core::batch::{
     BatchTest, ByPoints, ByVolume, LANES, Mask, Test, Tile, VertexRow, culled, culled_from_rows, culled_from_tiles,
+    largest_strays_from_rows,
 };
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::{Filter, Tier, inside};
+use selvedge_core::glam::Vec3A;
+use selvedge_core::separation::clearance::Clearance;
 use selvedge_laboratory::baselines::as_computed::AsComputed;
 use selvedge_laboratory::baselines::plain::Plain;
 use selvedge_laboratory::methods::{CullingTest, Preset};
@@ -156,6 +159,68 @@ fn edge_edge_f32() {
 #[test]
 fn edge_edge_f64() {
     verdicts_agree::<f64>(PairKind::EdgeEdge);
+}
+
+/// What is below zero, or no number, is no stray at all.
+fn strays_agree(kind: PairKind) {
+    let config = ProptestConfig {
+        cases: 250,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    };
+    proptest!(config, |(pairs in some_pairs::<f32>(kind))| {
+        let batch = Batch::<f32>::new(kind, &pairs);
+        let clearances =
+            [(0.0, 0.0), (0.25, 0.5), (3.0, 2.0)].map(|(distance, margin)| Clearance::new(distance, 0.0, 4.0, margin));
+        let classes: Vec<u8> = (0..pairs.len()).map(|k| (k % 4) as u8).collect();
+        let stray = |(pair, &class): (&PairCase<f32>, &u8)| {
+            let [start, end] = [0, 1].map(|end| pair.points.map(|point| Vec3A::from_array(point[end])));
+            let clearance = clearances.get(usize::from(class));
+            clearance.map_or(f32::NEG_INFINITY, |clearance| clearance.largest_stray(kind, start, end))
+        };
+        let expected: Vec<_> = pairs.iter().zip(&classes).map(stray).collect();
+        for (name, level) in available_levels() {
+            let mut strays = vec![7.0; pairs.len()];
+            largest_strays_from_rows(level, kind, &clearances, &batch.rows, &batch.indices, &classes, &mut strays);
+            for (&stray, &expected) in strays.iter().zip(&expected) {
+                let are_none = !(stray >= 0.0 || expected >= 0.0);
+                prop_assert!(stray == expected || are_none, "{name} {stray} {expected}");
+            }
+        }
+    });
+}
+
+#[test]
+fn how_far_vertices_and_faces_may_stray() {
+    strays_agree(PairKind::VertexFace);
+}
+
+#[test]
+fn how_far_edges_may_stray() {
+    strays_agree(PairKind::EdgeEdge);
+}
+
+#[test]
+fn an_index_or_a_class_that_is_none_leaves_no_stray() {
+    let rows = [9.0, 0.0].map(|z| VertexRow::new(([0.0, 0.0, z], [0.0, 0.0, z]).into()));
+    let clearance = [Clearance::new(1.0, 0.0, 9.0, 0.0)];
+    for (name, level) in available_levels() {
+        let mut strays = [7.0; 4];
+        let indices = [[0, 1, 1, 1], [0, 1, 1, 2], [0, 1, 1, 1], [u32::MAX; 4]];
+        largest_strays_from_rows(
+            level,
+            PairKind::VertexFace,
+            &clearance,
+            &rows,
+            &indices,
+            &[0, 0, 1, 0],
+            &mut strays,
+        );
+        assert!(
+            strays[0] > 7.99 && strays[1..].iter().all(|&stray| stray < 0.0),
+            "{name} {strays:?}"
+        );
+    }
 }
 
 #[test]

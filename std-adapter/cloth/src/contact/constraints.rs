@@ -83,9 +83,14 @@ impl Contacts {
         parallel::map_chunks(
             pairs,
             |first, pairs, open: &mut Vec<u32>| {
-                let pairs = (first as u32..).zip(&*pairs);
-                let is_open = |(place, pair)| is_open(pair, rules, predicted).then_some(place);
-                open.extend(pairs.filter_map(is_open));
+                // Without a branch that nobody could foretell.
+                let mut count = open.len();
+                open.resize(count + pairs.len(), 0);
+                for (place, pair) in (first as u32..).zip(&*pairs) {
+                    open[count] = place;
+                    count += usize::from(is_open(pair, rules, predicted));
+                }
+                open.truncate(count);
             },
             &mut self.open,
             |all, own| all.extend(own),
@@ -124,8 +129,10 @@ impl Contacts {
 /// Whether a pair may have to be pushed.
 #[inline(always)]
 fn is_open(pair: &Candidate, rules: Rules<'_>, predicted: &[DVec3]) -> bool {
-    let is_near = rules.aim(pair).is_some_and(|aim| f64::from(pair.gap()) <= reach(aim));
-    is_near && !rules.exempt.is_tangled(pair) && !is_kept(pair, rules, predicted)
+    let Some(aim) = rules.aim(pair) else { return false };
+    // Both are asked: nobody could foretell the first.
+    let is_near = f64::from(pair.gap()) <= reach(aim);
+    (is_near & !pair.is_kept_at(aim, predicted)) && !rules.exempt.is_tangled(pair)
 }
 
 /// Whether the direction that a pair remembers keeps it at its thickness.

@@ -156,7 +156,7 @@ impl ContactSolver {
         all.for_each(|(moved, &strayed)| *moved |= strayed);
         for (index, key) in open.iter_mut().zip(keys) {
             // Those that were there still are.
-            *index = self.candidates.list.partition_point(|pair| pair.key() < key);
+            *index = self.candidates.place_of(key).unwrap_or(*index);
         }
         true
     }

@@ -199,6 +199,8 @@ impl Followed {
             },
         );
         near.strays = strays;
+        // What was added to the list comes after the others.
+        open.pairs.iter_mut().for_each(|pairs| pairs.sort());
         self.open = open.pairs;
     }
 }

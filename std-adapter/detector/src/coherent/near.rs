@@ -10,6 +10,7 @@ use super::horizon::Horizon;
 use super::pair::NearPair;
 use super::search::Search;
 use super::{Interest, Reach};
+use crate::PairKind;
 use crate::collision_filter::CollisionFilter;
 use crate::frame::StepError;
 use crate::mesh::Topology;
@@ -25,8 +26,11 @@ const MANY: usize = 4;
 /// On the rayon pool in which it is called; outside of one on the calling thread.
 #[derive(Debug)]
 pub struct NearPairs<I: Interest> {
-    /// In ascending order of their keys.
+    /// Those of the last search for all of them, then those that were added since: each in ascending order of their keys. What is added moves
+    /// none of the first, of which there may be millions.
     pub list: Vec<NearPair<I::Data>>,
+    /// How many were found by the last search for all of them.
+    first: usize,
     /// Vertices that were [found](Self::find_strayed) to have strayed.
     strayed: Vec<bool>,
     search: Search<I>,
@@ -65,6 +69,7 @@ impl<I: Interest> NearPairs<I> {
         search.set_reach(&reach)?;
         Ok(Self {
             list: Vec::new(),
+            first: 0,
             strayed: Vec::new(),
             search,
             horizon: Horizon::new(reach.farthest),
@@ -87,6 +92,13 @@ impl<I: Interest> NearPairs<I> {
         self.search.interest()
     }
 
+    /// Where in the list a pair is.
+    pub fn place_of(&self, key: (PairKind, [u32; 2])) -> Option<usize> {
+        let of_run = |run: &[NearPair<I::Data>]| run.binary_search_by_key(&key, NearPair::key).ok();
+        let (first, added) = self.list.split_at(self.first);
+        of_run(first).or_else(|| Some(first.len() + of_run(added)?))
+    }
+
     /// What was done so far.
     pub const fn statistics(&self) -> NearStatistics {
         self.statistics
@@ -104,6 +116,7 @@ impl<I: Interest> NearPairs<I> {
     /// As [`cover`](Self::cover).
     pub fn refresh(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
         self.list.clear();
+        self.first = 0;
         self.horizon.forget();
         self.find(start, end, h);
     }
@@ -181,26 +194,40 @@ impl<I: Interest> NearPairs<I> {
             self.find(start, end, h);
             return false;
         };
-        self.search.pairs_of(&self.strayed, &self.reach, motion, &mut self.found);
+        let Self {
+            search,
+            strayed,
+            reach,
+            list,
+            first,
+            found,
+            ..
+        } = self;
+        search.pairs_of(strayed, reach, motion, Known::of(list, *first), found);
         self.horizon.ahead.spend(self.search.work());
         if self.reach.is_graded {
-            self.replace_strayed();
-        } else {
-            drop_known(&mut self.found, &self.list);
+            self.drop_strayed();
         }
-        add(&mut self.list, &mut self.found);
+        add(&mut self.list, self.first, &mut self.found);
         true
     }
 
-    /// Takes the pairs with a vertex that has strayed out of the list, with all that is known of them into those that were found.
-    fn replace_strayed(&mut self) {
+    /// Takes the pairs with a vertex that has strayed out of the list.
+    fn drop_strayed(&mut self) {
         let Self {
-            list, found, strayed, ..
+            list, strayed, first, ..
         } = self;
         let led_back = self.strays.iter_mut().zip(&*strayed).filter(|(_, strayed)| **strayed);
         led_back.for_each(|(stray, _)| *stray = 0.0);
-        remember(found, list);
-        list.retain(|pair| !pair.vertices.iter().any(|&vertex| strayed[vertex as usize]));
+        let has_strayed = |pair: &NearPair<I::Data>| pair.vertices.iter().any(|&vertex| strayed[vertex as usize]);
+        let (mut place, mut left_of_first) = (0, 0);
+        list.retain(|pair| {
+            let stays = !has_strayed(pair);
+            left_of_first += usize::from(stays && place < *first);
+            place += 1;
+            stays
+        });
+        *first = left_of_first;
     }
 
     /// Finds how far each vertex strays up to `positions`, `h` later, if the list [covers](Self::cover) them: that decides which pairs
@@ -218,10 +245,11 @@ impl<I: Interest> NearPairs<I> {
         self.strays.clear();
         self.strays.resize(end.len(), 0.0);
         let motion = self.horizon.begin(start, end, h, self.slack);
-        self.search.pairs(&self.reach, motion, &mut self.found);
+        let known = Known::of(&self.list, self.first);
+        self.search.pairs(&self.reach, motion, known, &mut self.found);
         self.horizon.ahead.spend(self.search.work());
-        remember(&mut self.found, &self.list);
         std::mem::swap(&mut self.list, &mut self.found);
+        self.first = self.list.len();
     }
 
     /// The pairs have moved in a way that was not looked at.
@@ -230,33 +258,14 @@ impl<I: Interest> NearPairs<I> {
     }
 }
 
-/// Has those of `found` that are `known` remember what is. Both ascend by key.
-fn remember<D: Copy>(found: &mut [NearPair<D>], known: &[NearPair<D>]) {
-    let mut known = known.iter().peekable();
-    for pair in found {
-        while known.next_if(|other| other.key() < pair.key()).is_some() {}
-        if let Some(same) = known.next_if(|other| other.key() == pair.key()) {
-            pair.remember(same);
-        }
-    }
-}
-
-/// Leaves of `found`, which are few, what is not `known`. Both ascend by key.
-fn drop_known<D: Copy>(found: &mut Vec<NearPair<D>>, mut known: &[NearPair<D>]) {
-    found.retain(|new| {
-        known = &known[before(known, new)..];
-        known.first().is_none_or(|first| first.key() != new.key())
-    });
-}
-
-/// Adds to `pairs` those of `found`, none of which is there yet. Both ascend by key, and do so afterwards.
-fn add<D: Copy>(pairs: &mut Vec<NearPair<D>>, found: &mut Vec<NearPair<D>>) {
+/// Adds to the pairs from `first` on those of `found`, none of which is there yet. Both ascend by key, and do so afterwards.
+fn add<D: Copy>(pairs: &mut Vec<NearPair<D>>, first: usize, found: &mut Vec<NearPair<D>>) {
     // From the end, so that every pair is moved at most once, and those before the first new one not at all.
     let mut known = pairs.len();
     pairs.extend_from_slice(found);
     while let Some(&new) = found.last() {
         let place = known + found.len() - 1;
-        if known > 0 && pairs[known - 1].key() > new.key() {
+        if known > first && pairs[known - 1].key() > new.key() {
             known -= 1;
             pairs[place] = pairs[known];
         } else {
@@ -266,21 +275,52 @@ fn add<D: Copy>(pairs: &mut Vec<NearPair<D>>, found: &mut Vec<NearPair<D>>) {
     }
 }
 
-/// How many of `pairs` come before `pair`; soon found where they are few.
-fn before<D: Copy>(pairs: &[NearPair<D>], pair: &NearPair<D>) -> usize {
-    let comes_before = |other: &NearPair<D>| other.key() < pair.key();
-    let mut end = 1;
-    while pairs.get(end - 1).is_some_and(comes_before) {
-        end *= 2;
+/// Pairs that are known, in two runs that each ascend by key, from the next ones that may be asked for on.
+pub(super) struct Known<'a, D>([&'a [NearPair<D>]; 2]);
+
+impl<'a, D: Copy> Known<'a, D> {
+    /// The second run begins at `first`.
+    fn of(list: &'a [NearPair<D>], first: usize) -> Self {
+        Self(list.split_at(first).into())
     }
-    let start = end / 2;
-    start + pairs[start..pairs.len().min(end)].partition_point(comes_before)
+
+    /// The same pair as this one, which comes after all that were asked for.
+    #[inline(always)]
+    pub(super) fn find(&mut self, pair: &NearPair<D>) -> Option<&'a NearPair<D>> {
+        let [first, added] = &mut self.0;
+        let found = find_in(first, pair);
+        found.or_else(|| find_in(added, pair))
+    }
 }
+
+/// The same pair as this one in a run, which begins with it or what comes after it then.
+#[inline(always)]
+fn find_in<'a, D: Copy>(run: &mut &'a [NearPair<D>], pair: &NearPair<D>) -> Option<&'a NearPair<D>> {
+    let order = pair.order();
+    let comes_before = |other: &NearPair<D>| other.order() < order;
+    let mut passed = 0;
+    while run.get(passed).is_some_and(comes_before) {
+        passed += 1;
+        if passed == SINGLY {
+            // Soon found where few are passed over, and where many are.
+            let mut end = 2 * SINGLY;
+            while run.get(end - 1).is_some_and(comes_before) {
+                end *= 2;
+            }
+            let start = end / 2;
+            passed = start + run[start..run.len().min(end)].partition_point(comes_before);
+        }
+    }
+    *run = &run[passed..];
+    run.first().filter(|first| first.order() == order)
+}
+
+/// So many are passed over one by one.
+const SINGLY: usize = 8;
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::PairKind;
     use proptest::prelude::*;
     use std::collections::BTreeSet;
 
@@ -291,17 +331,24 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_new_is_added_in_order_and_what_is_known_stays(
-            known in prop::collection::btree_set([0..8_u32, 0..8_u32], 0..30),
+        fn what_is_new_is_added_in_order_behind_the_first_and_what_is_known_is_found(
+            first in prop::collection::btree_set([0..8_u32, 0..8_u32], 0..30),
+            added in prop::collection::btree_set([0..8_u32, 0..8_u32], 0..30),
             found in prop::collection::btree_set([0..8_u32, 0..8_u32], 0..30),
         ) {
-            let mut all = pairs(&known, 1);
-            let mut new = pairs(&found, 2);
-            drop_known(&mut new, &all);
-            add(&mut all, &mut new);
-            let keys: Vec<_> = all.iter().map(|pair| pair.pair).collect();
-            prop_assert_eq!(keys, known.union(&found).copied().collect::<Vec<_>>());
-            prop_assert!(all.iter().all(|pair| (pair.data == 1) == known.contains(&pair.pair)));
+            let added: BTreeSet<_> = added.difference(&first).copied().collect();
+            let mut all = pairs(&first, 1);
+            all.extend(pairs(&added, 2));
+            let mut new = pairs(&found, 3);
+            let mut known = Known::of(&all, first.len());
+            new.retain(|pair| known.find(pair).is_none());
+            add(&mut all, first.len(), &mut new);
+            let keys = |pairs: &[NearPair<u32>]| pairs.iter().map(|pair| pair.pair).collect::<Vec<_>>();
+            let (of_first, of_added) = all.split_at(first.len());
+            prop_assert_eq!(keys(of_first), Vec::from_iter(first.iter().copied()));
+            let expected = found.union(&added).filter(|pair| !first.contains(*pair));
+            prop_assert_eq!(keys(of_added), Vec::from_iter(expected.copied()));
+            prop_assert!(of_added.iter().all(|pair| (pair.data == 2) == added.contains(&pair.pair)));
         }
     }
 }

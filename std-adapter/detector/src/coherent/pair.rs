@@ -45,6 +45,13 @@ impl<D: Copy> NearPair<D> {
         (self.kind, self.pair)
     }
 
+    /// The same as one number.
+    #[inline(always)]
+    pub(super) fn order(&self) -> u128 {
+        let [first, second] = self.pair.map(u128::from);
+        (self.kind as u128) << 64 | first << 32 | second
+    }
+
     /// Whether its vertices, which stray so far, may have come within its distance: false proves that they have not.
     #[inline(always)]
     pub(super) fn needs_attention(&self, strays: &[f32]) -> bool {

@@ -1,8 +1,9 @@
 //! Which pairs may come near each other on a motion: from [hierarchies of moving boxes](crate::broad_phase), through a
 //! [sieve](super::sieve).
 
+use super::near::Known;
 use super::pair::NearPair;
-use super::sieve::Sieve;
+use super::sieve::{Left, Sieve};
 use super::{Interest, Reach};
 use crate::PairKind;
 use crate::broad_phase::MovingBroadPhase;
@@ -28,16 +29,8 @@ pub(super) struct Search<I> {
     edge_edge: Vec<[u32; 2]>,
     /// Of them, what the sieve leaves.
     left: Vec<Left>,
-    sorted: Vec<Left>,
+    by_first: Vec<Left>,
     places: Vec<u32>,
-}
-
-/// A pair that the sieve leaves.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Left {
-    pair: [u32; 2],
-    /// How far its vertices may [stray](NearPair::stray).
-    stray: f32,
 }
 
 impl<I: Interest> Search<I> {
@@ -55,7 +48,7 @@ impl<I: Interest> Search<I> {
             vertex_face: Vec::new(),
             edge_edge: Vec::new(),
             left: Vec::new(),
-            sorted: Vec::new(),
+            by_first: Vec::new(),
             places: Vec::new(),
         }
     }
@@ -78,27 +71,41 @@ impl<I: Interest> Search<I> {
     }
 
     /// Replaces `pairs` by those of the motion from `start` to `end`, in ascending order of their keys: not that in which the hierarchies
-    /// find them, which is all that depends on the steps before.
+    /// find them, which is all that depends on the steps before. What is `known` of them is remembered.
     ///
     /// # Panics
     /// If a position is not finite.
-    pub(super) fn pairs(&mut self, reach: &Reach, motion: [&[DVec3]; 2], pairs: &mut Vec<NearPair<I::Data>>) {
+    pub(super) fn pairs(
+        &mut self,
+        reach: &Reach,
+        motion: [&[DVec3]; 2],
+        known: Known<'_, I::Data>,
+        pairs: &mut Vec<NearPair<I::Data>>,
+    ) {
         if std::mem::take(&mut self.is_narrowed) {
             self.broad_phase.set_wanted(self.wanted.clone());
         }
         self.update(motion);
-        self.find(reach, motion, None, pairs);
+        self.find(reach, motion, None, known, pairs);
     }
 
-    /// Replaces `pairs` by those with a vertex that is in `only`, the only ones whose motion is not that of the last search.
+    /// Replaces `pairs` by those with a vertex that is in `only`, the only ones whose motion is not that of the last search; those that are
+    /// not `known` yet, unless all are to be found out anew how far their vertices may stray.
     ///
     /// # Panics
     /// If a position is not finite.
-    pub(super) fn pairs_of(&mut self, only: &[bool], reach: &Reach, motion: [&[DVec3]; 2], pairs: &mut Vec<NearPair<I::Data>>) {
+    pub(super) fn pairs_of(
+        &mut self,
+        only: &[bool],
+        reach: &Reach,
+        motion: [&[DVec3]; 2],
+        known: Known<'_, I::Data>,
+        pairs: &mut Vec<NearPair<I::Data>>,
+    ) {
         self.broad_phase.narrow_to(only.to_vec());
         self.is_narrowed = true;
         self.update(motion);
-        self.find(reach, motion, Some(only), pairs);
+        self.find(reach, motion, Some(only), known, pairs);
     }
 
     /// How many pairs the boxes left in the last search: about what it cost.
@@ -116,7 +123,14 @@ impl<I: Interest> Search<I> {
         updated.expect("the caller keeps every position finite");
     }
 
-    fn find(&mut self, reach: &Reach, motion: [&[DVec3]; 2], only: Option<&[bool]>, pairs: &mut Vec<NearPair<I::Data>>) {
+    fn find(
+        &mut self,
+        reach: &Reach,
+        motion: [&[DVec3]; 2],
+        only: Option<&[bool]>,
+        mut known: Known<'_, I::Data>,
+        pairs: &mut Vec<NearPair<I::Data>>,
+    ) {
         let Self {
             topology,
             interest,
@@ -125,44 +139,47 @@ impl<I: Interest> Search<I> {
             vertex_face,
             edge_edge,
             left,
-            sorted,
+            by_first,
             places,
             ..
         } = self;
         broad_phase.candidates(vertex_face, edge_edge);
         sieve.set_motion(reach, motion, only);
         let counts = [topology.vertex_count(), topology.edges().len()];
+        let only_new = only.is_some() && !reach.is_graded;
         pairs.clear();
         for (kind, found, count) in [
             (PairKind::VertexFace, vertex_face, counts[0]),
             (PairKind::EdgeEdge, edge_edge, counts[1]),
         ] {
             let enough = reach.beyond as f32;
-            parallel::sift(left, found, |&pair| {
-                let vertices = topology.vertices_of(kind, pair);
-                let class = interest.class(kind, vertices);
-                let (keeps_apart, stray) = if reach.is_graded {
-                    let stray = sieve.largest_stray(kind, vertices, class);
-                    (stray >= enough, stray)
-                } else {
-                    (sieve.keep_apart(kind, vertices, class), f32::NEG_INFINITY)
-                };
-                (!keeps_apart, Left { pair, stray })
+            parallel::gather(left, found, |pairs, left| {
+                sieve.leave(topology, interest, enough, (kind, pairs), left);
             });
-            sort(left, count, sorted, places);
+            sort(left, count, by_first, places);
             pairs.extend(left.iter().filter_map(|&Left { pair, stray }| {
                 let vertices = topology.vertices_of(kind, pair);
                 let data = interest.about(kind, vertices)?;
                 let mut pair = NearPair::new(kind, pair, vertices, data);
                 pair.stray = stray;
+                match known.find(&pair) {
+                    Some(_) if only_new => return None,
+                    Some(same) => pair.remember(same),
+                    None => {}
+                }
                 Some(pair)
             }));
         }
     }
 }
 
-/// Sorts pairs whose first numbers are below `count`: by counting, then each few with the same first number.
-fn sort(pairs: &mut Vec<Left>, count: usize, sorted: &mut Vec<Left>, places: &mut Vec<u32>) {
+/// Sorts pairs, no two of which are alike, whose first numbers are below `count`: unless they are few, by counting, then each few with the same
+/// first number.
+fn sort(pairs: &mut [Left], count: usize, by_first: &mut Vec<Left>, places: &mut Vec<u32>) {
+    if pairs.len() < count / 16 {
+        pairs.sort_unstable_by_key(|left| left.pair);
+        return;
+    }
     places.clear();
     places.resize(count + 1, 0);
     for left in &*pairs {
@@ -171,17 +188,32 @@ fn sort(pairs: &mut Vec<Left>, count: usize, sorted: &mut Vec<Left>, places: &mu
     for first in 0..count {
         places[first + 1] += places[first];
     }
-    sorted.clear();
-    sorted.resize(pairs.len(), Left::default());
+    by_first.clear();
+    by_first.resize(pairs.len(), Left::default());
     for left in &*pairs {
         let place = &mut places[left.pair[0] as usize];
-        sorted[*place as usize] = *left;
+        by_first[*place as usize] = *left;
         *place += 1;
     }
-    let same_first = sorted.chunk_by_mut(|a, b| a.pair[0] == b.pair[0]);
-    same_first.for_each(|same| same.sort_unstable_by_key(|left| left.pair));
-    std::mem::swap(pairs, sorted);
+    let mut rest = pairs;
+    for same in by_first.chunk_by_mut(|a, b| a.pair[0] == b.pair[0]) {
+        let (sorted, behind) = rest.split_at_mut(same.len());
+        if same.len() <= FEW {
+            // By how many come before it: without a branch that nobody could foretell.
+            for left in &*same {
+                let before = same.iter().filter(|other| other.pair[1] < left.pair[1]).count();
+                sorted[before] = *left;
+            }
+        } else {
+            same.sort_unstable_by_key(|left| left.pair[1]);
+            sorted.copy_from_slice(same);
+        }
+        rest = behind;
+    }
 }
+
+/// So many are compared each with each.
+const FEW: usize = 24;
 
 #[cfg(test)]
 mod tests {
@@ -190,13 +222,16 @@ mod tests {
 
     proptest! {
         #[test]
-        fn pairs_come_out_sorted(pairs in prop::collection::vec([0..9_u32, 0..99_u32], 0..60)) {
+        fn pairs_come_out_sorted(
+            pairs in prop::collection::btree_set([0..4_u32, 0..99_u32], 0..200).prop_map(Vec::from_iter).prop_shuffle(),
+            count in prop::sample::select(vec![4, 3000]),
+        ) {
             let of_pair = |&pair: &[u32; 2]| Left { pair, stray: pair[1] as f32 };
             let mut expected = pairs.clone();
             expected.sort_unstable();
             let expected: Vec<_> = expected.iter().map(of_pair).collect();
-            let mut pairs = pairs.iter().map(of_pair).collect();
-            sort(&mut pairs, 9, &mut Vec::new(), &mut Vec::new());
+            let mut pairs: Vec<_> = pairs.iter().map(of_pair).collect();
+            sort(&mut pairs, count, &mut Vec::new(), &mut Vec::new());
             prop_assert_eq!(pairs, expected);
         }
     }

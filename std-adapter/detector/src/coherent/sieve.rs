@@ -4,37 +4,43 @@
 //! they keep though their vertices stray, by half of what is looked for beyond their distance, is their
 //! [clearance](selvedge_core::separation::clearance).
 
-use super::{CLASSES, Class, Reach};
+use super::{CLASSES, Class, Interest, Reach};
 use crate::PairKind;
-use selvedge_core::glam::{DVec3, Vec3A};
+use crate::dispatch::{Level, best_level};
+use crate::mesh::Topology;
+use selvedge_core::Motion;
+use selvedge_core::batch::{VertexRow, largest_strays_from_rows};
+use selvedge_core::glam::{DVec3, Vec3};
 use selvedge_core::separation::clearance::Clearance;
 use selvedge_core::separation::largest_coordinate;
 
 /// What is asked of every pair of vertices that boxes leave, rounded to `f32`.
 #[derive(Debug)]
 pub(super) struct Sieve {
-    ways: Vec<Way>,
+    level: Level,
+    /// The motion of each vertex.
+    rows: Vec<VertexRow<f32>>,
     /// What pairs of each class are to keep.
     clearances: [Clearance; CLASSES],
 }
 
-/// Never on two cache lines.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(32))]
-struct Way {
-    start: Vec3A,
-    end: Vec3A,
+/// A pair that the sieve leaves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Left {
+    pub(super) pair: [u32; 2],
+    /// How far its vertices may [stray](super::NearPair::stray).
+    pub(super) stray: f32,
 }
+
+/// Pairs that are looked at in one go.
+const AT_ONCE: usize = 128;
 
 impl Sieve {
     /// For so many vertices.
     pub(super) fn new(vertices: usize) -> Self {
-        let unknown = Way {
-            start: Vec3A::ZERO,
-            end: Vec3A::ZERO,
-        };
         Self {
-            ways: vec![unknown; vertices],
+            level: best_level(),
+            rows: vec![VertexRow::new(Motion::resting(Vec3::ZERO)); vertices],
             clearances: [Clearance::UNKNOWN; CLASSES],
         }
     }
@@ -44,34 +50,42 @@ impl Sieve {
         let largest = largest_coordinate(start).max(largest_coordinate(end));
         let clearance = |class: Class| Clearance::new(class.distance, reach.beyond, largest, class.margin);
         self.clearances = reach.classes.map(clearance);
-        for (vertex, way) in self.ways.iter_mut().enumerate() {
+        for (vertex, row) in self.rows.iter_mut().enumerate() {
             if only.is_none_or(|only| only[vertex]) {
-                (way.start, way.end) = (start[vertex].as_vec3a(), end[vertex].as_vec3a());
+                *row = VertexRow::new(Motion::new(start[vertex].as_vec3(), end[vertex].as_vec3()));
             }
         }
     }
 
-    /// Whether a pair certainly keeps what is asked of its class along an axis or the direction between its middles, both at the start and
-    /// at the end and with the same order: then it does on straight ways in between as well.
-    #[inline(always)]
-    pub(super) fn keep_apart(&self, kind: PairKind, vertices: [u32; 4], class: usize) -> bool {
-        let [start, end] = self.ways(vertices);
-        self.clearances[class].is_kept(kind, start, end)
-    }
-
-    /// How far vertices may stray for the pair to do so, as [`Reach::beyond`]; less than zero if it does not.
-    #[inline(always)]
-    pub(super) fn largest_stray(&self, kind: PairKind, vertices: [u32; 4], class: usize) -> f32 {
-        let [start, end] = self.ways(vertices);
-        self.clearances[class].largest_stray(kind, start, end)
-    }
-
-    #[inline(always)]
-    fn ways(&self, vertices: [u32; 4]) -> [[Vec3A; 4]; 2] {
-        // Written out: `map` would not be inlined here.
-        let way = |corner: usize| &self.ways[vertices[corner] as usize];
-        let (a, b, c, d) = (way(0), way(1), way(2), way(3));
-        [[a.start, b.start, c.start, d.start], [a.end, b.end, c.end, d.end]]
+    /// Adds to `left` the pairs that do not certainly keep what is asked of their class, though their vertices stray by `enough`, along an axis or
+    /// the direction between their middles, both at the start and at the end and with the same order: what does, does so on straight ways in
+    /// between as well.
+    pub(super) fn leave(
+        &self,
+        topology: &Topology,
+        interest: &impl Interest,
+        enough: f32,
+        (kind, pairs): (PairKind, &[[u32; 2]]),
+        left: &mut Vec<Left>,
+    ) {
+        let (mut vertices, mut classes, mut strays) = ([[0; 4]; AT_ONCE], [0; AT_ONCE], [0.0; AT_ONCE]);
+        for pairs in pairs.chunks(AT_ONCE) {
+            for ((pair, vertices), class) in pairs.iter().zip(&mut vertices).zip(&mut classes) {
+                *vertices = topology.vertices_of(kind, *pair);
+                *class = interest.class(kind, *vertices) as u8;
+            }
+            let own = &vertices[..pairs.len()];
+            largest_strays_from_rows(self.level, kind, &self.clearances, &self.rows, own, &classes, &mut strays);
+            // Without a branch that nobody could foretell.
+            let mut count = left.len();
+            left.resize(count + pairs.len(), Left::default());
+            for (&pair, &stray) in pairs.iter().zip(&strays) {
+                left[count] = Left { pair, stray };
+                let keeps_apart = stray >= enough;
+                count += usize::from(!keeps_apart);
+            }
+            left.truncate(count);
+        }
     }
 }
 
@@ -106,9 +120,34 @@ mod tests {
 
     /// Of a pair of all four, in each class.
     fn left_out(kind: PairKind, reach: &Reach, motion: [&[DVec3]; 2]) -> [bool; CLASSES] {
+        struct OfClass(usize);
+        impl Interest for OfClass {
+            type Data = ();
+            fn class(&self, _: PairKind, _: [u32; 4]) -> usize {
+                self.0
+            }
+            fn about(&self, _: PairKind, _: [u32; 4]) -> Option<()> {
+                Some(())
+            }
+        }
         let mut sieve = Sieve::new(4);
         sieve.set_motion(reach, motion, None);
-        [0, 1, 2].map(|class| sieve.keep_apart(kind, [0, 1, 2, 3], class))
+        let triangles = match kind {
+            PairKind::VertexFace => vec![[1, 2, 3]],
+            PairKind::EdgeEdge => vec![[0, 1, 2], [1, 2, 3]],
+        };
+        let topology = Topology::new(4, triangles).unwrap();
+        let edge = |ends: [u32; 2]| topology.edges().iter().position(|&edge| edge == ends).unwrap() as u32;
+        let pair = match kind {
+            PairKind::VertexFace => [0, 0],
+            PairKind::EdgeEdge => [edge([0, 1]), edge([2, 3])],
+        };
+        [0, 1, 2].map(|class| {
+            let mut left = Vec::new();
+            let enough = reach.beyond as f32;
+            sieve.leave(&topology, &OfClass(class), enough, (kind, &[pair]), &mut left);
+            left.is_empty()
+        })
     }
 
     proptest! {

@@ -136,13 +136,16 @@ impl<S: Scalar> CollisionDetector<S> {
         for (kind, candidates) in [(PairKind::VertexFace, vertex_face), (PairKind::EdgeEdge, edge_edge)] {
             // Most are farther away than their boxes, and nobody asks for their geometry.
             self.workers.run(|| {
-                parallel::sift(&mut pairs, &candidates, |&pair| {
+                let is_near = |pair: &[u32; 2]| {
                     let points = topology
-                        .vertices_of(kind, pair)
+                        .vertices_of(kind, *pair)
                         .map(|vertex| exactly(positions[vertex as usize]));
                     let direction = Closest::of(kind, points).direction;
                     let is_farther = distance_from_below(kind, points, direction, error) > distance;
-                    (!is_farther, pair)
+                    !is_farther
+                };
+                parallel::gather(&mut pairs, &candidates, |chunk, near| {
+                    near.extend(chunk.iter().copied().filter(is_near));
                 });
             });
             pairs.sort_unstable();
