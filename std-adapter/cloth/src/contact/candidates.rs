@@ -14,12 +14,15 @@ use std::sync::Arc;
 /// Pairs near the state.
 pub(super) type Candidates = NearPairs<OfContact>;
 
-/// How far beyond the thickness candidates are looked for, in thicknesses: more makes longer lists that last longer. Measured on the
-/// arm sleeve: from 0.2 to 0.7 a step costs the same within a tenth.
-const REACH: f64 = 0.3;
-/// The same on a fine mesh. Measured on the sleeve with 134 thousand triangles where the elbow pinches (18 steps from the 1,000th): 15.0 s of
-/// processor time with 0.3, 20.5 s with 0.6; with 13 thousand triangles the same within a tenth from 0.15 to 0.6.
-const REACH_OF_FINE: f64 = 0.3;
+/// How far beyond the thickness candidates are looked for, in thicknesses: more makes longer lists that last longer. Most of a step's work is what
+/// it does with each candidate, unless vertices soon stray because steps are long. Measured, in processor time, with 0.3 and 0.2: a sleeve of 40
+/// thousand triangles 77 and 68 s (73 s with 0.13), sheets of 10 and 50 thousand that land on a ball 6.8 and 6.7 s, 24 and 22 s, a shirt on a figure
+/// that walks in steps of 4 ms 6.0 and 6.9 s.
+const REACH: f64 = 0.2;
+/// The same in steps that are longer than [`SHORT`].
+const REACH_OF_LONG: f64 = 0.3;
+/// The longest of short steps, in seconds.
+const SHORT: f64 = 2.5e-3;
 /// How much more than the thickness is asked for along directions that are no axes, in thicknesses, of neighbours, of other pairs of cloth, and of
 /// pairs with a body. Of cloth: what comes that [near](MARGIN) is pushed apart before it is within the thickness; with less, cloth that is
 /// folded tightly was seen to slip more. Without it for bodies the arm sleeve has 9 to 15 % fewer candidates, and repairs take as long as with it.
@@ -46,20 +49,22 @@ pub(super) struct OfContact {
     neighbours: Neighbours,
 }
 
-/// `rest` and `carriers` are of all vertices, the cloth's first. Gives neighbours in `settings` a thickness of their own if they are
-/// many.
+/// `rest` and `carriers` are of all vertices, the cloth's first; steps mostly take `time_step` seconds. Gives neighbours in `settings` a thickness
+/// of their own if they are many.
 pub(super) fn candidates(
     settings: &mut ContactSettings,
     topology: Topology,
     rest: &[DVec3],
     carriers: &[Carrier],
     cloth_vertices: usize,
+    time_step: f64,
 ) -> Candidates {
     let topology = Arc::new(topology);
     let [cloth, bodies] = [false, true].map(|with_body| settings.largest(with_body));
     let mut neighbours = Neighbours::none();
     let mut of_neighbours = cloth;
-    let (mut beyond, mut farthest) = (REACH, FARTHEST);
+    let beyond = if time_step <= SHORT { REACH } else { REACH_OF_LONG };
+    let mut farthest = FARTHEST;
     if are_many(&topology, rest, cloth_vertices, settings) {
         settings.has_neighbours = true;
         neighbours = Neighbours::new(
@@ -71,7 +76,7 @@ pub(super) fn candidates(
             thickness: smaller,
             ..cloth
         });
-        (beyond, farthest) = (REACH_OF_FINE, FARTHEST_OF_FINE);
+        farthest = FARTHEST_OF_FINE;
     }
     // In the order of `OfContact::class`.
     let asked: [Option<Thickness>; CLASSES] = [of_neighbours, cloth, bodies];
@@ -197,7 +202,7 @@ mod tests {
         settings.keep_from_bodies(1, Thickness::of(of_bodies));
         let topology = Topology::new(9, vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]]).unwrap();
         let carriers: Vec<Carrier> = [[FREE; 6].as_slice(), &[0; 3]].concat();
-        let mut near = candidates(&mut settings, topology, &at([0.0, 1.0, -1.0]), &carriers, 6);
+        let mut near = candidates(&mut settings, topology, &at([0.0, 1.0, -1.0]), &carriers, 6, 1e-3);
         let positions = at([0.0, layers, -body]);
         near.find(&positions, &positions, 1e-3);
         let with_body = near.list.iter().filter(|pair| pair.data.is_with_body()).count();

@@ -118,6 +118,7 @@ impl Tangle {
 
     /// Looks at a state anew. `parting` are pairs, in order, that are left out even if they are not about what meets.
     pub(super) fn look(&mut self, interest: &OfContact, parting: Vec<PairKey>, positions: &[DVec3]) -> Result<(), StepError> {
+        debug_assert!(parting.is_sorted(), "they are looked up by halving");
         let found = self.finder.find(positions, |a, b| interest.body_of_pair(a, b).is_some())?;
         self.intersections.clear();
         self.intersections.extend_from_slice(found);
@@ -143,7 +144,9 @@ impl Tangle {
     pub(super) fn take_back(&mut self, candidates: &Candidates, positions: &[DVec3], is_apart: impl Fn(&Candidate) -> bool) {
         // What is in no list of candidates is farther apart than that.
         let parting = candidates.list.iter().filter(|pair| self.has(pair) && !is_apart(pair));
-        let parting = parting.map(Candidate::key).collect();
+        let mut parting: Vec<_> = parting.map(Candidate::key).collect();
+        // What was added to the list comes after the others.
+        parting.sort_unstable();
         // Where it cannot be asked, as a coordinate is beyond all numbers, all stays as it was.
         let _ = self.look(candidates.interest(), parting, positions);
     }

@@ -121,13 +121,12 @@ impl ContactSolver {
             return self.check_all(start, end);
         }
         let mut still_open = Vec::new();
-        let mut was_open = open.iter().copied().peekable();
-        for index in 0..self.candidates.list.len() {
-            let was_open = was_open.next_if_eq(&index).is_some();
-            let touched = self.candidates.list[index].vertices.iter().any(|&v| self.moved[v as usize]);
-            if !(was_open || touched) {
-                continue;
-            }
+        let mut places = std::mem::take(&mut self.places);
+        self.candidates.find_places(&self.moved, &mut places);
+        places.extend(&open);
+        places.sort();
+        places.dedup();
+        for &index in &places {
             let Some(separation) = self.separation(&self.candidates.list[index]) else {
                 continue;
             };
@@ -140,6 +139,7 @@ impl ContactSolver {
                 still_open.push(index);
             }
         }
+        self.places = places;
         self.moved.fill(false);
         still_open
     }

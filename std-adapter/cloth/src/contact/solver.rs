@@ -30,6 +30,8 @@ pub(crate) struct ContactSolver {
     pub(super) error: GapError<f64>,
     contacts: Contacts,
     pub(super) moved: Vec<bool>,
+    /// The candidates that are looked at after something has moved; kept for its memory.
+    pub(super) places: Vec<usize>,
     pub(super) relaxation: Relaxation,
     pub(super) zones: ImpactZones,
     /// What has left the promise.
@@ -41,7 +43,8 @@ pub(crate) struct ContactSolver {
 }
 
 impl ContactSolver {
-    /// `rest` and `carriers` are of all vertices, the cloth's first; `topology` is of all triangles, and the cloth's loose edges.
+    /// `rest` and `carriers` are of all vertices, the cloth's first; `topology` is of all triangles, and the cloth's loose edges. Steps mostly
+    /// take `time_step` seconds.
     pub(crate) fn new(
         mut settings: ContactSettings,
         topology: Topology,
@@ -49,15 +52,17 @@ impl ContactSolver {
         carriers: &[Carrier],
         cloth_vertices: usize,
         bodies: usize,
+        time_step: f64,
     ) -> Self {
         Self {
-            candidates: candidates(&mut settings, topology, rest, carriers, cloth_vertices),
+            candidates: candidates(&mut settings, topology, rest, carriers, cloth_vertices, time_step),
             settings,
             carriers: carriers.to_vec(),
             rest: rest.to_vec(),
             error: GapError::of_coordinates(0.0),
             contacts: Contacts::default(),
             moved: vec![false; rest.len()],
+            places: Vec::new(),
             relaxation: Relaxation::default(),
             zones: ImpactZones::default(),
             exempt: Exempt::new(bodies),

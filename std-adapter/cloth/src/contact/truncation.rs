@@ -67,15 +67,13 @@ impl ContactSolver {
         let start = step.start;
         let base = end.to_vec();
         let differs: Vec<bool> = base.iter().zip(wanted).map(|(base, wanted)| base != wanted).collect();
-        let mut shares = Vec::new();
+        let (mut shares, mut places) = (Vec::new(), Vec::new());
+        self.candidates.find_places(&differs, &mut places);
         for _ in 0..PASSES {
             shares.clear();
             shares.resize(end.len(), 1.0_f64);
-            for index in 0..self.candidates.list.len() {
+            for &index in &places {
                 let pair = &self.candidates.list[index];
-                if !pair.vertices.iter().any(|&vertex| differs[vertex as usize]) {
-                    continue;
-                }
                 if self.separation(pair).is_none() {
                     continue;
                 }

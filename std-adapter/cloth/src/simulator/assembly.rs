@@ -89,6 +89,7 @@ impl Assembly {
                     &carriers,
                     cloth_vertices,
                     bodies,
+                    scene.time_step,
                 ))
             }
             false => None,

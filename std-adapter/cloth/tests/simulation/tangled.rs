@@ -22,6 +22,18 @@ fn meeting(simulation: &Simulation) -> Vec<Intersection> {
     found
 }
 
+/// Whether the cloth meets a body: of the cloth alone nothing is promised without `self_collision`.
+fn meets_a_body(simulation: &Simulation) -> bool {
+    let topology = Topology::new(simulation.positions().len(), simulation.triangles().to_vec()).unwrap();
+    let is_body = |vertex: u32| vertex as usize >= simulation.cloth_vertices();
+    meeting(simulation).into_iter().any(|own| {
+        let Intersection::EdgeFace { edge, face } = own else {
+            return true;
+        };
+        is_body(topology.edges()[edge as usize][0]) != is_body(topology.triangles()[face as usize][0])
+    })
+}
+
 fn refused(scene: Scene) -> Tangled {
     match Simulation::new(scene, 1) {
         Err(SetupError::Tangled(tangle)) => *tangle,
@@ -172,7 +184,7 @@ fn what_comes_apart_is_in_the_promise_again_and_does_not_meet_again() {
         simulation.step().unwrap();
         has_come_apart |= simulation.is_certified();
         assert_eq!(simulation.is_certified(), has_come_apart, "step {step}");
-        assert!(!has_come_apart || meeting(&simulation).is_empty(), "step {step}");
+        assert!(!has_come_apart || !meets_a_body(&simulation), "step {step}");
     }
     assert!(has_come_apart);
 }

@@ -31,6 +31,8 @@ pub struct NearPairs<I: Interest> {
     pub list: Vec<NearPair<I::Data>>,
     /// How many were found by the last search for all of them.
     first: usize,
+    /// Of these, once they have been asked for: their vertices side by side, a third of what there is to read for a look at all of them.
+    vertices: Vec<[u32; 4]>,
     /// Vertices that were [found](Self::find_strayed) to have strayed.
     strayed: Vec<bool>,
     search: Search<I>,
@@ -70,6 +72,7 @@ impl<I: Interest> NearPairs<I> {
         Ok(Self {
             list: Vec::new(),
             first: 0,
+            vertices: Vec::new(),
             strayed: Vec::new(),
             search,
             horizon: Horizon::new(reach.farthest),
@@ -99,6 +102,28 @@ impl<I: Interest> NearPairs<I> {
         of_run(first).or_else(|| Some(first.len() + of_run(added)?))
     }
 
+    /// Replaces `places` by those in the list, in order, of the pairs with a `marked` vertex; of these there is one entry for each vertex.
+    ///
+    /// # Panics
+    /// If there are fewer entries than vertices.
+    pub fn find_places(&mut self, marked: &[bool], places: &mut Vec<usize>) {
+        let (first, added) = self.list.split_at(self.first);
+        if self.vertices.is_empty() {
+            self.vertices.extend(first.iter().map(|pair| pair.vertices));
+        }
+        let all = self.vertices.iter().copied().chain(added.iter().map(|pair| pair.vertices));
+        places.clear();
+        // Without a branch that nobody could foretell.
+        places.resize(self.list.len() + 1, 0);
+        let mut count = 0;
+        for (place, [a, b, c, d]) in all.enumerate() {
+            let is_marked = |vertex: u32| marked[vertex as usize];
+            places[count] = place;
+            count += usize::from(is_marked(a) | is_marked(b) | is_marked(c) | is_marked(d));
+        }
+        places.truncate(count);
+    }
+
     /// What was done so far.
     pub const fn statistics(&self) -> NearStatistics {
         self.statistics
@@ -116,7 +141,7 @@ impl<I: Interest> NearPairs<I> {
     /// As [`cover`](Self::cover).
     pub fn refresh(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
         self.list.clear();
-        self.first = 0;
+        self.set_first(0);
         self.horizon.forget();
         self.find(start, end, h);
     }
@@ -227,7 +252,12 @@ impl<I: Interest> NearPairs<I> {
             place += 1;
             stays
         });
-        *first = left_of_first;
+        self.set_first(left_of_first);
+    }
+
+    fn set_first(&mut self, first: usize) {
+        self.first = first;
+        self.vertices.clear();
     }
 
     /// Finds how far each vertex strays up to `positions`, `h` later, if the list [covers](Self::cover) them: that decides which pairs
@@ -249,7 +279,7 @@ impl<I: Interest> NearPairs<I> {
         self.search.pairs(&self.reach, motion, known, &mut self.found);
         self.horizon.ahead.spend(self.search.work());
         std::mem::swap(&mut self.list, &mut self.found);
-        self.first = self.list.len();
+        self.set_first(self.list.len());
     }
 
     /// The pairs have moved in a way that was not looked at.
@@ -320,6 +350,7 @@ const SINGLY: usize = 8;
 
 #[cfg(test)]
 mod tests {
+    use super::super::{CLASSES, Class};
     use super::*;
     use proptest::prelude::*;
     use std::collections::BTreeSet;
@@ -349,6 +380,56 @@ mod tests {
             let expected = found.union(&added).filter(|pair| !first.contains(*pair));
             prop_assert_eq!(keys(of_added), Vec::from_iter(expected.copied()));
             prop_assert!(of_added.iter().all(|pair| (pair.data == 2) == added.contains(&pair.pair)));
+        }
+
+        /// Of layers of triangles, one of which strays towards another.
+        #[test]
+        fn places_are_those_of_all_pairs_with_a_marked_vertex(
+            marked in prop::collection::vec(any::<bool>(), 15),
+            strays in 0..4_usize,
+        ) {
+            let layer = |k: u32| DVec3::Z * (0.2 * f64::from(k));
+            let triangles = (0..5).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+            let topology = Arc::new(Topology::new(15, triangles).unwrap());
+            let corners = |k: u32| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|corner| corner + layer(k));
+            let mut positions: Vec<DVec3> = (0..5).flat_map(corners).collect();
+            let reach = Reach {
+                classes: [Class { distance: 0.15, margin: 0.0 }; CLASSES],
+                beyond: 0.02,
+                spare: 0.0,
+                farthest: 8,
+                upkeep: 0.0,
+                is_graded: false,
+            };
+            let mut near = NearPairs::new(topology, Everything, vec![true; 15], reach).unwrap();
+            positions[4].z -= 0.1;
+            near.refresh(&positions, &positions, 1.0);
+            let before = near.list.len();
+            let mut places = Vec::new();
+            for _ in 0..2 {
+                near.find_places(&marked, &mut places);
+                let has = |place: &usize| near.list[*place].vertices.iter().any(|&vertex| marked[vertex as usize]);
+                prop_assert_eq!(&places, &(0..near.list.len()).filter(has).collect::<Vec<_>>());
+                prop_assert!(near.list.iter().enumerate().all(|(place, pair)| near.place_of(pair.key()) == Some(place)));
+                let start = positions.clone();
+                positions[3 * strays + 2].z += 0.1;
+                near.cover(&start, &positions, 1.0);
+            }
+            prop_assert!(near.list.len() > before && near.statistics().joined > 0 && near.statistics().searches == 1);
+        }
+    }
+
+    struct Everything;
+
+    impl Interest for Everything {
+        type Data = ();
+
+        fn class(&self, _: PairKind, _: [u32; 4]) -> usize {
+            0
+        }
+
+        fn about(&self, _: PairKind, _: [u32; 4]) -> Option<()> {
+            Some(())
         }
     }
 }
