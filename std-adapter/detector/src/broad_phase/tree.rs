@@ -120,7 +120,8 @@ impl<const N: usize> Tree<N> {
                 let is_moving = |lane: usize| {
                     let child = block * LANES + lane;
                     match height {
-                        0 => self.vertices[child].iter().any(|&vertex| moves(vertex)),
+                        // All are asked: nobody could foretell the answer of any.
+                        0 => self.vertices[child].iter().fold(false, |any, &vertex| any | moves(vertex)),
                         _ => below[child].moving != 0,
                     }
                 };
