@@ -17,13 +17,12 @@
 
 of_coordinates = 64; #! core/src/separation/clearance.rs: f64::small(64) * f64::from(f32::UNIT_ROUNDOFF)
 of_distances = 64; #~ core/src/separation/clearance.rs: let along_axis = narrowed(distance * (1.0 + rounding()) + largest * rounding() + FLUSHED);
-#~ core/src/separation/clearance.rs: stray: narrowed(stray),
 #~ core/src/separation/clearance.rs: const FLUSHED: f64 = 1.0 / (1_u128 << 80) as f64;
 #~ core/src/separation/clearance.rs: const SHORTEST: f32 = 1e-18;
 taken_off = 128; #~ core/src/separation/clearance.rs: by_axis.larger(by_direction) * gap.splat(1.0 - 1.0 / 131_072.0)
 #~ core/src/separation/clearance.rs: let left = gap - along_direction * squared.sqrt();
 #~ core/src/separation/clearance.rs: let by_direction = left / ((sizes.x + sizes.y) + sizes.z);
-#~ core/src/separation/clearance.rs: self.largest_stray(kind, start, end) >= self.stray
+#~ std-adapter/detector/src/coherent/sieve.rs: keeps_apart = stray >= enough
 R = 1.7321;
 
 f = 1 + d;

@@ -243,7 +243,7 @@ pub extern "C" fn separations(points: &Points<f64>) -> u32 {
     let known = SeparatingDirection::NONE.or_better(kind, DVec3::Z, start, error);
     let found = SeparatingDirection::found(kind, DVec3::Z, ends, 0.5, error);
     let in_single = ends.map(|points| points.map(|point| point.as_vec3a()));
-    let clearance = Clearance::new(0.25, 0.125, largest, 0.0);
+    let clearance = Clearance::new(0.25, largest, 0.0);
     let rows = points.map(|[start, end]| VertexRow::new(Motion::new(DVec3::from(start).as_vec3(), DVec3::from(end).as_vec3())));
     let mut strays = [0.0];
     largest_strays_from_rows(
@@ -264,7 +264,7 @@ pub extern "C" fn separations(points: &Points<f64>) -> u32 {
         | u32::from(bound > 0.5) << 1
         | u32::from(found.is_some_and(|found| found.gap() > 0.5)) << 2
         | u32::from(known.lasts(kind, end, 0.5, error).is_some()) << 3
-        | u32::from(clearance.is_kept(kind, in_single[0], in_single[1]) && strays[0] >= 0.125) << 4
+        | u32::from(clearance.largest_stray(kind, in_single[0], in_single[1]) >= 0.125 && strays[0] >= 0.125) << 4
         | u32::from(course::is_certain(room, largest) && course::has_room(end[0], expected, room)) << 5
         | u32::from(are_boxes_within(kind, in_single[0], near)) << 6
 }

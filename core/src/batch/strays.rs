@@ -20,7 +20,7 @@ use fearless_simd::{Simd, f32x4, f32x8, f32x16};
 ///
 /// let points = [Vec3::new(0.2, 0.2, 0.5), Vec3::ZERO, Vec3::X, Vec3::Y];
 /// let rows = points.map(|point| VertexRow::new(Motion::resting(point)));
-/// let clearances = [0.1, 0.6].map(|distance| Clearance::new(distance, 0.0, 1.0, 0.0));
+/// let clearances = [0.1, 0.6].map(|distance| Clearance::new(distance, 1.0, 0.0));
 /// let mut strays = [0.0; 2];
 /// let level = Level::baseline();
 /// largest_strays_from_rows(level, PairKind::VertexFace, &clearances, &rows, &[[0, 1, 2, 3]; 2], &[0, 1], &mut strays);

@@ -28,11 +28,9 @@ pub struct Clearance {
     /// h with what rounding may take of it, rounded up; and the same along a direction that is no axis.
     along_axis: f32,
     along_direction: f32,
-    /// b.
-    stray: f32,
 }
 
-/// How much of each distance, and of the largest coordinate, is added: 32ε.
+/// How much of the distance, and of the largest coordinate, is added: 32ε.
 #[inline(always)]
 fn rounding() -> f64 {
     f64::small(64) * f64::from(f32::UNIT_ROUNDOFF)
@@ -48,16 +46,15 @@ impl Clearance {
     pub const UNKNOWN: Self = Self {
         along_axis: f32::INFINITY,
         along_direction: f32::INFINITY,
-        stray: f32::INFINITY,
     };
 
-    /// Of points that are to keep `distance` though each strays by half of `stray` along each axis. No coordinate exceeds `largest` in
+    /// Of points that are to keep `distance`. No coordinate exceeds `largest` in
     /// magnitude ([`largest_coordinate`](super::largest_coordinate)). Along a direction that is no axis `margin` times the distance is
     /// asked for in addition, zero or more: it is no part of the proof.
     #[inline]
     #[must_use]
-    pub fn new(distance: f64, stray: f64, largest: f64, margin: f32) -> Self {
-        let is_in_range = largest <= f64::from(f32::LARGEST_EDGE) && distance >= 0.0 && stray >= 0.0 && margin >= 0.0;
+    pub fn new(distance: f64, largest: f64, margin: f32) -> Self {
+        let is_in_range = largest <= f64::from(f32::LARGEST_EDGE) && distance >= 0.0 && margin >= 0.0;
         if !is_in_range {
             return Self::UNKNOWN;
         }
@@ -65,39 +62,22 @@ impl Clearance {
         Self {
             along_axis,
             along_direction: along_axis * (1.0 + margin),
-            stray: narrowed(stray),
         }
     }
 
-    /// Whether a pair certainly keeps it on straight ways from `start` to `end`, along an axis or the direction between its middles: at
-    /// both ends, and with the same order.
+    /// How far points may stray, b of the [module](self), for a pair to keep its distance certainly on straight ways from `start` to `end`, along an
+    /// axis or the direction between its middles: at both ends, and with the same order. Less than zero if they may not.
+    /// [`largest_strays_from_rows`](crate::batch::largest_strays_from_rows) says it of many pairs.
     ///
-    /// Certified, in every floating-point environment, for positions of which these are the nearest `f32` in any direction of rounding.
-    ///
-    /// ```
-    /// use selvedge_core::{PairKind, glam::Vec3A, separation::clearance::Clearance};
-    /// let at = |height| [Vec3A::new(0.2, 0.2, height), Vec3A::ZERO, Vec3A::X, Vec3A::Y];
-    /// let is_kept = |distance, stray| {
-    ///     Clearance::new(distance, stray, 1.0, 0.0).is_kept(PairKind::VertexFace, at(0.5), at(0.4))
-    /// };
-    /// assert!(is_kept(0.3, 0.05));
-    /// assert!(!is_kept(0.41, 0.0) && !is_kept(0.3, 0.2));
-    /// ```
-    #[inline]
-    #[must_use]
-    pub fn is_kept(&self, kind: PairKind, start: [Vec3A; 4], end: [Vec3A; 4]) -> bool {
-        self.largest_stray(kind, start, end) >= self.stray
-    }
-
-    /// How far points may stray, in place of what [`new`](Self::new) was told, for the pair to keep its distance certainly in the same way;
-    /// less than zero if they may not. [`largest_strays_from_rows`](crate::batch::largest_strays_from_rows) says it of many pairs.
+    /// Certified, in every floating-point environment, for positions of which these are the nearest `f32` in any direction of rounding. What is
+    /// compared with it may have been rounded to `f32` as well, and be the rounded mean of two.
     ///
     /// ```
     /// use selvedge_core::{PairKind, glam::Vec3A, separation::clearance::Clearance};
     /// let at = |height| [Vec3A::new(0.2, 0.2, height), Vec3A::ZERO, Vec3A::X, Vec3A::Y];
-    /// let stray = Clearance::new(0.3, 0.0, 1.0, 0.0).largest_stray(PairKind::VertexFace, at(0.5), at(0.4));
-    /// assert!(stray < 0.1 && stray > 0.0999);
-    /// assert!(Clearance::new(0.3, stray.into(), 1.0, 0.0).is_kept(PairKind::VertexFace, at(0.5), at(0.4)));
+    /// let stray = |distance| Clearance::new(distance, 1.0, 0.0).largest_stray(PairKind::VertexFace, at(0.5), at(0.4));
+    /// assert!(stray(0.3) < 0.1 && stray(0.3) > 0.0999);
+    /// assert!(stray(0.41) < 0.0);
     /// ```
     #[inline]
     #[must_use]

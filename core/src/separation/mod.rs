@@ -3,7 +3,7 @@
 //! | module | what it bounds | rounding |
 //! |---|---|---|
 //! | [`gap`] | the distance along a direction, from below; the direction that a pair remembers | 64u of the largest coordinate, and 2⁻²⁰ for what is stored |
-//! | [`clearance`] | the distance that a pair keeps though its points stray from the motion that was looked at | 64u of the largest coordinate and of each distance, in `f32` |
+//! | [`clearance`] | the distance that a pair keeps though its points stray from the motion that was looked at | 64u of the largest coordinate and of the distance, 128u of the stray, in `f32` |
 //! | [`closest`] | the closest points of a pair at rest | plain floating point: certifies nothing by itself |
 //! | [`course`] | how far points may stray from their course, and whether they have | 64u of the largest coordinate, no more than a hundredth of the room |
 //! | [`geometry`] | where a pair meets: points, weights, normal | enclosed: 96u of the largest coordinate; a normal is certified by [`gap`] |

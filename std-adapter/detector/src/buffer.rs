@@ -13,3 +13,31 @@ pub(crate) fn settle<T>(items: &mut Vec<T>) {
         items.reserve_exact(with_headroom(items.len()) - items.len());
     }
 }
+
+/// Adds to `output` the items that come with true; they are no more than `most`. Without a branch, which nobody could foretell.
+///
+/// # Panics
+/// If there are more.
+#[inline(always)]
+pub fn add_kept<T: Copy + Default>(output: &mut Vec<T>, most: usize, items: impl Iterator<Item = (bool, T)>) {
+    let mut count = output.len();
+    output.resize(count + most, T::default());
+    for (is_kept, item) in items {
+        output[count] = item;
+        count += usize::from(is_kept);
+    }
+    output.truncate(count);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::add_kept;
+
+    #[test]
+    fn what_is_kept_is_added_in_order() {
+        let mut output = vec![7];
+        add_kept(&mut output, 4, [(false, 1), (true, 2), (true, 3), (false, 4)].into_iter());
+        add_kept(&mut output, 0, std::iter::empty());
+        assert_eq!(output, [7, 2, 3]);
+    }
+}

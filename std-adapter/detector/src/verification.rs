@@ -5,7 +5,7 @@
 //! takes an instruction set ([`set_level`](crate::CollisionDetector::set_level)).
 
 pub use crate::broad_phase::{Centre, Degradation, LEAF, MovingBroadPhase, MovingStatistics, Prices, order};
-pub use crate::buffer::with_headroom;
+pub use crate::buffer::{add_kept, with_headroom};
 pub use crate::coherent::{CLASSES, Class, Interest, NearPair, NearPairs, NearStatistics, Reach};
 pub use crate::dispatch::{Level, available_levels, best_level};
 pub use crate::frame::{check_frames, check_length};

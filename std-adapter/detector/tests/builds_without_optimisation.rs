@@ -186,7 +186,7 @@ fn ask_of_many<S: Scalar>(kind: PairKind, pairs: &[PrimitivePair<S>], digest: &m
         .iter()
         .flat_map(|pair| pair.motions.map(|motion| VertexRow::new(in_single(motion))))
         .collect();
-    let clearances = [Clearance::new(0.125, 0.0, 4.0, 0.5)];
+    let clearances = [Clearance::new(0.125, 4.0, 0.5)];
     let mut strays = vec![0.0; pairs.len()];
     let classes = vec![0; pairs.len()];
     largest_strays_from_rows(level, kind, &clearances, &in_single, &indices, &classes, &mut strays);

@@ -9,7 +9,7 @@ use rug::Rational;
 use selvedge_core::PairKind;
 use selvedge_core::boxes::Aabb;
 use selvedge_core::boxes::mapping::Mapping;
-use selvedge_core::glam::{DVec3, Vec3A};
+use selvedge_core::glam::DVec3;
 use selvedge_core::narrowing::{rounded_down, rounded_up};
 use selvedge_core::separation::clearance::Clearance;
 use selvedge_core::separation::course;
@@ -224,21 +224,15 @@ fn in_double<S: Format>(pair: &PairCase<S>) -> PairCase<f64> {
 
 /// Whether the pair is said to keep `distance` though its points stray.
 fn is_clear(pair: &PairCase<f64>, distance: f64, stray: f64) -> bool {
-    clearance(pair, distance, stray, Clearance::is_kept)
+    largest_stray(pair, distance) >= stray as f32
 }
 
-/// What a clearance says of a pair, with its positions rounded to `f32` here.
-fn clearance<T>(
-    pair: &PairCase<f64>,
-    distance: f64,
-    stray: f64,
-    ask: impl Fn(&Clearance, PairKind, [Vec3A; 4], [Vec3A; 4]) -> T,
-) -> T {
+/// How far the points of a pair may stray, with its positions rounded to `f32` here.
+fn largest_stray(pair: &PairCase<f64>, distance: f64) -> f32 {
     let [start, end] = ends(pair);
     let largest = largest_coordinate(&[start, end].concat());
-    let clearance = Clearance::new(distance, stray, largest, 0.0);
     let [start, end] = [start, end].map(|points| points.map(|point| point.as_vec3a()));
-    ask(&clearance, pair.kind, start, end)
+    Clearance::new(distance, largest, 0.0).largest_stray(pair.kind, start, end)
 }
 
 /// x + `by`, or the next number nearer to x if that is farther from it.
@@ -281,7 +275,7 @@ property!(
             return Ok(());
         };
         let distance = kept * [0.0, 1.0, 0.5, 0.999, 0.5_f64.powi(10)][question.choice as usize % 5];
-        let stray = f64::from(clearance(&pair, distance, 0.0, Clearance::largest_stray));
+        let stray = f64::from(largest_stray(&pair, distance));
         if stray < 0.0 {
             return Ok(());
         }

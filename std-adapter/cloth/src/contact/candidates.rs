@@ -21,7 +21,7 @@ pub(super) type Candidates = NearPairs<OfContact>;
 const REACH: f64 = 0.2;
 /// The same in steps that are longer than [`SHORT`].
 const REACH_OF_LONG: f64 = 0.3;
-/// The longest of short steps, in seconds.
+/// The longest of short steps, in seconds: between those of 1 ms and of 4 ms that were measured.
 const SHORT: f64 = 2.5e-3;
 /// How much more than the thickness is asked for along directions that are no axes, in thicknesses, of neighbours, of other pairs of cloth, and of
 /// pairs with a body. Of cloth: what comes that [near](MARGIN) is pushed apart before it is within the thickness; with less, cloth that is
@@ -32,7 +32,7 @@ const FARTHEST: u32 = 4;
 /// The same on a fine mesh, of whose candidates a sieve leaves few.
 const FARTHEST_OF_FINE: u32 = 8;
 /// What a candidate costs in a step, constraints and certificate, in units of what finding one costs that boxes leave: 30 and 50 ns on a sheet of 130
-/// thousand triangles that lands on a ball.
+/// thousand triangles that lands on a ball, before they were found faster. With 1.0 a sleeve of 40 thousand takes 79 s, with 0.6 77 s.
 const UPKEEP: f64 = 0.6;
 
 /// What is to be kept apart.

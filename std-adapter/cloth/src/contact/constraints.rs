@@ -15,7 +15,7 @@ use super::exempt::Exempt;
 use super::neighbours::{are_neighbours, at_rest};
 use super::settings::{ContactSettings, MARGIN, RECOVERY, Thickness};
 use crate::step::{TimeStep, Touch, Touches};
-use selvedge::verification::parallel;
+use selvedge::verification::{add_kept, parallel};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
@@ -83,14 +83,9 @@ impl Contacts {
         parallel::map_chunks(
             pairs,
             |first, pairs, open: &mut Vec<u32>| {
-                // Without a branch that nobody could foretell.
-                let mut count = open.len();
-                open.resize(count + pairs.len(), 0);
-                for (place, pair) in (first as u32..).zip(&*pairs) {
-                    open[count] = place;
-                    count += usize::from(is_open(pair, rules, predicted));
-                }
-                open.truncate(count);
+                let all = (first as u32..).zip(&*pairs);
+                let all = all.map(|(place, pair)| (is_open(pair, rules, predicted), place));
+                add_kept(open, pairs.len(), all);
             },
             &mut self.open,
             |all, own| all.extend(own),

@@ -155,8 +155,7 @@ impl ContactSolver {
         let all = self.moved.iter_mut().zip(self.candidates.strayed());
         all.for_each(|(moved, &strayed)| *moved |= strayed);
         for (index, key) in open.iter_mut().zip(keys) {
-            // Those that were there still are.
-            *index = self.candidates.place_of(key).unwrap_or(*index);
+            *index = self.candidates.place_of(key).expect("what was there still is");
         }
         true
     }

@@ -12,6 +12,7 @@
 //! | `search` | near pairs: hierarchies of moving boxes, then the sieve |
 //! | `sieve` | pairs that keep apart until the next search |
 //! | `ahead`, `horizon`, `near` | how many steps to look ahead, for how many the pairs are good, and the list of them |
+//! | `known` | what is known of pairs that are found again |
 //! | `pair` | one pair, and the direction that keeps it apart |
 //! | `follow` | all of it for the steps of a [`CollisionDetector`](crate::CollisionDetector) |
 //!
@@ -21,6 +22,7 @@
 mod ahead;
 mod follow;
 mod horizon;
+mod known;
 mod near;
 mod pair;
 mod search;
@@ -71,4 +73,21 @@ pub struct Reach {
     pub upkeep: f64,
     /// Whether to find out of each pair how far its vertices may stray before it needs attention.
     pub is_graded: bool,
+}
+
+/// All pairs, of one class.
+#[cfg(test)]
+struct OfClass(usize);
+
+#[cfg(test)]
+impl Interest for OfClass {
+    type Data = ();
+
+    fn class(&self, _: PairKind, _: [u32; 4]) -> usize {
+        self.0
+    }
+
+    fn about(&self, _: PairKind, _: [u32; 4]) -> Option<()> {
+        Some(())
+    }
 }

@@ -7,10 +7,12 @@
 //! within m. If few stray farther, the pairs of these are found again and added; else all are found anew.
 
 use super::horizon::Horizon;
+use super::known::Known;
 use super::pair::NearPair;
 use super::search::Search;
 use super::{Interest, Reach};
 use crate::PairKind;
+use crate::buffer::add_kept;
 use crate::collision_filter::CollisionFilter;
 use crate::frame::StepError;
 use crate::mesh::Topology;
@@ -31,7 +33,7 @@ pub struct NearPairs<I: Interest> {
     pub list: Vec<NearPair<I::Data>>,
     /// How many were found by the last search for all of them.
     first: usize,
-    /// Of these, once they have been asked for: their vertices side by side, a third of what there is to read for a look at all of them.
+    /// Of these, once they have been asked for: their vertices side by side, 16 bytes to read of each for a look at all of them instead of some 56.
     vertices: Vec<[u32; 4]>,
     /// Vertices that were [found](Self::find_strayed) to have strayed.
     strayed: Vec<bool>,
@@ -111,17 +113,15 @@ impl<I: Interest> NearPairs<I> {
         if self.vertices.is_empty() {
             self.vertices.extend(first.iter().map(|pair| pair.vertices));
         }
-        let all = self.vertices.iter().copied().chain(added.iter().map(|pair| pair.vertices));
+        let is_marked = |vertex: u32| marked[vertex as usize];
+        let has_marked = |[a, b, c, d]: [u32; 4]| is_marked(a) | is_marked(b) | is_marked(c) | is_marked(d);
         places.clear();
-        // Without a branch that nobody could foretell.
-        places.resize(self.list.len() + 1, 0);
-        let mut count = 0;
-        for (place, [a, b, c, d]) in all.enumerate() {
-            let is_marked = |vertex: u32| marked[vertex as usize];
-            places[count] = place;
-            count += usize::from(is_marked(a) | is_marked(b) | is_marked(c) | is_marked(d));
-        }
-        places.truncate(count);
+        let of_first = self.vertices.iter().enumerate();
+        let of_first = of_first.map(|(place, &vertices)| (has_marked(vertices), place));
+        add_kept(places, first.len(), of_first);
+        let of_added = (first.len()..).zip(added);
+        let of_added = of_added.map(|(place, pair)| (has_marked(pair.vertices), place));
+        add_kept(places, added.len(), of_added);
     }
 
     /// What was done so far.
@@ -305,52 +305,9 @@ fn add<D: Copy>(pairs: &mut Vec<NearPair<D>>, first: usize, found: &mut Vec<Near
     }
 }
 
-/// Pairs that are known, in two runs that each ascend by key, from the next ones that may be asked for on.
-pub(super) struct Known<'a, D>([&'a [NearPair<D>]; 2]);
-
-impl<'a, D: Copy> Known<'a, D> {
-    /// The second run begins at `first`.
-    fn of(list: &'a [NearPair<D>], first: usize) -> Self {
-        Self(list.split_at(first).into())
-    }
-
-    /// The same pair as this one, which comes after all that were asked for.
-    #[inline(always)]
-    pub(super) fn find(&mut self, pair: &NearPair<D>) -> Option<&'a NearPair<D>> {
-        let [first, added] = &mut self.0;
-        let found = find_in(first, pair);
-        found.or_else(|| find_in(added, pair))
-    }
-}
-
-/// The same pair as this one in a run, which begins with it or what comes after it then.
-#[inline(always)]
-fn find_in<'a, D: Copy>(run: &mut &'a [NearPair<D>], pair: &NearPair<D>) -> Option<&'a NearPair<D>> {
-    let order = pair.order();
-    let comes_before = |other: &NearPair<D>| other.order() < order;
-    let mut passed = 0;
-    while run.get(passed).is_some_and(comes_before) {
-        passed += 1;
-        if passed == SINGLY {
-            // Soon found where few are passed over, and where many are.
-            let mut end = 2 * SINGLY;
-            while run.get(end - 1).is_some_and(comes_before) {
-                end *= 2;
-            }
-            let start = end / 2;
-            passed = start + run[start..run.len().min(end)].partition_point(comes_before);
-        }
-    }
-    *run = &run[passed..];
-    run.first().filter(|first| first.order() == order)
-}
-
-/// So many are passed over one by one.
-const SINGLY: usize = 8;
-
 #[cfg(test)]
 mod tests {
-    use super::super::{CLASSES, Class};
+    use super::super::{CLASSES, Class, OfClass};
     use super::*;
     use proptest::prelude::*;
     use std::collections::BTreeSet;
@@ -401,7 +358,7 @@ mod tests {
                 upkeep: 0.0,
                 is_graded: false,
             };
-            let mut near = NearPairs::new(topology, Everything, vec![true; 15], reach).unwrap();
+            let mut near = NearPairs::new(topology, OfClass(0), vec![true; 15], reach).unwrap();
             positions[4].z -= 0.1;
             near.refresh(&positions, &positions, 1.0);
             let before = near.list.len();
@@ -416,20 +373,6 @@ mod tests {
                 near.cover(&start, &positions, 1.0);
             }
             prop_assert!(near.list.len() > before && near.statistics().joined > 0 && near.statistics().searches == 1);
-        }
-    }
-
-    struct Everything;
-
-    impl Interest for Everything {
-        type Data = ();
-
-        fn class(&self, _: PairKind, _: [u32; 4]) -> usize {
-            0
-        }
-
-        fn about(&self, _: PairKind, _: [u32; 4]) -> Option<()> {
-            Some(())
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Which pairs may come near each other on a motion: from [hierarchies of moving boxes](crate::broad_phase), through a
 //! [sieve](super::sieve).
 
-use super::near::Known;
+use super::known::Known;
 use super::pair::NearPair;
 use super::sieve::{Left, Sieve};
 use super::{Interest, Reach};
@@ -176,6 +176,7 @@ impl<I: Interest> Search<I> {
 /// Sorts pairs, no two of which are alike, whose first numbers are below `count`: unless they are few, by counting, then each few with the same
 /// first number.
 fn sort(pairs: &mut [Left], count: usize, by_first: &mut Vec<Left>, places: &mut Vec<u32>) {
+    // Counting looks at all that there are to count.
     if pairs.len() < count / 16 {
         pairs.sort_unstable_by_key(|left| left.pair);
         return;
@@ -212,7 +213,7 @@ fn sort(pairs: &mut [Left], count: usize, by_first: &mut Vec<Left>, places: &mut
     }
 }
 
-/// So many are compared each with each.
+/// So many are compared each with each, which takes as long as the square of them: mostly it is fewer than ten.
 const FEW: usize = 24;
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 
 use super::{CLASSES, Class, Interest, Reach};
 use crate::PairKind;
+use crate::buffer::add_kept;
 use crate::dispatch::{Level, best_level};
 use crate::mesh::Topology;
 use selvedge_core::Motion;
@@ -32,7 +33,7 @@ pub(super) struct Left {
     pub(super) stray: f32,
 }
 
-/// Pairs that are looked at in one go.
+/// Pairs that are looked at in one go: their vertices and strays are some kilobytes.
 const AT_ONCE: usize = 128;
 
 impl Sieve {
@@ -48,7 +49,7 @@ impl Sieve {
     /// From here on all is asked about this motion, which is the last one but for vertices that are in `only`, if there are any.
     pub(super) fn set_motion(&mut self, reach: &Reach, [start, end]: [&[DVec3]; 2], only: Option<&[bool]>) {
         let largest = largest_coordinate(start).max(largest_coordinate(end));
-        let clearance = |class: Class| Clearance::new(class.distance, reach.beyond, largest, class.margin);
+        let clearance = |class: Class| Clearance::new(class.distance, largest, class.margin);
         self.clearances = reach.classes.map(clearance);
         for (vertex, row) in self.rows.iter_mut().enumerate() {
             if only.is_none_or(|only| only[vertex]) {
@@ -57,9 +58,8 @@ impl Sieve {
         }
     }
 
-    /// Adds to `left` the pairs that do not certainly keep what is asked of their class, though their vertices stray by `enough`, along an axis or
-    /// the direction between their middles, both at the start and at the end and with the same order: what does, does so on straight ways in
-    /// between as well.
+    /// Adds to `left` the pairs that do not certainly keep what is asked of their class, though their vertices stray by `enough`
+    /// ([`Reach::beyond`]), in the motion that was set.
     pub(super) fn leave(
         &self,
         topology: &Topology,
@@ -76,21 +76,19 @@ impl Sieve {
             }
             let own = &vertices[..pairs.len()];
             largest_strays_from_rows(self.level, kind, &self.clearances, &self.rows, own, &classes, &mut strays);
-            // Without a branch that nobody could foretell.
-            let mut count = left.len();
-            left.resize(count + pairs.len(), Left::default());
-            for (&pair, &stray) in pairs.iter().zip(&strays) {
-                left[count] = Left { pair, stray };
+            let all = pairs.iter().zip(&strays).map(|(&pair, &stray)| {
+                // What is NaN keeps nothing apart.
                 let keeps_apart = stray >= enough;
-                count += usize::from(!keeps_apart);
-            }
-            left.truncate(count);
+                (!keeps_apart, Left { pair, stray })
+            });
+            add_kept(left, pairs.len(), all);
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::OfClass;
     use super::*;
     use proptest::prelude::*;
     use selvedge_core::separation::closest::Closest;
@@ -120,28 +118,13 @@ mod tests {
 
     /// Of a pair of all four, in each class.
     fn left_out(kind: PairKind, reach: &Reach, motion: [&[DVec3]; 2]) -> [bool; CLASSES] {
-        struct OfClass(usize);
-        impl Interest for OfClass {
-            type Data = ();
-            fn class(&self, _: PairKind, _: [u32; 4]) -> usize {
-                self.0
-            }
-            fn about(&self, _: PairKind, _: [u32; 4]) -> Option<()> {
-                Some(())
-            }
-        }
         let mut sieve = Sieve::new(4);
         sieve.set_motion(reach, motion, None);
-        let triangles = match kind {
-            PairKind::VertexFace => vec![[1, 2, 3]],
-            PairKind::EdgeEdge => vec![[0, 1, 2], [1, 2, 3]],
+        let (triangles, edges, pair): (Vec<_>, &[_], _) = match kind {
+            PairKind::VertexFace => (vec![[1, 2, 3]], &[], [0, 0]),
+            PairKind::EdgeEdge => (vec![], &[[0, 1], [2, 3]], [0, 1]),
         };
-        let topology = Topology::new(4, triangles).unwrap();
-        let edge = |ends: [u32; 2]| topology.edges().iter().position(|&edge| edge == ends).unwrap() as u32;
-        let pair = match kind {
-            PairKind::VertexFace => [0, 0],
-            PairKind::EdgeEdge => [edge([0, 1]), edge([2, 3])],
-        };
+        let topology = Topology::with_loose_features(4, triangles, edges, &[]).unwrap();
         [0, 1, 2].map(|class| {
             let mut left = Vec::new();
             let enough = reach.beyond as f32;

@@ -97,9 +97,10 @@ impl InRationals {
         if !self.have_one_sign() {
             return S::ZERO;
         }
-        // All normals are different from zero, since the values are.
-        let squares = (0..4).map(|i| self.values[i].clone().square() / &self.squared_normals[i]);
-        let smallest = squares.min().expect("four");
+        // Where the normal is zero the value, which is not, exceeds it times any separation.
+        let bounded = (0..4).filter(|&i| self.squared_normals[i].is_positive());
+        let squares = bounded.map(|i| self.values[i].clone().square() / &self.squared_normals[i]);
+        let smallest = squares.min().expect("were all four zero, the values would be");
         let root = Float::with_val(200, smallest).sqrt();
         S::from_f64(root.to_f64()).made_finite()
     }
