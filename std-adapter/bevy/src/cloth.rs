@@ -2,6 +2,7 @@
 
 use crate::error::tell;
 use crate::place::{Place, Places};
+use crate::seen::write;
 use crate::shape::{MeshError, Shape, positions_of, triangles_of};
 use crate::{SelvedgeError, SelvedgeProblem};
 use bevy_asset::{Assets, RenderAssetUsages};
@@ -9,18 +10,18 @@ use bevy_ecs::component::Component;
 use bevy_ecs::entity::Entity;
 use bevy_ecs::message::MessageWriter;
 use bevy_ecs::system::{Query, Res, ResMut};
-use bevy_mesh::{Indices, Mesh, Mesh3d, PrimitiveTopology, VertexAttributeValues};
+use bevy_mesh::{Indices, Mesh, Mesh3d, PrimitiveTopology};
 use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 use selvedge::glam::{DMat3, DVec3};
-use selvedge_cloth::{Body, Cloth, Motion, Placement, Scene, Simulation, ValueError, vertex_normals};
+use selvedge_cloth::{Body, Cloth, Motion, Placement, Scene, Simulation, Tubes, ValueError, vertex_normals};
 use std::collections::BTreeMap;
 
 /// A cloth that is simulated in each fixed step, by a [`Scene`] made in code or read from a file.
 ///
 /// The scene is in the world's coordinates, in metres. Bodies of it that are [led by](Self::led_by) an entity go where that entity goes, as its
 /// mesh would. The positions and normals of the cloth are written into the entity's own `Mesh3d`, if it has one: that of
-/// [`mesh_of`] the cloth, or the one that [`cloth_of_mesh`] was made of. No other entity should have the same mesh. The entity's `Transform` does
+/// [`mesh_of`] the cloth, or of [all cloths](mesh_of_cloths), or the one that [`cloth_of_mesh`] was made of. No other entity should have the same mesh. The entity's `Transform` does
 /// not move the cloth.
 ///
 /// Where cloth tears its mesh gets a vertex for each corner of a triangle, with all that they have; [`cloth_of_mesh`] and [`mesh_of`] have
@@ -54,6 +55,8 @@ pub struct ClothSimulation {
     threads: usize,
     /// Of the simulation, in seconds.
     step: f64,
+    /// Of cloths that have loose edges, by their index, once it runs.
+    tubes: Vec<(usize, Tubes)>,
     /// Of each vertex of the mesh that is seen, the cloth's.
     vertices: Option<Vec<u32>>,
     /// Edges that had torn when they were found.
@@ -90,6 +93,7 @@ impl ClothSimulation {
             leaders: BTreeMap::new(),
             threads: 1,
             step: 0.0,
+            tubes: Vec::new(),
             vertices: None,
             torn: 0,
             normals: Vec::new(),
@@ -135,6 +139,11 @@ impl ClothSimulation {
         }
     }
 
+    /// Of what is simulated, the ropes, laces and fringes of cloths, by the index of these.
+    pub(crate) fn tubes(&self) -> &[(usize, Tubes)] {
+        &self.tubes
+    }
+
     /// Whether it does no more steps: it could not be set up, or is blocked and its scene wants to stop then.
     #[must_use]
     pub const fn has_ended(&self) -> bool {
@@ -167,6 +176,23 @@ pub fn mesh_of(mesh: &selvedge::Mesh) -> Mesh {
         .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, rounded(&mesh.positions))
         .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, rounded(&normals))
         .with_inserted_indices(Indices::U32(mesh.triangles.as_flattened().to_vec()))
+}
+
+/// A Bevy mesh in which all cloths of a scene are seen: their vertices one cloth after the other, and their triangles. Ropes have none; they are
+/// seen by [`RopesOf`](crate::RopesOf).
+#[must_use]
+pub fn mesh_of_cloths(scene: &Scene) -> Mesh {
+    let mut all = selvedge::Mesh {
+        positions: Vec::new(),
+        triangles: Vec::new(),
+    };
+    for own in scene.cloths.iter().map(Cloth::mesh) {
+        let first = all.positions.len() as u32;
+        all.positions.extend(&own.positions);
+        all.triangles
+            .extend(own.triangles.iter().map(|triangle| triangle.map(|vertex| first + vertex)));
+    }
+    mesh_of(&all)
 }
 
 /// A cloth of a Bevy mesh, as it is at rest, in metres and in the world's coordinates: with one vertex where the mesh has several at one position,
@@ -313,6 +339,8 @@ impl ClothSimulation {
             };
             own.motion = Motion::Driven(placement);
         }
+        let tubes = (0..scene.cloths.len()).filter_map(|cloth| Some((cloth, Tubes::of(&scene, cloth)?)));
+        self.tubes = tubes.collect();
         let simulation = Simulation::new(*scene, self.threads).map_err(|error| SelvedgeError::Setup(error.to_string()))?;
         self.state = State::Running(Box::new(simulation));
         Ok(())
@@ -356,22 +384,10 @@ impl ClothSimulation {
         }
         let of_vertices = vertices.as_deref().unwrap_or_default();
         vertex_normals(cloth, &simulation.triangles()[..simulation.cloth_triangles()], normals);
-        let linear = place.linear();
-        let inverse = linear.inverse();
-        if !inverse.is_finite() {
-            return Err(SelvedgeError::BadTransform);
-        }
-        let (_, translation) = place.pose();
-        let position = |vertex: u32| (inverse * (cloth[vertex as usize] - translation)).as_vec3().to_array();
-        let normal = |vertex: u32| {
-            (linear.transpose() * normals[vertex as usize])
-                .normalize_or_zero()
-                .as_vec3()
-                .to_array()
-        };
-        put(mesh, true, of_vertices.iter().map(|&vertex| position(vertex)));
-        put(mesh, false, of_vertices.iter().map(|&vertex| normal(vertex)));
-        Ok(())
+        let corners = of_vertices
+            .iter()
+            .map(|&vertex| (cloth[vertex as usize], normals[vertex as usize]));
+        write(mesh, place, corners)
     }
 }
 
@@ -387,23 +403,6 @@ fn tear(mesh: &mut Mesh, simulation: &Simulation) -> Result<Vec<u32>, SelvedgeEr
     }
     mesh.try_duplicate_vertices().map_err(|_| MeshError::OnlyRendered)?;
     Ok(triangles.as_flattened().to_vec())
-}
-
-/// Where the mesh has room for them nothing is allocated.
-fn put(mesh: &mut Mesh, are_positions: bool, values: impl Iterator<Item = [f32; 3]>) {
-    let attribute = if are_positions {
-        Mesh::ATTRIBUTE_POSITION
-    } else {
-        Mesh::ATTRIBUTE_NORMAL
-    };
-    match mesh.try_attribute_mut(attribute) {
-        Ok(VertexAttributeValues::Float32x3(all)) => {
-            all.clear();
-            all.extend(values);
-        }
-        // Its positions have been read, so that it takes attributes.
-        _ => drop(mesh.try_insert_attribute(attribute, values.collect::<Vec<_>>())),
-    }
 }
 
 /// How many steps a fixed step has.

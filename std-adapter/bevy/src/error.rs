@@ -78,6 +78,18 @@ pub enum SelvedgeError {
         /// Vertices of the cloth.
         cloth: usize,
     },
+    /// Ropes are to be seen of an entity without cloth.
+    #[error("there are no ropes to be seen: entity {entity} has no ClothSimulation")]
+    NoCloth {
+        /// Which entity.
+        entity: Entity,
+    },
+    /// Ropes are to be seen of a cloth that has none.
+    #[error("there are no ropes to be seen: the cloth of entity {entity} has no loose edges")]
+    NoRopes {
+        /// Which entity.
+        entity: Entity,
+    },
     /// A setting was not taken; the one before holds.
     #[error("a setting was not taken: {0}")]
     Setting(String),

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! Transforms, meshes ──▶ place, shape ──▶ collisions: bodies of a World ──▶ BodyContact
-//!                                     └─▶ cloth: bodies of a Simulation ──▶ meshes
+//!                                     └─▶ cloth: bodies of a Simulation ──▶ meshes; ropes as tubes
 //! ```
 
 mod body;
@@ -13,12 +13,15 @@ mod cloth;
 mod collisions;
 mod error;
 mod place;
+mod ropes;
+mod seen;
 mod shape;
 
 pub use body::{CollisionBody, CollisionGroups, CollisionMesh};
-pub use cloth::{ClothMeshError, ClothSimulation, body_of_mesh, cloth_of_mesh, mesh_of};
+pub use cloth::{ClothMeshError, ClothSimulation, body_of_mesh, cloth_of_mesh, mesh_of, mesh_of_cloths};
 pub use collisions::{BodyContact, CollisionSettings};
 pub use error::{SelvedgeError, SelvedgeProblem};
+pub use ropes::RopesOf;
 pub use selvedge;
 pub use selvedge::core::elementary::Limits;
 pub use selvedge::{Criterion, Geometry, Groups, PairKind, Threads};
@@ -57,7 +60,10 @@ impl Plugin for SelvedgePlugin {
             .add_message::<SelvedgeProblem>()
             .init_resource::<Time<Fixed>>()
             .configure_sets(FixedPostUpdate, (SelvedgeSystems::Cloth, SelvedgeSystems::Contacts).chain())
-            .add_systems(FixedPostUpdate, cloth::step_cloths.in_set(SelvedgeSystems::Cloth))
+            .add_systems(
+                FixedPostUpdate,
+                (cloth::step_cloths, ropes::show_ropes).chain().in_set(SelvedgeSystems::Cloth),
+            )
             .add_systems(FixedPostUpdate, collisions::find_contacts.in_set(SelvedgeSystems::Contacts));
     }
 }

@@ -50,6 +50,10 @@ typedef struct selvedge_sizes {
    */
   size_t cloth_triangle_count;
   /**
+   * How many edges belong to no triangle: of ropes, laces and fringes.
+   */
+  size_t loose_edge_count;
+  /**
    * How many cloths there are, numbered from 0 on.
    */
   size_t cloth_count;
@@ -259,6 +263,17 @@ selvedge_status selvedge_simulation_normals(const struct selvedge_simulation *si
 selvedge_status selvedge_simulation_triangles(const struct selvedge_simulation *simulation,
                                               uint32_t *triangles,
                                               size_t triangle_count);
+
+/**
+ * Copies all loose edges, of ropes, laces and fringes: two vertex numbers each. A step changes them only where cloth tears.
+ * `loose_edge_count` is that of selvedge_simulation_sizes.
+ *
+ * The caller promises:
+ * `loose_edges` has room for 2 * `loose_edge_count` numbers.
+ */
+selvedge_status selvedge_simulation_loose_edges(const struct selvedge_simulation *simulation,
+                                                uint32_t *loose_edges,
+                                                size_t loose_edge_count);
 
 /**
  * The pairs that came near each other in the last part of the last step, as contact saw them at its start. None without a contact

@@ -60,6 +60,11 @@ class simulation {
     return copied<std::uint32_t>(selvedge_simulation_triangles, sizes().triangle_count);
   }
 
+  /// Two vertex numbers for each edge that belongs to no triangle: of ropes, laces and fringes. A step changes them only where cloth tears.
+  std::vector<std::uint32_t> loose_edges() const {
+    return copied<std::uint32_t>(selvedge_simulation_loose_edges, sizes().loose_edge_count, 2);
+  }
+
   /// The body of this name.
   selvedge_part body(const std::string &name) const {
     selvedge_part part{};
@@ -138,8 +143,9 @@ class simulation {
   }
 
   template <class Number>
-  std::vector<Number> copied(selvedge_status (*copy)(const selvedge_simulation *, Number *, std::size_t), std::size_t count) const {
-    std::vector<Number> numbers(3 * count);
+  std::vector<Number> copied(selvedge_status (*copy)(const selvedge_simulation *, Number *, std::size_t), std::size_t count,
+                             std::size_t width = 3) const {
+    std::vector<Number> numbers(width * count);
     check(copy(get(), numbers.data(), count));
     return numbers;
   }

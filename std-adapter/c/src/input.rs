@@ -70,7 +70,7 @@ impl<T> Out<T> {
     }
 }
 
-/// Where numbers go that the caller has room for, three for each of so many vertices.
+/// Where numbers go that the caller has room for: three for each of so many vertices, or as many as its rows have.
 #[derive(Debug)]
 pub(crate) struct OutFrame<S> {
     start: Out<S>,
@@ -88,8 +88,8 @@ impl<S: Plain> OutFrame<S> {
 
     /// Writes one row after another, as far as there is room.
     #[cfg(feature = "cloth")]
-    pub(crate) fn fill(self, rows: impl Iterator<Item = [S; 3]>) {
-        let start = self.start.0.cast::<[S; 3]>();
+    pub(crate) fn fill<const N: usize>(self, rows: impl Iterator<Item = [S; N]>) {
+        let start = self.start.0.cast::<[S; N]>();
         for (index, row) in rows.take(self.vertex_count).enumerate() {
             // SAFETY: aligned as its numbers are, and `new` was promised that so many may be written to.
             unsafe { start.add(index).write(row) };

@@ -22,6 +22,7 @@
 //! | [`Material`] | cotton, denim, silk, wool, leather, latex: what they weigh and resist |
 //! | [`Motion`], [`Animation`] | where bodies go: on keyframes, as frames or a skinned figure of a glTF file say, or as the caller does |
 //! | [`Simulation`] | runs a scene: positions after each step, what each effect took, checkpoints |
+//! | [`vertex_normals`], [`Tubes`] | to show cloth, and ropes, as triangles |
 //! | [`effect_names`] | every effect that a scene may name |
 //! | [`sleeve`] | the paper's sleeve at any size, of which scenes can be made |
 
@@ -58,6 +59,7 @@ pub use effects::effect_names;
 pub use energy::{Energy, StoredEnergy};
 pub use input::{SceneError, ValueError};
 pub use normals::vertex_normals;
+pub use rope::Tubes;
 pub use scene::{OnBlocked, Scene, TangledStart};
 pub use selvedge::Mesh;
 pub use selvedge_core::glam;

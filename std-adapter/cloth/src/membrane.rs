@@ -151,9 +151,16 @@ pub(crate) fn triangles_around(cloth: &Cloth) -> Incidence<(u32, f64)> {
             .flat_map(|((triangle, &area), index)| triangle.map(|vertex| (vertex, (index, area))))
     };
     let mut around = Incidence::new(mesh.positions.len(), corners);
-    for vertex in 0..around.len() {
+    // What loose edges weigh, as the area of as much cloth: a sixth of each of these, which are twice the triangles', is a vertex's.
+    let mut of_edges = vec![0.0; around.len()];
+    for edge in cloth.topology.loose_edges() {
+        let [a, b] = edge.map(|v| mesh.positions[v as usize]);
+        let as_area = 3.0 * cloth.linear_density * a.distance(b) / cloth.density;
+        edge.iter().for_each(|&vertex| of_edges[vertex as usize] += as_area);
+    }
+    for (vertex, of_edges) in of_edges.into_iter().enumerate() {
         let own = around.of_mut(vertex);
-        let all: f64 = own.iter().map(|(_, area)| area).sum();
+        let all = own.iter().map(|(_, area)| area).sum::<f64>() + of_edges;
         own.iter_mut().for_each(|(_, share)| *share /= all);
     }
     around

@@ -169,8 +169,7 @@ impl Scene {
     }
 
     /// What contact keeps a cloth from itself, in metres, by its index; `None` if nothing does. Of a rope that is its diameter.
-    #[must_use]
-    pub fn thickness_of(&self, cloth: usize) -> Option<f64> {
+    pub(crate) fn thickness_of(&self, cloth: usize) -> Option<f64> {
         self.called().fabrics().get(cloth)?.thickness
     }
 

@@ -339,6 +339,11 @@ impl Simulation {
     }
 
     #[getter]
+    fn loose_edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        rows(py, self.simulation()?.loose_edges().to_vec())
+    }
+
+    #[getter]
     fn cloth_vertex_count(&self) -> PyResult<usize> {
         Ok(self.simulation()?.cloth_vertices())
     }

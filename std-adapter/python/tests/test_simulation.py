@@ -99,6 +99,29 @@ def test_a_scene_said_in_python_is_that_of_its_file(tmp_path):
         np.testing.assert_array_equal(simulation.positions, simulations[0].positions)
 
 
+def test_a_rope_said_in_python_hangs_in_a_wind_by_its_loose_edges():
+    rope = {
+        "name": "rope",
+        "time_step": "2 ms",
+        "duration": "1 s",
+        "cloth": {"shape": "rope", "points": [[0, 0, 0], [1, 0, 0]], "segments": 20, "linear_density": "50 g/m"},
+        "effects": {
+            "gravity": {},
+            "rope_stretch": {"stiffness": "10 kN"},
+            "pins": {"group": [{"part": "start"}]},
+            "wind": {"velocity": [0, 10, 0], "rope_diameter": "8 mm"},
+        },
+    }
+    simulation = Simulation.from_dict(rope)
+    assert simulation.faces.shape == (0, 3)
+    edges = simulation.loose_edges
+    assert edges.shape == (20, 2) and edges.dtype == np.uint32
+    simulation.step(100)
+    lengths = np.linalg.norm(np.diff(simulation.positions[edges], axis=1), axis=2)
+    np.testing.assert_allclose(lengths, 0.05, rtol=1e-3)
+    assert simulation.positions[-1, 1] > 0.05 and simulation.positions[-1, 2] < -0.1
+
+
 def test_what_is_wrong_in_a_dict_is_named_by_its_line():
     with pytest.raises(errors.SceneError, match="scene.toml:2:.*parsec"):
         Simulation.from_dict({"name": "x", "time_step": "1 parsec"})

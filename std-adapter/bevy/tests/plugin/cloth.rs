@@ -1,7 +1,7 @@
 //! Cloth that entities lead.
 
 use crate::figure::{self, DURATION};
-use crate::{add, app, mesh, sheet, step};
+use crate::{add, app, empty_mesh, mesh, sheet, step};
 use bevy_app::{App, FixedUpdate};
 use bevy_asset::Assets;
 use bevy_ecs::entity::Entity;
@@ -12,11 +12,13 @@ use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 use selvedge_bevy::selvedge::{CollisionDetector, Intersection, Topology};
 use selvedge_bevy::selvedge_cloth::effects::{
-    BodyContact, Gravity, PinGroup, PinMotion, Pins, SelfCollision, Stretch, Tearing, Thickness,
+    BodyContact, Gravity, PinGroup, PinMotion, Pins, RopeStretch, SelfCollision, Stretch, Tearing, Thickness,
 };
 use selvedge_bevy::selvedge_cloth::glam::{DQuat, DVec3};
 use selvedge_bevy::selvedge_cloth::{Body, Cloth, Keyframe, Motion, OnBlocked, Placement, RigidMotion, Scene, Simulation};
-use selvedge_bevy::{ClothSimulation, SelvedgeError, SelvedgeProblem, body_of_mesh, cloth_of_mesh, mesh_of};
+use selvedge_bevy::{
+    ClothSimulation, RopesOf, SelvedgeError, SelvedgeProblem, body_of_mesh, cloth_of_mesh, mesh_of, mesh_of_cloths,
+};
 use std::time::Duration;
 
 fn wide(position: [f32; 3]) -> DVec3 {
@@ -425,4 +427,68 @@ fn a_mesh_that_is_not_the_cloths_and_a_time_step_that_changes_are_told() {
         fixed: 0.011,
     };
     assert_eq!(told, [problem(cloth, error)]);
+}
+
+/// A rope of 21 vertices beside a sheet, both of one scene.
+fn rope_and_sheet() -> Scene {
+    let mut scene = over_a_ball();
+    let points = [DVec3::new(0.5, 0.0, 0.0), DVec3::new(1.5, 0.0, 0.0)];
+    scene.cloths.push(Cloth::rope(&points, 20, 0.05).unwrap().named("rope"));
+    scene.add(RopeStretch::of(1e4));
+    scene
+}
+
+#[test]
+fn ropes_are_seen_as_tubes_where_the_simulation_has_them_and_follow_their_own_transform() {
+    let mut app = app();
+    let handle = add(&mut app, empty_mesh());
+    let cloths = add(&mut app, mesh_of_cloths(&rope_and_sheet()));
+    let cloth = ClothSimulation::new(rope_and_sheet());
+    let cloth = app.world_mut().spawn((cloth, Mesh3d(cloths))).id();
+    let moved = Transform::from_xyz(0.0, 0.25, 0.0);
+    let seen = app.world_mut().spawn((RopesOf::new(cloth), Mesh3d(handle), moved)).id();
+    for _ in 0..3 {
+        assert_eq!(step(&mut app).problems, []);
+    }
+    let positions = attribute(&app, seen, Mesh::ATTRIBUTE_POSITION);
+    let normals = attribute(&app, seen, Mesh::ATTRIBUTE_NORMAL);
+    assert_eq!((positions.len(), normals.len()), (21 * 8, 21 * 8));
+    let simulation = simulation(&app, cloth);
+    let all = attribute(&app, cloth, Mesh::ATTRIBUTE_POSITION);
+    let of_cloths = &simulation.positions()[..simulation.cloth_vertices()];
+    assert!(all.iter().zip(of_cloths).all(|(seen, own)| *seen == own.as_vec3().to_array()) && all.len() == 169 + 21);
+    let rope = &simulation.positions()[simulation.vertices_of_cloth(1).unwrap()];
+    assert!(rope[0].y < -1e-4);
+    for (ring, centre) in positions.chunks(8).zip(rope) {
+        for corner in ring {
+            let away = wide(*corner) + DVec3::Y * 0.25 - *centre;
+            assert!((away.length() - 2e-3).abs() < 1e-6, "{away}");
+        }
+    }
+    for ((position, normal), ring) in positions
+        .iter()
+        .zip(&normals)
+        .zip(0..)
+        .filter(|(_, ring)| (8..160).contains(ring))
+    {
+        let out = wide(*position) + DVec3::Y * 0.25 - rope[ring / 8];
+        assert!(wide(*normal).dot(out.normalize()) > 0.9);
+    }
+    let mesh = app.world().resource::<Assets<Mesh>>();
+    let mesh = mesh.get(&app.world().get::<Mesh3d>(seen).unwrap().0).unwrap();
+    assert_eq!(mesh.indices().unwrap().len(), 3 * (20 * 16 + 12));
+}
+
+#[test]
+fn ropes_that_are_not_there_are_told_once() {
+    let mut app = app();
+    let handle = add(&mut app, empty_mesh());
+    let nobody = app.world_mut().spawn_empty().id();
+    let seen = app.world_mut().spawn((RopesOf::new(nobody), Mesh3d(handle))).id();
+    let none = problem(seen, SelvedgeError::NoCloth { entity: nobody });
+    assert_eq!(step(&mut app).problems, [none]);
+    app.world_mut().entity_mut(nobody).insert(ClothSimulation::new(over_a_ball()));
+    let without = problem(seen, SelvedgeError::NoRopes { entity: nobody });
+    assert_eq!(step(&mut app).problems, [without]);
+    assert_eq!(step(&mut app).problems, []);
 }

@@ -21,6 +21,8 @@ pub struct SizesRow {
     pub cloth_vertex_count: usize,
     /// How many of the triangles are of cloth.
     pub cloth_triangle_count: usize,
+    /// How many edges belong to no triangle: of ropes, laces and fringes.
+    pub loose_edge_count: usize,
     /// How many cloths there are, numbered from 0 on.
     pub cloth_count: usize,
     /// How many bodies there are, numbered from 0 on.
@@ -79,6 +81,7 @@ pub unsafe extern "C" fn selvedge_simulation_sizes(simulation: *const Simulation
             triangle_count: simulation.triangles().len(),
             cloth_vertex_count: simulation.cloth_vertices(),
             cloth_triangle_count: simulation.cloth_triangles(),
+            loose_edge_count: simulation.loose_edges().len(),
             cloth_count: simulation.cloth_names().len(),
             body_count: simulation.body_names().len(),
             time_step: it.of_scene.time_step,

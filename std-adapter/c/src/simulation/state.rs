@@ -41,11 +41,11 @@ pub(super) fn check_count(what: &str, found: usize, expected: usize) -> Result<(
     Err(Failure::new(Status::WrongLength, text))
 }
 
-/// Writes what there is to where the caller has room for just that.
+/// Writes what there is to where the caller has room for just that: anywhere if there is nothing.
 ///
 /// # Safety
-/// Unless it is null or misaligned, `start` may be written to until the call ends, three numbers for each of `count`.
-unsafe fn copy_rows<S: Plain, T: Copy + Into<[S; 3]>>(
+/// Unless it is null or misaligned, `start` may be written to until the call ends, N numbers for each of `count`.
+unsafe fn copy_rows<S: Plain, T: Copy + Into<[S; N]>, const N: usize>(
     simulation: *const SimulationHandle,
     (what, start, count): (&str, *mut S, usize),
     all: fn(&Simulation) -> Cow<'_, [T]>,
@@ -53,6 +53,9 @@ unsafe fn copy_rows<S: Plain, T: Copy + Into<[S; 3]>>(
     on(simulation, |it| {
         let rows = all(&it.simulation);
         check_count(what, count, rows.len())?;
+        if rows.is_empty() {
+            return Ok(());
+        }
         // SAFETY: the caller's promise.
         unsafe { OutFrame::new(what, start, count) }?.fill(rows.iter().map(|&row| row.into()));
         Ok(())
@@ -126,6 +129,25 @@ pub unsafe extern "C" fn selvedge_simulation_triangles(
     unsafe {
         copy_rows(simulation, ("triangles", triangles, triangle_count), |it| {
             it.triangles().into()
+        })
+    }
+}
+
+/// Copies all loose edges, of ropes, laces and fringes: two vertex numbers each. A step changes them only where cloth tears.
+/// `loose_edge_count` is that of selvedge_simulation_sizes.
+///
+/// # Safety
+/// `loose_edges` has room for 2 * `loose_edge_count` numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn selvedge_simulation_loose_edges(
+    simulation: *const SimulationHandle,
+    loose_edges: *mut u32,
+    loose_edge_count: usize,
+) -> Status {
+    // SAFETY: the caller's promise.
+    unsafe {
+        copy_rows(simulation, ("loose edges", loose_edges, loose_edge_count), |it| {
+            it.loose_edges().into()
         })
     }
 }

@@ -199,3 +199,42 @@ fn a_panic_breaks_its_simulation_and_no_other() {
     assert_eq!(selvedge_simulation_free(broken), Status::NoSuchSimulation);
     assert_eq!(selvedge_simulation_free(other), Status::Ok);
 }
+
+#[test]
+fn a_rope_has_loose_edges_and_no_triangles_and_what_there_is_none_of_needs_no_room() {
+    let rope = c"
+time_step = 0.002
+duration = 1
+[cloth]
+shape = 'rope'
+points = [[0, 0, 0], [1, 0, 0]]
+segments = 10
+linear_density = 0.05
+[effects.gravity]
+[effects.rope_stretch]
+stiffness = 1000
+";
+    let mut handle = ptr::null_mut();
+    let mut sizes = SizesRow::default();
+    let mut edges = [[0; 2]; 10];
+    // SAFETY: a text that ends, places for the handle and the sizes, and as many edges as there are.
+    unsafe {
+        assert_eq!(
+            selvedge_simulation_new(rope.as_ptr(), ptr::null(), 1, &raw mut handle),
+            Status::Ok
+        );
+        assert_eq!(selvedge_simulation_sizes(handle, &raw mut sizes), Status::Ok);
+        assert_eq!((sizes.triangle_count, sizes.loose_edge_count), (0, 10));
+        assert_eq!(selvedge_simulation_triangles(handle, ptr::null_mut(), 0), Status::Ok);
+        let to: *mut u32 = edges.as_mut_ptr().cast();
+        assert_eq!(selvedge_simulation_loose_edges(handle, to, 9), Status::WrongLength);
+        assert_eq!(
+            selvedge_simulation_loose_edges(handle, ptr::null_mut(), 10),
+            Status::NullPointer
+        );
+        assert_eq!(selvedge_simulation_loose_edges(handle, to, 10), Status::Ok);
+        assert_eq!(selvedge_simulation_free(handle), Status::Ok);
+    }
+    let [first, last] = [edges[0], edges[9]].map(|edge| [edge[0].min(edge[1]), edge[0].max(edge[1])]);
+    assert_eq!([first, last], [[0, 1], [9, 10]]);
+}

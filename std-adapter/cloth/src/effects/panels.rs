@@ -1,34 +1,17 @@
-//! What moving air does to a cloth: each triangle is pushed along its normal by the air that it stops.
+//! What moving air does to triangles: each is pushed along its normal by the air that it stops.
 //!
 //! The force on a triangle of area A is ½ρ·c·A·|u·n|(u·n)·n, u the air's velocity relative to it (Keller et al. 2003 use the
 //! same normal term). The triangle's own normal velocity then follows v′ = −k|v|v, k = ½ρc/σ with σ its mass per area, whose exact
 //! solution over a step is v/(1 + k·h·|v|): so a step never overshoots the wind. Vertices take the changes of their triangles in
-//! the shares that these have in their mass, whose sum is one.
+//! the shares that these have in their mass, whose sum is at most one.
 
+use super::in_air::{Drag, share_taken, take};
 use crate::incidence::Incidence;
-use crate::input::{AIR_DENSITY, Field, RATIO, SceneError, Table, ValueError};
 use crate::membrane::triangles_around;
 use crate::step::TimeStep;
 use crate::world::Cloth;
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;
-
-const DENSITY: Field = Field::new("air_density", AIR_DENSITY, 0.0, 1e3);
-const DRAG: Field = Field::new("drag", RATIO, 0.0, 100.0);
-
-/// Reads the density of air and the drag coefficient, or leaves them as they are.
-pub(super) fn read_drag(table: &Table<'_>, [density, drag]: [f64; 2]) -> Result<[f64; 2], SceneError> {
-    Ok([
-        table.number(&DENSITY)?.unwrap_or(density),
-        table.number(&DRAG)?.unwrap_or(drag),
-    ])
-}
-
-/// Whether there can be air of such a density, and such a drag coefficient.
-pub(super) fn check_drag([density, drag]: [f64; 2]) -> Result<(), ValueError> {
-    DENSITY.check(density)?;
-    DRAG.check(drag)
-}
 
 /// The triangles of a cloth, in the air.
 #[derive(Debug)]
@@ -42,10 +25,9 @@ pub(super) struct Panels {
 }
 
 impl Panels {
-    /// In air of such a density, in kg/m³, with such a drag coefficient.
-    pub(super) fn new(cloth: &Cloth, [density, drag]: [f64; 2]) -> Self {
+    pub(super) fn new(cloth: &Cloth, air: Drag) -> Self {
         Self {
-            factor: 0.5 * density * drag / cloth.density,
+            factor: air.over(cloth.density),
             triangles: cloth.mesh.triangles.clone(),
             incidence: triangles_around(cloth),
             changes: Vec::new(),
@@ -53,7 +35,7 @@ impl Panels {
     }
 
     /// Changes velocities by air that moves as `air` says of a triangle's corners.
-    pub(super) fn push(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3], air: impl Fn([DVec3; 3]) -> DVec3 + Sync) {
+    pub(super) fn push(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3], air: impl Fn(&[DVec3]) -> DVec3 + Sync) {
         let Self {
             factor,
             triangles,
@@ -66,16 +48,9 @@ impl Panels {
             let [a, b, c] = corners;
             let normal = (b - a).cross(c - a).normalize_or_zero();
             let [u, v, w] = triangle.map(|v| read[v as usize]);
-            let across = (air(corners) - (u + v + w) / 3.0).dot(normal);
-            let slowing = *factor * step.h * across.abs();
-            normal * (across * (slowing / (1.0 + slowing)))
+            let across = (air(&corners) - (u + v + w) / 3.0).dot(normal);
+            normal * (across * share_taken(*factor * step.h * across.abs()))
         });
-        for (vertex, velocity) in velocities.iter_mut().enumerate().take(incidence.len()) {
-            if step.inverse_masses[vertex] > 0.0 {
-                for &(triangle, share) in incidence.of(vertex) {
-                    *velocity += changes[triangle as usize] * share;
-                }
-            }
-        }
+        take(step, velocities, incidence, changes);
     }
 }

@@ -1,8 +1,8 @@
-//! Wind that is the same everywhere but for gusts: it pushes as [`Panels`] say.
+//! Wind that is the same everywhere but for gusts: it pushes [triangles](super::panels), and [loose edges](super::cords) that have a diameter.
 //!
 //! Gusts: the wind's speed varies as 1 + g·sin(2πft − q·x) with x along the wind, q one wave in [`GUST_LENGTH`] metres.
 
-use super::panels::{Panels, check_drag, read_drag};
+use super::in_air::{Drag, InAir};
 use super::registration::{ActsOn, Effect, Registration};
 use crate::input::{FREQUENCY, Field, RATIO, SPEED, ValueError};
 use crate::plan::Plan;
@@ -20,17 +20,18 @@ const GUST: Field = Field::new("gust", RATIO, 0.0, 1.0);
 const GUST_FREQUENCY: Field = Field::new("gust_frequency", FREQUENCY, 0.0, 1e3);
 
 pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["velocity", "air_density", "drag", "gust", "gust_frequency"],
+    keys: &["velocity", "air_density", "drag", "rope_diameter", "gust", "gust_frequency"],
     needs: &[],
     read: |table, _| {
         let number = |field, default| table.number(field).map(|n| n.unwrap_or(default));
         let default = Wind::default();
         let velocity = table.required_vector(&VELOCITY)?;
-        let [air_density, drag] = read_drag(table, [default.air_density, default.drag])?;
+        let air = Drag::read(table)?;
         Ok(Box::new(Wind {
             velocity,
-            air_density,
-            drag,
+            air_density: air.density,
+            drag: air.coefficient,
+            rope_diameter: air.rope_diameter,
             gust: number(&GUST, default.gust)?,
             gust_frequency: number(&GUST_FREQUENCY, default.gust_frequency)?,
         }))
@@ -44,8 +45,10 @@ pub struct Wind {
     pub velocity: DVec3,
     /// In kg/m³.
     pub air_density: f64,
-    /// The drag coefficient of a triangle that the wind meets head-on.
+    /// The drag coefficient of a triangle, or a loose edge, that the wind meets head-on. Round cords have some 1.1.
     pub drag: f64,
+    /// Of loose edges, in metres; 0: the wind blows past them.
+    pub rope_diameter: f64,
     /// By which share gusts change the speed; 0: none.
     pub gust: f64,
     /// Gusts a second.
@@ -53,12 +56,13 @@ pub struct Wind {
 }
 
 impl Default for Wind {
-    /// No wind yet, at sea level; no gusts.
+    /// No wind yet, at sea level; no gusts. It blows past ropes.
     fn default() -> Self {
         Self {
             velocity: DVec3::ZERO,
-            air_density: 1.2,
-            drag: 1.0,
+            air_density: Drag::DEFAULT.density,
+            drag: Drag::DEFAULT.coefficient,
+            rope_diameter: Drag::DEFAULT.rope_diameter,
             gust: 0.0,
             gust_frequency: 1.0,
         }
@@ -70,6 +74,14 @@ impl Wind {
     pub(crate) fn check_velocity(velocity: DVec3) -> Result<(), ValueError> {
         VELOCITY.check_vector(velocity)
     }
+
+    const fn air(&self) -> Drag {
+        Drag {
+            density: self.air_density,
+            coefficient: self.drag,
+            rope_diameter: self.rope_diameter,
+        }
+    }
 }
 
 impl Effect for Wind {
@@ -78,19 +90,19 @@ impl Effect for Wind {
     }
 
     fn acts_on(&self) -> ActsOn {
-        ActsOn::Triangles
+        self.air().acts_on()
     }
 
-    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
+    fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
         Self::check_velocity(self.velocity)?;
-        check_drag([self.air_density, self.drag])?;
+        self.air().check(world)?;
         GUST.check(self.gust)?;
         GUST_FREQUENCY.check(self.gust_frequency)
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
         plan.add_force(Blow {
-            panels: Panels::new(plan.scene.cloth, [self.air_density, self.drag]),
+            cloth: InAir::new(plan.scene.cloth, self.air()),
             wave: wave(self.velocity),
             wind: *self,
         });
@@ -107,7 +119,7 @@ struct Blow {
     wind: Wind,
     /// Phase per metre.
     wave: DVec3,
-    panels: Panels,
+    cloth: InAir,
 }
 
 impl Force for Blow {
@@ -118,10 +130,10 @@ impl Force for Blow {
     }
 
     fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
-        let Self { wind, wave, panels } = self;
+        let Self { wind, wave, cloth } = self;
         let phase = TAU * wind.gust_frequency * step.time;
-        panels.push(step, velocities, |[a, ..]| {
-            let strength = 1.0 + wind.gust * sin(phase - wave.dot(a));
+        cloth.push(step, velocities, |corners| {
+            let strength = 1.0 + wind.gust * sin(phase - wave.dot(corners[0]));
             wind.velocity * strength
         });
     }

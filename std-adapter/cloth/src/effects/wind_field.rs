@@ -1,9 +1,10 @@
-//! Wind from a field: air whose velocity depends on place and time. It pushes as [`Panels`] say, by the air in the middle of each triangle.
+//! Wind from a field: air whose velocity depends on place and time. It pushes [triangles](super::panels), and
+//! [loose edges](super::cords) that have a diameter, by the air in the middle of each.
 //!
 //! A scene file makes a field of fans and vortices ([`AirSource`]); code may give any function ([`Air`]).
 
 use super::air_sources::{AirSource, Fan, Vortex};
-use super::panels::{Panels, check_drag, read_drag};
+use super::in_air::{Drag, InAir};
 use super::registration::{ActsOn, Effect, Registration};
 use crate::input::ValueError;
 use crate::plan::Plan;
@@ -14,7 +15,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 pub(super) const REGISTRATION: Registration = Registration {
-    keys: &["fan", "vortex", "air_density", "drag"],
+    keys: &["fan", "vortex", "air_density", "drag", "rope_diameter"],
     needs: &[],
     read: |table, _| {
         let mut sources = Vec::new();
@@ -28,9 +29,13 @@ pub(super) const REGISTRATION: Registration = Registration {
             let message = "a field of wind needs at least one [[effects.wind_field.fan]] or [[effects.wind_field.vortex]]";
             return Err(table.error("fan", message.to_owned()));
         }
-        let mut field = WindField::of(sources);
-        [field.air_density, field.drag] = read_drag(table, [field.air_density, field.drag])?;
-        Ok(Box::new(field))
+        let air = Drag::read(table)?;
+        Ok(Box::new(WindField {
+            air_density: air.density,
+            drag: air.coefficient,
+            rope_diameter: air.rope_diameter,
+            ..WindField::of(sources)
+        }))
     },
 };
 
@@ -76,18 +81,21 @@ pub struct WindField {
     pub air: Arc<dyn Air>,
     /// In kg/m³.
     pub air_density: f64,
-    /// The drag coefficient of a triangle that the wind meets head-on.
+    /// The drag coefficient of a triangle, or a loose edge, that the wind meets head-on. Round cords have some 1.1.
     pub drag: f64,
+    /// Of loose edges, in metres; 0: the wind blows past them.
+    pub rope_diameter: f64,
 }
 
 impl WindField {
-    /// At sea level.
+    /// At sea level. It blows past ropes.
     #[must_use]
     pub fn new(air: impl Air + 'static) -> Self {
         Self {
             air: Arc::new(air),
-            air_density: 1.2,
-            drag: 1.0,
+            air_density: Drag::DEFAULT.density,
+            drag: Drag::DEFAULT.coefficient,
+            rope_diameter: Drag::DEFAULT.rope_diameter,
         }
     }
 
@@ -95,6 +103,14 @@ impl WindField {
     #[must_use]
     pub fn of(sources: Vec<AirSource>) -> Self {
         Self::new(sources)
+    }
+
+    const fn resistance(&self) -> Drag {
+        Drag {
+            density: self.air_density,
+            coefficient: self.drag,
+            rope_diameter: self.rope_diameter,
+        }
     }
 }
 
@@ -104,19 +120,18 @@ impl Effect for WindField {
     }
 
     fn acts_on(&self) -> ActsOn {
-        ActsOn::Triangles
+        self.resistance().acts_on()
     }
 
-    fn check(&self, _: &SceneParts<'_>) -> Result<(), ValueError> {
+    fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
         self.air.check()?;
-        check_drag([self.air_density, self.drag])
+        self.resistance().check(world)
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
-        let panels = Panels::new(plan.scene.cloth, [self.air_density, self.drag]);
         plan.add_force(Blowing {
             air: Arc::clone(&self.air),
-            panels,
+            cloth: InAir::new(plan.scene.cloth, self.resistance()),
         });
     }
 }
@@ -124,14 +139,15 @@ impl Effect for WindField {
 #[derive(Debug)]
 struct Blowing {
     air: Arc<dyn Air>,
-    panels: Panels,
+    cloth: InAir,
 }
 
 impl Force for Blowing {
     fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
         let air = &self.air;
-        self.panels.push(step, velocities, |[a, b, c]| {
-            let velocity = air.velocity((a + b + c) / 3.0, step.time);
+        self.cloth.push(step, velocities, |corners| {
+            let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+            let velocity = air.velocity(middle, step.time);
             if velocity.is_finite() { velocity } else { DVec3::ZERO }
         });
     }

@@ -12,7 +12,9 @@
 mod bending;
 mod runs;
 mod stretching;
+mod tubes;
 
 pub(crate) use bending::Bending;
 pub(crate) use runs::{Run, runs};
 pub(crate) use stretching::{Stretching, Tie};
+pub use tubes::Tubes;

@@ -297,8 +297,7 @@ impl Cloth {
 
     /// Its loose edges as rows of vertices, each joined with the next: from where a rope begins, ends or branches to the next such place. Where a
     /// row is closed its first vertex is the last again.
-    #[must_use]
-    pub fn loose_rows(&self) -> Vec<Vec<u32>> {
+    pub(crate) fn loose_rows(&self) -> Vec<Vec<u32>> {
         let runs = runs(&self.loose_edges(), self.mesh.positions.len()).into_iter();
         runs.map(Run::into_vertices).collect()
     }

@@ -97,7 +97,7 @@ fn a_closed_cloth_is_not_pushed_as_a_whole_and_an_open_one_along_its_normals() {
 
 /// The same wind everywhere, as a field.
 #[derive(Debug)]
-struct Even(DVec3);
+pub(crate) struct Even(pub(crate) DVec3);
 
 impl Air for Even {
     fn velocity(&self, _: DVec3, _: f64) -> DVec3 {

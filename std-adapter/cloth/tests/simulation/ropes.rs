@@ -1,10 +1,11 @@
 //! Ropes, laces and fringes: edges that belong to no triangle.
 
+use crate::air::Even;
 use crate::{scene_file, set_up};
 use selvedge::{CollisionDetector, Topology};
 use selvedge_cloth::effects::{
     AirDrag, BodyContact, Force, Friction, Gravity, PinGroup, Pins, Plan, RopeBend, RopeShape, RopeStretch, Seam, Seams,
-    SelfCollision, Shear, Stretch, Thickness, TimeStep,
+    SelfCollision, Shear, Stretch, Thickness, TimeStep, Wind, WindField,
 };
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Body, CHECKPOINT_STEPS, Cloth, Mesh, Scene, Simulation};
@@ -301,8 +302,8 @@ fn ropes_have_the_same_bits_on_any_number_of_threads_and_resumed() {
     assert_eq!(one.positions(), two.positions());
 }
 
-#[test]
-fn a_fringe_hangs_from_the_cloth_that_it_is_of() {
+/// A sheet of 0.2 m, 100 g/m², upright along x, with nine loose rows of five edges, a centimetre each, that hang from its lower side.
+fn fringed(linear_density: f64) -> Cloth {
     let mut mesh = Cloth::sheet(DVec3::ZERO, [DVec3::X * 0.2, DVec3::Z * 0.2], [8, 8], 0.1)
         .unwrap()
         .mesh()
@@ -318,7 +319,12 @@ fn a_fringe_hangs_from_the_cloth_that_it_is_of() {
             last = next;
         }
     }
-    let cloth = Cloth::of_mesh_with_loose_edges(mesh, &loose, DVec3::X, [0.1, 0.002]).unwrap();
+    Cloth::of_mesh_with_loose_edges(mesh, &loose, DVec3::X, [0.1, linear_density]).unwrap()
+}
+
+#[test]
+fn a_fringe_hangs_from_the_cloth_that_it_is_of() {
+    let cloth = fringed(0.002);
     let mut scene = Scene::new(cloth, 1e-3);
     scene
         .add(Gravity::default())
@@ -532,4 +538,124 @@ fn what_cannot_be_of_loose_edges_is_told_from_code() {
     scene.add(RopeStretch::of(1.0));
     let none = "rope_stretch: 'rope_stretch' has nothing to act on: no cloth has loose edges";
     assert!(scene.check().unwrap_err().to_string().starts_with(none));
+}
+
+/// 8 mm thick, 50 g/m, in 10 m/s: sin ϑ / cos² ϑ = ρ·d·U²/(2·μ·g) from drag and weight across the rope, anywhere along it.
+#[test]
+fn a_rope_in_a_wind_leans_until_drag_and_weight_across_it_are_even() {
+    let mut scene = hanging(40, 1e5, 1e-3);
+    scene.add(Wind {
+        velocity: DVec3::X * 10.0,
+        rope_diameter: 8e-3,
+        ..Wind::default()
+    });
+    let simulation = run(scene, 4000);
+    let asked = 1.2 * 8e-3 * 100.0 / (2.0 * 0.05 * G);
+    let sine = ((1.0 + 4.0 * asked * asked).sqrt() - 1.0) / (2.0 * asked);
+    for two in simulation.positions().windows(2) {
+        let found = (two[1] - two[0]).normalize();
+        assert!((found.x - sine).abs() < 2e-3, "{} for {sine}", found.x);
+    }
+}
+
+#[test]
+fn a_wind_along_a_rope_does_nothing_to_it_and_one_across_never_makes_it_faster_than_itself() {
+    let rope = || Cloth::rope(&[DVec3::ZERO, DVec3::Z], 10, 1e-4).unwrap();
+    let blown = |velocity| {
+        let mut scene = Scene::new(rope(), 1e-2);
+        scene.add(Wind {
+            velocity,
+            rope_diameter: 0.05,
+            ..Wind::default()
+        });
+        run(scene, 5).velocities().to_vec()
+    };
+    assert!(blown(DVec3::Z * 300.0).iter().all(|velocity| *velocity == DVec3::ZERO));
+    for velocity in blown(DVec3::X * 300.0) {
+        assert!(velocity.x > 290.0 && velocity.x <= 300.0, "{velocity}");
+    }
+}
+
+/// What the air gives to triangles and edges, each as if it were alone, is shared by vertices that are of both.
+#[test]
+fn air_gives_a_fringed_cloth_as_much_momentum_as_its_triangles_and_edges_stop() {
+    let (linear_density, diameter, wind, step) = (0.02, 3e-3, 5.0, 1e-3);
+    for rope_diameter in [0.0, diameter] {
+        let cloth = fringed(linear_density);
+        let mut scene = Scene::new(cloth, step);
+        scene.add(Wind {
+            velocity: DVec3::Y * wind,
+            rope_diameter,
+            ..Wind::default()
+        });
+        let masses = {
+            let (mesh, topology) = (scene.cloths[0].mesh(), scene.cloths[0].topology());
+            let mut masses = vec![0.0; mesh.positions.len()];
+            for triangle in &mesh.triangles {
+                let [a, b, c] = triangle.map(|vertex| mesh.positions[vertex as usize]);
+                let third = 0.1 * 0.5 * (b - a).cross(c - a).length() / 3.0;
+                triangle.iter().for_each(|&vertex| masses[vertex as usize] += third);
+            }
+            for edge in topology.loose_edges() {
+                edge.iter()
+                    .for_each(|&vertex| masses[vertex as usize] += linear_density * 0.01 / 2.0);
+            }
+            masses
+        };
+        let simulation = run(scene, 1);
+        let momentum: DVec3 = masses
+            .iter()
+            .zip(simulation.velocities())
+            .map(|(mass, velocity)| *velocity * *mass)
+            .sum();
+        let given = |mass: f64, slowing: f64| mass * wind * slowing * step * wind / (1.0 + slowing * step * wind);
+        let of_triangles = given(0.1 * 0.04, 0.5 * 1.2 / 0.1);
+        let of_edges = given(9.0 * 0.05 * linear_density, 0.5 * 1.2 * rope_diameter / linear_density);
+        // Edges come after triangles, which have given the vertices of both some speed.
+        let expected = of_triangles + of_edges;
+        assert!((momentum.y / expected - 1.0).abs() < 2e-3, "{} for {expected}", momentum.y);
+    }
+}
+
+#[test]
+fn a_field_blows_on_ropes_as_the_same_wind_does() {
+    let velocity = DVec3::new(0.5, 6.0, 0.0);
+    let rope_diameter = 8e-3;
+    let wind = Wind {
+        velocity,
+        rope_diameter,
+        ..Wind::default()
+    };
+    let field = WindField {
+        rope_diameter,
+        ..WindField::new(Even(velocity))
+    };
+    let mut scenes = [hanging(20, 1e4, 1e-3), hanging(20, 1e4, 1e-3)];
+    scenes[0].add(wind);
+    scenes[1].add(field);
+    let [of_wind, of_field] = scenes.map(|scene| run(scene, 100));
+    assert_eq!(of_wind.positions(), of_field.positions());
+    assert!(of_wind.velocities()[20].y > 0.1);
+}
+
+#[test]
+fn a_diameter_of_ropes_asks_for_a_rope() {
+    let sheet = Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [2, 2], 0.1).unwrap();
+    let mut scene = Scene::new(sheet, 1e-3);
+    scene.add(Wind {
+        rope_diameter: 1e-3,
+        ..Wind::default()
+    });
+    let error = Simulation::new(scene, 1).unwrap_err().to_string();
+    assert!(
+        error.starts_with("wind: `rope_diameter` is the diameter of loose edges"),
+        "{error}"
+    );
+    let mut scene = hanging(4, 1e4, 1e-3);
+    scene.add(Wind {
+        rope_diameter: 2.0,
+        ..Wind::default()
+    });
+    let error = Simulation::new(scene, 1).unwrap_err().to_string();
+    assert!(error.starts_with("wind: `rope_diameter` is 2 m"), "{error}");
 }

@@ -247,6 +247,9 @@ class Simulation:
     def faces(self) -> NDArray[np.uint32]:
         """(n, 3): the cloth's, then the bodies'."""
     @property
+    def loose_edges(self) -> NDArray[np.uint32]:
+        """(n, 2): edges of cloths that belong to no face, of ropes, laces and fringes. Others where cloth tears, as :attr:`faces`."""
+    @property
     def cloth_vertex_count(self) -> int: ...
     @property
     def cloth_face_count(self) -> int: ...

@@ -37,11 +37,11 @@
 //! ```
 
 mod recorder;
+mod shown;
 mod simulated;
 #[cfg(test)]
 mod tests;
 mod thinned;
-mod tubes;
 
 pub use recorder::{FrameError, Recorder};
 pub use simulated::{SimulationRecorder, Subject, costs_of_added_effects};

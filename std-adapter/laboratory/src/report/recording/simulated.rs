@@ -1,6 +1,6 @@
 //! Records a [`Simulation`]. Loose edges are recorded as the [tubes](super::tubes) as which they are shown.
 
-use super::tubes::Shown;
+use super::shown::Shown;
 use super::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, PartKind, Recorder, Recording, SeriesKind};
 use super::{EDGES_99, GRAVITATIONAL, LONGEST_EDGE};
 use crate::report::{label, printed};
