@@ -14,10 +14,34 @@ pub(super) type Candidate = NearPair<OfPair>;
 /// What contact keeps of a pair.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfPair {
-    /// The thickness that the pair can have, from its distance at rest; zero if nobody has asked yet.
-    pub(super) thickness: f32,
+    pub(super) aim: Aim,
     /// The body that it is a pair with; [`FREE`] for cloth with itself.
     pub(super) body: Carrier,
+}
+
+/// How far apart a pair is to be, in metres: what is asked of all such pairs, until its own thickness is known, from its distance at rest.
+///
+/// Less than zero as long as it is what is asked: one number, and no branch, for those who ask for it in every step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Aim(f32);
+
+impl Aim {
+    pub(super) const fn asked(thickness: f64) -> Self {
+        Self(-(thickness as f32))
+    }
+
+    pub(super) const fn own(thickness: f64) -> Self {
+        Self(thickness as f32)
+    }
+
+    pub(super) fn is_own(self) -> bool {
+        self.0 > 0.0
+    }
+
+    #[inline(always)]
+    pub(super) fn length(self) -> f64 {
+        f64::from(self.0.abs())
+    }
 }
 
 impl OfPair {
@@ -73,7 +97,10 @@ mod tests {
         ) {
             let end = [0, 1, 2, 3].map(|k| start[k] + moves[k] * 0.3);
             let kind = if is_edge { PairKind::EdgeEdge } else { PairKind::VertexFace };
-            let of_pair = OfPair { thickness: 0.0, body: FREE };
+            let of_pair = OfPair {
+                aim: Aim::asked(0.0),
+                body: FREE,
+            };
             let mut pair = Candidate::new(kind, [0, 0], [0, 1, 2, 3], of_pair);
             let error = GapError::of_coordinates(2.0);
             let until = impact(&mut pair, [&start, &end], separation, error);

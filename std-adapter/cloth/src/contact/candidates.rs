@@ -1,6 +1,6 @@
 //! Which pairs contact looks at: [near pairs](NearPairs) of cloth with itself and with bodies, good for several steps.
 
-use super::candidate::OfPair;
+use super::candidate::{Aim, OfPair};
 use super::crossing::{Crossing, CrossingFinder, PairKey};
 use super::neighbours::{Neighbours, are_many, at_rest};
 use super::settings::{ContactSettings, MARGIN, Thickness};
@@ -41,6 +41,7 @@ const UPKEEP: f64 = 0.6;
 #[derive(Debug)]
 pub(super) struct OfContact {
     topology: Arc<Topology>,
+    settings: ContactSettings,
     /// Whether cloth and cloth are, and cloth and bodies.
     cloth: bool,
     bodies: bool,
@@ -97,6 +98,7 @@ pub(super) fn candidates(
     };
     let interest = OfContact {
         topology: Arc::clone(&topology),
+        settings: settings.clone(),
         cloth: settings.asks(false),
         bodies: settings.asks(true),
         carriers: carriers.to_vec(),
@@ -134,7 +136,11 @@ impl Interest for OfContact {
         if a != FREE && a == b && a == c && a == d {
             return None;
         }
-        Some(OfPair { thickness: 0.0, body })
+        let asked = self.settings.of_vertices(body != FREE, vertices[0], vertices[3])?;
+        Some(OfPair {
+            aim: Aim::asked(asked.thickness),
+            body,
+        })
     }
 }
 

@@ -10,7 +10,7 @@
 //! keeps it at its thickness by then: where cloth lies on something each vertex has many pairs, and a push or two see to all of them. On a
 //! figure that walks in a shirt a third of the pairs that would come too near by themselves are left.
 
-use super::candidate::Candidate;
+use super::candidate::{Aim, Candidate};
 use super::exempt::Exempt;
 use super::neighbours::{are_neighbours, at_rest};
 use super::settings::{ContactSettings, MARGIN, RECOVERY, Thickness};
@@ -19,6 +19,7 @@ use selvedge::verification::{add_kept, parallel};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
+use std::hint::select_unpredictable;
 
 /// The contacts of a step.
 #[derive(Debug, Default)]
@@ -54,17 +55,6 @@ pub(super) struct Rules<'a> {
     pub(super) error: GapError<f64>,
 }
 
-impl Rules<'_> {
-    /// How far apart a pair is to be: its own thickness, once that is known.
-    #[inline(always)]
-    fn aim(self, pair: &Candidate) -> Option<f64> {
-        match f64::from(pair.data.thickness) {
-            0.0 => self.settings.of(pair).map(|asked| asked.thickness),
-            known => Some(known),
-        }
-    }
-}
-
 /// What starts within this may come within `aim`.
 fn reach(aim: f64) -> f64 {
     aim * (1.0 + MARGIN)
@@ -84,12 +74,15 @@ impl Contacts {
             pairs,
             |first, pairs, open: &mut Vec<u32>| {
                 let all = (first as u32..).zip(&*pairs);
-                let all = all.map(|(place, pair)| (is_open(pair, rules, predicted), place));
+                let all = all.map(|(place, pair)| (is_open(pair, predicted), place));
                 add_kept(open, pairs.len(), all);
             },
             &mut self.open,
             |all, own| all.extend(own),
         );
+        if rules.exempt.has_tangle() {
+            self.open.retain(|&place| !rules.exempt.is_tangled(&pairs[place as usize]));
+        }
     }
 
     /// Pushes once along the contacts with bodies, or along those of cloth; returns how many pushed.
@@ -104,7 +97,7 @@ impl Contacts {
         let mut pushed = 0;
         for &place in &self.open {
             let pair = &mut pairs[place as usize];
-            if pair.data.is_with_body() != with_body || is_kept(pair, rules, positions) {
+            if pair.data.is_with_body() != with_body || is_kept(pair, positions) {
                 continue;
             }
             if let Some(near) = near(pair, rules, step) {
@@ -121,19 +114,20 @@ impl Contacts {
     }
 }
 
-/// Whether a pair may have to be pushed.
+/// Whether a pair may have to be pushed. Without a branch, which nobody could foretell.
 #[inline(always)]
-fn is_open(pair: &Candidate, rules: Rules<'_>, predicted: &[DVec3]) -> bool {
-    let Some(aim) = rules.aim(pair) else { return false };
-    // Both are asked: nobody could foretell the first.
+fn is_open(pair: &Candidate, predicted: &[DVec3]) -> bool {
+    let aim = pair.data.aim.length();
     let is_near = f64::from(pair.gap()) <= reach(aim);
-    (is_near & !pair.is_kept_at(aim, predicted)) && !rules.exempt.is_tangled(pair)
+    // What is not near is kept at that.
+    let distance = select_unpredictable(is_near, aim, f64::NEG_INFINITY);
+    !pair.is_kept_at(distance, predicted)
 }
 
 /// Whether the direction that a pair remembers keeps it at its thickness.
 #[inline(always)]
-fn is_kept(pair: &Candidate, rules: Rules<'_>, positions: &[DVec3]) -> bool {
-    rules.aim(pair).is_none_or(|aim| pair.is_kept_at(aim, positions))
+fn is_kept(pair: &Candidate, positions: &[DVec3]) -> bool {
+    pair.is_kept_at(pair.data.aim.length(), positions)
 }
 
 /// The pair as it is at the start of the step, if it is near there.
@@ -141,17 +135,17 @@ fn near(pair: &mut Candidate, rules: Rules<'_>, step: &TimeStep<'_>) -> Option<N
     let closest = pair.closest(step.start);
     pair.refresh(closest.direction, step.start, rules.error);
     let distance = closest.distance();
-    if distance > reach(rules.aim(pair)?) || closest.direction == DVec3::ZERO {
+    if distance > reach(pair.data.aim.length()) || closest.direction == DVec3::ZERO {
         return None;
     }
-    if pair.data.thickness == 0.0 {
-        pair.data.thickness = thickness_of(pair, rules)? as f32;
+    if !pair.data.aim.is_own() {
+        pair.data.aim = Aim::own(thickness_of(pair, rules)?);
     }
     Some(NearPair {
         vertices: pair.vertices,
         weights: closest.weights,
         normal: closest.direction,
-        thickness: f64::from(pair.data.thickness).min(distance + RECOVERY * step.h),
+        thickness: pair.data.aim.length().min(distance + RECOVERY * step.h),
     })
 }
 

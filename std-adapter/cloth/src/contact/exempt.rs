@@ -58,6 +58,11 @@ impl Exempt {
             || self.tangle.as_ref().is_some_and(|tangle| tangle.has(pair))
     }
 
+    /// Whether something may be tangled.
+    pub(super) fn has_tangle(&self) -> bool {
+        self.tangle.is_some()
+    }
+
     /// Whether the pair is about something that meets: which way it would have to be pushed is not known.
     #[inline]
     pub(super) fn is_tangled(&self, pair: &Candidate) -> bool {

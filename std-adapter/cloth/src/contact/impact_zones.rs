@@ -125,7 +125,7 @@ fn common(a: Carrier, b: Carrier) -> Carrier {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::candidate::OfPair;
+    use crate::contact::candidate::{Aim, OfPair};
     use crate::world::RigidMotion;
     use selvedge::PairKind;
 
@@ -135,7 +135,7 @@ mod tests {
             [0, 1],
             vertices,
             OfPair {
-                thickness: 0.0,
+                aim: Aim::asked(0.0),
                 body: FREE,
             },
         )

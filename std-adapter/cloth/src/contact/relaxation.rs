@@ -122,7 +122,7 @@ impl Active {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::candidate::OfPair;
+    use crate::contact::candidate::{Aim, OfPair};
     use crate::step::FREE;
     use proptest::prelude::*;
     use selvedge_core::separation::closest::Closest;
@@ -145,7 +145,7 @@ mod tests {
             prop_assume!(kept > 1e-3);
             let inverse_masses = [0, 1, 2, 3].map(|corner| if corner == fixed { 0.0 } else { 1.0 + corner as f64 });
             let step = TimeStep { time: 0.0, h: 1.0, start: &start, inverse_masses: &inverse_masses, held: &[], poses: &[] };
-            let pair = Candidate::new(kind, [0, 0], [0, 1, 2, 3], OfPair { thickness: 0.0, body: FREE });
+            let pair = Candidate::new(kind, [0, 0], [0, 1, 2, 3], OfPair { aim: Aim::asked(0.0), body: FREE });
             let mut relaxation = Relaxation::default();
             relaxation.add(&pair, kept, &step);
             relaxation.add(&pair, kept, &step);

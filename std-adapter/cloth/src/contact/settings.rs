@@ -124,15 +124,19 @@ impl ContactSettings {
         self.ends.len() == 1 || self.cloth_of(one) == self.cloth_of(other)
     }
 
-    /// What a pair has to keep. Asked of every pair in every step.
-    #[inline(always)]
+    /// What a pair has to keep.
     pub(super) fn of(&self, pair: &Candidate) -> Option<Thickness> {
-        let [of_cloth, of_bodies] = self.of_first;
-        match pair.data.is_with_body() {
-            _ if self.ends.len() > 1 => self.of_several(pair),
-            true => of_bodies,
-            false => of_cloth,
+        let [one, .., other] = pair.vertices;
+        self.of_vertices(pair.data.is_with_body(), one, other)
+    }
+
+    /// What a pair with these vertices, one of each of its sets, has to keep. Asked of every pair that a search finds.
+    #[inline(always)]
+    pub(super) fn of_vertices(&self, is_with_body: bool, one: u32, other: u32) -> Option<Thickness> {
+        if self.ends.len() > 1 {
+            return self.of_several(is_with_body, one, other);
         }
+        self.of_first[usize::from(is_with_body)]
     }
 
     /// The separations that pairs are asked to keep: none while they are `exempt`.
@@ -148,13 +152,11 @@ impl ContactSettings {
     /// What a pair has to keep where there are several cloths.
     #[cold]
     #[inline(never)]
-    fn of_several(&self, pair: &Candidate) -> Option<Thickness> {
-        let with_body = pair.data.is_with_body();
-        let of_cloths = &self.asked(with_body)?.of_cloths;
-        let [one, .., other] = pair.vertices;
+    fn of_several(&self, is_with_body: bool, one: u32, other: u32) -> Option<Thickness> {
+        let of_cloths = &self.asked(is_with_body)?.of_cloths;
         // Bodies' vertices come after the cloths'.
         let own = of_cloths[self.cloth_of(one.min(other))];
-        if with_body {
+        if is_with_body {
             return Some(own);
         }
         Some(own.between(of_cloths[self.cloth_of(one.max(other))]))
