@@ -14,8 +14,9 @@ const TIGHTENINGS: u32 = 12;
 #[derive(Debug)]
 pub(super) struct Forces {
     starts: Vec<u32>,
-    /// Of each row, sorted.
-    entries: Vec<(u32, f64)>,
+    /// Of each entry its column, ascending in a row, and its value. Apart from each other: 12 bytes to read of each in every stage instead of 16.
+    columns: Vec<u32>,
+    values: Vec<f64>,
 }
 
 impl Forces {
@@ -32,16 +33,18 @@ impl Forces {
         let mut rows = Incidence::new(vertex_count, entries);
         let mut forces = Self {
             starts: vec![0],
-            entries: Vec::new(),
+            columns: Vec::new(),
+            values: Vec::new(),
         };
         for vertex in 0..vertex_count {
             let row = rows.of_mut(vertex);
             // Stable, so that sums are the same bits every time.
             row.sort_by_key(|(other, _)| *other);
             for same in row.chunk_by(|a, b| a.0 == b.0) {
-                forces.entries.push((same[0].0, same.iter().map(|(_, value)| value).sum()));
+                forces.columns.push(same[0].0);
+                forces.values.push(same.iter().map(|(_, value)| value).sum());
             }
-            forces.starts.push(forces.entries.len() as u32);
+            forces.starts.push(forces.columns.len() as u32);
         }
         forces
     }
@@ -51,8 +54,11 @@ impl Forces {
         self.starts.len() - 1
     }
 
-    fn row(&self, vertex: usize) -> &[(u32, f64)] {
-        &self.entries[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
+    #[inline(always)]
+    fn row(&self, vertex: usize) -> impl Iterator<Item = (u32, f64)> + Clone {
+        let row = self.starts[vertex] as usize..self.starts[vertex + 1] as usize;
+        let columns = self.columns[row.clone()].iter().copied();
+        columns.zip(self.values[row].iter().copied())
     }
 
     /// No less than the largest eigenvalue of M⁻¹Q, in 1/s², and hardly more, or no more than is `enough`.
@@ -62,9 +68,9 @@ impl Forces {
     /// of it, which never makes the bound larger, as A has no negative entry.
     pub(super) fn fastest(&self, inverse_masses: &[f64], enough: f64) -> f64 {
         let times = |vertex: usize, d: &[f64]| {
-            let row = self.row(vertex).iter();
-            let own = row.clone().map(|(_, value)| *value).sum::<f64>().abs() * d[vertex];
-            let others = row.map(|&(other, value)| value.abs() * d[other as usize]);
+            let row = self.row(vertex);
+            let own = row.clone().map(|(_, value)| value).sum::<f64>().abs() * d[vertex];
+            let others = row.map(|(other, value)| value.abs() * d[other as usize]);
             inverse_masses[vertex] * (own + others.sum::<f64>())
         };
         let mut d = vec![1.0; self.len()];
@@ -89,7 +95,7 @@ impl Forces {
     fn on(&self, vertex: usize, positions: &[DVec3]) -> DVec3 {
         let own = positions[vertex];
         let mut force = DVec3::ZERO;
-        for &(other, value) in self.row(vertex) {
+        for (other, value) in self.row(vertex) {
             force += (own - positions[other as usize]) * value;
         }
         force
