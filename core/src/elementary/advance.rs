@@ -87,7 +87,7 @@ const CLIPS: u32 = 8;
 /// From when on the pair may be within the separation. Certified: see the [module](self).
 #[inline]
 pub fn time_of_impact<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>) -> Impact<S> {
-    within(pair, limits, [S::ZERO, S::ONE]).0
+    impact_within(pair, limits, [S::ZERO, S::ONE])
 }
 
 /// [`time_of_impact`] of a pair that is proven to be apart up to `from`, asked no further than `until`: [`Impact::Never`] says
@@ -100,7 +100,13 @@ pub fn time_of_impact_within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits
     if !(from >= S::ZERO && from <= S::ONE && until >= from && until <= S::ONE) {
         return not_excluded(S::ZERO, Reason::NotFinite, Work::default()).0;
     }
-    within(pair, limits, [from, until]).0
+    impact_within(pair, limits, [from, until])
+}
+
+/// Out of line: one such function for each format in a program, of 25 kB, and not one for each that calls it.
+#[inline(never)]
+fn impact_within<S: Scalar>(pair: &PrimitivePair<S>, limits: &Limits<S>, span: [S; 2]) -> Impact<S> {
+    within(pair, limits, span).0
 }
 
 /// [`time_of_impact`], and how much work it was.
