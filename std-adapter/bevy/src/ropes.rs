@@ -42,7 +42,9 @@ use selvedge_cloth::{Simulation, Tubes, vertex_normals};
 #[require(Transform)]
 pub struct RopesOf {
     cloth: Entity,
-    /// The mesh that has the tubes' triangles.
+    /// The tubes whose triangles are here: others where the entity has got another simulation.
+    tubes: Vec<(usize, Tubes)>,
+    /// The mesh that has these triangles.
     made: Option<AssetId<Mesh>>,
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
@@ -57,6 +59,7 @@ impl RopesOf {
     pub const fn new(cloth: Entity) -> Self {
         Self {
             cloth,
+            tubes: Vec::new(),
             made: None,
             positions: Vec::new(),
             triangles: Vec::new(),
@@ -74,7 +77,12 @@ impl RopesOf {
     /// Looks where the tubes are.
     fn look(&mut self, tubes: &[(usize, Tubes)], simulation: &Simulation) {
         self.positions.clear();
-        let is_new = self.triangles.is_empty();
+        let is_new = self.tubes != tubes;
+        if is_new {
+            self.tubes = tubes.to_vec();
+            self.made = None;
+            self.triangles.clear();
+        }
         for (cloth, own) in tubes {
             let vertices = simulation.vertices_of_cloth(*cloth).unwrap_or_default();
             if is_new {

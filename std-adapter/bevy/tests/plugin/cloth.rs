@@ -492,3 +492,26 @@ fn ropes_that_are_not_there_are_told_once() {
     assert_eq!(step(&mut app).problems, [without]);
     assert_eq!(step(&mut app).problems, []);
 }
+
+#[test]
+fn ropes_of_another_simulation_on_the_same_entity_take_the_place_of_the_first() {
+    let mut app = app();
+    let handle = add(&mut app, empty_mesh());
+    let rope = |segments| {
+        let mut scene = Scene::new(Cloth::rope(&[DVec3::ZERO, DVec3::X], segments, 0.05).unwrap(), 4e-3);
+        scene.add(RopeStretch::of(1e4));
+        ClothSimulation::new(scene)
+    };
+    let cloth = app.world_mut().spawn(rope(20)).id();
+    let seen = app.world_mut().spawn((RopesOf::new(cloth), Mesh3d(handle.clone()))).id();
+    for segments in [20, 5, 30] {
+        app.world_mut().entity_mut(cloth).insert(rope(segments));
+        assert_eq!(step(&mut app).problems, []);
+        assert_eq!(
+            attribute(&app, seen, Mesh::ATTRIBUTE_POSITION).len() as u32,
+            8 * (segments + 1)
+        );
+        let mesh = app.world().resource::<Assets<Mesh>>().get(&handle).unwrap();
+        assert_eq!(mesh.indices().unwrap().len() as u32, 3 * (16 * segments + 12));
+    }
+}

@@ -41,10 +41,8 @@ const UPKEEP: f64 = 0.6;
 #[derive(Debug)]
 pub(super) struct OfContact {
     topology: Arc<Topology>,
+    /// How far, if at all.
     settings: ContactSettings,
-    /// Whether cloth and cloth are, and cloth and bodies.
-    cloth: bool,
-    bodies: bool,
     /// Of each vertex: whose motion it follows.
     carriers: Vec<Carrier>,
     /// Vertices from here on are bodies'.
@@ -99,8 +97,6 @@ pub(super) fn candidates(
     let interest = OfContact {
         topology: Arc::clone(&topology),
         settings: settings.clone(),
-        cloth: settings.asks(false),
-        bodies: settings.asks(true),
         carriers: carriers.to_vec(),
         cloth_vertices,
         neighbours,
@@ -182,8 +178,8 @@ impl OfContact {
     #[inline(always)]
     pub(super) fn body_of_pair(&self, one: u32, other: u32) -> Option<Carrier> {
         match (self.body(one), self.body(other)) {
-            (FREE, FREE) if self.cloth => Some(FREE),
-            (FREE, body) | (body, FREE) if body != FREE && self.bodies => Some(body),
+            (FREE, FREE) if self.settings.asks(false) => Some(FREE),
+            (FREE, body) | (body, FREE) if body != FREE && self.settings.asks(true) => Some(body),
             _ => None,
         }
     }

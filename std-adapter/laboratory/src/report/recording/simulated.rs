@@ -1,4 +1,4 @@
-//! Records a [`Simulation`]. Loose edges are recorded as the [tubes](super::tubes) as which they are shown.
+//! Records a [`Simulation`]. Loose edges are recorded as the [tubes](selvedge_cloth::Tubes) as which they are [shown](super::shown).
 
 use super::shown::Shown;
 use super::{About, Added, FrameError, Knob, Measure, MeasureKind, Part, PartKind, Recorder, Recording, SeriesKind};
