@@ -135,7 +135,65 @@ impl Touches {
     }
 }
 
+/// Σ wᵢ²/mᵢ: how far weighted vertices give way along a direction to a push of one that is shared out by their weights and masses. Zero if
+/// none of them can move.
+///
+/// A push of p moves vertex i by p·wᵢ/mᵢ over that. If what is pinned, or heavy, has nearly all of the weight, a vertex with next to none would have to
+/// go far to make up for it: then this is as large as it has to be for none to go farther than twice the push. Free vertices of a face never do
+/// if none is more than four times as heavy as another: with r for that, w²·r + (1 − w)²/2 ≥ w·r/2 for all w.
+pub(crate) fn mobility<const N: usize>(inverse_masses: &[f64], vertices: [u32; N], weights: [f64; N]) -> f64 {
+    let (mut mobility, mut fastest) = (0.0, 0.0_f64);
+    for (vertex, weight) in vertices.into_iter().zip(weights) {
+        let speed = inverse_masses[vertex as usize] * weight;
+        mobility += speed * weight;
+        fastest = fastest.max(speed.abs());
+    }
+    mobility.max(0.5 * fastest)
+}
+
 /// Which kinematic motion carries a vertex: its index among them.
 pub(crate) type Carrier = u32;
 /// None: the solver moves the vertex.
 pub(crate) const FREE: Carrier = u32::MAX;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Of a vertex and a point of a face, which may be as near to a corner or a side as rounding leaves it.
+    fn weights() -> impl Strategy<Value = [f64; 4]> {
+        let share = || prop_oneof![0.0..=1.0, Just(0.0), (-60..0).prop_map(|e| 2.0_f64.powi(e))];
+        (share(), share()).prop_map(|(s, t): (f64, f64)| [1.0, -s, -(1.0 - s) * t, -(1.0 - s) * (1.0 - t)])
+    }
+
+    proptest! {
+        #[test]
+        fn no_vertex_goes_farther_than_twice_the_push(
+            weights in weights(),
+            inverse_masses in prop::array::uniform4(prop_oneof![Just(0.0), 1e-3..1e3_f64]),
+        ) {
+            let mobility = mobility(&inverse_masses, [0, 1, 2, 3], weights);
+            for (inverse_mass, weight) in inverse_masses.into_iter().zip(weights) {
+                let way = inverse_mass * weight / mobility;
+                prop_assert!(inverse_mass * weight == 0.0 || way.abs() <= 2.0, "{way}");
+            }
+        }
+
+        /// So that a push does all that it is to do where something can give way.
+        #[test]
+        fn free_vertices_of_like_masses_share_a_push_by_mass_and_weight_alone(
+            weights in weights(),
+            inverse_masses in prop::array::uniform4(1.0..4.0_f64),
+            is_kinematic in any::<bool>(),
+        ) {
+            let mut inverse_masses = inverse_masses;
+            if is_kinematic {
+                inverse_masses[0] = 0.0;
+            }
+            let all: f64 = inverse_masses.into_iter().zip(weights).map(|(inverse_mass, weight)| inverse_mass * weight * weight).sum();
+            let mobility = mobility(&inverse_masses, [0, 1, 2, 3], weights);
+            prop_assert!((mobility - all).abs() <= 1e-12 * all, "{mobility} instead of {all}");
+        }
+    }
+}

@@ -14,7 +14,7 @@ use super::candidate::{Aim, Candidate};
 use super::exempt::Exempt;
 use super::neighbours::{are_neighbours, at_rest};
 use super::settings::{ContactSettings, MARGIN, RECOVERY, Thickness};
-use crate::step::{TimeStep, Touch, Touches};
+use crate::step::{TimeStep, Touch, Touches, mobility};
 use selvedge::verification::{add_kept, parallel};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
@@ -179,12 +179,11 @@ fn thickness_of(pair: &Candidate, rules: Rules<'_>) -> Option<f64> {
 /// Pushes a pair apart, if it is too near; whether it was.
 fn project(pair: &NearPair, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) -> bool {
     let vertices = pair.vertices.map(|v| v as usize);
-    let mut mobility = 0.0;
     let mut distance = -pair.thickness;
     for (vertex, weight) in vertices.into_iter().zip(pair.weights) {
         distance += weight * pair.normal.dot(positions[vertex]);
-        mobility += step.inverse_masses[vertex] * weight * weight;
     }
+    let mobility = mobility(step.inverse_masses, pair.vertices, pair.weights);
     if distance >= 0.0 || !(mobility > 0.0) {
         return false;
     }

@@ -9,7 +9,7 @@
 //! Each projection aims at a little more than is needed, so that rounds end if there are positions that are all of that.
 
 use super::candidate::Candidate;
-use crate::step::TimeStep;
+use crate::step::{TimeStep, mobility};
 use selvedge::PairKind;
 use selvedge_core::glam::DVec3;
 use std::collections::BTreeMap;
@@ -84,11 +84,8 @@ impl Active {
         let vertices = self.vertices.map(|vertex| vertex as usize);
         let along = vertices.map(|vertex| self.direction.dot(positions[vertex]));
         let weights = if self.of_all { self.of_nearest(along) } else { self.weights };
-        let (mut gap, mut mobility) = (0.0, 0.0);
-        for corner in 0..4 {
-            gap += weights[corner] * along[corner];
-            mobility += weights[corner] * weights[corner] * step.inverse_masses[vertices[corner]];
-        }
+        let mobility = mobility(step.inverse_masses, self.vertices, weights);
+        let gap = (0..4).fold(0.0, |gap, corner| gap + weights[corner] * along[corner]);
         let missing = AIM * self.kept - gap;
         if !(missing > 0.0 && mobility > 0.0) {
             return true;

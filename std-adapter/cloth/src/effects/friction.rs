@@ -5,7 +5,7 @@
 use super::registration::{Effect, Registration, Scope};
 use crate::input::{Field, RATIO, ValueError};
 use crate::plan::Plan;
-use crate::step::{Constraint, TimeStep, Touches};
+use crate::step::{Constraint, TimeStep, Touches, mobility};
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 
@@ -54,11 +54,10 @@ impl Constraint for Friction {
         for touch in &touches.list {
             let vertices = touch.vertices.map(|v| v as usize);
             let mut sliding = -touch.drift;
-            let mut mobility = 0.0;
             for (vertex, weight) in vertices.into_iter().zip(touch.weights) {
                 sliding += (positions[vertex] - step.start[vertex]) * weight;
-                mobility += step.inverse_masses[vertex] * weight * weight;
             }
+            let mobility = mobility(step.inverse_masses, touch.vertices, touch.weights);
             sliding -= touch.normal * sliding.dot(touch.normal);
             let length = sliding.length();
             if !(length > 0.0 && mobility > 0.0) {

@@ -8,7 +8,7 @@
 //! distance is a matter of contact.
 
 use crate::rope::Tie;
-use crate::step::{Constraint, TimeStep, Touches};
+use crate::step::{Constraint, TimeStep, Touches, mobility};
 use selvedge_core::glam::DVec3;
 
 /// A vertex, and a point between two others.
@@ -35,8 +35,7 @@ impl Stitch {
     /// Brings the two within `length` of each other.
     fn draw(&self, length: f64, inverse_masses: &[f64], positions: &mut [DVec3]) {
         let weights = [1.0, self.share - 1.0, -self.share];
-        let mobility = |(vertex, weight): (u32, f64)| weight * weight * inverse_masses[vertex as usize];
-        let mobility: f64 = self.vertices.into_iter().zip(weights).map(mobility).sum();
+        let mobility = mobility(inverse_masses, self.vertices, weights);
         let way = self.way(positions);
         let distance = way.length();
         if !(distance > length && mobility > 0.0) {

@@ -2,11 +2,11 @@
 //!
 //! **Still certified.** A step ends with a certificate; then what is loaded too much tears, and the two sides of a tear open by a small share of an
 //! edge. That is no part of any step: it is taken only if the exact test finds that nothing meets then, and if a certificate shows that on the
-//! way there nothing has passed through anything but what had a vertex in common before. Otherwise it waits. So every state is free, before a tear
+//! way there nothing has passed through anything but what had a vertex in common before. Otherwise it waits for room. So every state is free, before a tear
 //! and after it. While something has left the promise (a body that is let pass, what was tangled at the start) nothing tears.
 //!
 //! **What it costs.** In each step the tension of each triangle and the load of each edge. A step after which something tears makes anew all
-//! that depends on the mesh, as setting up does: constraints, levels, candidates. So does each step in which a tear waits.
+//! that depends on the mesh, as setting up does: constraints, levels, candidates. So does each twentieth step in which a tear waits.
 //!
 //! A [`StrainLimit`](super::StrainLimit) of L holds loads below k·(L − 1): a strength above that is never reached.
 

@@ -8,20 +8,27 @@
 //!
 //! What is made anew sees the scene as it was made, but for its cloths' meshes; where a simulation has come to is carried over.
 
-use super::Simulation;
 use super::advance::begin_anew;
 use super::assembly::Assembly;
+use super::{CHECKPOINT_STEPS, Simulation};
 use crate::checkpoint::{CheckpointError, TornCloth};
 use crate::scene::Scene;
 use crate::step::{FREE, Memory};
 use crate::tearing::{Tear, TornEdge, open};
 use crate::world::Cloth;
 use selvedge_core::glam::DVec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
 /// By what share of its shortest edge the copies of a vertex move apart: less if more cannot be.
 const OPENINGS: [f64; 3] = [0.05, 0.01, 0.001];
+
+/// What had no room to open is tried again after the next step whose number is a multiple of this: each try makes anew all that depends on
+/// meshes, which takes as long as several steps.
+const TRIED_AGAIN: u64 = 20;
+
+// So nothing waits at a checkpoint, and none has to tell of it.
+const _: () = assert!(CHECKPOINT_STEPS.is_multiple_of(TRIED_AGAIN));
 
 /// What a simulation keeps if its cloths may tear.
 #[derive(Debug)]
@@ -30,6 +37,8 @@ pub(super) struct Tearing {
     scene: Scene,
     /// What has torn so far.
     torn: Vec<TornEdge>,
+    /// Of tears that had no room to open: the cloths and their vertices that would have fallen apart.
+    waiting: BTreeSet<(usize, u32)>,
     /// As the caller has set it last.
     pub(super) wind: Option<DVec3>,
 }
@@ -49,6 +58,7 @@ impl Tearing {
         Self {
             scene,
             torn: Vec::new(),
+            waiting: BTreeSet::new(),
             wind: None,
         }
     }
@@ -61,6 +71,15 @@ impl Tearing {
             self.scene.cloths = before;
         }
         made
+    }
+
+    /// What cannot tear now.
+    fn put_off<'a>(&mut self, tears: impl IntoIterator<Item = &'a Tear>) {
+        let splits = tears.into_iter().flat_map(|tear| {
+            let vertices = tear.splits.iter().map(|(vertex, _)| *vertex);
+            vertices.map(|vertex| (tear.cloth, vertex))
+        });
+        self.waiting.extend(splits);
     }
 
     /// The meshes, torn.
@@ -127,6 +146,9 @@ impl Simulation {
         if self.is_apart() {
             let begin = Instant::now();
             self.tear_what_is_loaded(&mut tearing);
+            if self.state.step.is_multiple_of(TRIED_AGAIN) {
+                tearing.waiting.clear();
+            }
             if let Some(tearable) = self.made.tearable.first() {
                 self.effects[tearable.effect].seconds += begin.elapsed().as_secs_f64();
             }
@@ -137,17 +159,21 @@ impl Simulation {
     fn tear_what_is_loaded(&mut self, tearing: &mut Tearing) {
         let mut tears = Vec::new();
         for tearable in &mut self.made.tearable {
-            let own = self.made.vertices_of_cloths[tearable.cloth].clone();
+            let cloth = tearable.cloth;
+            let own = self.made.vertices_of_cloths[cloth].clone();
             let carriers = &self.made.carriers[own.clone()];
-            tears.extend(tearable.tears(&self.state.positions[own], |vertex| carriers[vertex as usize] == FREE));
+            let may_split = |vertex: u32| carriers[vertex as usize] == FREE && !tearing.waiting.contains(&(cloth, vertex));
+            tears.extend(tearable.tears(&self.state.positions[own], may_split));
         }
         while !tears.is_empty() {
             let Some((meshes, copies)) = tearing.cut(&tears, &self.numbering()) else {
-                return;
+                return tearing.put_off(&tears);
             };
             let Meshes { cloths, from } = meshes;
             let whole = tearing.scene.cloths.clone();
-            let Some(mut made) = tearing.assemble(cloths) else { return };
+            let Some(mut made) = tearing.assemble(cloths) else {
+                return tearing.put_off(&tears);
+            };
             match self.opened(&mut made, &tears, &copies, &from) {
                 Ok(positions) => {
                     self.note(&mut tearing.torn, &tears, &tearing.scene.cloths);
@@ -160,14 +186,16 @@ impl Simulation {
                 }
                 Err(in_the_way) => {
                     tearing.scene.cloths = whole;
-                    let before = tears.len();
-                    tears.retain(|tear| {
+                    let has_room = |tear: &Tear| {
                         let first = self.made.vertices_of_cloths[tear.cloth].start as u32;
                         !tear.around.iter().any(|vertex| in_the_way.contains(&(first + vertex)))
-                    });
-                    if tears.len() == before {
-                        return;
+                    };
+                    let (left, put_off): (Vec<Tear>, Vec<Tear>) = tears.into_iter().partition(has_room);
+                    if put_off.is_empty() {
+                        return tearing.put_off(&left);
                     }
+                    tearing.put_off(&put_off);
+                    tears = left;
                 }
             }
         }
@@ -291,6 +319,7 @@ impl Simulation {
     pub(super) fn adopt_torn(&mut self, Retorn { made, cloths, from }: Retorn, torn: Vec<TornEdge>) {
         if let Some(tearing) = &mut self.tearing {
             (tearing.scene.cloths, tearing.torn) = (cloths, torn);
+            tearing.waiting.clear();
             let wind = tearing.wind;
             self.adopt(made, &from, wind);
         }

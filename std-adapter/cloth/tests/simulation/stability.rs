@@ -1,6 +1,9 @@
 //! No parameter that a scene may give makes a vertex non-finite.
 
-use crate::load;
+use crate::{folded, load};
+use selvedge_cloth::effects::{BodyContact, PinGroup, Pins, Stretch, Thickness};
+use selvedge_cloth::glam::DVec3;
+use selvedge_cloth::{Body, Cloth, Scene, Simulation};
 
 fn stays_finite(name: &str, steps: usize, change: impl Fn(String) -> String, what: &str) {
     let mut simulation = load(name, change, 1);
@@ -41,4 +44,29 @@ fn a_hurricane_and_no_air_at_all() {
     stays_finite("flag.toml", 100, thick, "air as dense as water");
     let thin = |text: String| text.replace("gust = 0.4", "air_density = 0");
     stays_finite("flag.toml", 100, thin, "no air");
+}
+
+/// A pinned vertex that a body is too near to has all the weight of the pairs there, and its neighbours rounding's share of it: they cannot
+/// make up for what it may not do. They went off at [`FASTEST`](selvedge_cloth::FASTEST).
+#[test]
+fn what_is_pinned_too_near_to_a_body_flings_nothing_away() {
+    let [gap, thickness] = [50e-6, 50e-6];
+    let cloth = Cloth::of_mesh(folded(2, 0..4, 0.0), DVec3::X, 0.2).unwrap();
+    let ends = (0..4).flat_map(|row| [5 * row, 5 * row + 4]).collect::<Vec<u32>>();
+    let mut scene = Scene::new(cloth, 1e-3);
+    scene.bodies = vec![Body::of_mesh("wedge", folded(3, -1..5, gap))];
+    scene.add(Pins {
+        groups: vec![PinGroup::resting(ends)],
+    });
+    scene
+        .add(Stretch::isotropic(100.0))
+        .add(BodyContact(Thickness::of(thickness)));
+    let mut simulation = Simulation::new(scene, 1).unwrap();
+    for _ in 0..20 {
+        let before = simulation.positions().to_vec();
+        simulation.step().unwrap();
+        let ways = before.iter().zip(simulation.positions()).map(|(a, b)| (*b - *a).length());
+        let farthest = ways.fold(0.0, f64::max);
+        assert!(farthest < thickness, "{farthest} m in a step of {}", simulation.time());
+    }
 }
