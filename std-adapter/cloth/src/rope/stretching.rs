@@ -249,8 +249,8 @@ impl Work {
 
     /// Keeps of the moves the tension that comes of them.
     fn take_tension(&mut self) {
-        for (spring, two) in self.springs.iter_mut().zip(self.moves.windows(2)) {
-            spring.tension = spring.pull + spring.stiffness * spring.along.dot(two[1] - two[0]);
+        for (k, spring) in self.springs.iter_mut().enumerate() {
+            spring.tension = spring.pull + spring.stiffness * spring.along.dot(self.moves[k + 1] - self.moves[k]);
         }
     }
 }

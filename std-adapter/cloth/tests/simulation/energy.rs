@@ -136,9 +136,9 @@ fn a_twisted_tube_calms_down_when_its_pins_stop() {
 
 /// With so many neighbours within the thickness that they have one of their own, and candidates that last longer.
 #[test]
-fn a_twisted_tube_of_a_fine_mesh_calms_down_when_its_pins_stop() {
-    let fine = TWISTED.replace("[16, 16]", "[56, 56]");
-    assert_ne!(fine, TWISTED);
+fn a_twisted_tube_whose_edges_are_hardly_longer_than_it_is_thick_calms_down_when_its_pins_stop() {
+    let fine = TWISTED.replace("[16, 16]", "[28, 28]").replace("\"3 mm\"", "\"6 mm\"");
+    assert!(fine.contains("[28, 28]") && fine.contains("6 mm"));
     calms_down(&fine);
 }
 

@@ -57,8 +57,9 @@ fn each_kind_of_pair_has_its_colours_in_its_panel_and_no_other() {
         (pairs(&[], &edge_edge), [false, false, true]),
         (pairs(&vertex_face, &edge_edge), [true, true, true]),
     ];
-    for (left, in_left) in &cases {
-        for (right, in_right) in &cases {
+    // Each in each panel, beside two others.
+    for (place, (left, in_left)) in cases.iter().enumerate() {
+        for (right, in_right) in [&cases[(place + 1) % 4], &cases[(place + 2) % 4]] {
             let picture = decoded(&figure_3(&topology, &positions, left, right).unwrap());
             assert_eq!([picture.width(), picture.height()], FIGURE_SIZE);
             assert_eq!([marks(&picture, 0), marks(&picture, 1)], [*in_left, *in_right]);
@@ -196,7 +197,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(16))]
+    #![proptest_config(ProptestConfig::with_cases(8))]
 
     #[test]
     fn degenerate_meshes_are_drawn_the_same_each_time(positions in positions()) {

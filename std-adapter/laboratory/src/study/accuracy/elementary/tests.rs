@@ -2,8 +2,10 @@ use super::*;
 use crate::study::TwoFrames;
 use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
+use std::sync::LazyLock;
 
-fn measured() -> ElementaryAccuracy {
+/// For all who look at it: seconds of exact arithmetic.
+static MEASURED: LazyLock<ElementaryAccuracy> = LazyLock::new(|| {
     let options = AccuracyOptions {
         pairs: 2000,
         repeat: 1,
@@ -11,14 +13,14 @@ fn measured() -> ElementaryAccuracy {
         separation: 0.0,
     };
     measure_elementary_accuracy::<TwoFrames>(None, options, &mut |_| ()).unwrap()
-}
+});
 
 #[test]
 fn certified_tests_miss_nothing_and_are_never_late_and_the_others_are_caught() {
-    let ElementaryAccuracy { sets, .. } = measured();
+    let sets = &MEASURED.sets;
     assert_eq!(sets.len(), 6);
     let (mut wrong, mut early) = (0, 0);
-    for set in &sets {
+    for set in sets {
         assert!(set.with_time <= set.touching);
         for row in &set.rows {
             let name = format!("{}, {}, {}", set.name, set.scalar, row.method);
@@ -39,7 +41,7 @@ fn certified_tests_miss_nothing_and_are_never_late_and_the_others_are_caught() {
 
 #[test]
 fn a_finer_tolerance_gives_no_earlier_times() {
-    for set in measured().sets {
+    for set in &MEASURED.sets {
         let of = |tolerance| {
             let method = ElementaryTest::Certified(tolerance);
             set.rows.iter().find(|row| row.method == method).unwrap()
