@@ -146,12 +146,12 @@ impl Simulation {
         if self.is_apart() {
             let begin = Instant::now();
             self.tear_what_is_loaded(&mut tearing);
-            if self.state.step.is_multiple_of(TRIED_AGAIN) {
-                tearing.waiting.clear();
-            }
             if let Some(tearable) = self.made.tearable.first() {
                 self.effects[tearable.effect].seconds += begin.elapsed().as_secs_f64();
             }
+        }
+        if self.state.step.is_multiple_of(TRIED_AGAIN) {
+            tearing.waiting.clear();
         }
         self.tearing = Some(tearing);
     }
