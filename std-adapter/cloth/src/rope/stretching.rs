@@ -249,6 +249,7 @@ impl Work {
 
     /// Keeps of the moves the tension that comes of them.
     fn take_tension(&mut self) {
+        // By index: of `windows` the compiler makes one thing or another, by what else is in the program (`instruction-counts/`).
         for (k, spring) in self.springs.iter_mut().enumerate() {
             spring.tension = spring.pull + spring.stiffness * spring.along.dot(self.moves[k + 1] - self.moves[k]);
         }

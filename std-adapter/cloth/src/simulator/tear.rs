@@ -37,7 +37,8 @@ pub(super) struct Tearing {
     scene: Scene,
     /// What has torn so far.
     torn: Vec<TornEdge>,
-    /// Of tears that had no room to open: the cloths and their vertices that would have fallen apart.
+    /// Of tears that had no room to open: the cloths and their vertices that would have fallen apart. They stay whole until
+    /// [`TRIED_AGAIN`].
     waiting: BTreeSet<(usize, u32)>,
     /// As the caller has set it last.
     pub(super) wind: Option<DVec3>,
@@ -73,9 +74,9 @@ impl Tearing {
         made
     }
 
-    /// What cannot tear now.
-    fn put_off<'a>(&mut self, tears: impl IntoIterator<Item = &'a Tear>) {
-        let splits = tears.into_iter().flat_map(|tear| {
+    /// Keeps in mind what cannot open now.
+    fn put_off(&mut self, tears: &[Tear]) {
+        let splits = tears.iter().flat_map(|tear| {
             let vertices = tear.splits.iter().map(|(vertex, _)| *vertex);
             vertices.map(|vertex| (tear.cloth, vertex))
         });

@@ -47,7 +47,8 @@ fn set_up(text: &str, name: &str, threads: usize) -> Simulation {
     Simulation::new(scene, threads).unwrap()
 }
 
-/// A valley along y, of cells of a decimetre along its sides and so many columns on each.
+/// A valley along y whose sides rise by a right angle to each other, of cells of a decimetre: so many columns on each side, these rows, and
+/// its bottom at a height in metres. Such sheets of different heights lie over each other, vertex over vertex.
 fn folded(columns: i32, rows: Range<i32>, height: f64) -> Mesh {
     let across = 2 * columns + 1;
     let vertex = |row: i32, column: i32| {
