@@ -223,7 +223,7 @@ pub extern "C" fn near(points: &Points<f32>) -> u32 {
     if block.merged() != a.merged(&block.get(5)) {
         return u32::MAX;
     }
-    block.near(&a).into()
+    block.near(&a, Mask::MAX).into()
 }
 
 /// What shows a vertex and a face to keep half a unit: boxes with that separation, the distance at the start from below, a direction

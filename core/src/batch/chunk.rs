@@ -29,6 +29,13 @@ pub(super) trait Chunk: Lanes<Scalar: Scalar> {
     fn columns(row: impl Fn(usize, usize) -> Option<Self::Part>) -> Option<[Vector<Self>; 2]>;
 }
 
+/// One of the rows, if there is such a one. (`get` takes long in builds without optimisation.)
+#[inline(always)]
+fn row<S>(rows: &[VertexRow<S>], index: u32) -> Option<&VertexRow<S>> {
+    let index = index as usize;
+    if index < rows.len() { Some(&rows[index]) } else { None }
+}
+
 /// The points of the pairs from `first` on. `None` if an index is not in the rows.
 #[inline(always)]
 pub(super) fn points<L: Chunk>(token: L::Token, pairs: Sixteen<'_, L::Scalar>, first: usize) -> Option<PairPoints<L>> {
@@ -49,9 +56,9 @@ pub(super) fn points<L: Chunk>(token: L::Token, pairs: Sixteen<'_, L::Scalar>, f
                 ),
                 Sixteen::Mesh { rows, indices } => L::columns(
                     #[inline(always)]
-                    |lane, part| {
-                        let row = rows.get(indices[(first + lane) % LANES][$point] as usize)?;
-                        Some(L::part(token, row, part))
+                    |lane, part| match row(rows, indices[(first + lane) % LANES][$point]) {
+                        Some(row) => Some(L::part(token, row, part)),
+                        None => None,
                     },
                 )?,
             }
@@ -79,51 +86,13 @@ pub(super) fn edge<L: Chunk>(
         #[inline(always)]
         |lane, part| {
             let [from, to] = ends(indices[(first + lane) % LANES]);
-            let (from, to) = (rows.get(from as usize)?, rows.get(to as usize)?);
-            Some(L::part(token, to, part) - L::part(token, from, part))
+            match (row(rows, from), row(rows, to)) {
+                (Some(from), Some(to)) => Some(L::part(token, to, part) - L::part(token, from, part)),
+                _ => None,
+            }
         },
     )
 }
-
-macro_rules! one_at_a_time {
-    ($scalar:ident) => {
-        impl Chunk for $scalar {
-            type Token = ();
-            type Part = Self;
-
-            const WIDTH: usize = 1;
-
-            #[inline(always)]
-            fn load((): (), numbers: &[$scalar; LANES], first: usize) -> Self {
-                numbers[first % LANES]
-            }
-
-            #[inline(always)]
-            fn store(self, numbers: &mut [$scalar; LANES], first: usize) {
-                numbers[first % LANES] = self;
-            }
-
-            #[inline(always)]
-            fn bits(mask: bool) -> Mask {
-                mask.into()
-            }
-
-            #[inline(always)]
-            fn part((): (), row: &VertexRow<$scalar>, part: usize) -> Self {
-                row.0[part % 8]
-            }
-
-            #[inline(always)]
-            fn columns(row: impl Fn(usize, usize) -> Option<Self>) -> Option<[Vector<Self>; 2]> {
-                let start = Vector::new(row(0, 0)?, row(0, 1)?, row(0, 2)?);
-                Some([start, Vector::new(row(0, 4)?, row(0, 5)?, row(0, 6)?)])
-            }
-        }
-    };
-}
-
-one_at_a_time!(f32);
-one_at_a_time!(f64);
 
 #[cfg(not(unoptimised))]
 mod vectors {

@@ -26,12 +26,12 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f32x16, u32x16};
 
 /// Sixteen comparisons, by the instructions of a [`Level`]. The same answers for each.
 pub trait Compares: Copy {
-    /// The lanes whose box is not [apart from](MovingBox::is_apart_from) `other`.
-    fn near(self, block: &MovingBlock, other: &MovingBox<f32>) -> Mask;
+    /// The lanes `among` these whose box is not [apart from](MovingBox::is_apart_from) `other`.
+    fn near(self, block: &MovingBlock, other: &MovingBox<f32>, among: Mask) -> Mask;
     /// The lanes whose number is above its limit; not where either is NaN.
     fn above(self, numbers: &[f32; LANES], limits: &[f32; LANES]) -> Mask;
-    /// The lanes whose number this is.
-    fn equal(self, numbers: &[u32; LANES], number: u32) -> Mask;
+    /// The lanes `among` these whose number this is.
+    fn equal(self, numbers: &[u32; LANES], number: u32, among: Mask) -> Mask;
 }
 
 /// A loop that is compiled for each instruction set. `run` must be `#[inline(always)]`, and so must what it calls: what is not inlined has
@@ -79,8 +79,8 @@ struct OneByOne;
 
 impl Compares for OneByOne {
     #[inline(always)]
-    fn near(self, block: &MovingBlock, other: &MovingBox<f32>) -> Mask {
-        block.near(other)
+    fn near(self, block: &MovingBlock, other: &MovingBox<f32>, among: Mask) -> Mask {
+        block.near(other, among)
     }
 
     #[inline(always)]
@@ -93,10 +93,14 @@ impl Compares for OneByOne {
     }
 
     #[inline(always)]
-    fn equal(self, numbers: &[u32; LANES], number: u32) -> Mask {
-        let mut equal = 0;
-        for lane in 0..LANES {
-            equal |= Mask::from(numbers[lane] == number) << lane;
+    fn equal(self, numbers: &[u32; LANES], number: u32, among: Mask) -> Mask {
+        let (mut asked, mut equal) = (among, 0);
+        while asked != 0 {
+            let lane = asked.trailing_zeros() as usize % LANES;
+            asked &= asked - 1;
+            if numbers[lane] == number {
+                equal |= 1 << lane;
+            }
         }
         equal
     }
@@ -110,7 +114,7 @@ struct Vectors<V>(V);
 #[cfg(not(unoptimised))]
 impl<V: Simd> Compares for Vectors<V> {
     #[inline(always)]
-    fn near(self, block: &MovingBlock, other: &MovingBox<f32>) -> Mask {
+    fn near(self, block: &MovingBlock, other: &MovingBox<f32>, among: Mask) -> Mask {
         let [a, b, c, d, e, f, g, h, i, j, k, l] = block.rows();
         macro_rules! above {
             ($row:expr, $limit:expr) => {
@@ -126,7 +130,7 @@ impl<V: Simd> Compares for Vectors<V> {
         let x = (above!(a, start.upper[0]) & above!(g, end.upper[0])) | (below!(d, start.lower[0]) & below!(j, end.lower[0]));
         let y = (above!(b, start.upper[1]) & above!(h, end.upper[1])) | (below!(e, start.lower[1]) & below!(k, end.lower[1]));
         let z = (above!(c, start.upper[2]) & above!(i, end.upper[2])) | (below!(f, start.lower[2]) & below!(l, end.lower[2]));
-        !((x | y | z).to_bitmask() as Mask)
+        !((x | y | z).to_bitmask() as Mask) & among
     }
 
     #[inline(always)]
@@ -139,8 +143,8 @@ impl<V: Simd> Compares for Vectors<V> {
     }
 
     #[inline(always)]
-    fn equal(self, numbers: &[u32; LANES], number: u32) -> Mask {
+    fn equal(self, numbers: &[u32; LANES], number: u32, among: Mask) -> Mask {
         let row = u32x16::load_array_ref(self.0, numbers);
-        row.simd_eq(u32x16::splat(self.0, number)).to_bitmask() as Mask
+        row.simd_eq(u32x16::splat(self.0, number)).to_bitmask() as Mask & among
     }
 }

@@ -197,7 +197,7 @@ macro_rules! vectorized {
         run!(level.as_wasm_simd128(), $narrow);
         // Nothing that we have code for.
         let _ = level;
-        $function::<$pair, $one>((), $($argument),*)
+        $function::<$pair, $crate::batch::alone::Alone<$one>>((), $($argument),*)
     }};
 }
 
@@ -205,7 +205,7 @@ macro_rules! vectorized {
 macro_rules! vectorized {
     ($level:expr, [$wide:ident, $middle:ident, $narrow:ident, $one:ident], $function:ident::<$pair:ty>($($argument:expr),*)) => {{
         let _: Level = $level;
-        $function::<$pair, $one>((), $($argument),*)
+        $function::<$pair, $crate::batch::alone::Alone<$one>>((), $($argument),*)
     }};
 }
 

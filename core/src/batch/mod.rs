@@ -28,6 +28,7 @@
 //! ```
 
 mod advance;
+mod alone;
 mod chunk;
 mod compared;
 #[macro_use]

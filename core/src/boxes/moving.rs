@@ -103,7 +103,7 @@ impl<S: Scalar> MovingBox<S> {
 /// for lane in 0..16 {
 ///     block.set(lane, &point(lane as f32));
 /// }
-/// assert_eq!(block.near(&point(3.0)), 0b1000);
+/// assert_eq!(block.near(&point(3.0), 0xFFFF), 0b1000);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
@@ -128,11 +128,14 @@ impl MovingBlock {
     /// Puts a box in lane `lane`. Does nothing from lane [`LANES`] on.
     #[inline]
     pub fn set(&mut self, lane: usize, moving: &MovingBox<f32>) {
-        for (row, number) in self.rows.iter_mut().zip(numbers(moving)) {
-            if let Some(place) = row.get_mut(lane) {
-                *place = number;
-            }
+        if lane >= LANES {
+            return;
         }
+        let [a, b, c, d, e, f, g, h, i, j, k, l] = &mut self.rows;
+        [a[lane], b[lane], c[lane]] = moving.start.lower;
+        [d[lane], e[lane], f[lane]] = moving.start.upper;
+        [g[lane], h[lane], i[lane]] = moving.end.lower;
+        [j[lane], k[lane], l[lane]] = moving.end.upper;
     }
 
     /// The box in lane `lane`; an [empty](MovingBox::empty) one from lane [`LANES`] on.
@@ -177,21 +180,25 @@ impl MovingBlock {
         }
     }
 
-    /// The lanes whose box is not [apart from](MovingBox::is_apart_from) `other`, as bits, one lane after the other. Sixteen lanes at
-    /// once: [`Compares::near`](crate::batch::Compares::near).
+    /// The lanes among these bits whose box is not [apart from](MovingBox::is_apart_from) `other`, one lane after the other. Sixteen
+    /// lanes at once: [`Compares::near`](crate::batch::Compares::near).
     #[must_use]
-    pub fn near(&self, other: &MovingBox<f32>) -> Mask {
+    pub fn near(&self, other: &MovingBox<f32>, among: Mask) -> Mask {
         let [a, b, c, d, e, f, g, h, i, j, k, l] = &self.rows;
         let (start, end) = (&other.start, &other.end);
-        let mut near = 0;
-        for lane in 0..LANES {
+        let (mut asked, mut near) = (among, 0);
+        while asked != 0 {
+            let lane = asked.trailing_zeros() as usize % LANES;
+            asked &= asked - 1;
             let is_apart = a[lane] > start.upper[0] && g[lane] > end.upper[0]
                 || d[lane] < start.lower[0] && j[lane] < end.lower[0]
                 || b[lane] > start.upper[1] && h[lane] > end.upper[1]
                 || e[lane] < start.lower[1] && k[lane] < end.lower[1]
                 || c[lane] > start.upper[2] && i[lane] > end.upper[2]
                 || f[lane] < start.lower[2] && l[lane] < end.lower[2];
-            near |= Mask::from(!is_apart) << lane;
+            if !is_apart {
+                near |= 1 << lane;
+            }
         }
         near
     }
@@ -202,13 +209,4 @@ impl MovingBlock {
     pub(crate) const fn rows(&self) -> &[[f32; LANES]; 12] {
         &self.rows
     }
-}
-
-#[inline(always)]
-fn numbers(moving: &MovingBox<f32>) -> [f32; 12] {
-    let [a, b, c] = moving.start.lower;
-    let [d, e, f] = moving.start.upper;
-    let [g, h, i] = moving.end.lower;
-    let [j, k, l] = moving.end.upper;
-    [a, b, c, d, e, f, g, h, i, j, k, l]
 }

@@ -66,8 +66,11 @@ impl PairBuffer {
         for (second, byte) in [(second, mask & 0xFF), (second + 8, mask >> 8)] {
             let places = &mut self.pairs[self.len..self.len + 8];
             let lanes = &SET_BITS[byte as usize];
-            for k in 0..8 {
-                places[k] = [first, second + u32::from(lanes[k])];
+            // No `for`: in builds without optimisation its iterator takes longer than what it is for.
+            let mut k = 0;
+            while k < 8 {
+                places[k] = [first, second + lanes[k] as u32];
+                k += 1;
             }
             self.len += byte.count_ones() as usize;
         }

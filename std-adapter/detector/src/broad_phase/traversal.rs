@@ -116,8 +116,8 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         let (block_b, node_b) = part(self.second, level_b, b);
         let is_same = self.common == Common::Tree && level_a == level_b && a == b;
         if level_a > level_b {
-            let mut near = lanes.near(block_a, &node_b.bounds) & node_a.present;
-            near &= partners(node_b.moving != 0, node_a.moving);
+            let among = node_a.present & partners(node_b.moving != 0, node_a.moving);
+            let mut near = lanes.near(block_a, &node_b.bounds, among);
             while near != 0 {
                 let child = next_lane(&mut near);
                 stack.push(BlockPair {
@@ -128,8 +128,8 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             return 1;
         }
         if level_b > level_a {
-            let mut near = lanes.near(block_b, &node_a.bounds) & node_b.present;
-            near &= partners(node_a.moving != 0, node_b.moving);
+            let among = node_b.present & partners(node_a.moving != 0, node_b.moving);
+            let mut near = lanes.near(block_b, &node_a.bounds, among);
             while near != 0 {
                 let child = next_lane(&mut near);
                 stack.push(BlockPair {
@@ -142,19 +142,19 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         let mut tests = 0;
         let mut own = node_a.present;
         if !is_same {
-            own &= lanes.near(block_a, &node_b.bounds);
+            own = lanes.near(block_a, &node_b.bounds, own);
             tests += 1;
         }
         tests += u64::from((own & !with_partners(node_a, node_b.moving)).count_ones());
         own &= with_partners(node_a, node_b.moving);
         while own != 0 {
             let lane = next_lane(&mut own);
-            let mut near = node_b.present & partners(node_a.moving >> lane & 1 != 0, node_b.moving);
+            let mut among = node_b.present & partners(node_a.moving >> lane & 1 != 0, node_b.moving);
             if is_same {
                 // A block against itself: each lane with itself and those after it.
-                near &= Mask::MAX << lane;
+                among &= Mask::MAX << lane;
             }
-            near &= lanes.near(block_b, &block_a.get(lane as usize % LANES));
+            let mut near = lanes.near(block_b, &block_a.get(lane as usize % LANES), among);
             tests += 1;
             while near != 0 {
                 let other = next_lane(&mut near);
@@ -179,12 +179,12 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         let (mut own, mut others) = (node_a.present, node_b.present);
         let mut tests = 0;
         if !is_same {
-            others &= lanes.near(block_b, &node_a.bounds);
+            others = lanes.near(block_b, &node_a.bounds, others);
             tests += 1;
             if others == 0 {
                 return tests;
             }
-            own &= lanes.near(block_a, &node_b.bounds);
+            own = lanes.near(block_a, &node_b.bounds, own);
             tests += 1;
         }
         // Counted all the same: how good the hierarchies are does not depend on who takes part.
@@ -194,16 +194,16 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         let (first, second) = (a * LANES as u32, b * LANES as u32);
         while own != 0 {
             let lane = next_lane(&mut own);
-            let mut near = others & partners(node_a.moving >> lane & 1 != 0, node_b.moving);
+            let mut among = others & partners(node_a.moving >> lane & 1 != 0, node_b.moving);
             if is_same {
-                near &= (Mask::MAX << lane) << 1;
+                among &= (Mask::MAX << lane) << 1;
             }
-            near &= lanes.near(block_b, &block_a.get(lane as usize % LANES));
+            let mut near = lanes.near(block_b, &block_a.get(lane as usize % LANES), among);
             tests += 1;
             if near != 0 {
                 if self.common != Common::Nothing {
                     let vertices = &self.first.vertices[(first + lane) as usize];
-                    near &= !sharing(lanes, corners, vertices);
+                    near &= !sharing(lanes, corners, vertices, near);
                 }
                 found.push(first + lane, second, near);
             }
@@ -306,13 +306,18 @@ fn next_lane(lanes: &mut Mask) -> u32 {
     lane
 }
 
-/// The lanes that have one of `vertices` for a corner.
+/// The lanes among these that have one of `vertices` for a corner.
 #[inline(always)]
-fn sharing<const N: usize, const M: usize>(lanes: impl Compares, corners: &[[u32; LANES]; M], vertices: &[u32; N]) -> Mask {
+fn sharing<const N: usize, const M: usize>(
+    lanes: impl Compares,
+    corners: &[[u32; LANES]; M],
+    vertices: &[u32; N],
+    among: Mask,
+) -> Mask {
     let mut shared = 0;
     for row in corners {
         for &vertex in vertices {
-            shared |= lanes.equal(row, vertex);
+            shared |= lanes.equal(row, vertex, among);
         }
     }
     shared
