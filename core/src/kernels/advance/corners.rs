@@ -70,8 +70,12 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
             Some([start, end]) => start.abs().larger(end.abs()),
             None => all(like.splat(L::Scalar::ZERO)),
         };
-        for [start, end] in ends.iter().skip(1) {
+        // No iterators, here and below: without optimisation they take longer than what they are for.
+        let mut corner = 1;
+        while corner < N {
+            let [start, end] = ends[corner];
             extent = start.abs().larger(end.abs()).larger(extent);
+            corner += 1;
         }
         let extent = extent + all(like.splat(L::Scalar::EXTENT_UNDERFLOW));
         Self { ends, extent }
@@ -92,8 +96,11 @@ impl<L: Lanes, const N: usize> Corners<L, N> {
         let rest = time.splat(L::Scalar::ONE) - time;
         // A loop, because `array::map` with a closure is not always inlined.
         let mut positions = [self.extent; N];
-        for (position, [start, end]) in positions.iter_mut().zip(&self.ends) {
-            *position = start.scaled(rest) + end.scaled(time);
+        let mut corner = 0;
+        while corner < N {
+            let [start, end] = self.ends[corner];
+            positions[corner] = start.scaled(rest) + end.scaled(time);
+            corner += 1;
         }
         positions
     }
