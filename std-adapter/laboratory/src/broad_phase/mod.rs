@@ -21,6 +21,13 @@
 //! them. On tubes of 1.3 thousand to 1.3 million triangles both are level before sorting. parry3d's traversal also makes a new
 //! vector each time, where the pipeline keeps and reuses its own.
 //!
+//! # Why not the detector's
+//!
+//! What the detector's hierarchies find goes on in the order in which it is found, which a build changes. Here pairs come in the order of the
+//! triangles, and so do the contacts and files that are made of them. To put 4.5 million pairs in order takes 65 ms by counting and 273 by
+//! sorting: more than all that is done here. So the two have in common in which order primitives lie, what a build is worth and the threads, and
+//! not the traversal.
+//!
 //! Nothing depends on the number of threads but the time. After the first step nothing is allocated,
 //! unless some buffer needs half as much again as in any step before.
 //!
