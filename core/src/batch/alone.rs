@@ -1,7 +1,8 @@
 //! One pair at a time: where a machine has no vectors that we have code for, and in builds without optimisation.
 //!
-//! In such a build an operator of a generic type is a call, and so are `?` and `get`. So the number has a type of its own, whose operators
-//! are inlined always, and a row is read once: the kernels take half of the time that they take with `f32` and `f64` themselves.
+//! Without optimisation an operator of a generic type is a call, and so are `?` and `get`. So the number has a type of its own, whose
+//! operators are inlined always, and a row is read once: a step of many pairs takes 0.6 times the time that it takes with `f32` and `f64`
+//! themselves.
 
 use super::chunk::Chunk;
 use super::{LANES, Mask, VertexRow};
@@ -98,12 +99,12 @@ macro_rules! alone {
 
             #[inline(always)]
             fn larger(self, other: Self) -> Self {
-                if self.0 > other.0 { self } else { other }
+                Self(Lanes::larger(self.0, other.0))
             }
 
             #[inline(always)]
             fn smaller(self, other: Self) -> Self {
-                if self.0 < other.0 { self } else { other }
+                Self(Lanes::smaller(self.0, other.0))
             }
 
             #[inline(always)]

@@ -19,7 +19,7 @@
 //! assert_eq!(in_lanes(Level::baseline(), CountAbove(&rows, 12.0)), 3);
 //! ```
 
-use super::{LANES, Level, Mask};
+use super::{LANES, Level, Mask, next_lane};
 use crate::boxes::moving::{MovingBlock, MovingBox};
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x16, u32x16};
@@ -96,8 +96,7 @@ impl Compares for OneByOne {
     fn equal(self, numbers: &[u32; LANES], number: u32, among: Mask) -> Mask {
         let (mut asked, mut equal) = (among, 0);
         while asked != 0 {
-            let lane = asked.trailing_zeros() as usize % LANES;
-            asked &= asked - 1;
+            let lane = next_lane(&mut asked);
             if numbers[lane] == number {
                 equal |= 1 << lane;
             }

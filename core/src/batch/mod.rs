@@ -68,6 +68,14 @@ pub const LANES: usize = 16;
 /// One bit for each of sixteen pairs, the first pair's lowest. Bits past the last pair are zero.
 pub type Mask = u16;
 
+/// The lowest set lane, which is then cleared.
+#[inline(always)]
+pub(crate) fn next_lane(lanes: &mut Mask) -> usize {
+    let lane = lanes.trailing_zeros() as usize % LANES;
+    *lanes &= lanes.wrapping_sub(1);
+    lane
+}
+
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Bounded<S> {
@@ -118,9 +126,8 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
         // One by one, of those that the tier has more to say of.
         let mut open = self.tier().open(culled, settled) & wanted;
         while open != 0 {
-            let lane = open.trailing_zeros();
-            open &= open - 1;
-            if S::culls_open(&self, &pairs.pair(kind, lane as usize)) {
+            let lane = next_lane(&mut open);
+            if S::culls_open(&self, &pairs.pair(kind, lane)) {
                 culled |= 1 << lane;
             }
         }

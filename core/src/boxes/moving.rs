@@ -14,7 +14,7 @@
 //! kept.
 
 use super::Aabb;
-use crate::batch::{LANES, Mask};
+use crate::batch::{LANES, Mask, next_lane};
 use crate::motion::Motion;
 use crate::scalar::Scalar;
 
@@ -180,7 +180,7 @@ impl MovingBlock {
         }
     }
 
-    /// The lanes among these bits whose box is not [apart from](MovingBox::is_apart_from) `other`, one lane after the other. Sixteen
+    /// The lanes `among` these bits whose box is not [apart from](MovingBox::is_apart_from) `other`, one lane after the other. Sixteen
     /// lanes at once: [`Compares::near`](crate::batch::Compares::near).
     #[must_use]
     pub fn near(&self, other: &MovingBox<f32>, among: Mask) -> Mask {
@@ -188,8 +188,7 @@ impl MovingBlock {
         let (start, end) = (&other.start, &other.end);
         let (mut asked, mut near) = (among, 0);
         while asked != 0 {
-            let lane = asked.trailing_zeros() as usize % LANES;
-            asked &= asked - 1;
+            let lane = next_lane(&mut asked);
             let is_apart = a[lane] > start.upper[0] && g[lane] > end.upper[0]
                 || d[lane] < start.lower[0] && j[lane] < end.lower[0]
                 || b[lane] > start.upper[1] && h[lane] > end.upper[1]

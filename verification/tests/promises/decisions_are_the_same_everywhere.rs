@@ -7,7 +7,7 @@
 
 use selvedge::verification::available_levels;
 use selvedge_core::PairKind;
-use selvedge_core::batch::{Compares, Loop, Mask, in_lanes};
+use selvedge_core::batch::{Compares, LANES, Loop, Mask, in_lanes};
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, direction, relative, segment, swept_boxes};
 use selvedge_core::elementary::advance::certain_contact;
@@ -254,6 +254,7 @@ impl Question for Blocks {
         for moving in &boxes {
             let near = block.near(moving, Mask::MAX);
             for among in [Mask::MAX, 1 << 10 | 1 << 5 | 1 << 2] {
+                assert_eq!(block.near(moving, among), near & among, "one by one {case:?}");
                 for (name, level) in available_levels() {
                     let found = in_lanes(level, Near(&block, moving, among));
                     assert_eq!(found, near & among, "{name} {case:?}");
@@ -265,6 +266,32 @@ impl Question for Blocks {
         for Aabb { lower, upper } in [merged.start, merged.end, block.get(5).start] {
             digest.add_numbers(lower);
             digest.add_numbers(upper);
+        }
+    }
+}
+
+struct Equal<'a>(&'a [u32; LANES], u32, Mask);
+
+impl Loop for Equal<'_> {
+    type Output = Mask;
+
+    #[inline(always)]
+    fn run(self, lanes: impl Compares) -> Mask {
+        lanes.equal(self.0, self.1, self.2)
+    }
+}
+
+#[test]
+fn equal_numbers_are_those_among_the_lanes_asked_about_on_every_instruction_set() {
+    let numbers = std::array::from_fn(|lane| [7, u32::MAX, 0, 7, 1 << 31][lane % 5]);
+    for number in [7, u32::MAX, 0, 1 << 31, 8] {
+        for among in [Mask::MAX, 0, 0xA5C3] {
+            let is_one = |&lane: &usize| among >> lane & 1 == 1 && numbers[lane] == number;
+            let expected = (0..LANES).filter(is_one).fold(0, |mask, lane| mask | 1 << lane);
+            for (name, level) in available_levels() {
+                let found = in_lanes(level, Equal(&numbers, number, among));
+                assert_eq!(found, expected, "{name}: {number} among {among:#06x}");
+            }
         }
     }
 }
