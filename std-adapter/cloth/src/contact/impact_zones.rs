@@ -2,7 +2,7 @@
 //! then goes as far as it [may](super::truncation).
 //!
 //! A zone's motion is its mean, which keeps its momentum, or that of the body or pin (its carrier) that it touches, which keeps it on the
-//! body. A zone that touches two carriers has none that would do for both.
+//! body. A zone that touches two carriers has none that would do for both, and rests.
 
 use super::candidate::Candidate;
 use crate::step::{Carrier, FREE, TimeStep};
@@ -71,8 +71,8 @@ impl ImpactZones {
         has_changed | (*own != before)
     }
 
-    /// Moves the members of each zone from the start of the step as the zone is carried: where two carriers pull at it, to where they are
-    /// wanted. Marks those that move.
+    /// Moves the members of each zone from the start of the step as the zone is carried: where two carriers pull at it, not at all. Marks those
+    /// whose positions change.
     pub(super) fn carry(&mut self, step: &TimeStep<'_>, wanted: &[DVec3], positions: &mut [DVec3], moved: &mut [bool]) {
         self.members.sort_unstable();
         let members = std::mem::take(&mut self.members);
@@ -87,11 +87,11 @@ impl ImpactZones {
         }
         for &member in &members {
             let root = self.root(member) as usize;
-            let (start, wanted) = (step.start[member as usize], wanted[member as usize]);
+            let start = step.start[member as usize];
             let (mass, momentum) = self.sums[root];
             let carried = match self.carriers[root] {
                 FREE => start + momentum / mass,
-                TORN => wanted,
+                TORN => start,
                 carrier => {
                     let [before, now] = &step.poses[carrier as usize];
                     before.carry(now, start)
@@ -177,14 +177,14 @@ mod tests {
     }
 
     #[test]
-    fn a_zone_moves_as_its_mean_and_as_its_carrier_and_where_two_pull_as_each_is_wanted() {
+    fn a_zone_moves_as_its_mean_and_as_its_carrier_and_not_at_all_where_two_pull() {
         let along = |ways: [f64; 8]| ways.map(|way| DVec3::Z * way);
         assert_eq!(carried(&[])[..8], along([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]));
         assert_eq!(carried(&[[0, 1, 2, 3]])[..8], along([1.5, 1.5, 1.5, 1.5, 4.0, 5.0, 6.0, 7.0]));
         assert_eq!(carried(&[[0, 1, 2, 3], [4, 5, 6, 7], [1, 2, 4, 5]])[..8], along([3.5; 8]));
         let on_body = along([0.0, 0.0, 0.0, 0.0, 4.0, 5.0, 6.0, 7.0]);
         assert_eq!(carried(&[[0, 1, 2, 3], [3, 2, 8, 8]])[..8], on_body);
-        let torn = along([0.0, 1.0, 2.0, 3.0, 5.5, 5.5, 5.5, 5.5]);
+        let torn = along([0.0, 0.0, 0.0, 0.0, 5.5, 5.5, 5.5, 5.5]);
         assert_eq!(carried(&[[0, 1, 8, 8], [2, 3, 9, 9], [4, 5, 6, 7], [1, 2, 1, 2]])[..8], torn);
     }
 }

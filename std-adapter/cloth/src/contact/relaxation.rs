@@ -1,7 +1,7 @@
 //! Relaxation: positions move until an active set of pairs is kept apart (Agmon 1954, Motzkin and Schoenberg 1954; in the metric of the
 //! masses).
 //!
-//! A pair that was found not to be free stays active until the step ends: what is pushed out of one is not pushed back into another
+//! A pair that was found not to be free stays active until the relaxation ends: what is pushed out of one is not pushed back into another
 //! unseen. At first it is a half-space, Σwᵢ·d·xᵢ ≥ m_P, with the weights w and the direction d of its closest points at the start of the
 //! step. If it is found not to be free once more, where other points are the closest, *all* points of its first set are to be ahead of all
 //! points of its second by m_P along d: that is sufficient.
@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 /// What a projection aims at, in separations that are kept.
 const AIM: f64 = 1.05;
 
-/// The active set of a step.
+/// The active set of a relaxation.
 #[derive(Debug, Default)]
 pub(super) struct Relaxation {
     /// In the order in which they were found not to be free.
@@ -40,7 +40,7 @@ struct Active {
 }
 
 impl Relaxation {
-    /// For a new step.
+    /// No pair is active any more.
     pub(super) fn reset(&mut self) {
         self.active.clear();
         self.places.clear();
@@ -64,17 +64,16 @@ impl Relaxation {
         });
     }
 
-    /// Projects one pair after the other, at most so many rounds, until all are kept apart. Marks the vertices that it moves.
-    pub(super) fn relax(&self, rounds: usize, step: &TimeStep<'_>, positions: &mut [DVec3], moved: &mut [bool]) {
-        for _ in 0..rounds {
+    /// Projects one pair after the other, at most so many rounds, until all are kept apart: returns whether they are. Marks the vertices that
+    /// it moves.
+    pub(super) fn relax(&self, rounds: usize, step: &TimeStep<'_>, positions: &mut [DVec3], moved: &mut [bool]) -> bool {
+        (0..rounds).any(|_| {
             let mut are_kept = true;
             for pair in &self.active {
                 are_kept &= pair.project(step, positions, moved);
             }
-            if are_kept {
-                break;
-            }
-        }
+            are_kept
+        })
     }
 }
 
