@@ -130,7 +130,7 @@ fn stiffened(text: &str, factor: f64) -> String {
 }
 
 /// Coarser, and thicker, so that it is jammed soon: a bundle of which more pairs are not free in a step than it has triangles. Here pins had to
-/// wait three times, and steps were cut into 131 parts, where zones that two pins pull at were relaxed from where they wanted to be.
+/// wait in three steps, with 131 cuts, where zones that two pins pull at were relaxed from where they wanted to be: half as many are too many.
 #[test]
 fn stiff_cloth_that_is_jammed_between_pins_is_free_and_does_not_stop_them() {
     let change = |text: String| {
