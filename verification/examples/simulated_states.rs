@@ -1,23 +1,29 @@
 //! Looks at the states of a simulation with the exact oracle: none may hold an intersection or a number that is not finite.
 //!
 //! `cargo run --release -p selvedge-verification --example simulated_states -- SCENE.toml [--steps N] [--every N]
-//!     [--time-step FACTOR] [--stiffness FACTOR] [--without EFFECT]`
+//!     [--time-step FACTOR] [--stiffness FACTOR] [--without EFFECT] [--state FILE]`
 //!
 //! Does N steps (10,000; later than the scene's end its bodies and pins rest) and looks at every state, or at one in so many. Factors
 //! multiply the scene's time step and all its stiffnesses. Two ropes that pass through each other leave no state that shows it: so of loose edges
 //! the ways of all steps are looked at as well that were not cut into parts, in which ways have a bend. Without `self_collision` the run must fail, which shows that it can. Prints
-//! a row for the table of long runs; exit status 1 if a state is at fault, the step could not be made, or the scene cannot be read.
+//! a row for the table of long runs.
+//!
+//! With `--state` the run survives a kill: what was seen, and a checkpoint of the simulation, are kept in that file every 200 steps, and the same
+//! command goes on from there. More steps may be asked for than before; all else has to be the same, the program included. Exit status 1 if
+//! a state is at fault, the step could not be made, or the scene or the state file cannot be read.
 
 use indicatif::{ProgressBar, ProgressIterator, ProgressStyle};
 use selvedge_cloth::glam::DVec3;
 use selvedge_cloth::{Scene, Simulation};
+use selvedge_verification::campaign::{Digest, FileError, StateFile, read_as};
 use selvedge_verification::oracle::{edges_that_meet, intersections_with_loose_edges};
-use std::path::PathBuf;
+use serde::{Deserialize, Serialize};
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-const USAGE: &str =
-    "usage: simulated_states SCENE.toml [--steps N] [--every N] [--time-step FACTOR] [--stiffness FACTOR] [--without EFFECT]";
+const USAGE: &str = "usage: simulated_states SCENE.toml [--steps N] [--every N] [--time-step FACTOR] [--stiffness FACTOR] [--without EFFECT] [--state FILE]";
 
 type Failure = Box<dyn std::error::Error>;
 
@@ -28,6 +34,7 @@ struct Options {
     time_step: f64,
     stiffness: f64,
     without: Option<String>,
+    state: Option<PathBuf>,
 }
 
 impl Options {
@@ -39,6 +46,7 @@ impl Options {
             time_step: 1.0,
             stiffness: 1.0,
             without: None,
+            state: None,
         };
         while let Some(option) = arguments.next() {
             let value = arguments.next()?;
@@ -50,6 +58,7 @@ impl Options {
                 "--time-step" => options.time_step = factor()?,
                 "--stiffness" => options.stiffness = factor()?,
                 "--without" => options.without = Some(value),
+                "--state" => options.state = Some(value.into()),
                 _ => return None,
             }
         }
@@ -93,13 +102,14 @@ fn scaled(line: &str, factor: f64) -> Result<String, Failure> {
 }
 
 /// What was seen.
-#[derive(Default)]
+#[derive(Default, Serialize, Deserialize)]
 struct Seen {
     states: u64,
     /// Of steps with loose edges.
     ways: u64,
     largest_speed: f64,
     in_oracle: Duration,
+    in_all: Duration,
 }
 
 impl Seen {
@@ -135,6 +145,64 @@ impl Seen {
     }
 }
 
+/// What `--state` keeps of a run that may be gone on with.
+#[derive(Serialize, Deserialize)]
+struct Kept<Seen> {
+    /// Of the program: what was seen of one says nothing of another.
+    program: Digest,
+    every: u64,
+    seen: Seen,
+    /// Knows its scene, stiffness and time step included.
+    checkpoint: Vec<u8>,
+}
+
+/// Where a run is kept.
+struct Keeper {
+    file: StateFile,
+    program: Digest,
+    every: u64,
+}
+
+impl Keeper {
+    fn open(path: &Path, every: u64) -> Result<Self, Failure> {
+        let program = std::fs::read(std::env::current_exe()?)?;
+        Ok(Self {
+            file: StateFile::open(path, |message| eprintln!("{message}"))?,
+            program: Digest::of_bytes([program]),
+            every,
+        })
+    }
+
+    /// Takes up what is kept in that file, if there is any: the simulation is where it was, and what had been seen is returned.
+    fn take_up(&self, path: &Path, simulation: &mut Simulation) -> Result<Seen, Failure> {
+        let Some(kept) = read_as::<Kept<Seen>>(path)? else {
+            return Ok(Seen::default());
+        };
+        let refuse = |why: &dyn Display| format!("{}: {why}; delete it, or name another file", path.display());
+        if kept.program != self.program {
+            return Err(refuse(&"kept by another build of this program").into());
+        }
+        if kept.every != self.every {
+            return Err(refuse(&format_args!("of a run with --every {}, not {}", kept.every, self.every)).into());
+        }
+        simulation.resume(&kept.checkpoint).map_err(|error| refuse(&error))?;
+        Ok(kept.seen)
+    }
+
+    /// Where the simulation can be gone on with.
+    fn keep(&self, seen: &Seen, simulation: &Simulation) -> Result<(), FileError> {
+        let Some(checkpoint) = simulation.checkpoint() else {
+            return Ok(());
+        };
+        self.file.keep(&Kept {
+            program: self.program,
+            every: self.every,
+            seen,
+            checkpoint,
+        })
+    }
+}
+
 /// How often steps were cut into parts.
 fn cuts_so_far(simulation: &Simulation) -> u64 {
     simulation.contact_counts().map_or(0, |counts| counts.cuts)
@@ -144,9 +212,20 @@ fn run(options: &Options) -> Result<(), Failure> {
     let mut simulation = options.load()?;
     let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} steps, {eta} left{msg}")?;
     let bar = ProgressBar::new(options.steps).with_style(style);
-    let mut seen = Seen::default();
-    let begin = Instant::now();
-    for step in (1..=options.steps).progress_with(bar.clone()) {
+    let keeper = options
+        .state
+        .as_deref()
+        .map(|path| Keeper::open(path, options.every))
+        .transpose()?;
+    let mut seen = match (&keeper, &options.state) {
+        (Some(keeper), Some(path)) => keeper.take_up(path, &mut simulation)?,
+        _ => Seen::default(),
+    };
+    let done = simulation.steps_done();
+    bar.set_position(done);
+    bar.reset_eta();
+    for step in (done + 1..=options.steps).progress_with(bar.clone()) {
+        let begin = Instant::now();
         let before = simulation.positions().to_vec();
         let cuts = cuts_so_far(&simulation);
         simulation.step()?;
@@ -167,6 +246,10 @@ fn run(options: &Options) -> Result<(), Failure> {
         if (simulation.blocked_steps() > 0) != (simulation.lag() > 0.0) {
             return Err(format!("after step {step}: behind, but not reported as blocked").into());
         }
+        seen.in_all += begin.elapsed();
+        if let Some(keeper) = &keeper {
+            keeper.keep(&seen, &simulation)?;
+        }
     }
     let counts = simulation.contact_counts().copied().unwrap_or_default();
     if !simulation.loose_edges().is_empty() {
@@ -186,7 +269,7 @@ fn run(options: &Options) -> Result<(), Failure> {
         simulation.lag(),
         counts.violated,
         seen.largest_speed,
-        begin.elapsed().as_secs_f64(),
+        seen.in_all.as_secs_f64(),
         seen.in_oracle.as_secs_f64(),
     );
     Ok(())

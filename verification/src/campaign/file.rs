@@ -1,6 +1,8 @@
 //! The file that a run's state is kept in.
 
 use super::{Findings, Progress};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -32,20 +34,25 @@ pub enum FileError {
 /// # Errors
 /// If it cannot be read, or is no state of this campaign.
 pub fn read<F: Findings>(file: &Path) -> Result<Option<Progress<F>>, FileError> {
-    let not_a_state = |why: String| FileError::NotAState {
-        file: file.to_owned(),
-        why,
-    };
+    let progress: Option<Progress<F>> = read_as(file)?;
+    match progress.as_ref().and_then(Progress::contradiction) {
+        Some(why) => Err(not_a_state(file, why)),
+        None => Ok(progress),
+    }
+}
+
+/// What [`StateFile::keep`] wrote, whatever it was, if there is such a file.
+///
+/// # Errors
+/// If it cannot be read, or is nothing of the kind.
+pub fn read_as<S: DeserializeOwned>(file: &Path) -> Result<Option<S>, FileError> {
     let bytes = match fs::read(file) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(system(file)(error)),
     };
-    let progress: Progress<F> = serde_json::from_slice(&bytes).map_err(|error| not_a_state(error.to_string()))?;
-    match progress.contradiction() {
-        Some(why) => Err(not_a_state(why.to_owned())),
-        None => Ok(Some(progress)),
-    }
+    let state = serde_json::from_slice(&bytes).map_err(|error| not_a_state(file, &error.to_string()))?;
+    Ok(Some(state))
 }
 
 /// A state file that this process alone writes.
@@ -83,11 +90,11 @@ impl StateFile {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn keep<F: Findings>(&self, progress: &Progress<F>) -> Result<(), FileError> {
+    pub fn keep(&self, state: &impl Serialize) -> Result<(), FileError> {
         let next = with_ending(&self.file, ".next");
         let write = || {
             let mut file = File::create(&next)?;
-            file.write_all(&serde_json::to_vec(progress)?)?;
+            file.write_all(&serde_json::to_vec(state)?)?;
             file.sync_all()?;
             fs::rename(&next, &self.file)
         };
@@ -99,6 +106,13 @@ fn with_ending(file: &Path, ending: &str) -> PathBuf {
     let mut name = file.as_os_str().to_owned();
     name.push(ending);
     name.into()
+}
+
+fn not_a_state(file: &Path, why: &str) -> FileError {
+    FileError::NotAState {
+        file: file.to_owned(),
+        why: why.to_owned(),
+    }
 }
 
 fn system(file: &Path) -> impl FnOnce(io::Error) -> FileError {
