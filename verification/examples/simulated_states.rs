@@ -102,7 +102,7 @@ fn scaled(line: &str, factor: f64) -> Result<String, Failure> {
 }
 
 /// What was seen.
-#[derive(Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Seen {
     states: u64,
     /// Of steps with loose edges.
@@ -147,7 +147,7 @@ impl Seen {
 
 /// What `--state` keeps of a run that may be gone on with.
 #[derive(Serialize, Deserialize)]
-struct Kept<Seen> {
+struct Kept {
     /// Of the program: what was seen of one says nothing of another.
     program: Digest,
     every: u64,
@@ -164,33 +164,38 @@ struct Keeper {
 }
 
 impl Keeper {
-    fn open(path: &Path, every: u64) -> Result<Self, Failure> {
-        let program = std::fs::read(std::env::current_exe()?)?;
-        Ok(Self {
+    /// Takes up what is kept in that file, if there is any: the simulation is where it was then, and what had been seen is returned.
+    fn open(path: &Path, options: &Options, simulation: &mut Simulation) -> Result<(Self, Seen), Failure> {
+        let keeper = Self {
             file: StateFile::open(path, |message| eprintln!("{message}"))?,
-            program: Digest::of_bytes([program]),
-            every,
-        })
-    }
-
-    /// Takes up what is kept in that file, if there is any: the simulation is where it was, and what had been seen is returned.
-    fn take_up(&self, path: &Path, simulation: &mut Simulation) -> Result<Seen, Failure> {
-        let Some(kept) = read_as::<Kept<Seen>>(path)? else {
-            return Ok(Seen::default());
+            program: Digest::of_bytes([std::fs::read(std::env::current_exe()?)?]),
+            every: options.every,
+        };
+        let Some(kept) = read_as::<Kept>(path)? else {
+            return Ok((keeper, Seen::default()));
         };
         let refuse = |why: &dyn Display| format!("{}: {why}; delete it, or name another file", path.display());
-        if kept.program != self.program {
+        if kept.program != keeper.program {
             return Err(refuse(&"kept by another build of this program").into());
         }
-        if kept.every != self.every {
-            return Err(refuse(&format_args!("of a run with --every {}, not {}", kept.every, self.every)).into());
+        if kept.every != keeper.every {
+            return Err(refuse(&format_args!("of a run with --every {}, not {}", kept.every, keeper.every)).into());
         }
         simulation.resume(&kept.checkpoint).map_err(|error| refuse(&error))?;
-        Ok(kept.seen)
+        let done = simulation.steps_done();
+        if done > options.steps {
+            return Err(format!(
+                "{}: {done} steps are done, more than --steps {}",
+                path.display(),
+                options.steps
+            )
+            .into());
+        }
+        Ok((keeper, kept.seen))
     }
 
     /// Where the simulation can be gone on with.
-    fn keep(&self, seen: &Seen, simulation: &Simulation) -> Result<(), FileError> {
+    fn keep(&self, seen: Seen, simulation: &Simulation) -> Result<(), FileError> {
         let Some(checkpoint) = simulation.checkpoint() else {
             return Ok(());
         };
@@ -208,18 +213,17 @@ fn cuts_so_far(simulation: &Simulation) -> u64 {
     simulation.contact_counts().map_or(0, |counts| counts.cuts)
 }
 
-fn run(options: &Options) -> Result<(), Failure> {
+/// Does the steps that are left, and what was seen in all of them.
+fn run(options: &Options) -> Result<(Simulation, Seen), Failure> {
     let mut simulation = options.load()?;
     let style = ProgressStyle::with_template("{bar:40} {human_pos}/{human_len} steps, {eta} left{msg}")?;
     let bar = ProgressBar::new(options.steps).with_style(style);
-    let keeper = options
-        .state
-        .as_deref()
-        .map(|path| Keeper::open(path, options.every))
-        .transpose()?;
-    let mut seen = match (&keeper, &options.state) {
-        (Some(keeper), Some(path)) => keeper.take_up(path, &mut simulation)?,
-        _ => Seen::default(),
+    let (keeper, mut seen) = match &options.state {
+        Some(path) => {
+            let (keeper, seen) = Keeper::open(path, options, &mut simulation)?;
+            (Some(keeper), seen)
+        }
+        None => (None, Seen::default()),
     };
     let done = simulation.steps_done();
     bar.set_position(done);
@@ -248,9 +252,14 @@ fn run(options: &Options) -> Result<(), Failure> {
         }
         seen.in_all += begin.elapsed();
         if let Some(keeper) = &keeper {
-            keeper.keep(&seen, &simulation)?;
+            keeper.keep(seen, &simulation)?;
         }
     }
+    Ok((simulation, seen))
+}
+
+/// The row for the table.
+fn tell(options: &Options, simulation: &Simulation, seen: Seen) {
     let counts = simulation.contact_counts().copied().unwrap_or_default();
     if !simulation.loose_edges().is_empty() {
         eprintln!(
@@ -272,7 +281,6 @@ fn run(options: &Options) -> Result<(), Failure> {
         seen.in_all.as_secs_f64(),
         seen.in_oracle.as_secs_f64(),
     );
-    Ok(())
 }
 
 fn main() -> ExitCode {
@@ -281,10 +289,62 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     match run(&options) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok((simulation, seen)) => {
+            tell(&options, &simulation, seen);
+            ExitCode::SUCCESS
+        }
         Err(failure) => {
             eprintln!("{}: {failure}", options.scene.display());
             ExitCode::FAILURE
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cloth that falls on itself, every fifth state looked at.
+    fn options(state: Option<&Path>, more: &[&str]) -> Options {
+        let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../std-adapter/cloth/scenes/fold.toml");
+        let arguments = [scene, "--every", "5", "--steps", "400"]
+            .into_iter()
+            .chain(more.iter().copied());
+        let mut options = Options::parse(arguments.map(str::to_owned)).unwrap();
+        options.state = state.map(Path::to_owned);
+        options
+    }
+
+    #[test]
+    fn a_run_that_is_gone_on_with_ends_as_one_in_one_go_and_another_run_is_refused_by_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("state.json");
+        let refusal = |more: &[&str]| run(&options(Some(&file), more)).err().unwrap().to_string();
+
+        // Killed after 230 steps, of which the last 30 are lost.
+        run(&options(Some(&file), &["--steps", "230"])).unwrap();
+        for (more, why) in [
+            (["--every", "10"], "of a run with --every 5, not 10; delete it"),
+            (["--stiffness", "2"], "another scene"),
+            (["--time-step", "2"], "another scene"),
+            (["--without", "friction"], "another scene"),
+            (["--steps", "199"], "200 steps are done, more than --steps 199"),
+        ] {
+            let told = refusal(&more);
+            assert!(told.contains("state.json: ") && told.contains(why), "{told}");
+        }
+        let (resumed, seen) = run(&options(Some(&file), &[])).unwrap();
+        let (whole, all) = run(&options(None, &[])).unwrap();
+        assert_eq!(resumed.positions(), whole.positions());
+        assert_eq!((seen.states, seen.ways, all.states), (80, 0, 80));
+        // JSON keeps it but for rounding.
+        assert!((seen.largest_speed / all.largest_speed - 1.0).abs() < 1e-12 && all.largest_speed > 0.0);
+
+        let kept: serde_json::Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+        let another = kept.to_string().replace(kept["program"].as_str().unwrap(), &"0".repeat(32));
+        std::fs::write(&file, another).unwrap();
+        assert!(refusal(&[]).contains("kept by another build of this program; delete it"));
+        std::fs::write(&file, "{}").unwrap();
+        assert!(refusal(&[]).contains("no state of this campaign (missing field `program`"));
     }
 }
