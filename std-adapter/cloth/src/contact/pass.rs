@@ -135,27 +135,38 @@ impl ContactSolver {
             self.moved.fill(false);
             return self.check_all(start, end);
         }
+        let Self {
+            candidates,
+            settings,
+            exempt,
+            error,
+            moved,
+            places,
+            ..
+        } = self;
+        candidates.find_places(moved, places);
+        moved.fill(false);
+        // Most of the open ones have a vertex that has moved.
+        open.retain(|index| places.binary_search(index).is_err());
+        if !open.is_empty() {
+            places.extend(open);
+            places.sort();
+        }
+        let separations = settings.separations(exempt);
         let mut still_open = Vec::new();
-        let mut places = std::mem::take(&mut self.places);
-        self.candidates.find_places(&self.moved, &mut places);
-        places.extend(&open);
-        places.sort();
-        places.dedup();
-        for &index in &places {
-            let Some(separation) = self.separation(&self.candidates.list[index]) else {
+        for &index in &*places {
+            let pair = &mut candidates.list[index];
+            let Some(separation) = separations.of(pair) else {
                 continue;
             };
-            let pair = &mut self.candidates.list[index];
             // What it remembers was right for the way to where its vertices were before: its gap at the start is large enough.
-            if pair.stays_apart(end, separation, self.error) {
+            if pair.stays_apart(end, separation, *error) {
                 continue;
             }
-            if !is_free(pair, [start, end], separation, self.error) {
+            if !is_free(pair, [start, end], separation, *error) {
                 still_open.push(index);
             }
         }
-        self.places = places;
-        self.moved.fill(false);
         still_open
     }
 

@@ -1,6 +1,7 @@
 //! What is known of pairs that are found again.
 
-use super::pair::NearPair;
+use super::pair::{NearPair, order};
+use crate::PairKind;
 
 /// Pairs that are known, in two runs that each ascend by key, from the next ones that may be asked for on.
 pub(super) struct Known<'a, D>([&'a [NearPair<D>]; 2]);
@@ -11,19 +12,19 @@ impl<'a, D: Copy> Known<'a, D> {
         Self(list.split_at(first).into())
     }
 
-    /// The same pair as this one, which comes after all that were asked for.
+    /// The pair with this key, which comes after all that were asked for.
     #[inline(always)]
-    pub(super) fn find(&mut self, pair: &NearPair<D>) -> Option<&'a NearPair<D>> {
+    pub(super) fn find(&mut self, key: (PairKind, [u32; 2])) -> Option<&'a NearPair<D>> {
         let [first, added] = &mut self.0;
-        let found = find_in(first, pair);
-        found.or_else(|| find_in(added, pair))
+        let order = order(key);
+        let found = find_in(first, order);
+        found.or_else(|| find_in(added, order))
     }
 }
 
-/// The same pair as this one in a run, which begins with it or what comes after it then.
+/// The pair of this order in a run, which begins with it or what comes after it then.
 #[inline(always)]
-fn find_in<'a, D: Copy>(run: &mut &'a [NearPair<D>], pair: &NearPair<D>) -> Option<&'a NearPair<D>> {
-    let order = pair.order();
+fn find_in<'a, D: Copy>(run: &mut &'a [NearPair<D>], order: u128) -> Option<&'a NearPair<D>> {
     let mut passed = 0;
     while run.get(passed).is_some_and(|other| other.order() < order) {
         passed += 1;

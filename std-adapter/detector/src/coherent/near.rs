@@ -23,6 +23,9 @@ use std::sync::Arc;
 /// If one vertex in so many or more has strayed, all pairs are found anew.
 const MANY: usize = 4;
 
+/// Pairs that are looked at in one go.
+const AT_ONCE: usize = 1024;
+
 /// Pairs near each other, followed from step to step. Times are in any unit, positions finite.
 ///
 /// On the rayon pool in which it is called; outside of one on the calling thread.
@@ -116,9 +119,12 @@ impl<I: Interest> NearPairs<I> {
         let is_marked = |vertex: u32| marked[vertex as usize];
         let has_marked = |[a, b, c, d]: [u32; 4]| is_marked(a) | is_marked(b) | is_marked(c) | is_marked(d);
         places.clear();
-        let of_first = self.vertices.iter().enumerate();
-        let of_first = of_first.map(|(place, &vertices)| (has_marked(vertices), place));
-        add_kept(places, first.len(), of_first);
+        // A few at a time, for which the room stays in the cache.
+        for (chunk, vertices) in self.vertices.chunks(AT_ONCE).enumerate() {
+            let all = (chunk * AT_ONCE..).zip(vertices);
+            let all = all.map(|(place, &vertices)| (has_marked(vertices), place));
+            add_kept(places, vertices.len(), all);
+        }
         let of_added = (first.len()..).zip(added);
         let of_added = of_added.map(|(place, pair)| (has_marked(pair.vertices), place));
         add_kept(places, added.len(), of_added);
@@ -329,7 +335,7 @@ mod tests {
             all.extend(pairs(&added, 2));
             let mut new = pairs(&found, 3);
             let mut known = Known::of(&all, first.len());
-            new.retain(|pair| known.find(pair).is_none());
+            new.retain(|pair| known.find(pair.key()).is_none());
             add(&mut all, first.len(), &mut new);
             let keys = |pairs: &[NearPair<u32>]| pairs.iter().map(|pair| pair.pair).collect::<Vec<_>>();
             let (of_first, of_added) = all.split_at(first.len());

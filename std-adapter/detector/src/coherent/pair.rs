@@ -39,17 +39,22 @@ impl<D: Copy> NearPair<D> {
         }
     }
 
+    /// The same pair, whose vertices may [stray](Self::stray) so far.
+    #[inline(always)]
+    pub(super) const fn with_stray(self, stray: f32) -> Self {
+        Self { stray, ..self }
+    }
+
     /// Ascends along a list of pairs.
     #[inline(always)]
     pub fn key(&self) -> (PairKind, [u32; 2]) {
         (self.kind, self.pair)
     }
 
-    /// The same as one number.
+    /// Its key as one number.
     #[inline(always)]
     pub(super) fn order(&self) -> u128 {
-        let [first, second] = self.pair.map(u128::from);
-        (self.kind as u128) << 64 | first << 32 | second
+        order(self.key())
     }
 
     /// Whether its vertices, which stray so far, may have come within its distance: false proves that they have not.
@@ -63,12 +68,6 @@ impl<D: Copy> NearPair<D> {
         // What is NaN proves nothing.
         let is_settled = 0.5 * (first + second) <= self.stray;
         !is_settled
-    }
-
-    /// Takes over what an earlier search found out about the same pair.
-    pub(super) fn remember(&mut self, earlier: &Self) {
-        self.separating = earlier.separating;
-        self.data = earlier.data;
     }
 
     /// Where its vertices are.
@@ -166,4 +165,11 @@ impl<D: Copy> NearPair<D> {
             .without_gap();
         shares
     }
+}
+
+/// The key of a pair as one number.
+#[inline(always)]
+pub(super) fn order((kind, pair): (PairKind, [u32; 2])) -> u128 {
+    let [first, second] = pair.map(u128::from);
+    (kind as u128) << 64 | first << 32 | second
 }
