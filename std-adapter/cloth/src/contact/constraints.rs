@@ -24,8 +24,8 @@ use std::hint::select_unpredictable;
 /// The contacts of a step.
 #[derive(Debug, Default)]
 pub(super) struct Contacts {
-    /// The candidates that may have to be pushed, by their places, in order: those of cloth, and those with a body.
-    open: [Vec<u32>; 2],
+    /// The candidates that may have to be pushed, by their places, in order.
+    open: Vec<u32>,
     /// Those of them that were near, and not kept apart yet, when it was their turn.
     near: Vec<NearPair>,
 }
@@ -55,9 +55,6 @@ pub(super) struct Rules<'a> {
     pub(super) error: GapError<f64>,
 }
 
-/// Pairs that are looked at in one go: some that are in the cache until they have been told apart.
-const AT_ONCE: usize = 256;
-
 /// What starts within this may come within `aim`.
 fn reach(aim: f64) -> f64 {
     aim * (1.0 + MARGIN)
@@ -65,7 +62,7 @@ fn reach(aim: f64) -> f64 {
 
 impl Contacts {
     pub(super) fn clear(&mut self) {
-        self.open.iter_mut().for_each(Vec::clear);
+        self.open.clear();
         self.near.clear();
     }
 
@@ -75,25 +72,14 @@ impl Contacts {
         self.clear();
         parallel::map_chunks(
             pairs,
-            |first, pairs, open: &mut [Vec<u32>; 2]| {
-                let mut some = Vec::new();
-                for (chunk, pairs) in pairs.chunks(AT_ONCE).enumerate() {
-                    let all = pairs.iter().enumerate();
-                    let all = all.map(|(place, pair)| (is_open(pair, predicted), place));
-                    add_kept(&mut some, pairs.len(), all);
-                    for place in some.drain(..) {
-                        let with_body = pairs[place].data.is_with_body();
-                        open[usize::from(with_body)].push((first + chunk * AT_ONCE + place) as u32);
-                    }
-                }
+            |first, pairs, open: &mut Vec<u32>| {
+                add_kept(open, pairs, |place, pair| (is_open(pair, predicted), (first + place) as u32));
             },
             &mut self.open,
-            |all, own| all.iter_mut().zip(own).for_each(|(all, own)| all.extend(own)),
+            |all, own| all.extend(own),
         );
         if rules.exempt.has_tangle() {
-            for open in &mut self.open {
-                open.retain(|&place| !rules.exempt.is_tangled(&pairs[place as usize]));
-            }
+            self.open.retain(|&place| !rules.exempt.is_tangled(&pairs[place as usize]));
         }
     }
 
@@ -107,9 +93,9 @@ impl Contacts {
         touches: &mut Touches,
     ) -> u64 {
         let mut pushed = 0;
-        for &place in &self.open[usize::from(with_body)] {
+        for &place in &self.open {
             let pair = &mut pairs[place as usize];
-            if is_kept(pair, positions) {
+            if pair.data.is_with_body() != with_body || is_kept(pair, positions) {
                 continue;
             }
             if let Some(near) = near(pair, rules, step) {

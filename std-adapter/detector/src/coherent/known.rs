@@ -1,6 +1,6 @@
 //! What is known of pairs that are found again.
 
-use super::pair::{NearPair, order};
+use super::pair::NearPair;
 use crate::PairKind;
 
 /// Pairs that are known, in two runs that each ascend by key, from the next ones that may be asked for on.
@@ -16,7 +16,7 @@ impl<'a, D: Copy> Known<'a, D> {
     #[inline(always)]
     pub(super) fn find(&mut self, key: (PairKind, [u32; 2])) -> Option<&'a NearPair<D>> {
         let [first, added] = &mut self.0;
-        let order = order(key);
+        let order = order_of(key);
         let found = find_in(first, order);
         found.or_else(|| find_in(added, order))
     }
@@ -26,14 +26,14 @@ impl<'a, D: Copy> Known<'a, D> {
 #[inline(always)]
 fn find_in<'a, D: Copy>(run: &mut &'a [NearPair<D>], order: u128) -> Option<&'a NearPair<D>> {
     let mut passed = 0;
-    while run.get(passed).is_some_and(|other| other.order() < order) {
+    while run.get(passed).is_some_and(|other| order_of(other.key()) < order) {
         passed += 1;
         if passed == SINGLY {
             passed = how_many_before(run, order);
         }
     }
     *run = &run[passed..];
-    run.first().filter(|first| first.order() == order)
+    run.first().filter(|first| order_of(first.key()) == order)
 }
 
 /// So many are passed over one by one: mostly it is none.
@@ -42,11 +42,18 @@ const SINGLY: usize = 8;
 /// How many come before, in a time that grows with the logarithm of their number.
 #[cold]
 fn how_many_before<D: Copy>(run: &[NearPair<D>], order: u128) -> usize {
-    let comes_before = |other: &NearPair<D>| other.order() < order;
+    let comes_before = |other: &NearPair<D>| order_of(other.key()) < order;
     let mut end = 2 * SINGLY;
     while run.get(end - 1).is_some_and(comes_before) {
         end *= 2;
     }
     let start = end / 2;
     start + run[start..run.len().min(end)].partition_point(comes_before)
+}
+
+/// The key of a pair as one number.
+#[inline(always)]
+fn order_of((kind, pair): (PairKind, [u32; 2])) -> u128 {
+    let [first, second] = pair.map(u128::from);
+    (kind as u128) << 64 | first << 32 | second
 }

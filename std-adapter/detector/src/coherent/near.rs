@@ -23,9 +23,6 @@ use std::sync::Arc;
 /// If one vertex in so many or more has strayed, all pairs are found anew.
 const MANY: usize = 4;
 
-/// Pairs that are looked at in one go.
-const AT_ONCE: usize = 1024;
-
 /// Pairs near each other, followed from step to step. Times are in any unit, positions finite.
 ///
 /// On the rayon pool in which it is called; outside of one on the calling thread.
@@ -119,15 +116,8 @@ impl<I: Interest> NearPairs<I> {
         let is_marked = |vertex: u32| marked[vertex as usize];
         let has_marked = |[a, b, c, d]: [u32; 4]| is_marked(a) | is_marked(b) | is_marked(c) | is_marked(d);
         places.clear();
-        // A few at a time, for which the room stays in the cache.
-        for (chunk, vertices) in self.vertices.chunks(AT_ONCE).enumerate() {
-            let all = (chunk * AT_ONCE..).zip(vertices);
-            let all = all.map(|(place, &vertices)| (has_marked(vertices), place));
-            add_kept(places, vertices.len(), all);
-        }
-        let of_added = (first.len()..).zip(added);
-        let of_added = of_added.map(|(place, pair)| (has_marked(pair.vertices), place));
-        add_kept(places, added.len(), of_added);
+        add_kept(places, &self.vertices, |place, &vertices| (has_marked(vertices), place));
+        add_kept(places, added, |place, pair| (has_marked(pair.vertices), first.len() + place));
     }
 
     /// What was done so far.
@@ -316,11 +306,64 @@ mod tests {
     use super::super::{CLASSES, Class, OfClass};
     use super::*;
     use proptest::prelude::*;
+    use selvedge_core::separation::gap::GapError;
     use std::collections::BTreeSet;
 
     fn pairs(keys: &BTreeSet<[u32; 2]>, data: u32) -> Vec<NearPair<u32>> {
         let pair = |&pair: &[u32; 2]| NearPair::new(PairKind::EdgeEdge, pair, [0; 4], data);
         keys.iter().map(pair).collect()
+    }
+
+    /// All pairs, each with a number that the caller may write over.
+    struct Numbered;
+
+    impl Interest for Numbered {
+        type Data = u32;
+
+        fn class(&self, _: PairKind, _: [u32; 4]) -> usize {
+            0
+        }
+
+        fn about(&self, _: PairKind, _: [u32; 4]) -> Option<u32> {
+            Some(7)
+        }
+    }
+
+    #[test]
+    fn what_is_known_of_a_pair_is_kept_when_all_are_found_anew() {
+        let triangle = |height: f64| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|corner| corner + DVec3::Z * height);
+        let positions = [triangle(0.0), triangle(0.1)].concat();
+        let topology = Arc::new(Topology::new(6, vec![[0, 1, 2], [3, 4, 5]]).unwrap());
+        let reach = Reach {
+            classes: [Class {
+                distance: 0.15,
+                margin: 0.0,
+            }; CLASSES],
+            beyond: 0.02,
+            spare: 0.0,
+            farthest: 8,
+            upkeep: 0.0,
+            is_graded: false,
+        };
+        let mut near = NearPairs::new(topology, Numbered, vec![true; 6], reach).unwrap();
+        near.find(&positions, &positions, 1.0);
+        assert!(near.list.iter().all(|pair| pair.data == 7 && pair.gap() == f32::NEG_INFINITY));
+        let error = GapError::of_coordinates(1.0);
+        for (number, pair) in (0..).zip(&mut near.list) {
+            assert!(pair.keeps_apart([&positions, &positions], 0.05, error));
+            pair.data = number;
+        }
+        let before = near.list.clone();
+        let missing = near.list.remove(3);
+        near.set_first(near.list.len());
+        near.find(&positions, &positions, 1.0);
+        assert_eq!(near.list.len(), before.len());
+        for (pair, before) in near.list.iter().zip(&before) {
+            assert_eq!((pair.key(), pair.vertices), (before.key(), before.vertices));
+            let is_new = pair.key() == missing.key();
+            assert_eq!(pair.data, if is_new { 7 } else { before.data });
+            assert_eq!(pair.gap(), if is_new { f32::NEG_INFINITY } else { before.gap() });
+        }
     }
 
     proptest! {

@@ -51,12 +51,6 @@ impl<D: Copy> NearPair<D> {
         (self.kind, self.pair)
     }
 
-    /// Its key as one number.
-    #[inline(always)]
-    pub(super) fn order(&self) -> u128 {
-        order(self.key())
-    }
-
     /// Whether its vertices, which stray so far, may have come within its distance: false proves that they have not.
     #[inline(always)]
     pub(super) fn needs_attention(&self, strays: &[f32]) -> bool {
@@ -165,11 +159,4 @@ impl<D: Copy> NearPair<D> {
             .without_gap();
         shares
     }
-}
-
-/// The key of a pair as one number.
-#[inline(always)]
-pub(super) fn order((kind, pair): (PairKind, [u32; 2])) -> u128 {
-    let [first, second] = pair.map(u128::from);
-    (kind as u128) << 64 | first << 32 | second
 }

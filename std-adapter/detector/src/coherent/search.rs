@@ -224,7 +224,8 @@ fn for_each_in_order(
     }
 }
 
-/// So many are compared each with each, which takes as long as the square of them: mostly it is fewer than ten, some hundred where cloth is jammed.
+/// So many, a multiple of eight, are compared each with each, which takes as long as the square of them: mostly it is fewer than ten.
+/// Where cloth is jammed a step takes a sixtieth less time than with 24.
 const FEW: usize = 64;
 
 #[cfg(test)]
@@ -235,7 +236,7 @@ mod tests {
     proptest! {
         #[test]
         fn pairs_come_in_ascending_order(
-            pairs in prop::collection::btree_set([0..4_u32, 0..99_u32], 0..200).prop_map(Vec::from_iter).prop_shuffle(),
+            pairs in prop::collection::btree_set([0..4_u32, 0..99_u32], 0..350).prop_map(Vec::from_iter).prop_shuffle(),
             count in prop::sample::select(vec![4, 3000]),
         ) {
             let of_pair = |&pair: &[u32; 2]| Left { pair, stray: pair[1] as f32 };
@@ -243,8 +244,10 @@ mod tests {
             expected.sort_unstable();
             let expected: Vec<_> = expected.iter().map(of_pair).collect();
             let mut pairs: Vec<_> = pairs.iter().map(of_pair).collect();
+            // Of a search before.
+            let (mut by_first, mut places) = (vec![of_pair(&[9, 9]); 150], vec![9; 50]);
             let mut visited = Vec::new();
-            for_each_in_order(&mut pairs, count, &mut Vec::new(), &mut Vec::new(), |left| visited.push(left));
+            for_each_in_order(&mut pairs, count, &mut by_first, &mut places, |left| visited.push(left));
             prop_assert_eq!(visited, expected);
         }
     }

@@ -76,12 +76,12 @@ impl Sieve {
             }
             let own = &vertices[..pairs.len()];
             largest_strays_from_rows(self.level, kind, &self.clearances, &self.rows, own, &classes, &mut strays);
-            let all = pairs.iter().zip(&strays).map(|(&pair, &stray)| {
+            add_kept(left, pairs, |place, &pair| {
+                let stray = strays[place];
                 // What is NaN keeps nothing apart.
                 let keeps_apart = stray >= enough;
                 (!keeps_apart, Left { pair, stray })
             });
-            add_kept(left, pairs.len(), all);
         }
     }
 }
