@@ -11,6 +11,7 @@ use selvedge_core::batch::{
     self, BatchTest, Level, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows, largest_strays_from_rows,
 };
 use selvedge_core::boxes::mapping::Mapping;
+use selvedge_core::boxes::block::BoxBlock;
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, Dop18, direction, relative, segment, swept_boxes};
 use selvedge_core::distribution::distribute;
@@ -223,7 +224,15 @@ pub extern "C" fn near(points: &Points<f32>) -> u32 {
     if block.merged() != a.merged(&block.get(5)) {
         return u32::MAX;
     }
-    block.near(&a, Mask::MAX).into()
+    let mut at_start = BoxBlock::nowhere();
+    at_start.set(3, &a.start);
+    at_start.set(5, &block.get(5).start);
+    let near = block.near(&a, Mask::MAX);
+    let (touching, anywhere) = (at_start.within(&a.start, 0.0, near), at_start.within(&a.start, f32::MAX, near));
+    if touching != near || anywhere != near {
+        return u32::MAX - 1;
+    }
+    near.into()
 }
 
 /// What shows a vertex and a face to keep half a unit: boxes with that separation, the distance at the start from below, a direction

@@ -20,6 +20,8 @@
 //! ```
 
 use super::{LANES, Level, Mask, next_lane};
+use crate::boxes::Aabb;
+use crate::boxes::block::BoxBlock;
 use crate::boxes::moving::{MovingBlock, MovingBox};
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x16, u32x16};
@@ -28,6 +30,8 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f32x16, u32x16};
 pub trait Compares: Copy {
     /// The lanes `among` these whose box is not [apart from](MovingBox::is_apart_from) `other`.
     fn near(self, block: &MovingBlock, other: &MovingBox<f32>, among: Mask) -> Mask;
+    /// The lanes `among` these whose box comes [within](Aabb::is_within) a distance of `other`.
+    fn within(self, block: &BoxBlock, other: &Aabb<f32>, distance: f32, among: Mask) -> Mask;
     /// The lanes whose number is above its limit; not where either is NaN.
     fn above(self, numbers: &[f32; LANES], limits: &[f32; LANES]) -> Mask;
     /// The lanes `among` these whose number this is.
@@ -84,6 +88,11 @@ impl Compares for OneByOne {
     }
 
     #[inline(always)]
+    fn within(self, block: &BoxBlock, other: &Aabb<f32>, distance: f32, among: Mask) -> Mask {
+        block.within(other, distance, among)
+    }
+
+    #[inline(always)]
     fn above(self, numbers: &[f32; LANES], limits: &[f32; LANES]) -> Mask {
         let mut above = 0;
         for lane in 0..LANES {
@@ -130,6 +139,21 @@ impl<V: Simd> Compares for Vectors<V> {
         let y = (above!(b, start.upper[1]) & above!(h, end.upper[1])) | (below!(e, start.lower[1]) & below!(k, end.lower[1]));
         let z = (above!(c, start.upper[2]) & above!(i, end.upper[2])) | (below!(f, start.lower[2]) & below!(l, end.lower[2]));
         !((x | y | z).to_bitmask() as Mask) & among
+    }
+
+    #[inline(always)]
+    fn within(self, block: &BoxBlock, other: &Aabb<f32>, distance: f32, among: Mask) -> Mask {
+        let [a, b, c, d, e, f] = block.rows();
+        let distance = f32x16::splat(self.0, distance);
+        macro_rules! within {
+            ($lower:expr, $upper:expr, $axis:expr) => {{
+                let ahead = f32x16::load_array_ref(self.0, $lower) - f32x16::splat(self.0, other.upper[$axis]);
+                let behind = f32x16::splat(self.0, other.lower[$axis]) - f32x16::load_array_ref(self.0, $upper);
+                ahead.simd_le(distance) & behind.simd_le(distance)
+            }};
+        }
+        let all = within!(a, d, 0) & within!(b, e, 1) & within!(c, f, 2);
+        all.to_bitmask() as Mask & among
     }
 
     #[inline(always)]

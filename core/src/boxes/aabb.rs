@@ -78,4 +78,16 @@ impl<S: Scalar> Aabb<S> {
         }
         !apart
     }
+
+    /// Whether along each axis the gap between the boxes, rounded, is at most `distance`; not where a coordinate of a gap is NaN.
+    #[inline]
+    #[must_use]
+    pub fn is_within(&self, other: &Self, distance: S) -> bool {
+        let mut within = true;
+        for axis in 0..3 {
+            within &= self.lower[axis] - other.upper[axis] <= distance;
+            within &= other.lower[axis] - self.upper[axis] <= distance;
+        }
+        within
+    }
 }

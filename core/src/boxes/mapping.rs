@@ -23,6 +23,19 @@
 //! neither is beyond a bound that it should not be beyond, for both are at least as far out as any that is not widened.
 //! What is NaN or infinite, or so large that a vertex's coordinates add up to that, has no bounds.
 //!
+//! # A smaller separation
+//! Boxes that are made for a separation s can be asked for a smaller one, s′, without new ones: one of two is drawn in by δ = s − s′ on each
+//! side ([`Inset`]). Were that exact, strict order would mean more than s/2 − δ + s/2 = s′. As computed, with B the largest magnitude of
+//! its bounds, bounds are moved inwards by less:
+//!
+//! ```text
+//! inset = δ − 2⁻²¹·(B + δ)
+//! ```
+//!
+//! (`f32`, any direction of rounding, 2⁻²³ an operation; the product is exact.) δ was rounded to `f32`, the difference and the moved
+//! bound, at most B + δ, are rounded: 3·2⁻²³(B + δ), and a little of second order, which is less than 2⁻²¹(B + δ). A δ below 2⁻⁶⁰ draws
+//! nothing in, so that flushed numbers are far less than what is left of that; nor does a sum of more than 2¹⁰⁰.
+//!
 //! # Two mappings
 //! Boxes of two mappings compare if both have one origin; of an empty extent it is zero. With half separations h and k, images in strict order
 //! belong to coordinates more than h + k apart, as each bound is moved outwards by its own half. Without one (h = 0, the other with k > 0):
@@ -31,6 +44,7 @@
 
 use super::Aabb;
 use super::moving::MovingBox;
+use crate::lanes::Lanes;
 use crate::scalar::Scalar;
 
 /// How positions become boxes: the same for all vertices of a mesh, in one step.
@@ -110,6 +124,56 @@ impl Mapping {
     }
 }
 
+/// By how much boxes of one [mapping](Mapping) are drawn in to be asked for a smaller separation than they were made for.
+///
+/// ```
+/// use selvedge_core::boxes::{Aabb, mapping::{Inset, Mapping}};
+/// let extent = Aabb { lower: [0.0; 3], upper: [2.0; 3] };
+/// let mapping = Mapping::new(&extent, 0.5, 1.0, false);
+/// let [own, other] = [0.0, 0.4].map(|x| mapping.vertex([x, 0.0, 0.0], [x + 1.0, 0.0, 0.0]));
+/// let is_apart = |smaller: f64| own.drawn_in(Inset::new(0.5, smaller).of(&own)).is_apart_from(&other);
+/// assert!(!own.is_apart_from(&other));
+/// assert!(is_apart(0.0) && is_apart(0.399) && !is_apart(0.4));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inset {
+    /// δ; less than any number if there is none.
+    by: f32,
+}
+
+impl Inset {
+    /// For boxes that were made for `separation`: a pair of which one is [drawn in](MovingBox::drawn_in) and apart from the other keeps more
+    /// than `smaller`.
+    #[inline]
+    #[must_use]
+    pub fn new(separation: f64, smaller: f64) -> Self {
+        let by = separation - smaller;
+        let by = if by >= SHORTEST { image(by) } else { f32::NEG_INFINITY };
+        Self { by }
+    }
+
+    /// By how much boxes within `bounds` are to be drawn in: less than any number, so that they are apart from nothing, if there is nothing
+    /// to draw in or it cannot be told.
+    #[inline]
+    #[must_use]
+    pub fn of(self, bounds: &MovingBox<f32>) -> f32 {
+        let corners = [bounds.start.lower, bounds.start.upper, bounds.end.lower, bounds.end.upper];
+        let largest = corners.iter().flatten().fold(0.0, |largest: f32, x| largest.larger(x.abs()));
+        let sum = largest + self.by;
+        if (0.0..=LARGEST).contains(&sum) {
+            self.by - INSET * sum
+        } else {
+            f32::NEG_INFINITY
+        }
+    }
+}
+
+/// 2⁻²¹.
+const INSET: f32 = 1.0 / 2_097_152.0;
+/// 2⁻⁶⁰.
+const SHORTEST: f64 = 1.0 / (1_u64 << 60) as f64;
+/// 2¹⁰⁰.
+const LARGEST: f32 = (1_u128 << 100) as f32;
 /// 2⁻²².
 const WIDENING: f64 = 1.0 / 4_194_304.0;
 /// 2⁻¹⁰⁰.

@@ -7,7 +7,7 @@
 //! | [`Dop18`] | swept boxes along 9 directions (Hutter, Fuhrmann 2007) | exact: rounding is monotone |
 //! | [`relative`] | 3 or 9 directions, both ends of the step apart: the two sets in the same order | exact |
 //! | [`moving`] | the boxes of any two sets at both ends of the step: relative boxes for a hierarchy | exact |
-//! | [`mapping`] | how positions of any format become `f32` boxes, with a separation or without | monotone; a proven bound with one |
+//! | [`mapping`] | how positions of any format become `f32` boxes, with a separation or without, and are asked for a smaller one | monotone; a proven bound with one |
 //! | [`direction`] | the same along any direction, by default the pair's own normal | certified bound |
 //!
 //! # Why sums may round
@@ -71,6 +71,8 @@ macro_rules! values {
 }
 
 mod aabb;
+#[cfg(feature = "batch")]
+pub mod block;
 pub mod direction;
 mod dop;
 #[cfg(feature = "batch")]

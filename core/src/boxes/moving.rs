@@ -93,6 +93,26 @@ impl<S: Scalar> MovingBox<S> {
     }
 }
 
+impl MovingBox<f32> {
+    /// Each side moved inwards by so much, rounded; inside out if that is more than it has. What that proves: [`Inset`](super::mapping::Inset).
+    #[inline(always)]
+    #[must_use]
+    pub fn drawn_in(&self, by: f32) -> Self {
+        let ([a, b, c], [d, e, f]) = (self.start.lower, self.start.upper);
+        let ([g, h, i], [j, k, l]) = (self.end.lower, self.end.upper);
+        Self {
+            start: Aabb {
+                lower: [a + by, b + by, c + by],
+                upper: [d - by, e - by, f - by],
+            },
+            end: Aabb {
+                lower: [g + by, h + by, i + by],
+                upper: [j - by, k - by, l - by],
+            },
+        }
+    }
+}
+
 /// Sixteen moving boxes side by side: for each coordinate of the lower and the upper corner, at the start and at the end, one
 /// row of sixteen numbers.
 ///

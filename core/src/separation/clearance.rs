@@ -88,6 +88,19 @@ impl Clearance {
         of_kind!(kind, P => largest_stray::<P, f32>(&points, asked))
     }
 
+    /// A gap between the boxes of two sets along an axis, at both ends of the step and with the same order, from which on their points
+    /// certainly are [found](Self::largest_stray) to stray by `beyond`, rounded to `f32`: a hierarchy of boxes that leaves out what has such a
+    /// gap leaves out nothing but what would be left out one by one. No coordinate exceeds `largest` in magnitude.
+    ///
+    /// What is kept along an axis is off by at most 4εB ([module](self)), the difference to what is asked for by ε of both, the last product by
+    /// 2⁻¹⁷ and ε, and `beyond` by ε: 16εB, and 2⁻¹⁶ of the two, are more.
+    #[inline]
+    #[must_use]
+    pub fn certain_gap(&self, beyond: f64, largest: f64) -> f64 {
+        (f64::from(self.along_axis) + beyond) * (1.0 + 1.0 / 65_536.0)
+            + largest * (f64::small(32) * f64::from(f32::UNIT_ROUNDOFF))
+    }
+
     /// What is asked for along an axis, and along a direction times its length, before anything strays.
     #[inline(always)]
     pub(crate) const fn asked(&self) -> [f32; 2] {

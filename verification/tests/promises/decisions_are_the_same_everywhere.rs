@@ -8,6 +8,7 @@
 use selvedge::verification::available_levels;
 use selvedge_core::PairKind;
 use selvedge_core::batch::{Compares, LANES, Loop, Mask, in_lanes};
+use selvedge_core::boxes::block::BoxBlock;
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, direction, relative, segment, swept_boxes};
 use selvedge_core::elementary::advance::certain_contact;
@@ -268,6 +269,56 @@ impl Question for Blocks {
             digest.add_numbers(upper);
         }
     }
+}
+
+struct Within<'a>(&'a BoxBlock, &'a Aabb<f32>, f32, Mask);
+
+impl Loop for Within<'_> {
+    type Output = Mask;
+
+    #[inline(always)]
+    fn run(self, lanes: impl Compares) -> Mask {
+        lanes.within(self.0, self.1, self.2, self.3)
+    }
+}
+
+#[test]
+fn boxes_within_a_distance_are_those_among_the_lanes_asked_about_on_every_instruction_set() {
+    let at = |x: f32| Aabb {
+        lower: [x, 0.5, -x],
+        upper: [x + 0.25, 0.75, 1.0 - x],
+    };
+    // Steps that are not exact, so that gaps are rounded; and what is no number.
+    let places: [f32; LANES] = std::array::from_fn(|lane| if lane == 9 { f32::NAN } else { lane as f32 * 0.3 });
+    let mut block = BoxBlock::nowhere();
+    places.iter().enumerate().for_each(|(lane, &x)| block.set(lane, &at(x)));
+    let gap = places[7] - (places[3] + 0.25);
+    for (own, distance) in [
+        (3, gap),
+        (3, gap.next_down()),
+        (0, 2.0),
+        (7, 0.0),
+        (7, f32::NEG_INFINITY),
+        (9, 2.0),
+        (2, f32::NAN),
+    ] {
+        let own = at(places[own]);
+        for among in [Mask::MAX, 0, 0xA5C3] {
+            let is_one = |&lane: &usize| among >> lane & 1 == 1 && at(places[lane]).is_within(&own, distance);
+            let expected = (0..LANES).filter(is_one).fold(0, |mask, lane| mask | 1 << lane);
+            assert_eq!(
+                block.within(&own, distance, among),
+                expected,
+                "one by one, {own:?} {distance}"
+            );
+            for (name, level) in available_levels() {
+                let found = in_lanes(level, Within(&block, &own, distance, among));
+                assert_eq!(found, expected, "{name}, {own:?} {distance} among {among:x}");
+            }
+        }
+    }
+    let is_told = |distance| block.within(&at(places[3]), distance, 1 << 7) != 0;
+    assert!(is_told(gap) && !is_told(gap.next_down()));
 }
 
 struct Equal<'a>(&'a [u32; LANES], u32, Mask);

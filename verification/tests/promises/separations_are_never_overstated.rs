@@ -8,7 +8,8 @@ use proptest::prelude::*;
 use rug::Rational;
 use selvedge_core::PairKind;
 use selvedge_core::boxes::Aabb;
-use selvedge_core::boxes::mapping::Mapping;
+use selvedge_core::boxes::mapping::{Inset, Mapping};
+use selvedge_core::boxes::moving::MovingBox;
 use selvedge_core::glam::DVec3;
 use selvedge_core::narrowing::{rounded_down, rounded_up};
 use selvedge_core::separation::clearance::Clearance;
@@ -421,8 +422,8 @@ fn nobody_has_room_without_numbers_or_after_the_course() {
     assert_eq!(course::time_after(f64::NAN, 0.6, 1.0), None);
 }
 
-/// Whether boxes show the pair to be apart by more than `separation` until a time of the step.
-fn are_boxes_apart<S: Format>(pair: &PairCase<S>, separation: S, until: S) -> bool {
+/// Boxes of the pair's two sets that are made for `separation` until a time of the step.
+fn boxes<S: Format>(pair: &PairCase<S>, separation: S, until: S) -> [MovingBox<f32>; 2] {
     let mut extent = Aabb::<f64>::empty();
     for position in pair.points.iter().flatten() {
         for axis in 0..3 {
@@ -434,9 +435,22 @@ fn are_boxes_apart<S: Format>(pair: &PairCase<S>, separation: S, until: S) -> bo
     let mapping = Mapping::new(&extent, separation, until, false);
     let [a, b, c, d] = pair.points.map(|[start, end]| mapping.vertex(start, end));
     match pair.kind {
-        PairKind::VertexFace => a.is_apart_from(&b.merged(&c).merged(&d)),
-        PairKind::EdgeEdge => a.merged(&b).is_apart_from(&c.merged(&d)),
+        PairKind::VertexFace => [a, b.merged(&c).merged(&d)],
+        PairKind::EdgeEdge => [a.merged(&b), c.merged(&d)],
     }
+}
+
+/// Whether boxes show the pair to be apart by more than `separation` until a time of the step.
+fn are_boxes_apart<S: Format>(pair: &PairCase<S>, separation: S, until: S) -> bool {
+    let [first, second] = boxes(pair, separation, until);
+    first.is_apart_from(&second)
+}
+
+/// Whether boxes that are made for `separation` show the pair to be apart by more than a smaller one.
+fn are_drawn_in_boxes_apart<S: Format>(pair: &PairCase<S>, separation: S, smaller: S) -> bool {
+    let [first, second] = boxes(pair, separation, S::ONE);
+    let inset = Inset::new(separation.to_f64(), smaller.to_f64()).of(&first);
+    first.drawn_in(inset).is_apart_from(&second)
 }
 
 /// The pair until a time, if `f64` has the positions there.
@@ -474,6 +488,53 @@ property!(
         Ok(())
     }
 );
+
+property!(
+    boxes_that_are_drawn_in_keep_the_smaller_separation,
+    1_000,
+    pairs_of_any_kind(),
+    |pair| {
+        let kept = largest_of_all(pair, |pair| {
+            largest_accepted(|separation| are_boxes_apart(pair, separation, S::ONE))
+        });
+        // From one that the pair keeps to one that boxes of all its points are far within.
+        for factor in [0.75, 1.0, 3.0, 300.0] {
+            let separation = kept.unwrap_or(S::ONE) * S::from_f64(factor);
+            let smaller = largest_of_all(pair, |pair| {
+                largest_accepted(|smaller| are_drawn_in_boxes_apart(pair, separation, smaller))
+            });
+            if let Some(smaller) = smaller {
+                prop_assert!(!within(&pair.question(), smaller.to_f64()), "{smaller} of {separation}");
+            }
+        }
+        Ok(())
+    }
+);
+
+#[test]
+fn boxes_that_are_drawn_in_show_nearly_all_that_is_kept_and_nothing_that_cannot_be_told() {
+    let at = |x: f64| [[x, 0.3, 0.1], [x + 2.0, 0.4, 0.2]];
+    let pair = PairCase {
+        kind: PairKind::EdgeEdge,
+        points: [at(0.0), at(0.5), at(1.5), at(1.75)],
+    };
+    for separation in [1.5, 4.0, 1e3] {
+        let kept = largest_accepted(|smaller| are_drawn_in_boxes_apart(&pair, separation, smaller)).unwrap();
+        let lost = 2e-6 * (3.0 + separation);
+        assert!(kept < 1.0 && kept > 1.0 - lost, "{kept} of {separation}");
+    }
+    let [first, second] = boxes(&pair, 0.5, 1.0);
+    assert!(first.is_apart_from(&second));
+    for smaller in [0.5, 0.75, 0.5 - 1e-20, f64::INFINITY, f64::NAN] {
+        let inset = Inset::new(0.5, smaller).of(&first);
+        assert!(!first.drawn_in(inset).is_apart_from(&second), "{smaller}");
+    }
+    let far = MovingBox::of(&([1e30_f32, 0.0, 0.0], [1e30, 0.0, 0.0]).into());
+    let inset = Inset::new(0.5, 0.25);
+    assert!(!far.drawn_in(inset.of(&far)).is_apart_from(&second));
+    let everywhere = boxes(&pair.map(|_| f64::NAN), 0.5, 1.0)[0];
+    assert!(!everywhere.drawn_in(inset.of(&everywhere)).is_apart_from(&second));
+}
 
 property!(
     boxes_of_what_is_not_finite_are_not_apart,

@@ -2,10 +2,10 @@
 
 use super::candidate::{Aim, OfPair};
 use super::crossing::{Crossing, CrossingFinder, PairKey};
-use super::neighbours::{Neighbours, are_many, at_rest};
+use super::neighbours::{are_many, at_rest};
 use super::settings::{ContactSettings, MARGIN, Thickness};
 use crate::step::{Carrier, FREE};
-use selvedge::verification::{CLASSES, Class, Interest, NearPairs, Reach};
+use selvedge::verification::{CLASSES, Class, Interest, NearPairs, Neighbours, Reach};
 use selvedge::{Intersection, PairKind, Topology};
 use selvedge_core::glam::DVec3;
 use std::array;
@@ -47,7 +47,7 @@ pub(super) struct OfContact {
     carriers: Vec<Carrier>,
     /// Vertices from here on are bodies'.
     cloth_vertices: usize,
-    neighbours: Neighbours,
+    neighbours: Arc<Neighbours>,
 }
 
 /// `rest` and `carriers` are of all vertices, the cloth's first; steps mostly take `time_step` seconds. Gives neighbours in `settings` a thickness
@@ -99,7 +99,7 @@ pub(super) fn candidates(
         settings: settings.clone(),
         carriers: carriers.to_vec(),
         cloth_vertices,
-        neighbours,
+        neighbours: Arc::new(neighbours),
     };
     // Bodies among themselves are of no interest.
     let wanted = (0..rest.len()).map(|vertex| vertex < cloth_vertices).collect();
@@ -118,6 +118,10 @@ impl Interest for OfContact {
             return 2;
         }
         usize::from(!self.neighbours.are(kind, vertices))
+    }
+
+    fn neighbours(&self) -> Option<Arc<Neighbours>> {
+        (!self.neighbours.are_none()).then(|| Arc::clone(&self.neighbours))
     }
 
     /// `None` also if all of the pair follows one motion, which never changes it.

@@ -8,9 +8,7 @@ use selvedge::PairKind;
 use selvedge::Topology;
 use selvedge::core::separation::closest::Closest;
 use selvedge::verification::MovingBroadPhase;
-use selvedge_core::glam::{DVec3, Vec3A};
-use selvedge_core::separation::clearance::{are_boxes_within, nearness};
-use selvedge_core::separation::largest_coordinate;
+use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
 /// Whether so many pairs in one cloth, vertices below `cloth_vertices`, are [so near](NEIGHBOURS_AT_REST) each other at rest that looking
@@ -59,72 +57,12 @@ pub(super) fn are_neighbours(kind: PairKind, rest: [DVec3; 4], distance: f64) ->
     (low - other_high).max(other_low - high).cmple(DVec3::splat(distance)).all()
 }
 
-/// Which pairs are neighbours, for many of them.
-#[derive(Debug)]
-pub(super) struct Neighbours {
-    /// Where vertices are at rest, in `f32`, NaN for bodies, which have no neighbours; empty if there are no neighbours at all.
-    rest: Vec<Vec3A>,
-    /// Of each cloth: the vertex after its last one, and how near boxes of neighbours are at rest, rounded down.
-    of_cloths: Vec<(u32, f32)>,
-}
-
-impl Neighbours {
-    /// Pairs in one of the cloths, of each of which is told the vertex after its last one, whose boxes come within its distance at rest.
-    pub(super) fn new(rest: &[DVec3], of_cloths: impl Iterator<Item = (u32, f64)>) -> Self {
-        let largest = largest_coordinate(rest);
-        let of_cloths: Vec<_> = of_cloths.map(|(end, distance)| (end, nearness(distance, largest))).collect();
-        let cloth_vertices = of_cloths.last().map_or(0, |&(end, _)| end);
-        let at_rest = |(vertex, rest): (usize, &DVec3)| {
-            if vertex < cloth_vertices as usize {
-                rest.as_vec3a()
-            } else {
-                Vec3A::NAN
-            }
-        };
-        Self {
-            rest: rest.iter().enumerate().map(at_rest).collect(),
-            of_cloths,
-        }
-    }
-
-    /// No pair.
-    pub(super) const fn none() -> Self {
-        Self {
-            rest: Vec::new(),
-            of_cloths: Vec::new(),
-        }
-    }
-
-    #[inline(always)]
-    pub(super) fn are(&self, kind: PairKind, vertices: [u32; 4]) -> bool {
-        // Written out: `map` would not be inlined here.
-        !self.rest.is_empty() && {
-            let rest = |corner: usize| self.rest[vertices[corner] as usize];
-            are_boxes_within(
-                kind,
-                [rest(0), rest(1), rest(2), rest(3)],
-                self.within(vertices[0], vertices[3]),
-            )
-        }
-    }
-
-    /// How near two vertices' boxes are if they are neighbours': of no distance in different cloths.
-    #[inline(always)]
-    fn within(&self, one: u32, other: u32) -> f32 {
-        if let [(_, only)] = self.of_cloths.as_slice() {
-            return *only;
-        }
-        let cloth_of = |vertex: u32| self.of_cloths.partition_point(|&(end, _)| end <= vertex);
-        let own = self.of_cloths.get(cloth_of(one)).filter(|_| cloth_of(one) == cloth_of(other));
-        own.map_or(f32::NEG_INFINITY, |&(_, within)| within)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::sleeve::sleeve;
     use proptest::prelude::*;
+    use selvedge::verification::Neighbours;
 
     #[test]
     fn neighbours_are_many_only_on_a_fine_mesh() {

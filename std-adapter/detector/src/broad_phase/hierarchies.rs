@@ -9,6 +9,7 @@ use super::traversal::{BlockPair, Common, Scratch, Trees};
 use super::tree::Tree;
 use crate::PairKind;
 use crate::buffer::settle;
+use crate::coherent::Neighbours;
 use crate::collision_filter::{CollisionFilter, Members};
 use crate::dispatch::{Level, best_level};
 use crate::frame::Motions;
@@ -16,7 +17,7 @@ use crate::mesh::Topology;
 use crate::parallel;
 use selvedge_core::Motion;
 use selvedge_core::batch::VertexRow;
-use selvedge_core::boxes::mapping::Mapping;
+use selvedge_core::boxes::mapping::{Inset, Mapping};
 use selvedge_core::boxes::{Aabb, moving::MovingBox};
 use std::sync::Arc;
 
@@ -34,6 +35,8 @@ pub(super) const PRICES: Prices = Prices { build: 0.65, item: 16.0 };
 pub(crate) struct Fit {
     /// How far apart pairs must be not to be candidates; not negative, finite.
     pub(crate) separation: f64,
+    /// The same of neighbours, if it is less.
+    pub(crate) of_neighbours: f64,
     /// When in the step the boxes of the end are taken, in (0, 1].
     pub(crate) until: f64,
     /// Boxes for the whole step instead of two for its ends.
@@ -44,6 +47,7 @@ impl Default for Fit {
     fn default() -> Self {
         Self {
             separation: 0.0,
+            of_neighbours: f64::INFINITY,
             until: 1.0,
             is_swept: false,
         }
@@ -89,6 +93,8 @@ pub(crate) struct Hierarchies {
     moving: Option<Vec<bool>>,
     /// Which pairs are looked at, if not all.
     filter: Option<Arc<CollisionFilter>>,
+    /// Which pairs have a separation of their own.
+    neighbours: Option<Arc<Neighbours>>,
     refit: Refit,
     /// What the boxes of what rests were fitted with, if they are still good.
     fitted: Option<Mapping>,
@@ -122,6 +128,7 @@ impl Hierarchies {
             boxes: Vec::new(),
             moving: None,
             filter: None,
+            neighbours: None,
             refit: Refit::Moving,
             fitted: None,
             fit: Fit::default(),
@@ -182,6 +189,12 @@ impl Hierarchies {
     pub(crate) fn set_filter(&mut self, filter: Option<Arc<CollisionFilter>>) {
         self.filter = filter;
         self.note_members();
+    }
+
+    /// From the next update on these pairs have a separation of their own.
+    pub(crate) fn set_neighbours(&mut self, neighbours: Option<Arc<Neighbours>>) {
+        self.neighbours = neighbours;
+        self.note_rest();
     }
 
     /// From the next update on only pairs with a wanted vertex are found. All vertices may move.
@@ -283,6 +296,7 @@ impl Hierarchies {
         self.fitted = None;
         self.mark();
         self.note_members();
+        self.note_rest();
         self.degradation = Degradation::default();
         self.is_built = true;
         self.is_unmeasured = true;
@@ -311,6 +325,15 @@ impl Hierarchies {
         self.vertices.note_members(&members);
         self.edges.note_members(&members);
         self.faces.note_members(&members);
+    }
+
+    fn note_rest(&mut self) {
+        let vertices = &self.vertices.primitives;
+        let at_rest = |neighbours: &Arc<Neighbours>| vertices.iter().map(|&v| neighbours.at_rest(v)).collect();
+        let at_rest: Vec<_> = self.neighbours.as_ref().map_or_else(Vec::new, at_rest);
+        self.vertices.note_rest(&at_rest);
+        self.edges.note_rest(&at_rest);
+        self.faces.note_rest(&at_rest);
     }
 
     fn refit(&mut self, motions: &dyn Motions, mapping: Mapping) {
@@ -344,12 +367,14 @@ impl Hierarchies {
             second: &self.faces,
             common: Common::Mesh,
             are_filtered: self.filter.is_some(),
+            of_neighbours: None,
         };
         let edge_edge_trees = Trees {
             first: &self.edges,
             second: &self.edges,
             common: Common::Tree,
             are_filtered: self.filter.is_some(),
+            of_neighbours: None,
         };
         let (level, stack) = (self.level, &mut self.stack);
         vertex_face.clear();
@@ -415,6 +440,12 @@ impl Hierarchies {
         self.filter.is_some()
     }
 
+    /// How neighbours are left out, if they have a separation of their own.
+    pub(super) fn of_neighbours(&self) -> Option<Inset> {
+        let is_less = self.neighbours.is_some() && self.fit.of_neighbours < self.fit.separation;
+        is_less.then(|| Inset::new(self.fit.separation, self.fit.of_neighbours))
+    }
+
     /// Finds where to look for faces and edges that are near each other, as the last update left them.
     pub(crate) fn find_face_edge_tasks(&mut self) {
         let trees = Trees {
@@ -422,6 +453,7 @@ impl Hierarchies {
             second: &self.edges,
             common: Common::Mesh,
             are_filtered: self.filter.is_some(),
+            of_neighbours: None,
         };
         self.face_edge_tasks.clear();
         trees.tasks(self.level, TASK_LEVEL, &mut self.stack, &mut self.face_edge_tasks);
@@ -440,6 +472,7 @@ impl Hierarchies {
             second: &self.edges,
             common: Common::Mesh,
             are_filtered: self.filter.is_some(),
+            of_neighbours: None,
         };
         trees.pairs(self.level, tasks, scratch, sink)
     }

@@ -55,6 +55,7 @@ pub(crate) use traversal::{BlockPair, Scratch};
 
 use crate::PairKind;
 use crate::buffer::settle;
+use crate::coherent::Neighbours;
 use crate::collision_filter::CollisionFilter;
 use crate::dispatch::Level;
 use crate::frame::{Step, StepError, check_length};
@@ -92,6 +93,7 @@ struct Collector {
     scratch: Scratch,
     pairs: Vec<[u32; 2]>,
     tests: u64,
+    left_out: u64,
 }
 
 impl MovingBroadPhase {
@@ -134,6 +136,20 @@ impl MovingBroadPhase {
     /// At the next update, if there are fewer entries than vertices.
     pub fn set_wanted(&mut self, wanted: Vec<bool>) {
         self.hierarchies.set_wanted(wanted);
+    }
+
+    /// From the next update on these pairs are candidates only if they come within the [separation](Self::set_separation_of_neighbours) of
+    /// their own, if that is smaller.
+    ///
+    /// # Panics
+    /// At the next update, if they are of fewer vertices.
+    pub(crate) fn set_neighbours(&mut self, neighbours: Option<Arc<Neighbours>>) {
+        self.hierarchies.set_neighbours(neighbours);
+    }
+
+    /// From the next update on: the separation of [neighbours](Self::set_neighbours), if it is smaller than that of others.
+    pub(crate) const fn set_separation_of_neighbours(&mut self, separation: f64) {
+        self.fit.of_neighbours = separation;
     }
 
     /// From the next update on only pairs that the filter allows are candidates; `None`: all.
@@ -208,6 +224,11 @@ impl MovingBroadPhase {
         self.hierarchies.observe(tests.sum(), vertex_face.len() + edge_edge.len());
     }
 
+    /// How many neighbours the last traversal left out, though they are within the separation of others.
+    pub(crate) fn neighbours_left_out(&self) -> u64 {
+        self.collectors.iter().map(|collector| collector.left_out).sum()
+    }
+
     /// Counts of what was done.
     #[must_use]
     pub const fn statistics(&self) -> MovingStatistics {
@@ -221,6 +242,7 @@ impl Collector {
             scratch: Scratch::new(),
             pairs: Vec::new(),
             tests: 0,
+            left_out: 0,
         }
     }
 
@@ -234,6 +256,7 @@ impl Collector {
         };
         let tests = hierarchies.visit(share, &mut self.scratch, &mut collected);
         self.tests = tests.unwrap_or(0);
+        self.left_out = self.scratch.left_out;
     }
 }
 

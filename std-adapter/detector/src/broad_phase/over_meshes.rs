@@ -80,6 +80,7 @@ impl MeshHierarchy {
             second: &self.tree,
             common: Common::Tree,
             are_filtered: true,
+            of_neighbours: None,
         };
         self.tasks.clear();
         let level = best_level();

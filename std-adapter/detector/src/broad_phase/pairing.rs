@@ -80,6 +80,7 @@ impl<'a> Pairing<'a> {
             second,
             common: if self.is_within { within } else { Common::Nothing },
             are_filtered: self.is_within && self.meshes[0].are_filtered(),
+            of_neighbours: self.meshes[0].of_neighbours().filter(|_| self.is_within),
         }
     }
 

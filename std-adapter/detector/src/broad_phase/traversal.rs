@@ -4,10 +4,15 @@
 //! sixteen of the second at once; of two of different levels, the higher one's boxes with the bounds of the other. What is
 //! near goes on a stack, or, at the lowest level, to the caller, each pair once: a tree against itself looks at a pair of
 //! blocks in one order only, and inside one block at the lanes after each lane.
+//!
+//! Of neighbours with a separation of their own, boxes that are near are asked for that one: a box that is
+//! [drawn in](selvedge_core::boxes::mapping::Inset) against the same sixteen. Those that are apart then are left out if they are neighbours,
+//! which the boxes at rest tell in the same way.
 
 use super::pairs::{PairBuffer, Sink};
 use super::tree::{Node, Tree};
 use selvedge_core::batch::{Compares, LANES, Level, Loop, Mask, in_lanes};
+use selvedge_core::boxes::mapping::Inset;
 use selvedge_core::boxes::moving::MovingBlock;
 
 /// Two blocks that are near each other: the level and the number of each.
@@ -36,6 +41,8 @@ pub(super) struct Trees<'a, const N: usize, const M: usize> {
     pub(super) common: Common,
     /// Whether it matters who is in a block.
     pub(super) are_filtered: bool,
+    /// By how much boxes are drawn in to ask for the separation of neighbours, if they have one of their own.
+    pub(super) of_neighbours: Option<Inset>,
 }
 
 /// What a traversal keeps from step to step.
@@ -45,6 +52,8 @@ pub(crate) struct Scratch {
     found: PairBuffer,
     /// Pairs that a collision filter leaves.
     pub(super) allowed: Vec<[u32; 2]>,
+    /// How many neighbours the last traversal left out.
+    pub(super) left_out: u64,
 }
 
 impl Scratch {
@@ -53,6 +62,7 @@ impl Scratch {
             stack: Vec::with_capacity(1024),
             found: PairBuffer::new(),
             allowed: Vec::new(),
+            left_out: 0,
         }
     }
 }
@@ -81,13 +91,17 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
     /// Gives `sink` the pairs of primitives of `tasks` that are near each other and have no vertex in common. Returns the
     /// number of tests, or `None` if the sink has had enough.
     pub(super) fn pairs(&self, level: Level, tasks: &[BlockPair], scratch: &mut Scratch, sink: &mut dyn Sink) -> Option<u64> {
-        let Scratch { stack, found, .. } = scratch;
+        let Scratch {
+            stack, found, left_out, ..
+        } = scratch;
         found.clear();
+        *left_out = 0;
         let all_pairs = AllPairs {
             trees: self,
             tasks,
             stack,
             found,
+            left_out,
             sink,
         };
         in_lanes(level, all_pairs)
@@ -169,7 +183,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
 
     /// Puts the pairs of primitives that two blocks hold with those that are found.
     #[inline(always)]
-    fn compare_primitives(&self, lanes: impl Compares, [a, b]: [u32; 2], found: &mut PairBuffer) -> u64 {
+    fn compare_primitives(&self, lanes: impl Compares, [a, b]: [u32; 2], found: &mut PairBuffer, left_out: &mut u64) -> u64 {
         if self.are_excluded([0, 0], [a, b]) {
             return 0;
         }
@@ -190,6 +204,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         // Counted all the same: how good the hierarchies are does not depend on who takes part.
         tests += u64::from((own & !with_partners(node_a, others & node_b.moving)).count_ones());
         own &= with_partners(node_a, others & node_b.moving);
+        let inset = self.of_neighbours.map(|inset| inset.of(&node_a.bounds));
         let corners = &self.second.corners[b as usize];
         let (first, second) = (a * LANES as u32, b * LANES as u32);
         while own != 0 {
@@ -198,9 +213,16 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             if is_same {
                 among &= (Mask::MAX << lane) << 1;
             }
-            let mut near = lanes.near(block_b, &block_a.get(lane as usize % LANES), among);
+            let moving = block_a.get(lane as usize % LANES);
+            let mut near = lanes.near(block_b, &moving, among);
             tests += 1;
             if near != 0 {
+                if let Some(inset) = inset {
+                    let far = near & !lanes.near(block_b, &moving.drawn_in(inset), near);
+                    let far_neighbours = self.neighbours_among(lanes, [a, b], lane, far);
+                    *left_out += u64::from(far_neighbours.count_ones());
+                    near &= !far_neighbours;
+                }
                 if self.common != Common::Nothing {
                     let vertices = &self.first.vertices[(first + lane) as usize];
                     near &= !sharing(lanes, corners, vertices, near);
@@ -209,6 +231,15 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
             }
         }
         tests
+    }
+
+    /// The lanes `among` these of the second of two blocks that are neighbours of a lane of the first.
+    #[inline(always)]
+    fn neighbours_among(&self, lanes: impl Compares, [a, b]: [u32; 2], lane: u32, among: Mask) -> Mask {
+        let (own, others) = (&self.first.rest[a as usize], &self.second.rest[b as usize]);
+        let lane = lane as usize % LANES;
+        let within = lanes.within(&others.boxes, &own.boxes.get(lane), own.within[lane], among);
+        lanes.equal(&others.parts, own.parts[lane], within)
     }
 }
 
@@ -243,6 +274,7 @@ struct AllPairs<'a, const N: usize, const M: usize> {
     tasks: &'a [BlockPair],
     stack: &'a mut Vec<BlockPair>,
     found: &'a mut PairBuffer,
+    left_out: &'a mut u64,
     sink: &'a mut dyn Sink,
 }
 
@@ -256,6 +288,7 @@ impl<const N: usize, const M: usize> Loop for AllPairs<'_, N, M> {
             tasks,
             stack,
             found,
+            left_out,
             sink,
         } = self;
         let mut tests = 0;
@@ -264,7 +297,7 @@ impl<const N: usize, const M: usize> Loop for AllPairs<'_, N, M> {
             stack.push(task);
             while let Some(pair) = stack.pop() {
                 if pair.levels == [0, 0] {
-                    tests += trees.compare_primitives(lanes, pair.blocks, found);
+                    tests += trees.compare_primitives(lanes, pair.blocks, found, left_out);
                     if found.is_full() {
                         if !sink.take(found.pairs()) {
                             return None;

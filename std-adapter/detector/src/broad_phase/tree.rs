@@ -6,9 +6,12 @@
 //! children of block b are the blocks, or primitives, from 16b on, and no block but the last of a level has an empty lane.
 
 use super::order::{Centre, LEAF, order};
+use crate::coherent::AtRest;
 use crate::collision_filter::Members;
 use crate::parallel;
 use selvedge_core::batch::{LANES, Mask};
+use selvedge_core::boxes::Aabb;
+use selvedge_core::boxes::block::BoxBlock;
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 
 const _: () = assert!(LEAF == LANES, "the order's groups are the blocks");
@@ -41,9 +44,21 @@ pub(super) struct Tree<const N: usize> {
     pub(super) vertices: Vec<[u32; N]>,
     /// The same side by side for each block of primitives, [`NONE`] in lanes that hold nothing.
     pub(super) corners: Vec<[[u32; LANES]; N]>,
+    /// Of each block of primitives: where they are at rest, if that matters.
+    pub(super) rest: Vec<RestBlock>,
     /// Blocks of primitives first.
     pub(super) levels: Vec<Level>,
     centres: Vec<Centre>,
+}
+
+/// What makes neighbours of sixteen primitives.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RestBlock {
+    pub(super) boxes: BoxBlock,
+    /// Of the mesh.
+    pub(super) parts: [u32; LANES],
+    /// How near boxes of neighbours are.
+    pub(super) within: [f32; LANES],
 }
 
 /// No vertex.
@@ -148,6 +163,32 @@ impl<const N: usize> Tree<N> {
                 .extend(blocks.filter_map(|block| all(&mut block.iter().copied())));
             below.clone_from(&level.members);
         }
+    }
+
+    /// Notes where primitives are at rest, given that of each vertex by its position; nothing of nobody.
+    pub(super) fn note_rest(&mut self, of_vertices: &[AtRest]) {
+        self.rest.clear();
+        if of_vertices.is_empty() {
+            return;
+        }
+        self.rest.extend(self.vertices.chunks(LANES).map(|block| {
+            let mut rest = RestBlock {
+                boxes: BoxBlock::nowhere(),
+                parts: [0; LANES],
+                within: [f32::NEG_INFINITY; LANES],
+            };
+            for (lane, vertices) in block.iter().enumerate() {
+                let own = vertices.map(|vertex| of_vertices[vertex as usize]);
+                let corners = own.map(|vertex| Aabb {
+                    lower: vertex.position,
+                    upper: vertex.position,
+                });
+                let bounds = corners[1..].iter().fold(corners[0], |bounds, corner| bounds.merged(corner));
+                rest.boxes.set(lane, &bounds);
+                (rest.parts[lane], rest.within[lane]) = (own[0].part, own[0].within);
+            }
+            rest
+        }));
     }
 
     /// Marks all primitives.

@@ -23,6 +23,8 @@ pub(super) struct Sieve {
     rows: Vec<VertexRow<f32>>,
     /// What pairs of each class are to keep.
     clearances: [Clearance; CLASSES],
+    /// A gap between boxes from which on pairs of the first class certainly keep it.
+    certain_gap: f64,
 }
 
 /// A pair that the sieve leaves.
@@ -43,6 +45,7 @@ impl Sieve {
             level: best_level(),
             rows: vec![VertexRow::new(Motion::resting(Vec3::ZERO)); vertices],
             clearances: [Clearance::UNKNOWN; CLASSES],
+            certain_gap: f64::INFINITY,
         }
     }
 
@@ -51,11 +54,18 @@ impl Sieve {
         let largest = largest_coordinate(start).max(largest_coordinate(end));
         let clearance = |class: Class| Clearance::new(class.distance, largest, class.margin);
         self.clearances = reach.classes.map(clearance);
+        self.certain_gap = self.clearances[0].certain_gap(reach.beyond, largest);
         for (vertex, row) in self.rows.iter_mut().enumerate() {
             if only.is_none_or(|only| only[vertex]) {
                 *row = VertexRow::new(Motion::new(start[vertex].as_vec3(), end[vertex].as_vec3()));
             }
         }
+    }
+
+    /// A gap along an axis between the boxes of a pair of the first class, throughout the motion that was set, from which on
+    /// [`leave`](Self::leave) would certainly not add it.
+    pub(super) const fn certain_gap(&self) -> f64 {
+        self.certain_gap
     }
 
     /// Adds to `left` the pairs that do not certainly keep what is asked of their class, though their vertices stray by `enough`
@@ -181,6 +191,33 @@ mod tests {
             let asked = 2.0 + smaller + 0.1;
             let reach = reach([smaller, distance, distance], 0.5, 0.1);
             prop_assert!(left_out(kind, &reach, [&far(asked + 1e-4), &far(asked + 1.0)])[0]);
+        }
+
+        /// Then boxes may leave it out as well.
+        #[test]
+        fn what_has_the_certain_gap_between_its_boxes_is_left_out(
+            start in prop::array::uniform4(point()),
+            moves in prop::array::uniform4(point()),
+            distance in 0.0..0.5_f64,
+            beyond in 1e-6..0.5_f64,
+            axis in 0..3_usize,
+            is_edge in any::<bool>(),
+        ) {
+            let kind = kind(is_edge);
+            let end = [0, 1, 2, 3].map(|k| start[k] + moves[k]);
+            // The second set is put ahead of the first one at both ends.
+            let ahead = |points: [DVec3; 4], gap: f64| {
+                let of_set = |is_first| (0..4).filter(move |&k| first(kind, k) == is_first).map(|k| points[k][axis]);
+                let by = of_set(true).fold(f64::MIN, f64::max) + gap - of_set(false).fold(f64::MAX, f64::min);
+                [0, 1, 2, 3].map(|k| points[k] + DVec3::AXES[axis] * if first(kind, k) { 0.0 } else { by })
+            };
+            let reach = reach([distance, 1.0, 1.0], 0.5, beyond);
+            let mut sieve = Sieve::new(4);
+            // No farther away than this.
+            sieve.set_motion(&reach, [&[DVec3::splat(8.0); 4]; 2], None);
+            let gap = sieve.certain_gap() * (1.0 + 1e-14) + 1e-14;
+            prop_assert!(gap < (distance + beyond) * 1.0001 + 1e-4);
+            prop_assert!(left_out(kind, &reach, [&ahead(start, gap), &ahead(end, gap)])[0]);
         }
 
         /// Two triangles side by side, in any position: boxes along the axes may overlap, but the sets keep nearly a height apart.

@@ -194,7 +194,7 @@ impl Engine {
         let fit = Fit {
             separation: question.limits.separation,
             until: probe.until,
-            is_swept: false,
+            ..Fit::default()
         };
         self.broad_phase.hierarchies.update(motions, &fit);
         self.broad_phase.hierarchies.narrow();

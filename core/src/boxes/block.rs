@@ -1,0 +1,80 @@
+//! Sixteen boxes side by side.
+
+use super::Aabb;
+use crate::batch::{LANES, Mask, next_lane};
+
+/// Sixteen boxes side by side: for each coordinate of the lower and the upper corner one row of sixteen numbers.
+///
+/// ```
+/// use selvedge_core::boxes::{Aabb, block::BoxBlock};
+/// let at = |x: f32| Aabb { lower: [x, 0.0, 0.0], upper: [x, 1.0, 0.0] };
+/// let mut block = BoxBlock::nowhere();
+/// for lane in 0..15 {
+///     block.set(lane, &at(lane as f32));
+/// }
+/// assert_eq!(block.within(&at(3.0), 1.0, 0xFFFF), 0b11100);
+/// assert_eq!(block.within(&at(15.0), 9.0, 0xFFFF), 0b0111_1111_1100_0000);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct BoxBlock {
+    /// Lower corner (x, y, z), upper corner.
+    rows: [[f32; LANES]; 6],
+}
+
+impl BoxBlock {
+    /// Sixteen boxes that are near none.
+    #[must_use]
+    pub const fn nowhere() -> Self {
+        Self {
+            rows: [[f32::NAN; LANES]; 6],
+        }
+    }
+
+    /// Puts a box in lane `lane`. Does nothing from lane [`LANES`] on.
+    #[inline]
+    pub const fn set(&mut self, lane: usize, own: &Aabb<f32>) {
+        if lane >= LANES {
+            return;
+        }
+        let [a, b, c, d, e, f] = &mut self.rows;
+        [a[lane], b[lane], c[lane]] = own.lower;
+        [d[lane], e[lane], f[lane]] = own.upper;
+    }
+
+    /// The box in lane `lane`; one that is near none from lane [`LANES`] on.
+    #[inline(always)]
+    #[must_use]
+    pub const fn get(&self, lane: usize) -> Aabb<f32> {
+        if lane >= LANES {
+            return Aabb {
+                lower: [f32::NAN; 3],
+                upper: [f32::NAN; 3],
+            };
+        }
+        let [a, b, c, d, e, f] = &self.rows;
+        Aabb {
+            lower: [a[lane], b[lane], c[lane]],
+            upper: [d[lane], e[lane], f[lane]],
+        }
+    }
+
+    /// The lanes `among` these bits whose box comes [within](Aabb::is_within) a distance of `other`, one lane after the other. Sixteen lanes at
+    /// once: [`Compares::within`](crate::batch::Compares::within).
+    #[must_use]
+    pub fn within(&self, other: &Aabb<f32>, distance: f32, among: Mask) -> Mask {
+        let (mut asked, mut within) = (among, 0);
+        while asked != 0 {
+            let lane = next_lane(&mut asked);
+            within |= Mask::from(self.get(lane).is_within(other, distance)) << lane;
+        }
+        within
+    }
+
+    /// The numbers of all lanes: lower corners, then upper ones.
+    #[cfg(not(unoptimised))]
+    #[inline(always)]
+    pub(crate) const fn rows(&self) -> &[[f32; LANES]; 6] {
+        &self.rows
+    }
+}
