@@ -16,8 +16,7 @@
 #~ core/src/boxes/mapping.rs: let sizes = from.abs() + to.abs() + self.half;
 #~ core/src/boxes/mapping.rs: let widening = self.half + (WIDENING * sizes + FLUSHED);
 #~ core/src/boxes/mapping.rs: let until = (1.0 - self.until) * from + self.until * to;
-taken_off = 4; #! core/src/boxes/mapping.rs: const INSET: f32 = 1.0 / 2_097_152.0;
-#~ core/src/boxes/mapping.rs: self.by - INSET * sum
+taken_off = 8; #! core/src/boxes/mapping.rs: self.by - f32::small(8) * f32::UNIT_ROUNDOFF * sum
 #~ core/src/boxes/mapping.rs: const SHORTEST: f64 = 1.0 / (1_u64 << 60) as f64;
 widening = 1b-22;
 flushed = 1b-100;
@@ -26,7 +25,7 @@ f = 1 + d;
 f2 = f * f;
 f4 = f2 * f2;
 # The inset, without D.
-Off = D * ((1 + c) * (1 + 1b-50) * (1 + k) - 1) - taken_off * 1b-23 * (1 + e) * (1 + k);
+Off = D * ((1 + c) * (1 + 1b-50) * (1 + k) - 1) - taken_off * 1b-24 * (1 + e) * (1 + k);
 # h + (widening f^3) f, all times f: without h.
 More = widening * f4 * f + h * (f - 1);
 

@@ -29,11 +29,11 @@
 //! its bounds, bounds are moved inwards by less:
 //!
 //! ```text
-//! inset = δ − 2⁻²¹·(B + δ)
+//! inset = δ − 8u·(B + δ)
 //! ```
 //!
-//! (`f32`, any direction of rounding, 2⁻²³ an operation; the product is exact.) δ was rounded to `f32`, the difference and the moved
-//! bound, at most B + δ, are rounded: 3·2⁻²³(B + δ), and a little of second order, which is less than 2⁻²¹(B + δ). A δ below 2⁻⁶⁰ draws
+//! (`f32`, u = 2⁻²⁴, any direction of rounding, 2u an operation; the product is exact.) δ was rounded to `f32`, the difference and the moved
+//! bound, at most B + δ, are rounded: 6u(B + δ), and a little of second order, which is less than 8u(B + δ). A δ below 2⁻⁶⁰ draws
 //! nothing in, so that flushed numbers are far less than what is left of that; nor does a sum of more than 2¹⁰⁰.
 //!
 //! # Two mappings
@@ -44,7 +44,7 @@
 
 use super::Aabb;
 use super::moving::MovingBox;
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Rounding};
 use crate::scalar::Scalar;
 
 /// How positions become boxes: the same for all vertices of a mesh, in one step.
@@ -161,15 +161,13 @@ impl Inset {
         let largest = corners.iter().flatten().fold(0.0, |largest: f32, x| largest.larger(x.abs()));
         let sum = largest + self.by;
         if (0.0..=LARGEST).contains(&sum) {
-            self.by - INSET * sum
+            self.by - f32::small(8) * f32::UNIT_ROUNDOFF * sum
         } else {
             f32::NEG_INFINITY
         }
     }
 }
 
-/// 2⁻²¹.
-const INSET: f32 = 1.0 / 2_097_152.0;
 /// 2⁻⁶⁰.
 const SHORTEST: f64 = 1.0 / (1_u64 << 60) as f64;
 /// 2¹⁰⁰.
