@@ -529,7 +529,7 @@ fn boxes_that_are_drawn_in_show_nearly_all_that_is_kept_and_nothing_that_cannot_
         let inset = Inset::new(0.5, smaller).of(&first);
         assert!(!first.drawn_in(inset).is_apart_from(&second), "{smaller}");
     }
-    let far = MovingBox::of(&([1e30_f32, 0.0, 0.0], [1e30, 0.0, 0.0]).into());
+    let far = MovingBox::of(&([1e31_f32, 0.0, 0.0], [1e31, 0.0, 0.0]).into());
     let inset = Inset::new(0.5, 0.25);
     assert!(!far.drawn_in(inset.of(&far)).is_apart_from(&second));
     let everywhere = boxes(&pair.map(|_| f64::NAN), 0.5, 1.0)[0];
