@@ -10,8 +10,8 @@ use selvedge_core::PairKind;
 use selvedge_core::batch::{
     self, BatchTest, Level, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows, largest_strays_from_rows,
 };
-use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::block::BoxBlock;
+use selvedge_core::boxes::mapping::Mapping;
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, Dop18, direction, relative, segment, swept_boxes};
 use selvedge_core::distribution::distribute;
@@ -228,8 +228,8 @@ pub extern "C" fn near(points: &Points<f32>) -> u32 {
     at_start.set(3, &a.start);
     at_start.set(5, &block.get(5).start);
     let near = block.near(&a, Mask::MAX);
-    let (touching, anywhere) = (at_start.within(&a.start, 0.0, near), at_start.within(&a.start, f32::MAX, near));
-    if touching != near || anywhere != near {
+    // A box is at no distance from itself, and none is farther away than that.
+    if at_start.within(&a.start, 0.0, 1 << 3) == 0 || at_start.within(&a.start, f32::MAX, near) != near {
         return u32::MAX - 1;
     }
     near.into()
