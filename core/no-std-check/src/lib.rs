@@ -11,7 +11,7 @@ use selvedge_core::batch::{
     self, BatchTest, Level, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows, largest_strays_from_rows,
 };
 use selvedge_core::boxes::block::BoxBlock;
-use selvedge_core::boxes::mapping::Mapping;
+use selvedge_core::boxes::mapping::{Inset, Mapping};
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
 use selvedge_core::boxes::{Aabb, Dop18, direction, relative, segment, swept_boxes};
 use selvedge_core::distribution::distribute;
@@ -224,7 +224,7 @@ pub extern "C" fn near(points: &Points<f32>) -> u32 {
     if block.merged() != a.merged(&block.get(5)) {
         return u32::MAX;
     }
-    let mut at_start = BoxBlock::nowhere();
+    let mut at_start = BoxBlock::empty();
     at_start.set(3, &a.start);
     at_start.set(5, &block.get(5).start);
     let near = block.near(&a, Mask::MAX);
@@ -235,7 +235,7 @@ pub extern "C" fn near(points: &Points<f32>) -> u32 {
     near.into()
 }
 
-/// What shows a vertex and a face to keep half a unit: boxes with that separation, the distance at the start from below, a direction
+/// What shows a vertex and a face to keep half a unit: boxes with that separation, asked for less as well, the distance at the start from below, a direction
 /// found for the step and kept for it, a clearance; and that the vertex's course has room, and its boxes are near the face's, at most one.
 #[unsafe(no_mangle)]
 pub extern "C" fn separations(points: &Points<f64>) -> u32 {
@@ -248,6 +248,8 @@ pub extern "C" fn separations(points: &Points<f64>) -> u32 {
     let (kind, error) = (PairKind::VertexFace, GapError::of_coordinates(largest));
     let mapping = Mapping::new(&Aabb::everything(), 0.5, 1.0, false);
     let [a, b, c, d] = points.map(|[start, end]| mapping.vertex(start, end));
+    let face = b.merged(&c).merged(&d);
+    let drawn_in = a.drawn_in(Inset::new(0.5, 0.25).of(&a));
     let bound = distance_from_below(kind, start, DVec3::Z, error);
     let known = SeparatingDirection::NONE.or_better(kind, DVec3::Z, start, error);
     let found = SeparatingDirection::found(kind, DVec3::Z, ends, 0.5, error);
@@ -269,11 +271,12 @@ pub extern "C" fn separations(points: &Points<f64>) -> u32 {
     let room = course::room(0.125, 0.0);
     let time = course::time_after(0.5, 0.5, 1.0).unwrap_or(2.0);
     let expected = course::expected(course::joined(start[0], drift, 0.0), drift, time);
-    u32::from(a.is_apart_from(&b.merged(&c).merged(&d)))
+    let is_kept = clearance.largest_stray(kind, in_single[0], in_single[1]) >= 0.125 && strays[0] >= 0.125;
+    u32::from(a.is_apart_from(&face) && drawn_in.is_apart_from(&face))
         | u32::from(bound > 0.5) << 1
         | u32::from(found.is_some_and(|found| found.gap() > 0.5)) << 2
         | u32::from(known.lasts(kind, end, 0.5, error).is_some()) << 3
-        | u32::from(clearance.largest_stray(kind, in_single[0], in_single[1]) >= 0.125 && strays[0] >= 0.125) << 4
+        | u32::from(is_kept && clearance.certain_gap(0.125, largest) < 1.0) << 4
         | u32::from(course::is_certain(room, largest) && course::has_room(end[0], expected, room)) << 5
         | u32::from(are_boxes_within(kind, in_single[0], near)) << 6
 }

@@ -123,7 +123,7 @@ struct Vectors<V>(V);
 impl<V: Simd> Compares for Vectors<V> {
     #[inline(always)]
     fn near(self, block: &MovingBlock, other: &MovingBox<f32>, among: Mask) -> Mask {
-        let [a, b, c, d, e, f, g, h, i, j, k, l] = block.rows();
+        let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = block.rows();
         macro_rules! above {
             ($row:expr, $limit:expr) => {
                 f32x16::load_array_ref(self.0, $row).simd_gt(f32x16::splat(self.0, $limit))

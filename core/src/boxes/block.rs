@@ -8,7 +8,7 @@ use crate::batch::{LANES, Mask, next_lane};
 /// ```
 /// use selvedge_core::boxes::{Aabb, block::BoxBlock};
 /// let at = |x: f32| Aabb { lower: [x, 0.0, 0.0], upper: [x, 1.0, 0.0] };
-/// let mut block = BoxBlock::nowhere();
+/// let mut block = BoxBlock::empty();
 /// for lane in 0..15 {
 ///     block.set(lane, &at(lane as f32));
 /// }
@@ -23,16 +23,18 @@ pub struct BoxBlock {
 }
 
 impl BoxBlock {
-    /// Sixteen boxes that are near none.
+    /// Sixteen [empty](Aabb::empty) boxes, at no finite distance from any.
     #[must_use]
-    pub const fn nowhere() -> Self {
+    pub const fn empty() -> Self {
+        const LOWER: [f32; LANES] = [f32::INFINITY; LANES];
+        const UPPER: [f32; LANES] = [f32::NEG_INFINITY; LANES];
         Self {
-            rows: [[f32::NAN; LANES]; 6],
+            rows: [LOWER, LOWER, LOWER, UPPER, UPPER, UPPER],
         }
     }
 
     /// Puts a box in lane `lane`. Does nothing from lane [`LANES`] on.
-    #[inline]
+    #[inline(always)]
     pub const fn set(&mut self, lane: usize, own: &Aabb<f32>) {
         if lane >= LANES {
             return;
@@ -42,20 +44,33 @@ impl BoxBlock {
         [d[lane], e[lane], f[lane]] = own.upper;
     }
 
-    /// The box in lane `lane`; one that is near none from lane [`LANES`] on.
+    /// The box in lane `lane`; an [empty](Aabb::empty) one from lane [`LANES`] on.
     #[inline(always)]
     #[must_use]
-    pub const fn get(&self, lane: usize) -> Aabb<f32> {
+    pub fn get(&self, lane: usize) -> Aabb<f32> {
         if lane >= LANES {
-            return Aabb {
-                lower: [f32::NAN; 3],
-                upper: [f32::NAN; 3],
-            };
+            return Aabb::empty();
         }
         let [a, b, c, d, e, f] = &self.rows;
         Aabb {
             lower: [a[lane], b[lane], c[lane]],
             upper: [d[lane], e[lane], f[lane]],
+        }
+    }
+
+    /// The smallest box that holds all sixteen.
+    #[inline]
+    #[must_use]
+    pub fn merged(&self) -> Aabb<f32> {
+        let [a, b, c, d, e, f] = &self.rows;
+        let least = |row: &[f32; LANES]| row.iter().fold(f32::INFINITY, |least, &x| if x < least { x } else { least });
+        let greatest = |row: &[f32; LANES]| {
+            let above = |greatest, &x| if x > greatest { x } else { greatest };
+            row.iter().fold(f32::NEG_INFINITY, above)
+        };
+        Aabb {
+            lower: [least(a), least(b), least(c)],
+            upper: [greatest(d), greatest(e), greatest(f)],
         }
     }
 
@@ -72,7 +87,6 @@ impl BoxBlock {
     }
 
     /// The numbers of all lanes: lower corners, then upper ones.
-    #[cfg(not(unoptimised))]
     #[inline(always)]
     pub(crate) const fn rows(&self) -> &[[f32; LANES]; 6] {
         &self.rows

@@ -34,7 +34,8 @@
 //!
 //! (`f32`, u = 2⁻²⁴, any direction of rounding, 2u an operation; the product is exact.) δ was rounded to `f32`, the difference and the moved
 //! bound, at most B + δ, are rounded: 6u(B + δ), and a little of second order, which is less than 8u(B + δ). A δ below 2⁻⁶⁰ draws
-//! nothing in, so that flushed numbers are far less than what is left of that; nor does a sum of more than 2¹⁰⁰.
+//! nothing in, so that flushed numbers are far less than what is left of that; nor does a sum of more
+//! than [`Rounding::LARGEST_EDGE`].
 //!
 //! # Two mappings
 //! Boxes of two mappings compare if both have one origin; of an empty extent it is zero. With half separations h and k, images in strict order
@@ -160,7 +161,7 @@ impl Inset {
         let corners = [bounds.start.lower, bounds.start.upper, bounds.end.lower, bounds.end.upper];
         let largest = corners.iter().flatten().fold(0.0, |largest: f32, x| largest.larger(x.abs()));
         let sum = largest + self.by;
-        if (0.0..=LARGEST).contains(&sum) {
+        if (0.0..=f32::LARGEST_EDGE).contains(&sum) {
             self.by - f32::small(8) * f32::UNIT_ROUNDOFF * sum
         } else {
             f32::NEG_INFINITY
@@ -170,8 +171,6 @@ impl Inset {
 
 /// 2⁻⁶⁰.
 const SHORTEST: f64 = 1.0 / (1_u64 << 60) as f64;
-/// 2¹⁰⁰.
-const LARGEST: f32 = (1_u128 << 100) as f32;
 /// 2⁻²².
 const WIDENING: f64 = 1.0 / 4_194_304.0;
 /// 2⁻¹⁰⁰.

@@ -7,6 +7,7 @@
 //! | [`Dop18`] | swept boxes along 9 directions (Hutter, Fuhrmann 2007) | exact: rounding is monotone |
 //! | [`relative`] | 3 or 9 directions, both ends of the step apart: the two sets in the same order | exact |
 //! | [`moving`] | the boxes of any two sets at both ends of the step: relative boxes for a hierarchy | exact |
+//! | [`block`] | the boxes of sixteen sets within a distance of another, at rest | none: for classes of pairs, not for proofs |
 //! | [`mapping`] | how positions of any format become `f32` boxes, with a separation or without, and are asked for a smaller one | monotone; a proven bound with one |
 //! | [`direction`] | the same along any direction, by default the pair's own normal | certified bound |
 //!

@@ -14,6 +14,7 @@
 //! kept.
 
 use super::Aabb;
+use super::block::BoxBlock;
 use crate::batch::{LANES, Mask, next_lane};
 use crate::motion::Motion;
 use crate::scalar::Scalar;
@@ -113,8 +114,7 @@ impl MovingBox<f32> {
     }
 }
 
-/// Sixteen moving boxes side by side: for each coordinate of the lower and the upper corner, at the start and at the end, one
-/// row of sixteen numbers.
+/// Sixteen moving boxes side by side: those of the start, and those of the end.
 ///
 /// ```
 /// use selvedge_core::{batch::Level, boxes::moving::{MovingBlock, MovingBox}};
@@ -126,55 +126,35 @@ impl MovingBox<f32> {
 /// assert_eq!(block.near(&point(3.0), 0xFFFF), 0b1000);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C, align(64))]
 pub struct MovingBlock {
-    /// Lower corner at the start (x, y, z), upper corner; lower and upper corner at the end.
-    rows: [[f32; LANES]; 12],
+    start: BoxBlock,
+    end: BoxBlock,
 }
 
 impl MovingBlock {
     /// Sixteen [empty](MovingBox::empty) boxes.
     #[must_use]
     pub const fn empty() -> Self {
-        const LOWER: [f32; LANES] = [f32::INFINITY; LANES];
-        const UPPER: [f32; LANES] = [f32::NEG_INFINITY; LANES];
         Self {
-            rows: [
-                LOWER, LOWER, LOWER, UPPER, UPPER, UPPER, LOWER, LOWER, LOWER, UPPER, UPPER, UPPER,
-            ],
+            start: BoxBlock::empty(),
+            end: BoxBlock::empty(),
         }
     }
 
     /// Puts a box in lane `lane`. Does nothing from lane [`LANES`] on.
     #[inline]
-    pub fn set(&mut self, lane: usize, moving: &MovingBox<f32>) {
-        if lane >= LANES {
-            return;
-        }
-        let [a, b, c, d, e, f, g, h, i, j, k, l] = &mut self.rows;
-        [a[lane], b[lane], c[lane]] = moving.start.lower;
-        [d[lane], e[lane], f[lane]] = moving.start.upper;
-        [g[lane], h[lane], i[lane]] = moving.end.lower;
-        [j[lane], k[lane], l[lane]] = moving.end.upper;
+    pub const fn set(&mut self, lane: usize, moving: &MovingBox<f32>) {
+        self.start.set(lane, &moving.start);
+        self.end.set(lane, &moving.end);
     }
 
     /// The box in lane `lane`; an [empty](MovingBox::empty) one from lane [`LANES`] on.
     #[inline(always)]
     #[must_use]
     pub fn get(&self, lane: usize) -> MovingBox<f32> {
-        if lane >= LANES {
-            return MovingBox::empty();
-        }
-        let [a, b, c, d, e, f, g, h, i, j, k, l] = &self.rows;
         MovingBox {
-            start: Aabb {
-                lower: [a[lane], b[lane], c[lane]],
-                upper: [d[lane], e[lane], f[lane]],
-            },
-            end: Aabb {
-                lower: [g[lane], h[lane], i[lane]],
-                upper: [j[lane], k[lane], l[lane]],
-            },
+            start: self.start.get(lane),
+            end: self.end.get(lane),
         }
     }
 
@@ -182,21 +162,9 @@ impl MovingBlock {
     #[inline]
     #[must_use]
     pub fn merged(&self) -> MovingBox<f32> {
-        let [a, b, c, d, e, f, g, h, i, j, k, l] = &self.rows;
-        let least = |row: &[f32; LANES]| row.iter().fold(f32::INFINITY, |least, &x| if x < least { x } else { least });
-        let greatest = |row: &[f32; LANES]| {
-            let above = |greatest, &x| if x > greatest { x } else { greatest };
-            row.iter().fold(f32::NEG_INFINITY, above)
-        };
         MovingBox {
-            start: Aabb {
-                lower: [least(a), least(b), least(c)],
-                upper: [greatest(d), greatest(e), greatest(f)],
-            },
-            end: Aabb {
-                lower: [least(g), least(h), least(i)],
-                upper: [greatest(j), greatest(k), greatest(l)],
-            },
+            start: self.start.merged(),
+            end: self.end.merged(),
         }
     }
 
@@ -204,7 +172,7 @@ impl MovingBlock {
     /// lanes at once: [`Compares::near`](crate::batch::Compares::near).
     #[must_use]
     pub fn near(&self, other: &MovingBox<f32>, among: Mask) -> Mask {
-        let [a, b, c, d, e, f, g, h, i, j, k, l] = &self.rows;
+        let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = self.rows();
         let (start, end) = (&other.start, &other.end);
         let (mut asked, mut near) = (among, 0);
         while asked != 0 {
@@ -222,10 +190,9 @@ impl MovingBlock {
         near
     }
 
-    /// The numbers of all lanes: lower and upper corners at the start, then at the end.
-    #[cfg(not(unoptimised))]
+    /// The numbers of all lanes at the start, and at the end.
     #[inline(always)]
-    pub(crate) const fn rows(&self) -> &[[f32; LANES]; 12] {
-        &self.rows
+    pub(crate) const fn rows(&self) -> (&[[f32; LANES]; 6], &[[f32; LANES]; 6]) {
+        (self.start.rows(), self.end.rows())
     }
 }

@@ -89,8 +89,9 @@ impl Clearance {
     }
 
     /// A gap between the boxes of two sets along an axis, at both ends of the step and with the same order, from which on their points
-    /// certainly are [found](Self::largest_stray) to stray by `beyond`, rounded to `f32`: a hierarchy of boxes that leaves out what has such a
-    /// gap leaves out nothing but what would be left out one by one. No coordinate exceeds `largest` in magnitude.
+    /// certainly are [found](Self::largest_stray) to stray by `beyond`, rounded to `f32`; infinite if there is none. A hierarchy of boxes that
+    /// leaves out what has such a gap leaves out nothing but what would be left out one by one: no proof depends on it. No coordinate exceeds
+    /// `largest` in magnitude.
     ///
     /// What is kept along an axis is off by at most 4εB ([module](self)), the difference to what is asked for by ε of both, the last product by
     /// 2⁻¹⁷ and ε, and `beyond` by ε: 16εB, and 2⁻¹⁶ of the two, are more.

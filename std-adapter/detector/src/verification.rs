@@ -4,9 +4,9 @@
 //! A [`CollisionDetector`](crate::CollisionDetector) then also tells what it counted ([`tally`](crate::CollisionDetector::tally)) and
 //! takes an instruction set ([`set_level`](crate::CollisionDetector::set_level)).
 
-pub use crate::broad_phase::{Centre, Degradation, LEAF, MovingBroadPhase, MovingStatistics, Prices, order};
+pub use crate::broad_phase::{Centre, Degradation, LEAF, MovingBroadPhase, MovingStatistics, Neighbours, Prices, order};
 pub use crate::buffer::{add_kept, with_headroom};
-pub use crate::coherent::{CLASSES, Class, Interest, NearPair, NearPairs, NearStatistics, Neighbours, Reach};
+pub use crate::coherent::{CLASSES, Class, Interest, NearPair, NearPairs, NearStatistics, Reach};
 pub use crate::dispatch::{Level, available_levels, best_level};
 pub use crate::frame::{check_frames, check_length};
 pub use crate::pair_counts::PairCounts;

@@ -290,7 +290,7 @@ fn boxes_within_a_distance_are_those_among_the_lanes_asked_about_on_every_instru
     };
     // Steps that are not exact, so that gaps are rounded; and what is no number.
     let places: [f32; LANES] = std::array::from_fn(|lane| if lane == 9 { f32::NAN } else { lane as f32 * 0.3 });
-    let mut block = BoxBlock::nowhere();
+    let mut block = BoxBlock::empty();
     places.iter().enumerate().for_each(|(lane, &x)| block.set(lane, &at(x)));
     let gap = places[7] - (places[3] + 0.25);
     for (own, distance) in [

@@ -47,7 +47,8 @@ pub(super) struct OfContact {
     carriers: Vec<Carrier>,
     /// Vertices from here on are bodies'.
     cloth_vertices: usize,
-    neighbours: Arc<Neighbours>,
+    /// If they have a thickness of their own.
+    neighbours: Option<Arc<Neighbours>>,
 }
 
 /// `rest` and `carriers` are of all vertices, the cloth's first; steps mostly take `time_step` seconds. Gives neighbours in `settings` a thickness
@@ -62,16 +63,14 @@ pub(super) fn candidates(
 ) -> Candidates {
     let topology = Arc::new(topology);
     let [cloth, bodies] = [false, true].map(|with_body| settings.largest(with_body));
-    let mut neighbours = Neighbours::none();
+    let mut neighbours = None;
     let mut of_neighbours = cloth;
     let beyond = if time_step <= SHORT { REACH } else { REACH_OF_LONG };
     let mut farthest = FARTHEST;
     if are_many(&topology, rest, cloth_vertices, settings) {
         settings.has_neighbours = true;
-        neighbours = Neighbours::new(
-            rest,
-            settings.ends().zip(settings.of_cloths().iter().map(|own| at_rest(*own))),
-        );
+        let parts = settings.ends().zip(settings.of_cloths().iter().map(|own| at_rest(*own)));
+        neighbours = Some(Arc::new(Neighbours::new(rest, parts)));
         let smaller = settings.of_cloths().iter().map(|own| own.of_neighbours()).fold(0.0, f64::max);
         of_neighbours = cloth.map(|cloth| Thickness {
             thickness: smaller,
@@ -99,7 +98,7 @@ pub(super) fn candidates(
         settings: settings.clone(),
         carriers: carriers.to_vec(),
         cloth_vertices,
-        neighbours: Arc::new(neighbours),
+        neighbours,
     };
     // Bodies among themselves are of no interest.
     let wanted = (0..rest.len()).map(|vertex| vertex < cloth_vertices).collect();
@@ -117,11 +116,12 @@ impl Interest for OfContact {
         if one.max(other) as usize >= self.cloth_vertices {
             return 2;
         }
-        usize::from(!self.neighbours.are(kind, vertices))
+        let neighbours = self.neighbours.as_ref();
+        usize::from(!neighbours.is_some_and(|neighbours| neighbours.are(kind, vertices)))
     }
 
     fn neighbours(&self) -> Option<Arc<Neighbours>> {
-        (!self.neighbours.are_none()).then(|| Arc::clone(&self.neighbours))
+        self.neighbours.clone()
     }
 
     /// `None` also if all of the pair follows one motion, which never changes it.

@@ -94,7 +94,6 @@ mod tests {
             prop_assert!(!are(&[of_first, 4]), "of two cloths");
             prop_assert!(!found || (cloth == 4 && are_neighbours(kind, rest, distance)));
             prop_assert!(found || cloth < 4 || !are_neighbours(kind, rest, distance - 1e-4));
-            prop_assert!(!Neighbours::none().are(kind, [0, 1, 2, 3]));
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::MovingStatistics;
 use super::degradation::{Degradation, Prices};
+use super::neighbours::Neighbours;
 use super::pairing::Pairing;
 use super::pairs::Sink;
 use super::rows::Rows;
@@ -9,7 +10,6 @@ use super::traversal::{BlockPair, Common, Scratch, Trees};
 use super::tree::Tree;
 use crate::PairKind;
 use crate::buffer::settle;
-use crate::coherent::Neighbours;
 use crate::collision_filter::{CollisionFilter, Members};
 use crate::dispatch::{Level, best_level};
 use crate::frame::Motions;

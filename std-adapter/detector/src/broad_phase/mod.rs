@@ -36,6 +36,7 @@
 
 mod degradation;
 mod hierarchies;
+mod neighbours;
 mod order;
 mod over_meshes;
 mod pairing;
@@ -46,6 +47,7 @@ mod tree;
 
 pub use degradation::{Degradation, Prices};
 pub(crate) use hierarchies::{Fit, Hierarchies, Share, mapping_within};
+pub use neighbours::Neighbours;
 pub use order::{Centre, LEAF, order};
 pub(crate) use over_meshes::MeshHierarchy;
 pub(crate) use pairing::Pairing;
@@ -55,7 +57,6 @@ pub(crate) use traversal::{BlockPair, Scratch};
 
 use crate::PairKind;
 use crate::buffer::settle;
-use crate::coherent::Neighbours;
 use crate::collision_filter::CollisionFilter;
 use crate::dispatch::Level;
 use crate::frame::{Step, StepError, check_length};

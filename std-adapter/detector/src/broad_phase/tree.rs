@@ -5,8 +5,8 @@
 //! level holds the boxes of sixteen blocks, and so on up to the one block that holds all. So the tree is arrays alone: the
 //! children of block b are the blocks, or primitives, from 16b on, and no block but the last of a level has an empty lane.
 
+use super::neighbours::AtRest;
 use super::order::{Centre, LEAF, order};
-use crate::coherent::AtRest;
 use crate::collision_filter::Members;
 use crate::parallel;
 use selvedge_core::batch::{LANES, Mask};
@@ -173,7 +173,7 @@ impl<const N: usize> Tree<N> {
         }
         self.rest.extend(self.vertices.chunks(LANES).map(|block| {
             let mut rest = RestBlock {
-                boxes: BoxBlock::nowhere(),
+                boxes: BoxBlock::empty(),
                 parts: [0; LANES],
                 within: [f32::NEG_INFINITY; LANES],
             };

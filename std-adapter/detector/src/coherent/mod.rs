@@ -12,7 +12,6 @@
 //! | `search` | near pairs: hierarchies of moving boxes, then the sieve |
 //! | `sieve` | pairs that keep apart until the next search |
 //! | `ahead`, `horizon`, `near` | how many steps to look ahead, for how many the pairs are good, and the list of them |
-//! | `neighbours` | pairs that are near each other at rest: told, and left out, sixteen at a time |
 //! | `known` | what is known of pairs that are found again |
 //! | `pair` | one pair, and the direction that keeps it apart |
 //! | `follow` | all of it for the steps of a [`CollisionDetector`](crate::CollisionDetector) |
@@ -25,18 +24,16 @@ mod follow;
 mod horizon;
 mod known;
 mod near;
-mod neighbours;
 mod pair;
 mod search;
 mod sieve;
 
 pub(crate) use follow::{ENORMOUS, Followed};
 pub use near::{NearPairs, NearStatistics};
-pub(crate) use neighbours::AtRest;
-pub use neighbours::Neighbours;
 pub use pair::NearPair;
 
 use crate::PairKind;
+use crate::broad_phase::Neighbours;
 use std::sync::Arc;
 
 /// Which pairs a caller has an interest in.
@@ -47,7 +44,7 @@ pub trait Interest: Sync {
     /// Which of the [classes](Reach::classes) is the pair's, below [`CLASSES`]. Asked of every pair that boxes leave.
     fn class(&self, kind: PairKind, vertices: [u32; 4]) -> usize;
 
-    /// Pairs of the first class that are told many at a time, if there are any: asked once.
+    /// Pairs of the first class that hierarchies of boxes tell many at a time, if there are any: asked once.
     fn neighbours(&self) -> Option<Arc<Neighbours>> {
         None
     }

@@ -121,8 +121,8 @@ impl<I: Interest> Search<I> {
     }
 
     fn update(&mut self, reach: &Reach, [start, end]: [&[DVec3]; 2], only: Option<&[bool]>) {
-        self.sieve.set_motion(reach, [start, end], only);
-        self.broad_phase.set_separation_of_neighbours(self.sieve.certain_gap());
+        let certain_gap = self.sieve.set_motion(reach, [start, end], only);
+        self.broad_phase.set_separation_of_neighbours(certain_gap);
         let updated = self.broad_phase.update(start, end);
         updated.expect("the caller keeps every position finite");
     }
@@ -226,8 +226,9 @@ const FEW: usize = 64;
 
 #[cfg(test)]
 mod tests {
-    use super::super::{CLASSES, Class, Neighbours};
+    use super::super::{CLASSES, Class};
     use super::*;
+    use crate::broad_phase::Neighbours;
     use proptest::prelude::*;
 
     /// Every pair; of neighbours less is asked.

@@ -23,8 +23,6 @@ pub(super) struct Sieve {
     rows: Vec<VertexRow<f32>>,
     /// What pairs of each class are to keep.
     clearances: [Clearance; CLASSES],
-    /// A gap between boxes from which on pairs of the first class certainly keep it.
-    certain_gap: f64,
 }
 
 /// A pair that the sieve leaves.
@@ -45,27 +43,23 @@ impl Sieve {
             level: best_level(),
             rows: vec![VertexRow::new(Motion::resting(Vec3::ZERO)); vertices],
             clearances: [Clearance::UNKNOWN; CLASSES],
-            certain_gap: f64::INFINITY,
         }
     }
 
     /// From here on all is asked about this motion, which is the last one but for vertices that are in `only`, if there are any.
-    pub(super) fn set_motion(&mut self, reach: &Reach, [start, end]: [&[DVec3]; 2], only: Option<&[bool]>) {
+    ///
+    /// Returns a gap along an axis between the boxes of a pair of the first class, throughout the motion, from which on
+    /// [`leave`](Self::leave) certainly does not add it.
+    pub(super) fn set_motion(&mut self, reach: &Reach, [start, end]: [&[DVec3]; 2], only: Option<&[bool]>) -> f64 {
         let largest = largest_coordinate(start).max(largest_coordinate(end));
         let clearance = |class: Class| Clearance::new(class.distance, largest, class.margin);
         self.clearances = reach.classes.map(clearance);
-        self.certain_gap = self.clearances[0].certain_gap(reach.beyond, largest);
         for (vertex, row) in self.rows.iter_mut().enumerate() {
             if only.is_none_or(|only| only[vertex]) {
                 *row = VertexRow::new(Motion::new(start[vertex].as_vec3(), end[vertex].as_vec3()));
             }
         }
-    }
-
-    /// A gap along an axis between the boxes of a pair of the first class, throughout the motion that was set, from which on
-    /// [`leave`](Self::leave) would certainly not add it.
-    pub(super) const fn certain_gap(&self) -> f64 {
-        self.certain_gap
+        self.clearances[0].certain_gap(reach.beyond, largest)
     }
 
     /// Adds to `left` the pairs that do not certainly keep what is asked of their class, though their vertices stray by `enough`
@@ -212,10 +206,9 @@ mod tests {
                 [0, 1, 2, 3].map(|k| points[k] + DVec3::AXES[axis] * if first(kind, k) { 0.0 } else { by })
             };
             let reach = reach([distance, 1.0, 1.0], 0.5, beyond);
-            let mut sieve = Sieve::new(4);
             // No farther away than this.
-            sieve.set_motion(&reach, [&[DVec3::splat(8.0); 4]; 2], None);
-            let gap = sieve.certain_gap() * (1.0 + 1e-14) + 1e-14;
+            let gap = Sieve::new(4).set_motion(&reach, [&[DVec3::splat(8.0); 4]; 2], None);
+            let gap = gap * (1.0 + 1e-14) + 1e-14;
             prop_assert!(gap < (distance + beyond) * 1.0001 + 1e-4);
             prop_assert!(left_out(kind, &reach, [&ahead(start, gap), &ahead(end, gap)])[0]);
         }

@@ -11,7 +11,7 @@ use selvedge_core::separation::largest_coordinate;
 /// Which pairs are neighbours: those within a part of a mesh whose boxes come within a distance of that part's at rest.
 #[derive(Debug)]
 pub struct Neighbours {
-    /// Where vertices are at rest, in `f32`, NaN for those that have no neighbours; empty if there are no neighbours at all.
+    /// Where vertices are at rest, in `f32`, NaN for those that have no neighbours.
     rest: Vec<Vec3A>,
     /// Of each part: the vertex after its last one, and how near boxes of neighbours are at rest, rounded down.
     parts: Vec<(u32, f32)>,
@@ -47,37 +47,17 @@ impl Neighbours {
         }
     }
 
-    /// No pair.
-    #[must_use]
-    pub const fn none() -> Self {
-        Self {
-            rest: Vec::new(),
-            parts: Vec::new(),
-        }
-    }
-
-    /// Whether there are none.
-    #[must_use]
-    pub const fn are_none(&self) -> bool {
-        self.rest.is_empty()
-    }
-
     /// Whether two primitives of these vertices are neighbours.
     ///
     /// # Panics
-    /// If there are neighbours, and one of the vertices is none of those at rest.
+    /// If one of the vertices is none of those at rest.
     #[inline(always)]
     #[must_use]
     pub fn are(&self, kind: PairKind, vertices: [u32; 4]) -> bool {
         // Written out: `map` would not be inlined here.
-        !self.are_none() && {
-            let rest = |corner: usize| self.rest[vertices[corner] as usize];
-            are_boxes_within(
-                kind,
-                [rest(0), rest(1), rest(2), rest(3)],
-                self.within(vertices[0], vertices[3]),
-            )
-        }
+        let rest = |corner: usize| self.rest[vertices[corner] as usize];
+        let rest = [rest(0), rest(1), rest(2), rest(3)];
+        are_boxes_within(kind, rest, self.within(vertices[0], vertices[3]))
     }
 
     /// How near two vertices' boxes are if they are neighbours': of no distance in different parts.
