@@ -147,6 +147,9 @@ impl<F: Factors, S: Format> Lanes for Altered<F, S> {
     fn greater(self, other: Self) -> bool {
         self.0.greater(other.0)
     }
+    fn at_most(self, other: Self) -> bool {
+        self.0.at_most(other.0)
+    }
     fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
         if mask { if_true } else { if_false }
     }

@@ -254,6 +254,10 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Lanes for Minifloat<E, 
         self.operand() > other.operand()
     }
 
+    fn at_most(self, other: Self) -> bool {
+        self.operand() <= other.operand()
+    }
+
     fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
         if mask { if_true } else { if_false }
     }

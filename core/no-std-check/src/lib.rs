@@ -8,7 +8,8 @@ use core::cmp::Ordering;
 use core::panic::PanicInfo;
 use selvedge_core::PairKind;
 use selvedge_core::batch::{
-    self, BatchTest, Level, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows, largest_strays_from_rows,
+    self, BatchTest, Level, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows, closest_points,
+    largest_strays_from_rows,
 };
 use selvedge_core::boxes::block::BoxBlock;
 use selvedge_core::boxes::mapping::{Inset, Mapping};
@@ -18,6 +19,7 @@ use selvedge_core::distribution::distribute;
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::clearance::{Clearance, are_boxes_within, nearness};
+use selvedge_core::separation::closest::Closest;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
 use selvedge_core::separation::geometry::geometry;
 use selvedge_core::separation::{course, largest_coordinate};
@@ -235,8 +237,9 @@ pub extern "C" fn near(points: &Points<f32>) -> u32 {
     near.into()
 }
 
-/// What shows a vertex and a face to keep half a unit: boxes with that separation, asked for less as well, the distance at the start from below, a direction
-/// found for the step and kept for it, a clearance; and that the vertex's course has room, and its boxes are near the face's, at most one.
+/// What shows a vertex and a face to keep half a unit: boxes with that separation, asked for less as well, the distance at the start from
+/// below along the way between the closest points, a direction found for the step and kept for it, a clearance; and that the vertex's course
+/// has room, and its boxes are near the face's, at most one.
 #[unsafe(no_mangle)]
 pub extern "C" fn separations(points: &Points<f64>) -> u32 {
     let ends = [
@@ -250,7 +253,9 @@ pub extern "C" fn separations(points: &Points<f64>) -> u32 {
     let [a, b, c, d] = points.map(|[start, end]| mapping.vertex(start, end));
     let face = b.merged(&c).merged(&d);
     let drawn_in = a.drawn_in(Inset::new(0.5, 0.25).of(&a));
-    let bound = distance_from_below(kind, start, DVec3::Z, error);
+    let mut closest = [Closest::default()];
+    closest_points(Level::baseline(), kind, &[start], &mut closest);
+    let bound = distance_from_below(kind, start, closest[0].direction, error);
     let known = SeparatingDirection::NONE.or_better(kind, DVec3::Z, start, error);
     let found = SeparatingDirection::found(kind, DVec3::Z, ends, 0.5, error);
     let in_single = ends.map(|points| points.map(|point| point.as_vec3a()));

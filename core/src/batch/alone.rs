@@ -113,6 +113,11 @@ macro_rules! alone {
             }
 
             #[inline(always)]
+            fn at_most(self, other: Self) -> Truth {
+                Truth(self.0 <= other.0)
+            }
+
+            #[inline(always)]
             fn select(mask: Truth, if_true: Self, if_false: Self) -> Self {
                 if mask.0 { if_true } else { if_false }
             }

@@ -45,6 +45,11 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
+            fn at_most(self, other: Self) -> Self::Mask {
+                self.simd_le(other)
+            }
+
+            #[inline(always)]
             fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self {
                 mask.select(if_true, if_false)
             }

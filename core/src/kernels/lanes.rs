@@ -96,6 +96,9 @@ pub trait Lanes:
     /// `self > other`, lane by lane; false where either is NaN.
     #[must_use]
     fn greater(self, other: Self) -> Self::Mask;
+    /// `self <= other`, lane by lane; false where either is NaN.
+    #[must_use]
+    fn at_most(self, other: Self) -> Self::Mask;
     /// One or the other, lane by lane.
     #[must_use]
     fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self;
@@ -192,6 +195,11 @@ macro_rules! one_lane {
             #[inline(always)]
             fn greater(self, other: Self) -> bool {
                 self > other
+            }
+
+            #[inline(always)]
+            fn at_most(self, other: Self) -> bool {
+                self <= other
             }
 
             #[inline(always)]

@@ -1,12 +1,16 @@
 //! The closest points of a pair at rest, in plain floating point.
 //!
-//! Nothing that is certified relies on how well this is done (Ericson, Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9).
+//! Nothing that is certified relies on how well this is done (Ericson, Real-Time Collision Detection, 2005, 5.1.5 and 5.1.9). One source serves
+//! one pair and [many side by side](crate::batch::closest_points).
 
 use crate::kind::PairKind;
+use crate::lanes::Lanes;
+use crate::points::PairShape;
+use crate::vector::Vector;
 use glam::DVec3;
 
 /// The shortest way from the second set of a pair to the first.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Closest {
     /// Of the four points in [`way`](Self::way): those of the first set add up to 1, those of the second to −1.
     pub weights: [f64; 4],
@@ -19,26 +23,16 @@ pub struct Closest {
 
 impl Closest {
     /// Of the pair whose four vertices are these.
-    #[inline]
     #[must_use]
-    pub fn of(kind: PairKind, points: [DVec3; 4]) -> Self {
-        let weights = match kind {
-            PairKind::VertexFace => of_vertex_face(points),
-            PairKind::EdgeEdge => of_edge_edge(points),
-        };
-        let [p, q, r, s] = points;
-        // Differences first: they are small and nearly exact, wherever the pair is.
-        let way = match kind {
-            PairKind::VertexFace => (q - p) * weights[1] + (r - p) * weights[2] + (s - p) * weights[3],
-            PairKind::EdgeEdge => (p - r) + (q - p) * weights[1] + (s - r) * weights[3],
-        };
-        let mut closest = Self {
-            weights,
+    pub fn of(kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> Self {
+        let points = [vector(p), vector(q), vector(r), vector(s)];
+        let found = of_kind!(kind, P => Found::of::<P>(points));
+        let [way, direction] = [found.way, found.direction].map(|Vector { x, y, z }| DVec3::new(x, y, z));
+        Self {
+            weights: found.weights,
             way,
-            direction: DVec3::ZERO,
-        };
-        closest.direction = closest.upright(kind, points);
-        closest
+            direction,
+        }
     }
 
     /// The length of the shortest way.
@@ -46,92 +40,203 @@ impl Closest {
     pub fn distance(&self) -> f64 {
         self.way.length()
     }
+}
 
-    /// Where the sets are near to each other the difference of the closest points has lost its digits: then a normal is
-    /// computed from the features themselves.
-    fn upright(&self, kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> DVec3 {
-        let (first, second) = match kind {
-            PairKind::VertexFace => (r - q, s - q),
-            PairKind::EdgeEdge => (q - p, s - r),
-        };
-        let size = first.length_squared().max(second.length_squared());
-        if self.way.length_squared() > NEAR * size {
-            return self.way.normalize_or_zero();
-        }
-        let normal = first.cross(second).normalize_or_zero();
-        let along = normal.dot(self.way);
-        if along * along > 0.999_998 * self.way.length_squared() && along != 0.0 {
-            return normal * along.signum();
-        }
-        // On a side: take off what is left along it.
-        let mut way = self.way;
-        let sides = [first, second, second - first];
-        let count = if kind == PairKind::VertexFace { 3 } else { 2 };
-        for side in &sides[..count] {
-            let share = way.dot(*side) / side.length_squared();
-            if share.is_finite() && (share * share) * side.length_squared() < 1e-6 * way.length_squared() {
-                way -= *side * share;
+#[inline(always)]
+const fn vector(point: DVec3) -> Vector<f64> {
+    Vector::new(point.x, point.y, point.z)
+}
+
+/// What [`Closest`] says, of one pair or of one in each lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found<L> {
+    pub(crate) weights: [L; 4],
+    pub(crate) way: Vector<L>,
+    pub(crate) direction: Vector<L>,
+}
+
+impl<L: Lanes<Scalar = f64>> Found<L> {
+    #[inline(always)]
+    pub(crate) fn of<P: PairShape>(points: [Vector<L>; 4]) -> Self {
+        let [p, q, r, s] = points;
+        // Differences first: they are small and nearly exact, wherever the pair is.
+        let (weights, way, sides, count) = match P::KIND {
+            PairKind::VertexFace => {
+                let weights = of_vertex_face(points);
+                let way = ((q - p).scaled(weights[1]) + (r - p).scaled(weights[2])) + (s - p).scaled(weights[3]);
+                let sides = [r - q, s - q];
+                (weights, way, sides, 3)
             }
+            PairKind::EdgeEdge => {
+                let weights = of_edge_edge(points);
+                let way = ((p - r) + (q - p).scaled(weights[1])) + (s - r).scaled(weights[3]);
+                (weights, way, [q - p, s - r], 2)
+            }
+        };
+        Self {
+            weights,
+            way,
+            direction: upright(way, sides, count),
         }
-        way.normalize_or_zero()
     }
+}
+
+/// A way of length one, perpendicular to `count` sides: two, and the difference of these.
+///
+/// Where the sets are near to each other the difference of the closest points has lost its digits: then a normal is computed from the
+/// features themselves.
+#[inline(always)]
+fn upright<L: Lanes<Scalar = f64>>(way: Vector<L>, [first, second]: [Vector<L>; 2], count: usize) -> Vector<L> {
+    let zero = way.x.splat(0.0);
+    let straight = normalized(way);
+    let squared = way.dot(way);
+    let near = zero.splat(NEAR);
+    let is_near = !(squared.greater(first.dot(first) * near) & squared.greater(second.dot(second) * near));
+    if !L::any(is_near) {
+        return straight;
+    }
+    let normal = normalized(first.cross(second));
+    let along = normal.dot(way);
+    let is_level = (along * along).greater(squared * zero.splat(0.999_998));
+    let sign = L::select(zero.greater(along), zero.splat(-1.0), zero.splat(1.0));
+    let mut direction = chosen(is_near, normal.scaled(sign), straight);
+    let is_on_side = is_near & !is_level;
+    if L::any(is_on_side) {
+        // Take off what is left along it.
+        let mut left = way;
+        let sides = [first, second, second - first];
+        let mut place = 0;
+        while place < count {
+            let side = sides[place];
+            let squared = side.dot(side);
+            let part = left.dot(side) / squared;
+            let is_small = (left.dot(left) * zero.splat(1e-6)).greater((part * part) * squared);
+            left = chosen(is_finite(part) & is_small, left - side.scaled(part), left);
+            place += 1;
+        }
+        direction = chosen(is_on_side, normalized(left), direction);
+    }
+    direction
 }
 
 /// A thousandth of the pair's size, squared.
 const NEAR: f64 = 1e-6;
 
-fn of_vertex_face([p, a, b, c]: [DVec3; 4]) -> [f64; 4] {
+#[inline(always)]
+fn of_vertex_face<L: Lanes<Scalar = f64>>([p, a, b, c]: [Vector<L>; 4]) -> [L; 4] {
+    let (zero, one) = (p.x.splat(0.0), p.x.splat(1.0));
+    let mut weights = [one, -one, zero, zero];
+    // One pair leaves where it is settled; several side by side go through all.
+    macro_rules! settled_if {
+        ($is_here:expr, $open:expr, $weights:expr) => {{
+            let is_here = $is_here & $open;
+            if !L::may_leave(is_here) {
+                weights = chosen_weights(is_here, $weights, weights);
+            }
+            let open = $open & !is_here;
+            if L::may_leave(open) {
+                return weights;
+            }
+            open
+        }};
+    }
     let (ab, ac, ap) = (b - a, c - a, p - a);
     let (d1, d2) = (ab.dot(ap), ac.dot(ap));
-    if d1 <= 0.0 && d2 <= 0.0 {
-        return [1.0, -1.0, 0.0, 0.0];
+    let open = !(d1.at_most(zero) & d2.at_most(zero));
+    if L::may_leave(open) {
+        return weights;
     }
     let bp = p - b;
     let (d3, d4) = (ab.dot(bp), ac.dot(bp));
-    if d3 >= 0.0 && d4 <= d3 {
-        return [1.0, 0.0, -1.0, 0.0];
-    }
+    let is_here = zero.at_most(d3) & d4.at_most(d3);
+    let open = settled_if!(is_here, open, [one, zero, -one, zero]);
     let vc = d1 * d4 - d3 * d2;
-    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+    let is_here = vc.at_most(zero) & zero.at_most(d1) & d3.at_most(zero);
+    let open = settled_if!(is_here, open, {
         let v = share(d1, d1 - d3);
-        return [1.0, v - 1.0, -v, 0.0];
-    }
+        [one, v - one, -v, zero]
+    });
     let cp = p - c;
     let (d5, d6) = (ab.dot(cp), ac.dot(cp));
-    if d6 >= 0.0 && d5 <= d6 {
-        return [1.0, 0.0, 0.0, -1.0];
-    }
+    let is_here = zero.at_most(d6) & d5.at_most(d6);
+    let open = settled_if!(is_here, open, [one, zero, zero, -one]);
     let vb = d5 * d2 - d1 * d6;
-    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+    let is_here = vb.at_most(zero) & zero.at_most(d2) & d6.at_most(zero);
+    let open = settled_if!(is_here, open, {
         let w = share(d2, d2 - d6);
-        return [1.0, w - 1.0, 0.0, -w];
-    }
+        [one, w - one, zero, -w]
+    });
     let va = d3 * d6 - d5 * d4;
-    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+    let is_here = va.at_most(zero) & d3.at_most(d4) & d6.at_most(d5);
+    let open = settled_if!(is_here, open, {
         let w = share(d4 - d3, (d4 - d3) + (d5 - d6));
-        return [1.0, 0.0, w - 1.0, -w];
-    }
-    let all = va + vb + vc;
+        [one, zero, w - one, -w]
+    });
+    let all = (va + vb) + vc;
     let (v, w) = (share(vb, all), share(vc, all));
-    [1.0, v + w - 1.0, -v, -w]
+    chosen_weights(open, [one, (v + w) - one, -v, -w], weights)
 }
 
-fn of_edge_edge([a, b, c, d]: [DVec3; 4]) -> [f64; 4] {
+#[inline(always)]
+fn of_edge_edge<L: Lanes<Scalar = f64>>([a, b, c, d]: [Vector<L>; 4]) -> [L; 4] {
+    let (zero, one) = (a.x.splat(0.0), a.x.splat(1.0));
     let (u, v, r) = (b - a, d - c, a - c);
-    let (uu, vv, uv) = (u.length_squared(), v.length_squared(), u.dot(v));
+    let (uu, vv, uv) = (u.dot(u), v.dot(v), u.dot(v));
     let (ur, vr) = (u.dot(r), v.dot(r));
-    let mut s = share(uv * vr - ur * vv, uu * vv - uv * uv).clamp(0.0, 1.0);
-    let t = share(uv * s + vr, vv);
-    if !(0.0..=1.0).contains(&t) {
-        let t = t.clamp(0.0, 1.0);
-        s = share(uv * t - ur, uu).clamp(0.0, 1.0);
-        return [1.0 - s, s, t - 1.0, -t];
+    let mut s = clamped(share(uv * vr - ur * vv, uu * vv - uv * uv));
+    let mut t = share(uv * s + vr, vv);
+    let is_outside = zero.greater(t) | t.greater(one);
+    if L::any(is_outside) {
+        t = clamped(t);
+        s = L::select(is_outside, clamped(share(uv * t - ur, uu)), s);
     }
-    [1.0 - s, s, t - 1.0, -t]
+    [one - s, s, t - one, -t]
 }
 
 /// A quotient; zero where it is none.
-fn share(part: f64, whole: f64) -> f64 {
+#[inline(always)]
+fn share<L: Lanes<Scalar = f64>>(part: L, whole: L) -> L {
     let share = part / whole;
-    if share.is_finite() { share } else { 0.0 }
+    L::select(is_finite(share), share, share.splat(0.0))
+}
+
+#[inline(always)]
+fn is_finite<L: Lanes<Scalar = f64>>(number: L) -> L::Mask {
+    number.splat(f64::INFINITY).greater(number.abs())
+}
+
+/// The nearest of the numbers from zero to one.
+#[inline(always)]
+fn clamped<L: Lanes<Scalar = f64>>(number: L) -> L {
+    let (zero, one) = (number.splat(0.0), number.splat(1.0));
+    let not_less = L::select(zero.greater(number), zero, number);
+    L::select(not_less.greater(one), one, not_less)
+}
+
+/// Of length one; zero where that is not possible.
+#[inline(always)]
+fn normalized<L: Lanes<Scalar = f64>>(way: Vector<L>) -> Vector<L> {
+    let zero = way.x.splat(0.0);
+    let factor = way.x.splat(1.0) / way.dot(way).sqrt();
+    let is_possible = is_finite(factor) & factor.greater(zero);
+    chosen(is_possible, way.scaled(factor), Vector::new(zero, zero, zero))
+}
+
+#[inline(always)]
+fn chosen<L: Lanes>(mask: L::Mask, if_true: Vector<L>, if_false: Vector<L>) -> Vector<L> {
+    Vector::new(
+        L::select(mask, if_true.x, if_false.x),
+        L::select(mask, if_true.y, if_false.y),
+        L::select(mask, if_true.z, if_false.z),
+    )
+}
+
+#[inline(always)]
+fn chosen_weights<L: Lanes>(mask: L::Mask, [a, b, c, d]: [L; 4], [e, f, g, h]: [L; 4]) -> [L; 4] {
+    [
+        L::select(mask, a, e),
+        L::select(mask, b, f),
+        L::select(mask, c, g),
+        L::select(mask, d, h),
+    ]
 }

@@ -5,15 +5,17 @@
 
 use fearless_simd::Level;
 use selvedge::core::batch::{
-    LANES, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows, culled, culled_from_rows, culled_from_tiles,
-    largest_strays_from_rows,
+    LANES, Mask, Round, RoundQuestion, Test, Tile, VertexRow, advance_from_rows, closest_points, culled, culled_from_rows,
+    culled_from_tiles, largest_strays_from_rows,
 };
 use selvedge::core::boxes::{direction, relative, segment, swept_boxes};
 use selvedge::core::elementary::advance::certain_contact;
 use selvedge::core::elementary::advance::{time_of_impact, time_of_impact_within};
 use selvedge::core::elementary::{Impact, Limits, contact};
 use selvedge::core::filter::{Depth, Filter, Tier, inside};
+use selvedge::core::glam::DVec3;
 use selvedge::core::separation::clearance::Clearance;
+use selvedge::core::separation::closest::Closest;
 use selvedge::core::{Motion, PrimitivePair};
 use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, PairKind, Scalar, StepError, Topology};
 
@@ -144,7 +146,12 @@ fn in_single<S: Scalar>(motion: Motion<S>) -> Motion<f32> {
     Motion::new(rounded(motion.start), rounded(motion.end))
 }
 
-/// Every test and round of many pairs at once.
+fn in_double<S: Scalar>(motion: Motion<S>) -> DVec3 {
+    let start: [S; 3] = motion.start.into();
+    start.map(Scalar::to_f64).into()
+}
+
+/// Every test and round of many pairs at once, and where they are closest.
 fn ask_of_many<S: Scalar>(kind: PairKind, pairs: &[PrimitivePair<S>], digest: &mut Digest) {
     let level = Level::new();
     let rows: Vec<_> = pairs.iter().flat_map(|pair| pair.motions.map(VertexRow::new)).collect();
@@ -191,6 +198,14 @@ fn ask_of_many<S: Scalar>(kind: PairKind, pairs: &[PrimitivePair<S>], digest: &m
     let classes = vec![0; pairs.len()];
     largest_strays_from_rows(level, kind, &clearances, &in_single, &indices, &classes, &mut strays);
     strays.iter().for_each(|&stray| digest.add(stray.max(0.0).to_bits()));
+    let at_start: Vec<_> = pairs.iter().map(|pair| pair.motions.map(in_double)).collect();
+    let mut closest = vec![Closest::default(); pairs.len()];
+    closest_points(level, kind, &at_start, &mut closest);
+    for Closest { weights, way, direction } in closest {
+        let numbers = weights.into_iter().chain(way.to_array()).chain(direction.to_array());
+        // What is no number is none in whatever bits.
+        numbers.for_each(|number| digest.add(if number.is_nan() { 0 } else { number.to_bits() }));
+    }
     for with_volume in [false, true] {
         let question = RoundQuestion {
             limits: Limits::default(),
@@ -326,12 +341,12 @@ fn written([a, b]: [u64; 2]) -> String {
 
 #[test]
 fn kernels_need_little_stack_and_answer_as_ever_f32() {
-    assert_eq!(written(in_little_stack(kernels::<f32>)), "7763bee272f42a60 342c86598992162b");
+    assert_eq!(written(in_little_stack(kernels::<f32>)), "9d01d8f5a1ae3c6a bde55fd8f134ba09");
 }
 
 #[test]
 fn kernels_need_little_stack_and_answer_as_ever_f64() {
-    assert_eq!(written(in_little_stack(kernels::<f64>)), "2cd4dd75d09aaaae 737c003d015a03fb");
+    assert_eq!(written(in_little_stack(kernels::<f64>)), "8ba786ab236326a3 e2f99116eba93565");
 }
 
 #[test]

@@ -5,13 +5,14 @@ use selvedge::verification::available_levels;
 use selvedge_core::PairKind;
 use selvedge_core::Verdict;
 use selvedge_core::batch::{
-    BatchTest, ByPoints, ByVolume, LANES, Mask, Test, Tile, VertexRow, culled, culled_from_rows, culled_from_tiles,
-    largest_strays_from_rows,
+    BatchTest, ByPoints, ByVolume, LANES, Mask, Test, Tile, VertexRow, closest_points, culled, culled_from_rows,
+    culled_from_tiles, largest_strays_from_rows,
 };
 use selvedge_core::boxes::direction;
 use selvedge_core::filter::{Filter, Tier, inside};
-use selvedge_core::glam::Vec3A;
+use selvedge_core::glam::{DVec3, Vec3A};
 use selvedge_core::separation::clearance::Clearance;
+use selvedge_core::separation::closest::Closest;
 use selvedge_laboratory::baselines::as_computed::AsComputed;
 use selvedge_laboratory::baselines::plain::Plain;
 use selvedge_laboratory::methods::{CullingTest, Preset};
@@ -196,6 +197,36 @@ fn how_far_vertices_and_faces_may_stray() {
 #[test]
 fn how_far_edges_may_stray() {
     strays_agree(PairKind::EdgeEdge);
+}
+
+/// What is no number is none in whatever bits.
+fn number_bits(closest: &Closest) -> [u64; 10] {
+    let [a, b, c, d] = closest.weights;
+    let ([e, f, g], [h, i, j]) = (closest.way.to_array(), closest.direction.to_array());
+    [a, b, c, d, e, f, g, h, i, j].map(|number| if number.is_nan() { f64::NAN } else { number }.to_bits())
+}
+
+fn closest_points_agree(kind: PairKind) {
+    proptest!(config(), |(pairs in some_pairs::<f64>(kind))| {
+        let points: Vec<_> = pairs.iter().map(|pair| pair.points.map(|point| DVec3::from_array(point[0]))).collect();
+        let expected: Vec<_> = points.iter().map(|&points| number_bits(&Closest::of(kind, points))).collect();
+        for (name, level) in available_levels() {
+            let mut closest = vec![Closest::default(); points.len()];
+            closest_points(level, kind, &points, &mut closest);
+            let found: Vec<_> = closest.iter().map(number_bits).collect();
+            prop_assert_eq!(&found, &expected, "{}", name);
+        }
+    });
+}
+
+#[test]
+fn where_vertices_and_faces_are_closest() {
+    closest_points_agree(PairKind::VertexFace);
+}
+
+#[test]
+fn where_edges_are_closest() {
+    closest_points_agree(PairKind::EdgeEdge);
 }
 
 #[test]

@@ -92,6 +92,9 @@ impl Lanes for Exact {
     fn greater(self, other: Self) -> bool {
         self.0 > other.0
     }
+    fn at_most(self, other: Self) -> bool {
+        self.0 <= other.0
+    }
     fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
         if mask { if_true } else { if_false }
     }

@@ -286,6 +286,9 @@ impl Lanes for Traced {
         ARENA.with_borrow_mut(|arena| arena.comparisons.push([self, other]));
         Mask::record(MaskStep::Greater(self, other))
     }
+    fn at_most(self, other: Self) -> Mask {
+        !self.greater(other)
+    }
     fn select(_: Mask, if_true: Self, if_false: Self) -> Self {
         Self::record(Step::Selected(if_true, if_false))
     }

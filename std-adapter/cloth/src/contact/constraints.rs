@@ -8,16 +8,19 @@
 //!
 //! **Only where it matters.** Closest points are found when it is the turn of a pair to push, and not if the direction that it remembers
 //! keeps it at its thickness by then: where cloth lies on something each vertex has many pairs, and a push or two see to all of them. On a
-//! figure that walks in a shirt a third of the pairs that would come too near by themselves are left.
+//! figure that walks in a shirt a third of the pairs that would come too near by themselves are left. A pair that remembers no direction is
+//! not kept by any: where that is so of many, as after a checkpoint, closest points are found of [several at once](Known).
 
 use super::candidate::{Aim, Candidate};
 use super::exempt::Exempt;
 use super::neighbours::{are_neighbours, at_rest};
 use super::settings::{ContactSettings, MARGIN, RECOVERY, Thickness};
 use crate::step::{TimeStep, Touch, Touches, mobility};
-use selvedge::verification::{add_kept, parallel};
+use selvedge::verification::{Level, add_kept, parallel};
+use selvedge_core::batch::{LANES, closest_points};
 use selvedge_core::glam::DVec3;
-use selvedge_core::separation::gap::GapError;
+use selvedge_core::separation::closest::Closest;
+use selvedge_core::separation::gap::{GapError, distance_from_below};
 use selvedge_core::separation::largest_coordinate;
 use std::hint::select_unpredictable;
 
@@ -26,6 +29,8 @@ use std::hint::select_unpredictable;
 pub(super) struct Contacts {
     /// The candidates that may have to be pushed, by their places, in order.
     open: Vec<u32>,
+    /// Of these, pairs of cloth with itself, and pairs with a body.
+    open_of: [Vec<u32>; 2],
     /// Those of them that were near, and not kept apart yet, when it was their turn.
     near: Vec<NearPair>,
 }
@@ -53,6 +58,8 @@ pub(super) struct Rules<'a> {
     pub(super) rest: &'a [DVec3],
     /// Of gaps between positions of this step.
     pub(super) error: GapError<f64>,
+    /// The instructions by which closest points are found.
+    pub(super) level: Level,
 }
 
 /// What starts within this may come within `aim`.
@@ -63,6 +70,7 @@ fn reach(aim: f64) -> f64 {
 impl Contacts {
     pub(super) fn clear(&mut self) {
         self.open.clear();
+        self.open_of.iter_mut().for_each(Vec::clear);
         self.near.clear();
     }
 
@@ -81,6 +89,9 @@ impl Contacts {
         if rules.exempt.has_tangle() {
             self.open.retain(|&place| !rules.exempt.is_tangled(&pairs[place as usize]));
         }
+        for &place in &self.open {
+            self.open_of[usize::from(pairs[place as usize].data.is_with_body())].push(place);
+        }
     }
 
     /// Pushes once along the contacts with bodies, or along those of cloth; returns how many pushed.
@@ -93,14 +104,20 @@ impl Contacts {
         touches: &mut Touches,
     ) -> u64 {
         let mut pushed = 0;
-        for &place in &self.open {
-            let pair = &mut pairs[place as usize];
-            if pair.data.is_with_body() != with_body || is_kept(pair, positions) {
-                continue;
-            }
-            if let Some(near) = near(pair, rules, step) {
-                pushed += u64::from(project(&near, step, positions, touches));
-                self.near.push(near);
+        let mut known = Known::default();
+        for places in self.open_of[usize::from(with_body)].chunks(LANES) {
+            let are_known = known.find(places, pairs, rules, step.start);
+            for (lane, &place) in places.iter().enumerate() {
+                let pair = &mut pairs[place as usize];
+                let found = are_known.then_some((&known, lane));
+                // What remembers nothing is not kept.
+                if found.is_none() && is_kept(pair, positions) {
+                    continue;
+                }
+                if let Some(near) = near(pair, found, rules, step) {
+                    pushed += u64::from(project(&near, step, positions, touches));
+                    self.near.push(near);
+                }
             }
         }
         pushed
@@ -128,16 +145,56 @@ fn is_kept(pair: &Candidate, positions: &[DVec3]) -> bool {
     pair.is_kept_at(pair.data.aim.length(), positions)
 }
 
-/// The pair as it is at the start of the step, if it is near there.
-fn near(pair: &mut Candidate, rules: Rules<'_>, step: &TimeStep<'_>) -> Option<NearPair> {
-    let closest = pair.closest(step.start);
+/// Where up to sixteen pairs are closest, found at once.
+#[derive(Default)]
+struct Known {
+    points: [[DVec3; 4]; LANES],
+    at_start: [Closest; LANES],
+    /// Nothing of pairs with a body.
+    at_rest: [Closest; LANES],
+}
+
+impl Known {
+    /// Finds it if all are of one kind and remember no direction, so that their closest points are needed whatever is pushed before them; few of
+    /// others' are. Returns whether it did.
+    fn find(&mut self, places: &[u32], pairs: &[Candidate], rules: Rules<'_>, start: &[DVec3]) -> bool {
+        let asked = || places.iter().map(|&place| &pairs[place as usize]);
+        let Some(Candidate { kind, data, .. }) = asked().next() else {
+            return false;
+        };
+        if !asked().all(|pair| pair.kind == *kind && pair.remembers_nothing()) {
+            return false;
+        }
+        let mut find = |positions: &[DVec3], closest: &mut [Closest]| {
+            let points = &mut self.points[..places.len()];
+            points
+                .iter_mut()
+                .zip(asked())
+                .for_each(|(points, pair)| *points = pair.points(positions));
+            closest_points(rules.level, *kind, points, closest);
+        };
+        find(start, &mut self.at_start);
+        if !data.is_with_body() {
+            find(rules.rest, &mut self.at_rest);
+        }
+        true
+    }
+}
+
+/// The pair as it is at the start of the step, if it is near there. `known` may say where it is closest, at a place in it.
+fn near(pair: &mut Candidate, known: Option<(&Known, usize)>, rules: Rules<'_>, step: &TimeStep<'_>) -> Option<NearPair> {
+    let closest = match known {
+        Some((known, place)) => &known.at_start[place],
+        None => &pair.closest(step.start),
+    };
     pair.refresh(closest.direction, step.start, rules.error);
     let distance = closest.distance();
     if distance > reach(pair.data.aim.length()) || closest.direction == DVec3::ZERO {
         return None;
     }
     if !pair.data.aim.is_own() {
-        pair.data.aim = Aim::own(thickness_of(pair, rules)?);
+        let at_rest = || known.map_or_else(|| pair.closest(rules.rest), |(known, place)| known.at_rest[place]);
+        pair.data.aim = Aim::own(thickness_of(pair, at_rest, rules)?);
     }
     Some(NearPair {
         vertices: pair.vertices,
@@ -148,7 +205,7 @@ fn near(pair: &mut Candidate, rules: Rules<'_>, step: &TimeStep<'_>) -> Option<N
 }
 
 /// The thickness that a pair can have: the one that is asked for, but for neighbours in one cloth.
-fn thickness_of(pair: &Candidate, rules: Rules<'_>) -> Option<f64> {
+fn thickness_of(pair: &Candidate, closest_at_rest: impl FnOnce() -> Closest, rules: Rules<'_>) -> Option<f64> {
     let Rules {
         settings, exempt, rest, ..
     } = rules;
@@ -164,9 +221,17 @@ fn thickness_of(pair: &Candidate, rules: Rules<'_>) -> Option<f64> {
     } else {
         thickness
     };
-    let own = own.min(0.5 * pair.closest(rest).distance());
-    let error = || GapError::of_coordinates(largest_coordinate(&pair.points(rest)));
-    let has_torn = || pair.distance_from_below(rest, error()) == 0.0;
+    let closest = closest_at_rest();
+    let own = own.min(0.5 * closest.distance());
+    let has_torn = || {
+        let points = pair.points(rest);
+        distance_from_below(
+            pair.kind,
+            points,
+            closest.direction,
+            GapError::of_coordinates(largest_coordinate(&points)),
+        ) == 0.0
+    };
     Some(if exempt.is_parting(pair) || has_torn() {
         own.max(asked.of_neighbours())
     } else {

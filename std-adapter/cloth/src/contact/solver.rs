@@ -10,6 +10,7 @@ use super::relaxation::Relaxation;
 use super::report::{ContactCounts, ContactSeconds};
 use super::settings::ContactSettings;
 use crate::step::{Carrier, TimeStep, Touches};
+use selvedge::verification::{Level, best_level};
 use selvedge::{StepError, Topology};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
@@ -28,6 +29,7 @@ pub(crate) struct ContactSolver {
     pub(super) rest: Vec<DVec3>,
     /// Of gaps between positions of this step.
     pub(super) error: GapError<f64>,
+    level: Level,
     contacts: Contacts,
     pub(super) moved: Vec<bool>,
     /// The candidates that are looked at after something has moved; kept for its memory.
@@ -60,6 +62,7 @@ impl ContactSolver {
             carriers: carriers.to_vec(),
             rest: rest.to_vec(),
             error: GapError::of_coordinates(0.0),
+            level: best_level(),
             contacts: Contacts::default(),
             moved: vec![false; rest.len()],
             places: Vec::new(),
@@ -127,6 +130,7 @@ impl ContactSolver {
             exempt: &self.exempt,
             rest: &self.rest,
             error: self.error,
+            level: self.level,
         };
         (&mut self.contacts, &mut self.candidates.list, rules)
     }

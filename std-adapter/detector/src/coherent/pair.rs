@@ -88,6 +88,12 @@ impl<D: Copy> NearPair<D> {
         self.separating.gap()
     }
 
+    /// Whether no direction has been found yet: then it is [kept](Self::is_kept_at) at no distance.
+    #[inline(always)]
+    pub fn remembers_nothing(&self) -> bool {
+        self.separating == SeparatingDirection::NONE
+    }
+
     /// The pair has moved in a way that was not looked at.
     pub const fn forget_gap(&mut self) {
         self.separating = self.separating.without_gap();

@@ -136,6 +136,11 @@ impl<S: Scalar> Lanes for Unbounded<S> {
     }
 
     #[inline(always)]
+    fn at_most(self, other: Self) -> bool {
+        self.0.at_most(other.0)
+    }
+
+    #[inline(always)]
     fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
         if mask { if_true } else { if_false }
     }

@@ -1,0 +1,99 @@
+//! The closest points of many pairs.
+
+use super::chunk::Chunk;
+use super::{LANES, Level};
+use crate::PairKind;
+use crate::points::PairShape;
+use crate::separation::closest::{Closest, Found};
+use crate::vector::Vector;
+#[cfg(not(unoptimised))]
+use fearless_simd::{Simd, f64x2, f64x4, f64x8};
+use glam::DVec3;
+
+/// Sets in `closest` what is closest of each pair of points: [`Closest::of`], to the bit. As many as there are of both.
+///
+/// ```
+/// use selvedge_core::batch::{Level, closest_points};
+/// use selvedge_core::{PairKind, glam::DVec3, separation::closest::Closest};
+///
+/// let face = [DVec3::ZERO, DVec3::X, DVec3::Y];
+/// let above = [0.5, 0.25].map(|height| [DVec3::new(0.2, 0.2, height), face[0], face[1], face[2]]);
+/// let mut closest = [Closest::default(); 2];
+/// closest_points(Level::baseline(), PairKind::VertexFace, &above, &mut closest);
+/// assert_eq!(closest.map(|own| own.distance()), [0.5, 0.25]);
+/// ```
+pub fn closest_points(level: Level, kind: PairKind, pairs: &[[DVec3; 4]], closest: &mut [Closest]) {
+    for (pairs, closest) in pairs.chunks(LANES).zip(closest.chunks_mut(LANES)) {
+        let mut sixteen = Sixteen([[[0.0; LANES]; 3]; 4]);
+        for (lane, pair) in pairs.iter().enumerate() {
+            for (rows, point) in sixteen.0.iter_mut().zip(pair) {
+                for (row, coordinate) in rows.iter_mut().zip(point.to_array()) {
+                    row[lane % LANES] = coordinate;
+                }
+            }
+        }
+        let Ways { weights, way, direction } = found(level, kind, &sixteen);
+        let vector = |[x, y, z]: &[[f64; LANES]; 3], lane: usize| DVec3::new(x[lane], y[lane], z[lane]);
+        for (lane, closest) in closest.iter_mut().enumerate() {
+            let lane = lane % LANES;
+            *closest = Closest {
+                weights: weights.map(|row| row[lane]),
+                way: vector(&way, lane),
+                direction: vector(&direction, lane),
+            };
+        }
+    }
+}
+
+/// The coordinates of sixteen pairs' four points.
+struct Sixteen([[[f64; LANES]; 3]; 4]);
+
+/// What is found of them.
+struct Ways {
+    weights: [[f64; LANES]; 4],
+    way: [[f64; LANES]; 3],
+    direction: [[f64; LANES]; 3],
+}
+
+fn found(level: Level, kind: PairKind, pairs: &Sixteen) -> Ways {
+    of_kind!(kind, P => vectorized!(level, [f64x8, f64x4, f64x2, f64], all::<P>(pairs)))
+}
+
+#[inline(always)]
+fn all<P: PairShape, L: Chunk<Scalar = f64>>(token: L::Token, Sixteen(pairs): &Sixteen) -> Ways {
+    let mut ways = Ways {
+        weights: [[0.0; LANES]; 4],
+        way: [[0.0; LANES]; 3],
+        direction: [[0.0; LANES]; 3],
+    };
+    let mut first = 0;
+    while first < LANES {
+        // Macros, not closures: what is not inlined has none of the machine's instructions.
+        macro_rules! point {
+            ($point:literal) => {
+                Vector::new(
+                    L::load(token, &pairs[$point][0], first),
+                    L::load(token, &pairs[$point][1], first),
+                    L::load(token, &pairs[$point][2], first),
+                )
+            };
+        }
+        macro_rules! store {
+            ($vector:expr, $rows:expr) => {
+                $vector.x.store(&mut $rows[0], first);
+                $vector.y.store(&mut $rows[1], first);
+                $vector.z.store(&mut $rows[2], first);
+            };
+        }
+        let found = Found::<L>::of::<P>([point!(0), point!(1), point!(2), point!(3)]);
+        let [a, b, c, d] = found.weights;
+        a.store(&mut ways.weights[0], first);
+        b.store(&mut ways.weights[1], first);
+        c.store(&mut ways.weights[2], first);
+        d.store(&mut ways.weights[3], first);
+        store!(found.way, ways.way);
+        store!(found.direction, ways.direction);
+        first += L::WIDTH;
+    }
+    ways
+}
