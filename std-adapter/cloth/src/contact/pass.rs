@@ -21,12 +21,15 @@
 //!
 //! **Candidates** are good for several steps; what they hold is the [detector's](selvedge::verification::NearPairs).
 
-use super::candidate::{Candidate, impact};
+use super::candidate::{Candidate, impact, time_of_impact_of};
 use super::report::Blocker;
 use super::solver::{ContactSolver, gap_error};
 use crate::step::{FREE, TimeStep};
-use selvedge::verification::parallel;
+use selvedge::PairKind;
+use selvedge::verification::{Level, parallel};
+use selvedge_core::batch::{LANES, closest_points};
 use selvedge_core::glam::DVec3;
+use selvedge_core::separation::closest::Closest;
 use selvedge_core::separation::gap::GapError;
 use std::time::Instant;
 
@@ -90,26 +93,36 @@ impl ContactSolver {
             settings,
             exempt,
             error,
+            level,
             ..
         } = self;
         let separations = settings.separations(exempt);
         let mut looked_at = LookedAt::default();
+        let (path, error) = ([start, end], *error);
         parallel::map_chunks(
             &mut candidates.list,
             |first, pairs, looked_at: &mut LookedAt| {
-                for (index, pair) in pairs.iter_mut().enumerate() {
+                let mut unsettled = Unsettled::default();
+                for place in 0..pairs.len() {
+                    let pair = &mut pairs[place];
                     let Some(separation) = separations.of(pair) else {
                         pair.forget_gap();
                         continue;
                     };
-                    if pair.stays_apart(end, separation, *error) {
+                    if pair.stays_apart(end, separation, error) {
                         continue;
                     }
                     looked_at.count += 1;
-                    if !is_free(pair, [start, end], separation, *error) {
-                        looked_at.open.push(first + index);
+                    if pair.keeps_apart_as_before(path, separation, error) {
+                        continue;
                     }
+                    let kind = pair.kind;
+                    if unsettled.has_no_room_for(kind) {
+                        unsettled.settle(*level, pairs, path, error, |place| looked_at.open.push(first + place));
+                    }
+                    unsettled.add(kind, place, separation);
                 }
+                unsettled.settle(*level, pairs, path, error, |place| looked_at.open.push(first + place));
             },
             &mut looked_at,
             |all, own| {
@@ -252,9 +265,64 @@ struct LookedAt {
     open: Vec<usize>,
 }
 
+/// Up to sixteen pairs of one kind that no direction is known to keep apart: the next one is that of their closest points, found of all at
+/// once.
+#[derive(Default)]
+struct Unsettled {
+    kind: Option<PairKind>,
+    /// The place of each, and its separation.
+    pairs: Vec<(usize, f64)>,
+    points: [[DVec3; 4]; LANES],
+    closest: [Closest; LANES],
+}
+
+impl Unsettled {
+    fn has_no_room_for(&self, kind: PairKind) -> bool {
+        self.pairs.len() == LANES || self.kind.is_some_and(|own| own != kind)
+    }
+
+    fn add(&mut self, kind: PairKind, place: usize, separation: f64) {
+        self.kind = Some(kind);
+        self.pairs.push((place, separation));
+    }
+
+    /// Settles which of them are free, tells the places of those that are not, in order, and holds none afterwards.
+    fn settle(
+        &mut self,
+        level: Level,
+        pairs: &mut [Candidate],
+        path: [&[DVec3]; 2],
+        error: GapError<f64>,
+        mut tell: impl FnMut(usize),
+    ) {
+        let Some(kind) = self.kind.take() else {
+            return;
+        };
+        let [_, end] = path;
+        let points = &mut self.points[..self.pairs.len()];
+        for (points, &(place, _)) in points.iter_mut().zip(&self.pairs) {
+            *points = pairs[place].points(end);
+        }
+        closest_points(level, kind, points, &mut self.closest);
+        for ((place, separation), closest) in self.pairs.drain(..).zip(&self.closest) {
+            let pair = &mut pairs[place];
+            let is_free = pair.keeps_apart_along(closest.direction, path, separation, error)
+                || is_free_by_time(pair, path, separation, error);
+            if !is_free {
+                tell(place);
+            }
+        }
+    }
+}
+
 /// Whether the pair keeps its separation, or what is left of it.
 pub(super) fn is_free(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
-    if impact(pair, path, separation, error).is_none() {
+    pair.keeps_apart(path, separation, error) || is_free_by_time(pair, path, separation, error)
+}
+
+/// The same of a pair that no direction keeps apart by its separation.
+fn is_free_by_time(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
+    if time_of_impact_of(pair, path, separation).is_none() {
         return true;
     }
     let kept = kept(pair, path[0], separation, error);

@@ -29,7 +29,7 @@ pub(crate) struct ContactSolver {
     pub(super) rest: Vec<DVec3>,
     /// Of gaps between positions of this step.
     pub(super) error: GapError<f64>,
-    level: Level,
+    pub(super) level: Level,
     contacts: Contacts,
     pub(super) moved: Vec<bool>,
     /// The candidates that are looked at after something has moved; kept for its memory.

@@ -130,17 +130,42 @@ impl<D: Copy> NearPair<D> {
     /// Whether the direction that the pair remembers, or that of its closest points at the end or at the start, certainly keeps it more
     /// than `separation` apart on the way from `start` to `end`. Remembers the one that does.
     #[inline]
-    pub fn keeps_apart(&mut self, [start, end]: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
-        let (kind, points) = (self.kind, [self.points(start), self.points(end)]);
-        let found = |positions: &[DVec3]| {
-            let direction = self.closest(positions).direction;
-            SeparatingDirection::found(kind, direction, points, separation, error)
-        };
-        let kept = self.separating.keeps(kind, points, separation, error);
-        let kept = kept.or_else(|| found(end)).or_else(|| found(start));
-        match kept {
-            Some(kept) => self.separating = kept,
-            None => self.forget_gap(),
+    pub fn keeps_apart(&mut self, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
+        let [_, end] = path;
+        self.keeps_apart_as_before(path, separation, error)
+            || self.keeps_apart_along(self.closest(end).direction, path, separation, error)
+    }
+
+    /// The first part of [`keeps_apart`](Self::keeps_apart): whether the direction that the pair remembers does.
+    #[inline]
+    pub fn keeps_apart_as_before(&mut self, [start, end]: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> bool {
+        let points = [self.points(start), self.points(end)];
+        self.remember_if(self.separating.keeps(self.kind, points, separation, error))
+    }
+
+    /// The rest of it, given the direction of the closest points at the end: forgets the gap if neither does.
+    #[inline]
+    pub fn keeps_apart_along(
+        &mut self,
+        at_end: DVec3,
+        [start, end]: [&[DVec3]; 2],
+        separation: f64,
+        error: GapError<f64>,
+    ) -> bool {
+        let points = [self.points(start), self.points(end)];
+        let found = |direction| SeparatingDirection::found(self.kind, direction, points, separation, error);
+        let kept = found(at_end).or_else(|| found(self.closest(start).direction));
+        let is_kept = self.remember_if(kept);
+        if !is_kept {
+            self.forget_gap();
+        }
+        is_kept
+    }
+
+    #[inline]
+    fn remember_if(&mut self, kept: Option<SeparatingDirection>) -> bool {
+        if let Some(kept) = kept {
+            self.separating = kept;
         }
         kept.is_some()
     }
