@@ -10,7 +10,8 @@ use crate::vector::Vector;
 use fearless_simd::{Simd, f64x2, f64x4, f64x8};
 use glam::DVec3;
 
-/// Sets in `closest` what is closest of each pair of points: [`Closest::of`], to the bit. As many as there are of both.
+/// Sets in `closest` where each pair, of whose four points these are, is closest: [`Closest::of`], to the bit, but for the bits of NaN. As many
+/// as there are of both. Certifies nothing.
 ///
 /// ```
 /// use selvedge_core::batch::{Level, closest_points};

@@ -6,7 +6,8 @@
 //! Pairs come from a mesh, as indices into [`VertexRow`]s: any number of them. [`culled_from_rows`] answers with one [`Mask`] for every
 //! sixteen pairs: a set bit says that the pair is culled. [`advance_from_rows`] is one round of the certified
 //! [time of impact](crate::elementary::advance) for each, for pairs that tests leave. [`largest_strays_from_rows`] says how far points may
-//! stray for each pair to keep its distance, [`closest_points`] where each is closest. (The feature `verification` adds tests of boxes, and pairs that lie side by side already.)
+//! stray for each pair to keep its distance, [`closest_points`] where each is closest. (The feature `verification` adds tests of boxes, and
+//! pairs that lie side by side already.)
 //!
 //! The caller names the instruction set by a [`Level`]; `selvedge` detects the best one at run time.
 //!

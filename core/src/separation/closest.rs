@@ -22,7 +22,8 @@ pub struct Closest {
 }
 
 impl Closest {
-    /// Of the pair whose four vertices are these.
+    /// Of the pair whose four vertices are these. What comes of points that are not finite, or of products of four lengths that overflow, means
+    /// nothing. [`closest_points`](crate::batch::closest_points) is the same of many pairs.
     #[must_use]
     pub fn of(kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> Self {
         let points = [vector(p), vector(q), vector(r), vector(s)];

@@ -1,10 +1,13 @@
 //! A candidate pair, with what contact keeps of it.
 
 use crate::step::{Carrier, FREE};
-use selvedge::verification::NearPair;
+use selvedge::PairKind;
+use selvedge::verification::{Level, NearPair};
+use selvedge_core::batch::{LANES, closest_points};
 use selvedge_core::elementary::Limits;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::glam::DVec3;
+use selvedge_core::separation::closest::Closest;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::{Motion, PrimitivePair};
 
@@ -50,6 +53,37 @@ impl OfPair {
     }
 }
 
+/// Where up to sixteen pairs of one kind are closest, found at once.
+#[derive(Default)]
+pub(super) struct ClosestOfSome {
+    points: [[DVec3; 4]; LANES],
+    closest: [Closest; LANES],
+}
+
+impl ClosestOfSome {
+    /// Replaces them by those of these pairs.
+    pub(super) fn find<'a>(
+        &mut self,
+        level: Level,
+        pairs: impl Iterator<Item = &'a Candidate>,
+        positions: &[DVec3],
+    ) -> &[Closest] {
+        let (mut kind, mut count) = (PairKind::VertexFace, 0);
+        for (points, pair) in self.points.iter_mut().zip(pairs) {
+            *points = pair.points(positions);
+            kind = pair.kind;
+            count += 1;
+        }
+        closest_points(level, kind, &self.points[..count], &mut self.closest);
+        self.found()
+    }
+
+    /// In the order of the pairs.
+    pub(super) const fn found(&self) -> &[Closest] {
+        &self.closest
+    }
+}
+
 /// When a pair comes within `separation` on the way from `start` to `end`; `None` if it certainly does not. It remembers the
 /// direction that proves it.
 pub(super) fn impact(pair: &mut Candidate, path: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> Option<f64> {
@@ -77,8 +111,6 @@ const TOLERANCE: f64 = 1e-9;
 mod tests {
     use super::*;
     use proptest::prelude::*;
-    use selvedge::PairKind;
-    use selvedge::core::separation::closest::Closest;
 
     fn point() -> impl Strategy<Value = DVec3> {
         prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from)

@@ -11,13 +11,13 @@
 //! figure that walks in a shirt a third of the pairs that would come too near by themselves are left. A pair that remembers no direction is
 //! not kept by any: where that is so of many, as after a checkpoint, closest points are found of [several at once](Known).
 
-use super::candidate::{Aim, Candidate};
+use super::candidate::{Aim, Candidate, ClosestOfSome};
 use super::exempt::Exempt;
 use super::neighbours::{are_neighbours, at_rest};
 use super::settings::{ContactSettings, MARGIN, RECOVERY, Thickness};
 use crate::step::{TimeStep, Touch, Touches, mobility};
 use selvedge::verification::{Level, add_kept, parallel};
-use selvedge_core::batch::{LANES, closest_points};
+use selvedge_core::batch::LANES;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::closest::Closest;
 use selvedge_core::separation::gap::{GapError, distance_from_below};
@@ -27,9 +27,9 @@ use std::hint::select_unpredictable;
 /// The contacts of a step.
 #[derive(Debug, Default)]
 pub(super) struct Contacts {
-    /// The candidates that may have to be pushed, by their places, in order.
+    /// The candidates that may have to be pushed, by their places, in order, as they are found.
     open: Vec<u32>,
-    /// Of these, pairs of cloth with itself, and pairs with a body.
+    /// The same as they are pushed: pairs of cloth with itself, and pairs with a body.
     open_of: [Vec<u32>; 2],
     /// Those of them that were near, and not kept apart yet, when it was their turn.
     near: Vec<NearPair>,
@@ -145,13 +145,12 @@ fn is_kept(pair: &Candidate, positions: &[DVec3]) -> bool {
     pair.is_kept_at(pair.data.aim.length(), positions)
 }
 
-/// Where up to sixteen pairs are closest, found at once.
+/// Where up to sixteen pairs are closest, if that is found at once.
 #[derive(Default)]
 struct Known {
-    points: [[DVec3; 4]; LANES],
-    at_start: [Closest; LANES],
-    /// Nothing of pairs with a body.
-    at_rest: [Closest; LANES],
+    at_start: ClosestOfSome,
+    /// Not of pairs with a body.
+    at_rest: ClosestOfSome,
 }
 
 impl Known {
@@ -165,17 +164,9 @@ impl Known {
         if !asked().all(|pair| pair.kind == *kind && pair.remembers_nothing()) {
             return false;
         }
-        let mut find = |positions: &[DVec3], closest: &mut [Closest]| {
-            let points = &mut self.points[..places.len()];
-            points
-                .iter_mut()
-                .zip(asked())
-                .for_each(|(points, pair)| *points = pair.points(positions));
-            closest_points(rules.level, *kind, points, closest);
-        };
-        find(start, &mut self.at_start);
+        self.at_start.find(rules.level, asked(), start);
         if !data.is_with_body() {
-            find(rules.rest, &mut self.at_rest);
+            self.at_rest.find(rules.level, asked(), rules.rest);
         }
         true
     }
@@ -184,7 +175,7 @@ impl Known {
 /// The pair as it is at the start of the step, if it is near there. `known` may say where it is closest, at a place in it.
 fn near(pair: &mut Candidate, known: Option<(&Known, usize)>, rules: Rules<'_>, step: &TimeStep<'_>) -> Option<NearPair> {
     let closest = match known {
-        Some((known, place)) => &known.at_start[place],
+        Some((known, place)) => &known.at_start.found()[place],
         None => &pair.closest(step.start),
     };
     pair.refresh(closest.direction, step.start, rules.error);
@@ -193,7 +184,7 @@ fn near(pair: &mut Candidate, known: Option<(&Known, usize)>, rules: Rules<'_>, 
         return None;
     }
     if !pair.data.aim.is_own() {
-        let at_rest = || known.map_or_else(|| pair.closest(rules.rest), |(known, place)| known.at_rest[place]);
+        let at_rest = || known.map_or_else(|| pair.closest(rules.rest), |(known, place)| known.at_rest.found()[place]);
         pair.data.aim = Aim::own(thickness_of(pair, at_rest, rules)?);
     }
     Some(NearPair {
@@ -225,12 +216,8 @@ fn thickness_of(pair: &Candidate, closest_at_rest: impl FnOnce() -> Closest, rul
     let own = own.min(0.5 * closest.distance());
     let has_torn = || {
         let points = pair.points(rest);
-        distance_from_below(
-            pair.kind,
-            points,
-            closest.direction,
-            GapError::of_coordinates(largest_coordinate(&points)),
-        ) == 0.0
+        let error = GapError::of_coordinates(largest_coordinate(&points));
+        distance_from_below(pair.kind, points, closest.direction, error) == 0.0
     };
     Some(if exempt.is_parting(pair) || has_torn() {
         own.max(asked.of_neighbours())

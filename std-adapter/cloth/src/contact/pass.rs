@@ -21,15 +21,14 @@
 //!
 //! **Candidates** are good for several steps; what they hold is the [detector's](selvedge::verification::NearPairs).
 
-use super::candidate::{Candidate, impact, time_of_impact_of};
+use super::candidate::{Candidate, ClosestOfSome, impact, time_of_impact_of};
 use super::report::Blocker;
 use super::solver::{ContactSolver, gap_error};
 use crate::step::{FREE, TimeStep};
 use selvedge::PairKind;
 use selvedge::verification::{Level, parallel};
-use selvedge_core::batch::{LANES, closest_points};
+use selvedge_core::batch::LANES;
 use selvedge_core::glam::DVec3;
-use selvedge_core::separation::closest::Closest;
 use selvedge_core::separation::gap::GapError;
 use std::time::Instant;
 
@@ -102,7 +101,7 @@ impl ContactSolver {
         parallel::map_chunks(
             &mut candidates.list,
             |first, pairs, looked_at: &mut LookedAt| {
-                let mut unsettled = Unsettled::default();
+                let mut unsettled = Unsettled::new(*level, path, error);
                 for place in 0..pairs.len() {
                     let pair = &mut pairs[place];
                     let Some(separation) = separations.of(pair) else {
@@ -117,12 +116,12 @@ impl ContactSolver {
                         continue;
                     }
                     let kind = pair.kind;
-                    if unsettled.has_no_room_for(kind) {
-                        unsettled.settle(*level, pairs, path, error, |place| looked_at.open.push(first + place));
+                    if !unsettled.has_room_for(kind, pairs) {
+                        unsettled.settle(pairs, |place| looked_at.open.push(first + place));
                     }
-                    unsettled.add(kind, place, separation);
+                    unsettled.pairs.push((place, separation));
                 }
-                unsettled.settle(*level, pairs, path, error, |place| looked_at.open.push(first + place));
+                unsettled.settle(pairs, |place| looked_at.open.push(first + place));
             },
             &mut looked_at,
             |all, own| {
@@ -267,45 +266,37 @@ struct LookedAt {
 
 /// Up to sixteen pairs of one kind that no direction is known to keep apart: the next one is that of their closest points, found of all at
 /// once.
-#[derive(Default)]
-struct Unsettled {
-    kind: Option<PairKind>,
+struct Unsettled<'a> {
+    level: Level,
+    path: [&'a [DVec3]; 2],
+    error: GapError<f64>,
     /// The place of each, and its separation.
     pairs: Vec<(usize, f64)>,
-    points: [[DVec3; 4]; LANES],
-    closest: [Closest; LANES],
+    closest: ClosestOfSome,
 }
 
-impl Unsettled {
-    fn has_no_room_for(&self, kind: PairKind) -> bool {
-        self.pairs.len() == LANES || self.kind.is_some_and(|own| own != kind)
+impl<'a> Unsettled<'a> {
+    fn new(level: Level, path: [&'a [DVec3]; 2], error: GapError<f64>) -> Self {
+        Self {
+            level,
+            path,
+            error,
+            pairs: Vec::new(),
+            closest: ClosestOfSome::default(),
+        }
     }
 
-    fn add(&mut self, kind: PairKind, place: usize, separation: f64) {
-        self.kind = Some(kind);
-        self.pairs.push((place, separation));
+    fn has_room_for(&self, kind: PairKind, all: &[Candidate]) -> bool {
+        self.pairs.len() < LANES && self.pairs.last().is_none_or(|&(place, _)| all[place].kind == kind)
     }
 
     /// Settles which of them are free, tells the places of those that are not, in order, and holds none afterwards.
-    fn settle(
-        &mut self,
-        level: Level,
-        pairs: &mut [Candidate],
-        path: [&[DVec3]; 2],
-        error: GapError<f64>,
-        mut tell: impl FnMut(usize),
-    ) {
-        let Some(kind) = self.kind.take() else {
-            return;
-        };
-        let [_, end] = path;
-        let points = &mut self.points[..self.pairs.len()];
-        for (points, &(place, _)) in points.iter_mut().zip(&self.pairs) {
-            *points = pairs[place].points(end);
-        }
-        closest_points(level, kind, points, &mut self.closest);
-        for ((place, separation), closest) in self.pairs.drain(..).zip(&self.closest) {
-            let pair = &mut pairs[place];
+    fn settle(&mut self, all: &mut [Candidate], mut tell: impl FnMut(usize)) {
+        let (path, error) = (self.path, self.error);
+        let pairs = self.pairs.iter().map(|&(place, _)| &all[place]);
+        let closest = self.closest.find(self.level, pairs, path[1]);
+        for ((place, separation), closest) in self.pairs.drain(..).zip(closest) {
+            let pair = &mut all[place];
             let is_free = pair.keeps_apart_along(closest.direction, path, separation, error)
                 || is_free_by_time(pair, path, separation, error);
             if !is_free {
