@@ -32,6 +32,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
     const SMALLEST_NORMAL: f64 = 1.0 / (1_u64 << -Self::LOWEST_NORMAL) as f64;
     const LOWEST_NORMAL: i32 = 2 - (1 << (E - 1));
     const HIGHEST_NORMAL: i32 = (1 << (E - 1)) - 1;
+    const LARGEST: f64 = power_of_two(Self::HIGHEST_NORMAL) * (2.0 - power_of_two(-F.cast_signed()));
     const DIRECTION: u32 = ENVIRONMENT & 3;
     const FLUSHES: bool = ENVIRONMENT & FLUSHING != 0;
     const FITS: () = assert!(
@@ -47,9 +48,9 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
             return Self(value);
         }
         // The sum's last bit is worth a step of this format: f64's own rounding does the rest.
-        let shift = 1.5 * power_of_two(52) * Self::step(value);
+        let shift = const { 1.5 * power_of_two(52) } * Self::step(value);
         let rounded = (value + shift) - shift;
-        if rounded.abs() < power_of_two(Self::HIGHEST_NORMAL + 1) {
+        if rounded.abs() <= Self::LARGEST {
             // Keeps the sign of zero.
             Self(rounded.copysign(value))
         } else {
@@ -68,11 +69,10 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
                 DOWNWARD => false,
                 _ => value < 0.0,
             };
-            let largest = power_of_two(Self::HIGHEST_NORMAL) * (2.0 - power_of_two(-F.cast_signed()));
             // From the nearest number, one step further where it lies on the wrong side.
             if number.0.is_infinite() {
                 let goes_on = upwards == (value > 0.0);
-                number.0 = if goes_on { number.0 } else { largest.copysign(value) };
+                number.0 = if goes_on { number.0 } else { Self::LARGEST.copysign(value) };
             } else if upwards && number.0 < value {
                 number = Self::nearest(number.0 + Self::step(value));
             } else if !upwards && number.0 > value {
@@ -88,7 +88,7 @@ impl<const E: u32, const F: u32, const ENVIRONMENT: u32> Minifloat<E, F, ENVIRON
     }
 
     fn flushed(self) -> Self {
-        if self.0.abs() < power_of_two(Self::LOWEST_NORMAL) {
+        if self.0.abs() < Self::SMALLEST_NORMAL {
             Self(0.0_f64.copysign(self.0))
         } else {
             self

@@ -76,9 +76,10 @@ pub trait Format: Scalar {
 ///
 /// # Panics
 /// If that is no normal number.
-pub(crate) fn power_of_two(exponent: i32) -> f64 {
-    assert!((-1022..1024).contains(&exponent), "2^{exponent} is not normal");
-    f64::from_bits(u64::from((exponent + 1023).cast_unsigned()) << 52)
+#[inline]
+pub(crate) const fn power_of_two(exponent: i32) -> f64 {
+    assert!(-1022 <= exponent && exponent < 1024, "2^exponent is not normal");
+    f64::from_bits(((exponent + 1023).cast_unsigned() as u64) << 52)
 }
 
 impl Format for f32 {

@@ -8,6 +8,7 @@ use selvedge_laboratory::study::elementary::{ElementaryAccuracy, measure_element
 use selvedge_laboratory::study::{Accuracy as FilterAccuracy, AccuracyOptions, TwoFrames, measure_accuracy};
 use serde_json::{Map, Value};
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Measures what accuracy costs in time: every non-coplanarity filter on the same pairs, and every elementary test.
 ///
@@ -50,6 +51,9 @@ pub(crate) struct Accuracy {
     /// Cull only pairs that stay farther apart than this, in the positions' unit
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = separation)]
     separation: f64,
+    /// How many seconds one elementary test may take on one set; what is slower is asked about fewer pairs
+    #[arg(long, value_name = "SECONDS", default_value = "0.4", value_parser = budget)]
+    budget: Duration,
     /// Print one JSON document instead of tables, or write it to a file
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
     json: Option<PathBuf>,
@@ -78,6 +82,15 @@ fn separation(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A time that a clock can measure.
+fn budget(text: &str) -> Result<Duration, String> {
+    let seconds: f64 = text.parse().map_err(|_| "it is not a number")?;
+    match Duration::try_from_secs_f64(seconds) {
+        Ok(budget) if !budget.is_zero() => Ok(budget),
+        _ => Err("it must be a number of seconds, more than zero".to_owned()),
+    }
+}
+
 impl Accuracy {
     pub(crate) fn run(&self) -> Result<(), Failure> {
         let json_file = self.json.as_ref().filter(|path| path.as_os_str() != "-");
@@ -103,6 +116,7 @@ impl Accuracy {
             repeat: self.repeat,
             seed: self.seed,
             separation: self.separation,
+            budget: self.budget,
         };
         let filters = self.measures(Part::Filters).then(|| {
             let progress = Progress::bar("filters");

@@ -200,8 +200,18 @@ impl Run {
 
     /// `selvedge accuracy`, both parts; the document goes to `rows.json`.
     pub(crate) fn of_accuracy() -> &'static Self {
-        static RUN: LazyLock<Run> =
-            LazyLock::new(|| Run::new(&["accuracy", "--pairs", "300", "--repeat", "1", "--json=rows.json"]));
+        static RUN: LazyLock<Run> = LazyLock::new(|| {
+            Run::new(&[
+                "accuracy",
+                "--pairs",
+                "300",
+                "--repeat",
+                "1",
+                "--budget",
+                "0.05",
+                "--json=rows.json",
+            ])
+        });
         &RUN
     }
 }

@@ -153,6 +153,7 @@ mod tests {
     use super::*;
     use crate::study::AccuracyOptions;
     use roxmltree::Document;
+    use std::time::Duration;
 
     /// A set of 100,000 pairs of which 90,000 can be culled; every filter takes 3 ns in lanes and keeps `kept` of them.
     fn set(scalar: &'static str, cullable: usize, kept: usize) -> AccuracySet {
@@ -188,6 +189,7 @@ mod tests {
             repeat: 1,
             seed: 1,
             separation: 0.0,
+            budget: Duration::ZERO,
         };
         accuracy_svg(&Accuracy { options, sets })
     }

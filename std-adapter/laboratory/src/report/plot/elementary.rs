@@ -171,6 +171,7 @@ mod tests {
     use super::*;
     use crate::study::AccuracyOptions;
     use crate::study::elementary::METHODS;
+    use std::time::Duration;
 
     fn plot() -> String {
         let rows = METHODS.map(|method| ElementaryRow {
@@ -203,6 +204,7 @@ mod tests {
             repeat: 1,
             seed: 1,
             separation: 0.0,
+            budget: Duration::ZERO,
         };
         elementary_svg(&ElementaryAccuracy {
             options,

@@ -33,6 +33,7 @@ use crate::methods::MeasuredFilter;
 use crate::scene::ArmScene;
 use selvedge::glam::DVec3;
 use std::error::Error;
+use std::time::Duration;
 
 /// How the filters are measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +47,8 @@ pub struct AccuracyOptions {
     /// What pairs must stay farther apart than, in the unit of the positions; rounded to the format in use. Neither
     /// negative nor infinite.
     pub separation: f64,
+    /// How long one elementary test may take on one set in one format, or a little more.
+    pub budget: Duration,
 }
 
 /// Every filter on every set.
@@ -269,6 +272,7 @@ mod tests {
             repeat: 1,
             seed: 7,
             separation,
+            budget: Duration::ZERO,
         };
         measure_accuracy::<TwoFrames>(None, options, &mut |_| ()).unwrap()
     }
@@ -285,6 +289,7 @@ mod tests {
             repeat: 1,
             seed: 0,
             separation: 0.0,
+            budget: Duration::ZERO,
         };
         let accuracy = measure_accuracy::<TwoFrames>(None, options, &mut |share| shares.push(share)).unwrap();
         let scalars: Vec<_> = accuracy.sets.iter().map(|set| set.scalar).collect();

@@ -1,13 +1,13 @@
 //! The clock and the counts, on one set of pairs in one format.
 
-use super::{BUDGET, ElementaryRow, ElementarySet, ExactAnswer, METHODS, Questions};
+use super::{ElementaryRow, ElementarySet, ExactAnswer, METHODS, Questions};
 use crate::methods::ElementaryTest;
 use crate::study::AccuracyOptions;
 use fastrand::Rng;
 use selvedge_core::{PairKind, Scalar};
 use std::hint::black_box;
 use std::ops::Range;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// So many pairs go through a test between two looks at the clock, which takes as long as one pair of the fastest test.
 const CHUNK: usize = 16;
@@ -22,7 +22,7 @@ pub(super) fn measure<S: Scalar>(
     let order = chunks(pairs.len(), options.seed);
     let mut rows = Vec::new();
     for method in METHODS {
-        rows.push(ask(method, questions, &order, options.repeat));
+        rows.push(ask(method, questions, &order, options));
         progress(rows.len() as f64 / METHODS.len() as f64);
     }
     let vertex_face = pairs.iter().filter(|pair| pair.kind == PairKind::VertexFace).count();
@@ -47,28 +47,34 @@ fn chunks(pairs: usize, seed: u64) -> Vec<Range<usize>> {
     chunks
 }
 
-fn ask<S: Scalar>(method: ElementaryTest, questions: &Questions<S>, order: &[Range<usize>], repeat: u32) -> ElementaryRow {
+fn ask<S: Scalar>(
+    method: ElementaryTest,
+    questions: &Questions<S>,
+    order: &[Range<usize>],
+    options: AccuracyOptions,
+) -> ElementaryRow {
+    let AccuracyOptions { repeat, budget, .. } = options;
     let mut tally = Tally::default();
     let mut answers = [None; CHUNK];
     let begin = Instant::now();
     for chunk in order {
-        if begin.elapsed().as_secs_f64() > BUDGET {
+        if begin.elapsed() > budget {
             break;
         }
         let pairs = &questions.pairs[chunk.clone()];
-        let mut fastest = f64::INFINITY;
+        let mut fastest = Duration::MAX;
         for _ in 0..repeat.max(1) {
             let begin = Instant::now();
             for (pair, answer) in pairs.iter().zip(&mut answers) {
                 *answer = black_box(method.time(black_box(pair)));
             }
-            fastest = fastest.min(begin.elapsed().as_secs_f64());
+            fastest = fastest.min(begin.elapsed());
             // What takes long is not worth repeating; an interruption by another process, some 10 ms, is.
-            if fastest > BUDGET / 8.0 {
+            if fastest > budget / 8 {
                 break;
             }
         }
-        tally.seconds += fastest;
+        tally.seconds += fastest.as_secs_f64();
         for (answer, truth) in answers.iter().zip(&questions.truth[chunk.clone()]) {
             tally.count(answer.map(S::to_f64), truth);
         }

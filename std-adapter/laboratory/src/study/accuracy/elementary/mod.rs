@@ -3,7 +3,7 @@
 //! # Pairs
 //! The [hard cases](crate::hard_cases), as far as a format holds them exactly; candidates of real steps and nearly coplanar pairs, as for
 //! the filters, of which those are asked whose swept boxes overlap. A test that is slow is asked about fewer of them: in
-//! random order until [`BUDGET`] seconds are over. Its counts are of the pairs that it was asked about.
+//! random order until its [budget](AccuracyOptions::budget) is over. Its counts are of the pairs that it was asked about.
 //!
 //! # Truth
 //! *Whether* a pair touches is decided exactly, in whole numbers, by [`selvedge_core::elementary::contact`](mod@contact), on
@@ -36,9 +36,6 @@ use std::error::Error;
 
 #[cfg(doc)]
 use selvedge_core::elementary::{advance::certain_contact, contact};
-
-/// Seconds that one test may take on one set in one format, or a little more.
-pub const BUDGET: f64 = 0.4;
 
 /// The tolerances that tests are asked with, in units of length.
 const TOLERANCES: [f64; 7] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12];

@@ -3,6 +3,7 @@ use crate::study::TwoFrames;
 use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
 use std::sync::LazyLock;
+use std::time::Duration;
 
 /// For all who look at it: seconds of exact arithmetic.
 static MEASURED: LazyLock<ElementaryAccuracy> = LazyLock::new(|| {
@@ -11,6 +12,7 @@ static MEASURED: LazyLock<ElementaryAccuracy> = LazyLock::new(|| {
         repeat: 1,
         seed: 7,
         separation: 0.0,
+        budget: Duration::from_millis(50),
     };
     measure_elementary_accuracy::<TwoFrames>(None, options, &mut |_| ()).unwrap()
 });
