@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Runs every test of the project: all crates, their documentation's examples, and the kept inputs of the fuzz targets.
+# Runs every test of the workspace: all crates, their documentation's examples, and the kept inputs of the fuzz targets. What has a lock
+# file of its own has a command of its own, which .ci/run calls: std-adapter/python/check.sh, std-adapter/bevy/check.sh.
 # Needs Rust (rustup), a C compiler and make. `cargo run --release`, the main job, needs Rust alone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -63,14 +64,6 @@ is_there m4 || install_m4
 
 say "every crate: its own tests, exact oracle and properties, kept inputs of the fuzz targets"
 # Examples and benchmarks are compiled by .ci/run's lints.
-cargo test --workspace --tests --no-run
-
-# Mostly one core's work, beside what follows; it asks the command, which has just been built.
-python_log=$(mktemp)
-SELVEDGE_COMMAND=${CARGO_TARGET_DIR:-$PWD/target}/debug/selvedge std-adapter/python/check.sh --present >"$python_log" 2>&1 </dev/null &
-python_check=$!
-trap 'kill "$python_check" 2>/dev/null || true' EXIT
-
 cargo test --workspace --tests
 say "a program in development: every kernel and the whole detector without optimisation, in little stack"
 cargo test --profile dev --package selvedge --test builds_without_optimisation
@@ -85,12 +78,5 @@ if [ "${PROOFS:-}" != apart ]; then
     say "from rounding to geometry: Coq's proofs, where it is installed"
     verification/proofs/check.sh --present
 fi
-
-wait "$python_check" || {
-    cat "$python_log" >&2
-    give_up "the package for Python is not as it should be (std-adapter/python/check.sh)"
-}
-cat "$python_log"
-rm -f "$python_log"
 
 say "all tests passed in $SECONDS s"
