@@ -51,7 +51,7 @@ pub(crate) struct Accuracy {
     /// Cull only pairs that stay farther apart than this, in the positions' unit
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = separation)]
     separation: f64,
-    /// How many seconds one elementary test may take on one set; what is slower is asked about fewer pairs
+    /// How many seconds one elementary test may take on one set; what is slower is asked about fewer pairs, some at least
     #[arg(long, value_name = "SECONDS", default_value = "0.4", value_parser = budget)]
     budget: Duration,
     /// Print one JSON document instead of tables, or write it to a file
@@ -85,10 +85,7 @@ fn separation(text: &str) -> Result<f64, String> {
 /// A time that a clock can measure.
 fn budget(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| "it is not a number")?;
-    match Duration::try_from_secs_f64(seconds) {
-        Ok(budget) if !budget.is_zero() => Ok(budget),
-        _ => Err("it must be a number of seconds, more than zero".to_owned()),
-    }
+    Duration::try_from_secs_f64(seconds).map_err(|_| "it must be a number of seconds, zero or more".to_owned())
 }
 
 impl Accuracy {

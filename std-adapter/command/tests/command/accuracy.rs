@@ -1,21 +1,10 @@
 //! `selvedge accuracy`.
 
-use crate::support::{Run, Workplace, keys};
+use crate::support::{ACCURACY, Run, Workplace, keys};
 use serde_json::Value;
 
 /// Small enough for a test.
 const SHORT: [&str; 7] = ["accuracy", "--only", "filters", "--pairs", "1500", "--repeat", "1"];
-const ELEMENTARY: [&str; 9] = [
-    "accuracy",
-    "--only",
-    "elementary",
-    "--pairs",
-    "300",
-    "--repeat",
-    "1",
-    "--budget",
-    "0.05",
-];
 
 fn rows(document: &Value) -> &Vec<Value> {
     document["rows"].as_array().unwrap()
@@ -144,7 +133,7 @@ fn files_are_written_and_the_table_printed() {
 fn elementary_tests_are_measured_at_every_tolerance_and_the_unsafe_ones_are_caught() {
     let place = Workplace::with_step();
     let outputs = ["start.obj", "end.obj", "--json=rows.json", "--elementary-svg", "plot.svg"];
-    let text = place.stdout(&[&ELEMENTARY[..], &outputs].concat());
+    let text = place.stdout(&[&ACCURACY[..], &["--only", "elementary"], &outputs].concat());
     assert!(text.contains("without_bounds!") && text.contains("! not certified"));
     assert!(!text.contains("certified!") && !text.contains("exact!"), "{text}");
     let document: Value = serde_json::from_str(&place.read("rows.json")).unwrap();
@@ -174,22 +163,6 @@ fn elementary_tests_are_measured_at_every_tolerance_and_the_unsafe_ones_are_caug
         assert!(plot.contains(label), "{label}");
     }
     assert!(!plot.contains("NaN"));
-}
-
-#[test]
-fn a_budget_is_a_time_of_some_length() {
-    for wrong in ["0", "-1", "NaN", "1e99"] {
-        let message = Workplace::new().refusal(2, &["accuracy", &format!("--budget={wrong}")]);
-        assert!(
-            message.contains("--budget") && message.contains("more than zero"),
-            "{message}"
-        );
-    }
-    let message = Workplace::new().refusal(2, &["accuracy", "--budget=soon"]);
-    assert!(
-        message.contains("--budget") && message.contains("it is not a number"),
-        "{message}"
-    );
 }
 
 #[test]

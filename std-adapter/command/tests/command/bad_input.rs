@@ -233,6 +233,10 @@ fn a_frame_too_few_or_a_number_out_of_range_is_refused() {
         &["accuracy", "--separation=-1"],
         &["accuracy", "--separation", "nan"],
         &["accuracy", "--separation", "1e39"],
+        &["accuracy", "--budget=-1"],
+        &["accuracy", "--budget", "nan"],
+        &["accuracy", "--budget", "1e99"],
+        &["accuracy", "--budget", "soon"],
         &["cull", "start.obj", "end.obj", "--scalar", "f16"],
         &["simulat"],
     ] {

@@ -200,21 +200,13 @@ impl Run {
 
     /// `selvedge accuracy`, both parts; the document goes to `rows.json`.
     pub(crate) fn of_accuracy() -> &'static Self {
-        static RUN: LazyLock<Run> = LazyLock::new(|| {
-            Run::new(&[
-                "accuracy",
-                "--pairs",
-                "300",
-                "--repeat",
-                "1",
-                "--budget",
-                "0.05",
-                "--json=rows.json",
-            ])
-        });
+        static RUN: LazyLock<Run> = LazyLock::new(|| Run::new(&[&ACCURACY[..], &["--json=rows.json"]].concat()));
         &RUN
     }
 }
+
+/// `selvedge accuracy`, both parts, short enough for a test.
+pub(crate) const ACCURACY: [&str; 4] = ["accuracy", "--pairs=300", "--repeat=1", "--budget=0.05"];
 
 /// The keys of a JSON object, in order.
 #[track_caller]

@@ -35,19 +35,20 @@ use selvedge::glam::DVec3;
 use std::error::Error;
 use std::time::Duration;
 
-/// How the filters are measured.
+/// How filters and elementary tests are measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AccuracyOptions {
     /// At most so many pairs in each set.
     pub pairs: usize,
-    /// How often each chunk goes through each filter; the fastest counts.
+    /// How often each chunk goes through each filter or test; the fastest counts.
     pub repeat: u32,
     /// Where random pairs begin.
     pub seed: u64,
     /// What pairs must stay farther apart than, in the unit of the positions; rounded to the format in use. Neither
     /// negative nor infinite.
     pub separation: f64,
-    /// How long one elementary test may take on one set in one format, or a little more.
+    /// How long one elementary test may take on one set in one format, or a little more: it is asked about sixteen pairs at least. Of filters
+    /// nothing.
     pub budget: Duration,
 }
 

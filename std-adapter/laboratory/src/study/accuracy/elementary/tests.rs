@@ -6,16 +6,32 @@ use std::sync::LazyLock;
 use std::time::Duration;
 
 /// For all who look at it: seconds of exact arithmetic.
-static MEASURED: LazyLock<ElementaryAccuracy> = LazyLock::new(|| {
+static MEASURED: LazyLock<ElementaryAccuracy> = LazyLock::new(|| measured(2000, Duration::from_millis(50)));
+
+fn measured(pairs: usize, budget: Duration) -> ElementaryAccuracy {
     let options = AccuracyOptions {
-        pairs: 2000,
+        pairs,
         repeat: 1,
         seed: 7,
         separation: 0.0,
-        budget: Duration::from_millis(50),
+        budget,
     };
     measure_elementary_accuracy::<TwoFrames>(None, options, &mut |_| ()).unwrap()
-});
+}
+
+#[test]
+fn a_budget_cuts_pairs_but_leaves_a_time_of_some_however_short_it_is() {
+    let sets = measured(100, Duration::ZERO).sets;
+    for set in sets.iter().filter(|set| set.vertex_face + set.edge_edge > 0) {
+        for row in &set.rows {
+            assert!(
+                (1..=16).contains(&row.asked) && row.nanoseconds > 0.0,
+                "{}: {row:?}",
+                set.name
+            );
+        }
+    }
+}
 
 #[test]
 fn certified_tests_miss_nothing_and_are_never_late_and_the_others_are_caught() {
