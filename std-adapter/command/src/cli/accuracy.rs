@@ -5,7 +5,7 @@ use super::output::{self, OutputFiles};
 use super::progress::Progress;
 use selvedge_laboratory::report::{accuracy_svg, elementary_svg, json, tables};
 use selvedge_laboratory::study::elementary::{ElementaryAccuracy, measure_elementary_accuracy};
-use selvedge_laboratory::study::{Accuracy as FilterAccuracy, AccuracyOptions, TwoFrames, measure_accuracy};
+use selvedge_laboratory::study::{Accuracy as FilterAccuracy, AccuracyOptions, Frames, TwoFrames, measure_accuracy};
 use serde_json::{Map, Value};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -108,6 +108,7 @@ impl Accuracy {
             }
         }
         let mesh = self.mesh()?;
+        let mesh = mesh.as_ref().map(|mesh| mesh as &dyn Frames);
         let options = AccuracyOptions {
             pairs: self.pairs as usize,
             repeat: self.repeat,
@@ -117,13 +118,13 @@ impl Accuracy {
         };
         let filters = self.measures(Part::Filters).then(|| {
             let progress = Progress::bar("filters");
-            measure_accuracy(mesh.as_ref(), options, &mut |share| progress.set(share))
+            measure_accuracy(mesh, options, &mut |share| progress.set(share))
         });
         let filters = filters.transpose()?;
         let elementary = self.measures(Part::Elementary).then(|| {
             let progress = Progress::bar("elementary tests");
             let set = &mut |share| progress.set(share);
-            measure_elementary_accuracy(mesh.as_ref(), options, set)
+            measure_elementary_accuracy(mesh, options, set)
         });
         let elementary = elementary.transpose()?;
 

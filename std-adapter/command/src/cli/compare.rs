@@ -112,7 +112,7 @@ impl Compare {
         Ok(frames)
     }
 
-    fn run_on(&self, frames: &impl Frames) -> Result<(), Failure> {
+    fn run_on(&self, frames: &dyn Frames) -> Result<(), Failure> {
         if let Some(path) = &self.csv {
             OutputFiles::check(path)?;
         }
@@ -147,7 +147,7 @@ impl Compare {
 }
 
 impl Run {
-    pub(super) fn compare(&self, frames: &impl Frames, presets: &[Preset]) -> Result<Comparison, Failure> {
+    pub(super) fn compare(&self, frames: &dyn Frames, presets: &[Preset]) -> Result<Comparison, Failure> {
         let progress = Progress::bar("comparing");
         let rounds = self.rounds as usize;
         study::compare(frames, presets, self.threads.get(), rounds, &mut |share| {
@@ -175,7 +175,7 @@ fn read_frames(start: &Path, end: &Path) -> Result<TwoFrames, Failure> {
 pub(super) fn add_report(
     files: &mut OutputFiles,
     folder: &Path,
-    frames: &impl Frames,
+    frames: &dyn Frames,
     comparison: &Comparison,
 ) -> Result<(), Failure> {
     let _progress = Progress::spinner("drawing");

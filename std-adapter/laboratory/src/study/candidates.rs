@@ -22,7 +22,7 @@ pub struct StepCandidates {
 /// # Errors
 /// If threads cannot be started or a frame is not finite.
 pub fn step_candidates(
-    frames: &impl Frames,
+    frames: &dyn Frames,
     step: usize,
     preset: Preset,
     threads: usize,
@@ -43,7 +43,7 @@ pub fn step_candidates(
 ///
 /// # Errors
 /// If threads cannot be started or a frame is not finite.
-pub fn busiest_step(frames: &impl Frames, preset: Preset, threads: usize) -> Result<usize, Box<dyn Error + Send + Sync>> {
+pub fn busiest_step(frames: &dyn Frames, preset: Preset, threads: usize) -> Result<usize, Box<dyn Error + Send + Sync>> {
     let mut pipeline = Pipeline::<f64>::new(frames.topology().clone(), preset.stages(), threads)?;
     let (mut start, mut end) = (Vec::new(), Vec::new());
     let mut busiest = (0, 0);

@@ -91,7 +91,7 @@ impl Comparison {
 /// # Errors
 /// If threads cannot be started or a frame is not finite.
 pub fn compare(
-    frames: &impl Frames,
+    frames: &dyn Frames,
     presets: &[Preset],
     threads: usize,
     rounds: usize,

@@ -23,7 +23,7 @@ pub struct ScalingPoint {
 /// # Errors
 /// If threads cannot be started or a frame is not finite.
 pub fn measure_size(
-    frames: &impl Frames,
+    frames: &dyn Frames,
     step: usize,
     preset: Preset,
     threads: usize,

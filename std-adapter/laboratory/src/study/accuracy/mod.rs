@@ -204,11 +204,11 @@ fn arm_steps() -> impl Iterator<Item = usize> {
     (ARM_STRIDE - 1..ArmScene::STEPS).step_by(ARM_STRIDE)
 }
 
-fn scene_pairs<F: Frames>(mesh: Option<&F>, options: AccuracyOptions) -> Result<ScenePairs, Box<dyn Error + Send + Sync>> {
+fn scene_pairs(mesh: Option<&dyn Frames>, options: AccuracyOptions) -> Result<ScenePairs, Box<dyn Error + Send + Sync>> {
     let AccuracyOptions { pairs, seed, .. } = options;
     let arm = arm_frames()?;
     let here: Vec<_> = arm_steps().map(|step| (step, DVec3::ZERO)).collect();
-    let of_mesh = |mesh: &F| {
+    let of_mesh = |mesh: &dyn Frames| {
         let steps: Vec<_> = (0..mesh.step_count()).map(|step| (step, DVec3::ZERO)).collect();
         PairSet::of_steps(mesh.name(), mesh, &steps, pairs)
     };
@@ -229,8 +229,8 @@ fn scene_pairs<F: Frames>(mesh: Option<&F>, options: AccuracyOptions) -> Result<
 ///
 /// # Errors
 /// If threads cannot be started, a frame is not finite, or backends disagree.
-pub fn measure_accuracy<F: Frames>(
-    mesh: Option<&F>,
+pub fn measure_accuracy(
+    mesh: Option<&dyn Frames>,
     options: AccuracyOptions,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Accuracy, Box<dyn Error + Send + Sync>> {
@@ -265,7 +265,6 @@ pub fn measure_accuracy<F: Frames>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::TwoFrames;
 
     fn measured(separation: f64) -> Accuracy {
         let options = AccuracyOptions {
@@ -275,7 +274,7 @@ mod tests {
             separation,
             budget: Duration::ZERO,
         };
-        measure_accuracy::<TwoFrames>(None, options, &mut |_| ()).unwrap()
+        measure_accuracy(None, options, &mut |_| ()).unwrap()
     }
 
     fn row(set: &AccuracySet, filter: MeasuredFilter) -> &AccuracyRow {
@@ -292,7 +291,7 @@ mod tests {
             separation: 0.0,
             budget: Duration::ZERO,
         };
-        let accuracy = measure_accuracy::<TwoFrames>(None, options, &mut |share| shares.push(share)).unwrap();
+        let accuracy = measure_accuracy(None, options, &mut |share| shares.push(share)).unwrap();
         let scalars: Vec<_> = accuracy.sets.iter().map(|set| set.scalar).collect();
         assert_eq!(scalars, ["f32", "f64"].repeat(3));
         assert!(shares.is_sorted() && shares.last() == Some(&1.0), "{shares:?}");

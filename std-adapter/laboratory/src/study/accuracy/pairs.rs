@@ -53,7 +53,7 @@ impl PairSet {
     /// If threads cannot be started or a frame is not finite.
     pub fn of_steps(
         name: String,
-        frames: &impl Frames,
+        frames: &dyn Frames,
         steps: &[(usize, DVec3)],
         pairs: usize,
     ) -> Result<Self, Box<dyn Error + Send + Sync>> {

@@ -131,8 +131,8 @@ struct Questions<S: Scalar> {
 ///
 /// # Errors
 /// If threads cannot be started or a frame is not finite.
-pub fn measure_elementary_accuracy<F: Frames>(
-    mesh: Option<&F>,
+pub fn measure_elementary_accuracy(
+    mesh: Option<&dyn Frames>,
     options: AccuracyOptions,
     progress: &mut dyn FnMut(f64),
 ) -> Result<ElementaryAccuracy, Box<dyn Error + Send + Sync>> {

@@ -1,5 +1,4 @@
 use super::*;
-use crate::study::TwoFrames;
 use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
 use std::sync::LazyLock;
@@ -16,7 +15,7 @@ fn measured(pairs: usize, budget: Duration) -> ElementaryAccuracy {
         separation: 0.0,
         budget,
     };
-    measure_elementary_accuracy::<TwoFrames>(None, options, &mut |_| ()).unwrap()
+    measure_elementary_accuracy(None, options, &mut |_| ()).unwrap()
 }
 
 #[test]
