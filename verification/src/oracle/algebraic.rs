@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 /// Equality and order are those of the numbers.
 #[derive(Clone, Debug)]
 pub struct AlgebraicTime {
-    /// Square-free; has this root.
+    /// Has this root once, and no other in the interval.
     polynomial: Polynomial,
     place: Place,
 }
@@ -55,6 +55,27 @@ impl AlgebraicTime {
         if polynomial.degree() == 0 {
             return roots;
         }
+        // Most have no root in the step, or one: then Descartes' rule is as sharp as Sturm's theorem, and takes sums alone.
+        let signs = [0, 1].map(|t| polynomial.sign_at_dyadic(&Integer::from(t), 0));
+        match (polynomial.sign_changes_inside(), signs) {
+            (0, _) => {
+                let ends = (0..).zip(signs).filter(|(_, sign)| sign.is_eq());
+                return ends.map(|(end, _)| Self::rational(Rational::from(end))).collect();
+            }
+            (1, [low, high]) if low.is_ne() && high.is_ne() => {
+                let place = Place::Isolated {
+                    index: Integer::new(),
+                    bits: 0,
+                    sign_at_low: low,
+                    pace: 1,
+                };
+                return vec![Self {
+                    polynomial: polynomial.clone().primitive(),
+                    place,
+                }];
+            }
+            _ => {}
+        }
         let isolation = Isolation(SturmSequence::new(polynomial));
         let (low, high) = (isolation.end(&Integer::from(0), 0), isolation.end(&Integer::from(1), 0));
         if low.sign.is_eq() {
@@ -67,7 +88,7 @@ impl AlgebraicTime {
         roots
     }
 
-    /// A square-free polynomial that has this root.
+    /// A polynomial that has this root, once.
     #[must_use]
     pub fn polynomial(&self) -> &Polynomial {
         &self.polynomial
@@ -250,8 +271,8 @@ impl Signs<Polynomial> for AlgebraicTime {
                 return sign;
             }
             if !is_not_zero && bits >= BITS_BEFORE_GCD {
-                // A common factor is square-free like the polynomial, and not zero at the ends of the
-                // interval: it has the root if it changes sign.
+                // A common factor has this root at most once and no other in the interval, like the polynomial, and is not zero at
+                // the ends: it has the root if it changes sign.
                 let common = self.polynomial.gcd(value);
                 let sign_at_low = common.sign_at_dyadic(index, bits);
                 if sign_at_low != common.sign_at_dyadic(&Integer::from(index + 1), bits) {
@@ -372,5 +393,44 @@ impl Isolation {
             });
         }
         self.inside(right, bits + 1, &middle, high, roots);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::oracle::geometry::Ring;
+    use proptest::prelude::*;
+
+    /// Products of small factors: roots at both ends, in between and outside, single and repeated, and none.
+    fn polynomials() -> impl Strategy<Value = Polynomial> {
+        let factor = prop::collection::vec(-4..=4, 2..=4);
+        let factors = prop::collection::vec(factor, 1..=3);
+        let product = factors.prop_map(|factors| {
+            let factors = factors
+                .into_iter()
+                .map(|own| Polynomial::new(own.into_iter().map(Integer::from).collect()));
+            factors.reduce(|a, b| a.product(&b)).expect("one factor at least")
+        });
+        product.prop_filter("every number is a root of zero", |product| !product.is_zero())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4_000))]
+
+        #[test]
+        fn roots_are_those_that_sturm_counts_and_in_order(polynomial in polynomials()) {
+            let sequence = SturmSequence::new(&polynomial);
+            let at = |t: i32| sequence.variations(&Integer::from(t), 0);
+            let at_start = usize::from(polynomial.sign_at_dyadic(&Integer::from(0), 0).is_eq());
+            let roots = AlgebraicTime::roots(&polynomial);
+            prop_assert_eq!(roots.len(), at(0) - at(1) + at_start);
+            prop_assert!(roots.is_sorted_by(|a, b| a < b));
+            for mut root in roots {
+                prop_assert!(root.sign(&polynomial).is_eq());
+                let common = root.polynomial().gcd(&polynomial);
+                prop_assert!(root.sign(&common).is_eq(), "{root:?} is a root of another polynomial");
+            }
+        }
     }
 }

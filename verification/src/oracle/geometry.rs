@@ -7,10 +7,10 @@ use super::polynomial::Polynomial;
 use rug::Integer;
 use std::cmp::Ordering;
 
-/// Addition, subtraction and multiplication.
+/// Addition, subtraction and multiplication; the first two in place, as numbers are long.
 pub(crate) trait Ring: Clone {
-    fn sum(&self, other: &Self) -> Self;
-    fn difference(&self, other: &Self) -> Self;
+    fn sum(self, other: &Self) -> Self;
+    fn difference(self, other: &Self) -> Self;
     fn product(&self, other: &Self) -> Self;
 }
 
@@ -29,11 +29,11 @@ impl Signs<Integer> for AtRest {
 }
 
 impl Ring for Integer {
-    fn sum(&self, other: &Self) -> Self {
-        Integer::from(self + other)
+    fn sum(self, other: &Self) -> Self {
+        self + other
     }
-    fn difference(&self, other: &Self) -> Self {
-        Integer::from(self - other)
+    fn difference(self, other: &Self) -> Self {
+        self - other
     }
     fn product(&self, other: &Self) -> Self {
         Integer::from(self * other)
@@ -41,26 +41,11 @@ impl Ring for Integer {
 }
 
 impl Ring for Polynomial {
-    fn sum(&self, other: &Self) -> Self {
-        let (long, short) = if self.coefficients().len() < other.coefficients().len() {
-            (other, self)
-        } else {
-            (self, other)
-        };
-        let mut sum = long.coefficients().to_vec();
-        for (s, c) in sum.iter_mut().zip(short.coefficients()) {
-            *s += c;
-        }
-        Self::new(sum)
+    fn sum(self, other: &Self) -> Self {
+        self.combined(other, |own, c| *own += c)
     }
-    fn difference(&self, other: &Self) -> Self {
-        let (a, b) = (self.coefficients(), other.coefficients());
-        let mut difference = a.to_vec();
-        difference.resize(a.len().max(b.len()), Integer::new());
-        for (d, c) in difference.iter_mut().zip(b) {
-            *d -= c;
-        }
-        Self::new(difference)
+    fn difference(self, other: &Self) -> Self {
+        self.combined(other, |own, c| *own -= c)
     }
     fn product(&self, other: &Self) -> Self {
         let (a, b) = (self.coefficients(), other.coefficients());
@@ -81,7 +66,7 @@ pub(crate) type Point<R> = [R; 3];
 pub(crate) const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
 pub(crate) fn subtract<R: Ring>(a: &Point<R>, b: &Point<R>) -> Point<R> {
-    [0, 1, 2].map(|axis| a[axis].difference(&b[axis]))
+    [0, 1, 2].map(|axis| a[axis].clone().difference(&b[axis]))
 }
 
 pub(crate) fn dot<R: Ring>(a: &Point<R>, b: &Point<R>) -> R {

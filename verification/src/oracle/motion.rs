@@ -102,7 +102,7 @@ impl Motion {
         std::array::from_fn(|point| {
             std::array::from_fn(|axis| {
                 let (start, end) = (&self.start[point][axis], &self.end[point][axis]);
-                Polynomial::new(vec![start.clone(), end.difference(start)])
+                Polynomial::new(vec![start.clone(), end.clone().difference(start)])
             })
         })
     }

@@ -213,7 +213,12 @@ fn features<R: Ring>(kind: PairKind, points: &[Point<R>; 4], squared: &R) -> Vec
                 // The closest points are at these parts of the edges, times `extent`.
                 let first = dot(&normal, &cross(&between, &along_second));
                 let second = dot(&normal, &cross(&between, &along_first));
-                vec![extent.difference(&first), extent.difference(&second), first, second]
+                vec![
+                    extent.clone().difference(&first),
+                    extent.clone().difference(&second),
+                    first,
+                    second,
+                ]
             }));
         }
     }
