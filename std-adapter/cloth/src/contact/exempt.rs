@@ -123,7 +123,7 @@ impl Tangle {
 
     /// Looks at a state anew. `parting` are pairs, in order, that are left out even if they are not about what meets.
     pub(super) fn look(&mut self, interest: &OfContact, parting: Vec<PairKey>, positions: &[DVec3]) -> Result<(), StepError> {
-        debug_assert!(parting.is_sorted(), "they are looked up by halving");
+        assert!(parting.is_sorted(), "they are looked up by halving");
         let found = self.finder.find(positions, |a, b| interest.body_of_pair(a, b).is_some())?;
         self.intersections.clear();
         self.intersections.extend_from_slice(found);

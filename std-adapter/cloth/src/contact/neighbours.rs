@@ -19,11 +19,9 @@ pub(super) fn are_many(topology: &Arc<Topology>, rest: &[DVec3], cloth_vertices:
     };
     let mut broad_phase = MovingBroadPhase::new(Arc::clone(topology));
     let is_cloth = |vertex: usize| vertex < cloth_vertices;
-    let accepted = broad_phase.set_separation(distance);
-    debug_assert!(accepted.is_ok(), "scenes give a positive thickness");
     broad_phase.set_wanted((0..rest.len()).map(is_cloth).collect());
     let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
-    if broad_phase.update(rest, rest).is_ok() {
+    if broad_phase.set_separation(distance).is_ok() && broad_phase.update(rest, rest).is_ok() {
         broad_phase.candidates(&mut vertex_face, &mut edge_edge);
     }
     let near = |kind: PairKind, pair: [u32; 2]| {

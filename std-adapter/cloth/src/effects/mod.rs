@@ -129,7 +129,7 @@ pub(crate) fn read_known(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Ef
         };
         settings.expect_keys(registration.keys)?;
         let effect = (registration.read)(&settings, world)?;
-        debug_assert_eq!(effect.name(), *name);
+        assert_eq!(effect.name(), *name, "the table of effects names each as it names itself");
         effects.add_shared(effect.into());
     }
     Ok(effects)

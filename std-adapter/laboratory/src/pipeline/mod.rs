@@ -144,7 +144,7 @@ impl<S: Scalar> Pipeline<S> {
                 if stages.elementary == ElementaryTest::Exact {
                     let tolerance = Limits::default().tolerance;
                     let touching = detector.set_criterion(Criterion::Touching { tolerance });
-                    debug_assert!(touching.is_ok(), "a length");
+                    touching.expect("the default tolerance is one");
                 }
                 Route::MovingBoxes(Box::new(detector))
             }
