@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Runs every test of the workspace: all crates, their documentation's examples, and the kept inputs of the fuzz targets. What has a lock
-# file of its own has a command of its own, which .ci/run calls: std-adapter/python/check.sh, std-adapter/bevy/check.sh.
+# Runs every test of the workspace: all crates, their documentation's examples, and the kept inputs of the fuzz targets. .ci/run has the
+# proofs as well, and .ci/bindings what has a lock file of its own.
 # Needs Rust (rustup), a C compiler and make. `cargo run --release`, the main job, needs Rust alone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 export CARGO_TERM_COLOR=never
 
-say() { printf '\n== %s\n' "$*"; }
+say() { printf '\n== %s (%s s)\n' "$*" "$SECONDS"; }
 give_up() {
     printf 'test.sh: %s\n' "$*" >&2
     exit 1
@@ -70,13 +70,4 @@ cargo test --profile dev --package selvedge --test builds_without_optimisation
 say "the documentation's examples"
 cargo test --workspace --doc
 
-# .ci/run has them checked beside this, by Coq as well, and not twice.
-if [ "${PROOFS:-}" != apart ]; then
-    say "rounding constants: Gappa's proofs, where it is installed"
-    verification/gappa/check.sh --present --gappa
-
-    say "from rounding to geometry: Coq's proofs, where it is installed"
-    verification/proofs/check.sh --present
-fi
-
-say "all tests passed in $SECONDS s"
+say "all tests passed"

@@ -2,7 +2,7 @@
 # Checks every proof of core's rounding constants, for f32 and f64: by Gappa, and what it finds by Coq.
 #
 #   check.sh            installs the tools where they are missing (Debian's gappa, coq, libcoq-gappa, libcoq-flocq)
-#   check.sh --present  does not: what is missing is skipped, with a line that says so (./test.sh)
+#   check.sh --present  does not: what is missing is skipped, with a line that says so
 #   check.sh --gappa    without Coq
 #   check.sh --install  installs the tools, and that is all
 #

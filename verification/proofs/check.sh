@@ -2,7 +2,7 @@
 # Has Coq check the proofs in this folder, and that they take nothing for granted but the real numbers.
 #
 #   check.sh            installs what is missing (Debian's coq, libcoq-flocq)
-#   check.sh --present  does not: skips, with a line that says so (./test.sh)
+#   check.sh --present  does not: skips, with a line that says so
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
