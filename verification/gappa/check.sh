@@ -2,7 +2,6 @@
 # Checks every proof of core's rounding constants, for f32 and f64: by Gappa, and what it finds by Coq.
 #
 #   check.sh            installs the tools where they are missing (Debian's gappa, coq, libcoq-gappa, libcoq-flocq)
-#   check.sh --present  does not: what is missing is skipped, with a line that says so
 #   check.sh --gappa    without Coq
 #   check.sh --install  installs the tools, and that is all
 #
@@ -10,16 +9,14 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
-install=true
 coq=true
 check=true
 for option in "$@"; do
     case $option in
-    --present) install=false ;;
     --gappa) coq=false ;;
     --install) check=false ;;
     *)
-        echo "usage: check.sh [--present] [--gappa] [--install]" >&2
+        echo "usage: check.sh [--gappa] [--install]" >&2
         exit 2
         ;;
     esac
@@ -39,20 +36,9 @@ install() {
         { as_root apt-get update >/dev/null && as_root apt-get install -y --no-install-recommends "${@:2}" </dev/null >/dev/null; }
 }
 
-if ! is_there gappa; then
-    if ! $install; then
-        echo "gappa: SKIPPED, gappa is not installed: the rounding constants are not proven again (verification/gappa/check.sh installs it)"
-        exit 0
-    fi
-    install gappa gappa
-fi
+is_there gappa || install gappa gappa
 if $coq && ! { is_there coqc && library; }; then
-    if $install; then
-        install "coq with Gappa's library" coq libcoq-gappa libcoq-flocq
-    else
-        echo "gappa: Coq SKIPPED, coq and libcoq-gappa are not installed: Gappa alone checks the proofs"
-        coq=false
-    fi
+    install "coq with Gappa's library" coq libcoq-gappa libcoq-flocq
 fi
 
 $check || exit 0

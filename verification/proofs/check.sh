@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Has Coq check the proofs in this folder, and that they take nothing for granted but the real numbers.
 #
-#   check.sh            installs what is missing (Debian's coq, libcoq-flocq)
-#   check.sh --present  does not: skips, with a line that says so
+# Installs what is missing (Debian's coq, libcoq-flocq).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -13,10 +12,6 @@ as_root() {
 install() { as_root apt-get install -y --no-install-recommends coq libcoq-flocq </dev/null >/dev/null; }
 
 if ! is_there; then
-    if [ "${1:-}" = --present ]; then
-        echo "proofs: SKIPPED, coq and libcoq-flocq are not installed (verification/proofs/check.sh installs them)"
-        exit 0
-    fi
     command -v apt-get >/dev/null || {
         echo "proofs: coq and flocq are missing, and only Debian's packages are known here" >&2
         exit 1

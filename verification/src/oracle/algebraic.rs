@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 /// Equality and order are those of the numbers.
 #[derive(Clone, Debug)]
 pub struct AlgebraicTime {
-    /// Has this root once, and no other in the interval.
+    /// Square-free; has this root.
     polynomial: Polynomial,
     place: Place,
 }
@@ -55,27 +55,6 @@ impl AlgebraicTime {
         if polynomial.degree() == 0 {
             return roots;
         }
-        // Most have no root in the step, or one: then Descartes' rule is as sharp as Sturm's theorem, and takes sums alone.
-        let signs = [0, 1].map(|t| polynomial.sign_at_dyadic(&Integer::from(t), 0));
-        match (polynomial.sign_changes_inside(), signs) {
-            (0, _) => {
-                let ends = (0..).zip(signs).filter(|(_, sign)| sign.is_eq());
-                return ends.map(|(end, _)| Self::rational(Rational::from(end))).collect();
-            }
-            (1, [low, high]) if low.is_ne() && high.is_ne() => {
-                let place = Place::Isolated {
-                    index: Integer::new(),
-                    bits: 0,
-                    sign_at_low: low,
-                    pace: 1,
-                };
-                return vec![Self {
-                    polynomial: polynomial.clone().primitive(),
-                    place,
-                }];
-            }
-            _ => {}
-        }
         let isolation = Isolation(SturmSequence::new(polynomial));
         let (low, high) = (isolation.end(&Integer::from(0), 0), isolation.end(&Integer::from(1), 0));
         if low.sign.is_eq() {
@@ -88,7 +67,7 @@ impl AlgebraicTime {
         roots
     }
 
-    /// A polynomial that has this root, once.
+    /// A square-free polynomial that has this root.
     #[must_use]
     pub fn polynomial(&self) -> &Polynomial {
         &self.polynomial
@@ -271,8 +250,8 @@ impl Signs<Polynomial> for AlgebraicTime {
                 return sign;
             }
             if !is_not_zero && bits >= BITS_BEFORE_GCD {
-                // A common factor has this root at most once and no other in the interval, like the polynomial, and is not zero at
-                // the ends: it has the root if it changes sign.
+                // A common factor is square-free like the polynomial, and not zero at the ends of the
+                // interval: it has the root if it changes sign.
                 let common = self.polynomial.gcd(value);
                 let sign_at_low = common.sign_at_dyadic(index, bits);
                 if sign_at_low != common.sign_at_dyadic(&Integer::from(index + 1), bits) {

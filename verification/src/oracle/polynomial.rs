@@ -26,7 +26,7 @@ impl Polynomial {
         &self.coefficients
     }
 
-    /// Each coefficient changed by the other's of the same power.
+    /// Each coefficient changed by the other's of the same power; what is missing is zero.
     pub(crate) fn combined(self, other: &Self, change: impl Fn(&mut Integer, &Integer)) -> Self {
         let mut coefficients = self.coefficients;
         let length = coefficients.len().max(other.coefficients.len());
@@ -108,20 +108,6 @@ impl Polynomial {
         (low.cmp0() == high.cmp0()).then(|| low.cmp0())
     }
 
-    /// How often the sign changes along the coefficients of `(1 + s)^degree · p(1 / (1 + s))`, whose positive roots are those of this
-    /// polynomial between 0 and 1. There are as many of these as sign changes, or fewer by an even number (Descartes' rule of signs).
-    pub(crate) fn sign_changes_inside(&self) -> usize {
-        // Backwards, its roots are the reciprocals, above 1: they come above 0 by Horner's shift by 1.
-        let mut shifted: Vec<Integer> = self.coefficients.iter().rev().cloned().collect();
-        for first in 0..shifted.len() {
-            for i in (first..shifted.len() - 1).rev() {
-                let (low, high) = shifted.split_at_mut(i + 1);
-                low[i] += &high[0];
-            }
-        }
-        sign_changes(shifted.iter().map(Integer::cmp0))
-    }
-
     /// The derivative.
     #[must_use]
     pub fn derivative(&self) -> Self {
@@ -130,7 +116,7 @@ impl Polynomial {
     }
 
     /// This polynomial divided by the (positive) greatest common divisor of its coefficients.
-    pub(crate) fn primitive(mut self) -> Self {
+    fn primitive(mut self) -> Self {
         let mut content = Integer::new();
         for coefficient in &self.coefficients {
             content.gcd_mut(coefficient);
@@ -247,19 +233,17 @@ impl SturmSequence {
     /// Sign variations at `index / 2^bits`. The variations at a minus those at b are the number of
     /// roots in (a, b].
     pub(crate) fn variations(&self, index: &Integer, bits: u32) -> usize {
-        sign_changes(self.terms.iter().map(|term| term.sign_at_dyadic(index, bits)))
+        let mut count = 0;
+        let mut previous = Ordering::Equal;
+        for term in &self.terms {
+            let sign = term.sign_at_dyadic(index, bits);
+            if sign.is_ne() {
+                count += usize::from(sign == previous.reverse() && previous.is_ne());
+                previous = sign;
+            }
+        }
+        count
     }
-}
-
-/// How often the sign changes along a sequence, zeros left out.
-fn sign_changes(signs: impl Iterator<Item = Ordering>) -> usize {
-    let mut count = 0;
-    let mut previous = Ordering::Equal;
-    for sign in signs.filter(|sign| sign.is_ne()) {
-        count += usize::from(sign == previous.reverse());
-        previous = sign;
-    }
-    count
 }
 
 #[cfg(test)]

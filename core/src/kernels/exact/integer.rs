@@ -196,8 +196,7 @@ impl<'a> Space<'a> {
 
     #[inline(always)]
     fn take(&mut self, length: usize) -> &'a mut [u64] {
-        #[cfg(test)]
-        assert!(length <= self.0.len(), "there is enough space");
+        debug_assert!(length <= self.0.len(), "there is enough space");
         let (taken, rest) = mem::take(&mut self.0).split_at_mut_checked(length).unwrap_or_default();
         self.0 = rest;
         taken
