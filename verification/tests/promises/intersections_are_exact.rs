@@ -103,12 +103,12 @@ fn has_area(positions: &[Point], [a, b, c]: [u32; 3]) -> bool {
 
 #[test]
 fn intersections_are_those_of_exact_triangles_f64() {
-    check(400, meshes::<f64>(), intersections_are_those_of_exact_triangles);
+    check(150, meshes::<f64>(), intersections_are_those_of_exact_triangles);
 }
 
 #[test]
 fn intersections_are_those_of_exact_triangles_f32() {
-    check(400, meshes::<f32>(), intersections_are_those_of_exact_triangles);
+    check(150, meshes::<f32>(), intersections_are_those_of_exact_triangles);
 }
 
 /// Two sheets of `n` by `n` squares that wave through each other.

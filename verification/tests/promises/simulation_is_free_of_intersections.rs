@@ -253,7 +253,7 @@ fn judge(simulation: &mut Simulation, steps: u64) -> (u64, Vec<String>) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(10))]
 
     #[test]
     fn ropes_that_are_thrown_at_each_other_at_cloth_and_at_a_body_never_meet(

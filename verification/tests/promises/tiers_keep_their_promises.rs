@@ -197,7 +197,7 @@ property!(
     /// The promise is about the plane of the face, and the lines of the edges, which come no farther apart than they themselves.
     /// Separations are those at which the rational control values change their answer, where the tiers have to be on the safe side.
     nothing_certified_culls_what_comes_within_the_separation,
-    3_000,
+    1_500,
     pairs_of_any_kind(),
     |pair| {
         let exact = InRationals::new(pair);

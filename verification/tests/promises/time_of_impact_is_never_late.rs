@@ -373,7 +373,7 @@ fn does_not_work_more_than_stated(work: Work) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-property!(does_no_more_work_than_stated, 300_000, questions, |question| {
+property!(does_no_more_work_than_stated, 100_000, questions, |question| {
     does_not_work_more_than_stated(question.answer().1)
 });
 
