@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs every test of the workspace: all crates, their documentation's examples, and the kept inputs of the fuzz targets. .ci/run has the
 # proofs as well, and .ci/bindings what has a lock file of its own.
-# Needs Rust (rustup), a C compiler and make. `cargo run --release`, the main job, needs Rust alone.
+# Needs Rust (rustup) and a C compiler. `cargo run --release`, the main job, needs Rust alone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -14,42 +14,6 @@ give_up() {
 }
 is_there() { command -v "$1" >/dev/null 2>&1; }
 
-# GMP, on which the exact oracle counts, is built from source, and its build needs m4.
-install_m4() {
-    local manager command
-    for manager in apt-get dnf pacman apk zypper brew; do
-        is_there "$manager" || continue
-        case $manager in
-        apt-get) command="apt-get install -y m4" ;;
-        dnf) command="dnf install -y m4" ;;
-        pacman) command="pacman -S --noconfirm m4" ;;
-        apk) command="apk add m4" ;;
-        zypper) command="zypper --non-interactive install m4" ;;
-        brew) command="brew install m4" ;;
-        esac
-        if [ "$manager" != brew ] && [ "$(id -u)" -ne 0 ]; then
-            { is_there sudo && sudo -n true 2>/dev/null; } ||
-                give_up "m4 is missing; install it (sudo $command) and start again"
-            command="sudo -n $command"
-        fi
-        say "m4 is missing: $command"
-        # shellcheck disable=SC2086 # words on purpose
-        if ! $command </dev/null; then
-            # A fresh machine has no package lists yet.
-            if [ "$manager" = apt-get ]; then
-                ${command%install*} update </dev/null && $command </dev/null ||
-                    give_up "m4 could not be installed; install it and start again"
-            else
-                give_up "m4 could not be installed; install it and start again"
-            fi
-        fi
-        # Homebrew keeps it out of the way of the system's own.
-        [ "$manager" != brew ] || PATH="$(brew --prefix m4)/bin:$PATH"
-        return
-    done
-    give_up "m4 is missing, and there is no package manager that we know; install it and start again"
-}
-
 # cargo asks rustc through it, and fails on text that it does not know if a program run by root put a file there.
 if [ ! -c /dev/null ]; then
     [ "$(id -u)" -eq 0 ] && rm -f /dev/null && mknod -m 666 /dev/null c 1 3 ||
@@ -58,9 +22,7 @@ if [ ! -c /dev/null ]; then
     rm -f "${CARGO_TARGET_DIR:-target}/.rustc_info.json"
 fi
 is_there cargo || give_up "Rust is missing; install it from https://rustup.rs and start again"
-{ is_there cc || is_there gcc || is_there clang; } || give_up "a C compiler is missing; install one and start again"
-is_there make || give_up "make is missing; install it and start again"
-is_there m4 || install_m4
+{ is_there cc || is_there gcc || is_there clang; } || give_up "a C compiler is missing, for what tests C's interface; install one and start again"
 
 say "every crate: its own tests, exact oracle and properties, kept inputs of the fuzz targets"
 # Examples and benchmarks are compiled by .ci/run's lints.

@@ -3,7 +3,8 @@
 use super::numbers::{exponent, whole};
 use super::strategy::Simplify;
 use super::{Choices, Format, PairCase};
-use rug::Rational;
+use dashu_int::UBig;
+use dashu_ratio::RBig;
 use selvedge_core::PairKind;
 use std::fmt;
 use std::marker::PhantomData;
@@ -63,8 +64,8 @@ impl<S: Format> Moment<S> {
 
     /// When, in [0, 1].
     #[must_use]
-    pub fn time(&self) -> Rational {
-        Rational::from(self.numerator) >> self.bits
+    pub fn time(&self) -> RBig {
+        RBig::from_parts(self.numerator.into(), UBig::ONE << self.bits as usize)
     }
 
     /// The pair.

@@ -2,8 +2,11 @@
 
 use crate::support::environment::Environment;
 use crate::support::geometry::Truth;
+use dashu_base::{Abs, Inverse};
+use dashu_float::{FBig, round::mode::HalfEven};
+use dashu_int::UBig;
+use dashu_ratio::RBig;
 use proptest::prelude::*;
-use rug::{Float, Rational};
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::glam::DVec3;
 use selvedge_core::paths::{Arc, Moment, Path, Piece, Polyline, RigidMotion, geometry, time_of_impact};
@@ -12,12 +15,23 @@ use selvedge_verification::generator::{Choices, Screw, Simplify, check, from_cho
 use std::cell::Cell;
 use std::f64::consts::PI;
 
-const BITS: u32 = 256;
+const BITS: usize = 256;
 
+type Float = FBig<HalfEven>;
 type Place = [Float; 3];
 
 fn float(x: f64) -> Float {
-    Float::with_val(BITS, x)
+    Float::try_from(x).expect("not NaN").with_precision(BITS).value()
+}
+
+fn rational(x: Float) -> RBig {
+    let (significand, exponent) = x.into_repr().into_parts();
+    let power = UBig::ONE << exponent.unsigned_abs();
+    if exponent < 0 {
+        RBig::from_parts(significand, power)
+    } else {
+        (significand * power).into()
+    }
 }
 
 fn place(point: DVec3) -> Place {
@@ -25,17 +39,17 @@ fn place(point: DVec3) -> Place {
 }
 
 fn plus(a: &Place, b: &Place) -> Place {
-    [0, 1, 2].map(|k| Float::with_val(BITS, &a[k] + &b[k]))
+    [0, 1, 2].map(|k| &a[k] + &b[k])
 }
 
 fn times(a: &Place, factor: &Float) -> Place {
-    a.each_ref().map(|x| Float::with_val(BITS, x * factor))
+    a.each_ref().map(|x| x * factor)
 }
 
 fn dot(a: &Place, b: &Place) -> Float {
     let mut sum = float(0.0);
     for k in 0..3 {
-        sum += Float::with_val(BITS, &a[k] * &b[k]);
+        sum += &a[k] * &b[k];
     }
     sum
 }
@@ -43,7 +57,7 @@ fn dot(a: &Place, b: &Place) -> Float {
 fn cross(a: &Place, b: &Place) -> Place {
     [0, 1, 2].map(|k| {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        Float::with_val(BITS, &a[i] * &b[j]) - Float::with_val(BITS, &a[j] * &b[i])
+        &a[i] * &b[j] - &a[j] * &b[i]
     })
 }
 
@@ -65,11 +79,11 @@ impl Exactly for Screw {
     fn rotated(&self, way: &Place, angle: &Float) -> Place {
         let axis = place(self.axis);
         let length = dot(&axis, &axis).sqrt();
-        let axis = times(&axis, &length.recip());
+        let axis = times(&axis, &length.inv());
         let along = times(&axis, &dot(&axis, way));
         let across = plus(way, &times(&along, &float(-1.0)));
         let sideways = cross(&axis, way);
-        let (sine, cosine) = Float::with_val(BITS, angle).sin_cos(float(0.0));
+        let (sine, cosine) = angle.sin_cos();
         plus(&along, &plus(&times(&across, &cosine), &times(&sideways, &sine)))
     }
 
@@ -86,7 +100,7 @@ impl Exactly for Screw {
     fn velocity(&self, start: DVec3, time: f64) -> Place {
         let way = plus(&place(start), &times(&place(self.centre), &float(-1.0)));
         let axis = place(self.axis);
-        let spin = times(&axis, &(dot(&axis, &axis).sqrt().recip() * float(self.angle)));
+        let spin = times(&axis, &(dot(&axis, &axis).sqrt().inv() * float(self.angle)));
         let turned = self.rotated(&way, &(float(self.angle) * float(time)));
         plus(&place(self.translation), &cross(&spin, &turned))
     }
@@ -98,7 +112,7 @@ impl Exactly for Screw {
         let way = plus(there, &times(&moved, &float(-1.0)));
         let angle = float(self.angle) * float(-time);
         let start = plus(&centre, &self.rotated(&way, &angle));
-        DVec3::from_array(start.each_ref().map(Float::to_f64))
+        DVec3::from_array(start.map(|x| x.to_f64().value()))
     }
 }
 
@@ -152,12 +166,17 @@ fn a_point_of_a_body_that_turns_is_where_it_is_said_to_be_and_as_fast() {
 
 fn is_as_told(moment: &Moment, (position, velocity): &(Place, Place)) -> Result<(), TestCaseError> {
     let off = distance(&place(moment.position), position);
-    prop_assert!(off <= float(moment.position_error), "{} of {}", off, moment.position_error);
+    prop_assert!(
+        off <= float(moment.position_error),
+        "{} of {}",
+        off.to_f64().value(),
+        moment.position_error
+    );
     let off = distance(&place(moment.velocity), velocity);
     prop_assert!(
         off <= float(moment.velocity_error),
         "{} of {}, its velocity",
-        off,
+        off.to_f64().value(),
         moment.velocity_error
     );
     Ok(())
@@ -174,7 +193,7 @@ fn a_point_on_straight_pieces_is_where_it_is_said_to_be_and_as_fast() {
         for time in [0.0, 0.25, knots[2], 0.5 * case.time, case.time, 1.0] {
             let way = |from: DVec3, to: DVec3, [begin, end]: [f64; 2]| {
                 let lasts = float(end) - float(begin);
-                let velocity = times(&plus(&place(to), &times(&place(from), &float(-1.0))), &lasts.recip());
+                let velocity = times(&plus(&place(to), &times(&place(from), &float(-1.0))), &lasts.inv());
                 let since = float(time) - float(begin);
                 (plus(&place(from), &times(&velocity, &since)), velocity)
             };
@@ -210,7 +229,12 @@ fn deviates(piece: &Piece, [from, to]: [f64; 2], at: impl Fn(f64) -> Place) -> R
             &times(&place(piece.motion.end), &share),
         );
         let off = distance(&straight, &at(time));
-        prop_assert!(off <= float(piece.deviation), "{off} of {} at {time}", piece.deviation);
+        prop_assert!(
+            off <= float(piece.deviation),
+            "{} of {} at {time}",
+            off.to_f64().value(),
+            piece.deviation
+        );
     }
     Ok(())
 }
@@ -321,14 +345,14 @@ fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usiz
                 let of_side = starts.iter().zip(&moments).filter(|((own, _), _)| *own == side);
                 of_side.map(|(_, moment)| error(moment)).fold(0.0, f64::max)
             };
-            let exact = |place: Place| place.map(|x| x.to_rational().expect("a finite number"));
+            let exact = |place: Place| place.map(rational);
             let all =
                 |of: &dyn Fn(&Screw, DVec3) -> Place| [0, 1, 2, 3].map(|k| exact(of(&case.turns[starts[k].0], starts[k].1)));
             let at = |time: f64| all(&|turn, start| turn.at(start, time));
             let velocities = all(&|turn, start| turn.velocity(start, time));
             let from_first = velocities.iter().flat_map(|velocity| velocity.iter().zip(&velocities[0]));
-            let of_speed = from_first.map(|(own, first)| Rational::from(own - first).abs()).max();
-            let largest = at(time).into_iter().flatten().map(Rational::abs).max();
+            let of_speed = from_first.map(|(own, first)| (own - first).abs()).max();
+            let largest = at(time).into_iter().flatten().map(RBig::abs).max();
             // The widening, which errors of moments that are asked for in another direction of rounding differ by, is 16u of them.
             let wider = 1.0 + 1e-12;
             let truth = Truth {

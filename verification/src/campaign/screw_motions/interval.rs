@@ -1,7 +1,14 @@
 //! Enclosures: intervals of `f64`, each operation rounded outwards.
 
-use rug::Float;
+use dashu_float::{FBig, round::mode::HalfEven};
 use std::ops::{Add, Div, Mul, Sub};
+
+/// A number of so many binary digits.
+type Float = FBig<HalfEven>;
+
+fn float(x: f64, digits: usize) -> Float {
+    Float::try_from(x).expect("not NaN").with_precision(digits).value()
+}
 
 /// All real numbers from the first to the second.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,15 +35,14 @@ impl From<f64> for Interval {
 impl Interval {
     /// That holds a number of more digits.
     fn of(x: &Float) -> Self {
-        let nearest = x.to_f64();
+        let nearest = x.to_f64().value();
         outwards(nearest, nearest)
     }
 
     /// Sine and cosine of the product of two numbers.
     pub(super) fn sine_and_cosine(angle: f64, time: f64) -> [Self; 2] {
         // Exact: two times 53 digits. What is rounded of the sine is far less than the distance to the next `f64`.
-        let angle = Float::with_val(128, angle) * time;
-        let (sine, cosine) = angle.sin_cos(Float::new(128));
+        let (sine, cosine) = (float(angle, 128) * float(time, 128)).sin_cos();
         [Self::of(&sine), Self::of(&cosine)]
     }
 
@@ -118,14 +124,15 @@ impl Div for Interval {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use dashu_base::Abs;
+    use dashu_ratio::RBig;
     use proptest::prelude::*;
-    use rug::Rational;
 
-    fn exact(x: f64) -> Rational {
-        Rational::from_f64(x).expect("a finite number")
+    fn exact(x: f64) -> RBig {
+        RBig::try_from(x).expect("a finite number")
     }
 
-    fn holds(interval: Interval, number: &Rational) -> bool {
+    fn holds(interval: Interval, number: &RBig) -> bool {
         (interval.low.is_infinite() || exact(interval.low) <= *number)
             && (interval.high.is_infinite() || *number <= exact(interval.high))
     }
@@ -140,25 +147,24 @@ mod tests {
             let [x, y] = [[a, b], [c, d]].map(|[from, to]| Interval { low: from.min(to), high: from.max(to) });
             for (p, q) in [(a, c), (a, d), (b, c), (b, d)] {
                 let (p, q) = (exact(p), exact(q));
-                prop_assert!(holds(x + y, &Rational::from(&p + &q)));
-                prop_assert!(holds(x - y, &Rational::from(&p - &q)));
-                prop_assert!(holds(x * y, &Rational::from(&p * &q)));
-                if q != 0 {
-                    prop_assert!(holds(x / y, &Rational::from(&p / &q)));
+                prop_assert!(holds(x + y, &(&p + &q)));
+                prop_assert!(holds(x - y, &(&p - &q)));
+                prop_assert!(holds(x * y, &(&p * &q)));
+                if !q.is_zero() {
+                    prop_assert!(holds(x / y, &(&p / &q)));
                 }
-                prop_assert!(holds(x.square(), &Rational::from(&p * &p)));
+                prop_assert!(holds(x.square(), &p.sqr()));
                 let Interval { low, high } = x.square().root();
-                let size = Rational::from(p.abs_ref());
+                let size = p.clone().abs();
                 prop_assert!(low >= 0.0 && exact(low) <= size && (high.is_infinite() || size <= exact(high)));
             }
         }
 
         #[test]
         fn sine_and_cosine_are_enclosed(angle in -1e6..1e6, time in 0.0..1.0) {
-            let exact = Float::with_val(512, angle) * Float::with_val(512, time);
-            let (sine, cosine) = exact.sin_cos(Float::new(512));
+            let (sine, cosine) = (float(angle, 512) * float(time, 512)).sin_cos();
             for (interval, exact) in Interval::sine_and_cosine(angle, time).into_iter().zip([sine, cosine]) {
-                prop_assert!(interval.low <= exact && exact <= interval.high && interval.high - interval.low < 1e-15);
+                prop_assert!(float(interval.low, 512) <= exact && exact <= float(interval.high, 512) && interval.high - interval.low < 1e-15);
             }
         }
     }
