@@ -42,6 +42,10 @@ fn plus(a: &Place, b: &Place) -> Place {
     [0, 1, 2].map(|k| &a[k] + &b[k])
 }
 
+fn minus(a: &Place, b: &Place) -> Place {
+    [0, 1, 2].map(|k| &a[k] - &b[k])
+}
+
 fn times(a: &Place, factor: &Float) -> Place {
     a.each_ref().map(|x| x * factor)
 }
@@ -62,57 +66,68 @@ fn cross(a: &Place, b: &Place) -> Place {
 }
 
 fn distance(a: &Place, b: &Place) -> Float {
-    let way = plus(a, &times(b, &float(-1.0)));
+    let way = minus(a, b);
     dot(&way, &way).sqrt()
 }
 
-/// What a screw motion does, in so many bits.
-trait Exactly {
-    fn rotated(&self, way: &Place, angle: &Float) -> Place;
-    fn at(&self, start: DVec3, time: f64) -> Place;
-    fn velocity(&self, start: DVec3, time: f64) -> Place;
-    fn start_of(&self, there: &Place, time: f64) -> DVec3;
+/// A screw motion at a time, in so many bits.
+struct Pose {
+    /// Of length one.
+    axis: Place,
+    sine: Float,
+    cosine: Float,
+    centre: Place,
+    /// Where the centre is then.
+    moved: Place,
+    translation: Place,
+    /// The axis times the angle.
+    spin: Place,
 }
 
-impl Exactly for Screw {
-    /// Turned by an angle about the axis, which is nowhere zero.
-    fn rotated(&self, way: &Place, angle: &Float) -> Place {
-        let axis = place(self.axis);
-        let length = dot(&axis, &axis).sqrt();
-        let axis = times(&axis, &length.inv());
-        let along = times(&axis, &dot(&axis, way));
-        let across = plus(way, &times(&along, &float(-1.0)));
-        let sideways = cross(&axis, way);
-        let (sine, cosine) = angle.sin_cos();
-        plus(&along, &plus(&times(&across, &cosine), &times(&sideways, &sine)))
+impl Pose {
+    fn of(screw: &Screw, time: f64) -> Self {
+        let (angle, time) = (float(screw.angle), float(time));
+        let axis = place(screw.axis);
+        let axis = times(&axis, &dot(&axis, &axis).sqrt().inv());
+        let (sine, cosine) = (&angle * &time).sin_cos();
+        let [centre, translation] = [screw.centre, screw.translation].map(place);
+        Self {
+            sine,
+            cosine,
+            moved: plus(&centre, &times(&translation, &time)),
+            spin: times(&axis, &angle),
+            axis,
+            centre,
+            translation,
+        }
     }
 
-    /// Where the point is at a time that started there.
-    fn at(&self, start: DVec3, time: f64) -> Place {
-        let centre = place(self.centre);
-        let way = plus(&place(start), &times(&centre, &float(-1.0)));
-        let angle = float(self.angle) * float(time);
-        let turned = self.rotated(&way, &angle);
-        plus(&plus(&centre, &times(&place(self.translation), &float(time))), &turned)
+    /// Turned about the axis by the angle of this sine.
+    fn turned(&self, way: &Place, sine: &Float) -> Place {
+        let along = times(&self.axis, &dot(&self.axis, way));
+        let across = minus(way, &along);
+        let sideways = cross(&self.axis, way);
+        plus(&along, &plus(&times(&across, &self.cosine), &times(&sideways, sine)))
     }
 
-    /// How fast that point moves then.
-    fn velocity(&self, start: DVec3, time: f64) -> Place {
-        let way = plus(&place(start), &times(&place(self.centre), &float(-1.0)));
-        let axis = place(self.axis);
-        let spin = times(&axis, &(dot(&axis, &axis).sqrt().inv() * float(self.angle)));
-        let turned = self.rotated(&way, &(float(self.angle) * float(time)));
-        plus(&place(self.translation), &cross(&spin, &turned))
+    fn turned_from(&self, start: DVec3) -> Place {
+        self.turned(&minus(&place(start), &self.centre), &self.sine)
     }
 
-    /// Where a point starts that is at a place at a time; rounded.
-    fn start_of(&self, there: &Place, time: f64) -> DVec3 {
-        let centre = place(self.centre);
-        let moved = plus(&centre, &times(&place(self.translation), &float(time)));
-        let way = plus(there, &times(&moved, &float(-1.0)));
-        let angle = float(self.angle) * float(-time);
-        let start = plus(&centre, &self.rotated(&way, &angle));
-        DVec3::from_array(start.map(|x| x.to_f64().value()))
+    /// Where the point is that started there.
+    fn at(&self, start: DVec3) -> Place {
+        plus(&self.moved, &self.turned_from(start))
+    }
+
+    /// How fast that point moves.
+    fn velocity(&self, start: DVec3) -> Place {
+        plus(&self.translation, &cross(&self.spin, &self.turned_from(start)))
+    }
+
+    /// Where a point starts that is there; rounded.
+    fn start_of(&self, there: &Place) -> DVec3 {
+        let back = self.turned(&minus(there, &self.moved), &-&self.sine);
+        DVec3::from_array(plus(&self.centre, &back).map(|x| x.to_f64().value()))
     }
 }
 
@@ -152,7 +167,8 @@ fn a_point_of_a_body_that_turns_is_where_it_is_said_to_be_and_as_fast() {
         let turn = &case.turns[0];
         for start in case.points {
             for time in [0.0, case.time, 1.0] {
-                let exact = (turn.at(start, time), turn.velocity(start, time));
+                let pose = Pose::of(turn, time);
+                let exact = (pose.at(start), pose.velocity(start));
                 for environment in Environment::all() {
                     let ask = |&(turn, start, time): &(&Screw, DVec3, f64)| turn.motion().path(start).moment(time);
                     is_as_told(&environment.run(&(turn, start, time), ask), &exact)
@@ -193,7 +209,7 @@ fn a_point_on_straight_pieces_is_where_it_is_said_to_be_and_as_fast() {
         for time in [0.0, 0.25, knots[2], 0.5 * case.time, case.time, 1.0] {
             let way = |from: DVec3, to: DVec3, [begin, end]: [f64; 2]| {
                 let lasts = float(end) - float(begin);
-                let velocity = times(&plus(&place(to), &times(&place(from), &float(-1.0))), &lasts.inv());
+                let velocity = times(&minus(&place(to), &place(from)), &lasts.inv());
                 let since = float(time) - float(begin);
                 (plus(&place(from), &times(&velocity, &since)), velocity)
             };
@@ -246,7 +262,9 @@ fn no_path_deviates_farther_from_its_straight_pieces_than_is_said() {
         let [from, to] = [case.time * 0.5, case.time * 0.5 + 0.5];
         for [from, to] in [[0.0, 1.0], [from, to], [from, from + (to - from) * 1e-3]] {
             let arc = turn.motion().path(case.points[0]);
-            deviates(&arc.piece(from, to), [from, to], |time| turn.at(case.points[0], time))?;
+            deviates(&arc.piece(from, to), [from, to], |time| {
+                Pose::of(turn, time).at(case.points[0])
+            })?;
 
             let straight = Motion::<f64>::new(case.points[0], case.points[1]);
             let knots = [0.0, 0.25, 0.25 + 0.5 * case.time, 1.0];
@@ -271,17 +289,17 @@ fn no_path_deviates_farther_from_its_straight_pieces_than_is_said() {
 
 /// Where the points of two sets start, one on each body, that touch at the case's time but for the rounding of where they start.
 fn sides_that_touch(case: &Turning, kind: PairKind) -> [Vec<DVec3>; 2] {
-    let [first, second] = &case.turns;
+    let [first, second] = case.turns.each_ref().map(|turn| Pose::of(turn, case.time));
     // On the first body, at the time: a vertex in the middle of a face, or two edges that cross.
     let [a, b, c, d] = case.points;
-    let there = |point: DVec3| first.at(point, case.time);
+    let there = |point: DVec3| first.at(point);
     let middle = |points: &[DVec3]| points.iter().sum::<DVec3>() / points.len() as f64;
     let (own, other) = match kind {
         PairKind::VertexFace => (vec![middle(&[b, c, d])], vec![b, c, d]),
         // The second edge goes through the middle of the first.
         PairKind::EdgeEdge => (vec![a, b], vec![c, middle(&[a, b]) * 2.0 - c]),
     };
-    let starts = other.iter().map(|&point| second.start_of(&there(point), case.time));
+    let starts = other.iter().map(|&point| second.start_of(&there(point)));
     [own, starts.collect()]
 }
 
@@ -346,10 +364,12 @@ fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usiz
                 of_side.map(|(_, moment)| error(moment)).fold(0.0, f64::max)
             };
             let exact = |place: Place| place.map(rational);
-            let all =
-                |of: &dyn Fn(&Screw, DVec3) -> Place| [0, 1, 2, 3].map(|k| exact(of(&case.turns[starts[k].0], starts[k].1)));
-            let at = |time: f64| all(&|turn, start| turn.at(start, time));
-            let velocities = all(&|turn, start| turn.velocity(start, time));
+            let all = |time: f64, of: fn(&Pose, DVec3) -> Place| {
+                let poses = case.turns.each_ref().map(|turn| Pose::of(turn, time));
+                [0, 1, 2, 3].map(|k| exact(of(&poses[starts[k].0], starts[k].1)))
+            };
+            let at = |time: f64| all(time, Pose::at);
+            let velocities = all(time, Pose::velocity);
             let from_first = velocities.iter().flat_map(|velocity| velocity.iter().zip(&velocities[0]));
             let of_speed = from_first.map(|(own, first)| (own - first).abs()).max();
             let largest = at(time).into_iter().flatten().map(RBig::abs).max();
