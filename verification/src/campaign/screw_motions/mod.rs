@@ -3,7 +3,7 @@
 //!
 //! # Who judges
 //! A case is made backwards: two sets of points, one on each body, are put together at a time, and turned back to where they start, in
-//! floating point. Where the starts, as they are rounded, truly lead is then enclosed: sine and cosine correctly rounded to 128 bits, the rest in
+//! floating point. Where the starts, as they are rounded, truly lead is then enclosed: sine and cosine correctly rounded to 64 bits, the rest in
 //! intervals of `f64` rounded outwards. So is the distance, at that time, of a point on the one set and a point on the other. It is at most
 //! some rounding, 10⁻¹⁵ of the coordinates or so, and **this bound is the separation that the time of impact is asked for**: on the exact
 //! arcs the two are within it at that time. A time that is told later, or none, is wrong.
