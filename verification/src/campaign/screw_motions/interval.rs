@@ -9,7 +9,7 @@ type Float = FBig<HalfEven>;
 
 thread_local! {
     /// Its digits, which angles are reduced by.
-    static PI: RefCell<ConstCache> = RefCell::new(ConstCache::new());
+    static PI: RefCell<ConstCache> = const { RefCell::new(ConstCache::new()) };
 }
 
 fn float(x: f64, digits: usize) -> Float {
