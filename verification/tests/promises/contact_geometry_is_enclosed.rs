@@ -2,7 +2,8 @@
 
 use crate::support::at;
 use crate::support::environment::Environment;
-use crate::support::geometry::{Truth, exact};
+use crate::support::geometry::Truth;
+use crate::support::rationals::rational;
 use dashu_base::Abs;
 use dashu_ratio::RBig;
 use proptest::prelude::*;
@@ -24,17 +25,17 @@ fn keeps_promises(case: &PairCase<f64>, time: f64) -> Result<bool, TestCaseError
 fn are_kept(case: &PairCase<f64>, time: f64, found: &Geometry) -> Result<bool, TestCaseError> {
     let motions = case.pair().motions;
     let ends: Vec<DVec3> = motions.iter().flat_map(|motion| [motion.start, motion.end]).collect();
-    let velocity = |motion: Motion<f64>| [0, 1, 2].map(|axis| exact(motion.end[axis]) - exact(motion.start[axis]));
+    let velocity = |motion: Motion<f64>| [0, 1, 2].map(|axis| rational(motion.end[axis]) - rational(motion.start[axis]));
     let from_first = motions.iter().flat_map(|motion| {
-        let of_one = |end: DVec3, first: DVec3| [0, 1, 2].map(|axis| (exact(end[axis]) - exact(first[axis])).abs());
+        let of_one = |end: DVec3, first: DVec3| [0, 1, 2].map(|axis| (rational(end[axis]) - rational(first[axis])).abs());
         [of_one(motion.start, motions[0].start), of_one(motion.end, motions[0].end)]
     });
     let truth = Truth {
         kind: case.kind,
         time,
-        at: &|time| motions.map(|motion| at(motion.start.to_array(), motion.end.to_array(), &exact(time))),
+        at: &|time| motions.map(|motion| at(motion.start.to_array(), motion.end.to_array(), &rational(time))),
         velocities: motions.map(velocity),
-        largest: exact(largest_coordinate(&ends)),
+        largest: rational(largest_coordinate(&ends)),
         of_speed: from_first.flatten().max().expect("eight points"),
         position_errors: [0.0; 2],
         velocity_errors: 0.0,

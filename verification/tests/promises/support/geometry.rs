@@ -1,6 +1,6 @@
 //! What is promised of a contact's geometry, checked against what four points do without rounding.
 
-use super::rationals::sum;
+use super::rationals::{rational, sum};
 use super::{Point, dot, point};
 use dashu_base::{Abs, Sign};
 use dashu_int::IBig;
@@ -9,10 +9,6 @@ use proptest::prelude::*;
 use selvedge_core::PairKind;
 use selvedge_core::separation::geometry::Geometry;
 use selvedge_verification::oracle::within_at_rest;
-
-pub(crate) fn exact(number: f64) -> RBig {
-    RBig::try_from(number).expect("a finite number")
-}
 
 /// What four points do.
 pub(crate) struct Truth<'a> {
@@ -35,8 +31,8 @@ pub(crate) struct Truth<'a> {
 impl Truth<'_> {
     /// Everything that is promised. Whether there is a normal.
     pub(crate) fn is_promised(&self, found: &Geometry) -> Result<bool, TestCaseError> {
-        let unit = exact(f64::EPSILON / 2.0);
-        let underflow = exact(f64::MIN_POSITIVE) * IBig::from(512);
+        let unit = rational(f64::EPSILON / 2.0);
+        let underflow = rational(f64::MIN_POSITIVE) * IBig::from(512);
         let first = match self.kind {
             PairKind::VertexFace => 1,
             PairKind::EdgeEdge => 2,
@@ -46,15 +42,15 @@ impl Truth<'_> {
         for (side, corners) in [0..first, first..4].into_iter().enumerate() {
             let weights = &found.weights[corners.clone()];
             prop_assert!(weights.iter().all(|weight| (0.0..=1.0).contains(weight)), "{:?}", weights);
-            let sum = sum(weights.iter().map(|&weight| exact(weight)));
+            let sum = sum(weights.iter().map(|&weight| rational(weight)));
             prop_assert!((sum - RBig::ONE).abs() <= &unit * IBig::from(4), "{:?}", weights);
             let mut way = point(found.points[side].to_array());
             for corner in corners {
                 for axis in 0..3 {
-                    way[axis] -= exact(found.weights[corner]) * &at[corner][axis];
+                    way[axis] -= rational(found.weights[corner]) * &at[corner][axis];
                 }
             }
-            let bound = &self.largest * &unit * IBig::from(96) + &underflow + exact(self.position_errors[side]);
+            let bound = &self.largest * &unit * IBig::from(96) + &underflow + rational(self.position_errors[side]);
             prop_assert!(dot(&way, &way) <= bound.sqr(), "a point of side {}", side);
         }
 
@@ -79,11 +75,11 @@ impl Truth<'_> {
             for axis in 0..3 {
                 // Of differences, as weights add up to one but for rounding.
                 let way = &velocity[axis] - &self.velocities[0][axis];
-                speed += way * exact(found.weights[corner]) * &exact_normal[axis] * sign;
+                speed += way * rational(found.weights[corner]) * &exact_normal[axis] * sign;
             }
         }
-        let bound = &self.of_speed * &unit * IBig::from(256) + underflow + exact(self.velocity_errors);
-        prop_assert!((speed - exact(found.speed)).abs() <= bound, "the speed");
+        let bound = &self.of_speed * &unit * IBig::from(256) + underflow + rational(self.velocity_errors);
+        prop_assert!((speed - rational(found.speed)).abs() <= bound, "the speed");
         let then = (self.at)(found.separated_at);
         let heights = then.each_ref().map(|there| dot(&exact_normal, there));
         let lowest = heights[..first].iter().min();
