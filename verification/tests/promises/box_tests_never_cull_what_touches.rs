@@ -27,20 +27,12 @@ fn nothing_certified_culls_a_pair_built_to_touch<S: Format>(moment: &Moment<S>) 
 
 #[test]
 fn nothing_certified_culls_a_pair_built_to_touch_f64() {
-    check(
-        150_000,
-        touching_pairs::<f64>(),
-        nothing_certified_culls_a_pair_built_to_touch,
-    );
+    check(60_000, touching_pairs::<f64>(), nothing_certified_culls_a_pair_built_to_touch);
 }
 
 #[test]
 fn nothing_certified_culls_a_pair_built_to_touch_f32() {
-    check(
-        150_000,
-        touching_pairs::<f32>(),
-        nothing_certified_culls_a_pair_built_to_touch,
-    );
+    check(60_000, touching_pairs::<f32>(), nothing_certified_culls_a_pair_built_to_touch);
 }
 
 fn nothing_certified_culls_what_collides<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
@@ -53,12 +45,12 @@ fn nothing_certified_culls_what_collides<S: Format>(pair: &PairCase<S>) -> Resul
 
 #[test]
 fn nothing_certified_culls_what_collides_f64() {
-    check(60_000, pairs_of_any_kind::<f64>(), nothing_certified_culls_what_collides);
+    check(25_000, pairs_of_any_kind::<f64>(), nothing_certified_culls_what_collides);
 }
 
 #[test]
 fn nothing_certified_culls_what_collides_f32() {
-    check(60_000, pairs_of_any_kind::<f32>(), nothing_certified_culls_what_collides);
+    check(25_000, pairs_of_any_kind::<f32>(), nothing_certified_culls_what_collides);
 }
 
 fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
@@ -74,7 +66,7 @@ fn nothing_certified_culls_what_is_not_finite<S: Format>(pair: &PairCase<S>) -> 
 #[test]
 fn nothing_certified_culls_nan_or_infinity_f64() {
     check(
-        40_000,
+        15_000,
         extraordinary_pairs::<f64>(),
         nothing_certified_culls_what_is_not_finite,
     );
@@ -83,7 +75,7 @@ fn nothing_certified_culls_nan_or_infinity_f64() {
 #[test]
 fn nothing_certified_culls_nan_or_infinity_f32() {
     check(
-        40_000,
+        15_000,
         extraordinary_pairs::<f32>(),
         nothing_certified_culls_what_is_not_finite,
     );
@@ -115,12 +107,12 @@ fn stronger_tests_cull_what_weaker_ones_cull<S: Format>(pair: &PairCase<S>) -> R
 
 #[test]
 fn stronger_tests_cull_what_weaker_ones_cull_f64() {
-    check(100_000, pairs_of_any_kind::<f64>(), stronger_tests_cull_what_weaker_ones_cull);
+    check(40_000, pairs_of_any_kind::<f64>(), stronger_tests_cull_what_weaker_ones_cull);
 }
 
 #[test]
 fn stronger_tests_cull_what_weaker_ones_cull_f32() {
-    check(100_000, pairs_of_any_kind::<f32>(), stronger_tests_cull_what_weaker_ones_cull);
+    check(40_000, pairs_of_any_kind::<f32>(), stronger_tests_cull_what_weaker_ones_cull);
 }
 
 type RationalPoint = [RBig; 3];
@@ -162,12 +154,12 @@ fn relative_boxes_are_what_they_say<S: Format>(pair: &PairCase<S>) -> Result<(),
 
 #[test]
 fn relative_boxes_cull_exactly_on_axes_and_soundly_on_diagonals_f64() {
-    check(15_000, pairs_of_any_kind::<f64>(), relative_boxes_are_what_they_say);
+    check(6_000, pairs_of_any_kind::<f64>(), relative_boxes_are_what_they_say);
 }
 
 #[test]
 fn relative_boxes_cull_exactly_on_axes_and_soundly_on_diagonals_f32() {
-    check(15_000, pairs_of_any_kind::<f32>(), relative_boxes_are_what_they_say);
+    check(6_000, pairs_of_any_kind::<f32>(), relative_boxes_are_what_they_say);
 }
 
 /// Small whole numbers: sums do not round, so the diagonals are exact, too.
@@ -179,7 +171,7 @@ fn relative_boxes_are_exact_on_all_nine_directions_where_sums_are() {
         let points = std::array::from_fn(|_| std::array::from_fn(|_| std::array::from_fn(|_| choices.within(limit) as f64)));
         PairCase::<f64>::new(kind, points)
     });
-    check(10_000, small, |pair| {
+    check(4_000, small, |pair| {
         let separated = AXES.iter().chain(&DIAGONALS).any(|&direction| keeps_order(pair, direction));
         prop_assert_eq!(verdict(RelativeBoxesNine, pair).is_culled(), separated);
         Ok(())
@@ -224,22 +216,22 @@ fn a_path_that_meets_the_box_is_kept<S: Format>(pair: &PairCase<S>) -> Result<()
 
 #[test]
 fn a_path_that_meets_the_swept_box_is_kept_f64() {
-    check(100_000, pairs::<f64>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
+    check(40_000, pairs::<f64>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
 }
 
 #[test]
 fn a_path_that_grazes_the_swept_box_is_kept_f64() {
-    check(100_000, grazes_of_a_box::<f64>(), a_path_that_meets_the_box_is_kept);
+    check(40_000, grazes_of_a_box::<f64>(), a_path_that_meets_the_box_is_kept);
 }
 
 #[test]
 fn a_path_that_grazes_the_swept_box_is_kept_f32() {
-    check(100_000, grazes_of_a_box::<f32>(), a_path_that_meets_the_box_is_kept);
+    check(40_000, grazes_of_a_box::<f32>(), a_path_that_meets_the_box_is_kept);
 }
 
 #[test]
 fn a_path_that_meets_the_swept_box_is_kept_f32() {
-    check(100_000, pairs::<f32>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
+    check(40_000, pairs::<f32>(PairKind::VertexFace), a_path_that_meets_the_box_is_kept);
 }
 
 /// Found by search with the test's underflow term removed, which culls both: their cross products are subnormal, and a rounded

@@ -137,23 +137,23 @@ macro_rules! in_both_formats {
 }
 
 fn touching_pairs_are_kept<S: Format>() {
-    check(1_000, touching_pairs::<S>(), |moment| nothing_culls(&moment.pair(), true));
+    check(400, touching_pairs::<S>(), |moment| nothing_culls(&moment.pair(), true));
     let limits = from_choices(|choices| at_the_limits::<S>(Meeting::Touching, choices));
-    check(2_000, limits, |pair| nothing_culls(pair, true));
+    check(800, limits, |pair| nothing_culls(pair, true));
 }
 
 in_both_formats!(touching_pairs_are_kept_in_every_environment, touching_pairs_are_kept);
 
 fn coplanar_pairs_are_kept<S: Format>() {
-    check(1_000, coplanar_pairs::<S>(), |moment| nothing_culls(&moment.pair(), false));
+    check(400, coplanar_pairs::<S>(), |moment| nothing_culls(&moment.pair(), false));
     let limits = from_choices(|choices| at_the_limits::<S>(Meeting::Coplanar, choices));
-    check(2_000, limits, |pair| nothing_culls(pair, false));
+    check(800, limits, |pair| nothing_culls(pair, false));
 }
 
 in_both_formats!(coplanar_pairs_are_kept_in_every_environment, coplanar_pairs_are_kept);
 
 fn what_is_not_finite_is_kept<S: Format>() {
-    check(2_000, extraordinary_pairs::<S>(), |pair| {
+    check(800, extraordinary_pairs::<S>(), |pair| {
         if pair.is_finite() {
             return Ok(());
         }

@@ -46,7 +46,7 @@ fn agree_with_the_oracle<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseEr
     both_say(pair, collides(&pair.question()).is_some())
 }
 
-property!(verdicts_are_the_oracles, 15_000, pairs_of_any_kind(), |pair| {
+property!(verdicts_are_the_oracles, 6_000, pairs_of_any_kind(), |pair| {
     agree_with_the_oracle(pair)
 });
 
@@ -61,7 +61,7 @@ fn on_a_grid<S: Format>(limit: u32, choices: &mut Choices<'_>) -> PairCase<S> {
 
 property!(
     verdicts_are_the_oracles_on_small_whole_numbers,
-    10_000,
+    4_000,
     from_choices(|choices| {
         let limit = choices.pick(&[1, 2, 3, 5, 9]);
         on_a_grid(limit, choices)
@@ -71,7 +71,7 @@ property!(
 
 property!(
     nothing_overflows_at_the_limit_of_a_width,
-    2_000,
+    800,
     from_choices(at_the_limit_of_a_width),
     |pair| agree_with_the_oracle(pair)
 );
@@ -111,14 +111,14 @@ fn verdicts_are_the_oracles_on_pairs_in_a_cube() {
 
 property!(
     pairs_that_touch_by_construction_do,
-    40_000,
+    15_000,
     touching_pairs(),
     |moment: Moment| both_say(&moment.pair(), true)
 );
 
 property!(
     verdicts_are_the_oracles_for_coplanar_pairs,
-    20_000,
+    8_000,
     coplanar_pairs(),
     |moment: Moment| agree_with_the_oracle(&moment.pair())
 );
@@ -141,7 +141,7 @@ fn every_kind_of_evidence_is_given() {
     assert!(counts.iter().all(|&count| count > 10), "{counts:?}");
 }
 
-property!(what_is_not_finite_is_undefined, 20_000, extraordinary_pairs(), |pair| {
+property!(what_is_not_finite_is_undefined, 8_000, extraordinary_pairs(), |pair| {
     if pair.is_finite() {
         return agree_with_the_oracle(pair);
     }
@@ -158,14 +158,14 @@ fn same<S: Format>(pair: &PairCase<S>, changed: &PairCase<S>) -> Result<(), Test
     Ok(())
 }
 
-property!(reversing_time_changes_no_verdict, 3_000, pairs_of_any_kind(), |pair| same(
+property!(reversing_time_changes_no_verdict, 1_200, pairs_of_any_kind(), |pair| same(
     pair,
     &pair.reversed()
 ));
 
 property!(
     mirroring_and_permuting_axes_changes_no_verdict,
-    2_000,
+    800,
     pairs_of_any_kind(),
     |pair| {
         for axis in 0..3 {
@@ -184,7 +184,7 @@ property!(
 
 property!(
     permuting_the_faces_vertices_changes_no_verdict,
-    3_000,
+    1_200,
     pairs(PairKind::VertexFace),
     |pair| {
         [[0, 2, 3, 1], [0, 3, 1, 2], [0, 2, 1, 3]]
@@ -195,7 +195,7 @@ property!(
 
 property!(
     exchanging_edges_and_their_ends_changes_no_verdict,
-    2_000,
+    800,
     pairs(PairKind::EdgeEdge),
     |pair| {
         [[2, 3, 0, 1], [1, 0, 2, 3], [0, 1, 3, 2], [3, 2, 0, 1]]
@@ -206,7 +206,7 @@ property!(
 
 property!(
     scaling_by_powers_of_two_changes_no_verdict,
-    3_000,
+    1_200,
     pairs_of_any_kind(),
     |pair| {
         // Each axis by its own: planes, and points in triangles, stay so.
@@ -226,7 +226,7 @@ property!(
 // More than that each is right: what floating point leaves open may differ.
 property!(
     verdicts_are_the_same_in_every_floating_point_environment,
-    1_500,
+    600,
     pairs_of_any_kind(),
     |pair| {
         let answers = |pair: &PairCase<S>| (touches(pair), verdict(pair).0);
@@ -241,7 +241,7 @@ property!(
 
 #[test]
 fn the_same_numbers_in_f64_have_the_same_verdict() {
-    check(50_000, pairs_of_any_kind::<f32>(), |pair| {
+    check(20_000, pairs_of_any_kind::<f32>(), |pair| {
         prop_assert_eq!(touches(pair), touches(&pair.widened()));
         prop_assert_eq!(verdict(pair).0, verdict(&pair.widened()).0);
         Ok(())

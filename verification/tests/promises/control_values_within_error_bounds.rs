@@ -272,7 +272,7 @@ property!(
     /// Each monomial passes through at most 8 roundings (k₀, k₃) or 10 (3k₁, 3k₂), here to nearest. Products that underflow
     /// lose η₀ each: two for a component of n, four for one of h; once more through the last six additions at most.
     control_values_are_off_by_no_more_than_their_roundings,
-    20_000,
+    8_000,
     pairs_of_any_kind(),
     |pair| {
         let Some(Compared {
@@ -326,7 +326,7 @@ fn bounds_by_magnitudes<S: Format>(pair: &PairCase<S>) -> [[RBig; 4]; 2] {
 property!(
     /// The promise that the filter stands on, for each of the four values alone.
     a_control_value_beyond_its_bound_has_the_exact_sign,
-    40_000,
+    15_000,
     pairs_of_any_kind(),
     |pair| {
         match compared(pair) {
@@ -343,7 +343,7 @@ property!(
 
 property!(
     a_control_value_beyond_its_bound_by_magnitudes_has_the_exact_sign,
-    40_000,
+    15_000,
     pairs_of_any_kind(),
     |pair| {
         if let Some(Compared { computed, exact, .. }) = compared(pair) {
@@ -375,7 +375,7 @@ fn underflow_term<S: Format>(largest: &RBig) -> RBig {
 property!(
     /// Eᵢ = Cᵢ·P̂ᵢ + (1 + M)²·η with C = 16u, 20u.
     error_bounds_are_the_documented_ones,
-    10_000,
+    4_000,
     pairs_of_any_kind(),
     |pair| {
         let Some(Compared {
@@ -399,7 +399,7 @@ property!(
 property!(
     /// 96u times the product of three largest magnitudes, by axis or by edge, + (1 + M)²·η.
     error_bounds_by_magnitudes_are_the_documented_ones,
-    10_000,
+    4_000,
     pairs_of_any_kind(),
     |pair| {
         if compared(pair).is_none() {
@@ -451,7 +451,7 @@ fn largest_normal<S: Format>(pair: &PairCase<S>) -> S {
     pair.tetrahedron().largest_normal(kind)
 }
 
-property!(no_normal_is_longer_than_its_bound, 40_000, pairs_of_any_kind(), |pair| {
+property!(no_normal_is_longer_than_its_bound, 15_000, pairs_of_any_kind(), |pair| {
     if compared(pair).is_some() {
         let bound = rational(largest_normal(pair)).sqr();
         for (k, squared) in squared_normals(pair).iter().enumerate() {
@@ -469,7 +469,7 @@ fn the_bound_of_the_normal_is_the_documented_one<S: Format>() {
         let points = [(); 4].map(|()| [(); 2].map(|()| [(); 3].map(|()| number(choices))));
         PairCase::<S>::new(kind, points)
     });
-    check(10_000, whole, |pair| {
+    check(4_000, whole, |pair| {
         let MovingTetrahedron { b, c, p } = pair.tetrahedron();
         let [u, eta] = [S::UNIT_ROUNDOFF, S::UNDERFLOW].map(rational);
         let squared = squared_normals(pair).into_iter().max().expect("three") + eta;

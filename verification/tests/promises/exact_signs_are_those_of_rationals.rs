@@ -30,14 +30,14 @@ fn never_within<S: Format>(pair: &PairCase<S>, separation: S, known: KnownSigns)
     is_never_within(&pair.pair(), separation, known)
 }
 
-property!(signs_are_those_of_rationals, 20_000, pairs_of_any_kind(), |pair| {
+property!(signs_are_those_of_rationals, 8_000, pairs_of_any_kind(), |pair| {
     prop_assert_eq!(signs(pair), Some(InRationals::new(pair).signs()));
     Ok(())
 });
 
 property!(
     nothing_overflows_at_the_limit_of_a_width,
-    5_000,
+    2_000,
     from_choices(at_the_limit_of_a_width),
     |pair| {
         prop_assert_eq!(signs(pair), Some(InRationals::new(pair).signs()));
@@ -47,7 +47,7 @@ property!(
 
 property!(
     never_coplanar_means_one_sign_whatever_is_known_before,
-    20_000,
+    8_000,
     pairs_of_any_kind(),
     |pair| {
         let signs = signs(pair).expect("finite");
@@ -62,7 +62,7 @@ property!(
     }
 );
 
-property!(what_is_known_is_not_asked_again, 5_000, pairs_of_any_kind(), |pair| {
+property!(what_is_known_is_not_asked_again, 2_000, pairs_of_any_kind(), |pair| {
     let signs = signs(pair).expect("finite");
     for i in 0..4 {
         for claimed in [Less, Equal, Greater] {
@@ -77,7 +77,7 @@ property!(what_is_known_is_not_asked_again, 5_000, pairs_of_any_kind(), |pair| {
 
 property!(
     never_culls_what_the_oracle_calls_coplanar,
-    20_000,
+    8_000,
     pairs_of_any_kind(),
     |pair| {
         let question = pair.question();
@@ -88,7 +88,7 @@ property!(
 
 property!(
     signs_that_rounding_cannot_change_are_the_exact_ones,
-    100_000,
+    40_000,
     pairs_of_any_kind(),
     |pair| {
         let tetrahedron = pair.tetrahedron();
@@ -109,7 +109,7 @@ property!(
 
 property!(
     culls_whatever_the_certified_filter_culls,
-    100_000,
+    40_000,
     pairs_of_any_kind(),
     |pair| {
         let certified = verdict(CullingTest::CertifiedNonCoplanarity, pair);
@@ -120,7 +120,7 @@ property!(
 
 property!(
     never_culls_what_is_coplanar_by_construction,
-    20_000,
+    8_000,
     coplanar_pairs(),
     |moment: Moment| {
         prop_assert!(!never_coplanar(&moment.pair(), UNKNOWN));
@@ -130,7 +130,7 @@ property!(
 
 property!(
     what_is_not_finite_has_no_signs_and_is_kept,
-    20_000,
+    8_000,
     extraordinary_pairs(),
     |pair| {
         prop_assert_eq!(signs(pair).is_some(), pair.is_finite());
@@ -149,7 +149,7 @@ fn reversed(signs: [Ordering; 4]) -> [Ordering; 4] {
 
 property!(
     mirroring_an_axis_or_exchanging_two_axes_reverses_the_signs,
-    20_000,
+    8_000,
     pairs_of_any_kind(),
     |pair| {
         let opposite = signs(pair).map(reversed);
@@ -169,7 +169,7 @@ property!(
 
 property!(
     exchanging_two_points_reverses_the_signs_whichever_is_the_base,
-    20_000,
+    8_000,
     pairs_of_any_kind(),
     |pair| {
         let opposite = signs(pair).map(reversed);
@@ -189,7 +189,7 @@ property!(
 
 property!(
     reversing_time_reverses_the_order_of_the_signs,
-    20_000,
+    8_000,
     pairs_of_any_kind(),
     |pair| {
         let mut backwards = signs(&pair.reversed());
@@ -203,7 +203,7 @@ property!(
 
 #[test]
 fn the_same_numbers_in_f64_have_the_same_signs() {
-    check(100_000, pairs_of_any_kind::<f32>(), |pair| {
+    check(40_000, pairs_of_any_kind::<f32>(), |pair| {
         prop_assert_eq!(signs(pair), signs(&pair.widened()));
         Ok(())
     });
@@ -224,7 +224,7 @@ fn is_right_to_a_relative_2_to_the_minus_60<S: Format>(pair: &PairCase<S>) -> Re
 
 property!(
     never_within_is_right_to_a_relative_2_to_the_minus_60,
-    10_000,
+    4_000,
     pairs_of_any_kind(),
     |pair| is_right_to_a_relative_2_to_the_minus_60(pair)
 );
@@ -244,7 +244,7 @@ fn never_within_is_right_where_a_middle_normal_is_zero_and_its_control_value_is_
     is_right_to_a_relative_2_to_the_minus_60(&pair).expect("right");
 }
 
-property!(never_culls_what_the_oracle_calls_within, 2_000, pairs_of_any_kind(), |pair| {
+property!(never_culls_what_the_oracle_calls_within, 800, pairs_of_any_kind(), |pair| {
     let exact = InRationals::new(pair);
     for separation in separations(pair, &exact) {
         if never_within(pair, separation, UNKNOWN) {
@@ -256,7 +256,7 @@ property!(never_culls_what_the_oracle_calls_within, 2_000, pairs_of_any_kind(), 
 
 property!(
     a_separation_that_is_no_length_keeps_the_pair,
-    5_000,
+    2_000,
     pairs_of_any_kind(),
     |pair| {
         for separation in [S::NAN, -S::NAN, S::INFINITY, -S::INFINITY, -S::ONE, -S::ZERO.up()] {
@@ -310,7 +310,7 @@ fn decides_the_largest_spread_there_is_f64() {
 
 property!(
     answers_are_the_same_in_every_floating_point_environment,
-    20_000,
+    8_000,
     pairs_of_any_kind(),
     |pair| {
         let [[x, ..], _] = pair.points[1];

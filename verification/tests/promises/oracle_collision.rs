@@ -114,7 +114,7 @@ fn check_against_stepping(pair: &Pair) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(700))]
+    #![proptest_config(ProptestConfig::with_cases(300))]
 
     #[test]
     fn contacts_on_a_grid_are_those_of_clipping(pair in grid_pair()) {
@@ -138,7 +138,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(700))]
+    #![proptest_config(ProptestConfig::with_cases(300))]
 
     #[test]
     fn earliest_contact_on_a_grid_is_where_stepping_ends(pair in grid_pair()) {

@@ -400,14 +400,14 @@ fn geometry_is_kept(case: &Turning, environment: Environment, count: &Cell<[usiz
 #[test]
 fn geometry_of_bodies_in_screw_motion_is_enclosed() {
     let count = Cell::new([0; 2]);
-    check(400, turning(), |case| geometry_is_kept(case, Environment::all()[0], &count));
-    check(40, turning(), |case| {
+    check(250, turning(), |case| geometry_is_kept(case, Environment::all()[0], &count));
+    check(25, turning(), |case| {
         Environment::all()
             .into_iter()
             .try_for_each(|environment| geometry_is_kept(case, environment, &count))
     });
     let [all, with] = count.get();
-    assert!(all > 300 && 10 * with > 9 * all, "{with} of {all}");
+    assert!(all > 200 && 10 * with > 9 * all, "{with} of {all}");
 }
 
 /// 117,000 cases, in both kinds, were looked at with `PROPTEST_CASES=20000`.

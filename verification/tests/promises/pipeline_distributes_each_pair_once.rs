@@ -160,22 +160,22 @@ fn every_overlapping_pair_is_distributed_exactly_once<S: Format>(mesh: &MeshCase
 
 #[test]
 fn every_overlapping_pair_is_distributed_exactly_once_f64() {
-    check(1500, meshes::<f64>(), every_overlapping_pair_is_distributed_exactly_once);
+    check(600, meshes::<f64>(), every_overlapping_pair_is_distributed_exactly_once);
 }
 
 #[test]
 fn every_overlapping_pair_is_distributed_exactly_once_f32() {
-    check(1500, meshes::<f32>(), every_overlapping_pair_is_distributed_exactly_once);
+    check(600, meshes::<f32>(), every_overlapping_pair_is_distributed_exactly_once);
 }
 
 /// Ten million units from the origin, where the broad phase's `f32` has steps of 1.
 #[test]
 fn every_overlapping_pair_is_distributed_exactly_once_far_from_the_origin() {
-    check(800, meshes::<f64>(), |mesh| {
+    check(400, meshes::<f64>(), |mesh| {
         let far = mesh.moved_by([1e7, -1e7, 1e7]);
         every_overlapping_pair_is_distributed_exactly_once(&far)
     });
-    check(300, meshes::<f32>(), |mesh| {
+    check(150, meshes::<f32>(), |mesh| {
         let far = mesh.moved_by([1e7, -1e7, 1e7]);
         every_overlapping_pair_is_distributed_exactly_once(&far)
     });
@@ -266,12 +266,12 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>
 
 #[test]
 fn every_preset_ends_with_what_its_own_tests_leave_f64() {
-    check(300, meshes::<f64>(), every_preset_ends_with_what_its_own_tests_leave);
+    check(150, meshes::<f64>(), every_preset_ends_with_what_its_own_tests_leave);
 }
 
 #[test]
 fn every_preset_ends_with_what_its_own_tests_leave_f32() {
-    check(300, meshes::<f32>(), every_preset_ends_with_what_its_own_tests_leave);
+    check(150, meshes::<f32>(), every_preset_ends_with_what_its_own_tests_leave);
 }
 
 /// From the mesh to the contacts, against the exact oracle.
@@ -346,12 +346,12 @@ fn moving_boxes_end_with_what_the_certified_tests_leave<S: Format>(mesh: &MeshCa
 
 #[test]
 fn moving_boxes_end_with_what_the_certified_tests_leave_f64() {
-    check(300, meshes::<f64>(), moving_boxes_end_with_what_the_certified_tests_leave);
+    check(150, meshes::<f64>(), moving_boxes_end_with_what_the_certified_tests_leave);
 }
 
 #[test]
 fn moving_boxes_end_with_what_the_certified_tests_leave_f32() {
-    check(300, meshes::<f32>(), moving_boxes_end_with_what_the_certified_tests_leave);
+    check(150, meshes::<f32>(), moving_boxes_end_with_what_the_certified_tests_leave);
 }
 
 /// From the mesh to the candidates, against the exact oracle.

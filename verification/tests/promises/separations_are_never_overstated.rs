@@ -119,7 +119,7 @@ fn is_kept_apart<S: Format>(pair: &PairCase<S>, directions: &[S::Vector], separa
 property!(
     /// Whatever the direction.
     nothing_keeps_apart_what_touches,
-    2_000,
+    800,
     touching_pairs(),
     |moment: Moment| {
         let pair = &moment.pair();
@@ -142,7 +142,7 @@ fn largest_of_all<S: Format, I>(input: &I, f: impl Fn(&I) -> Option<S>) -> Optio
 
 property!(
     a_pair_keeps_the_separation_that_a_direction_is_said_to_keep,
-    1_500,
+    600,
     pairs_of_any_kind(),
     |pair| {
         let directions = directions(pair);
@@ -161,7 +161,7 @@ fn is_at_least(pair: &Pair, end: u32, bound: f64) -> bool {
     bound <= 0.0 || !within_at(pair, &RBig::from(end), bound.next_down())
 }
 
-property!(a_bound_of_the_distance_is_not_above_it, 1_500, pairs_of_any_kind(), |pair| {
+property!(a_bound_of_the_distance_is_not_above_it, 600, pairs_of_any_kind(), |pair| {
     let directions = directions(pair);
     let (question, kind) = (pair.question(), pair.kind);
     let better = |a: S, b: S| if a < b { b } else { a };
@@ -191,7 +191,7 @@ property!(a_bound_of_the_distance_is_not_above_it, 1_500, pairs_of_any_kind(), |
     Ok(())
 });
 
-property!(what_is_not_finite_is_never_kept_apart, 2_000, extraordinary_pairs(), |pair| {
+property!(what_is_not_finite_is_never_kept_apart, 800, extraordinary_pairs(), |pair| {
     let finite = pair.map(S::made_finite);
     let directions = directions(&finite);
     if pair.is_finite() {
@@ -255,7 +255,7 @@ fn strayed(x: f64, by: f64) -> f64 {
 property!(
     /// Though its points stray towards each other, as far as they may.
     a_clear_pair_keeps_its_distance,
-    800,
+    400,
     questions(),
     |question: Question| {
         let pair = in_double(&question.pair);
@@ -271,7 +271,7 @@ property!(
 property!(
     /// As far as the clearance says.
     a_pair_keeps_its_distance_though_its_points_stray_as_far_as_they_may,
-    800,
+    400,
     questions(),
     |question: Question| {
         let pair = in_double(&question.pair);
@@ -380,7 +380,7 @@ fn course_of<S: Format>(question: &Question<S>) -> Option<Course<S>> {
 
 property!(
     who_has_room_has_not_strayed_farther_from_the_course,
-    4_000,
+    1_500,
     questions(),
     |question: Question| {
         for environment in Environment::all() {
@@ -470,30 +470,25 @@ fn cut_short(pair: &Pair, until: f64) -> Option<Pair> {
     Some(cut)
 }
 
-property!(
-    boxes_that_are_apart_keep_their_separation,
-    1_500,
-    pairs_of_any_kind(),
-    |pair| {
-        for until in [1.0, 0.0625] {
-            let Some(cut) = cut_short(&pair.question(), until) else {
-                continue;
-            };
-            let until = S::from_f64(until);
-            let kept = largest_of_all(pair, |pair| {
-                largest_accepted(|separation| are_boxes_apart(pair, separation, until))
-            });
-            if let Some(separation) = kept {
-                prop_assert!(!within(&cut, separation.to_f64()), "{separation} until {until}");
-            }
+property!(boxes_that_are_apart_keep_their_separation, 600, pairs_of_any_kind(), |pair| {
+    for until in [1.0, 0.0625] {
+        let Some(cut) = cut_short(&pair.question(), until) else {
+            continue;
+        };
+        let until = S::from_f64(until);
+        let kept = largest_of_all(pair, |pair| {
+            largest_accepted(|separation| are_boxes_apart(pair, separation, until))
+        });
+        if let Some(separation) = kept {
+            prop_assert!(!within(&cut, separation.to_f64()), "{separation} until {until}");
         }
-        Ok(())
     }
-);
+    Ok(())
+});
 
 property!(
     boxes_that_are_drawn_in_keep_the_smaller_separation,
-    1_000,
+    400,
     pairs_of_any_kind(),
     |pair| {
         let kept = largest_of_all(pair, |pair| {
@@ -540,7 +535,7 @@ fn boxes_that_are_drawn_in_show_nearly_all_that_is_kept_and_nothing_that_cannot_
 
 property!(
     boxes_of_what_is_not_finite_are_not_apart,
-    2_000,
+    800,
     extraordinary_pairs(),
     |pair| {
         // One point alone is neither finite nor apart from anything.
@@ -562,7 +557,7 @@ property!(
 
 property!(
     narrowing_makes_nothing_less_or_later_and_hardly_more_or_earlier,
-    1_000,
+    400,
     pairs_of_any_kind(),
     |pair| {
         let near = half_to_the(22);
@@ -604,7 +599,7 @@ property!(
 
 property!(
     narrowing_exchanges_no_two_numbers_in_any_environment,
-    1_000,
+    400,
     pairs_of_any_kind(),
     |pair| {
         let value = pair
@@ -644,7 +639,7 @@ fn across<S: Format>([v, others @ ..]: [[S; 3]; 4]) -> RBig {
 
 fn only_what_is_beyond_a_right_angle_is_wide_open<S: Format>() {
     let open = std::cell::Cell::new([0; 2]);
-    check(1_500, pairs_of_any_kind::<S>(), |pair| {
+    check(1500, pairs_of_any_kind::<S>(), |pair| {
         let points = pair.points.map(|[start, _]| start);
         // At a right angle, but for rounding: the last corner perpendicular to the first triangle, turned a little.
         let [v, u, a, _] = points.map(|point| DVec3::from(point.map(S::to_f64)));

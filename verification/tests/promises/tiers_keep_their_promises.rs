@@ -61,18 +61,18 @@ fn nothing_culls_what_it_must_not<S: Format>(pair: &PairCase<S>) -> Result<(), T
 
 property!(
     nothing_certified_culls_what_the_oracle_calls_coplanar_or_touching,
-    60_000,
+    25_000,
     pairs_of_any_kind(),
     |pair| nothing_culls_what_it_must_not(pair)
 );
 
-property!(nothing_certified_culls_a_graze, 20_000, grazes_of_a_box(), |pair| {
+property!(nothing_certified_culls_a_graze, 8_000, grazes_of_a_box(), |pair| {
     nothing_culls_what_it_must_not(pair)
 });
 
 property!(
     nothing_certified_culls_what_is_not_finite,
-    40_000,
+    15_000,
     extraordinary_pairs(),
     |pair| {
         if pair.is_finite() {
@@ -89,7 +89,7 @@ property!(
 
 property!(
     nothing_certified_culls_what_is_built_to_touch,
-    60_000,
+    25_000,
     touching_pairs(),
     |moment: Moment| {
         let pair = moment.pair();
@@ -103,7 +103,7 @@ property!(
 
 property!(
     only_subdivided_culls_what_is_built_to_be_coplanar,
-    60_000,
+    25_000,
     coplanar_pairs(),
     |moment: Moment| {
         let pair = moment.pair();
@@ -116,7 +116,7 @@ property!(
 
 property!(
     exact_culls_exactly_when_the_rational_control_values_have_one_sign,
-    20_000,
+    8_000,
     pairs_of_any_kind(),
     |pair| {
         let one_sign = InRationals::new(pair).have_one_sign();
@@ -148,34 +148,29 @@ fn lengths<S: Format>(pair: &PairCase<S>) -> Vec<S> {
     vec![x.abs(), y.abs() * fine, (z - x2).abs().made_finite(), fine]
 }
 
-property!(
-    sharper_tiers_cull_whatever_others_cull,
-    100_000,
-    pairs_of_any_kind(),
-    |pair| {
-        use Tier::{Exact, MagnitudesByAxis, MagnitudesByEdge, Permanent, Subdivided, Widened};
-        let lengths = lengths(pair);
-        for pair_of_tiers in [
-            [MagnitudesByEdge, Exact],
-            [MagnitudesByAxis, Exact],
-            [Permanent, Widened],
-            [Widened, Exact],
-            [Permanent, Exact],
-            [Permanent, Subdivided(Depth::One)],
-        ] {
-            is_at_least_as_sharp(pair, &lengths, pair_of_tiers)?;
-        }
-        for depths in DEPTHS.windows(2) {
-            let tiers = [Subdivided(depths[0]), Subdivided(depths[1])];
-            is_at_least_as_sharp(pair, &lengths, tiers)?;
-        }
-        Ok(())
+property!(sharper_tiers_cull_whatever_others_cull, 40_000, pairs_of_any_kind(), |pair| {
+    use Tier::{Exact, MagnitudesByAxis, MagnitudesByEdge, Permanent, Subdivided, Widened};
+    let lengths = lengths(pair);
+    for pair_of_tiers in [
+        [MagnitudesByEdge, Exact],
+        [MagnitudesByAxis, Exact],
+        [Permanent, Widened],
+        [Widened, Exact],
+        [Permanent, Exact],
+        [Permanent, Subdivided(Depth::One)],
+    ] {
+        is_at_least_as_sharp(pair, &lengths, pair_of_tiers)?;
     }
-);
+    for depths in DEPTHS.windows(2) {
+        let tiers = [Subdivided(depths[0]), Subdivided(depths[1])];
+        is_at_least_as_sharp(pair, &lengths, tiers)?;
+    }
+    Ok(())
+});
 
 property!(
     a_larger_separation_never_culls_more_and_none_is_zero,
-    50_000,
+    20_000,
     pairs_of_any_kind(),
     |pair| {
         let mut lengths = lengths(pair);
@@ -197,7 +192,7 @@ property!(
     /// The promise is about the plane of the face, and the lines of the edges, which come no farther apart than they themselves.
     /// Separations are those at which the rational control values change their answer, where the tiers have to be on the safe side.
     nothing_certified_culls_what_comes_within_the_separation,
-    1_500,
+    600,
     pairs_of_any_kind(),
     |pair| {
         let exact = InRationals::new(pair);

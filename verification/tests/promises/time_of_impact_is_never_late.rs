@@ -227,11 +227,11 @@ fn never_is_late<S: Format>(question: &Question<S>, impact: Impact<S>) -> Result
     Ok(())
 }
 
-property!(is_never_later_than_the_exact_time, 30_000, questions, |question| {
+property!(is_never_later_than_the_exact_time, 12_000, questions, |question| {
     is_not_late(question)
 });
 
-property!(is_never_later_than_the_exact_time_in_sweeps, 15_000, questions, |question| {
+property!(is_never_later_than_the_exact_time_in_sweeps, 6_000, questions, |question| {
     is_not_late_in_sweeps(question)
 });
 
@@ -247,7 +247,7 @@ fn finds_what_touches<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseError
     Ok(())
 }
 
-property!(finds_every_pair_that_touches, 200_000, touching_pairs, |moment| {
+property!(finds_every_pair_that_touches, 80_000, touching_pairs, |moment| {
     finds_what_touches(moment)
 });
 
@@ -270,7 +270,7 @@ fn finds_what_touches_in_every_environment<S: Format>(moment: &Moment<S>) -> Res
 
 property!(
     finds_every_pair_that_touches_in_every_environment,
-    20_000,
+    8_000,
     touching_pairs,
     |moment| finds_what_touches_in_every_environment(moment)
 );
@@ -300,7 +300,7 @@ fn excludes_only_what_stays_apart<S: Format>(question: &Question<S>) -> Result<(
 
 property!(
     excludes_only_what_stays_apart_in_every_environment,
-    5_000,
+    2_000,
     questions,
     |question| excludes_only_what_stays_apart(question)
 );
@@ -335,7 +335,7 @@ fn is_not_late_when_coplanar<S: Format>(moment: &Moment<S>) -> Result<(), TestCa
     })
 }
 
-property!(is_not_late_for_coplanar_pairs, 30_000, coplanar_pairs, |moment| {
+property!(is_not_late_for_coplanar_pairs, 12_000, coplanar_pairs, |moment| {
     is_not_late_when_coplanar(moment)
 });
 
@@ -368,7 +368,7 @@ fn is_tight<S: Format>(question: &Question<S>) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-property!(is_within_the_tolerance_when_it_says_so, 30_000, questions, |question| {
+property!(is_within_the_tolerance_when_it_says_so, 12_000, questions, |question| {
     is_tight(question)
 });
 
@@ -379,7 +379,7 @@ fn does_not_work_more_than_stated(work: Work) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-property!(does_no_more_work_than_stated, 100_000, questions, |question| {
+property!(does_no_more_work_than_stated, 40_000, questions, |question| {
     does_not_work_more_than_stated(question.answer().1)
 });
 
@@ -405,7 +405,7 @@ fn excludes_nothing_that_is_not_finite<S: Format>(pair: &PairCase<S>) -> Result<
     Ok(())
 }
 
-property!(excludes_nothing_from_bad_input, 50_000, extraordinary_pairs, |pair| {
+property!(excludes_nothing_from_bad_input, 20_000, extraordinary_pairs, |pair| {
     excludes_nothing_that_is_not_finite(pair)
 });
 
@@ -486,6 +486,6 @@ fn bisection_is_not_late<S: Format>(moment: &Moment<S>) -> Result<(), TestCaseEr
     Ok(())
 }
 
-property!(bisection_finds_every_pair_that_touches, 20_000, touching_pairs, |moment| {
+property!(bisection_finds_every_pair_that_touches, 8_000, touching_pairs, |moment| {
     bisection_is_not_late(moment)
 });
