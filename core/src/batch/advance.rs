@@ -95,7 +95,7 @@ pub fn advance_from_rows<S: Scalar>(
             continue;
         }
         let whole = match (indices.first_chunk(), times.first_chunk_mut()) {
-            (Some(indices), Some(times)) => S::round(level, kind, &question, rows, indices, times),
+            (Some(indices), Some(times)) => S::round(level, kind, &question, rows, indices, times, Mask::MAX),
             _ => None,
         };
         *round = whole.unwrap_or_else(|| padded(level, kind, &question, rows, indices, times));
@@ -124,7 +124,7 @@ fn padded<S: Scalar>(
     for (own, &time) in whole_times.iter_mut().zip(times.iter()) {
         *own = time;
     }
-    let Some(round) = S::round(level, kind, question, rows, &indices, &mut whole_times) else {
+    let Some(round) = S::round(level, kind, question, rows, &indices, &mut whole_times, known) else {
         return all;
     };
     for (lane, (time, new)) in times.iter_mut().zip(whole_times).enumerate() {

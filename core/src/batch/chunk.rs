@@ -25,9 +25,25 @@ pub(super) trait Chunk: Lanes<Scalar: Scalar> {
     fn bits(mask: Self::Mask) -> Mask;
     /// One of the parts of a row, the first of which is 0.
     fn part(token: Self::Token, row: &VertexRow<Self::Scalar>, part: usize) -> Self::Part;
+    /// The same of the second row less the first.
+    #[inline(always)]
+    fn between(token: Self::Token, from: &VertexRow<Self::Scalar>, to: &VertexRow<Self::Scalar>, part: usize) -> Self::Part {
+        Self::part(token, to, part) - Self::part(token, from, part)
+    }
     /// Lanes of start and end, of which `row` gives the rows by lane and part. `None` if it gives none.
     fn columns(row: impl Fn(usize, usize) -> Option<Self::Part>) -> Option<[Vector<Self>; 2]>;
 }
+
+/// `?`, which is a call in builds without optimisation.
+macro_rules! some {
+    ($option:expr) => {
+        match $option {
+            Some(value) => value,
+            None => return None,
+        }
+    };
+}
+pub(super) use some;
 
 /// One of the rows, if there is such a one. (`get` takes long in builds without optimisation.)
 #[inline(always)]
@@ -54,13 +70,14 @@ pub(super) fn points<L: Chunk>(token: L::Token, pairs: Sixteen<'_, L::Scalar>, f
                         )
                     },
                 ),
-                Sixteen::Mesh { rows, indices } => L::columns(
+                Sixteen::Mesh { rows, indices } => some!(L::columns(
                     #[inline(always)]
-                    |lane, part| match row(rows, indices[(first + lane) % LANES][$point]) {
-                        Some(row) => Some(L::part(token, row, part)),
-                        None => None,
-                    },
-                )?,
+                    |lane, part| Some(L::part(
+                        token,
+                        some!(row(rows, indices[(first + lane) % LANES][$point])),
+                        part
+                    )),
+                )),
             }
         };
     }
@@ -86,10 +103,7 @@ pub(super) fn edge<L: Chunk>(
         #[inline(always)]
         |lane, part| {
             let [from, to] = ends(indices[(first + lane) % LANES]);
-            match (row(rows, from), row(rows, to)) {
-                (Some(from), Some(to)) => Some(L::part(token, to, part) - L::part(token, from, part)),
-                _ => None,
-            }
+            Some(L::between(token, some!(row(rows, from)), some!(row(rows, to)), part))
         },
     )
 }

@@ -34,8 +34,8 @@ pub trait Compares: Copy {
     fn within(self, block: &BoxBlock, other: &Aabb<f32>, distance: f32, among: Mask) -> Mask;
     /// The lanes whose number is above its limit; not where either is NaN.
     fn above(self, numbers: &[f32; LANES], limits: &[f32; LANES]) -> Mask;
-    /// The lanes `among` these whose number this is.
-    fn equal(self, numbers: &[u32; LANES], number: u32, among: Mask) -> Mask;
+    /// The lanes `among` these that have one of the `wanted` numbers in one of the rows.
+    fn equal<const M: usize, const N: usize>(self, rows: &[[u32; LANES]; M], wanted: &[u32; N], among: Mask) -> Mask;
 }
 
 /// A loop that is compiled for each instruction set. `run` must be `#[inline(always)]`, and so must what it calls: what is not inlined has
@@ -102,12 +102,20 @@ impl Compares for OneByOne {
     }
 
     #[inline(always)]
-    fn equal(self, numbers: &[u32; LANES], number: u32, among: Mask) -> Mask {
+    fn equal<const M: usize, const N: usize>(self, rows: &[[u32; LANES]; M], wanted: &[u32; N], among: Mask) -> Mask {
         let (mut asked, mut equal) = (among, 0);
         while asked != 0 {
             let lane = next_lane(&mut asked);
-            if numbers[lane] == number {
-                equal |= 1 << lane;
+            let (mut row, mut k) = (0, 0);
+            while row < M && k < N {
+                if rows[row][lane] == wanted[k] {
+                    equal |= 1 << lane;
+                    break;
+                }
+                k += 1;
+                if k == N {
+                    (row, k) = (row + 1, 0);
+                }
             }
         }
         equal
@@ -166,8 +174,14 @@ impl<V: Simd> Compares for Vectors<V> {
     }
 
     #[inline(always)]
-    fn equal(self, numbers: &[u32; LANES], number: u32, among: Mask) -> Mask {
-        let row = u32x16::load_array_ref(self.0, numbers);
-        row.simd_eq(u32x16::splat(self.0, number)).to_bitmask() as Mask & among
+    fn equal<const M: usize, const N: usize>(self, rows: &[[u32; LANES]; M], wanted: &[u32; N], among: Mask) -> Mask {
+        let mut equal = 0;
+        for row in rows {
+            let row = u32x16::load_array_ref(self.0, row);
+            for &number in wanted {
+                equal |= row.simd_eq(u32x16::splat(self.0, number)).to_bitmask() as Mask;
+            }
+        }
+        equal & among
     }
 }

@@ -4,7 +4,7 @@
 //! the crate is compiled in seconds: with all of it in one function, sixteen lanes wide, it took more than a minute and gigabytes.
 
 use super::advance::{Round, RoundQuestion, round};
-use super::chunk::{Chunk, edge, points};
+use super::chunk::{Chunk, edge, points, some};
 use super::lane_test::VolumeTest;
 use super::{Bounded, LANES, Level, Mask, VertexRow};
 #[cfg(feature = "verification")]
@@ -23,9 +23,15 @@ use fearless_simd::{Simd, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 /// None of it is generic but what the feature `verification` adds, so that its many kernels (for each instruction set and kind) are
 /// compiled once, in this crate, and not in every crate that calls them.
 pub trait BatchScalar: Copy {
-    /// What the filter's bound says of sixteen pairs. `None` if an index is not in the rows.
+    /// What the filter's bound says of sixteen pairs, or nothing of those that are not `wanted`. `None` if an index is not in the rows.
     #[doc(hidden)]
-    fn bounded(level: Level, kind: PairKind, bounded: Bounded<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
+    fn bounded(
+        level: Level,
+        kind: PairKind,
+        bounded: Bounded<Self>,
+        pairs: Sixteen<'_, Self>,
+        wanted: Mask,
+    ) -> Option<Decision<Mask>>;
 
     /// What the filter does with one pair that its bound leaves open.
     #[doc(hidden)]
@@ -46,9 +52,16 @@ pub trait BatchScalar: Copy {
     /// The same of one test, compiled where it is called.
     #[cfg(feature = "verification")]
     #[doc(hidden)]
-    fn by_volume(level: Level, kind: PairKind, test: impl VolumeTest<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>>;
+    fn by_volume(
+        level: Level,
+        kind: PairKind,
+        test: impl VolumeTest<Self>,
+        pairs: Sixteen<'_, Self>,
+        wanted: Mask,
+    ) -> Option<Decision<Mask>>;
 
-    /// One round of advancing for sixteen pairs, from their times on. `None` if an index is not in the rows.
+    /// One round of advancing for sixteen pairs, from their times on, or none for those that are not `wanted`. `None` if an index is not in
+    /// the rows.
     #[doc(hidden)]
     fn round(
         level: Level,
@@ -57,6 +70,7 @@ pub trait BatchScalar: Copy {
         rows: &[VertexRow<Self>],
         indices: &[[u32; 4]; LANES],
         times: &mut [Self; LANES],
+        wanted: Mask,
     ) -> Option<Round>;
 }
 
@@ -101,14 +115,25 @@ fn test_points<P: PairShape, L: Chunk>(token: L::Token, test: impl PointsTest, p
     Some(culled)
 }
 
+/// Whether one pair alone is not among the `wanted`. Several at a time are cheaper than asking.
+#[inline(always)]
+const fn may_skip<L: Chunk>(wanted: Mask, first: usize) -> bool {
+    L::WIDTH == 1 && wanted >> (first % LANES) & 1 == 0
+}
+
 #[inline(always)]
 fn test_volume<P: PairShape, L: Chunk>(
     token: L::Token,
     test: impl VolumeTest<L::Scalar>,
     pairs: Sixteen<'_, L::Scalar>,
+    wanted: Mask,
 ) -> Option<Decision<Mask>> {
     let (mut culled, mut settled, mut first) = (0, 0, 0);
     while first < LANES {
+        if may_skip::<L>(wanted, first) {
+            first += 1;
+            continue;
+        }
         let tetrahedron = match pairs {
             #[cfg(feature = "verification")]
             Sixteen::Tile(_) => points::<L>(token, pairs, first)?.tetrahedron::<P>(),
@@ -116,7 +141,7 @@ fn test_volume<P: PairShape, L: Chunk>(
                 // The edge from the volume's first point to another.
                 macro_rules! to {
                     ($point:literal) => {
-                        edge(
+                        some!(edge(
                             token,
                             rows,
                             indices,
@@ -126,7 +151,7 @@ fn test_volume<P: PairShape, L: Chunk>(
                                 let points = P::volume_points(pair);
                                 [points[0], points[$point]]
                             },
-                        )?
+                        ))
                     };
                 }
                 MovingTetrahedron {
@@ -152,10 +177,15 @@ fn advance<P: PairShape, L: Chunk>(
     rows: &[VertexRow<L::Scalar>],
     indices: &[[u32; 4]; LANES],
     times: &mut [L::Scalar; LANES],
+    wanted: Mask,
 ) -> Option<Round> {
     let (mut all, mut new, mut first) = (Round::default(), *times, 0);
     while first < LANES {
-        let points = points::<L>(token, Sixteen::Mesh { rows, indices }, first)?;
+        if may_skip::<L>(wanted, first) {
+            first += 1;
+            continue;
+        }
+        let points = some!(points::<L>(token, Sixteen::Mesh { rows, indices }, first));
         let found = round::<P, L>(&points, L::load(token, times, first), question);
         found.time.store(&mut new, first);
         all.apart |= L::bits(found.apart) << first;
@@ -213,8 +243,14 @@ macro_rules! vectorized {
 macro_rules! batch_scalar {
     ($scalar:ident, $lanes:tt, rounds: $round_lanes:tt) => {
         impl BatchScalar for $scalar {
-            fn bounded(level: Level, kind: PairKind, bounded: Bounded<Self>, pairs: Sixteen<'_, Self>) -> Option<Decision<Mask>> {
-                of_kind!(kind, P => vectorized!(level, $lanes, test_volume::<P>(bounded, pairs)))
+            fn bounded(
+                level: Level,
+                kind: PairKind,
+                bounded: Bounded<Self>,
+                pairs: Sixteen<'_, Self>,
+                wanted: Mask,
+            ) -> Option<Decision<Mask>> {
+                of_kind!(kind, P => vectorized!(level, $lanes, test_volume::<P>(bounded, pairs, wanted)))
             }
 
             #[cold]
@@ -240,8 +276,9 @@ macro_rules! batch_scalar {
                 kind: PairKind,
                 test: impl VolumeTest<Self>,
                 pairs: Sixteen<'_, Self>,
+                wanted: Mask,
             ) -> Option<Decision<Mask>> {
-                of_kind!(kind, P => vectorized!(level, $lanes, test_volume::<P>(test, pairs)))
+                of_kind!(kind, P => vectorized!(level, $lanes, test_volume::<P>(test, pairs, wanted)))
             }
 
             fn round(
@@ -251,8 +288,9 @@ macro_rules! batch_scalar {
                 rows: &[VertexRow<Self>],
                 indices: &[[u32; 4]; LANES],
                 times: &mut [Self; LANES],
+                wanted: Mask,
             ) -> Option<Round> {
-                of_kind!(kind, P => vectorized!(level, $round_lanes, advance::<P>(question, rows, indices, times)))
+                of_kind!(kind, P => vectorized!(level, $round_lanes, advance::<P>(question, rows, indices, times, wanted)))
             }
         }
     };

@@ -88,8 +88,8 @@ mod shown {
 
     impl<S: Scalar, T: VolumeTest<S>> BatchTest<S> for ByVolume<T> {
         #[inline(always)]
-        fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, _: Mask) -> Option<Mask> {
-            Some(S::by_volume(level, kind, self.0, pairs)?.culled)
+        fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, wanted: Mask) -> Option<Mask> {
+            Some(S::by_volume(level, kind, self.0, pairs, wanted)?.culled)
         }
     }
 }

@@ -125,7 +125,7 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
             bound: self.tier().bound(),
             separation: self.positive_separation(),
         };
-        let Decision { mut culled, settled } = S::bounded(level, kind, bounded, pairs)?;
+        let Decision { mut culled, settled } = S::bounded(level, kind, bounded, pairs, wanted)?;
         // One by one, of those that the tier has more to say of.
         let mut open = self.tier().open(culled, settled) & wanted;
         while open != 0 {

@@ -13,7 +13,7 @@ impl<S: Scalar> VertexRow<S> {
     /// The row of a moving vertex.
     #[inline(always)]
     pub fn new(motion: Motion<S>) -> Self {
-        let [[x, y, z], [u, v, w]] = [motion.start, motion.end].map(Into::into);
+        let ([x, y, z], [u, v, w]) = (motion.start.into(), motion.end.into());
         Self([x, y, z, S::ZERO, u, v, w, S::ZERO])
     }
 

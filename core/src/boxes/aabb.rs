@@ -58,13 +58,21 @@ impl<S: Scalar> Aabb<S> {
     #[inline]
     #[must_use]
     pub fn merged(&self, other: &Self) -> Self {
-        // Written out: of all that a step does once for each vertex and box, the most.
-        let ([a, b, c], [x, y, z]) = (self.lower, other.lower);
-        let ([d, e, f], [u, v, w]) = (self.upper, other.upper);
-        Self {
-            lower: [x.smaller(a), y.smaller(b), z.smaller(c)],
-            upper: [u.larger(d), v.larger(e), w.larger(f)],
-        }
+        let mut both = *self;
+        both.merge(other);
+        both
+    }
+
+    /// Becomes the smallest box that holds both.
+    #[inline]
+    pub fn merge(&mut self, other: &Self) {
+        // Written out and in place: of all that a step does once for each vertex and box, the most.
+        self.lower[0] = other.lower[0].smaller(self.lower[0]);
+        self.lower[1] = other.lower[1].smaller(self.lower[1]);
+        self.lower[2] = other.lower[2].smaller(self.lower[2]);
+        self.upper[0] = other.upper[0].larger(self.upper[0]);
+        self.upper[1] = other.upper[1].larger(self.upper[1]);
+        self.upper[2] = other.upper[2].larger(self.upper[2]);
     }
 
     /// Whether the closed boxes share a point. Exact.

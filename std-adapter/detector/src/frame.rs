@@ -154,8 +154,8 @@ pub(crate) fn check_frame<P: Position>(frame: Frame, positions: &[P], expected: 
         });
     }
     let is_finite = |&position: &P| {
-        let coordinates: [P::Scalar; 3] = position.into();
-        coordinates.into_iter().all(Scalar::is_finite)
+        let [x, y, z] = position.into();
+        x.is_finite() && y.is_finite() && z.is_finite()
     };
     match positions.iter().position(|position| !is_finite(position)) {
         None => Ok(()),
@@ -172,8 +172,8 @@ pub(crate) fn check_frame<P: Position>(frame: Frame, positions: &[P], expected: 
 
 /// The same position in `f64`.
 pub(crate) fn exactly<P: Position>(position: P) -> DVec3 {
-    let coordinates: [P::Scalar; 3] = position.into();
-    coordinates.map(Scalar::to_f64).into()
+    let [x, y, z] = position.into();
+    DVec3::new(x.to_f64(), y.to_f64(), z.to_f64())
 }
 
 /// A step's positions, of either format. What reads them is compiled once, not for each type that positions have.

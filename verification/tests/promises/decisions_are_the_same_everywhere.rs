@@ -321,9 +321,9 @@ fn boxes_within_a_distance_are_those_among_the_lanes_asked_about_on_every_instru
     assert!(is_told(gap) && !is_told(gap.next_down()));
 }
 
-struct Equal<'a>(&'a [u32; LANES], u32, Mask);
+struct Equal<'a, const M: usize, const N: usize>(&'a [[u32; LANES]; M], &'a [u32; N], Mask);
 
-impl Loop for Equal<'_> {
+impl<const M: usize, const N: usize> Loop for Equal<'_, M, N> {
     type Output = Mask;
 
     #[inline(always)]
@@ -332,19 +332,30 @@ impl Loop for Equal<'_> {
     }
 }
 
+/// Whether lanes among those asked about are told that have one of these numbers, and no others.
+fn equal_are_told<const M: usize, const N: usize>(rows: &[[u32; LANES]; M], wanted: &[u32; N]) {
+    for among in [Mask::MAX, 0, 0xA5C3] {
+        let has_one = |lane: usize| rows.iter().any(|row| wanted.contains(&row[lane]));
+        let is_one = |&lane: &usize| among >> lane & 1 == 1 && has_one(lane);
+        let expected = (0..LANES).filter(is_one).fold(0, |mask, lane| mask | 1 << lane);
+        for (name, level) in available_levels() {
+            let found = in_lanes(level, Equal(rows, wanted, among));
+            assert_eq!(found, expected, "{name}: {wanted:?} among {among:#06x}");
+        }
+    }
+}
+
 #[test]
 fn equal_numbers_are_those_among_the_lanes_asked_about_on_every_instruction_set() {
     let numbers = std::array::from_fn(|lane| [7, u32::MAX, 0, 7, 1 << 31][lane % 5]);
+    let others = std::array::from_fn(|lane| [8, 7, 9][lane % 3]);
     for number in [7, u32::MAX, 0, 1 << 31, 8] {
-        for among in [Mask::MAX, 0, 0xA5C3] {
-            let is_one = |&lane: &usize| among >> lane & 1 == 1 && numbers[lane] == number;
-            let expected = (0..LANES).filter(is_one).fold(0, |mask, lane| mask | 1 << lane);
-            for (name, level) in available_levels() {
-                let found = in_lanes(level, Equal(&numbers, number, among));
-                assert_eq!(found, expected, "{name}: {number} among {among:#06x}");
-            }
-        }
+        equal_are_told(&[numbers], &[number]);
+        equal_are_told(&[numbers, others], &[number]);
+        equal_are_told(&[numbers, others], &[number, 9, 10]);
+        equal_are_told(&[numbers, others, numbers], &[11, number]);
     }
+    equal_are_told(&[numbers], &[]);
 }
 
 #[test]

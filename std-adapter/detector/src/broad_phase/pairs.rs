@@ -63,16 +63,25 @@ impl PairBuffer {
     /// is hard to predict: eight pairs are written, of which those count that are set.
     #[inline(always)]
     pub(super) fn push(&mut self, first: u32, second: u32, mask: Mask) {
-        for (second, byte) in [(second, mask & 0xFF), (second + 8, mask >> 8)] {
+        // No `for`: in builds without optimisation an iterator takes longer than what it is for.
+        let mut half = 0;
+        while half < 16 {
+            let (second, byte) = (second + half, mask >> half & 0xFF);
+            half += 8;
+            let count = byte.count_ones() as usize;
+            // There a branch is cheap beside what it is about.
+            let written = if cfg!(debug_assertions) { count } else { 8 };
+            if written == 0 {
+                continue;
+            }
             let places = &mut self.pairs[self.len..self.len + 8];
             let lanes = &SET_BITS[byte as usize];
-            // No `for`: in builds without optimisation its iterator takes longer than what it is for.
             let mut k = 0;
-            while k < 8 {
+            while k < written {
                 places[k] = [first, second + lanes[k] as u32];
                 k += 1;
             }
-            self.len += byte.count_ones() as usize;
+            self.len += count;
         }
     }
 }

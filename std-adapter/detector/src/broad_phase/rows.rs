@@ -126,12 +126,10 @@ fn narrowed(double: &[VertexRow<f64>], single: &mut [VertexRow<f32>]) -> bool {
     double.iter().zip(single).all(|(double, single)| {
         let motion = double.motion();
         let mut is_exact = true;
-        let mut narrow = |position: [f64; 3]| {
-            let narrow = position.map(f32::from_f64);
-            for axis in 0..3 {
-                is_exact &= narrow[axis].to_f64() == position[axis];
-            }
-            narrow.into()
+        let mut narrow = |[x, y, z]: [f64; 3]| {
+            let [u, v, w] = [f32::from_f64(x), f32::from_f64(y), f32::from_f64(z)];
+            is_exact &= u.to_f64() == x && v.to_f64() == y && w.to_f64() == z;
+            [u, v, w].into()
         };
         let (start, end) = (narrow(motion.start.into()), narrow(motion.end.into()));
         *single = VertexRow::new(Motion::new(start, end));

@@ -14,6 +14,7 @@ use super::tree::{Node, Tree};
 use selvedge_core::batch::{Compares, LANES, Level, Loop, Mask, in_lanes};
 use selvedge_core::boxes::mapping::Inset;
 use selvedge_core::boxes::moving::MovingBlock;
+use std::array;
 
 /// Two blocks that are near each other: the level and the number of each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -225,7 +226,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
                 }
                 if self.common != Common::Nothing {
                     let vertices = &self.first.vertices[(first + lane) as usize];
-                    near &= !sharing(lanes, corners, vertices, near);
+                    near &= !lanes.equal(corners, vertices, near);
                 }
                 found.push(first + lane, second, near);
             }
@@ -239,7 +240,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         let (own, others) = (&self.first.rest[a as usize], &self.second.rest[b as usize]);
         let lane = lane as usize % LANES;
         let within = lanes.within(&others.boxes, &own.boxes.get(lane), own.within[lane], among);
-        lanes.equal(&others.parts, own.parts[lane], within)
+        lanes.equal(array::from_ref(&others.parts), &[own.parts[lane]], within)
     }
 }
 
@@ -337,21 +338,4 @@ fn next_lane(lanes: &mut Mask) -> u32 {
     let lane = lanes.trailing_zeros();
     *lanes &= *lanes - 1;
     lane
-}
-
-/// The lanes among these that have one of `vertices` for a corner.
-#[inline(always)]
-fn sharing<const N: usize, const M: usize>(
-    lanes: impl Compares,
-    corners: &[[u32; LANES]; M],
-    vertices: &[u32; N],
-    among: Mask,
-) -> Mask {
-    let mut shared = 0;
-    for row in corners {
-        for &vertex in vertices {
-            shared |= lanes.equal(row, vertex, among);
-        }
-    }
-    shared
 }

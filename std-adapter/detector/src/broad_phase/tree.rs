@@ -204,10 +204,13 @@ impl<const N: usize> Tree<N> {
         };
         let vertices = &self.vertices;
         refit_level(leaves, only_moving, |position| {
-            let of_vertices = vertices[position].map(|vertex| &boxes[vertex as usize]);
-            let mut moving = *of_vertices[0];
-            for vertex in &of_vertices[1..] {
-                moving = moving.merged(vertex);
+            let own = &vertices[position];
+            let mut moving = boxes[own[0] as usize];
+            // No `for`, here and below: in builds without optimisation its iterator takes longer than what it is for.
+            let mut k = 1;
+            while k < N {
+                moving.merge(&boxes[own[k] as usize]);
+                k += 1;
             }
             moving
         });
@@ -230,10 +233,12 @@ fn refit_level(level: &mut Level, only_moving: bool, child: impl Fn(usize) -> Mo
                 continue;
             }
             let mut bounds = MovingBox::empty();
-            for lane in 0..node.present.count_ones() as usize {
+            let (mut lane, lanes) = (0, node.present.count_ones() as usize);
+            while lane < lanes {
                 let moving = child((first + index) * LANES + lane);
                 block.set(lane, &moving);
-                bounds = bounds.merged(&moving);
+                bounds.merge(&moving);
+                lane += 1;
             }
             node.bounds = bounds;
         }
