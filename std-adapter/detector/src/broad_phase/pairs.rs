@@ -63,21 +63,34 @@ impl PairBuffer {
     /// is hard to predict: eight pairs are written, of which those count that are set.
     #[inline(always)]
     pub(super) fn push(&mut self, first: u32, second: u32, mask: Mask) {
-        // No `for`: in builds without optimisation an iterator takes longer than what it is for.
+        if cfg!(debug_assertions) {
+            // Without optimisation a branch is cheap beside what it is about.
+            return self.push_each(first, second, mask);
+        }
+        for (second, byte) in [(second, mask & 0xFF), (second + 8, mask >> 8)] {
+            let places = &mut self.pairs[self.len..self.len + 8];
+            let lanes = &SET_BITS[byte as usize];
+            for (place, &lane) in places.iter_mut().zip(lanes) {
+                *place = [first, second + u32::from(lane)];
+            }
+            self.len += byte.count_ones() as usize;
+        }
+    }
+
+    /// The same, only those that are set.
+    fn push_each(&mut self, first: u32, second: u32, mask: Mask) {
         let mut half = 0;
         while half < 16 {
             let (second, byte) = (second + half, mask >> half & 0xFF);
             half += 8;
-            let count = byte.count_ones() as usize;
-            // There a branch is cheap beside what it is about.
-            let written = if cfg!(debug_assertions) { count } else { 8 };
-            if written == 0 {
+            if byte == 0 {
                 continue;
             }
-            let places = &mut self.pairs[self.len..self.len + 8];
+            let count = byte.count_ones() as usize;
+            let places = &mut self.pairs[self.len..self.len + count];
             let lanes = &SET_BITS[byte as usize];
             let mut k = 0;
-            while k < written {
+            while k < count {
                 places[k] = [first, second + lanes[k] as u32];
                 k += 1;
             }
