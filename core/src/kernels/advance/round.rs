@@ -60,6 +60,17 @@ fn round_of<L: Lanes, const N: usize>(
     let w = closest_by_selects(&now, corners.extent);
     let squared_distance = w.dot(w);
     let is_beyond = squared_distance.greater(question.near * question.near);
+    let is_number = time.splat(L::Scalar::INFINITY).greater(squared_distance);
+    let near = is_in_range & is_number & !is_beyond;
+    let others = !near;
+    if L::may_leave(others) {
+        return Found {
+            time,
+            apart: others,
+            near,
+            stuck: others,
+        };
+    }
 
     let direction = corners.direction(w, question.separation);
     let proven = corners.apart_along(&direction, &now, is_in_range);
@@ -76,8 +87,6 @@ fn round_of<L: Lanes, const N: usize>(
         is_proven = is_proven | is_later;
     }
 
-    let is_number = time.splat(L::Scalar::INFINITY).greater(squared_distance);
-    let near = is_in_range & is_number & !is_beyond;
     let open = is_proven & !near;
     Found {
         time: L::select(open, until, time),
