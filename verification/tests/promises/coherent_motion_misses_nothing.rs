@@ -159,8 +159,8 @@ fn the_contacts_are_those_of_a_detector_that_has_seen_no_step_before() {
     check(40, meshes::<f64>(), |mesh| are_followed(mesh, &compared, 0.0));
     check(40, meshes::<f32>(), |mesh| are_followed(mesh, &compared, 0.0));
     for separation in [1e-6, 0.25] {
-        check(15, meshes::<f64>(), |mesh| are_followed(mesh, &compared, separation));
-        check(15, meshes::<f32>(), |mesh| are_followed(mesh, &compared, separation));
+        check(10, meshes::<f64>(), |mesh| are_followed(mesh, &compared, separation));
+        check(10, meshes::<f32>(), |mesh| are_followed(mesh, &compared, separation));
     }
     let [found, more] = compared.get();
     assert!(found > 250 && more < found / 20, "{compared:?}");

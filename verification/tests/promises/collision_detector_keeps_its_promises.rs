@@ -100,12 +100,12 @@ fn no_question_misses_a_contact<S: Format>(mesh: &MeshCase<S>) -> Result<(), Tes
 
 #[test]
 fn no_question_misses_a_contact_f64() {
-    check(250, meshes::<f64>(), no_question_misses_a_contact);
+    check(150, meshes::<f64>(), no_question_misses_a_contact);
 }
 
 #[test]
 fn no_question_misses_a_contact_f32() {
-    check(250, meshes::<f32>(), no_question_misses_a_contact);
+    check(150, meshes::<f32>(), no_question_misses_a_contact);
 }
 
 /// With exact verdicts the contacts are those that the oracle finds, and no others.
@@ -132,17 +132,17 @@ fn exact_contacts_are_those_that_touch<S: Format>(mesh: &MeshCase<S>) -> Result<
 
 #[test]
 fn exact_contacts_are_those_that_touch_f64() {
-    check(250, meshes::<f64>(), exact_contacts_are_those_that_touch);
+    check(120, meshes::<f64>(), exact_contacts_are_those_that_touch);
 }
 
 #[test]
 fn exact_contacts_are_those_that_touch_f32() {
-    check(250, meshes::<f32>(), exact_contacts_are_those_that_touch);
+    check(120, meshes::<f32>(), exact_contacts_are_those_that_touch);
 }
 
 #[test]
 fn no_pair_that_comes_within_the_separation_is_missed() {
-    check(60, meshes::<f64>(), |mesh| {
+    check(30, meshes::<f64>(), |mesh| {
         let topology = mesh.topology();
         let mut detector = detector(mesh);
         for separation in [1e-9, 0.25, 1.0] {
@@ -226,12 +226,12 @@ fn what_rests_changes_nothing_for_what_moves<S: Format>(mesh: &MeshCase<S>) -> R
 
 #[test]
 fn what_rests_changes_nothing_for_what_moves_f64() {
-    check(500, meshes::<f64>(), what_rests_changes_nothing_for_what_moves);
+    check(250, meshes::<f64>(), what_rests_changes_nothing_for_what_moves);
 }
 
 #[test]
 fn what_rests_changes_nothing_for_what_moves_f32() {
-    check(500, meshes::<f32>(), what_rests_changes_nothing_for_what_moves);
+    check(250, meshes::<f32>(), what_rests_changes_nothing_for_what_moves);
 }
 
 /// Positions in `f32`, and the same in `f64`: the same contacts, with the same times but for rounding them down.
