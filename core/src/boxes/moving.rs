@@ -179,19 +179,18 @@ impl MovingBlock {
     #[must_use]
     pub fn near(&self, other: &MovingBox<f32>, among: Mask) -> Mask {
         let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = self.rows();
-        let ([u, v, w], [x, y, z]) = (other.start.lower, other.start.upper);
-        let end = &other.end;
-        let (mut asked, mut near) = (among, among);
+        let (start, end) = (&other.start, &other.end);
+        let (mut asked, mut near) = (among, 0);
         while asked != 0 {
             let lane = next_lane(&mut asked);
-            if a[lane] > x && g[lane] > end.upper[0]
-                || d[lane] < u && j[lane] < end.lower[0]
-                || b[lane] > y && h[lane] > end.upper[1]
-                || e[lane] < v && k[lane] < end.lower[1]
-                || c[lane] > z && i[lane] > end.upper[2]
-                || f[lane] < w && l[lane] < end.lower[2]
-            {
-                near ^= 1 << lane;
+            let is_apart = a[lane] > start.upper[0] && g[lane] > end.upper[0]
+                || d[lane] < start.lower[0] && j[lane] < end.lower[0]
+                || b[lane] > start.upper[1] && h[lane] > end.upper[1]
+                || e[lane] < start.lower[1] && k[lane] < end.lower[1]
+                || c[lane] > start.upper[2] && i[lane] > end.upper[2]
+                || f[lane] < start.lower[2] && l[lane] < end.lower[2];
+            if !is_apart {
+                near |= 1 << lane;
             }
         }
         near

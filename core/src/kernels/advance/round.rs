@@ -64,6 +64,7 @@ fn round_of<L: Lanes, const N: usize>(
     let near = is_in_range & is_number & !is_beyond;
     let others = !near;
     if L::may_leave(others) {
+        // Whatever is proven from here on, a near pair keeps its time. There are no others.
         return Found {
             time,
             apart: others,

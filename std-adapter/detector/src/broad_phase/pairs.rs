@@ -64,7 +64,7 @@ impl PairBuffer {
     #[inline(always)]
     pub(super) fn push(&mut self, first: u32, second: u32, mask: Mask) {
         if cfg!(debug_assertions) {
-            // Without optimisation a branch is cheap beside what it is about.
+            // Who has these optimises nothing, as a rule: then a branch is cheap beside what it is about.
             return self.push_each(first, second, mask);
         }
         for (second, byte) in [(second, mask & 0xFF), (second + 8, mask >> 8)] {
@@ -77,7 +77,7 @@ impl PairBuffer {
         }
     }
 
-    /// The same, only those that are set.
+    /// The same, writing only those that are set.
     fn push_each(&mut self, first: u32, second: u32, mask: Mask) {
         let mut half = 0;
         while half < 16 {
