@@ -8,11 +8,7 @@
 //!                                                             │ each step
 //!                          forces ▸ prediction ▸ constraints ▸ contacts ▸ friction ▸ certified pass ▸ velocities
 //!
-//! what is asked      input ▸ world ▸ scene
-//! what is simulated  effects ▸ plan, step
-//! how                membrane, rope, hierarchy, schedule, contact, tearing, simulator
-//! what changes       state ▸ checkpoint
-//! what is told       energy
+//! input ▸ world ▸ model ▸ contact ▸ effects ▸ scene ▸ display, simulate      each imports only what stands before it
 //! ```
 //!
 //! | item | what it is |
@@ -31,46 +27,31 @@
     reason = "a comparison is false with NaN, which must then take the side that does nothing"
 )]
 
-mod bending;
-mod checkpoint;
 mod contact;
+mod display;
 pub mod effects;
-mod energy;
-mod hierarchy;
-mod incidence;
 mod input;
-mod membrane;
-mod normals;
-mod of_cloth;
-mod plan;
-mod rope;
+mod model;
 mod scene;
-mod schedule;
-mod simulator;
-pub mod sleeve;
-mod state;
-mod step;
-mod tearing;
+mod simulate;
 mod world;
 
-pub use checkpoint::CheckpointError;
 pub use contact::{Blocker, ContactCounts, ContactSeconds, Crossing, NearPair};
+pub use display::{Tubes, vertex_normals};
 pub use effects::effect_names;
-pub use energy::{Energy, StoredEnergy};
 pub use input::{SceneError, ValueError};
-pub use normals::vertex_normals;
-pub use rope::Tubes;
+pub use model::energy::{Energy, StoredEnergy};
+pub use model::tearing::TornEdge;
 pub use scene::{OnBlocked, Scene, TangledStart};
 pub use selvedge::Mesh;
 pub use selvedge_core::glam;
 /// Readers of meshes, numbered frames and figures: what [`Animation`]s are made of.
 pub use selvedge_files as files;
-pub use simulator::{
-    Blocked, CHECKPOINT_STEPS, DriveError, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation, Tangled, Untangled,
-    Untangling,
+pub use simulate::{
+    Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation, Tangled,
+    Untangled, Untangling,
 };
-pub use tearing::TornEdge;
-pub use world::{Animation, Body, Cloth, Keyframe, Material, Motion, Placement, RigidMotion};
+pub use world::{Animation, Body, Cloth, Keyframe, Material, Motion, Placement, RigidMotion, sleeve};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
 pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");

@@ -1,6 +1,6 @@
 //! A candidate pair, with what contact keeps of it.
 
-use crate::step::{Carrier, FREE};
+use crate::model::step::{Carrier, FREE};
 use selvedge::PairKind;
 use selvedge::verification::{Level, NearPair};
 use selvedge_core::batch::{LANES, closest_points};

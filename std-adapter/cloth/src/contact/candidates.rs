@@ -4,7 +4,7 @@ use super::candidate::{Aim, OfPair};
 use super::crossing::{Crossing, CrossingFinder, PairKey};
 use super::neighbours::{are_many, at_rest};
 use super::settings::{ContactSettings, MARGIN, Thickness};
-use crate::step::{Carrier, FREE};
+use crate::model::step::{Carrier, FREE};
 use selvedge::verification::{CLASSES, Class, Interest, NearPairs, Neighbours, Reach};
 use selvedge::{Intersection, PairKind, Topology};
 use selvedge_core::glam::DVec3;

@@ -15,7 +15,7 @@ use super::candidate::{Aim, Candidate, ClosestOfSome};
 use super::exempt::Exempt;
 use super::neighbours::{are_neighbours, at_rest};
 use super::settings::{ContactSettings, MARGIN, RECOVERY, Thickness};
-use crate::step::{TimeStep, Touch, Touches, mobility};
+use crate::model::step::{TimeStep, Touch, Touches, mobility};
 use selvedge::verification::{Level, add_kept, parallel};
 use selvedge_core::batch::LANES;
 use selvedge_core::glam::DVec3;

@@ -21,7 +21,7 @@
 
 use super::crossing::share_to_plane;
 use super::sides::Sides;
-use crate::incidence::Incidence;
+use crate::world::Incidence;
 use selvedge::{Intersection, Topology};
 use selvedge_core::glam::DVec3;
 

@@ -5,7 +5,7 @@
 //! body. A zone that touches two carriers has none that would do for both, and rests.
 
 use super::candidate::Candidate;
-use crate::step::{Carrier, FREE, TimeStep};
+use crate::model::step::{Carrier, FREE, TimeStep};
 use selvedge_core::glam::DVec3;
 
 /// No carrier: two pull at the zone, or one that does not keep its shape.

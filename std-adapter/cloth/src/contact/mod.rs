@@ -30,6 +30,7 @@ mod opening;
 mod pass;
 mod relaxation;
 mod report;
+mod separations;
 mod settings;
 mod sides;
 mod solver;

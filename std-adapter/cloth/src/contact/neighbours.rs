@@ -58,7 +58,7 @@ pub(super) fn are_neighbours(kind: PairKind, rest: [DVec3; 4], distance: f64) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sleeve::sleeve;
+    use crate::world::sleeve::sleeve;
     use proptest::prelude::*;
     use selvedge::verification::Neighbours;
 

@@ -9,6 +9,7 @@
 
 use super::candidate::Candidate;
 use super::pass::is_free;
+use super::separations::Separations;
 use super::solver::{ContactSolver, gap_error};
 use selvedge::PairKind;
 use selvedge_core::glam::DVec3;
@@ -20,7 +21,7 @@ impl ContactSolver {
         self.refresh(closed, open, h);
         let mut found = Vec::new();
         let error = gap_error(closed, open);
-        let separations = self.settings.separations(&self.exempt);
+        let separations = Separations::new(&self.settings, &self.exempt);
         let moves = |pair: &Candidate| pair.vertices.iter().any(|&v| closed[v as usize] != open[v as usize]);
         for pair in &mut self.candidates.list {
             if moves(pair)

@@ -23,8 +23,9 @@
 
 use super::candidate::{Candidate, ClosestOfSome, impact, time_of_impact_of};
 use super::report::Blocker;
+use super::separations::Separations;
 use super::solver::{ContactSolver, gap_error};
-use crate::step::{FREE, TimeStep};
+use crate::model::step::{FREE, TimeStep};
 use selvedge::PairKind;
 use selvedge::verification::{Level, parallel};
 use selvedge_core::batch::LANES;
@@ -95,7 +96,7 @@ impl ContactSolver {
             level,
             ..
         } = self;
-        let separations = settings.separations(exempt);
+        let separations = Separations::new(settings, exempt);
         let mut looked_at = LookedAt::default();
         let (path, error) = ([start, end], *error);
         parallel::map_chunks(
@@ -164,7 +165,7 @@ impl ContactSolver {
             places.extend(open);
             places.sort();
         }
-        let separations = settings.separations(exempt);
+        let separations = Separations::new(settings, exempt);
         let mut still_open = Vec::new();
         for &index in &*places {
             let pair = &mut candidates.list[index];
@@ -252,7 +253,7 @@ impl ContactSolver {
     }
 
     pub(super) fn separation(&self, pair: &Candidate) -> Option<f64> {
-        self.settings.separations(&self.exempt).of(pair)
+        Separations::new(&self.settings, &self.exempt).of(pair)
     }
 }
 

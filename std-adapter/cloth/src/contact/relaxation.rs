@@ -9,7 +9,7 @@
 //! Each projection aims at a little more than is needed, so that rounds end if there are positions that are all of that.
 
 use super::candidate::Candidate;
-use crate::step::{TimeStep, mobility};
+use crate::model::step::{TimeStep, mobility};
 use selvedge::PairKind;
 use selvedge_core::glam::DVec3;
 use std::collections::BTreeMap;
@@ -119,7 +119,7 @@ impl Active {
 mod tests {
     use super::*;
     use crate::contact::candidate::{Aim, OfPair};
-    use crate::step::FREE;
+    use crate::model::step::FREE;
     use proptest::prelude::*;
     use selvedge_core::separation::closest::Closest;
 

@@ -1,7 +1,6 @@
 //! What effects ask of contact.
 
 use super::candidate::Candidate;
-use super::exempt::Exempt;
 
 /// What the effects ask for.
 #[derive(Clone, Debug, Default)]
@@ -139,14 +138,9 @@ impl ContactSettings {
         self.of_first[usize::from(is_with_body)]
     }
 
-    /// The separations that pairs are asked to keep: none while they are `exempt`.
-    pub(super) fn separations<'a>(&'a self, exempt: &'a Exempt) -> Separations<'a> {
-        let are_alike = self.ends.len() == 1 && exempt.is_empty();
-        Separations {
-            of_all: are_alike.then(|| self.of_first.map(|of_first| of_first.map(|thickness| thickness.separation))),
-            settings: self,
-            exempt,
-        }
+    /// What each pair of cloth, and each pair with a body, has to keep where there is one cloth, so that it is the same for all of them.
+    pub(super) fn of_all(&self) -> Option<[Option<Thickness>; 2]> {
+        (self.ends.len() == 1).then_some(self.of_first)
     }
 
     /// What a pair has to keep where there are several cloths.
@@ -184,35 +178,6 @@ impl ContactSettings {
             thickness: one.thickness.max(other.thickness),
             separation: one.separation.max(other.separation),
         })
-    }
-}
-
-/// What each pair is to keep in a step.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Separations<'a> {
-    /// Of cloth, and of cloth and bodies, if it is the same for all such pairs: as it mostly is, and then nobody has to be asked.
-    of_all: Option<[Option<f64>; 2]>,
-    settings: &'a ContactSettings,
-    exempt: &'a Exempt,
-}
-
-impl Separations<'_> {
-    /// The separation that a pair is asked to keep; `None` if none is promised.
-    #[inline(always)]
-    pub(super) fn of(&self, pair: &Candidate) -> Option<f64> {
-        match self.of_all {
-            Some(of_all) => of_all[usize::from(pair.data.is_with_body())],
-            None => self.of_single(pair),
-        }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn of_single(&self, pair: &Candidate) -> Option<f64> {
-        if self.exempt.has(pair) {
-            return None;
-        }
-        self.settings.of(pair).map(|thickness| thickness.separation)
     }
 }
 

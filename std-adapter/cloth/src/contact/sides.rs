@@ -6,7 +6,7 @@
 //! side of any contour is that side's.
 
 use super::crossing::share_to_plane;
-use crate::incidence::Incidence;
+use crate::world::Incidence;
 use selvedge::{Intersection, Topology};
 use selvedge_core::glam::DVec3;
 use std::cmp::Reverse;

@@ -9,7 +9,7 @@ use super::impact_zones::ImpactZones;
 use super::relaxation::Relaxation;
 use super::report::{ContactCounts, ContactSeconds};
 use super::settings::ContactSettings;
-use crate::step::{Carrier, TimeStep, Touches};
+use crate::model::step::{Carrier, TimeStep, Touches};
 use selvedge::verification::{Level, best_level};
 use selvedge::{StepError, Topology};
 use selvedge_core::glam::DVec3;

@@ -21,7 +21,7 @@ use super::impact_zones::TORN;
 use super::pass::Effort;
 use super::report::Blocker;
 use super::solver::ContactSolver;
-use crate::step::{Carrier, FREE, TimeStep};
+use crate::model::step::{Carrier, FREE, TimeStep};
 use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
 use selvedge_core::verification::lanes::Lanes;

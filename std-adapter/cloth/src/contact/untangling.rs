@@ -2,7 +2,7 @@
 
 use super::contours::Contours;
 use super::solver::ContactSolver;
-use crate::step::FREE;
+use crate::model::step::FREE;
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 use std::collections::BTreeSet;

@@ -1,9 +1,9 @@
 //! Air drag: still air slows every vertex down at the same rate, v′ = −r·v. Solved exactly, so stable for any rate.
 
 use super::registration::{Effect, Registration};
+use crate::effects::plan::Plan;
 use crate::input::{FREQUENCY, Field, ValueError};
-use crate::plan::Plan;
-use crate::step::{Force, TimeStep};
+use crate::model::step::{Force, TimeStep};
 use crate::world::SceneParts;
 use libm::exp;
 use selvedge_core::glam::DVec3;

@@ -3,7 +3,7 @@
 //! The anchor of a vertex that follows a body is a point on one of its triangles, the nearest at the start, and so far from it: so that it goes with
 //! bodies that change their shape as well.
 
-use crate::step::{Carrier, TimeStep};
+use crate::model::step::{Carrier, TimeStep};
 use selvedge_core::glam::DVec3;
 
 /// What a vertex is attached to.

@@ -16,10 +16,10 @@ use super::anchor::Anchor;
 use super::pins::PinMotion;
 use super::registration::{Effect, Registration, Scope};
 use super::selection::{check_body, check_vertices, keys, placed, read_motion, read_vertices};
-use crate::energy::{Configuration, StoredEnergy};
+use crate::effects::plan::Plan;
 use crate::input::{FORCE, Field, LENGTH, ValueError};
-use crate::plan::Plan;
-use crate::step::{Constraint, Memory, Release, TimeStep, Touches};
+use crate::model::energy::{Configuration, StoredEnergy};
+use crate::model::step::{Constraint, Memory, Release, TimeStep, Touches};
 use crate::world::{Motion, RigidMotion, SceneParts};
 use selvedge_core::glam::DVec3;
 

@@ -1,9 +1,9 @@
-//! Bending: what a flexural rigidity costs ([`bending`](crate::bending)). Rest is flat.
+//! Bending: what a flexural rigidity costs ([`bending`](crate::model::bending)). Rest is flat.
 
 use super::registration::{ActsOn, Effect, Registration};
-use crate::bending::{Bending, hinges};
+use crate::effects::plan::Plan;
 use crate::input::{BENDING_STIFFNESS, Count, Field, ValueError};
-use crate::plan::Plan;
+use crate::model::bending::{Bending, hinges};
 use crate::world::SceneParts;
 
 const WARP: Field = Field::new("stiffness", BENDING_STIFFNESS, 1e-12, 10.0);

@@ -6,9 +6,9 @@
 use super::registration::{Effect, Registration, Scope};
 use super::thickness;
 use crate::contact::{RECOVERY, Thickness};
+use crate::effects::plan::Plan;
 use crate::input::ValueError;
-use crate::plan::Plan;
-use crate::step::{Constraint, TimeStep, Touch, Touches};
+use crate::model::step::{Constraint, TimeStep, Touch, Touches};
 use crate::world::{Pose, SceneParts};
 use selvedge_core::glam::DVec3;
 

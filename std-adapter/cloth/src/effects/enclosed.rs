@@ -3,9 +3,9 @@
 //! V = ⅙Σ a·(b × c), relative to the first vertex, so that it does not depend on where the cloth is. Its gradient at a vertex is a third of
 //! the area vectors around it: what a pressure of one pascal pushes it with, in N, whether the cloth is closed or not.
 
-use crate::incidence::Incidence;
-use crate::membrane::triangles_around;
+use crate::model::membrane::triangles_around;
 use crate::world::Cloth;
+use crate::world::Incidence;
 use selvedge::Topology;
 use selvedge::verification::parallel;
 use selvedge_core::glam::DVec3;

@@ -3,9 +3,9 @@
 //! A contact that moved its two sides apart by p may undo up to μ·p of their sliding since the start of the step.
 
 use super::registration::{Effect, Registration, Scope};
+use crate::effects::plan::Plan;
 use crate::input::{Field, RATIO, ValueError};
-use crate::plan::Plan;
-use crate::step::{Constraint, TimeStep, Touches, mobility};
+use crate::model::step::{Constraint, TimeStep, Touches, mobility};
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 

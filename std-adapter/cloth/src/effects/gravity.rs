@@ -1,10 +1,10 @@
 //! Gravity: the same acceleration everywhere.
 
 use super::registration::{Effect, Registration, Scope};
-use crate::energy::{Configuration, StoredEnergy};
+use crate::effects::plan::Plan;
 use crate::input::{ACCELERATION, Field, SceneError, Table, ValueError};
-use crate::plan::Plan;
-use crate::step::{Force, TimeStep};
+use crate::model::energy::{Configuration, StoredEnergy};
+use crate::model::step::{Force, TimeStep};
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 

@@ -3,9 +3,9 @@
 
 use super::enclosed::{Walls, open_edges};
 use super::registration::{ActsOn, Effect, Registration};
+use crate::effects::plan::Plan;
 use crate::input::{Field, PRESSURE, SceneError, Table, ValueError};
-use crate::plan::Plan;
-use crate::step::{Force, TimeStep};
+use crate::model::step::{Force, TimeStep};
 use crate::world::{KEY_TIME, SceneParts, check_key_time};
 use selvedge_core::glam::DVec3;
 

@@ -23,12 +23,12 @@
 //!
 //! Masses of seeds are such that what conserves their momentum conserves that of the cloth ([`Level::inverse_masses`]).
 
-use crate::energy::{Configuration, StoredEnergy};
-use crate::hierarchy::{CoarseTriangle, Level};
 use crate::input::{Count, SceneError, Table, ValueError};
-use crate::membrane::{Membrane, SquaredStretch, all, image};
-use crate::schedule::{Local, Schedule};
-use crate::step::{Constraint, TimeStep, Touches};
+use crate::model::energy::{Configuration, StoredEnergy};
+use crate::model::hierarchy::{CoarseTriangle, Level};
+use crate::model::membrane::{Membrane, SquaredStretch, all, image};
+use crate::model::schedule::{Local, Schedule};
+use crate::model::step::{Constraint, TimeStep, Touches};
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
@@ -223,15 +223,14 @@ pub(super) fn settings(most: Option<u32>) -> Option<(&'static str, String)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hierarchy::{Hierarchy, irregular};
-    use crate::plan::masses_of;
+    use crate::model::hierarchy::{Hierarchy, irregular};
     use crate::world::{Cloth, capsule, tube};
 
     const FABRIC: [Option<f64>; 3] = [Some(400.0), Some(300.0), Some(80.0)];
 
     /// What the levels make of these positions, with nothing on the mesh itself.
     fn moved(cloth: &Cloth, positions: &[DVec3], tension: impl Fn(&CoarseTriangle) -> Tension) -> Vec<DVec3> {
-        let masses = masses_of(cloth);
+        let masses = cloth.masses();
         let mut hierarchy = Hierarchy::new(cloth, masses.clone(), vec![false; masses.len()]);
         let mesh = Schedule::<Tension, 3>::once(Vec::new(), masses.len());
         let mut levels = OnLevels::new(hierarchy.levels_to(f64::INFINITY), mesh, tension);
@@ -257,7 +256,7 @@ mod tests {
     fn sweeps_on_levels_conserve_momentum() {
         let hole = irregular::with_hole(&irregular::sheet(32, 0), DVec3::new(0.2, 0.1, 0.0), 0.15);
         let cloth = Cloth::of(hole);
-        let masses = masses_of(&cloth);
+        let masses = cloth.masses();
         let start = stretched(&cloth, 1.2);
         for fabric in [FABRIC, [Some(400.0), Some(300.0), None]] {
             let end = moved(&cloth, &start, |triangle| Tension::stretch(triangle, fabric));

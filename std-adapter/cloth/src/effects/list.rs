@@ -6,8 +6,8 @@
 
 use super::registration::{Effect, Scope};
 use super::{rank, registration_of};
+use crate::effects::plan::{Fabric, Plan};
 use crate::input::ValueError;
-use crate::plan::{Fabric, Plan};
 use crate::world::{Cloth, SceneParts};
 use std::sync::Arc;
 

@@ -5,22 +5,21 @@
 //! ours and before contact, so that every step is certified whatever they do. `examples/own_effect.rs` has one.
 // Adding one of ours takes its own file, a `mod` line, a `pub use` and a line of `REGISTRY`.
 
+mod air;
 mod air_drag;
-mod air_sources;
 mod anchor;
 mod attachments;
 mod bend;
 mod body_contact;
-mod cords;
 mod enclosed;
 mod friction;
 mod gravity;
-mod in_air;
 mod inflation;
 mod levels;
 mod list;
-mod panels;
+mod of_cloth;
 mod pins;
+pub(crate) mod plan;
 mod plastic_folds;
 mod pressure;
 mod registration;
@@ -30,22 +29,18 @@ mod seams;
 mod selection;
 mod self_collision;
 mod shear;
-mod stitches;
 mod strain_limit;
 mod stretch;
 mod tearing;
 mod thickness;
 mod vertices;
-mod wind;
-mod wind_field;
 
-pub use super::contact::Thickness;
-pub use super::energy::{Configuration, StoredEnergy};
-pub use super::plan::Plan;
-pub use super::step::{Constraint, Force, Memory, Release, TimeStep, Touches};
-pub use super::world::SceneParts;
+pub use crate::contact::Thickness;
+pub use crate::model::energy::{Configuration, StoredEnergy};
+pub use crate::model::step::{Constraint, Force, Memory, Release, TimeStep, Touches};
+pub use crate::world::SceneParts;
+pub use air::{Air, AirSource, Fan, Vortex, Wind, WindField};
 pub use air_drag::AirDrag;
-pub use air_sources::{AirSource, Fan, Vortex};
 pub use attachments::{AttachmentGroup, Attachments};
 pub use bend::Bend;
 pub use body_contact::BodyContact;
@@ -53,6 +48,7 @@ pub use friction::Friction;
 pub use gravity::Gravity;
 pub use inflation::{Inflation, PressureKey};
 pub use pins::{PinGroup, PinMotion, Pins};
+pub use plan::Plan;
 pub use plastic_folds::PlasticFolds;
 pub use pressure::InternalPressure;
 pub use registration::{ActsOn, Effect, Scope};
@@ -64,49 +60,34 @@ pub use shear::Shear;
 pub use strain_limit::StrainLimit;
 pub use stretch::Stretch;
 pub use tearing::{Perforation, Tearing};
-pub use wind::Wind;
-pub use wind_field::{Air, WindField};
 
-use super::input::{SceneError, Table, suggestion};
+use crate::input::{SceneError, Table, suggestion};
 use registration::Registration;
 
 pub(crate) use list::{Called, Effects, Wrong};
-pub(crate) use stitches::length_at_end;
-
-/// The registrations of these modules, but for those that `--cfg without_effect="NAME"` leaves out of the program: with it
-/// `std-adapter/cloth/instruction-counts/run.sh` shows that an effect costs nothing where it is not named.
-macro_rules! registry {
-    ($($module:ident $name:literal)*) => {
-        &[$(
-            #[cfg(not(without_effect = $name))]
-            ($name, $module::REGISTRATION),
-        )*]
-    };
-}
 
 /// Every effect, in the order in which they run.
-#[rustfmt::skip]
-const REGISTRY: &[(&str, Registration)] = registry![
-    gravity "gravity"
-    wind "wind"
-    wind_field "wind_field"
-    inflation "inflation"
-    air_drag "air_drag"
-    pins "pins"
-    attachments "attachments"
-    stretch "stretch"
-    shear "shear"
-    bend "bend"
-    plastic_folds "plastic_folds"
-    pressure "internal_pressure"
-    strain_limit "strain_limit"
-    seams "seams"
-    rope_bend "rope_bend"
-    rope_stretch "rope_stretch"
-    body_contact "body_contact"
-    self_collision "self_collision"
-    friction "friction"
-    tearing "tearing"
+const REGISTRY: &[(&str, Registration)] = &[
+    ("gravity", gravity::REGISTRATION),
+    ("wind", air::wind::REGISTRATION),
+    ("wind_field", air::wind_field::REGISTRATION),
+    ("inflation", inflation::REGISTRATION),
+    ("air_drag", air_drag::REGISTRATION),
+    ("pins", pins::REGISTRATION),
+    ("attachments", attachments::REGISTRATION),
+    ("stretch", stretch::REGISTRATION),
+    ("shear", shear::REGISTRATION),
+    ("bend", bend::REGISTRATION),
+    ("plastic_folds", plastic_folds::REGISTRATION),
+    ("internal_pressure", pressure::REGISTRATION),
+    ("strain_limit", strain_limit::REGISTRATION),
+    ("seams", seams::REGISTRATION),
+    ("rope_bend", rope_bend::REGISTRATION),
+    ("rope_stretch", rope_stretch::REGISTRATION),
+    ("body_contact", body_contact::REGISTRATION),
+    ("self_collision", self_collision::REGISTRATION),
+    ("friction", friction::REGISTRATION),
+    ("tearing", tearing::REGISTRATION),
 ];
 
 /// Reads the effects that `[effects]` names, and constructs no other; [`Called::check`] follows.

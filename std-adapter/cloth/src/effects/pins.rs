@@ -4,9 +4,9 @@ pub use super::selection::PinMotion;
 
 use super::registration::{Effect, Registration, Scope};
 use super::selection::{check_body, check_vertices, keys, placed, read_motion, read_vertices};
+use crate::effects::plan::Plan;
 use crate::input::ValueError;
-use crate::plan::Plan;
-use crate::step::Carrier;
+use crate::model::step::Carrier;
 use crate::world::{Motion, RigidMotion, SceneParts};
 
 pub(super) const REGISTRATION: Registration = Registration {

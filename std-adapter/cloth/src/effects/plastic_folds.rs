@@ -1,9 +1,9 @@
-//! Plasticity of folds: what is bent too far keeps some of it ([`bending`](crate::bending)). Bending does it; this says when.
+//! Plasticity of folds: what is bent too far keeps some of it ([`bending`](crate::model::bending)). Bending does it; this says when.
 
 use super::registration::{ActsOn, Effect, Registration};
-use crate::bending::Yield;
+use crate::effects::plan::{Fabric, Plan};
 use crate::input::{CURVATURE, Field, LARGEST_TIME, TIME, ValueError};
-use crate::plan::{Fabric, Plan};
+use crate::model::bending::Yield;
 use crate::world::SceneParts;
 
 const LIMIT: Field = Field::new("yield_curvature", CURVATURE, 1e-3, 1e6);

@@ -4,10 +4,10 @@
 
 use super::enclosed::{Walls, open_edges};
 use super::registration::{ActsOn, Effect, Registration};
-use crate::energy::{Configuration, StoredEnergy};
+use crate::effects::plan::Plan;
 use crate::input::{Field, PRESSURE, RATIO, ValueError};
-use crate::plan::Plan;
-use crate::step::{Constraint, TimeStep, Touches};
+use crate::model::energy::{Configuration, StoredEnergy};
+use crate::model::step::{Constraint, TimeStep, Touches};
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 

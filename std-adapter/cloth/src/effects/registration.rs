@@ -1,7 +1,7 @@
 //! What an effect is to the rest: how its table is read, and what it puts into the plan.
 
+use crate::effects::plan::{Fabric, Plan};
 use crate::input::{SceneError, Table, ValueError};
-use crate::plan::{Fabric, Plan};
 use crate::world::{Cloth, SceneParts};
 use std::fmt::Debug;
 

@@ -1,9 +1,9 @@
-//! Resistance of loose edges to being bent: of ropes, laces and fringes ([`rope`](crate::rope)).
+//! Resistance of loose edges to being bent: of ropes, laces and fringes ([`rope`](crate::model::rope)).
 
 use super::registration::{ActsOn, Effect, Registration};
+use crate::effects::plan::Plan;
 use crate::input::{Field, ROPE_BENDING_STIFFNESS, ValueError};
-use crate::plan::Plan;
-use crate::rope::Bending;
+use crate::model::rope::Bending;
 use crate::world::SceneParts;
 
 const STIFFNESS: Field = Field::new("stiffness", ROPE_BENDING_STIFFNESS, 1e-15, 1e3);

@@ -1,9 +1,9 @@
-//! Resistance of loose edges to being stretched: of ropes, laces and fringes ([`rope`](crate::rope)).
+//! Resistance of loose edges to being stretched: of ropes, laces and fringes ([`rope`](crate::model::rope)).
 
 use super::registration::{ActsOn, Effect, Registration};
+use crate::effects::plan::Plan;
 use crate::input::{FORCE, Field, ValueError};
-use crate::plan::Plan;
-use crate::rope::Stretching;
+use crate::model::rope::Stretching;
 use crate::world::SceneParts;
 
 const STIFFNESS: Field = Field::new("stiffness", FORCE, 1e-3, 1e9);

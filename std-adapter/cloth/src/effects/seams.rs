@@ -1,4 +1,4 @@
-//! Seams: rows of vertices that are held together, or drawn together over a time ([`stitches`](super::stitches)).
+//! Seams: rows of vertices that are held together, or drawn together over a time ([`stitches`](crate::model::stitches)).
 //!
 //! **A seam never joins what must not touch.** Two rows that become one would share their vertices, and a cloth that is joined to another
 //! within no distance at all has no state without a contact. So a closed seam has a gap, of no less than the thickness that contact keeps
@@ -8,11 +8,11 @@
 //! A seam does not resist bending.
 
 use super::registration::{Effect, Registration, Scope};
-use super::stitches::{Sewing, Stitch, stitches};
 use super::vertices::{no_vertex, of_cloth};
 use crate::contact::Thickness;
+use crate::effects::plan::{Fabric, Plan};
 use crate::input::{Field, LARGEST_TIME, LENGTH, SPEED, SceneError, TIME, Table, ValueError};
-use crate::plan::{Fabric, Plan};
+use crate::model::stitches::{Sewing, Stitch, stitches};
 use crate::world::{FASTEST_VERTEX, SceneParts};
 use selvedge_core::glam::DVec3;
 

@@ -5,8 +5,8 @@
 use super::registration::{Effect, Registration, Scope};
 use super::thickness;
 use crate::contact::Thickness;
+use crate::effects::plan::{Fabric, Plan};
 use crate::input::ValueError;
-use crate::plan::{Fabric, Plan};
 use crate::world::SceneParts;
 
 pub(super) const REGISTRATION: Registration = Registration {

@@ -1,10 +1,10 @@
 //! Shear: C = w_u·w_v (Baraff and Witkin 1998), compliance 1/(k·A), like [`stretch`](super::stretch) in one sweep a step or several.
 
 use super::registration::{ActsOn, Effect, Registration};
+use crate::effects::plan::{Fabric, Plan};
 use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
-use crate::membrane::{Membrane, all, image, of_triangles};
-use crate::plan::{Fabric, Plan};
-use crate::schedule::{Local, Schedule};
+use crate::model::membrane::{Membrane, all, image, of_triangles};
+use crate::model::schedule::{Local, Schedule};
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 

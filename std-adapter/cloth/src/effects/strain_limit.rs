@@ -7,10 +7,10 @@
 
 use super::levels::{self, OnLevels, Tension};
 use super::registration::{ActsOn, Effect, Registration};
+use crate::effects::plan::Plan;
 use crate::input::{Count, Field, RATIO, ValueError};
-use crate::membrane::{Membrane, SquaredStretch, all, image, of_triangles};
-use crate::plan::Plan;
-use crate::schedule::{Local, Schedule};
+use crate::model::membrane::{Membrane, SquaredStretch, all, image, of_triangles};
+use crate::model::schedule::{Local, Schedule};
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 

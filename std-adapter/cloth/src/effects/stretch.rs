@@ -14,11 +14,11 @@
 
 use super::levels::{self, OnLevels, Tension};
 use super::registration::{ActsOn, Effect, Registration};
-use crate::hierarchy::mesh_spacing;
+use crate::effects::plan::{Fabric, Plan};
 use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
-use crate::membrane::{Membrane, all, image, of_triangles};
-use crate::plan::{Fabric, Plan};
-use crate::schedule::{Local, Schedule};
+use crate::model::hierarchy::mesh_spacing;
+use crate::model::membrane::{Membrane, all, image, of_triangles};
+use crate::model::schedule::{Local, Schedule};
 use crate::world::SceneParts;
 use selvedge_core::glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Tearing: edges that are loaded above their strength tear ([`tearing`](crate::tearing)).
+//! Tearing: edges that are loaded above their strength tear ([`tearing`](crate::model::tearing)).
 //!
 //! **Still certified.** A step ends with a certificate; then what is loaded too much tears, and the two sides of a tear open by a small share of an
 //! edge. That is no part of any step: it is taken only if the exact test finds that nothing meets then, and if a certificate shows that on the
@@ -12,9 +12,9 @@
 
 use super::registration::{Effect, Registration};
 use super::selection::{WAYS, check_vertices, placed, read_vertices};
+use crate::effects::plan::Plan;
 use crate::input::{Field, MEMBRANE_STIFFNESS, ValueError};
-use crate::plan::Plan;
-use crate::tearing::Tearable;
+use crate::model::tearing::Tearable;
 use crate::world::SceneParts;
 
 const STRENGTH: Field = Field::new("strength", MEMBRANE_STIFFNESS, 1e-3, 1e9);

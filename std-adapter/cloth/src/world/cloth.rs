@@ -1,12 +1,12 @@
 //! A cloth: its mesh, its mass, and effects of its own. It may have loose edges, of ropes, laces and fringes.
 
+use super::runs::{Run, runs};
+use super::sleeve::{RefinementError, ring_sizes, sleeve};
 use super::{Material, shapes};
 use crate::effects::{Effect, Effects};
 use crate::input::{
     AREA_DENSITY, Count, Field, LARGEST_COORDINATE, LENGTH, LINEAR_DENSITY, RATIO, SPEED, ValueError, suggestion,
 };
-use crate::rope::{Run, runs};
-use crate::sleeve::{RefinementError, ring_sizes, sleeve};
 use selvedge::{Mesh, Topology, TopologyError};
 use selvedge_core::glam::DVec3;
 use std::borrow::Cow;
@@ -289,6 +289,25 @@ impl Cloth {
     #[must_use]
     pub fn topology(&self) -> &Topology {
         &self.topology
+    }
+
+    /// The mass of each vertex, in kg: a third of its triangles' and half of its loose edges'.
+    pub(crate) fn masses(&self) -> Vec<f64> {
+        let positions = &self.mesh.positions;
+        let mut masses = vec![0.0; positions.len()];
+        for triangle in &self.mesh.triangles {
+            let [a, b, c] = triangle.map(|v| positions[v as usize]);
+            let mass = self.density * 0.5 * (b - a).cross(c - a).length();
+            for &vertex in triangle {
+                masses[vertex as usize] += mass / 3.0;
+            }
+        }
+        for edge in self.topology.loose_edges() {
+            let [a, b] = edge.map(|v| positions[v as usize]);
+            let mass = self.linear_density * a.distance(b);
+            edge.iter().for_each(|&vertex| masses[vertex as usize] += mass / 2.0);
+        }
+        masses
     }
 
     fn loose_edges(&self) -> Vec<[u32; 2]> {

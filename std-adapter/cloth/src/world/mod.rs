@@ -4,12 +4,15 @@ mod animation;
 mod body;
 mod cloth;
 mod driven;
+mod incidence;
 mod material;
 mod motion;
 mod placement;
 mod read_cloth;
 mod rope;
+mod runs;
 mod shapes;
+pub mod sleeve;
 
 use crate::input::ValueError;
 use std::ops::Range;
@@ -23,7 +26,9 @@ pub use placement::Placement;
 
 pub(crate) use animation::FASTEST_VERTEX;
 pub(crate) use driven::{Driven, Kinematic};
+pub(crate) use incidence::Incidence;
 pub(crate) use motion::{KEY_TIME, Pose, check_key_time};
+pub(crate) use runs::runs;
 #[cfg(test)]
 pub(crate) use shapes::{capsule, sheet, tube};
 

@@ -1,7 +1,8 @@
 //! Where bodies and pins go: along keyframes, as an [animation](super::animation) says, or wherever the caller says from step to step
 //! ([`driven`](super::driven)).
 
-use super::{Animation, Placement};
+use super::Animation;
+use super::placement::{Placement, TRANSLATION};
 use crate::input::{ANGLE, Field, LARGEST_COORDINATE, LARGEST_TIME, LENGTH, RATIO, SceneError, TIME, Table, ValueError};
 use libm::{cos, sin};
 use selvedge_core::glam::DVec3;
@@ -78,7 +79,6 @@ const PIVOT: Field = Field::vector("pivot", LENGTH, LARGEST_COORDINATE);
 const AXIS: Field = Field::vector("axis", RATIO, LARGEST_COORDINATE);
 pub(crate) const KEY_TIME: Field = Field::new("time", TIME, 0.0, LARGEST_TIME);
 const KEY_ANGLE: Field = Field::new("angle", ANGLE, -1e4, 1e4);
-pub(super) const TRANSLATION: Field = Field::vector("translation", LENGTH, LARGEST_COORDINATE);
 
 /// Where a motion is at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

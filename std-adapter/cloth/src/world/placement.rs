@@ -1,9 +1,10 @@
 //! Where a rigid body stands.
 
-use super::motion::TRANSLATION;
-use crate::input::ValueError;
+use crate::input::{Field, LARGEST_COORDINATE, LENGTH, ValueError};
 use libm::{atan2, cos, sin};
 use selvedge_core::glam::{DQuat, DVec3};
+
+pub(super) const TRANSLATION: Field = Field::vector("translation", LENGTH, LARGEST_COORDINATE);
 
 /// Where a body's points at rest are: turned about the origin, then moved.
 ///

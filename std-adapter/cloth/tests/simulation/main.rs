@@ -22,7 +22,7 @@ mod tangled;
 mod tearing;
 mod wrong_scenes;
 
-#[path = "../../src/hierarchy/irregular.rs"]
+#[path = "../../src/model/hierarchy/irregular.rs"]
 mod irregular;
 
 use selvedge_cloth::glam::DVec3;

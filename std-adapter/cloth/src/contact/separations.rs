@@ -1,0 +1,44 @@
+//! Which separation each pair is certified to keep in a step.
+
+use super::candidate::Candidate;
+use super::exempt::Exempt;
+use super::settings::ContactSettings;
+
+/// What each pair is to keep in a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Separations<'a> {
+    /// Of cloth, and of cloth and bodies, if it is the same for all such pairs: as it mostly is, and then nobody has to be asked.
+    of_all: Option<[Option<f64>; 2]>,
+    settings: &'a ContactSettings,
+    exempt: &'a Exempt,
+}
+
+impl<'a> Separations<'a> {
+    /// The separations that pairs are asked to keep: none while they are `exempt`.
+    pub(super) fn new(settings: &'a ContactSettings, exempt: &'a Exempt) -> Self {
+        let of_all = settings.of_all().filter(|_| exempt.is_empty());
+        Self {
+            of_all: of_all.map(|of_all| of_all.map(|thickness| thickness.map(|thickness| thickness.separation))),
+            settings,
+            exempt,
+        }
+    }
+
+    /// The separation that a pair is asked to keep; `None` if none is promised.
+    #[inline(always)]
+    pub(super) fn of(&self, pair: &Candidate) -> Option<f64> {
+        match self.of_all {
+            Some(of_all) => of_all[usize::from(pair.data.is_with_body())],
+            None => self.of_single(pair),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn of_single(&self, pair: &Candidate) -> Option<f64> {
+        if self.exempt.has(pair) {
+            return None;
+        }
+        self.settings.of(pair).map(|thickness| thickness.separation)
+    }
+}

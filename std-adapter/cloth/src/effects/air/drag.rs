@@ -1,0 +1,84 @@
+//! How strongly moving air pushes cloth, and how vertices take it.
+
+use crate::effects::registration::ActsOn;
+use crate::input::{AIR_DENSITY, Field, LENGTH, RATIO, SceneError, Table, ValueError};
+use crate::model::step::TimeStep;
+use crate::world::{Cloth, Incidence, SceneParts};
+use selvedge_core::glam::DVec3;
+
+const DENSITY: Field = Field::new("air_density", AIR_DENSITY, 0.0, 1e3);
+const DRAG: Field = Field::new("drag", RATIO, 0.0, 100.0);
+const ROPE_DIAMETER: Field = Field::new("rope_diameter", LENGTH, 0.0, 1.0);
+
+/// How air meets a cloth.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drag {
+    /// In kg/m³.
+    pub(super) density: f64,
+    /// Of what it meets head-on.
+    pub(super) coefficient: f64,
+    /// Of loose edges, in metres; 0: it blows past them.
+    pub(super) rope_diameter: f64,
+}
+
+impl Drag {
+    /// At sea level, past ropes.
+    pub(super) const DEFAULT: Self = Self {
+        density: 1.2,
+        coefficient: 1.0,
+        rope_diameter: 0.0,
+    };
+
+    pub(super) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
+        let number = |field, default| table.number(field).map(|read| read.unwrap_or(default));
+        Ok(Self {
+            density: number(&DENSITY, Self::DEFAULT.density)?,
+            coefficient: number(&DRAG, Self::DEFAULT.coefficient)?,
+            rope_diameter: number(&ROPE_DIAMETER, Self::DEFAULT.rope_diameter)?,
+        })
+    }
+
+    /// Whether there can be such air, and something that it meets.
+    pub(super) fn check(self, world: &SceneParts<'_>) -> Result<(), ValueError> {
+        DENSITY.check(self.density)?;
+        DRAG.check(self.coefficient)?;
+        ROPE_DIAMETER.check(self.rope_diameter)?;
+        if self.rope_diameter == 0.0 || world.cloths.iter().any(Cloth::has_loose_edges) {
+            return Ok(());
+        }
+        let message = "is the diameter of loose edges, but no cloth has any: leave it away, or give the scene a rope";
+        Err(ValueError::new(
+            ROPE_DIAMETER.name,
+            format!("`{}` {message}", ROPE_DIAMETER.name),
+        ))
+    }
+
+    pub(super) fn acts_on(self) -> ActsOn {
+        if self.rope_diameter > 0.0 {
+            ActsOn::Vertices
+        } else {
+            ActsOn::Triangles
+        }
+    }
+
+    /// ½ρc over what a measure of the cloth weighs.
+    pub(super) fn over(self, density: f64) -> f64 {
+        0.5 * self.density * self.coefficient / density
+    }
+}
+
+/// The share of a relative velocity that is gone after a step, `slowing` being k·h of its length: of v/(1 + k·h·|v|).
+pub(super) fn share_taken(slowing: f64) -> f64 {
+    slowing / (1.0 + slowing)
+}
+
+/// Changes the velocities of vertices by what changes those of triangles or edges, by the share of each in a vertex's mass.
+pub(super) fn take(step: &TimeStep<'_>, velocities: &mut [DVec3], incidence: &Incidence<(u32, f64)>, changes: &[DVec3]) {
+    for (vertex, velocity) in velocities.iter_mut().enumerate().take(incidence.len()) {
+        if step.inverse_masses[vertex] > 0.0 {
+            for &(index, share) in incidence.of(vertex) {
+                *velocity += changes[index as usize] * share;
+            }
+        }
+    }
+}

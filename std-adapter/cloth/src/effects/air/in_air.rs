@@ -1,0 +1,34 @@
+//! A cloth in moving air: what [wind](super::Wind) and [its fields](super::WindField) have in common.
+
+use super::cords::Cords;
+use super::drag::Drag;
+use super::panels::Panels;
+use crate::model::step::TimeStep;
+use crate::world::Cloth;
+use selvedge_core::glam::DVec3;
+
+/// What of a cloth the air pushes.
+#[derive(Debug)]
+pub(super) struct InAir {
+    panels: Option<Panels>,
+    cords: Option<Cords>,
+}
+
+impl InAir {
+    pub(super) fn new(cloth: &Cloth, air: Drag) -> Self {
+        Self {
+            panels: cloth.has_triangles().then(|| Panels::new(cloth, air)),
+            cords: (air.rope_diameter > 0.0 && cloth.has_loose_edges()).then(|| Cords::new(cloth, air)),
+        }
+    }
+
+    /// Changes velocities by air that moves as `air` says of a triangle's corners, or an edge's ends.
+    pub(super) fn push(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3], air: impl Fn(&[DVec3]) -> DVec3 + Sync) {
+        if let Some(panels) = &mut self.panels {
+            panels.push(step, velocities, &air);
+        }
+        if let Some(cords) = &mut self.cords {
+            cords.push(step, velocities, &air);
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! Moving air, which pushes triangles and loose edges.
+
+mod cords;
+mod drag;
+mod in_air;
+mod panels;
+mod sources;
+pub(super) mod wind;
+pub(super) mod wind_field;
+
+pub use sources::{Air, AirSource, Fan, Vortex};
+pub use wind::Wind;
+pub use wind_field::WindField;

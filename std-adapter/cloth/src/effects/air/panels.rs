@@ -1,0 +1,56 @@
+//! What moving air does to triangles: each is pushed along its normal by the air that it stops.
+//!
+//! The force on a triangle of area A is ½ρ·c·A·|u·n|(u·n)·n, u the air's velocity relative to it (Keller et al. 2003 use the
+//! same normal term). The triangle's own normal velocity then follows v′ = −k|v|v, k = ½ρc/σ with σ its mass per area, whose exact
+//! solution over a step is v/(1 + k·h·|v|): so a step never overshoots the wind. Vertices take the changes of their triangles in
+//! the shares that these have in their mass, whose sum is at most one.
+
+use super::drag::{Drag, share_taken, take};
+use crate::model::membrane::triangles_around;
+use crate::model::step::TimeStep;
+use crate::world::Cloth;
+use crate::world::Incidence;
+use selvedge::verification::parallel;
+use selvedge_core::glam::DVec3;
+
+/// The triangles of a cloth, in the air.
+#[derive(Debug)]
+pub(super) struct Panels {
+    /// k of the module.
+    factor: f64,
+    triangles: Vec<[u32; 3]>,
+    incidence: Incidence<(u32, f64)>,
+    /// Of each triangle's velocity.
+    changes: Vec<DVec3>,
+}
+
+impl Panels {
+    pub(super) fn new(cloth: &Cloth, air: Drag) -> Self {
+        Self {
+            factor: air.over(cloth.density),
+            triangles: cloth.mesh.triangles.clone(),
+            incidence: triangles_around(cloth),
+            changes: Vec::new(),
+        }
+    }
+
+    /// Changes velocities by air that moves as `air` says of a triangle's corners.
+    pub(super) fn push(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3], air: impl Fn(&[DVec3]) -> DVec3 + Sync) {
+        let Self {
+            factor,
+            triangles,
+            incidence,
+            changes,
+        } = self;
+        let read: &[DVec3] = velocities;
+        parallel::fill(changes, triangles, |triangle| {
+            let corners = triangle.map(|v| step.start[v as usize]);
+            let [a, b, c] = corners;
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            let [u, v, w] = triangle.map(|v| read[v as usize]);
+            let across = (air(&corners) - (u + v + w) / 3.0).dot(normal);
+            normal * (across * share_taken(*factor * step.h * across.abs()))
+        });
+        take(step, velocities, incidence, changes);
+    }
+}

@@ -1,0 +1,141 @@
+//! Wind that is the same everywhere but for gusts: it pushes [triangles](super::panels), and [loose edges](super::cords) that have a diameter.
+//!
+//! Gusts: the wind's speed varies as 1 + g·sin(2πft − q·x) with x along the wind, q one wave in [`GUST_LENGTH`] metres.
+
+use super::drag::Drag;
+use super::in_air::InAir;
+use crate::effects::plan::Plan;
+use crate::effects::registration::{ActsOn, Effect, Registration};
+use crate::input::{FREQUENCY, Field, RATIO, SPEED, ValueError};
+use crate::model::step::{Force, TimeStep};
+use crate::world::SceneParts;
+use libm::sin;
+use selvedge_core::glam::DVec3;
+use std::f64::consts::TAU;
+
+/// From gust to gust, in metres.
+const GUST_LENGTH: f64 = 1.0;
+
+const VELOCITY: Field = Field::vector("velocity", SPEED, 1e3);
+const GUST: Field = Field::new("gust", RATIO, 0.0, 1.0);
+const GUST_FREQUENCY: Field = Field::new("gust_frequency", FREQUENCY, 0.0, 1e3);
+
+pub(in crate::effects) const REGISTRATION: Registration = Registration {
+    keys: &["velocity", "air_density", "drag", "rope_diameter", "gust", "gust_frequency"],
+    needs: &[],
+    read: |table, _| {
+        let number = |field, default| table.number(field).map(|n| n.unwrap_or(default));
+        let default = Wind::default();
+        let velocity = table.required_vector(&VELOCITY)?;
+        let air = Drag::read(table)?;
+        Ok(Box::new(Wind {
+            velocity,
+            air_density: air.density,
+            drag: air.coefficient,
+            rope_diameter: air.rope_diameter,
+            gust: number(&GUST, default.gust)?,
+            gust_frequency: number(&GUST_FREQUENCY, default.gust_frequency)?,
+        }))
+    },
+};
+
+/// Wind, the same everywhere but for gusts. [`Simulation::set_wind`](crate::Simulation::set_wind) changes it from step to step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wind {
+    /// In m/s.
+    pub velocity: DVec3,
+    /// In kg/m³.
+    pub air_density: f64,
+    /// The drag coefficient of a triangle, or a loose edge, that the wind meets head-on. Round cords have some 1.1.
+    pub drag: f64,
+    /// Of loose edges, in metres; 0: the wind blows past them.
+    pub rope_diameter: f64,
+    /// By which share gusts change the speed; 0: none.
+    pub gust: f64,
+    /// Gusts a second.
+    pub gust_frequency: f64,
+}
+
+impl Default for Wind {
+    /// No wind yet, at sea level; no gusts. It blows past ropes.
+    fn default() -> Self {
+        Self {
+            velocity: DVec3::ZERO,
+            air_density: Drag::DEFAULT.density,
+            drag: Drag::DEFAULT.coefficient,
+            rope_diameter: Drag::DEFAULT.rope_diameter,
+            gust: 0.0,
+            gust_frequency: 1.0,
+        }
+    }
+}
+
+impl Wind {
+    /// Whether a wind can blow so.
+    pub(crate) fn check_velocity(velocity: DVec3) -> Result<(), ValueError> {
+        VELOCITY.check_vector(velocity)
+    }
+
+    const fn air(&self) -> Drag {
+        Drag {
+            density: self.air_density,
+            coefficient: self.drag,
+            rope_diameter: self.rope_diameter,
+        }
+    }
+}
+
+impl Effect for Wind {
+    fn name(&self) -> &'static str {
+        "wind"
+    }
+
+    fn acts_on(&self) -> ActsOn {
+        self.air().acts_on()
+    }
+
+    fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
+        Self::check_velocity(self.velocity)?;
+        self.air().check(world)?;
+        GUST.check(self.gust)?;
+        GUST_FREQUENCY.check(self.gust_frequency)
+    }
+
+    fn register(&self, plan: &mut Plan<'_>) {
+        plan.add_force(Blow {
+            cloth: InAir::new(plan.scene.cloth, self.air()),
+            wave: wave(self.velocity),
+            wind: *self,
+        });
+    }
+}
+
+/// Phase per metre.
+fn wave(velocity: DVec3) -> DVec3 {
+    velocity.normalize_or_zero() * (TAU / GUST_LENGTH)
+}
+
+#[derive(Debug)]
+struct Blow {
+    wind: Wind,
+    /// Phase per metre.
+    wave: DVec3,
+    cloth: InAir,
+}
+
+impl Force for Blow {
+    fn set_wind(&mut self, velocity: DVec3) -> bool {
+        self.wind.velocity = velocity;
+        self.wave = wave(velocity);
+        true
+    }
+
+    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
+        let Self { wind, wave, cloth } = self;
+        let phase = TAU * wind.gust_frequency * step.time;
+        cloth.push(step, velocities, |corners| {
+            let strength = 1.0 + wind.gust * sin(phase - wave.dot(corners[0]));
+            wind.velocity * strength
+        });
+    }
+}

@@ -1,0 +1,138 @@
+//! Wind from a field: air whose velocity depends on place and time. It pushes [triangles](super::panels), and
+//! [loose edges](super::cords) that have a diameter, by the air in the middle of each.
+//!
+//! A scene file makes a field of fans and vortices ([`AirSource`]); code may give any function ([`Air`]).
+
+use super::drag::Drag;
+use super::in_air::InAir;
+use super::sources::{Air, AirSource, Fan, Vortex};
+use crate::effects::plan::Plan;
+use crate::effects::registration::{ActsOn, Effect, Registration};
+use crate::input::ValueError;
+use crate::model::step::{Force, TimeStep};
+use crate::world::SceneParts;
+use selvedge_core::glam::DVec3;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+pub(in crate::effects) const REGISTRATION: Registration = Registration {
+    keys: &["fan", "vortex", "air_density", "drag", "rope_diameter"],
+    needs: &[],
+    read: |table, _| {
+        let mut sources = Vec::new();
+        for fan in table.tables("fan")? {
+            sources.push(AirSource::Fan(Fan::read(&fan)?));
+        }
+        for vortex in table.tables("vortex")? {
+            sources.push(AirSource::Vortex(Vortex::read(&vortex)?));
+        }
+        if sources.is_empty() {
+            let message = "a field of wind needs at least one [[effects.wind_field.fan]] or [[effects.wind_field.vortex]]";
+            return Err(table.error("fan", message.to_owned()));
+        }
+        let air = Drag::read(table)?;
+        Ok(Box::new(WindField {
+            air_density: air.density,
+            drag: air.coefficient,
+            rope_diameter: air.rope_diameter,
+            ..WindField::of(sources)
+        }))
+    },
+};
+
+/// Wind that is not the same everywhere.
+///
+/// ```
+/// use selvedge_cloth::effects::{Air, WindField};
+/// use selvedge_cloth::glam::DVec3;
+///
+/// /// Faster with height, and with the time.
+/// #[derive(Debug)]
+/// struct Rising;
+///
+/// impl Air for Rising {
+///     fn velocity(&self, at: DVec3, time: f64) -> DVec3 {
+///         DVec3::X * (2.0 * at.z * time.min(1.0))
+///     }
+/// }
+///
+/// let field = WindField::new(Rising);
+/// assert_eq!(field.air.velocity(DVec3::Z, 0.5), DVec3::X);
+/// ```
+#[derive(Clone, Debug)]
+pub struct WindField {
+    /// How the air moves.
+    pub air: Arc<dyn Air>,
+    /// In kg/m³.
+    pub air_density: f64,
+    /// The drag coefficient of a triangle, or a loose edge, that the wind meets head-on. Round cords have some 1.1.
+    pub drag: f64,
+    /// Of loose edges, in metres; 0: the wind blows past them.
+    pub rope_diameter: f64,
+}
+
+impl WindField {
+    /// At sea level. It blows past ropes.
+    #[must_use]
+    pub fn new(air: impl Air + 'static) -> Self {
+        Self {
+            air: Arc::new(air),
+            air_density: Drag::DEFAULT.density,
+            drag: Drag::DEFAULT.coefficient,
+            rope_diameter: Drag::DEFAULT.rope_diameter,
+        }
+    }
+
+    /// Of fans and vortices, as scene files have them.
+    #[must_use]
+    pub fn of(sources: Vec<AirSource>) -> Self {
+        Self::new(sources)
+    }
+
+    const fn resistance(&self) -> Drag {
+        Drag {
+            density: self.air_density,
+            coefficient: self.drag,
+            rope_diameter: self.rope_diameter,
+        }
+    }
+}
+
+impl Effect for WindField {
+    fn name(&self) -> &'static str {
+        "wind_field"
+    }
+
+    fn acts_on(&self) -> ActsOn {
+        self.resistance().acts_on()
+    }
+
+    fn check(&self, world: &SceneParts<'_>) -> Result<(), ValueError> {
+        self.air.check()?;
+        self.resistance().check(world)
+    }
+
+    fn register(&self, plan: &mut Plan<'_>) {
+        plan.add_force(Blowing {
+            air: Arc::clone(&self.air),
+            cloth: InAir::new(plan.scene.cloth, self.resistance()),
+        });
+    }
+}
+
+#[derive(Debug)]
+struct Blowing {
+    air: Arc<dyn Air>,
+    cloth: InAir,
+}
+
+impl Force for Blowing {
+    fn apply(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3]) {
+        let air = &self.air;
+        self.cloth.push(step, velocities, |corners| {
+            let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
+            let velocity = air.velocity(middle, step.time);
+            if velocity.is_finite() { velocity } else { DVec3::ZERO }
+        });
+    }
+}

@@ -1,0 +1,169 @@
+//! Folds that stay: what was bent too far does not go back all the way.
+//!
+//! A hinge has a rest of its own, c₀ along the normal n between its triangles, and costs ½(αD/A)·|C − c₀n|². C is parallel to n but for
+//! what is stretched, so that this varies with C·n alone: forces are −Q·x and (αD/A)·c₀·K·n on its vertices, which sum to zero and do not turn
+//! it. The second part, the loads, is added in each stage of a step, with the normals at its start: as n lags behind what turns, it slows it
+//! down a little.
+//!
+//! **Yield.** C·n/A is a curvature, c₀/A that of the fold at rest. Where they differ by more than κ when a step is made, the fold creeps: of
+//! what is beyond κ it takes 1 − exp(−h/τ), all of it at once if τ is zero. That is perfect plasticity, the model of Narain, Pfaff and O'Brien
+//! (2013) without hardening, of fold angles instead of curvatures of triangles.
+
+use super::hinge::Hinge;
+use crate::model::schedule::On;
+use crate::model::step::{Memory, TimeStep};
+use libm::exp;
+use selvedge::verification::parallel;
+use selvedge_core::glam::DVec3;
+
+/// When folds stay.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Yield {
+    /// κ of the module, in 1/m.
+    pub(crate) curvature: f64,
+    /// τ, in s.
+    pub(crate) creep: f64,
+}
+
+#[derive(Debug)]
+pub(super) struct Folds {
+    when: Yield,
+    hinges: Vec<Fold>,
+    /// The vertices that the last ones are copies of: where the cloth has torn.
+    copied: Vec<u32>,
+    /// On each vertex, in N.
+    loads: Vec<DVec3>,
+}
+
+#[derive(Debug)]
+struct Fold {
+    vertices: [u32; 4],
+    hinge: Hinge,
+    /// c₀ of the module, in m.
+    rest: f64,
+}
+
+impl Fold {
+    /// C, and the normal between the two triangles.
+    fn bent(&self, positions: &[DVec3]) -> [DVec3; 2] {
+        let x = self.vertices.map(|v| positions[v as usize]);
+        let [a, b, c, d] = x;
+        let first = (b - a).cross(c - a).normalize_or_zero();
+        let second = (a - b).cross(d - b).normalize_or_zero();
+        [self.hinge.bent(x), (first + second).normalize_or_zero()]
+    }
+}
+
+impl Folds {
+    /// All flat. Of the vertices the last ones are copies of those `copied`.
+    pub(super) fn new(hinges: &[On<Hinge, 4>], vertex_count: usize, copied: &[u32], when: Yield) -> Self {
+        let fold = |&(vertices, hinge): &On<Hinge, 4>| Fold {
+            vertices,
+            hinge,
+            rest: 0.0,
+        };
+        Self {
+            when,
+            hinges: hinges.iter().map(fold).collect(),
+            copied: copied.to_vec(),
+            loads: vec![DVec3::ZERO; vertex_count],
+        }
+    }
+
+    /// The vertices of a fold before the cloth tore, those of the edge in ascending order; and whether they are turned round by that,
+    /// which turns the normal.
+    fn as_made(&self, fold: &Fold) -> ([u32; 4], bool) {
+        let first_copy = self.loads.len() - self.copied.len();
+        let made = |vertex: u32| {
+            let copy = (vertex as usize).checked_sub(first_copy);
+            copy.map_or(vertex, |copy| self.copied[copy])
+        };
+        let [a, b, c, d] = fold.vertices.map(made);
+        ([a.min(b), a.max(b), c, d], a > b)
+    }
+
+    /// What folds add to the force on each vertex, with everything at these positions, in N.
+    pub(super) fn loads(&mut self, positions: &[DVec3]) -> &[DVec3] {
+        self.loads.fill(DVec3::ZERO);
+        for fold in self.hinges.iter().filter(|fold| fold.rest != 0.0) {
+            let [_, normal] = fold.bent(positions);
+            let pull = normal * (fold.hinge.coefficient * fold.rest);
+            for (&vertex, weight) in fold.vertices.iter().zip(fold.hinge.weights) {
+                self.loads[vertex as usize] += pull * weight;
+            }
+        }
+        &self.loads
+    }
+
+    /// What is to be added to ½x·Q·x for the energy, in J.
+    pub(super) fn energy(&self, positions: &[DVec3]) -> f64 {
+        let of = |fold: &Fold| {
+            let [bent, normal] = fold.bent(positions);
+            fold.hinge.coefficient * fold.rest * (0.5 * fold.rest - bent.dot(normal))
+        };
+        self.hinges.iter().filter(|fold| fold.rest != 0.0).map(of).sum()
+    }
+}
+
+impl Memory for Folds {
+    fn settle(&mut self, step: &TimeStep<'_>, positions: &[DVec3]) {
+        let Yield { curvature, creep } = self.when;
+        let share = if creep > 0.0 { 1.0 - exp(-step.h / creep) } else { 1.0 };
+        parallel::for_each(&mut self.hinges, |_, fold| {
+            let [bent, normal] = fold.bent(positions);
+            let elastic = bent.dot(normal) - fold.rest;
+            let beyond = elastic.abs() - curvature * fold.hinge.area;
+            if beyond > 0.0 {
+                fold.rest += (share * beyond).copysign(elastic);
+            }
+        });
+    }
+
+    /// The rest of each fold, in m, with the normal as it was before the cloth tore.
+    fn numbers(&self) -> Vec<f64> {
+        let number = |fold: &Fold| match self.as_made(fold) {
+            (_, true) => -fold.rest,
+            (_, false) => fold.rest,
+        };
+        self.hinges.iter().map(number).collect()
+    }
+
+    fn recall(&mut self, numbers: &[f64]) {
+        for (place, &number) in numbers.iter().enumerate().take(self.hinges.len()) {
+            let (_, is_turned) = self.as_made(&self.hinges[place]);
+            self.hinges[place].rest = if is_turned { -number } else { number };
+        }
+    }
+
+    fn keys(&self) -> Vec<[u32; 4]> {
+        self.hinges.iter().map(|fold| self.as_made(fold).0).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Vertex 0 has a copy, so that the edge begins at its other end.
+    #[test]
+    fn a_fold_is_known_by_the_vertices_that_it_had_before_a_tear_and_bent_the_same_way() {
+        let hinge = Hinge {
+            weights: [0.0; 4],
+            coefficient: 1.0,
+            area: 1.0,
+        };
+        let when = Yield {
+            curvature: 1.0,
+            creep: 0.0,
+        };
+        let mut whole = Folds::new(&[([0, 1, 2, 3], hinge)], 4, &[], when);
+        let mut torn = Folds::new(&[([1, 4, 2, 3], hinge)], 5, &[0], when);
+        assert_eq!(whole.keys(), torn.keys());
+        whole.recall(&[0.25]);
+        torn.recall(&whole.numbers());
+        assert_eq!(torn.numbers(), [0.25]);
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(0.0, -1.0, 0.5), DVec3::ZERO];
+        let loads = whole.hinges[0].bent(&corners)[1] * whole.hinges[0].rest;
+        assert!(torn.hinges[0].bent(&corners)[1] * torn.hinges[0].rest == loads && loads != DVec3::ZERO);
+    }
+}

@@ -1,0 +1,132 @@
+//! An edge between two triangles, and how it resists being bent.
+
+use crate::model::membrane::warp_and_weft;
+use crate::model::schedule::{Local, On};
+use crate::world::Cloth;
+use selvedge::Topology;
+use selvedge_core::glam::DVec3;
+
+/// Of its four vertices, the edge's first.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hinge {
+    /// K of the module.
+    pub(super) weights: [f64; 4],
+    /// What |C|² is multiplied by for twice the energy, in N/m.
+    pub(super) coefficient: f64,
+    /// A of the module, in m².
+    pub(super) area: f64,
+}
+
+impl Hinge {
+    /// C of the module, in m.
+    #[inline(always)]
+    pub(super) fn bent(&self, x: [DVec3; 4]) -> DVec3 {
+        let k = self.weights;
+        x[0] * k[0] + x[1] * k[1] + x[2] * k[2] + x[3] * k[3]
+    }
+}
+
+/// No hinge is without stiffness, however blunt the angles opposite its edge.
+const LEAST_SHARE: f64 = 1.0 / 3.0;
+
+/// One for each edge between two triangles. `rigidity` is told the square of the cosine between the warp and the direction that is bent,
+/// which is across the edge.
+pub(crate) fn hinges(cloth: &Cloth, rigidity: impl Fn(f64) -> f64) -> Vec<On<Hinge, 4>> {
+    let topology = &cloth.topology;
+    let mut opposite = vec![[u32::MAX; 2]; topology.edges().len()];
+    for (triangle, edges) in topology.proper_triangles().iter().zip(topology.triangle_edges()) {
+        for (k, &edge) in edges.iter().enumerate() {
+            if edge != Topology::NO_EDGE {
+                let [first, second] = &mut opposite[edge as usize];
+                let free = if *first == u32::MAX { first } else { second };
+                *free = triangle[(k + 2) % 3];
+            }
+        }
+    }
+    let inner = topology.edges().iter().zip(opposite);
+    let inner = inner.filter(|(_, [_, second])| *second != u32::MAX);
+    let make = |(&[a, b], [c, d]): (&[u32; 2], [u32; 2])| {
+        let vertices = [a, b, c, d];
+        let [a, b, c, d] = vertices.map(|v| cloth.mesh.positions[v as usize]);
+        let cotangent = |u: DVec3, v: DVec3| u.dot(v) / u.cross(v).length();
+        let (at_a, at_b) = (
+            [cotangent(b - a, c - a), cotangent(b - a, d - a)],
+            [cotangent(a - b, c - b), cotangent(a - b, d - b)],
+        );
+        let [_, weft] = warp_and_weft(b - a, c - a, cloth.warp);
+        let area = 0.5 * ((b - a).cross(c - a).length() + (b - a).cross(d - a).length());
+        let opposite = cotangent(a - c, b - c) + cotangent(a - d, b - d);
+        // The warp is as far from across the edge as the weft is from the edge.
+        let of_warp = weft.dot((b - a).normalize()).powi(2).min(1.0);
+        let hinge = Hinge {
+            weights: [at_b[0] + at_b[1], at_a[0] + at_a[1], -at_a[0] - at_b[0], -at_a[1] - at_b[1]],
+            coefficient: rigidity(of_warp) * share(opposite) / area,
+            area,
+        };
+        (vertices, hinge)
+    };
+    inner.map(make).collect()
+}
+
+/// α of the module, of the sum of the cotangents of the angles opposite the edge.
+fn share(opposite: f64) -> f64 {
+    ((2.0 + opposite) / 3.0).max(LEAST_SHARE)
+}
+
+/// The hinge by itself, in one step of extended position-based dynamics.
+impl Local<4> for Hinge {
+    type Multipliers = ();
+
+    #[inline(always)]
+    fn corrections(&self, x: [DVec3; 4], w: [f64; 4], stiffening: f64, _: &mut ()) -> [DVec3; 4] {
+        let k = self.weights;
+        let bent = self.bent(x);
+        let mut weight = stiffening / self.coefficient;
+        for i in 0..4 {
+            weight += w[i] * k[i] * k[i];
+        }
+        let multiplier = bent * (-1.0 / weight);
+        // Written out: `map` would not be inlined here.
+        let by = |i: usize| multiplier * (w[i] * k[i]);
+        [by(0), by(1), by(2), by(3)]
+    }
+
+    fn energy(&self, x: [DVec3; 4]) -> Option<f64> {
+        let bent: DVec3 = x.iter().zip(self.weights).map(|(&x, k)| x * k).sum();
+        Some(0.5 * self.coefficient * bent.length_squared())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world::sheet;
+
+    /// A flat sheet has no bending force however it is moved rigidly; a folded one has.
+    #[test]
+    fn flat_cloth_is_at_rest_and_folded_cloth_is_not() {
+        let cloth = Cloth::of(sheet(DVec3::ZERO, [DVec3::X, DVec3::new(0.3, 1.0, 0.0)], [3, 3]));
+        let hinges = hinges(&cloth, |_| 1.0);
+        assert_eq!(hinges.len(), 3 * 3 + 2 * 3 * 2);
+        for (vertices, hinge) in hinges {
+            let rest = vertices.map(|v| cloth.mesh.positions[v as usize]);
+            let moves = hinge.corrections(rest, [1.0; 4], 1.0, &mut ());
+            assert!(moves.iter().all(|m| m.length() < 1e-14));
+            let mut folded = rest;
+            folded[3] += DVec3::Z * 0.1;
+            let moves = hinge.corrections(folded, [1.0; 4], 1.0, &mut ());
+            assert!(moves[3].z < 0.0 && moves.iter().sum::<DVec3>().length() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn an_edge_along_the_warp_bends_the_weft() {
+        let cloth = Cloth::of(sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [2, 2]));
+        let all = hinges(&cloth, |_| 1.0);
+        for ((vertices, hinge), (_, whole)) in hinges(&cloth, |of_warp| of_warp).into_iter().zip(all) {
+            let [a, b] = [vertices[0], vertices[1]].map(|v| cloth.mesh.positions[v as usize]);
+            let edge = (b - a).normalize();
+            assert!((hinge.coefficient / whole.coefficient - edge.y * edge.y).abs() < 1e-15);
+        }
+    }
+}

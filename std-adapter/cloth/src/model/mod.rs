@@ -1,0 +1,11 @@
+//! How cloth, ropes and what joins them are computed: what effects put into a step.
+
+pub(crate) mod bending;
+pub(crate) mod energy;
+pub(crate) mod hierarchy;
+pub(crate) mod membrane;
+pub(crate) mod rope;
+pub(crate) mod schedule;
+pub(crate) mod step;
+pub(crate) mod stitches;
+pub(crate) mod tearing;

@@ -1,0 +1,419 @@
+//! Stretch of a rope: one implicit step of a row of springs.
+//!
+//! A spring of the stiffness k = (axial stiffness)/(length L at rest), ℓ long now along n, pulls with T = k(ℓ − L). Implicit Euler wants positions
+//! x with M(x − y) = h²f(x), y being where everything else leads and f the pull of the springs. One step of Newton's method from y solves
+//!
+//! ```text
+//! (M + K)·d = h²f(y),    K of a spring = h²(k·n·nᵀ + a·(1 − n·nᵀ))
+//! ```
+//!
+//! as Baraff and Witkin (1998) do for cloth. The second part of K is tension: a spring pulls back what goes aside, with a = T/ℓ. Without it a taut
+//! rope of short edges would be shaken to pieces, as by explicit steps in which waves go farther than an edge. A spring that is pressed together
+//! would push on what goes aside, which is left out (Choi and Ko 2002): so there is always one answer.
+//!
+//! **Which tension.** That at the end of the step, as pulls go along the whole rope in one: where an end is jerked no other edge knows of it at y.
+//! So the equations are solved twice: with the tension at y, of which only T + k·n·(d of the one end − d of the other) is kept, the tension that comes
+//! of it, and with that.
+//!
+//! **Tied.** A rope whose end a seam joins with one other vertex is solved together with that vertex, by a spring as stiff as can be where the two
+//! are as far apart as they may: a light end would else give way to what hangs from it, by so many times its own fall as that is heavier.
+//!
+//! **Elimination** keeps masses beside stiffnesses that may be 10⁹ times theirs: what a vertex of the effective mass E feels through a spring
+//! K at the next vertex is K(E + K)⁻¹E, the two one after the other, in which nothing is subtracted; and E + K is never inverted but factorised,
+//! with which a solution is off by its condition number times rounding, not by the square of that.
+
+use crate::model::energy::{Configuration, StoredEnergy};
+use crate::model::step::{Constraint, TimeStep, Touches};
+use crate::model::stitches::{Tie, length_at_end};
+use crate::world::Cloth;
+use crate::world::runs;
+use selvedge_core::glam::{DMat3, DVec3};
+
+/// Stiffer than so many times the lighter vertex's mass over h² is not asked for, so that rounding is 10⁻⁷ of a move: under its own weight a rope of n
+/// vertices is stretched there by n·g·h²/10⁹ an edge, with n = 1,000 and h = 1 ms by a hundredth of a nanometre.
+const STIFFEST: f64 = 1e9;
+
+/// A tie that is as long as this share of what it may be is taut: stitches that ran before leave it so, but for rounding.
+const TAUT: f64 = 0.999;
+
+/// The loose edges of a cloth, as springs.
+#[derive(Debug)]
+pub(crate) struct Stretching {
+    /// In N.
+    stiffness: f64,
+    pieces: Vec<Piece>,
+    work: Work,
+}
+
+#[derive(Debug)]
+struct Piece {
+    /// As the scene numbers them; what the first and the last of the rope are tied to comes before and after them.
+    vertices: Vec<u32>,
+    /// Each from a vertex to the next.
+    edges: Vec<Edge>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Edge {
+    /// Of a length at rest, in m.
+    Rope(f64),
+    Tied(Tie),
+}
+
+/// Of the piece that is being solved.
+#[derive(Debug, Default)]
+struct Work {
+    masses: Vec<Option<f64>>,
+    springs: Vec<Spring>,
+    links: Vec<Link>,
+    moves: Vec<DVec3>,
+}
+
+/// An edge; what has to do with force is times h².
+#[derive(Clone, Copy, Debug)]
+struct Spring {
+    /// From its first end to its second, of length one; zero where there is no direction to speak of.
+    along: DVec3,
+    /// At rest, in m.
+    length: f64,
+    stiffness: f64,
+    /// Where everything else leads.
+    pull: f64,
+    /// The tension by which it pulls back what goes aside.
+    tension: f64,
+}
+
+/// A vertex and the spring to the next one, after all before have been eliminated.
+#[derive(Debug)]
+struct Link {
+    /// Of E + K; `None` where the vertex is kinematic.
+    factors: Option<Factors>,
+    spring: DMat3,
+    pull: DVec3,
+}
+
+impl Stretching {
+    /// Of an axial stiffness, in N, of a cloth with this first vertex in the scene.
+    pub(crate) fn new(cloth: &Cloth, stiffness: f64, first: u32, ties: &[Tie]) -> Self {
+        let edges: Vec<[u32; 2]> = cloth.topology.loose_edges().collect();
+        let rest = &cloth.mesh.positions;
+        let piece = |row: Vec<u32>| {
+            let ends = row.windows(2).map(|two| [two[0], two[1]].map(|v| rest[v as usize]));
+            let mut piece = Piece {
+                edges: ends.map(|[a, b]| Edge::Rope(a.distance(b))).collect(),
+                vertices: row.into_iter().map(|vertex| first + vertex).collect(),
+            };
+            piece.tie(ties);
+            piece
+        };
+        let runs = runs(&edges, rest.len());
+        Self {
+            stiffness,
+            pieces: runs.iter().flat_map(|run| run.pieces()).map(piece).collect(),
+            work: Work::default(),
+        }
+    }
+}
+
+impl Piece {
+    /// Adds what its ends are tied to, if that is no vertex of its own.
+    fn tie(&mut self, ties: &[Tie]) {
+        for is_last in [false, true] {
+            let end = if is_last {
+                self.vertices.last()
+            } else {
+                self.vertices.first()
+            };
+            let Some(&end) = end else { continue };
+            let tied = ties.iter().find_map(|tie| {
+                let [one, other] = tie.vertices;
+                let partner = if one == end { other } else { one };
+                let is_own = self.vertices.contains(&partner);
+                (tie.vertices.contains(&end) && !is_own).then_some((partner, Edge::Tied(*tie)))
+            });
+            if let Some((partner, edge)) = tied {
+                let place = |count: usize| if is_last { count } else { 0 };
+                self.vertices.insert(place(self.vertices.len()), partner);
+                self.edges.insert(place(self.edges.len()), edge);
+            }
+        }
+    }
+}
+
+impl Constraint for Stretching {
+    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
+        for piece in &self.pieces {
+            self.work.begin(piece, self.stiffness, step, positions);
+            self.work.solve();
+            self.work.take_tension();
+            self.work.solve();
+            for (&vertex, &moved) in piece.vertices.iter().zip(&self.work.moves) {
+                positions[vertex as usize] += moved;
+            }
+        }
+    }
+
+    fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
+        let at = |vertex: u32| now.positions[vertex as usize];
+        let of_piece = |piece: &Piece| -> f64 {
+            let edges = piece.vertices.windows(2).zip(&piece.edges);
+            let energy = |(two, edge): (&[u32], &Edge)| match edge {
+                Edge::Rope(length) => (at(two[0]).distance(at(two[1])) - length).powi(2) / length,
+                Edge::Tied(_) => 0.0,
+            };
+            edges.map(energy).sum()
+        };
+        let all: f64 = self.pieces.iter().map(of_piece).sum();
+        Some(StoredEnergy::Elastic(0.5 * self.stiffness * all))
+    }
+}
+
+impl Work {
+    fn begin(&mut self, piece: &Piece, stiffness: f64, step: &TimeStep<'_>, positions: &[DVec3]) {
+        let inverse = piece.vertices.iter().map(|&vertex| step.inverse_masses[vertex as usize]);
+        self.masses.clear();
+        self.masses
+            .extend(inverse.map(|inverse| (inverse > 0.0).then(|| inverse.recip())));
+        let lighter = |k: usize| match [self.masses[k], self.masses[k + 1]] {
+            [Some(one), Some(other)] => one.min(other),
+            [one, other] => one.or(other).unwrap_or(0.0),
+        };
+        let edges = piece.vertices.windows(2).zip(&piece.edges).enumerate();
+        let spring = |(k, (two, edge)): (usize, (&[u32], &Edge))| {
+            let [from, to] = [two[0], two[1]].map(|vertex| positions[vertex as usize]);
+            let stiffest = STIFFEST * lighter(k);
+            match *edge {
+                Edge::Rope(length) => Spring::new(to - from, length, (stiffness * step.h * step.h / length).min(stiffest)),
+                Edge::Tied(tie) => {
+                    let length = length_at_end(step, tie.start, tie.gap, tie.closing);
+                    Spring::tied(to - from, length, stiffest)
+                }
+            }
+        };
+        self.springs.clear();
+        self.springs.extend(edges.map(spring));
+    }
+
+    /// Finds how far each vertex moves.
+    fn solve(&mut self) {
+        let Self {
+            masses,
+            springs,
+            links,
+            moves,
+        } = self;
+        links.clear();
+        let diagonal = |mass: f64| DMat3::from_diagonal(DVec3::splat(mass));
+        // What the vertices before add to the mass of the next one, and pull it with.
+        let (mut before, mut pulled) = (DMat3::ZERO, DVec3::ZERO);
+        for (&mass, own) in masses.iter().zip(&*springs) {
+            let (spring, force) = (own.matrix(), own.along * own.pull);
+            let pull = pulled + force;
+            let effective = mass.map(|mass| before + diagonal(mass));
+            let factors = effective.map(|effective| Factors::of(effective + spring));
+            (before, pulled) = match (&factors, effective) {
+                (Some(factors), Some(effective)) => {
+                    let columns = [effective.x_axis, effective.y_axis, effective.z_axis].map(|column| factors.solve(column));
+                    let [x, y, z] = columns.map(|column| spring * column);
+                    let next = DMat3::from_cols(x, y, z);
+                    // Factors are of one half of a matrix: what rounding makes the other differ by would grow from link to link.
+                    let next = (next + next.transpose()) * 0.5;
+                    (next, spring * factors.solve(pull) - force)
+                }
+                _ => (spring, -force),
+            };
+            links.push(Link { factors, spring, pull });
+        }
+        let last = masses.last().copied().flatten();
+        let mut moved = last.map_or(DVec3::ZERO, |mass| Factors::of(before + diagonal(mass)).solve(pulled));
+        moves.clear();
+        moves.push(moved);
+        for link in links.iter().rev() {
+            let pull = link.pull + link.spring * moved;
+            moved = link.factors.as_ref().map_or(DVec3::ZERO, |factors| factors.solve(pull));
+            moves.push(moved);
+        }
+        moves.reverse();
+    }
+
+    /// Keeps of the moves the tension that comes of them.
+    fn take_tension(&mut self) {
+        // By index: of `windows` the compiler makes one thing or another, by what else is in the program (`instruction-counts/`).
+        for (k, spring) in self.springs.iter_mut().enumerate() {
+            spring.tension = spring.pull + spring.stiffness * spring.along.dot(self.moves[k + 1] - self.moves[k]);
+        }
+    }
+}
+
+/// L·D·Lᵀ of a symmetric, positive definite matrix.
+#[derive(Debug)]
+struct Factors {
+    diagonal: DVec3,
+    /// L below its diagonal of ones: of the second row, then of the third.
+    lower: [f64; 3],
+}
+
+impl Factors {
+    fn of(matrix: DMat3) -> Self {
+        let DMat3 { x_axis, y_axis, z_axis } = matrix;
+        let [first, second] = [x_axis.y, x_axis.z].map(|below| below / x_axis.x);
+        let middle = y_axis.y - first * x_axis.y;
+        let third = (y_axis.z - second * x_axis.y) / middle;
+        let last = z_axis.z - second * x_axis.z - third * third * middle;
+        Self {
+            diagonal: DVec3::new(x_axis.x, middle, last),
+            lower: [first, second, third],
+        }
+    }
+
+    fn solve(&self, right: DVec3) -> DVec3 {
+        let [first, second, third] = self.lower;
+        let y = right.y - first * right.x;
+        let z = right.z - second * right.x - third * y;
+        let scaled = DVec3::new(right.x, y, z) / self.diagonal;
+        let y = scaled.y - third * scaled.z;
+        DVec3::new(scaled.x - first * y - second * scaled.z, y, scaled.z)
+    }
+}
+
+impl Spring {
+    fn new(way: DVec3, length: f64, stiffness: f64) -> Self {
+        let now = way.length();
+        // Shorter than a millionth there is no direction to speak of.
+        let is_there = now > 1e-6 * length;
+        let pull = if is_there { stiffness * (now - length) } else { 0.0 };
+        Self {
+            along: if is_there { way / now } else { DVec3::ZERO },
+            length,
+            stiffness,
+            pull,
+            tension: pull,
+        }
+    }
+
+    /// Of two vertices that may be as far apart as told, and no farther: it does nothing where they are nearer, but for what rounding makes of it.
+    fn tied(way: DVec3, length: f64, stiffness: f64) -> Self {
+        let spring = Self::new(way, length, stiffness);
+        if way.length() >= TAUT * spring.length {
+            return spring;
+        }
+        Self {
+            along: DVec3::ZERO,
+            pull: 0.0,
+            ..spring
+        }
+    }
+
+    /// K of the module. As long as it is under its tension, a is less than its stiffness.
+    fn matrix(&self) -> DMat3 {
+        let n = self.along;
+        let tension = self.tension.max(0.0);
+        let across = self.stiffness * tension / (self.stiffness * self.length + tension);
+        if !(across >= 0.0) || n == DVec3::ZERO {
+            return DMat3::ZERO;
+        }
+        let along = DMat3::from_cols(n * n.x, n * n.y, n * n.z);
+        along * (self.stiffness - across) + DMat3::from_diagonal(DVec3::splat(across))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn step<'a>(start: &'a [DVec3], inverse_masses: &'a [f64]) -> TimeStep<'a> {
+        TimeStep {
+            time: 0.0,
+            h: 1e-2,
+            start,
+            inverse_masses,
+            held: &[],
+            poses: &[],
+        }
+    }
+
+    fn point() -> impl Strategy<Value = DVec3> {
+        prop::array::uniform3(-0.3..0.3_f64).prop_map(DVec3::from)
+    }
+
+    proptest! {
+        /// M·d + K·d = h²f, asked of the matrix as a whole: with pins, from soft to stiff.
+        #[test]
+        fn elimination_solves_the_implicit_step(
+            moves in prop::collection::vec(point(), 6), pinned in prop::collection::vec(any::<bool>(), 6),
+            stiffness in prop::sample::select(vec![1.0, 1e3, 1e6]),
+        ) {
+            let points: Vec<DVec3> = (0..6).map(|k| DVec3::X * f64::from(k)).collect();
+            let cloth = Cloth::rope(&[DVec3::ZERO, DVec3::X * 5.0], 5, 0.3).unwrap();
+            let start: Vec<DVec3> = points.iter().zip(&moves).map(|(&point, &by)| point + by).collect();
+            let masses = cloth.masses();
+            let inverse: Vec<f64> = masses.iter().zip(&pinned).map(|(mass, &pinned)| if pinned { 0.0 } else { mass.recip() }).collect();
+            let mut end = start.clone();
+            Stretching::new(&cloth, stiffness, 0, &[]).project(&step(&start, &inverse), &mut end, &mut Touches::default());
+            let moved: Vec<DVec3> = start.iter().zip(&end).map(|(from, to)| *to - *from).collect();
+            // With the tension that comes of the first solution.
+            let mut work = Work::default();
+            let own = Stretching::new(&cloth, stiffness, 0, &[]);
+            work.begin(&own.pieces[0], stiffness, &step(&start, &inverse), &start);
+            work.solve();
+            work.take_tension();
+            let springs: Vec<_> = work.springs.iter().map(|spring| (spring.matrix(), spring.along * spring.pull)).collect();
+            for k in 0..6 {
+                if pinned[k] {
+                    prop_assert_eq!(moved[k], DVec3::ZERO);
+                    continue;
+                }
+                let mut left = moved[k] * masses[k];
+                let mut size = left.length();
+                for (spring, other, sign) in [(k.checked_sub(1), k.wrapping_sub(1), -1.0), ((k < 5).then_some(k), k + 1, 1.0)] {
+                    if let Some((matrix, force)) = spring.map(|spring| springs[spring]) {
+                        left += matrix * (moved[k] - moved[other]) - force * sign;
+                        size += (matrix * (moved[k] - moved[other])).length() + force.length();
+                    }
+                }
+                prop_assert!(left.length() < 1e-9 * size.max(1e-6), "{left} of {size}");
+            }
+        }
+    }
+
+    /// What a thousand links add to each other's rounding: the whole equation again.
+    #[test]
+    fn elimination_is_exact_to_rounding_over_many_stiff_links() {
+        let cloth = Cloth::rope(&[DVec3::ZERO, DVec3::new(0.5, 0.0, -0.4), DVec3::X], 1000, 0.03).unwrap();
+        let masses = cloth.masses();
+        let mut inverse: Vec<f64> = masses.iter().map(|mass| mass.recip()).collect();
+        (inverse[0], inverse[1000]) = (0.0, 0.0);
+        let shaken = |(k, p): (usize, &DVec3)| *p + DVec3::new((k as f64).sin(), 0.1, (k as f64 * 1.7).cos()) * 1e-6;
+        let start: Vec<DVec3> = cloth.mesh.positions.iter().enumerate().map(shaken).collect();
+        let mut stretching = Stretching::new(&cloth, 1e4, 0, &[]);
+        let work = &mut stretching.work;
+        work.begin(&stretching.pieces[0], 1e4, &step(&start, &inverse), &start);
+        for _ in 0..2 {
+            work.solve();
+            let turned = |k: usize| work.springs[k].matrix() * (work.moves[k + 1] - work.moves[k]);
+            let pull = |k: usize| work.springs[k].along * work.springs[k].pull;
+            let largest = (0..1000).map(|k| pull(k).length()).fold(0.0, f64::max);
+            for k in 1..1000 {
+                let forces = pull(k) - pull(k - 1) + turned(k) - turned(k - 1);
+                let left = work.moves[k] * masses[k] - forces;
+                assert!(left.length() < 1e-9 * largest, "{k}: {left} of {largest}");
+            }
+            work.take_tension();
+        }
+    }
+
+    #[test]
+    fn a_row_of_short_and_stiff_edges_that_is_torn_apart_comes_together_and_keeps_its_centre() {
+        let cloth = Cloth::rope(&[DVec3::ZERO, DVec3::X], 1000, 0.01).unwrap();
+        let masses = cloth.masses();
+        let inverse: Vec<f64> = masses.iter().map(|mass| mass.recip()).collect();
+        let centre = |at: &[DVec3]| at.iter().zip(&masses).map(|(p, mass)| *p * *mass).sum::<DVec3>() / 0.01;
+        let start: Vec<DVec3> = cloth.mesh.positions.iter().map(|p| *p * 1.1 + DVec3::Y).collect();
+        let mut end = start.clone();
+        Stretching::new(&cloth, 1e9, 0, &[]).project(&step(&start, &inverse), &mut end, &mut Touches::default());
+        assert!(centre(&start).distance(centre(&end)) < 1e-6, "{}", centre(&end));
+        let length: f64 = end.windows(2).map(|two| two[0].distance(two[1])).sum();
+        assert!((length - 1.0).abs() < 1e-4, "{length}");
+    }
+}

@@ -1,0 +1,225 @@
+//! Which points a seam joins, and how it draws them together.
+//!
+//! Two rows of vertices are laid along each other by their lengths at rest: a vertex at a share of the way along the row that has more of
+//! them is joined to the point at that share of the other row, between two of its vertices. So rows of different meshes fit, and where
+//! both have as many, evenly, each vertex is joined to one.
+//!
+//! A stitch is C = |a − (1 − s)·b − s·c| ≤ L, without compliance: Δx = −(|p| − L)·wₖ·∇C/Σw·|∇C|². It only pulls; that the rows keep their
+//! distance is a matter of contact.
+
+use crate::model::step::{Constraint, TimeStep, Touches, mobility};
+use selvedge_core::glam::DVec3;
+
+/// A vertex, and a point between two others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Stitch {
+    /// The vertex, then the two between which the point is.
+    pub(crate) vertices: [u32; 3],
+    /// How far the point is from the first of them to the second.
+    share: f64,
+}
+
+impl Stitch {
+    /// From the point to the vertex.
+    fn way(&self, positions: &[DVec3]) -> DVec3 {
+        let [a, b, c] = self.vertices.map(|vertex| positions[vertex as usize]);
+        a - b.lerp(c, self.share)
+    }
+
+    /// How far apart the two are.
+    pub(crate) fn length(&self, positions: &[DVec3]) -> f64 {
+        self.way(positions).length()
+    }
+
+    /// Brings the two within `length` of each other.
+    fn draw(&self, length: f64, inverse_masses: &[f64], positions: &mut [DVec3]) {
+        let weights = [1.0, self.share - 1.0, -self.share];
+        let mobility = mobility(inverse_masses, self.vertices, weights);
+        let way = self.way(positions);
+        let distance = way.length();
+        if !(distance > length && mobility > 0.0) {
+            return;
+        }
+        let along = way * ((length - distance) / (distance * mobility));
+        for (vertex, weight) in self.vertices.into_iter().zip(weights) {
+            positions[vertex as usize] += along * (weight * inverse_masses[vertex as usize]);
+        }
+    }
+}
+
+/// Lays two rows along each other; each has two vertices or more, and a length, or both are one vertex.
+pub(crate) fn stitches(first: &[u32], second: &[u32], rest: &[DVec3]) -> Vec<Stitch> {
+    if let (&[first], &[second]) = (first, second) {
+        let vertices = [first, second, second];
+        return vec![Stitch { vertices, share: 0.0 }];
+    }
+    let (finer, coarser) = if first.len() < second.len() {
+        (second, first)
+    } else {
+        (first, second)
+    };
+    let [of_finer, of_coarser] = [finer, coarser].map(|row| shares(row, rest));
+    let stitch = |(&vertex, share): (&u32, f64)| {
+        let next = of_coarser.partition_point(|&own| own <= share).clamp(1, coarser.len() - 1);
+        let [from, to] = [of_coarser[next - 1], of_coarser[next]];
+        Stitch {
+            vertices: [vertex, coarser[next - 1], coarser[next]],
+            share: ((share - from) / (to - from)).clamp(0.0, 1.0),
+        }
+    };
+    finer.iter().zip(of_finer).map(stitch).collect()
+}
+
+/// Of each vertex, its share of the way along the row, from 0 to 1.
+fn shares(row: &[u32], rest: &[DVec3]) -> Vec<f64> {
+    let steps = row
+        .windows(2)
+        .map(|two| rest[two[0] as usize].distance(rest[two[1] as usize]));
+    let ways = steps.scan(0.0, |way, step| {
+        *way += step;
+        Some(*way)
+    });
+    let ways: Vec<f64> = std::iter::once(0.0).chain(ways).collect();
+    let all = ways[ways.len() - 1];
+    ways.into_iter().map(|way| way / all).collect()
+}
+
+/// A seam in motion.
+#[derive(Debug)]
+pub(crate) struct Sewing {
+    /// Each with how far apart its points are at the start, in metres.
+    pub(crate) stitches: Vec<(Stitch, f64)>,
+    /// How far apart they are to be in the end, in metres.
+    pub(crate) gap: f64,
+    /// When they are, in seconds; `None`: they stay as near as they start.
+    pub(crate) closing: Option<f64>,
+}
+
+impl Sewing {
+    /// The one stitch that it may consist of, of two vertices.
+    pub(crate) fn tie(&self) -> Option<Tie> {
+        let &[
+            (
+                Stitch {
+                    vertices: [one, other, also],
+                    ..
+                },
+                start,
+            ),
+        ] = self.stitches.as_slice()
+        else {
+            return None;
+        };
+        (other == also).then_some(Tie {
+            vertices: [one, other],
+            start,
+            gap: self.gap,
+            closing: self.closing,
+        })
+    }
+}
+
+/// Two vertices that a seam joins.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tie {
+    pub(crate) vertices: [u32; 2],
+    /// How far apart they are at the start, and may be in the end, in metres.
+    pub(crate) start: f64,
+    pub(crate) gap: f64,
+    /// When that is, in seconds, as a [`Seam`](crate::effects::Seam) has it.
+    pub(crate) closing: Option<f64>,
+}
+
+/// How far apart the points of a stitch may be at the end of a step: of a seam that is drawn together from `start` to `gap`.
+pub(crate) fn length_at_end(step: &TimeStep<'_>, start: f64, gap: f64, closing: Option<f64>) -> f64 {
+    let left = closing.map_or(1.0, |closing| (1.0 - (step.time + step.h) / closing).max(0.0));
+    gap + left * (start - gap).max(0.0)
+}
+
+impl Constraint for Sewing {
+    fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
+        for (stitch, start) in &self.stitches {
+            let length = length_at_end(step, *start, self.gap, self.closing);
+            stitch.draw(length, step.inverse_masses, positions);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two rows along x, one above the other by 1.
+    fn rows(first: &[f64], second: &[f64]) -> (Vec<DVec3>, Vec<Stitch>) {
+        let above = second.iter().map(|&x| DVec3::new(x, 1.0, 0.0));
+        let rest: Vec<DVec3> = first.iter().map(|&x| DVec3::X * x).chain(above).collect();
+        let numbers: Vec<u32> = (0..rest.len() as u32).collect();
+        let (one, other) = numbers.split_at(first.len());
+        let made = stitches(one, other, &rest);
+        (rest, made)
+    }
+
+    #[test]
+    fn rows_of_as_many_vertices_are_joined_one_to_one_and_others_at_the_same_share() {
+        let even = [0.0, 1.0, 2.0, 3.0];
+        for (index, stitch) in rows(&even, &even).1.iter().enumerate() {
+            let [a, b, c] = stitch.vertices;
+            let met = if stitch.share == 0.0 { b } else { c };
+            assert_eq!((a, met), (index as u32, index as u32 + 4));
+            assert!(stitch.share == 0.0 || stitch.share == 1.0);
+        }
+        // The finer row is joined, whichever it is, and nothing is left aside.
+        for (first, second) in [(&[0.0, 1.5, 3.0][..], &even[..]), (&even[..], &[0.0, 1.0, 3.0][..])] {
+            let (rest, made) = rows(first, second);
+            assert_eq!(made.len(), 4);
+            assert!(made.iter().all(|stitch| (stitch.length(&rest) - 1.0).abs() < 1e-12));
+        }
+    }
+
+    #[test]
+    fn a_stitch_is_drawn_to_its_length_keeps_the_momentum_and_never_pushes() {
+        let (rest, made) = rows(&[0.0, 1.0], &[0.0, 0.4, 1.0]);
+        let inverse_masses = [1.0, 2.0, 0.5, 3.0, 0.0];
+        for (length, expected) in [(0.25, 0.25), (2.0, 1.0)] {
+            let mut positions = rest.clone();
+            made[1].draw(length, &inverse_masses, &mut positions);
+            assert!((made[1].length(&positions) - expected).abs() < 1e-12);
+            let moved = |k: usize| (positions[k] - rest[k]) / inverse_masses[k];
+            assert!((moved(0) + moved(1) + moved(3)).length() < 1e-12);
+        }
+        let mut positions = rest.clone();
+        made[2].draw(0.25, &[0.0; 5], &mut positions);
+        assert_eq!(positions, rest, "what is pinned stays");
+    }
+
+    #[test]
+    fn a_seam_is_as_long_as_the_time_says_and_one_without_a_time_as_long_as_it_was() {
+        let (rest, made) = rows(&[0.0, 1.0], &[0.0, 1.0]);
+        let lengths = |closing, time| {
+            let mut positions = rest.clone();
+            let mut sewing = Sewing {
+                stitches: made.iter().map(|stitch| (*stitch, 1.0)).collect(),
+                gap: 0.2,
+                closing,
+            };
+            let step = TimeStep {
+                time,
+                h: 0.1,
+                start: &rest,
+                inverse_masses: &[1.0; 4],
+                held: &[],
+                poses: &[],
+            };
+            sewing.project(&step, &mut positions, &mut Touches::default());
+            made[0].length(&positions)
+        };
+        for (closing, time, expected) in [
+            (Some(1.0), 0.4, 0.6),
+            (Some(1.0), 0.9, 0.2),
+            (Some(1.0), 5.0, 0.2),
+            (None, 5.0, 1.0),
+        ] {
+            assert!((lengths(closing, time) - expected).abs() < 1e-12);
+        }
+    }
+}

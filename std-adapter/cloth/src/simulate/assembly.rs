@@ -1,0 +1,124 @@
+//! What a simulation has of a scene's meshes and effects: made where it begins, and anew when cloth has torn.
+
+use super::errors::SetupError;
+use crate::contact::ContactSolver;
+use crate::effects::plan::{Entry, Plan};
+use crate::model::step::{Carrier, Constraint, Force, Memory};
+use crate::model::tearing::Tearable;
+use crate::scene::{Scene, append};
+use crate::world::Kinematic;
+use selvedge::{Mesh, Topology};
+use selvedge_core::glam::DVec3;
+use std::ops::Range;
+
+/// See the [module](self).
+#[derive(Debug)]
+pub(super) struct Assembly {
+    /// Of the effects, in the order in which they run.
+    pub(super) effects: Vec<&'static str>,
+    /// Of each cloth.
+    pub(super) vertices_of_cloths: Vec<Range<usize>>,
+    pub(super) body_vertices: Vec<Range<usize>>,
+    pub(super) cloth_vertices: usize,
+    pub(super) cloth_triangles: usize,
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Of the cloths.
+    pub(super) loose_edges: Vec<[u32; 2]>,
+    /// Where all vertices are at rest: the cloth's in the scene, bodies' as their meshes have them.
+    pub(super) rest: Vec<DVec3>,
+    pub(super) inverse_masses: Vec<f64>,
+    /// Of each vertex: whose motion it follows.
+    pub(super) carriers: Vec<Carrier>,
+    /// Kinematic ones: bodies', then those of pins.
+    pub(super) motions: Vec<Kinematic>,
+    /// Of each group of pins.
+    pub(super) pins: Vec<Carrier>,
+    pub(super) forces: Vec<Entry<dyn Force>>,
+    pub(super) constraints: Vec<Entry<dyn Constraint>>,
+    /// Those of them that remember something.
+    pub(super) remembering: Vec<usize>,
+    pub(super) friction: Vec<Entry<dyn Constraint>>,
+    pub(super) contact: Option<ContactSolver>,
+    pub(super) tearable: Vec<Tearable>,
+}
+
+impl Assembly {
+    /// Of a scene that makes sense.
+    ///
+    /// # Errors
+    /// If it has too many triangles, or no cloth.
+    pub(super) fn of(scene: &Scene) -> Result<Self, SetupError> {
+        let mut plan = Plan::new(scene.parts()?);
+        let effects = scene.called().register(&mut plan);
+        let Plan {
+            mut inverse_masses,
+            mut carriers,
+            motions,
+            pins,
+            forces,
+            constraints,
+            contact,
+            friction,
+            tearable,
+            ..
+        } = plan;
+        let mut all = Mesh::default();
+        let vertices_of_cloths: Vec<_> = scene.cloths.iter().map(|cloth| append(&mut all, &cloth.mesh)).collect();
+        let (cloth_vertices, cloth_triangles) = (all.positions.len(), all.triangles.len());
+        let mut body_vertices = Vec::with_capacity(scene.bodies.len());
+        for (carrier, body) in scene.bodies.iter().enumerate() {
+            body_vertices.push(append(&mut all, &body.mesh));
+            carriers.resize(all.positions.len(), carrier as Carrier);
+        }
+        let Mesh {
+            positions: rest,
+            triangles,
+        } = all;
+        inverse_masses.resize(rest.len(), 0.0);
+        let remembers = |&index: &usize| constraints[index].action.memory().is_some();
+        let remembering = (0..constraints.len()).filter(remembers).collect();
+        let loose_edges = scene.all_loose_edges();
+        let contact = match contact.asks_for_any() {
+            true => {
+                let topology = Topology::with_loose_features(rest.len(), triangles.clone(), &loose_edges, &[])?;
+                let bodies = scene.bodies.len();
+                Some(ContactSolver::new(
+                    contact,
+                    topology,
+                    &rest,
+                    &carriers,
+                    cloth_vertices,
+                    bodies,
+                    scene.time_step,
+                ))
+            }
+            false => None,
+        };
+        Ok(Self {
+            effects,
+            contact,
+            vertices_of_cloths,
+            body_vertices,
+            cloth_vertices,
+            cloth_triangles,
+            triangles,
+            loose_edges,
+            rest,
+            inverse_masses,
+            carriers,
+            motions,
+            pins,
+            forces,
+            constraints,
+            remembering,
+            friction,
+            tearable,
+        })
+    }
+
+    /// What its constraints remember.
+    pub(super) fn memories(&self) -> impl Iterator<Item = &dyn Memory> {
+        let all = self.remembering.iter();
+        all.filter_map(|&index| self.constraints[index].action.memory())
+    }
+}

@@ -1,0 +1,419 @@
+//! The state of a simulation as bytes, and what it has measured so far.
+
+use super::state::State;
+use crate::contact::{ContactCounts, ContactSeconds, PairKey};
+use crate::model::tearing::TornEdge;
+use crate::world::{Cloth, Placement};
+use selvedge::PairKind;
+use selvedge_core::glam::{DQuat, DVec3};
+use selvedge_files::bytes::Reader;
+
+/// A checkpoint can be taken when so many steps are done, and again so many later. There contact forgets what it knows besides
+/// the state, which a resumed simulation does not know either.
+pub const CHECKPOINT_STEPS: u64 = 200;
+
+const MAGIC: &[u8; 16] = b"selvedge state 3";
+
+/// Bytes from which a simulation cannot go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CheckpointError {
+    /// Something else.
+    #[error("this is not a checkpoint of a simulation")]
+    NotOne,
+    /// Of another scene, or of an earlier version of it.
+    #[error("the checkpoint is of another scene, or of this scene before it was changed")]
+    OtherScene,
+    /// Cut short, or with numbers that no simulation has.
+    #[error("the checkpoint is damaged")]
+    Damaged,
+}
+
+/// A cloth in which something may have torn.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct TornCloth {
+    /// Which vertex each of the last ones is a copy of.
+    pub(super) copied: Vec<u32>,
+    pub(super) triangles: Vec<[u32; 3]>,
+}
+
+impl TornCloth {
+    /// Whether it is that cloth torn: copies aside its triangles are the same, and with its loose edges they have all vertices.
+    pub(super) fn is_of(&self, cloth: &Cloth) -> bool {
+        let made = cloth.vertices_as_made();
+        let are_before = (made..).zip(&self.copied).all(|(copy, &vertex)| (vertex as usize) < copy);
+        let as_made = |mut vertex: u32| {
+            while let Some(copy) = (vertex as usize).checked_sub(made) {
+                vertex = *self.copied.get(copy)?;
+            }
+            Some(vertex)
+        };
+        let own = cloth
+            .mesh()
+            .triangles
+            .iter()
+            .flatten()
+            .map(|&vertex| Some(cloth.as_made(vertex)));
+        let mut has = vec![false; made + self.copied.len()];
+        let is_of = are_before && self.triangles.iter().flatten().map(|&vertex| as_made(vertex)).eq(own);
+        if is_of {
+            let loose = cloth.topology().loose_edges().flatten();
+            let named = self.triangles.iter().copied().flatten().chain(loose);
+            named.for_each(|vertex| has[vertex as usize] = true);
+        }
+        is_of && !has.contains(&false)
+    }
+}
+
+/// What has torn: of each cloth what it is now, and the edges. Only in checkpoints of scenes that may tear, before all that depends on it.
+pub(super) type Torn = (Vec<TornCloth>, Vec<TornEdge>);
+
+fn write_torn((cloths, edges): &Torn, bytes: &mut Vec<u8>) {
+    for TornCloth { copied, triangles } in cloths {
+        bytes.extend((copied.len() as u64).to_le_bytes());
+        let vertices = copied.iter().chain(triangles.as_flattened());
+        bytes.extend(vertices.flat_map(|vertex| vertex.to_le_bytes()));
+    }
+    bytes.extend((edges.len() as u64).to_le_bytes());
+    for edge in edges {
+        let [first, second] = edge.vertices.map(u64::from);
+        let numbers = [edge.cloth as u64, first, second, edge.time.to_bits(), edge.load.to_bits()];
+        bytes.extend(numbers.into_iter().flat_map(u64::to_le_bytes));
+    }
+}
+
+/// What has torn of cloths with so many triangles each.
+fn read_torn(reader: &mut Reader<'_>, triangles_of_cloths: &[usize]) -> Option<Torn> {
+    let cloth = |&triangles: &usize| {
+        let copied = reader.count(size_of::<u32>())?;
+        let mut numbers = |count: usize| (0..count).map(|_| reader.u32()).collect::<Option<Vec<u32>>>();
+        let (copied, corners) = (numbers(copied)?, numbers(3 * triangles)?);
+        let triangles = corners.as_chunks().0.to_vec();
+        Some(TornCloth { copied, triangles })
+    };
+    let cloths = triangles_of_cloths.iter().map(cloth).collect::<Option<_>>()?;
+    let count = reader.count(5 * size_of::<u64>())?;
+    let edge = |_| {
+        let edge = TornEdge {
+            cloth: usize::try_from(reader.u64()?).ok()?,
+            vertices: [u32::try_from(reader.u64()?).ok()?, u32::try_from(reader.u64()?).ok()?],
+            time: reader.f64()?,
+            load: reader.f64()?,
+        };
+        (edge.cloth < triangles_of_cloths.len() && edge.time.is_finite() && edge.load.is_finite()).then_some(edge)
+    };
+    let edges = (0..count).map(edge).collect::<Option<_>>()?;
+    Some((cloths, edges))
+}
+
+/// A simulation at one moment. What was measured has no influence on how it goes on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Checkpoint {
+    /// `None` if nothing tears.
+    pub(super) torn: Option<Torn>,
+    pub(super) state: State,
+    /// Of each body; none without contact.
+    pub(super) yielding: Vec<bool>,
+    /// Of what was tangled at the start and is not apart yet, pairs that do not meet any more; `None` if all is apart.
+    pub(super) parting: Option<Vec<PairKey>>,
+    /// Seconds of each effect.
+    pub(super) effects: Vec<f64>,
+    /// Of what the caller moves, unless it was moved point by point.
+    pub(super) placements: Vec<Option<Placement>>,
+    /// Of all constraints that remember something.
+    pub(super) memories: Vec<f64>,
+    /// All zero without contact.
+    pub(super) counts: ContactCounts,
+    /// All zero without contact.
+    pub(super) stages: ContactSeconds,
+}
+
+/// How much there is of what, in a simulation of the scene.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sizes {
+    pub(super) vertices: usize,
+    pub(super) yielding: usize,
+    pub(super) effects: usize,
+    pub(super) placements: usize,
+    pub(super) memories: usize,
+}
+
+impl Checkpoint {
+    pub(super) fn write(&self, fingerprint: u64) -> Vec<u8> {
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend(fingerprint.to_le_bytes());
+        if let Some(torn) = &self.torn {
+            write_torn(torn, &mut bytes);
+        }
+        let state = &self.state;
+        let numbers = [state.step, state.blocked_steps, state.clock.to_bits()];
+        bytes.extend(numbers.into_iter().flat_map(u64::to_le_bytes));
+        let vectors = state.positions.iter().chain(&state.velocities);
+        let numbers = vectors.flat_map(|vector| vector.to_array());
+        bytes.extend(numbers.flat_map(f64::to_le_bytes));
+        bytes.extend(self.yielding.iter().map(|&yields| u8::from(yields)));
+        bytes.push(u8::from(self.parting.is_some()));
+        if let Some(parting) = &self.parting {
+            bytes.extend((parting.len() as u64).to_le_bytes());
+            for (kind, pair) in parting {
+                bytes.push(u8::from(*kind == PairKind::EdgeEdge));
+                bytes.extend(pair.iter().flat_map(|feature| u64::from(*feature).to_le_bytes()));
+            }
+        }
+        bytes.extend(self.effects.iter().flat_map(|x| x.to_le_bytes()));
+        for placement in &self.placements {
+            bytes.push(u8::from(placement.is_some()));
+            let Placement { rotation, translation } = placement.unwrap_or_default();
+            let numbers = rotation.to_array().into_iter().chain(translation.to_array());
+            bytes.extend(numbers.flat_map(f64::to_le_bytes));
+        }
+        bytes.extend(self.memories.iter().flat_map(|x| x.to_le_bytes()));
+        let ContactCounts {
+            candidates,
+            looked_at,
+            pushed,
+            violated,
+            zone_rounds,
+            held,
+            cuts,
+        } = self.counts;
+        let pairs = [candidates, looked_at, pushed, violated];
+        let counts = pairs.into_iter().chain([zone_rounds, held, cuts]);
+        bytes.extend(counts.flat_map(u64::to_le_bytes));
+        let stages = self.stages.stages().map(|(_, seconds)| seconds);
+        bytes.extend(stages.into_iter().flat_map(f64::to_le_bytes));
+        bytes
+    }
+
+    /// What of a simulation's checkpoint is read first, and the rest; of a scene that may tear the triangles of each cloth.
+    pub(super) fn begin<'a>(
+        bytes: &'a [u8],
+        fingerprint: u64,
+        triangles_of_cloths: Option<&[usize]>,
+    ) -> Result<(Option<Torn>, Reader<'a>), CheckpointError> {
+        let bytes = bytes.strip_prefix(MAGIC).ok_or(CheckpointError::NotOne)?;
+        let mut reader = Reader(bytes);
+        let found = reader.u64().ok_or(CheckpointError::Damaged)?;
+        if found != fingerprint {
+            return Err(CheckpointError::OtherScene);
+        }
+        let torn = match triangles_of_cloths {
+            Some(cloths) => Some(read_torn(&mut reader, cloths).ok_or(CheckpointError::Damaged)?),
+            None => None,
+        };
+        Ok((torn, reader))
+    }
+
+    /// The rest, but for what has torn.
+    pub(super) fn read(mut reader: Reader<'_>, sizes: Sizes) -> Result<Self, CheckpointError> {
+        let checkpoint = Self::read_on(&mut reader, sizes).ok_or(CheckpointError::Damaged)?;
+        let state = &checkpoint.state;
+        let all = state.positions.iter().chain(&state.velocities);
+        let remembered = checkpoint.memories.iter().all(|number| number.is_finite());
+        let is_finite = remembered && state.clock.is_finite() && { all }.all(|vector| vector.is_finite());
+        if is_finite && reader.0.is_empty() {
+            Ok(checkpoint)
+        } else {
+            Err(CheckpointError::Damaged)
+        }
+    }
+
+    fn read_on(reader: &mut Reader<'_>, sizes: Sizes) -> Option<Self> {
+        let [step, blocked_steps] = [reader.u64()?, reader.u64()?];
+        let clock = reader.f64()?;
+        let mut vectors = || {
+            let vector = |_| {
+                let [x, y, z] = [reader.f64()?, reader.f64()?, reader.f64()?];
+                Some(DVec3::new(x, y, z))
+            };
+            (0..sizes.vertices).map(vector).collect::<Option<_>>()
+        };
+        let (positions, velocities) = (vectors()?, vectors()?);
+        let yielding = reader.bytes(sizes.yielding)?;
+        let parting = match flag(reader)? {
+            true => {
+                let count = reader.u64()?;
+                Some((0..count).map(|_| pair(reader)).collect::<Option<_>>()?)
+            }
+            false => None,
+        };
+        let effects: Option<Vec<_>> = (0..sizes.effects).map(|_| reader.f64()).collect();
+        let placements: Option<Vec<_>> = (0..sizes.placements).map(|_| placement(reader)).collect();
+        let memories: Option<Vec<_>> = (0..sizes.memories).map(|_| reader.f64()).collect();
+        Some(Self {
+            torn: None,
+            state: State {
+                step,
+                blocked_steps,
+                clock,
+                positions,
+                velocities,
+            },
+            yielding: { yielding.iter() }
+                .map(|&byte| (byte <= 1).then_some(byte == 1))
+                .collect::<Option<_>>()?,
+            parting,
+            effects: effects?,
+            placements: placements?,
+            memories: memories?,
+            counts: ContactCounts {
+                candidates: reader.u64()?,
+                looked_at: reader.u64()?,
+                pushed: reader.u64()?,
+                violated: reader.u64()?,
+                zone_rounds: reader.u64()?,
+                held: reader.u64()?,
+                cuts: reader.u64()?,
+            },
+            stages: ContactSeconds {
+                candidates: reader.f64()?,
+                constraints: reader.f64()?,
+                certificates: reader.f64()?,
+                repairs: reader.f64()?,
+            },
+        })
+    }
+}
+
+fn flag(reader: &mut Reader<'_>) -> Option<bool> {
+    match reader.bytes(1)? {
+        [flag @ (0 | 1)] => Some(*flag == 1),
+        _ => None,
+    }
+}
+
+fn pair(reader: &mut Reader<'_>) -> Option<PairKey> {
+    let kind = if flag(reader)? {
+        PairKind::EdgeEdge
+    } else {
+        PairKind::VertexFace
+    };
+    let mut feature = || u32::try_from(reader.u64()?).ok();
+    Some((kind, [feature()?, feature()?]))
+}
+
+/// Whether there is one, and its numbers.
+fn placement(reader: &mut Reader<'_>) -> Option<Option<Placement>> {
+    let is_there = flag(reader)?;
+    let mut numbers = [0.0; 7];
+    for number in &mut numbers {
+        *number = reader.f64()?;
+    }
+    let [x, y, z, w, translation @ ..] = numbers;
+    let placement = Placement {
+        rotation: DQuat::from_xyzw(x, y, z, w),
+        translation: translation.into(),
+    };
+    // To normalise again would change bits.
+    placement.checked().ok()?;
+    Some(is_there.then_some(placement))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZES: Sizes = Sizes {
+        vertices: 2,
+        yielding: 2,
+        effects: 1,
+        placements: 2,
+        memories: 3,
+    };
+
+    fn checkpoint() -> Checkpoint {
+        Checkpoint {
+            torn: Some((
+                vec![TornCloth {
+                    copied: vec![1],
+                    triangles: vec![[0, 1, 2], [3, 2, 0]],
+                }],
+                vec![TornEdge {
+                    cloth: 0,
+                    vertices: [1, 2],
+                    time: 0.5,
+                    load: 12.0,
+                }],
+            )),
+            state: State {
+                step: 400,
+                blocked_steps: 3,
+                clock: 0.1,
+                positions: vec![DVec3::new(1.0, -0.0, 1e-300), DVec3::X],
+                velocities: vec![DVec3::Y, DVec3::splat(f64::MIN_POSITIVE)],
+            },
+            yielding: vec![true, false],
+            parting: Some(vec![(PairKind::VertexFace, [1, 0]), (PairKind::EdgeEdge, [0, 2])]),
+            effects: vec![0.25],
+            placements: vec![Some(Placement::at(DVec3::Y)), None],
+            memories: vec![-1.0, 0.5, 2.0],
+            counts: ContactCounts {
+                candidates: 1,
+                looked_at: 2,
+                pushed: 3,
+                violated: 4,
+                zone_rounds: 5,
+                held: 6,
+                cuts: 7,
+            },
+            stages: ContactSeconds {
+                candidates: 0.1,
+                constraints: 0.2,
+                certificates: 0.3,
+                repairs: 0.4,
+            },
+        }
+    }
+
+    fn read(bytes: &[u8], fingerprint: u64) -> Result<Checkpoint, CheckpointError> {
+        let (torn, reader) = Checkpoint::begin(bytes, fingerprint, Some(&[2]))?;
+        Ok(Checkpoint {
+            torn,
+            ..Checkpoint::read(reader, SIZES)?
+        })
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_to_the_last_bit() {
+        assert_eq!(read(&checkpoint().write(7), 7), Ok(checkpoint()));
+        let whole = Checkpoint {
+            torn: None,
+            ..checkpoint()
+        };
+        let bytes = whole.write(7);
+        let (torn, reader) = Checkpoint::begin(&bytes, 7, None).unwrap();
+        assert!(torn.is_none() && Checkpoint::read(reader, SIZES) == Ok(whole));
+    }
+
+    #[test]
+    fn other_scenes_and_damage_are_noticed() {
+        let bytes = checkpoint().write(7);
+        assert_eq!(read(&bytes, 8), Err(CheckpointError::OtherScene));
+        assert_eq!(read(b"v 0 0 0", 7), Err(CheckpointError::NotOne));
+        for length in MAGIC.len()..bytes.len() {
+            assert_eq!(read(&bytes[..length], 7), Err(CheckpointError::Damaged), "{length}");
+        }
+        assert!(read(&[&bytes[..], &[0]].concat(), 7).is_err());
+        let mut damaged = bytes.clone();
+        let clock = bytes.windows(8).position(|eight| eight == 0.1_f64.to_le_bytes()).unwrap();
+        damaged[clock..][..8].copy_from_slice(&f64::NAN.to_le_bytes());
+        assert_eq!(read(&damaged, 7), Err(CheckpointError::Damaged));
+    }
+
+    #[test]
+    fn a_torn_cloth_has_the_triangles_of_the_whole_one_and_all_its_vertices() {
+        let cloth = Cloth::of(crate::world::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [1, 1]));
+        let torn = |copied: &[u32], triangles: [[u32; 3]; 2]| {
+            let triangles = triangles.to_vec();
+            let copied = copied.to_vec();
+            TornCloth { copied, triangles }.is_of(&cloth)
+        };
+        assert_eq!(cloth.mesh().triangles, [[0, 1, 3], [0, 3, 2]]);
+        assert!(torn(&[], [[0, 1, 3], [0, 3, 2]]));
+        assert!(torn(&[3], [[0, 1, 3], [0, 4, 2]]));
+        assert!(!torn(&[0, 4], [[4, 1, 3], [5, 3, 2]]), "nothing has its first vertex");
+        assert!(!torn(&[0], [[0, 1, 3], [0, 4, 2]]), "a copy of another one");
+        assert!(!torn(&[4], [[0, 1, 3], [0, 4, 2]]), "a copy of itself");
+        assert!(!torn(&[3], [[0, 1, 3], [0, 3, 2]]), "a copy without a triangle");
+        assert!(!torn(&[], [[0, 1, 3], [0, 4, 2]]), "no such copy");
+    }
+}

@@ -1,0 +1,106 @@
+//! Checkpoints: out of a simulation, and back into one.
+
+use super::checkpoint::{CHECKPOINT_STEPS, Checkpoint, CheckpointError, Sizes};
+use super::simulation::Simulation;
+use crate::model::step::Memory;
+use crate::world::{Driven, Kinematic};
+
+impl Simulation {
+    /// All that the rest of the simulation depends on, and what has been measured so far, every [`CHECKPOINT_STEPS`] steps;
+    /// `None` in between. What the caller has said of the next step, and of the wind, is not in it.
+    #[must_use]
+    pub fn checkpoint(&self) -> Option<Vec<u8>> {
+        if !self.state.step.is_multiple_of(CHECKPOINT_STEPS) {
+            return None;
+        }
+        let mut checkpoint = Checkpoint {
+            state: self.state.clone(),
+            effects: self.effects.iter().map(|effect| effect.seconds).collect(),
+            placements: self.driven().map(|driven| driven.placement).collect(),
+            torn: self.torn_cloths(),
+            memories: self.remembered(),
+            ..Checkpoint::default()
+        };
+        if let Some(contact) = &self.made.contact {
+            checkpoint.yielding = contact.exempt().yielding.clone();
+            checkpoint.parting = contact.exempt().parting().map(<[_]>::to_vec);
+            (checkpoint.counts, checkpoint.stages) = (contact.counts, contact.stages);
+        }
+        Some(checkpoint.write(self.fingerprint))
+    }
+
+    /// Goes on from a checkpoint of the same scene: with the same bits as if it had never ended. Counters and times go on as well.
+    ///
+    /// # Errors
+    /// If it is not a checkpoint, is damaged, or is one of another scene; then nothing has changed.
+    pub fn resume(&mut self, checkpoint: &[u8]) -> Result<(), CheckpointError> {
+        let triangles = self.triangles_of_cloths();
+        let (torn, reader) = Checkpoint::begin(checkpoint, self.fingerprint, triangles.as_deref())?;
+        let mut torn = match torn {
+            Some((cloths, edges)) => Some((self.torn_as(cloths)?, edges)),
+            None => None,
+        };
+        let [vertices, memories] = match &torn {
+            Some((retorn, _)) => [
+                retorn.made.rest.len(),
+                retorn.made.memories().flat_map(Memory::numbers).count(),
+            ],
+            None => [self.state.positions.len(), self.remembered().len()],
+        };
+        let sizes = Sizes {
+            vertices,
+            yielding: self.made.contact.as_ref().map_or(0, |c| c.exempt().yielding.len()),
+            effects: self.effects.len(),
+            placements: self.driven().count(),
+            memories,
+        };
+        let checkpoint = Checkpoint::read(reader, sizes)?;
+        let contact = match &mut torn {
+            Some((retorn, _)) => &mut retorn.made.contact,
+            None => &mut self.made.contact,
+        };
+        if let Some(contact) = contact
+            && !contact.set_parting(checkpoint.parting.as_deref(), &checkpoint.state.positions)
+        {
+            return Err(CheckpointError::Damaged);
+        }
+        if let Some((retorn, edges)) = torn {
+            self.adopt_torn(retorn, edges);
+        }
+        if let Some(contact) = &mut self.made.contact {
+            contact.set_yielding(&checkpoint.yielding);
+            checkpoint.state.begin_anew(contact, self.time_step);
+            (contact.counts, contact.stages) = (checkpoint.counts, checkpoint.stages);
+        }
+        for (effect, seconds) in self.effects.iter_mut().zip(checkpoint.effects) {
+            effect.seconds = seconds;
+        }
+        let driven = self.made.motions.iter_mut().filter_map(Kinematic::driven_mut);
+        for (driven, placement) in driven.zip(checkpoint.placements) {
+            driven.placement = placement;
+        }
+        self.recall(&checkpoint.memories);
+        self.state = checkpoint.state;
+        Ok(())
+    }
+
+    /// What all constraints remember, one after the other.
+    pub(super) fn remembered(&self) -> Vec<f64> {
+        self.made.memories().flat_map(Memory::numbers).collect()
+    }
+
+    /// Takes back what was [`remembered`](Self::remembered) once.
+    pub(super) fn recall(&mut self, mut numbers: &[f64]) {
+        for &index in &self.made.remembering {
+            if let Some(memory) = self.made.constraints[index].action.memory_mut() {
+                let own;
+                (own, numbers) = numbers.split_at(memory.numbers().len());
+                memory.recall(own);
+            }
+        }
+    }
+
+    pub(super) fn driven(&self) -> impl Iterator<Item = &Driven> {
+        self.made.motions.iter().filter_map(Kinematic::driven)
+    }
+}

@@ -1,0 +1,126 @@
+//! From a scene to a simulation.
+
+use super::assembly::Assembly;
+use super::errors::SetupError;
+use super::measures::EffectTime;
+use super::simulation::{Simulation, Work};
+use super::state::State;
+use super::tangled::{Tangled, Untangling};
+use super::tearing::Tearing;
+use crate::model::hierarchy::mesh_spacing;
+use crate::model::step::{FREE, Touches};
+use crate::scene::{Scene, TangledStart};
+use crate::world::{Kinematic, Pose};
+use selvedge::verification::parallel::Workers;
+use selvedge::{Mesh, Threads};
+use selvedge_core::glam::DVec3;
+
+impl Simulation {
+    /// Sets a scene up, on `threads` threads (0: one for each core). The number of threads changes no bit of the result.
+    ///
+    /// # Errors
+    /// If something in the scene cannot be, it starts with an intersection, or the operating system refuses the threads.
+    pub fn new(scene: Scene, threads: usize) -> Result<Self, SetupError> {
+        Self::new_telling(scene, threads, &mut |_| ())
+    }
+
+    /// The same, and tells how untangling goes, before each of its steps, if the scene is [to be untangled](TangledStart::Untangle).
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn new_telling(scene: Scene, threads: usize, tell: &mut (dyn FnMut(Untangling) + Send)) -> Result<Self, SetupError> {
+        scene.check()?;
+        let fingerprint = scene.fingerprint();
+        let threads = Workers::new(Threads::from_count(threads))?;
+        let mut made = Assembly::of(&scene)?;
+        let Scene {
+            bodies,
+            cloths,
+            time_step,
+            tangled_start,
+            ..
+        } = &scene;
+        let (time_step, tangled_start) = (*time_step, *tangled_start);
+        let Assembly {
+            cloth_vertices,
+            vertices_of_cloths,
+            rest,
+            carriers,
+            motions,
+            ..
+        } = &mut made;
+        let poses: Vec<Pose> = motions.iter().map(|motion| motion.pose(0.0)).collect();
+        let mut carried = rest.clone();
+        for (point, &carrier) in carried[..*cloth_vertices].iter_mut().zip(&*carriers) {
+            // Pins that follow a driven body start where the cloth is, wherever that body stands.
+            let body = motions.get(carrier as usize).filter(|_| (carrier as usize) < bodies.len());
+            if let Some(standing) = body.and_then(Kinematic::driven).and_then(|driven| driven.placement) {
+                *point = standing.apply_inverse(*point);
+            }
+        }
+        let start = carried
+            .iter()
+            .zip(&*carriers)
+            .map(|(&point, &carrier)| poses.get(carrier as usize).map_or(point, |pose| pose.apply(point)));
+        let mut positions: Vec<DVec3> = start.collect();
+        motions.iter_mut().for_each(|motion| motion.put(0.0, &mut positions));
+        let mut velocities = vec![DVec3::ZERO; rest.len()];
+        for (cloth, vertices) in cloths.iter().zip(&*vertices_of_cloths) {
+            let free = vertices.clone().filter(|&vertex| carriers[vertex] == FREE);
+            free.for_each(|vertex| velocities[vertex] = cloth.velocity);
+        }
+        let state = State {
+            step: 0,
+            blocked_steps: 0,
+            clock: 0.0,
+            velocities,
+            positions,
+        };
+        if let Some(contact) = &mut made.contact {
+            state.begin_anew(contact, time_step);
+            let found = contact.tolerate(&state.positions)?;
+            if !found.is_empty() && tangled_start == TangledStart::Refuse {
+                return Err(SetupError::Tangled(Box::new(Tangled {
+                    crossings: found,
+                    mesh: Mesh {
+                        positions: state.positions,
+                        triangles: made.triangles,
+                    },
+                    cloth_triangles: made.cloth_triangles,
+                    body_names: bodies.iter().map(|body| body.name.clone()).collect(),
+                    untangled: None,
+                })));
+            }
+        }
+        let spacing = cloths.iter().map(mesh_spacing).fold(f64::INFINITY, f64::min);
+        let effects = made.effects.iter().map(|&name| EffectTime { name, seconds: 0.0 }).collect();
+        let mut simulation = Self {
+            name: scene.name.clone(),
+            time_step,
+            on_blocked: scene.on_blocked,
+            tangled_start,
+            body_names: bodies.iter().map(|body| body.name.clone()).collect(),
+            fingerprint,
+            cloth_names: cloths.iter().map(|cloth| cloth.name.clone()).collect(),
+            effects,
+            threads,
+            state,
+            work: Work {
+                touches: Touches {
+                    wanted: !made.friction.is_empty(),
+                    list: Vec::new(),
+                },
+                ..Work::default()
+            },
+            carried,
+            untangled: None,
+            tearing: (!made.tearable.is_empty()).then(|| Box::new(Tearing::new(scene))),
+            made,
+        };
+        if tangled_start == TangledStart::Untangle && !simulation.is_apart() {
+            let untangled = simulation.untangle(spacing, tell);
+            simulation.check_untangled(untangled)?;
+        }
+        Ok(simulation)
+    }
+}

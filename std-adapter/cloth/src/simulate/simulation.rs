@@ -1,0 +1,257 @@
+//! A simulation, and what can be read of it between two steps.
+
+use super::assembly::Assembly;
+use super::measures::{EdgeStretch, EffectTime};
+use super::state::State;
+use super::tangled::Untangled;
+use super::tearing::Tearing;
+use crate::contact::{ContactCounts, ContactSeconds, Crossing, NearPair};
+use crate::model::energy::{Configuration, Energy};
+use crate::model::step::{Release, Touches};
+use crate::scene::{OnBlocked, TangledStart};
+use crate::world::Pose;
+use selvedge::verification::parallel::Workers;
+use selvedge_core::glam::DVec3;
+use std::ops::Range;
+
+/// A scene in motion.
+#[derive(Debug)]
+pub struct Simulation {
+    pub(super) name: String,
+    pub(super) time_step: f64,
+    pub(super) fingerprint: u64,
+    pub(super) cloth_names: Vec<String>,
+    /// What its meshes and effects are put together to.
+    pub(super) made: Assembly,
+    /// Of kinematic vertices, where what carries them takes them from.
+    pub(super) carried: Vec<DVec3>,
+    pub(super) effects: Vec<EffectTime>,
+    pub(super) on_blocked: OnBlocked,
+    pub(super) tangled_start: TangledStart,
+    pub(super) body_names: Vec<String>,
+    pub(super) threads: Workers,
+    pub(super) state: State,
+    pub(super) work: Work,
+    /// Before the first step.
+    pub(super) untangled: Option<Untangled>,
+    /// If cloths may tear.
+    pub(super) tearing: Option<Box<Tearing>>,
+}
+
+/// Filled anew in each step.
+#[derive(Debug, Default)]
+pub(super) struct Work {
+    pub(super) velocities: Vec<DVec3>,
+    pub(super) predicted: Vec<DVec3>,
+    pub(super) poses: Vec<[Pose; 2]>,
+    pub(super) touches: Touches,
+    /// Vertices that constraints hold, and by how much heavier each is, in kg.
+    pub(super) held: Vec<(u32, f64)>,
+    /// As constraints see them, if any are held.
+    pub(super) inverse_masses: Vec<f64>,
+}
+
+impl Simulation {
+    /// The scene's name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Steps done so far.
+    #[must_use]
+    pub fn steps_done(&self) -> u64 {
+        self.state.step
+    }
+
+    /// The time simulated so far, in seconds.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.state.step as f64 * self.time_step
+    }
+
+    /// Where everything is: the vertices of each cloth, then the bodies'. Where cloth [tears](crate::effects::Tearing) there are more from then
+    /// on.
+    #[must_use]
+    pub fn positions(&self) -> &[DVec3] {
+        &self.state.positions
+    }
+
+    /// Triangles on [`positions`](Self::positions): those of each cloth, then the bodies'. Always as many, in the same order; where cloth
+    /// [tears](crate::effects::Tearing) some name other vertices from then on.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.made.triangles
+    }
+
+    /// Edges of cloths that belong to no triangle, of ropes, laces and fringes, on [`positions`](Self::positions).
+    #[must_use]
+    pub fn loose_edges(&self) -> &[[u32; 2]] {
+        &self.made.loose_edges
+    }
+
+    /// How fast each of the [`positions`](Self::positions) moves, in m/s.
+    #[must_use]
+    pub fn velocities(&self) -> &[DVec3] {
+        &self.state.velocities
+    }
+
+    /// The bodies' names, in the order of the scene.
+    #[must_use]
+    pub fn body_names(&self) -> &[String] {
+        &self.body_names
+    }
+
+    /// The cloths' names, in the order of the scene.
+    #[must_use]
+    pub fn cloth_names(&self) -> &[String] {
+        &self.cloth_names
+    }
+
+    /// The vertices of a cloth, among the [`positions`](Self::positions); `None` if there is no such cloth.
+    #[must_use]
+    pub fn vertices_of_cloth(&self, cloth: usize) -> Option<Range<usize>> {
+        self.made.vertices_of_cloths.get(cloth).cloned()
+    }
+
+    /// The vertices of a body, among the [`positions`](Self::positions); `None` if there is no such body.
+    #[must_use]
+    pub fn body_vertices(&self, body: usize) -> Option<Range<usize>> {
+        self.made.body_vertices.get(body).cloned()
+    }
+
+    /// The pairs that came near each other in the last part of the last step, as contact saw them at its start, but for those that pushes
+    /// between others were seen to keep apart. None without a contact effect.
+    pub fn near_pairs(&self) -> impl Iterator<Item = NearPair> {
+        self.made.contact.iter().flat_map(|contact| contact.near_pairs())
+    }
+
+    /// How many of the vertices are of cloth.
+    #[must_use]
+    pub fn cloth_vertices(&self) -> usize {
+        self.made.cloth_vertices
+    }
+
+    /// How many of the triangles are of cloth.
+    #[must_use]
+    pub fn cloth_triangles(&self) -> usize {
+        self.made.cloth_triangles
+    }
+
+    /// How much cloth is stretched now, of all cloths together, loose edges included. Finds the edges anew, in O(n log n) time.
+    #[must_use]
+    pub fn edge_stretch(&self) -> EdgeStretch {
+        let cloth = self.made.triangles[..self.made.cloth_triangles].iter();
+        let ends = cloth.flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+        let loose = self.made.loose_edges.iter().map(|&[a, b]| (a, b));
+        let mut edges: Vec<[u32; 2]> = ends.chain(loose).map(|(a, b)| [a.min(b), a.max(b)]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let length = |all: &[DVec3], [a, b]: [u32; 2]| all[a as usize].distance(all[b as usize]);
+        let stretch = |&edge: &[u32; 2]| length(&self.state.positions, edge) / length(&self.made.rest, edge);
+        let mut all: Vec<f64> = edges.iter().map(stretch).collect();
+        all.sort_unstable_by(f64::total_cmp);
+        let at = |index: usize| all.get(index).copied().unwrap_or(1.0);
+        EdgeStretch {
+            percentile_99: at(all.len() * 99 / 100),
+            largest: at(all.len().saturating_sub(1)),
+        }
+    }
+
+    /// The energy that the cloth has now: of its motion, and what its effects hold. Takes about as long as the effects' share of a step.
+    ///
+    /// Each step takes some of it, as implicit steps do: in free fall ½·m·g²·h·t, of a mass m after a time t in steps of h.
+    #[must_use]
+    pub fn energy(&self) -> Energy {
+        let now = Configuration {
+            positions: &self.state.positions,
+            inverse_masses: &self.made.inverse_masses,
+        };
+        let forces = self.made.forces.iter().map(|entry| (entry.effect, entry.action.energy(&now)));
+        let constraints = self
+            .made
+            .constraints
+            .iter()
+            .map(|entry| (entry.effect, entry.action.energy(&now)));
+        let mut energy = Energy::of_motion(&self.made.inverse_masses, &self.state.velocities);
+        for (effect, stored) in forces.chain(constraints) {
+            if let Some(stored) = stored {
+                energy.add(self.effects[effect].name, stored);
+            }
+        }
+        energy
+    }
+
+    /// The vertices that [`Attachments`](crate::effects::Attachments) have let go of so far, in their order; what effects of a caller's own
+    /// [remember](crate::effects::Memory) may add to it.
+    #[must_use]
+    pub fn released(&self) -> Vec<Release> {
+        self.made.memories().flat_map(|memory| memory.released()).collect()
+    }
+
+    /// The effects that were constructed, in the order in which they run, and the time that each has taken.
+    #[must_use]
+    pub fn effects(&self) -> &[EffectTime] {
+        &self.effects
+    }
+
+    /// What contact has counted so far; `None` if the scene has no contact effect.
+    #[must_use]
+    pub fn contact_counts(&self) -> Option<&ContactCounts> {
+        self.made.contact.as_ref().map(|contact| &contact.counts)
+    }
+
+    /// What contact has taken so far, besides the pushes; `None` if the scene has no contact effect.
+    #[must_use]
+    pub fn contact_seconds(&self) -> Option<&ContactSeconds> {
+        self.made.contact.as_ref().map(|contact| &contact.stages)
+    }
+
+    /// Steps in which bodies or pins had to wait, or to be let pass.
+    #[must_use]
+    pub fn blocked_steps(&self) -> u64 {
+        self.state.blocked_steps
+    }
+
+    /// Edges that meet faces now although effects are to keep them apart, of a scene that starts tangled and
+    /// [tolerates](TangledStart::Tolerate) that; empty for good once all is apart.
+    #[must_use]
+    pub fn crossings(&self) -> &[Crossing] {
+        self.made.contact.as_ref().map_or(&[], |contact| contact.exempt().crossings())
+    }
+
+    /// How many pairs have left the promise since the start: those about [`crossings`](Self::crossings), and those that are not apart by their
+    /// separation yet.
+    #[must_use]
+    pub fn tolerated_pairs(&self) -> usize {
+        self.made.contact.as_ref().map_or(0, |contact| contact.tolerated_pairs())
+    }
+
+    /// What the scene wants of a tangled start.
+    #[must_use]
+    pub fn tangled_start(&self) -> TangledStart {
+        self.tangled_start
+    }
+
+    /// What was untangled before the first step; `None` if nothing was.
+    #[must_use]
+    pub fn untangled(&self) -> Option<&Untangled> {
+        self.untangled.as_ref()
+    }
+
+    /// Whether the state is certified to be free of intersections of whatever the scene's contact effects name: not without any,
+    /// not while a body is let pass, and not while what was tangled at the start is tolerated.
+    #[must_use]
+    pub fn is_certified(&self) -> bool {
+        let contact = self.made.contact.as_ref();
+        contact.is_some_and(|contact| contact.exempt().is_empty())
+    }
+
+    /// How far bodies and pins are behind their keyframes, in seconds.
+    #[must_use]
+    pub fn lag(&self) -> f64 {
+        // Below a millionth of a step it is rounding.
+        let lag = self.time() - self.state.clock;
+        if lag > 1e-6 * self.time_step { lag } else { 0.0 }
+    }
+}

@@ -1,0 +1,96 @@
+//! What is said of a scene that starts tangled.
+
+use super::measures::EdgeStretch;
+use crate::contact::Crossing;
+use selvedge::Mesh;
+use selvedge_core::glam::DVec3;
+use std::fmt;
+
+/// How untangling goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Untangling {
+    /// Steps so far.
+    pub steps: u32,
+    /// Edges that meet faces now.
+    pub crossings: usize,
+}
+
+/// What was untangled before the first step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Untangled {
+    /// Edges that met faces where the scene starts.
+    pub crossings: usize,
+    /// Edges that still do.
+    pub left: usize,
+    /// Steps that were taken, without time.
+    pub steps: u32,
+    /// How much edges are stretched now, over their lengths in the scene.
+    pub stretch: EdgeStretch,
+    /// How far the cloth was moved where it was moved most, in metres.
+    pub farthest: f64,
+    /// How many seconds it took.
+    pub seconds: f64,
+}
+
+/// A scene that starts with surfaces passing through each other: all places.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tangled {
+    /// Every edge and face that meet.
+    pub crossings: Vec<Crossing>,
+    /// Where all is, and the triangles: the cloth's, then the bodies'.
+    pub mesh: Mesh,
+    /// How many of the triangles are the cloth's.
+    pub cloth_triangles: usize,
+    /// Of bodies, in the order of the scene.
+    pub body_names: Vec<String>,
+    /// What untangling did, if the scene asked for that.
+    pub untangled: Option<Untangled>,
+}
+
+impl std::error::Error for Tangled {}
+
+impl fmt::Display for Tangled {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let count = self.crossings.len();
+        match &self.untangled {
+            None => write!(f, "the scene starts with an intersection: {}", counted(count))?,
+            Some(Untangled { crossings, steps, .. }) => {
+                write!(f, "untangling ended after {steps} steps: {} of {crossings}", counted(count))?;
+            }
+        }
+        let mut of_bodies = vec![0; self.body_names.len()];
+        self.crossings
+            .iter()
+            .filter_map(|crossing| crossing.body)
+            .for_each(|body| of_bodies[body] += 1);
+        let named = of_bodies.iter().zip(&self.body_names).filter(|(count, _)| **count > 0);
+        for (count, name) in named {
+            write!(f, ", {count} with the body '{name}'")?;
+        }
+        if let Some(Crossing {
+            edge: [a, b],
+            face: [c, d, e],
+            point,
+            ..
+        }) = self.crossings.first()
+        {
+            let DVec3 { x, y, z } = *point;
+            write!(
+                f,
+                "; first the edge {a}, {b} and the face {c}, {d}, {e}, at ({x:.4}, {y:.4}, {z:.4}) m"
+            )?;
+        }
+        f.write_str(match self.untangled {
+            None => "; `tangled_start = \"untangle\"` pulls it apart, \"tolerate\" lets it be",
+            Some(_) => "; pull these apart in the mesh, or let them be with `tangled_start = \"tolerate\"`",
+        })
+    }
+}
+
+/// `3 edges meet faces`.
+fn counted(crossings: usize) -> String {
+    match crossings {
+        1 => "an edge meets a face".to_owned(),
+        _ => format!("{crossings} edges meet faces"),
+    }
+}

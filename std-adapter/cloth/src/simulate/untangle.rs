@@ -1,0 +1,143 @@
+//! A tangled start, pulled apart before the first step.
+//!
+//! ```text
+//! what meets ─▶ ways that shorten it ─▶ constraints ─▶ certified pass, without what meets ─▶ what meets now … until nothing does
+//!                                        └─▶ then contacts push until all is apart by its separation, and the cloth relaxes
+//! ```
+//!
+//! These are steps as any other, but without forces, inertia and time: bodies and pins rest, each step starts at rest and leads
+//! [the way out](crate::contact) by at most [`REACH`]. So stretch, shear, bending and strain limits keep the cloth together on the way, and no
+//! pairs come to meet but those next to such as do.
+
+use super::errors::SetupError;
+use super::simulation::Simulation;
+use super::tangled::{Tangled, Untangled, Untangling};
+use selvedge::Mesh;
+use selvedge_core::glam::DVec3;
+use std::time::Instant;
+
+/// How far a vertex is led in a step, in mean distances of vertices of the finest cloth: some steps for each triangle.
+const REACH: f64 = 0.3;
+/// How often a step is tried, each time with half the reach.
+const TRIES: u32 = 7;
+/// Most steps in which something is led.
+const MOST: u32 = 1000;
+/// Most steps in which the cloth relaxes. It has if in so many steps the longest edge has not become shorter by this share.
+const MOST_RELAXING: u32 = 500;
+const PATIENCE: u32 = 20;
+const RELAXING: f64 = 0.01;
+
+impl Simulation {
+    /// Whether nothing is tangled.
+    pub(super) fn is_apart(&self) -> bool {
+        self.made.contact.as_ref().is_none_or(|contact| contact.exempt().is_empty())
+    }
+
+    /// Looks at the state after untangling as at any start.
+    pub(super) fn check_untangled(&mut self, untangled: Untangled) -> Result<(), SetupError> {
+        let Some(contact) = &mut self.made.contact else {
+            return Ok(());
+        };
+        contact.end_untangling(&self.state.positions);
+        self.state.begin_anew(contact, self.time_step);
+        let crossings = contact.tolerate(&self.state.positions)?;
+        if crossings.is_empty() {
+            self.untangled = Some(untangled);
+            return Ok(());
+        }
+        Err(SetupError::Tangled(Box::new(Tangled {
+            crossings,
+            mesh: Mesh {
+                positions: self.state.positions.clone(),
+                triangles: self.made.triangles.clone(),
+            },
+            cloth_triangles: self.made.cloth_triangles,
+            body_names: self.body_names.clone(),
+            untangled: Some(untangled),
+        })))
+    }
+
+    /// Pulls apart what is tangled. What is left of it is for the caller to look at.
+    pub(super) fn untangle(&mut self, spacing: f64, tell: &mut (dyn FnMut(Untangling) + Send)) -> Untangled {
+        let begin = Instant::now();
+        let forces = std::mem::take(&mut self.made.forces);
+        let velocities = self.state.velocities.clone();
+        let start = self.state.positions.clone();
+        let times = self.effects.clone();
+        let remembered = self.remembered();
+        let crossings = self.crossings().len();
+        let threads = std::mem::take(&mut self.threads);
+        let steps = threads.run(|| self.pull_apart(REACH * spacing, tell));
+        self.threads = threads;
+        (self.made.forces, self.effects) = (forces, times);
+        self.state.velocities = velocities;
+        // Nothing lets go, and no fold stays, before the first step.
+        self.recall(&remembered);
+        let moved = start.iter().zip(&self.state.positions);
+        Untangled {
+            crossings,
+            left: self.crossings().len(),
+            steps,
+            stretch: self.edge_stretch(),
+            farthest: moved.map(|(start, end)| start.distance(*end)).fold(0.0, f64::max),
+            seconds: begin.elapsed().as_secs_f64(),
+        }
+    }
+
+    /// The steps of it; how many.
+    fn pull_apart(&mut self, reach: f64, tell: &mut (dyn FnMut(Untangling) + Send)) -> u32 {
+        let mut ways = vec![DVec3::ZERO; self.state.positions.len()];
+        let Some(contact) = &self.made.contact else { return 0 };
+        let mut untangler = contact.untangler(&self.state.positions);
+        let (mut pulled, mut relaxed) = (0, 0);
+        let (mut best, mut at_best) = (f64::INFINITY, 0);
+        loop {
+            let crossings = self.crossings().len();
+            let steps = pulled + relaxed;
+            tell(Untangling { steps, crossings });
+            let is_tangled = crossings > 0;
+            if is_tangled {
+                if pulled == MOST {
+                    break;
+                }
+                pulled += 1;
+            } else {
+                let longest = self.edge_stretch().largest;
+                if longest < best * (1.0 - RELAXING) {
+                    (best, at_best) = (longest, relaxed);
+                }
+                let is_relaxed = relaxed - at_best >= PATIENCE && self.is_apart();
+                if is_relaxed || relaxed == MOST_RELAXING {
+                    break;
+                }
+                relaxed += 1;
+            }
+            let Some(contact) = &mut self.made.contact else { break };
+            contact.set_pushes(!is_tangled);
+            untangler.find_ways(contact, &self.state.positions, &mut ways);
+            if !self.lead(&ways, reach) {
+                break;
+            }
+        }
+        pulled + relaxed
+    }
+
+    /// A step that leads vertices by their way, but by no more than `reach`, or by less if that cannot be; false: not by anything.
+    fn lead(&mut self, ways: &[DVec3], mut reach: f64) -> bool {
+        let h = self.time_step;
+        for _ in 0..TRIES {
+            for (velocity, way) in self.state.velocities.iter_mut().zip(ways) {
+                // Little where little pulls, and all of the reach where much does.
+                *velocity = *way * (reach / (1.0 + way.length_squared()).sqrt() / h);
+            }
+            if self.attempt(h, 0.0).is_ok() {
+                if let Some(contact) = &mut self.made.contact {
+                    contact.take_back(&self.state.positions);
+                }
+                return true;
+            }
+            reach *= 0.5;
+        }
+        false
+    }
+}
