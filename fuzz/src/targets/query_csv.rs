@@ -4,7 +4,7 @@ use dashu_int::IBig;
 use dashu_ratio::RBig;
 use selvedge::PairKind;
 use selvedge::glam::DVec3;
-use selvedge_files::queries::{Query, QueryFile, read_from};
+use selvedge_laboratory::queries::{Query, QueryFile, read_from};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -36,7 +36,7 @@ pub fn query_csv(data: &[u8]) {
     check_single_precision(&file, &read);
 }
 
-fn read(data: &[u8]) -> Result<QueryFile, selvedge_files::queries::QueryError> {
+fn read(data: &[u8]) -> Result<QueryFile, selvedge_laboratory::queries::QueryError> {
     read_from(data, Path::new("fuzz.csv"), PairKind::VertexFace)
 }
 

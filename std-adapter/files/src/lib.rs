@@ -1,10 +1,9 @@
-//! Files of meshes and of collision queries, read exactly and with errors that say where and what to do.
+//! Mesh files, read exactly and with errors that say where the problem is and what to do.
 //!
 //! | module | what it is |
 //! |---|---|
 //! | [`mesh`] | **start here**: OBJ and PLY files, one mesh, both frames of a step, or numbered frames |
 //! | [`animation`] | skinned and morphing figures of glTF files; reading them needs the feature `gltf` |
-//! | [`queries`] | primitive-pair queries of the public continuous collision detection benchmark |
 
 pub mod animation;
 // What the project's other crates use besides; nothing is promised of it.
@@ -13,6 +12,5 @@ pub mod bytes;
 #[doc(hidden)]
 pub mod excerpt;
 pub mod mesh;
-pub mod queries;
 #[doc(hidden)]
 pub mod temporary_file;

@@ -7,9 +7,9 @@
 //! the cache and the processor's branches are trained on it: what is measured is the arithmetic.
 
 use crate::methods::{QueryMethod, WithTest};
+use crate::queries::Query;
 use selvedge::PairKind;
 use selvedge_core::{PrimitivePair, Scalar};
-use selvedge_files::queries::Query;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 

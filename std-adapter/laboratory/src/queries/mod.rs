@@ -17,7 +17,7 @@
 //! let face = "0,1,0,1,0,1,1\n1,1,0,1,0,1,1\n0,1,1,1,0,1,1\n";
 //! std::fs::write(&path, format!("1,4,1,4,1,2,1\n{face}1,4,1,4,-1,2,1\n{face}"))?;
 //!
-//! let file = selvedge_files::queries::read(&path, None)?;
+//! let file = selvedge_laboratory::queries::read(&path, None)?;
 //! assert_eq!(file.kind, selvedge::PairKind::VertexFace);
 //! assert_eq!(file.inexact, 0);
 //! let query = &file.queries[0];

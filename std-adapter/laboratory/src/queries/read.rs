@@ -11,8 +11,8 @@ use super::{
     Query, QueryError, QueryFile,
     rational::{self, RatioError},
 };
-use crate::excerpt::excerpt;
 use selvedge::PairKind;
+use selvedge_files::excerpt::excerpt;
 
 /// Rows of a query: four points at the start of the step, four at its end.
 const ROWS: usize = 8;
@@ -54,11 +54,11 @@ pub fn read(path: &Path, kind: Option<PairKind>) -> Result<QueryFile, QueryError
 ///
 /// ```
 /// use selvedge::PairKind;
-/// use selvedge_files::queries::read_from;
+/// use selvedge_laboratory::queries::read_from;
 /// let rows = "1,2,0,1,-3,4\n".repeat(8);
 /// let file = read_from(rows.as_bytes(), "generated".as_ref(), PairKind::EdgeEdge)?;
 /// assert_eq!(file.queries[0].pair.motions[0].start.to_array(), [0.5, 0.0, -0.75]);
-/// # Ok::<(), selvedge_files::queries::QueryError>(())
+/// # Ok::<(), selvedge_laboratory::queries::QueryError>(())
 /// ```
 pub fn read_from(source: impl Read, path: &Path, kind: PairKind) -> Result<QueryFile, QueryError> {
     let unreadable = |source| QueryError::Read {
