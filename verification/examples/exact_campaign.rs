@@ -13,7 +13,7 @@ mod campaign;
 
 use campaign::{Failure, Options};
 use selvedge::glam::DVec3;
-use selvedge::verification::best_level;
+use selvedge::simd::best_level;
 use selvedge_files::mesh::read_step;
 use selvedge_laboratory::study::{ArmFrames, Frames, PairSet, TwoFrames};
 use selvedge_verification::campaign::exact::{Claim, Progress, Scenes, run};

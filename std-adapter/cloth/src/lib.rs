@@ -22,6 +22,8 @@
 //! | [`effect_names`] | every effect that a scene may name |
 //! | [`sleeve`] | the paper's sleeve at any size, of which scenes can be made |
 
+#![forbid(unsafe_code)]
+
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,
     reason = "a comparison is false with NaN, which must then take the side that does nothing"

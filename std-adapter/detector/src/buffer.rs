@@ -2,7 +2,7 @@
 
 /// Half as much again.
 #[must_use]
-pub fn with_headroom(len: usize) -> usize {
+fn with_headroom(len: usize) -> usize {
     len + len / 2 + 1
 }
 

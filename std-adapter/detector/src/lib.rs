@@ -13,47 +13,41 @@
 //! | feature | what it adds |
 //! |---|---|
 //! | `parallel` (on by default) | [`Threads`]: steps on several threads, by rayon. Without it the calling thread does all |
-//! | `timing` | a clock for the seconds of each stage, which `verification` shows. Without it no clock is read |
-//! | `verification` | the module of that name: parts of a step, for the project's own crates, which measure them, check them, or are built of them. Nothing is promised of it |
+//! | `timing` | a clock for the seconds of each stage in [`StepStatistics`]. Without it no clock is read |
 //!
 //! Without any of them the crate needs neither threads nor a clock, as on `wasm32-unknown-unknown` (where nobody has run it yet).
 
-// Some of these are public in `verification` alone.
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
-mod broad_phase;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
+#![forbid(unsafe_code)]
+
+mod api;
+pub mod broad_phase;
 mod buffer;
 mod clock;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
-mod coherent;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
-mod collision_filter;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
-mod dispatch;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
-mod frame;
+pub mod coherent;
+mod engine;
 mod mesh;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
 mod pair_counts;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
-mod parallel;
-#[cfg_attr(not(feature = "verification"), allow(dead_code, unreachable_pub, unused_imports))]
+pub mod parallel;
+pub mod simd;
 mod step;
-#[cfg(feature = "verification")]
-pub mod verification;
-mod world;
 
-pub use collision_filter::{CollisionFilter, Groups};
-pub use frame::{Frame, StepError};
+pub use api::{
+    CandidateBoxes, CollisionDetector, ContactGeometry, Criterion, MeshMotion, World, WorldContact, WorldContactGeometry,
+    WorldError,
+};
+pub use engine::StepStatistics;
+pub use engine::world::MeshHandle;
 pub use mesh::{FeaturePair, Mesh, Topology, TopologyError, TopologyStatistics};
+pub use pair_counts::PairCounts;
 #[cfg(feature = "parallel")]
 pub use parallel::{ThreadError, Threads};
 pub use selvedge_core as core;
 pub use selvedge_core::glam;
 pub use selvedge_core::separation::geometry::Geometry;
 pub use selvedge_core::{PairKind, ParsePairKindError, Position, Scalar};
-pub use step::{Cancellation, CandidateBoxes, CollisionDetector, Contact, ContactGeometry, Criterion, Intersection, Truncation};
-pub use world::{MeshHandle, MeshMotion, World, WorldContact, WorldContactGeometry, WorldError};
+pub use step::{
+    Cancellation, CollisionFilter, Contact, Frame, Groups, Intersection, StepError, Truncation, check_frames, check_length,
+};
 
 /// The readme's examples are tests.
 #[cfg(doctest)]

@@ -7,6 +7,8 @@
 #[cfg(feature = "parallel")]
 mod pool;
 
+pub use crate::buffer::add_kept;
+
 #[cfg(feature = "parallel")]
 pub use pool::{ThreadError, Threads, Workers, has_many_threads, own_index, threads};
 #[cfg(feature = "parallel")]

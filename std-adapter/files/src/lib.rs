@@ -5,6 +5,8 @@
 //! | [`mesh`] | **start here**: OBJ and PLY files, one mesh, both frames of a step, or numbered frames |
 //! | [`animation`] | skinned and morphing figures of glTF files; reading them needs the feature `gltf` |
 
+#![forbid(unsafe_code)]
+
 pub mod animation;
 // What the project's other crates use besides; nothing is promised of it.
 #[doc(hidden)]

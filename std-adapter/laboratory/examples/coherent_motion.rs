@@ -129,8 +129,8 @@ fn pass(
             return Err(format!("{} contacts, and {} of coherent motion", contacts[0].len(), contacts[1].len()).into());
         }
         found += contacts[0].len() as u64;
-        followed += detectors[1].tally().followed;
-        open += detectors[1].tally().candidates.total();
+        followed += detectors[1].statistics().followed;
+        open += detectors[1].statistics().candidates.total();
     }
     let counted = detectors[1].near_statistics();
     Ok(Counts {

@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!(" step   candidates   contacts   earliest         ms  held back     kept  rounds  in contact         ms");
     for (step, frames) in frames.windows(2).enumerate() {
         detector.contacts(&frames[0], &frames[1], &mut contacts)?;
-        let tally = *detector.tally();
+        let tally = *detector.statistics();
         let earliest = contacts.iter().map(|contact| contact.time);
         let earliest = earliest.min_by(f64::total_cmp);
         let begin = Instant::now();

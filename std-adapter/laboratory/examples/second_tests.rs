@@ -14,7 +14,7 @@
 //! All tests are sound: they cull nothing that touches. The paper's box test stands beside ours.
 
 use selvedge::glam::DVec3;
-use selvedge::verification::best_level;
+use selvedge::simd::best_level;
 use selvedge_core::PairKind;
 use selvedge_core::batch::{LANES, Mask, Round, RoundQuestion, Test, VertexRow, advance_from_rows, culled_from_rows};
 use selvedge_core::elementary::Limits;

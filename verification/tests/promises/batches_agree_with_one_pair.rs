@@ -1,7 +1,7 @@
 //! Sixteen pairs at a time get the verdicts that they get one by one, bit for bit, on every instruction set of this machine.
 
 use proptest::prelude::*;
-use selvedge::verification::available_levels;
+use selvedge::simd::available_levels;
 use selvedge_core::PairKind;
 use selvedge_core::Verdict;
 use selvedge_core::batch::{

@@ -3,7 +3,7 @@
 
 use proptest::collection::vec;
 use proptest::prelude::*;
-use selvedge::verification::best_level;
+use selvedge::simd::best_level;
 use selvedge_verification::campaign::exact::{self, Claim, Scenes};
 use selvedge_verification::campaign::{
     AnotherRun, Chunks, Digest, FileError, Findings, Progress, Refusal, Shard, StateFile, false_culls, merge, mutants, read, run,

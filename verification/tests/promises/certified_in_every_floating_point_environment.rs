@@ -5,7 +5,7 @@
 
 use crate::support::environment::Environment;
 use proptest::prelude::*;
-use selvedge::verification::available_levels;
+use selvedge::simd::available_levels;
 use selvedge_core::PairKind;
 use selvedge_core::batch::{BatchTest, Level, Test, Tile, culled_from_tiles};
 use selvedge_core::boxes::direction;

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use selvedge::PairKind;
 use selvedge::glam::DVec3;
-use selvedge::verification::available_levels;
+use selvedge::simd::available_levels;
 use selvedge::{CollisionDetector, Contact, Criterion, Threads, Topology};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use selvedge::PairKind::{self, EdgeEdge, VertexFace};
 use selvedge::Topology;
 use selvedge::glam::DVec3;
-use selvedge::verification::available_levels;
+use selvedge::simd::available_levels;
 use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, Frame, Position, StepError, Threads};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
@@ -281,7 +281,7 @@ fn instruction_sets_and_threads_change_nothing() {
                 result.expect("finite positions, one for each vertex");
             }
             assert!(!contacts.is_empty());
-            assert!(detector.tally().candidates.total() > 2 * 4096);
+            assert!(detector.statistics().candidates.total() > 2 * 4096);
             let earliest = detector.earliest(&start, &end).expect("finite positions");
             let earliest = earliest.expect("there are contacts");
             let first = contacts.iter().map(|contact| contact.time);

@@ -123,7 +123,7 @@ fn what_groups_exclude_as_a_whole_is_not_looked_at() {
         detector
             .contacts(&twice(30), &twice(31), &mut contacts)
             .expect("finite positions");
-        detector.tally().candidates.total()
+        detector.statistics().candidates.total()
     };
     let groups = [Groups::new(1, 1), Groups::new(2, 2)];
     let groups = groups.into_iter().flat_map(|own| vec![own; count]).collect();
@@ -132,7 +132,7 @@ fn what_groups_exclude_as_a_whole_is_not_looked_at() {
     alone
         .contacts(&scene.frame(30), &scene.frame(31), &mut Vec::new())
         .expect("finite positions");
-    let alone = alone.tally().candidates.total();
+    let alone = alone.statistics().candidates.total();
     assert!(all > 3 * alone && apart < 3 * alone, "{all} {apart} {alone}");
 }
 

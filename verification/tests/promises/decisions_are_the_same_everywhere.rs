@@ -5,7 +5,7 @@
 //! notice; here one does. A change that is meant changes a digest: the failure prints the new ones; put them in place of the old ones,
 //! and say in the commit what became sharper, or blunter, and why.
 
-use selvedge::verification::available_levels;
+use selvedge::simd::available_levels;
 use selvedge_core::PairKind;
 use selvedge_core::batch::{Compares, LANES, Loop, Mask, in_lanes};
 use selvedge_core::boxes::block::BoxBlock;

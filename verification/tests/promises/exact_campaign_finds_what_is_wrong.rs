@@ -1,7 +1,7 @@
 //! The billion-pair campaign, in small: no certified claim is wrong, an unsafe filter's false culls are found, and what a run finds
 //! depends on neither threads nor interruptions.
 
-use selvedge::verification::best_level;
+use selvedge::simd::best_level;
 use selvedge_verification::campaign::Findings;
 use selvedge_verification::campaign::exact::{Claim, Progress, Scenes, Tally, run};
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use selvedge::glam::{DVec3, Vec3};
-use selvedge::verification::available_levels;
+use selvedge::simd::available_levels;
 use selvedge::{CollisionDetector, Intersection, Position, Threads, Topology};
 use selvedge_core::Scalar;
 use selvedge_verification::generator::{Format, MeshCase, check, meshes};

@@ -2,10 +2,10 @@
 //! every preset ends with the pairs that its own tests leave.
 
 use proptest::prelude::*;
+use selvedge::PairCounts;
 use selvedge::PairKind::{self, EdgeEdge, VertexFace};
 use selvedge::Topology;
-use selvedge::verification::MovingBroadPhase;
-use selvedge::verification::PairCounts;
+use selvedge::broad_phase::MovingBroadPhase;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::elementary::{Contact, Limits, contact};
 use selvedge_core::filter::{Filter, Tier};

@@ -7,7 +7,7 @@ use dashu_base::Abs;
 use dashu_int::IBig;
 use dashu_ratio::RBig;
 use proptest::prelude::*;
-use selvedge::verification::{available_levels, best_level};
+use selvedge::simd::{available_levels, best_level};
 use selvedge_core::PairKind;
 use selvedge_core::batch::{Level, Round, RoundQuestion, VertexRow, advance_from_rows};
 use selvedge_core::elementary::advance::certain_contact;

@@ -2,7 +2,8 @@
 
 use crate::model::step::{Carrier, FREE};
 use selvedge::PairKind;
-use selvedge::verification::{Level, NearPair};
+use selvedge::coherent::NearPair;
+use selvedge::simd::Level;
 use selvedge_core::batch::{LANES, closest_points};
 use selvedge_core::elementary::Limits;
 use selvedge_core::elementary::advance::time_of_impact;

@@ -6,8 +6,8 @@
 use super::settings::{ContactSettings, NEIGHBOURS_AT_REST, Thickness};
 use selvedge::PairKind;
 use selvedge::Topology;
+use selvedge::broad_phase::MovingBroadPhase;
 use selvedge::core::separation::closest::Closest;
-use selvedge::verification::MovingBroadPhase;
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
@@ -60,7 +60,7 @@ mod tests {
     use super::*;
     use crate::world::sleeve::sleeve;
     use proptest::prelude::*;
-    use selvedge::verification::Neighbours;
+    use selvedge::broad_phase::Neighbours;
 
     #[test]
     fn neighbours_are_many_only_on_a_fine_mesh() {

@@ -19,7 +19,7 @@
 //! **It ends.** Relaxation has a bounded number of rounds ([`Effort`]). How a base is found, and the step truncated towards it, has
 //! an end by itself ([`truncation`](super::truncation)). A cut halves the step, a bounded number of times.
 //!
-//! **Candidates** are good for several steps; what they hold is the [detector's](selvedge::verification::NearPairs).
+//! **Candidates** are good for several steps; what they hold is the [detector's](selvedge::coherent::NearPairs).
 
 use super::candidate::{Candidate, ClosestOfSome, impact, time_of_impact_of};
 use super::report::Blocker;
@@ -27,7 +27,8 @@ use super::separations::Separations;
 use super::solver::{ContactSolver, gap_error};
 use crate::model::step::{FREE, TimeStep};
 use selvedge::PairKind;
-use selvedge::verification::{Level, parallel};
+use selvedge::parallel;
+use selvedge::simd::Level;
 use selvedge_core::batch::LANES;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;

@@ -10,7 +10,7 @@ use super::relaxation::Relaxation;
 use super::report::{ContactCounts, ContactSeconds};
 use super::settings::ContactSettings;
 use crate::model::step::{Carrier, TimeStep, Touches};
-use selvedge::verification::{Level, best_level};
+use selvedge::simd::{Level, best_level};
 use selvedge::{StepError, Topology};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;

@@ -7,7 +7,7 @@ use crate::model::membrane::triangles_around;
 use crate::world::Cloth;
 use crate::world::Incidence;
 use selvedge::Topology;
-use selvedge::verification::parallel;
+use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
 /// The triangles of a cloth, as walls.

@@ -16,7 +16,7 @@
 
 use super::energy::{Configuration, StoredEnergy};
 use super::step::{Constraint, TimeStep, Touches};
-use selvedge::verification::parallel;
+use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 use std::fmt::Debug;
 use std::iter::repeat;
@@ -369,7 +369,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
     use selvedge::Threads;
-    use selvedge::verification::parallel::Workers;
+    use selvedge::parallel::Workers;
 
     /// Keeps two vertices no farther apart than one.
     #[derive(Clone, Debug)]

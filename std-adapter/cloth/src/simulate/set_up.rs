@@ -11,7 +11,7 @@ use crate::model::hierarchy::mesh_spacing;
 use crate::model::step::{FREE, Touches};
 use crate::scene::{Scene, TangledStart};
 use crate::world::{Kinematic, Pose};
-use selvedge::verification::parallel::Workers;
+use selvedge::parallel::Workers;
 use selvedge::{Mesh, Threads};
 use selvedge_core::glam::DVec3;
 

@@ -10,7 +10,7 @@ use crate::model::energy::{Configuration, Energy};
 use crate::model::step::{Release, Touches};
 use crate::scene::{OnBlocked, TangledStart};
 use crate::world::Pose;
-use selvedge::verification::parallel::Workers;
+use selvedge::parallel::Workers;
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 

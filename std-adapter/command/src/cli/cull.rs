@@ -217,14 +217,14 @@ impl Cull {
                 } else {
                     detector.candidates(start, end, boxes, &mut vertex_face, &mut edge_edge)?;
                 }
-                let mut report = StepReport::of_detector(detector.tally());
+                let mut report = StepReport::of_detector(detector.statistics());
                 match question {
                     Question::Earliest => {}
                     Question::Candidates => report.stages.clear(),
                     Question::Swept => {
                         let pairs = (&vertex_face, &edge_edge);
                         detector.contacts_of(start, end, pairs.0, pairs.1, &mut contacts)?;
-                        report = StepReport::of_detector_after(detector.tally(), report.seconds);
+                        report = StepReport::of_detector_after(detector.statistics(), report.seconds);
                     }
                 }
                 fastest.meet(&report);

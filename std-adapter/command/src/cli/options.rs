@@ -1,7 +1,7 @@
 //! Arguments that several subcommands share.
 
 use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
-use selvedge::verification::{Level, available_levels, best_level};
+use selvedge::simd::{Level, available_levels, best_level};
 use selvedge_laboratory::methods::Preset;
 
 /// More threads than any machine has cores; each needs buffers of its own.

@@ -17,7 +17,7 @@ fn at(row: &Value, name: &str) -> f64 {
 #[test]
 fn json_has_every_filter_on_every_set_and_backend() {
     let document = Workplace::new().json(&[&SHORT[..], &["--json"]].concat());
-    let levels = selvedge::verification::available_levels();
+    let levels = selvedge::simd::available_levels();
     let sets = document["sets"].as_array().unwrap();
     assert_eq!(sets.len(), 6);
     // The paper's filter, ten tiers for f32 and nine for f64; on each level and one at a time.

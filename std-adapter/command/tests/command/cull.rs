@@ -190,7 +190,7 @@ fn every_instruction_set_can_be_forced_and_changes_nothing() {
         (place.read("out.csv"), earliest["contacts"].clone())
     };
     let best = contacts(&[]);
-    for (name, _) in selvedge::verification::available_levels() {
+    for (name, _) in selvedge::simd::available_levels() {
         assert_eq!(contacts(&["--simd", name]), best, "{name}");
     }
     let unknown = place.run(&with(&["--simd", "abacus"]));

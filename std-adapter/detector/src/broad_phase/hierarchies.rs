@@ -10,11 +10,10 @@ use super::traversal::{BlockPair, Common, Scratch, Trees};
 use super::tree::Tree;
 use crate::PairKind;
 use crate::buffer::settle;
-use crate::collision_filter::{CollisionFilter, Members};
-use crate::dispatch::{Level, best_level};
-use crate::frame::Motions;
 use crate::mesh::Topology;
 use crate::parallel;
+use crate::simd::{Level, best_level};
+use crate::step::{CollisionFilter, Members, Motions};
 use selvedge_core::Motion;
 use selvedge_core::batch::VertexRow;
 use selvedge_core::boxes::mapping::{Inset, Mapping};
@@ -51,6 +50,12 @@ impl Default for Fit {
             until: 1.0,
             is_swept: false,
         }
+    }
+}
+
+impl Fit {
+    fn mapping(&self, motions: &dyn Motions, extent: &Aabb<f64>) -> Mapping {
+        motions.mapping(extent, self.separation, self.until, self.is_swept)
     }
 }
 
@@ -231,7 +236,7 @@ impl Hierarchies {
             self.build(motions);
         }
         self.is_new = is_whole && std::mem::take(&mut self.is_unmeasured);
-        let mapping = motions.mapping(&self.extent, fit);
+        let mapping = fit.mapping(motions, &self.extent);
         self.refit(motions, mapping);
         self.fit = *fit;
         self.task_tests = 0;
@@ -255,7 +260,7 @@ impl Hierarchies {
     }
 
     fn build(&mut self, motions: &dyn Motions) {
-        let middles = motions.mapping(&self.extent, &Fit::default());
+        let middles = Fit::default().mapping(motions, &self.extent);
         let middle = |vertex: u32| {
             let motion = motions.of(vertex as usize);
             let moving = middles.vertex(motion.start.into(), motion.end.into());
@@ -648,7 +653,7 @@ pub(crate) fn mapping_within(motions: &dyn Motions, separation: f64) -> Mapping 
         separation,
         ..Fit::default()
     };
-    motions.mapping(&extent(motions), &fit)
+    fit.mapping(motions, &extent(motions))
 }
 
 /// The box of all positions of both frames.

@@ -57,11 +57,10 @@ pub(crate) use traversal::{BlockPair, Scratch};
 
 use crate::PairKind;
 use crate::buffer::settle;
-use crate::collision_filter::CollisionFilter;
-use crate::dispatch::Level;
-use crate::frame::{Step, StepError, check_length};
 use crate::mesh::Topology;
 use crate::parallel;
+use crate::simd::Level;
+use crate::step::{CollisionFilter, Step, StepError, check_length};
 use selvedge_core::Position;
 use selvedge_core::glam::DVec3;
 use std::mem::swap;

@@ -5,8 +5,8 @@ use super::hierarchies::PRICES;
 use super::pairs::Sink;
 use super::traversal::{BlockPair, Common, Scratch, Trees};
 use super::tree::Tree;
-use crate::collision_filter::{Groups, Members};
-use crate::dispatch::best_level;
+use crate::simd::best_level;
+use crate::step::{Groups, Members};
 use selvedge_core::boxes::moving::MovingBox;
 
 /// Boxes of meshes in blocks of sixteen, as those of primitives are.

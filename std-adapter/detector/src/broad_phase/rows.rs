@@ -4,8 +4,8 @@
 //! lanes of `f32` prove, sixteen in a register, holds for the positions themselves, and `f64` is for the pairs that they leave
 //! open.
 
-use crate::frame::Motions;
 use crate::parallel;
+use crate::step::Motions;
 use selvedge_core::batch::VertexRow;
 use selvedge_core::{Motion, Scalar};
 use std::sync::atomic::{AtomicBool, Ordering};

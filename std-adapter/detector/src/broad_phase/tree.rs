@@ -7,8 +7,8 @@
 
 use super::neighbours::AtRest;
 use super::order::{Centre, LEAF, order};
-use crate::collision_filter::Members;
 use crate::parallel;
+use crate::step::Members;
 use selvedge_core::batch::{LANES, Mask};
 use selvedge_core::boxes::Aabb;
 use selvedge_core::boxes::block::BoxBlock;

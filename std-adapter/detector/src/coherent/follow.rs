@@ -8,10 +8,9 @@
 use super::{CLASSES, Class, Interest, NearPairs, Reach};
 use crate::PairKind;
 use crate::broad_phase::mapping_within;
-use crate::collision_filter::CollisionFilter;
-use crate::frame::Motions;
 use crate::mesh::Topology;
 use crate::parallel;
+use crate::step::{CollisionFilter, Motions};
 use selvedge_core::Scalar;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;

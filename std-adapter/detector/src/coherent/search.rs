@@ -7,10 +7,9 @@ use super::sieve::{Left, Sieve};
 use super::{Interest, Reach};
 use crate::PairKind;
 use crate::broad_phase::MovingBroadPhase;
-use crate::collision_filter::CollisionFilter;
-use crate::frame::StepError;
 use crate::mesh::Topology;
 use crate::parallel;
+use crate::step::{CollisionFilter, StepError};
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 

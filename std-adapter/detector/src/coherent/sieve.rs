@@ -7,8 +7,8 @@
 use super::{CLASSES, Class, Interest, Reach};
 use crate::PairKind;
 use crate::buffer::add_kept;
-use crate::dispatch::{Level, best_level};
 use crate::mesh::Topology;
+use crate::simd::{Level, best_level};
 use selvedge_core::Motion;
 use selvedge_core::batch::{VertexRow, largest_strays_from_rows};
 use selvedge_core::glam::{DVec3, Vec3};

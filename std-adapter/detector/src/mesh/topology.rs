@@ -1,7 +1,6 @@
 //! The vertices, edges and triangles of a mesh, and how they hang together.
 
 use crate::PairKind;
-use crate::frame::StepError;
 use std::borrow::Cow;
 use std::fmt;
 
@@ -291,19 +290,15 @@ impl Topology {
         }
     }
 
-    /// Whether the pair is of this mesh; if not, that is an error.
-    pub(crate) fn check_pair(&self, kind: PairKind, pair: [u32; 2]) -> Result<(), StepError> {
+    /// Whether the pair is of this mesh.
+    pub(crate) fn has_pair(&self, kind: PairKind, pair: [u32; 2]) -> bool {
         let edges = self.edges.len();
         let [firsts, seconds] = match kind {
             PairKind::VertexFace => [self.vertex_count, self.triangles.len()],
             PairKind::EdgeEdge => [edges, edges],
         };
         let [first, second] = pair.map(|primitive| primitive as usize);
-        if first < firsts && second < seconds {
-            Ok(())
-        } else {
-            Err(StepError::NoSuchPair { kind, pair })
-        }
+        first < firsts && second < seconds
     }
 
     /// How many vertices there are, those without a triangle included.

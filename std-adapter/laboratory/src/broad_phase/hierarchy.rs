@@ -2,7 +2,8 @@
 
 use super::SweptBox;
 use super::candidates::{Bounds, EMPTY, bounds, union};
-use selvedge::verification::{Centre, LEAF, order, parallel};
+use selvedge::broad_phase::{Centre, LEAF, order};
+use selvedge::parallel;
 
 /// Groups in a group of the next level.
 pub(super) const BRANCHES: usize = 8;

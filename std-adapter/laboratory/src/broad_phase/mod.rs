@@ -54,7 +54,7 @@ mod traversal;
 
 use candidates::CandidateList;
 use hierarchy::Hierarchy;
-use selvedge::verification::{Degradation, Prices};
+use selvedge::broad_phase::{Degradation, Prices};
 use traversal::Traversal;
 
 /// The box that a triangle sweeps during the step, in the caller's length unit.

@@ -1,8 +1,9 @@
 //! Puts the partners of all triangles in a row.
 
+use super::buffer::with_headroom;
 use super::hierarchy::Hierarchy;
 use super::traversal::Traversal;
-use selvedge::verification::{parallel, with_headroom};
+use selvedge::parallel;
 
 /// Fewer triangles than this are not split between threads.
 const SEQUENTIAL: usize = 4096;

@@ -4,7 +4,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::candidates::{CandidateList, Partners};
 use super::hierarchy::{BRANCHES, Hierarchy};
-use selvedge::verification::{LEAF, parallel};
+use selvedge::broad_phase::LEAF;
+use selvedge::parallel;
 
 /// The lowest level with no more groups than this is handed out to the threads, a group at a time.
 const MAXIMUM_TASKS: usize = 512;

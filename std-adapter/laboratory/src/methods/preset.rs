@@ -10,7 +10,7 @@ pub enum Source {
     /// Candidate triangle pairs, distributed.
     TrianglePairs(Redundancy),
     /// Hierarchies of moving boxes over vertices, edges and faces, which find each primitive pair once
-    /// ([`MovingBroadPhase`](selvedge::verification::MovingBroadPhase)); then the certified stages of [`CollisionDetector`](selvedge::CollisionDetector), whatever
+    /// ([`MovingBroadPhase`](selvedge::broad_phase::MovingBroadPhase)); then the certified stages of [`CollisionDetector`](selvedge::CollisionDetector), whatever
     /// the tests, and exact verdicts for [`ElementaryTest::Exact`].
     MovingBoxes,
 }

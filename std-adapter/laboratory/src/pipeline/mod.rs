@@ -61,12 +61,12 @@ use crate::methods::{CullingTest, ElementaryTest, Redundancy, Source, Stage, Sta
 use batch::{Batch, StepInput};
 use pairs::MovingMesh;
 use rustc_hash::FxHashSet;
+use selvedge::PairCounts;
 use selvedge::PairKind;
 use selvedge::Topology;
-use selvedge::verification::PairCounts;
-use selvedge::verification::check_frames;
-use selvedge::verification::parallel::{self, Workers};
-use selvedge::verification::{Level, best_level};
+use selvedge::check_frames;
+use selvedge::parallel::{self, Workers};
+use selvedge::simd::{Level, best_level};
 use selvedge::{CollisionDetector, Criterion, Threads};
 use selvedge_core::batch::VertexRow;
 use selvedge_core::boxes::{Aabb, Dop18};
@@ -224,7 +224,7 @@ impl<S: Scalar> Pipeline<S> {
             }
             Route::MovingBoxes(detector) => {
                 buffers.ask(detector, start, end)?;
-                *report = StepReport::of_detector(detector.tally());
+                *report = StepReport::of_detector(detector.statistics());
             }
         }
         Ok(report)

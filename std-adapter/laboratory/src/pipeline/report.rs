@@ -2,8 +2,8 @@
 
 use crate::methods::Stage;
 use arrayvec::ArrayVec;
-use selvedge::verification::PairCounts;
-use selvedge::verification::StepTally;
+use selvedge::PairCounts;
+use selvedge::StepStatistics;
 
 /// One stage after the broad phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ pub struct StepReport {
 impl StepReport {
     /// What our own detector counted, as the stages of a method.
     #[must_use]
-    pub fn of_detector(tally: &StepTally) -> Self {
+    pub fn of_detector(tally: &StepStatistics) -> Self {
         let stage = |stage, survivors, seconds| StageReport {
             stage,
             survivors,
@@ -55,7 +55,7 @@ impl StepReport {
 
     /// The same of a caller's pairs that a broad phase has found in so many seconds.
     #[must_use]
-    pub fn of_detector_after(tally: &StepTally, broad_phase_seconds: f64) -> Self {
+    pub fn of_detector_after(tally: &StepStatistics, broad_phase_seconds: f64) -> Self {
         let mut report = Self::of_detector(tally);
         let boxes = StageReport {
             stage: Stage::RelativeBoxes,

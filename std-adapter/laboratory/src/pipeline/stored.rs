@@ -1,7 +1,7 @@
 //! A bounding volume for every vertex, edge and face, refitted each step.
 
 use super::pairs::MovingMesh;
-use selvedge::verification::parallel::fill;
+use selvedge::parallel::fill;
 use selvedge_core::boxes::{Aabb, Dop18};
 use selvedge_core::{Motion, Scalar};
 

@@ -7,7 +7,7 @@
 //! off first keeps `f32` precise for a mesh that is far from the origin.
 
 use crate::broad_phase::SweptBox;
-use selvedge::verification::parallel;
+use selvedge::parallel;
 use selvedge_core::Scalar;
 use selvedge_core::boxes::Aabb;
 use selvedge_core::boxes::mapping::image;

@@ -16,7 +16,7 @@ use crate::study::elementary::ElementaryAccuracy;
 use crate::study::{Accuracy, AccuracySet};
 use crate::study::{Comparison, ComparisonRow, MeanCounts, ScalingPoint};
 use crate::study::{HardAnswer, HardResult, QueryResult};
-use selvedge::verification::PairCounts;
+use selvedge::PairCounts;
 use selvedge_cloth::{TangledStart, TornEdge};
 use serde_json::{Value, json};
 

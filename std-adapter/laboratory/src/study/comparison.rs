@@ -3,8 +3,8 @@
 use super::Frames;
 use crate::methods::{Preset, Stage};
 use crate::pipeline::{Contact, Pipeline, StepReport};
+use selvedge::PairCounts;
 use selvedge::PairKind;
-use selvedge::verification::PairCounts;
 use std::error::Error;
 
 /// Means per step.

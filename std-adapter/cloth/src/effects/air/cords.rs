@@ -8,7 +8,7 @@ use super::drag::{Drag, share_taken, take};
 use crate::model::step::TimeStep;
 use crate::world::Cloth;
 use crate::world::Incidence;
-use selvedge::verification::parallel;
+use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
 /// The loose edges of a cloth, in the air.

@@ -10,7 +10,7 @@ use crate::model::membrane::triangles_around;
 use crate::model::step::TimeStep;
 use crate::world::Cloth;
 use crate::world::Incidence;
-use selvedge::verification::parallel;
+use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
 /// The triangles of a cloth, in the air.

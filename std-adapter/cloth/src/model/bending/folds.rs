@@ -13,7 +13,7 @@ use super::hinge::Hinge;
 use crate::model::schedule::On;
 use crate::model::step::{Memory, TimeStep};
 use libm::exp;
-use selvedge::verification::parallel;
+use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
 /// When folds stay.

@@ -3,7 +3,7 @@
 use super::hinge::Hinge;
 use crate::model::schedule::On;
 use crate::world::Incidence;
-use selvedge::verification::parallel;
+use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
 /// How often the bound of the fastest wave is made tighter. Measured on a shirt with slivers: 1.95 times the largest eigenvalue with one, 1.06 with five,

@@ -7,7 +7,7 @@ use super::seeds::Seeds;
 use super::surface::Surface;
 use crate::model::membrane::Membrane;
 use crate::model::schedule::On;
-use selvedge::verification::parallel;
+use selvedge::parallel;
 use selvedge_core::glam::{DVec2, DVec3};
 
 /// A part of the cloth with more than this share of its vertices outside all coarse triangles is left out.

@@ -9,7 +9,7 @@ use super::fans::Fabric;
 use crate::model::membrane::{Flat, Membrane, image, triangles_around};
 use crate::world::Cloth;
 use selvedge::Topology;
-use selvedge::verification::parallel;
+use selvedge::parallel;
 use selvedge_core::glam::{DVec2, DVec3};
 
 /// The edges of a cloth that may tear, and what pulls at them.

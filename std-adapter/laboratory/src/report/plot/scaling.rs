@@ -147,7 +147,7 @@ mod tests {
     use crate::pipeline::{StageReport, StepReport};
     use proptest::prelude::*;
     use roxmltree::Document;
-    use selvedge::verification::PairCounts;
+    use selvedge::PairCounts;
 
     fn point(triangles: usize, stages: &[(Stage, f64)]) -> ScalingPoint {
         let seconds = |wanted| {

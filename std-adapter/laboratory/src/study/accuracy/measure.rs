@@ -2,7 +2,7 @@
 
 use super::{AccuracyRow, AccuracySet, BackendTime, BackendsDisagree, PairSet};
 use crate::methods::{MeasuredFilter, WithLanes, WithTest};
-use selvedge::verification::{Level, available_levels};
+use selvedge::simd::{Level, available_levels};
 use selvedge_core::PairKind;
 use selvedge_core::batch::{BatchTest, LANES, Mask, Tile, VertexRow, culled_from_rows, culled_from_tiles};
 use selvedge_core::verification::exact;

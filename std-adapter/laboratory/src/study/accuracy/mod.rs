@@ -341,7 +341,7 @@ mod tests {
 
     #[test]
     fn every_tier_is_timed_on_every_backend() {
-        let levels = selvedge::verification::available_levels().len();
+        let levels = selvedge::simd::available_levels().len();
         for set in measured(0.0).sets {
             let rows = if set.scalar == "f32" { 11 } else { 10 };
             assert_eq!(set.rows.len(), rows);

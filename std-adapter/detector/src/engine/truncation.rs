@@ -21,10 +21,10 @@
 //! **Pairs in contact at the start** cannot be told apart by any share: their vertices rest, so that they come no nearer, and they are counted.
 
 use super::engine::{Engine, Probe};
-use super::{CandidateBoxes, Contact, Question};
+use super::question::Question;
 use crate::PairKind;
-use crate::frame::{Step, StepError};
 use crate::parallel::Workers;
+use crate::step::{Contact, Step, StepError, Truncation};
 use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::closest::Closest;
@@ -32,18 +32,6 @@ use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
 use selvedge_core::separation::truncation::most_shares;
 use std::collections::BTreeSet;
-
-/// What came of a step that was [truncated](crate::CollisionDetector::truncate).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Truncation {
-    /// Vertices that go less than the whole of their way.
-    pub held_back: usize,
-    /// Pairs that are in contact at the start already, by the detector's criterion. Their vertices rest. Where there are none, the
-    /// step is certainly free of contact.
-    pub in_contact: usize,
-    /// How often contacts were looked for.
-    pub rounds: usize,
-}
 
 /// A step that is being truncated.
 struct Held<'a> {
@@ -94,7 +82,7 @@ impl Held<'_> {
 impl Engine {
     /// Replaces `end` by the ends of a step that is free of contact, but for pairs that are in contact at the start.
     /// `round` brings a position into the format that the caller has, between the same two numbers.
-    pub(super) fn truncate(
+    pub(crate) fn truncate(
         &mut self,
         threads: &Workers,
         [start, wanted]: [&[DVec3]; 2],
@@ -119,14 +107,7 @@ impl Engine {
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
         let separation = question.limits.separation;
         let whole = Step::of_finite(start, wanted);
-        self.candidates(
-            threads,
-            &whole,
-            separation,
-            CandidateBoxes::Swept,
-            &mut vertex_face,
-            &mut edge_edge,
-        );
+        self.candidates(threads, &whole, separation, true, &mut vertex_face, &mut edge_edge);
         self.stop.result()?;
         let candidates = [vertex_face, edge_edge];
         let largest = largest_coordinate(start).max(largest_coordinate(wanted));

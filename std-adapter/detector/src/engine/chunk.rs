@@ -17,14 +17,16 @@
 //! go on in `f64`, from the times up to which they are proven to be apart, so contacts and times are as sharp as those of `f64`. The
 //! separation and the end of the time asked about are rounded up.
 
+use super::question::{Bound, Question, Wanted};
+use super::stop::Stop;
 use super::sweep::{Left, MOST, Open, Sweep};
-use super::{Bound, Contact, Question, Stop, Wanted};
 use crate::PairKind;
 use crate::broad_phase::{CHUNK, Hierarchies, Pairing, RowSlices, Sink};
 use crate::clock::Clock;
-use crate::dispatch::Level;
 use crate::mesh::Topology;
 use crate::pair_counts::PairCounts;
+use crate::simd::Level;
+use crate::step::Contact;
 use selvedge_core::batch::{LANES, Mask, VertexRow, culled_from_rows};
 use selvedge_core::elementary::advance::time_of_impact_within;
 use selvedge_core::elementary::contact::settled;

@@ -1,8 +1,8 @@
 //! Hierarchies that are only refitted grow old: whatever is asked of them, they are built anew when that pays.
 
-use super::CollisionDetector;
-use crate::frame::StepError;
+use super::detector::CollisionDetector;
 use crate::mesh::Topology;
+use crate::step::StepError;
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 

@@ -1,10 +1,11 @@
 //! What contacts are beyond their times: vertices, points, weights, normals. And what of a mesh at rest is near each other.
 
-use super::{CandidateBoxes, CollisionDetector, Contact, Criterion};
+use super::criterion::Criterion;
+use super::detector::CollisionDetector;
 use crate::PairKind;
-use crate::frame::{Frame, StepError, check_length, exactly};
 use crate::mesh::Topology;
 use crate::parallel;
+use crate::step::{Contact, Frame, StepError, check_length, check_pair, exactly};
 use selvedge_core::elementary::Limits;
 use selvedge_core::narrowing::widened;
 use selvedge_core::separation::closest::Closest;
@@ -125,9 +126,8 @@ impl<S: Scalar> CollisionDetector<S> {
         };
         let distance = widened(&limits).separation;
         let (mut vertex_face, mut edge_edge) = (Vec::new(), Vec::new());
-        let boxes = CandidateBoxes::Moving;
         self.engine
-            .candidates(&self.workers, &step, distance, boxes, &mut vertex_face, &mut edge_edge);
+            .candidates(&self.workers, &step, distance, false, &mut vertex_face, &mut edge_edge);
         self.engine.stop.result()?;
         near.clear();
         let topology = self.engine.topology();
@@ -174,7 +174,7 @@ fn check_contact<S: Scalar>(topology: &Topology, contact: &Contact<S>) -> Result
         let time = contact.time.to_f64();
         return Err(StepError::BadTime { time });
     }
-    topology.check_pair(contact.kind, contact.pair)
+    check_pair(topology, contact.kind, contact.pair)
 }
 
 /// Of a pair of the mesh.

@@ -1,28 +1,18 @@
 //! Several meshes that come and go, and move as they like.
 
-mod contact;
-mod handles;
-mod mesh;
-mod stage;
-mod way;
-
-pub use contact::{WorldContact, WorldContactGeometry};
-pub use handles::MeshHandle;
-
-use crate::collision_filter::Groups;
-use crate::frame::{Frame, Motions, Step, StepError, check_frame, exactly};
+use super::criterion::Criterion;
+use super::world_contacts::{WorldContact, of_meshes};
+use super::world_error::WorldError;
+use crate::engine::Wanted;
+use crate::engine::world::{Frames, Given, MOST_VERTICES, MeshHandle, Moves, Stage, WorldMesh, between_poses};
 use crate::mesh::Topology;
 use crate::parallel::Workers;
 #[cfg(feature = "parallel")]
 use crate::parallel::{ThreadError, Threads};
-use crate::step::{Cancellation, Criterion, Question, Wanted, rounded};
-use contact::of_meshes;
-use mesh::{Frames, Moves, WorldMesh, between_poses};
+use crate::step::{Cancellation, Frame, Groups, Motions, Step, StepError, check_frame, exactly, rounded};
 use selvedge_core::Position;
 use selvedge_core::glam::{DQuat, DVec3};
 use selvedge_core::narrowing::widened;
-use stage::{Given, MOST_VERTICES, Stage};
-use std::fmt;
 use std::sync::Arc;
 
 /// How a mesh moves in a step.
@@ -46,72 +36,6 @@ pub enum MeshMotion<'a, P> {
         /// At the end.
         end: (DQuat, DVec3),
     },
-}
-
-/// Why a world could not do what it was asked. Nothing was lost: it can be asked again.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum WorldError {
-    /// The mesh was removed, or never there.
-    NoSuchMesh {
-        /// What was given.
-        mesh: MeshHandle,
-    },
-    /// Two motions are given for one mesh.
-    MovedTwice {
-        /// Which mesh.
-        mesh: MeshHandle,
-    },
-    /// The positions that a mesh is to move between are too few, too many, or not finite.
-    BadPositions {
-        /// Which mesh.
-        mesh: MeshHandle,
-        /// What is wrong with them.
-        error: StepError,
-    },
-    /// A pose is none: a number is not finite, the quaternion is zero, or the mesh would be out of the range of numbers.
-    BadPose {
-        /// Which mesh.
-        mesh: MeshHandle,
-    },
-    /// All meshes together have too many vertices to be numbered.
-    TooLarge {
-        /// How many they would have.
-        vertices: usize,
-        /// How many they may have.
-        most: usize,
-    },
-    /// Positions to be inserted, a length of the criterion, or why the step was cut short.
-    Step(StepError),
-}
-
-impl fmt::Display for WorldError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoSuchMesh { mesh } => write!(f, "there is no mesh {mesh}: it was removed, or is of another world"),
-            Self::MovedTwice { mesh } => write!(f, "two motions are given for mesh {mesh}: give one"),
-            Self::BadPositions { mesh, error } => write!(f, "mesh {mesh}: {error}"),
-            Self::BadPose { mesh } => write!(
-                f,
-                "mesh {mesh} has no such pose: its numbers must be finite, its quaternion not zero, and the mesh in the range of numbers"
-            ),
-            Self::TooLarge { vertices, most } => {
-                write!(
-                    f,
-                    "the meshes would have {vertices} vertices, but more than {most} cannot be numbered"
-                )
-            }
-            Self::Step(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for WorldError {}
-
-impl From<StepError> for WorldError {
-    fn from(error: StepError) -> Self {
-        Self::Step(error)
-    }
 }
 
 /// Finds the contacts of meshes that come and go: cloth and soft bodies, rigid bodies, and what never moves. `P` is the type of the
@@ -169,7 +93,7 @@ impl From<StepError> for WorldError {
 #[derive(Debug)]
 pub struct World<P: Position> {
     stage: Stage,
-    workers: Workers,
+    pub(super) workers: Workers,
     criterion: Criterion<P::Scalar>,
 }
 
@@ -344,12 +268,12 @@ impl<P: Position> World<P> {
         let checked = || motions.iter().map(|&(mesh, motion)| self.checked(mesh, motion)).collect();
         let checked: Vec<_> = self.workers.run::<Result<_, _>>(checked)?;
         let given: Vec<Given<'_>> = checked.iter().map(Checked::given).collect();
-        let question = Question::new(&self.criterion, wanted);
+        let question = self.criterion.question(wanted);
         let Self { stage, workers, .. } = self;
         Ok(workers.run(|| stage.run(&given, &question)))
     }
 
-    fn mesh(&self, mesh: MeshHandle) -> Result<&WorldMesh, WorldError> {
+    pub(super) fn mesh(&self, mesh: MeshHandle) -> Result<&WorldMesh, WorldError> {
         self.stage.meshes.get(mesh).ok_or(WorldError::NoSuchMesh { mesh })
     }
 

@@ -2,10 +2,12 @@
 
 use super::chunk::{ChunkSink, Found, Numbers, StepInput};
 use super::engine::{Space, own_space, shares, spaces_for_threads};
-use super::{Bound, Contact, Question, Stop, Wanted};
+use super::question::{Bound, Question, Wanted};
+use super::stop::Stop;
 use crate::broad_phase::{BlockPair, Pairing, RowSlices};
 use crate::buffer::settle;
 use crate::parallel;
+use crate::step::Contact;
 use std::sync::Mutex;
 
 /// Where candidates come from, and what is to be known of them.

@@ -2,19 +2,19 @@
 
 use super::chunk::{Chunk, ChunkSink, Found, Numbers, StepInput, Tally};
 use super::given::PrimitiveBoxes;
+use super::question::{Bound, Question, Wanted};
 use super::rest::HingeChunk;
-use super::{Bound, CandidateBoxes, Contact, Question, Stop, Wanted};
+use super::stop::Stop;
 use crate::PairKind;
 use crate::broad_phase::{CHUNK, Fit, MovingBroadPhase, Rows, Scratch};
 use crate::buffer::settle;
 use crate::clock::Clock;
 use crate::coherent::{ENORMOUS, Followed};
-use crate::collision_filter::CollisionFilter;
-use crate::dispatch::Level;
-use crate::frame::{Motions, StepError};
 use crate::mesh::{Hinges, Topology};
 use crate::pair_counts::PairCounts;
 use crate::parallel::{self, Workers};
+use crate::simd::Level;
+use crate::step::{CollisionFilter, Contact, Motions, StepError, check_pair};
 use selvedge_core::Scalar;
 use selvedge_core::elementary::Limits;
 use selvedge_core::narrowing::rounded_down;
@@ -43,7 +43,7 @@ const PROBES: [Probe; 2] = [Probe { until: 1.0 / 16.0 }, Probe::WHOLE];
 
 /// What a step counted, and its seconds. With several threads the seconds of stages are sums over them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct StepTally {
+pub struct StepStatistics {
     /// The caller's own pairs, if it has brought some.
     pub given: PairCounts,
     /// Pairs that moving boxes leave, of a caller's pairs as well.
@@ -67,7 +67,7 @@ pub struct StepTally {
 /// See the [module](super).
 #[derive(Debug)]
 pub(crate) struct Engine {
-    pub(super) broad_phase: MovingBroadPhase,
+    pub(crate) broad_phase: MovingBroadPhase,
     /// In the mode for coherent motion.
     followed: Option<Box<Followed>>,
     /// Which vertices move, if not all.
@@ -83,8 +83,8 @@ pub(crate) struct Engine {
     boxes: PrimitiveBoxes,
     /// Once a mesh at rest was asked about.
     pub(super) hinges: Option<Hinges>,
-    pub(super) stop: Stop,
-    tally: StepTally,
+    pub(crate) stop: Stop,
+    statistics: StepStatistics,
 }
 
 /// What a thread works in.
@@ -130,7 +130,7 @@ impl Engine {
             boxes: PrimitiveBoxes::default(),
             hinges: None,
             stop: Stop::new(),
-            tally: StepTally::default(),
+            statistics: StepStatistics::default(),
         }
     }
 
@@ -172,12 +172,12 @@ impl Engine {
         self.broad_phase.hierarchies.topology()
     }
 
-    pub(crate) const fn tally(&self) -> &StepTally {
-        &self.tally
+    pub(crate) const fn statistics(&self) -> &StepStatistics {
+        &self.statistics
     }
 
     /// Finds the contacts of a step, or of a part of it.
-    pub(super) fn run(&mut self, threads: &Workers, motions: &dyn Motions, question: &Question, probe: Probe) {
+    pub(crate) fn run(&mut self, threads: &Workers, motions: &dyn Motions, question: &Question, probe: Probe) {
         threads.run(|| self.run_here(motions, question, probe));
     }
 
@@ -238,7 +238,7 @@ impl Engine {
         });
         self.count(begin, update);
         let tests = self.workers.iter().map(|worker| worker.tests).sum();
-        let candidates = self.tally.candidates.total() as usize;
+        let candidates = self.statistics.candidates.total() as usize;
         // Where a traversal ends early depends on which thread is first.
         let is_whole = question.wanted != Wanted::Any || !bound.is_lowered();
         if is_whole && !self.stop.has_stopped() {
@@ -267,11 +267,11 @@ impl Engine {
         decide(&mut self.workers, &mut self.spaces, &step, pairs, |_, pairs, _| Some(pairs));
         let count = followed.count() as u64;
         self.count(begin, update);
-        self.tally.followed = count;
+        self.statistics.followed = count;
     }
 
     /// Finds the contacts of pairs that the caller has: VF, EE.
-    pub(super) fn run_on(
+    pub(crate) fn run_on(
         &mut self,
         threads: &Workers,
         motions: &dyn Motions,
@@ -302,7 +302,7 @@ impl Engine {
             check_pairs(topology, pairs)?;
         }
         self.count(begin, update);
-        self.tally.given = PairCounts {
+        self.statistics.given = PairCounts {
             vertex_face: pairs[0].len() as u64,
             edge_edge: pairs[1].len() as u64,
         };
@@ -310,12 +310,12 @@ impl Engine {
     }
 
     /// The pairs that moving boxes leave.
-    pub(super) fn candidates(
+    pub(crate) fn candidates(
         &mut self,
         threads: &Workers,
         motions: &dyn Motions,
         separation: f64,
-        boxes: CandidateBoxes,
+        are_swept: bool,
         vertex_face: &mut Vec<[u32; 2]>,
         edge_edge: &mut Vec<[u32; 2]>,
     ) {
@@ -324,7 +324,7 @@ impl Engine {
         let stop = &self.stop;
         let fit = Fit {
             separation,
-            is_swept: boxes == CandidateBoxes::Swept,
+            is_swept: are_swept,
             ..Fit::default()
         };
         let broad_phase = &mut self.broad_phase;
@@ -333,18 +333,17 @@ impl Engine {
             broad_phase.candidates_until(&|pairs| stop.goes_on(pairs), vertex_face, edge_edge);
         });
         let seconds = begin.elapsed().as_secs_f64();
-        self.tally = StepTally {
+        self.statistics = StepStatistics {
             candidates: PairCounts {
                 vertex_face: vertex_face.len() as u64,
                 edge_edge: edge_edge.len() as u64,
             },
             broad_phase_seconds: seconds,
             seconds,
-            ..StepTally::default()
+            ..StepStatistics::default()
         };
     }
 
-    #[cfg(feature = "verification")]
     /// Replaces both by the pairs that were kept for the caller in the last run.
     pub(crate) fn collect_kept(&mut self, vertex_face: &mut Vec<[u32; 2]>, edge_edge: &mut Vec<[u32; 2]>) {
         vertex_face.clear();
@@ -370,11 +369,11 @@ impl Engine {
             settle(&mut worker.found.contacts);
         }
         settle(contacts);
-        self.tally.seconds += begin.elapsed().as_secs_f64();
+        self.statistics.seconds += begin.elapsed().as_secs_f64();
     }
 
     /// The earliest contact of a step: of its beginning first, then of all of it.
-    pub(super) fn earliest(&mut self, threads: &Workers, motions: &dyn Motions, question: &Question) -> Option<Contact<f64>> {
+    pub(crate) fn earliest(&mut self, threads: &Workers, motions: &dyn Motions, question: &Question) -> Option<Contact<f64>> {
         let begin = Clock::now();
         self.stop.begin();
         // Of pairs that are followed few are left to look at, in any part of the step.
@@ -385,7 +384,7 @@ impl Engine {
             }
             self.earliest_found()
         });
-        self.tally.seconds = begin.elapsed().as_secs_f64();
+        self.statistics.seconds = begin.elapsed().as_secs_f64();
         earliest
     }
 
@@ -400,9 +399,9 @@ impl Engine {
     }
 
     fn count(&mut self, begin: Clock, update: f64) {
-        let mut tally = StepTally {
+        let mut tally = StepStatistics {
             broad_phase_seconds: update,
-            ..StepTally::default()
+            ..StepStatistics::default()
         };
         for worker in &self.workers {
             let Tally {
@@ -424,7 +423,7 @@ impl Engine {
             tally.broad_phase_seconds += worker.seconds - filter - elementary;
         }
         tally.seconds = begin.elapsed().as_secs_f64();
-        self.tally = tally;
+        self.statistics = tally;
     }
 }
 
@@ -477,7 +476,7 @@ pub(super) fn shares() -> usize {
 }
 
 /// A contact with its time rounded down, so that it is no later.
-pub(super) fn in_format_of_positions<S: Scalar>(contact: &Contact<f64>) -> Contact<S> {
+pub(crate) fn in_format_of_positions<S: Scalar>(contact: &Contact<f64>) -> Contact<S> {
     let &Contact { kind, pair, time } = contact;
     Contact {
         kind,
@@ -511,7 +510,7 @@ pub(super) fn own_space(spaces: &[Mutex<Space>]) -> MutexGuard<'_, Space> {
 
 /// Every pair must be of the mesh.
 fn check_pairs(topology: &Topology, [vertex_face, edge_edge]: [&[[u32; 2]]; 2]) -> Result<(), StepError> {
-    let check = |kind, pairs: &[[u32; 2]]| pairs.iter().try_for_each(|&pair| topology.check_pair(kind, pair));
+    let check = |kind, pairs: &[[u32; 2]]| pairs.iter().try_for_each(|&pair| check_pair(topology, kind, pair));
     check(PairKind::VertexFace, vertex_face)?;
     check(PairKind::EdgeEdge, edge_edge)
 }

@@ -1,10 +1,9 @@
 //! A mesh of a world, and how it moves in a step.
 
 use crate::broad_phase::{Fit, Hierarchies};
-use crate::collision_filter::Groups;
-use crate::frame::Motions;
 use crate::mesh::Topology;
 use crate::parallel;
+use crate::step::{Groups, Motions};
 use selvedge_core::Motion;
 use selvedge_core::boxes::Aabb;
 use selvedge_core::boxes::mapping::Mapping;
@@ -14,7 +13,7 @@ use std::sync::Arc;
 
 /// What a mesh does in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Moves {
+pub(crate) enum Moves {
     /// Nothing.
     Not,
     /// Each vertex goes its own way: it can meet itself.
@@ -26,14 +25,14 @@ pub(super) enum Moves {
 }
 
 impl Moves {
-    pub(super) const fn deviation(&self) -> f64 {
+    pub(crate) const fn deviation(&self) -> f64 {
         match self {
             Self::Turning(_, deviation) => *deviation,
             _ => 0.0,
         }
     }
 
-    pub(super) const fn turning(&self) -> Option<RigidMotion> {
+    pub(crate) const fn turning(&self) -> Option<RigidMotion> {
         match self {
             Self::Turning(motion, _) => Some(*motion),
             _ => None,
@@ -42,29 +41,29 @@ impl Moves {
 }
 
 #[derive(Debug)]
-pub(super) struct WorldMesh {
-    pub(super) hierarchies: Hierarchies,
+pub(crate) struct WorldMesh {
+    pub(crate) hierarchies: Hierarchies,
     /// The positions that it was inserted with.
-    pub(super) shape: Vec<DVec3>,
-    pub(super) groups: Groups,
-    pub(super) moves: Moves,
+    pub(crate) shape: Vec<DVec3>,
+    pub(crate) groups: Groups,
+    pub(crate) moves: Moves,
     /// Where its rows are among those of all.
-    pub(super) rows_at: Option<RowsAt>,
+    pub(crate) rows_at: Option<RowsAt>,
 }
 
 /// A place among the rows of all meshes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct RowsAt {
+pub(crate) struct RowsAt {
     /// Places of another arrangement are none.
-    pub(super) arrangement: u64,
-    pub(super) first: u32,
+    pub(crate) arrangement: u64,
+    pub(crate) first: u32,
     /// Whether what is there is what the hierarchies hold.
-    pub(super) are_current: bool,
+    pub(crate) are_current: bool,
 }
 
 impl WorldMesh {
     /// Builds its hierarchies, and rests.
-    pub(super) fn new(topology: Arc<Topology>, shape: Vec<DVec3>, groups: Groups, separation: f64) -> Self {
+    pub(crate) fn new(topology: Arc<Topology>, shape: Vec<DVec3>, groups: Groups, separation: f64) -> Self {
         let mut mesh = Self {
             hierarchies: Hierarchies::new(topology),
             shape: Vec::new(),
@@ -79,7 +78,7 @@ impl WorldMesh {
     }
 
     /// Moves in the next step, keeping `separation` from others.
-    pub(super) fn set_motion(&mut self, motions: &dyn Motions, moves: Moves, separation: f64) {
+    pub(crate) fn set_motion(&mut self, motions: &dyn Motions, moves: Moves, separation: f64) {
         let separation = match moves {
             // For its half of the separation: the box is to hold the deviation on each side.
             Moves::Turning(_, deviation) => separation_of_pieces(separation, 2.0 * deviation),
@@ -98,7 +97,7 @@ impl WorldMesh {
     }
 
     /// Rests from now on where its last motion has ended.
-    pub(super) fn come_to_rest(&mut self, separation: f64) {
+    pub(crate) fn come_to_rest(&mut self, separation: f64) {
         let motion = |vertex| self.hierarchies.motion_of(vertex).unwrap_or_default();
         let vertices = 0..self.hierarchies.topology().vertex_count();
         let resting = Frames(vertices.map(|vertex| Motion::resting(motion(vertex).end)).collect());
@@ -108,7 +107,7 @@ impl WorldMesh {
 
 /// The motion of each vertex.
 #[derive(Debug)]
-pub(super) struct Frames(pub(super) Vec<Motion<f64>>);
+pub(crate) struct Frames(pub(crate) Vec<Motion<f64>>);
 
 impl Motions for Frames {
     fn len(&self) -> usize {
@@ -119,8 +118,8 @@ impl Motions for Frames {
         self.0[vertex]
     }
 
-    fn mapping(&self, extent: &Aabb<f64>, fit: &Fit) -> Mapping {
-        Mapping::new(extent, fit.separation, fit.until, fit.is_swept)
+    fn mapping(&self, extent: &Aabb<f64>, separation: f64, until: f64, is_swept: bool) -> Mapping {
+        Mapping::new(extent, separation, until, is_swept)
     }
 }
 
@@ -136,17 +135,17 @@ impl Motions for AboutOrigin<'_> {
         self.0.of(vertex)
     }
 
-    fn mapping(&self, _: &Aabb<f64>, fit: &Fit) -> Mapping {
-        self.0.mapping(&Aabb::empty(), fit)
+    fn mapping(&self, _: &Aabb<f64>, separation: f64, until: f64, is_swept: bool) -> Mapping {
+        self.0.mapping(&Aabb::empty(), separation, until, is_swept)
     }
 }
 
 /// A rotation, and where the mesh's origin is.
-pub(super) type Pose = (DQuat, DVec3);
+pub(crate) type Pose = (DQuat, DVec3);
 
 /// How a mesh moves from one pose to another, by vertices at positions that `rounded` leaves where it goes straight; `None` if the poses are
 /// none, or too far out.
-pub(super) fn between_poses(shape: &[DVec3], [start, end]: [Pose; 2], rounded: fn(DVec3) -> DVec3) -> Option<(Frames, Moves)> {
+pub(crate) fn between_poses(shape: &[DVec3], [start, end]: [Pose; 2], rounded: fn(DVec3) -> DVec3) -> Option<(Frames, Moves)> {
     let motion = RigidMotion::between(start, end)?;
     let turn = start.0.normalize();
     let turned = |&position: &DVec3| turn * position;

@@ -1,12 +1,11 @@
-//! What a detector shows to those who measure and check it.
+//! Counts and times of a step, its intermediate pairs, and the instruction set.
 
-use super::engine::{Probe, StepTally};
-use super::{CollisionDetector, Contact, Question, Wanted};
-use crate::dispatch::Level;
-use crate::frame::StepError;
+use super::detector::CollisionDetector;
+use crate::engine::{Probe, Question, StepStatistics, Wanted};
+use crate::simd::Level;
+use crate::step::{Contact, StepError};
 use selvedge_core::{Position, Scalar};
 
-/// With the feature `verification`.
 impl<S: Scalar> CollisionDetector<S> {
     /// Forces the instruction set; the best that the machine has is the default. Changes no result.
     pub const fn set_level(&mut self, level: Level) {
@@ -36,15 +35,15 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.stop.result()
     }
 
-    /// How often near pairs were searched for.
+    /// Returns how often near pairs were searched for since the steps became [coherent](Self::set_coherent).
     #[must_use]
     pub fn near_statistics(&self) -> crate::coherent::NearStatistics {
         self.engine.near_statistics()
     }
 
-    /// What the last step counted and how long its stages took.
+    /// Returns the counts and times of the stages of the last step.
     #[must_use]
-    pub const fn tally(&self) -> &StepTally {
-        self.engine.tally()
+    pub const fn statistics(&self) -> &StepStatistics {
+        self.engine.statistics()
     }
 }

@@ -6,13 +6,13 @@ use selvedge_core::Motion;
 use selvedge_core::paths::{Arc, Moment, Path, Piece, RigidMotion};
 
 /// Of a vertex.
-pub(super) enum Way {
+pub(crate) enum Way {
     Straight(Motion<f64>),
     Arc(Arc),
 }
 
 impl Way {
-    pub(super) const fn straight(&self) -> Option<Motion<f64>> {
+    pub(crate) const fn straight(&self) -> Option<Motion<f64>> {
         match self {
             Self::Straight(motion) => Some(*motion),
             Self::Arc(_) => None,
@@ -38,7 +38,7 @@ impl Path for Way {
 
 /// The vertices of a pair, of which the first primitive is of the first mesh, and the second of the second; `None` if there is no such pair, or
 /// the vertex is of no primitive, and so not known to the hierarchies.
-pub(super) fn vertices_of([first, second]: [&Hierarchies; 2], kind: PairKind, pair: [u32; 2]) -> Option<[u32; 4]> {
+pub(crate) fn vertices_of([first, second]: [&Hierarchies; 2], kind: PairKind, pair: [u32; 2]) -> Option<[u32; 4]> {
     let index = pair[1] as usize;
     match kind {
         PairKind::VertexFace => {
@@ -55,7 +55,7 @@ pub(super) fn vertices_of([first, second]: [&Hierarchies; 2], kind: PairKind, pa
 }
 
 /// The ways of [such a pair's vertices](vertices_of), on arcs where their mesh turns.
-pub(super) fn ways(
+pub(crate) fn ways(
     meshes: [&Hierarchies; 2],
     motions: &[Option<RigidMotion>; 2],
     kind: PairKind,

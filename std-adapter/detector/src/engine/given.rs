@@ -14,9 +14,9 @@
 
 use crate::PairKind;
 use crate::broad_phase::mapping_within;
-use crate::dispatch::Level;
-use crate::frame::Motions;
 use crate::mesh::Topology;
+use crate::simd::Level;
+use crate::step::Motions;
 use selvedge_core::batch::{Compares, Loop, in_lanes};
 use selvedge_core::boxes::moving::MovingBox;
 
@@ -128,9 +128,9 @@ impl Loop for KeepNear<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dispatch::available_levels;
-    use crate::frame::Step;
     use crate::glam::DVec3;
+    use crate::simd::available_levels;
+    use crate::step::Step;
 
     /// A triangle, and a vertex of a second one above it or beside it, at both ends of the step.
     fn is_near(start: DVec3, end: DVec3, separation: f64) -> bool {
@@ -184,7 +184,7 @@ mod tests {
         boxes.fit(&topology, &Step::checked(&frame, &frame, 4).unwrap(), 0.0);
         let mut near = Vec::new();
         let pairs = [[3, 1], [0, 1], [3, 0], [1, 0], [2, 1]];
-        let level = crate::dispatch::best_level();
+        let level = crate::simd::best_level();
         let mut keep = |pairs: &[[u32; 2]]| boxes.keep_near(level, PairKind::VertexFace, pairs, &mut near);
         assert_eq!(keep(&[[0, 1], [4, 0]]), None);
         assert_eq!(keep(&[[0, 2]]), None);

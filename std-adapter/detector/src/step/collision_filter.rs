@@ -1,7 +1,7 @@
 //! Pairs that are not to be looked at, whatever they do: by groups, by patches, one by one, or as the caller decides.
 
+use super::error::StepError;
 use crate::PairKind;
-use crate::frame::StepError;
 use crate::mesh::Topology;
 use std::fmt;
 use std::sync::Arc;

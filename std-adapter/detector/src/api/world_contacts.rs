@@ -1,11 +1,10 @@
 //! Contacts between meshes of a world, and what they are beyond their times.
 
-use super::handles::MeshHandle;
-use super::way::{Way, vertices_of, ways};
-use super::{World, WorldError};
-use crate::frame::StepError;
+use super::world::World;
+use super::world_error::WorldError;
+use crate::engine::world::{MeshHandle, Way, vertices_of, ways};
 use crate::parallel;
-use crate::step::Contact;
+use crate::step::{Contact, StepError};
 use selvedge_core::narrowing::rounded_down;
 use selvedge_core::paths::{self, Path};
 use selvedge_core::separation::geometry::{Geometry, geometry};

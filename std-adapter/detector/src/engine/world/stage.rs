@@ -4,42 +4,42 @@ use super::handles::{MeshHandle, Places};
 use super::mesh::{Moves, RowsAt, WorldMesh};
 use super::way::{vertices_of, ways};
 use crate::broad_phase::{MeshHierarchy, Pairing, Rows};
-use crate::frame::{Motions, StepError};
-use crate::step::{Contact, Question, Source, SourceEngine, Wanted};
+use crate::engine::{Question, Source, SourceEngine, Wanted};
+use crate::step::{Contact, Motions, StepError};
 use selvedge_core::elementary::Limits;
 use selvedge_core::paths::{Path, RigidMotion, separation_of_pieces, time_of_impact};
 use std::cmp::Ordering;
 
 /// Most vertices of all meshes: rows are numbered, with as many places unused as used.
-pub(super) const MOST_VERTICES: usize = u32::MAX as usize / 2;
+pub(crate) const MOST_VERTICES: usize = u32::MAX as usize / 2;
 
 /// All meshes, and what a step is made with.
 #[derive(Debug)]
-pub(super) struct Stage {
-    pub(super) meshes: Places<WorldMesh>,
+pub(crate) struct Stage {
+    pub(crate) meshes: Places<WorldMesh>,
     hierarchy: MeshHierarchy,
     /// Those in the hierarchy, in ascending order.
     handles: Vec<MeshHandle>,
     /// Whether there are other meshes than in the hierarchy, or other groups.
-    pub(super) are_others: bool,
-    pub(super) engine: SourceEngine,
+    pub(crate) are_others: bool,
+    pub(crate) engine: SourceEngine,
     /// Vertices of all meshes.
-    pub(super) vertices: usize,
+    pub(crate) vertices: usize,
     /// Whether boxes are made for another separation.
-    pub(super) must_fit: bool,
+    pub(crate) must_fit: bool,
     /// The meshes that moved in the last step.
     moved: Vec<MeshHandle>,
     near: Vec<[u32; 2]>,
     rows: PlacedRows,
     /// The meshes of each source of the last step.
-    pub(super) sources: Vec<[MeshHandle; 2]>,
+    pub(crate) sources: Vec<[MeshHandle; 2]>,
 }
 
 /// A mesh's motion in a step.
-pub(super) type Given<'a> = (MeshHandle, &'a dyn Motions, Moves);
+pub(crate) type Given<'a> = (MeshHandle, &'a dyn Motions, Moves);
 
 impl Stage {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             meshes: Places::new(),
             hierarchy: MeshHierarchy::new(),
@@ -56,7 +56,7 @@ impl Stage {
     }
 
     /// Finds the contacts of a step. All meshes that are given are there, each once.
-    pub(super) fn run(&mut self, given: &[Given<'_>], question: &Question) -> Result<(), StepError> {
+    pub(crate) fn run(&mut self, given: &[Given<'_>], question: &Question) -> Result<(), StepError> {
         self.set_motions(given, question.limits.separation);
         self.hierarchy.find(&mut self.near);
         self.place_rows();
@@ -109,7 +109,7 @@ impl Stage {
     }
 
     /// The earliest contact of the last step, with its source.
-    pub(super) fn earliest(&self) -> Option<(usize, &Contact<f64>)> {
+    pub(crate) fn earliest(&self) -> Option<(usize, &Contact<f64>)> {
         let all = self.engine.contacts();
         let all = all.flat_map(|(source, found)| found.iter().map(move |contact| (source, contact)));
         all.min_by(|(a_source, a), (b_source, b)| {

@@ -46,7 +46,7 @@ impl fmt::Display for MeshHandle {
 
 /// Things with handles, in places that are used again.
 #[derive(Debug)]
-pub(super) struct Places<T> {
+pub(crate) struct Places<T> {
     places: Vec<Place<T>>,
     free: Vec<u32>,
 }
@@ -59,7 +59,7 @@ struct Place<T> {
 }
 
 impl<T> Places<T> {
-    pub(super) const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Self {
             places: Vec::new(),
             free: Vec::new(),
@@ -67,7 +67,7 @@ impl<T> Places<T> {
     }
 
     /// `None` if there is no handle left.
-    pub(super) fn insert(&mut self, item: T) -> Option<MeshHandle> {
+    pub(crate) fn insert(&mut self, item: T) -> Option<MeshHandle> {
         let index = match self.free.pop() {
             Some(index) => index,
             None => {
@@ -87,7 +87,7 @@ impl<T> Places<T> {
         })
     }
 
-    pub(super) fn remove(&mut self, handle: MeshHandle) -> Option<T> {
+    pub(crate) fn remove(&mut self, handle: MeshHandle) -> Option<T> {
         self.get(handle)?;
         let place = &mut self.places[handle.index()];
         // A place that has no generation left is not used again.
@@ -98,18 +98,18 @@ impl<T> Places<T> {
         place.item.take()
     }
 
-    pub(super) fn get(&self, handle: MeshHandle) -> Option<&T> {
+    pub(crate) fn get(&self, handle: MeshHandle) -> Option<&T> {
         let place = self.places.get(handle.index())?;
         place.item.as_ref().filter(|_| place.generation == handle.generation)
     }
 
-    pub(super) fn get_mut(&mut self, handle: MeshHandle) -> Option<&mut T> {
+    pub(crate) fn get_mut(&mut self, handle: MeshHandle) -> Option<&mut T> {
         let place = self.places.get_mut(handle.index())?;
         place.item.as_mut().filter(|_| place.generation == handle.generation)
     }
 
     /// All there are, in ascending order of their places.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (MeshHandle, &T)> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (MeshHandle, &T)> {
         (0..).zip(&self.places).filter_map(|(index, place)| {
             let generation = place.generation;
             Some((MeshHandle { index, generation }, place.item.as_ref()?))

@@ -1,7 +1,7 @@
 //! Sweeps: one round of advancing for all open pairs, after which those that it decides are dropped.
 
 use crate::broad_phase::CHUNK;
-use crate::dispatch::Level;
+use crate::simd::Level;
 use selvedge_core::PairKind;
 use selvedge_core::Scalar;
 use selvedge_core::batch::{LANES, Round, RoundQuestion, VertexRow, advance_from_rows};

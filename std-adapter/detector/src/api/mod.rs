@@ -1,0 +1,21 @@
+//! What a program calls: detector and world, their settings and answers.
+
+#[cfg(test)]
+mod ageing;
+mod criterion;
+mod detector;
+mod geometry;
+mod intersections;
+mod limits;
+
+mod statistics;
+mod world;
+mod world_contacts;
+mod world_error;
+
+pub use criterion::{CandidateBoxes, Criterion};
+pub use detector::CollisionDetector;
+pub use geometry::ContactGeometry;
+pub use world::{MeshMotion, World};
+pub use world_contacts::{WorldContact, WorldContactGeometry};
+pub use world_error::WorldError;

@@ -1,0 +1,11 @@
+//! A step of several meshes.
+
+mod handles;
+mod mesh;
+mod stage;
+mod way;
+
+pub use handles::MeshHandle;
+pub(crate) use mesh::{Frames, Moves, WorldMesh, between_poses};
+pub(crate) use stage::{Given, MOST_VERTICES, Stage};
+pub(crate) use way::{Way, vertices_of, ways};

@@ -1,0 +1,119 @@
+//! The two frames of a step, and what can be wrong with them.
+
+use super::error::{Frame, StepError};
+use crate::PairKind;
+use crate::mesh::Topology;
+use selvedge_core::boxes::Aabb;
+use selvedge_core::boxes::mapping::Mapping;
+use selvedge_core::glam::DVec3;
+use selvedge_core::narrowing::rounded_up;
+use selvedge_core::{Motion, Position, Scalar};
+
+/// A separation or a tolerance must be a length: finite, not negative.
+pub fn check_length<S: Scalar>(length: S) -> Result<(), StepError> {
+    if length >= S::ZERO && length.is_finite() {
+        Ok(())
+    } else {
+        Err(StepError::BadLimit { length: length.to_f64() })
+    }
+}
+
+/// Both frames must have a finite position for each vertex.
+pub fn check_frames<P: Position>(start: &[P], end: &[P], vertex_count: usize) -> Result<(), StepError> {
+    check_frame(Frame::Start, start, vertex_count)?;
+    check_frame(Frame::End, end, vertex_count)
+}
+
+pub(crate) fn check_frame<P: Position>(frame: Frame, positions: &[P], expected: usize) -> Result<(), StepError> {
+    if positions.len() != expected {
+        return Err(StepError::WrongLength {
+            frame,
+            found: positions.len(),
+            expected,
+        });
+    }
+    let is_finite = |&position: &P| {
+        let [x, y, z] = position.into();
+        x.is_finite() && y.is_finite() && z.is_finite()
+    };
+    match positions.iter().position(|position| !is_finite(position)) {
+        None => Ok(()),
+        Some(vertex) => {
+            let position: [P::Scalar; 3] = positions[vertex].into();
+            Err(StepError::NotFinite {
+                frame,
+                vertex,
+                position: position.map(Scalar::to_f64),
+            })
+        }
+    }
+}
+
+/// A pair must be one of the mesh.
+pub(crate) fn check_pair(topology: &Topology, kind: PairKind, pair: [u32; 2]) -> Result<(), StepError> {
+    if topology.has_pair(kind, pair) {
+        Ok(())
+    } else {
+        Err(StepError::NoSuchPair { kind, pair })
+    }
+}
+
+/// The same position in `f64`.
+pub(crate) fn exactly<P: Position>(position: P) -> DVec3 {
+    let [x, y, z] = position.into();
+    DVec3::new(x.to_f64(), y.to_f64(), z.to_f64())
+}
+
+/// A step's positions, of either format. What reads them is compiled once, not for each type that positions have.
+pub(crate) trait Motions: Sync {
+    /// How many vertices there are.
+    fn len(&self) -> usize;
+    /// Where a vertex starts and ends, exactly.
+    fn of(&self, vertex: usize) -> Motion<f64>;
+    /// How boxes are made of them; `extent` is theirs. The arguments are those of [`Mapping::new`].
+    fn mapping(&self, extent: &Aabb<f64>, separation: f64, until: f64, is_swept: bool) -> Mapping;
+}
+
+/// Frames that are as long as they must be, and finite.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Step<'a, P> {
+    start: &'a [P],
+    end: &'a [P],
+}
+
+impl<'a, P: Position> Step<'a, P> {
+    /// Checks the frames of a mesh with so many vertices.
+    pub(crate) fn checked(start: &'a [P], end: &'a [P], vertex_count: usize) -> Result<Self, StepError> {
+        check_frames(start, end, vertex_count)?;
+        Ok(Self::of_finite(start, end))
+    }
+
+    /// Of frames that are known to be as long as they must be, and finite.
+    pub(crate) const fn of_finite(start: &'a [P], end: &'a [P]) -> Self {
+        Self { start, end }
+    }
+}
+
+impl<P: Position> Motions for Step<'_, P> {
+    fn len(&self) -> usize {
+        self.start.len()
+    }
+
+    fn of(&self, vertex: usize) -> Motion<f64> {
+        Motion::new(exactly(self.start[vertex]), exactly(self.end[vertex]))
+    }
+
+    fn mapping(&self, extent: &Aabb<f64>, separation: f64, until: f64, is_swept: bool) -> Mapping {
+        let (separation, until) = (rounded_up(separation), P::Scalar::from_f64(until));
+        Mapping::new(extent, separation, until, is_swept)
+    }
+}
+
+/// A position of the caller's format.
+pub(crate) fn nearest<P: Position>(position: DVec3) -> P {
+    P::from(position.to_array().map(P::Scalar::from_f64))
+}
+
+pub(crate) fn rounded<P: Position>(position: DVec3) -> DVec3 {
+    exactly(nearest::<P>(position))
+}
