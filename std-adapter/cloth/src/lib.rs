@@ -23,7 +23,6 @@
 //! | [`sleeve`] | the paper's sleeve at any size, of which scenes can be made |
 
 #![forbid(unsafe_code)]
-
 #![expect(
     clippy::neg_cmp_op_on_partial_ord,
     reason = "a comparison is false with NaN, which must then take the side that does nothing"
