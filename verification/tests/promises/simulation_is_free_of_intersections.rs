@@ -207,15 +207,16 @@ fn without_self_collision_the_sleeve_passes_through_itself() {
 fn thrown(ropes: &[([DVec3; 3], DVec3)], is_kept: bool) -> Scene {
     let sheet = Cloth::sheet(DVec3::new(-0.1, -0.1, -0.05), [DVec3::X * 0.2, DVec3::Y * 0.2], [6, 6], 0.2);
     let mut scene = Scene::new(sheet.expect("a sheet").named("sheet"), 2e-3);
-    scene.cloths[0].add(Stretch::isotropic(500.0));
+    scene.add_to("sheet", Stretch::isotropic(500.0));
     for (number, (points, velocity)) in ropes.iter().enumerate() {
-        let mut rope = Cloth::rope(points, 20, 0.02)
-            .expect("three places")
-            .named(&format!("rope {number}"));
+        let name = format!("rope {number}");
+        let mut rope = Cloth::rope(points, 20, 0.02).expect("three places").named(&name);
         rope.velocity = *velocity;
-        rope.add(RopeStretch::of(2e3)).add(RopeBend::straight(1e-6));
+        scene
+            .add_to(&name, RopeStretch::of(2e3))
+            .add_to(&name, RopeBend::straight(1e-6));
         if is_kept {
-            rope.add(SelfCollision(Thickness::of(6e-3)));
+            scene.add_to(&name, SelfCollision(Thickness::of(6e-3)));
         }
         scene.cloths.push(rope);
     }

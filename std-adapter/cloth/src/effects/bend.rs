@@ -4,7 +4,7 @@ use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::Plan;
 use crate::input::{BENDING_STIFFNESS, Count, Field, ValueError};
 use crate::model::bending::{Bending, hinges};
-use crate::world::SceneParts;
+use crate::world::{Material, SceneParts};
 
 const WARP: Field = Field::new("stiffness", BENDING_STIFFNESS, 1e-12, 10.0);
 const WEFT: Field = Field::new("weft_stiffness", BENDING_STIFFNESS, 1e-12, 10.0);
@@ -14,7 +14,7 @@ pub(super) const REGISTRATION: Registration = Registration {
     keys: &["stiffness", "weft_stiffness", "stages"],
     needs: &[],
     read: |table, world| {
-        let of_material = world.cloth.material.map(|material| material.bend());
+        let of_material = world.cloth.material.as_ref().map(Bend::of_material);
         let mut bend = table.number_or(&WARP, Bend::isotropic, of_material)?;
         bend.weft_stiffness = table.number(&WEFT)?.unwrap_or(bend.weft_stiffness);
         bend.stages = table.count(&STAGES)?.unwrap_or(bend.stages);
@@ -35,6 +35,14 @@ pub struct Bend {
 }
 
 impl Bend {
+    /// The resistance of a material.
+    pub(super) const fn of_material(material: &Material) -> Self {
+        Self {
+            weft_stiffness: material.bend[1],
+            ..Self::isotropic(material.bend[0])
+        }
+    }
+
     /// The same along warp and weft, in N·m; in at most 32 stages.
     #[must_use]
     pub const fn isotropic(stiffness: f64) -> Self {

@@ -11,18 +11,20 @@ mod anchor;
 mod attachments;
 mod bend;
 mod body_contact;
+mod called;
 mod enclosed;
 mod friction;
 mod gravity;
 mod inflation;
 mod levels;
-mod list;
 mod of_cloth;
 mod pins;
 pub(crate) mod plan;
 mod plastic_folds;
 mod pressure;
+mod reading;
 mod registration;
+mod registry;
 mod rope_bend;
 mod rope_stretch;
 mod seams;
@@ -52,6 +54,7 @@ pub use plan::Plan;
 pub use plastic_folds::PlasticFolds;
 pub use pressure::InternalPressure;
 pub use registration::{ActsOn, Effect, Scope};
+pub use registry::effect_names;
 pub use rope_bend::{RopeBend, RopeShape};
 pub use rope_stretch::RopeStretch;
 pub use seams::{Seam, Seams};
@@ -61,74 +64,5 @@ pub use strain_limit::StrainLimit;
 pub use stretch::Stretch;
 pub use tearing::{Perforation, Tearing};
 
-use crate::input::{SceneError, Table, suggestion};
-use registration::Registration;
-
-pub(crate) use list::{Called, Effects, Wrong};
-
-/// Every effect, in the order in which they run.
-const REGISTRY: &[(&str, Registration)] = &[
-    ("gravity", gravity::REGISTRATION),
-    ("wind", air::wind::REGISTRATION),
-    ("wind_field", air::wind_field::REGISTRATION),
-    ("inflation", inflation::REGISTRATION),
-    ("air_drag", air_drag::REGISTRATION),
-    ("pins", pins::REGISTRATION),
-    ("attachments", attachments::REGISTRATION),
-    ("stretch", stretch::REGISTRATION),
-    ("shear", shear::REGISTRATION),
-    ("bend", bend::REGISTRATION),
-    ("plastic_folds", plastic_folds::REGISTRATION),
-    ("internal_pressure", pressure::REGISTRATION),
-    ("strain_limit", strain_limit::REGISTRATION),
-    ("seams", seams::REGISTRATION),
-    ("rope_bend", rope_bend::REGISTRATION),
-    ("rope_stretch", rope_stretch::REGISTRATION),
-    ("body_contact", body_contact::REGISTRATION),
-    ("self_collision", self_collision::REGISTRATION),
-    ("friction", friction::REGISTRATION),
-    ("tearing", tearing::REGISTRATION),
-];
-
-/// Reads the effects that `[effects]` names, and constructs no other; [`Called::check`] follows.
-pub(crate) fn read(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Effects, SceneError> {
-    for (name, place) in table.keys() {
-        if registration_of(name).is_none() {
-            let message = format!("there is no effect '{name}'{}", suggestion(name, effect_names()));
-            return Err(table.complain(place, message));
-        }
-    }
-    read_known(table, world)
-}
-
-/// The same from a table that has other keys as well: a cloth's own.
-pub(crate) fn read_known(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Effects, SceneError> {
-    let mut effects = Effects::default();
-    for (name, registration) in REGISTRY {
-        let Some(settings) = table.table(name)? else {
-            continue;
-        };
-        settings.expect_keys(registration.keys)?;
-        let effect = (registration.read)(&settings, world)?;
-        assert_eq!(effect.name(), *name, "the table of effects names each as it names itself");
-        effects.add_shared(effect.into());
-    }
-    Ok(effects)
-}
-
-fn registration_of(name: &str) -> Option<&'static Registration> {
-    let (_, registration) = REGISTRY.iter().find(|(known, _)| *known == name)?;
-    Some(registration)
-}
-
-/// Its place in the order in which effects run; a caller's own come after ours.
-fn rank(name: &str) -> usize {
-    let place = REGISTRY.iter().position(|(known, _)| *known == name);
-    place.unwrap_or(REGISTRY.len())
-}
-
-/// The names of all effects.
-#[must_use]
-pub fn effect_names() -> Vec<&'static str> {
-    REGISTRY.iter().map(|(name, _)| *name).collect()
-}
+pub(crate) use called::{Called, Effects, Wrong};
+pub(crate) use reading::{read, read_known};

@@ -5,7 +5,7 @@ use crate::effects::plan::{Fabric, Plan};
 use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::model::membrane::{Membrane, all, image, of_triangles};
 use crate::model::schedule::{Local, Schedule};
-use crate::world::SceneParts;
+use crate::world::{Material, SceneParts};
 use selvedge_core::glam::DVec3;
 
 const STIFFNESS: Field = Field::new("stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
@@ -15,7 +15,7 @@ pub(super) const REGISTRATION: Registration = Registration {
     keys: &["stiffness", "sweeps"],
     needs: &[],
     read: |table, world| {
-        let of_material = world.cloth.material.map(|material| material.shear());
+        let of_material = world.cloth.material.as_ref().map(Shear::of_material);
         let shear = table.number_or(&STIFFNESS, Shear::new, of_material)?;
         Ok(Box::new(Shear {
             sweeps: table.count(&SWEEPS)?.unwrap_or(shear.sweeps),
@@ -34,6 +34,11 @@ pub struct Shear {
 }
 
 impl Shear {
+    /// The resistance of a material.
+    pub(super) const fn of_material(material: &Material) -> Self {
+        Self::new(material.shear)
+    }
+
     /// In N/m, in one sweep.
     #[must_use]
     pub const fn new(stiffness: f64) -> Self {

@@ -19,7 +19,7 @@ use crate::input::{Count, Field, MEMBRANE_STIFFNESS, ValueError};
 use crate::model::hierarchy::mesh_spacing;
 use crate::model::membrane::{Membrane, all, image, of_triangles};
 use crate::model::schedule::{Local, Schedule};
-use crate::world::SceneParts;
+use crate::world::{Material, SceneParts};
 use selvedge_core::glam::DVec3;
 
 const WARP: Field = Field::new("stiffness", MEMBRANE_STIFFNESS, 1e-3, 1e9);
@@ -30,7 +30,7 @@ pub(super) const REGISTRATION: Registration = Registration {
     keys: &["stiffness", "weft_stiffness", "sweeps", "levels"],
     needs: &[],
     read: |table, world| {
-        let of_material = world.cloth.material.map(|material| material.stretch());
+        let of_material = world.cloth.material.as_ref().map(Stretch::of_material);
         let stretch = table.number_or(&WARP, Stretch::isotropic, of_material)?;
         Ok(Box::new(Stretch {
             weft_stiffness: table.number(&WEFT)?.unwrap_or(stretch.weft_stiffness),
@@ -55,6 +55,14 @@ pub struct Stretch {
 }
 
 impl Stretch {
+    /// The resistance of a material.
+    pub(super) const fn of_material(material: &Material) -> Self {
+        Self {
+            weft_stiffness: material.stretch[1],
+            ..Self::isotropic(material.stretch[0])
+        }
+    }
+
     /// The same along warp and weft, in N/m, in one sweep.
     #[must_use]
     pub const fn isotropic(stiffness: f64) -> Self {

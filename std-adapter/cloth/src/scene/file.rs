@@ -43,9 +43,9 @@ impl Scene {
         ])?;
         let time_step = root.required_number(&TIME_STEP)?;
         let duration = root.required_number(&duration_field(time_step))?;
-        let mut cloths = read_cloths(&root)?;
+        let cloths = read_cloths(&root)?;
         let bodies = read_bodies(&root, time_step)?;
-        let effects = read_effects(&root, &mut cloths, &bodies, time_step)?;
+        let (effects, own) = read_effects(&root, &cloths, &bodies, time_step)?;
         let gravity = match root.table("effects")? {
             Some(table) => Gravity::read_acceleration(&table)?,
             None => None,
@@ -61,10 +61,7 @@ impl Scene {
             ("untangle", TangledStart::Untangle),
         ];
         let tangled_start = root.choice(START, &starts)?.unwrap_or_default();
-        let called = Called {
-            by_scene: &effects,
-            cloths: &cloths,
-        };
+        let called = Called::new(&effects, &cloths, own.clone());
         check_start(tangled_start, &called.names()).map_err(|error| root.placed(&error))?;
         let stem = path.file_stem().map(|stem| stem.to_string_lossy());
         Ok(Self {
@@ -78,6 +75,7 @@ impl Scene {
             text: text.to_owned(),
             time_step,
             duration,
+            own: { cloths.iter() }.map(|cloth| cloth.name.clone()).zip(own).collect(),
             cloths,
             bodies,
             effects,
@@ -111,7 +109,12 @@ fn parts<'a>(root: &Table<'_>, cloths: &'a [Cloth], bodies: &'a [Body], time_ste
 }
 
 /// `[effects]`, and what the cloths have of their own; together they make sense.
-fn read_effects(root: &Table<'_>, cloths: &mut [Cloth], bodies: &[Body], time_step: f64) -> Result<Effects, SceneError> {
+fn read_effects(
+    root: &Table<'_>,
+    cloths: &[Cloth],
+    bodies: &[Body],
+    time_step: f64,
+) -> Result<(Effects, Vec<Effects>), SceneError> {
     let tables = root.one_or_more_tables("cloth")?;
     let effects = root.table("effects")?;
     let of_scene = |world: &SceneParts<'_>| match &effects {
@@ -122,28 +125,24 @@ fn read_effects(root: &Table<'_>, cloths: &mut [Cloth], bodies: &[Body], time_st
     let is_plain = |cloth: &Cloth| cloth.material.is_none() && cloth.has_triangles();
     let plain = cloths.iter().position(is_plain);
     let by_scene = of_scene(&parts(root, cloths, bodies, time_step)?.of_cloth(plain))?;
-    for (index, table) in tables.iter().enumerate() {
-        let world = parts(root, cloths, bodies, time_step)?.of_cloth(Some(index));
-        let mut own = effects::read_known(table, &world)?;
-        if let Some(material) = cloths[index].material {
+    let world = parts(root, cloths, bodies, time_step)?;
+    let mut own = Vec::with_capacity(cloths.len());
+    for (index, (table, cloth)) in tables.iter().zip(cloths).enumerate() {
+        let world = world.of_cloth(Some(index));
+        let mut effects = effects::read_known(table, &world)?;
+        if cloth.material.is_some() && tables.len() > 1 {
             let of_scene = of_scene(&world)?;
-            for effect in material.effects() {
-                let name = effect.name();
-                match of_scene.shared(name) {
-                    _ if own.get(name).is_some() => {}
-                    None => own.add_shared(effect),
-                    Some(said) if tables.len() > 1 => own.add_shared(said),
-                    Some(_) => {}
+            for name in ["stretch", "shear", "bend"] {
+                if let Some(said) = of_scene.shared(name)
+                    && effects.get(name).is_none()
+                {
+                    effects.add_shared(said);
                 }
             }
         }
-        cloths[index].effects = own;
+        own.push(effects);
     }
-    let world = parts(root, cloths, bodies, time_step)?;
-    let called = Called {
-        by_scene: &by_scene,
-        cloths,
-    };
+    let called = Called::new(&by_scene, cloths, own.clone());
     let place = |Wrong { name, cloth, error }: Wrong| {
         let above = cloth.map_or(effects.as_ref(), |cloth| tables.get(cloth)).unwrap_or(root);
         match above.table(name) {
@@ -152,5 +151,5 @@ fn read_effects(root: &Table<'_>, cloths: &mut [Cloth], bodies: &[Body], time_st
         }
     };
     called.check(&world).map_err(place)?;
-    Ok(by_scene)
+    Ok((by_scene, own))
 }

@@ -26,9 +26,10 @@
 //! ```
 
 mod file;
+mod read_cloth;
 
 use crate::effects::{Called, Effect, Effects};
-use crate::input::{AREA_DENSITY, FREQUENCY, Field, LARGEST_TIME, LINEAR_DENSITY, TIME, ValueError};
+use crate::input::{AREA_DENSITY, FREQUENCY, Field, LARGEST_TIME, LINEAR_DENSITY, TIME, ValueError, suggestion};
 use crate::world::{Body, Cloth, SceneParts};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
@@ -108,7 +109,9 @@ pub struct Scene {
     /// What to do when surfaces pass through each other at the start.
     pub tangled_start: TangledStart,
     /// The effects called for, in the order in which they run.
-    pub(crate) effects: Effects,
+    effects: Effects,
+    /// Effects that single cloths have instead of the scene's, with the names of these cloths.
+    own: Vec<(String, Effects)>,
 }
 
 const TIME_STEP: Field = Field::new("time_step", TIME, 1e-6, 0.1);
@@ -136,6 +139,7 @@ impl Scene {
             on_blocked: OnBlocked::default(),
             tangled_start: TangledStart::default(),
             effects: Effects::default(),
+            own: Vec::new(),
         }
     }
 
@@ -143,6 +147,34 @@ impl Scene {
     /// caller's own run after them, in the order in which they are added.
     pub fn add(&mut self, effect: impl Effect + 'static) -> &mut Self {
         self.effects.add(effect);
+        self
+    }
+
+    /// Gives one cloth an effect of its own, instead of the scene's of the same name. `cloth` is the cloth's name.
+    ///
+    /// Not for effects that act on the whole scene, such as gravity.
+    ///
+    /// ```
+    /// use selvedge_cloth::effects::Stretch;
+    /// use selvedge_cloth::glam::DVec3;
+    /// use selvedge_cloth::{Cloth, Scene};
+    ///
+    /// let sheet = || Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [10, 10], 0.2);
+    /// let mut scene = Scene::new(sheet()?.named("coat"), 1e-3);
+    /// scene.cloths.push(sheet()?.named("lining"));
+    /// scene.add(Stretch::isotropic(500.0)).add_to("lining", Stretch::isotropic(80.0));
+    /// scene.check()?;
+    /// # Ok::<(), selvedge_cloth::ValueError>(())
+    /// ```
+    pub fn add_to(&mut self, cloth: &str, effect: impl Effect + 'static) -> &mut Self {
+        match self.own.iter_mut().find(|(name, _)| name == cloth) {
+            Some((_, own)) => own.add(effect),
+            None => {
+                let mut own = Effects::default();
+                own.add(effect);
+                self.own.push((cloth.to_owned(), own));
+            }
+        }
         self
     }
 
@@ -189,10 +221,22 @@ impl Scene {
     }
 
     pub(crate) fn called(&self) -> Called<'_> {
-        Called {
-            by_scene: &self.effects,
-            cloths: &self.cloths,
-        }
+        let own = |cloth: &Cloth| {
+            let own = self.own.iter().find(|(name, _)| *name == cloth.name);
+            own.map_or_else(Effects::default, |(_, own)| own.clone())
+        };
+        Called::new(&self.effects, &self.cloths, self.cloths.iter().map(own).collect())
+    }
+
+    /// Every effect of a single cloth names a cloth that is there.
+    fn check_own(&self) -> Result<(), ValueError> {
+        let is_there = |name: &str| self.cloths.iter().any(|cloth| cloth.name == name);
+        let Some((name, _)) = self.own.iter().find(|(name, _)| !is_there(name)) else {
+            return Ok(());
+        };
+        let names = self.cloths.iter().map(|cloth| cloth.name.as_str());
+        let message = format!("there is no cloth '{}'{}", excerpt(name, 40), suggestion(name, names));
+        Err(ValueError::new("cloth", message))
     }
 
     /// Whether all of it makes sense, alone and together. A scene from a file does; [`Simulation::new`](crate::Simulation::new) asks.
@@ -211,6 +255,7 @@ impl Scene {
             check_name("bodies", self.bodies[..index].iter().map(|other| &other.name), &body.name)?;
             body.check(self.time_step)?;
         }
+        self.check_own()?;
         self.called().check(&self.parts()?).map_err(|wrong| wrong.error)?;
         check_start(self.tangled_start, &self.called().names())
     }
@@ -227,7 +272,7 @@ impl Scene {
         let names = self.effect_names();
         let first = &names[..count.min(names.len())];
         self.effects.keep(first);
-        self.cloths.iter_mut().for_each(|cloth| cloth.effects.keep(first));
+        self.own.iter_mut().for_each(|(_, own)| own.keep(first));
     }
 
     /// What the cloths are made of, for people to read: their weight, and what effects say of them, each with its value and unit.
@@ -266,17 +311,17 @@ impl Scene {
     }
 
     /// Shows every effect that acts, and the cloth whose own it is; the scene's once, however many cloths it acts on.
-    fn each_acting<'a>(&'a self, mut show: impl FnMut(Option<&'a Cloth>, &'a dyn Effect)) {
-        for name in self.effect_names() {
-            let own = self
-                .cloths
-                .iter()
-                .filter_map(|cloth| Some((Some(cloth), cloth.effects.get(name)?)));
-            let of_scene = self.effects.get(name).map(|effect| (None, effect));
-            of_scene
-                .into_iter()
-                .chain(own)
-                .for_each(|(cloth, effect)| show(cloth, effect));
+    fn each_acting(&self, mut show: impl FnMut(Option<&Cloth>, &dyn Effect)) {
+        let called = self.called();
+        for name in called.names() {
+            if let Some(effect) = self.effects.get(name) {
+                show(None, effect);
+            }
+            for (cloth, own) in self.cloths.iter().zip(called.own()) {
+                if let Some(effect) = own.get(name) {
+                    show(Some(cloth), effect);
+                }
+            }
         }
     }
 
@@ -313,17 +358,17 @@ impl Scene {
         let mut take = |bytes: &[u8]| fingerprint.take(bytes);
         take(self.text.as_bytes());
         take(format!("{:?}", (self.time_step, self.on_blocked, self.tangled_start, &self.effects)).as_bytes());
-        for Cloth {
-            name,
-            density,
-            velocity,
-            warp,
-            effects,
-            linear_density,
-            topology,
-            ..
-        } in &self.cloths
-        {
+        let called = self.called();
+        for (cloth, effects) in self.cloths.iter().zip(called.own()) {
+            let Cloth {
+                name,
+                density,
+                velocity,
+                warp,
+                linear_density,
+                topology,
+                ..
+            } = cloth;
             take(format!("{:?}", (name, density, velocity, warp, effects)).as_bytes());
             if topology.loose_edges().len() > 0 {
                 take(format!("{:?}", (linear_density, topology.loose_edges().collect::<Vec<_>>())).as_bytes());

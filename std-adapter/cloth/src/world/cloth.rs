@@ -3,7 +3,6 @@
 use super::runs::{Run, runs};
 use super::sleeve::{RefinementError, ring_sizes, sleeve};
 use super::{Material, shapes};
-use crate::effects::{Effect, Effects};
 use crate::input::{
     AREA_DENSITY, Count, Field, LARGEST_COORDINATE, LENGTH, LINEAR_DENSITY, RATIO, SPEED, ValueError, suggestion,
 };
@@ -15,12 +14,11 @@ use std::collections::HashSet;
 /// A cloth at rest: its mesh, what it weighs, and what it has of its own.
 ///
 /// ```
-/// use selvedge_cloth::effects::Stretch;
 /// use selvedge_cloth::glam::DVec3;
-/// use selvedge_cloth::Cloth;
+/// use selvedge_cloth::{Cloth, Material};
 ///
 /// let mut lining = Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [10, 10], 0.08)?.named("lining");
-/// lining.add(Stretch::isotropic(80.0)); // instead of the scene's
+/// lining.set_material(Material::SILK);
 /// # Ok::<(), selvedge_cloth::ValueError>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -44,28 +42,26 @@ pub struct Cloth {
     pub(crate) material: Option<Material>,
     /// Vertices that have a name.
     parts: Vec<(&'static str, Vec<u32>)>,
-    /// Effects of its own, instead of the scene's of the same names.
-    pub(crate) effects: Effects,
 }
 
 /// Its name unless it is given one.
-pub(super) const NAME: &str = "cloth";
+pub(crate) const NAME: &str = "cloth";
 
-pub(super) const CELLS: Count = Count::new("cells", 1, 2000);
-pub(super) const CELLS_AROUND: Count = Count::new("cells", 3, 2000);
-pub(super) const REFINEMENT: Count = Count::new("refinement", 1, 1000);
-pub(super) const CORNER: Field = Field::vector("corner", LENGTH, LARGEST_COORDINATE);
-pub(super) const FIRST: Field = Field::vector("first", LENGTH, LARGEST_COORDINATE);
-pub(super) const SECOND: Field = Field::vector("second", LENGTH, LARGEST_COORDINATE);
-pub(super) const FROM: Field = Field::vector("from", LENGTH, LARGEST_COORDINATE);
-pub(super) const TO: Field = Field::vector("to", LENGTH, LARGEST_COORDINATE);
-pub(super) const RADIUS: Field = Field::new("radius", LENGTH, 1e-3, LARGEST_COORDINATE);
-pub(super) const WARP: Field = Field::vector("warp", RATIO, LARGEST_COORDINATE);
-pub(super) const DENSITY: Field = Field::new("density", AREA_DENSITY, 1e-3, 100.0);
-pub(super) const LINEAR_DENSITY_OF_EDGES: Field = Field::new("linear_density", LINEAR_DENSITY, 1e-6, 100.0);
-pub(super) const POINTS: Field = Field::vector("points", LENGTH, LARGEST_COORDINATE);
-pub(super) const SEGMENTS: Count = Count::new("segments", 1, 100_000);
-pub(super) const VELOCITY: Field = Field::vector("velocity", SPEED, 1e3);
+pub(crate) const CELLS: Count = Count::new("cells", 1, 2000);
+pub(crate) const CELLS_AROUND: Count = Count::new("cells", 3, 2000);
+pub(crate) const REFINEMENT: Count = Count::new("refinement", 1, 1000);
+pub(crate) const CORNER: Field = Field::vector("corner", LENGTH, LARGEST_COORDINATE);
+pub(crate) const FIRST: Field = Field::vector("first", LENGTH, LARGEST_COORDINATE);
+pub(crate) const SECOND: Field = Field::vector("second", LENGTH, LARGEST_COORDINATE);
+pub(crate) const FROM: Field = Field::vector("from", LENGTH, LARGEST_COORDINATE);
+pub(crate) const TO: Field = Field::vector("to", LENGTH, LARGEST_COORDINATE);
+pub(crate) const RADIUS: Field = Field::new("radius", LENGTH, 1e-3, LARGEST_COORDINATE);
+pub(crate) const WARP: Field = Field::vector("warp", RATIO, LARGEST_COORDINATE);
+pub(crate) const DENSITY: Field = Field::new("density", AREA_DENSITY, 1e-3, 100.0);
+pub(crate) const LINEAR_DENSITY_OF_EDGES: Field = Field::new("linear_density", LINEAR_DENSITY, 1e-6, 100.0);
+pub(crate) const POINTS: Field = Field::vector("points", LENGTH, LARGEST_COORDINATE);
+pub(crate) const SEGMENTS: Count = Count::new("segments", 1, 100_000);
+pub(crate) const VELOCITY: Field = Field::vector("velocity", SPEED, 1e3);
 
 impl Cloth {
     /// A parallelogram with a corner and two sides, in metres, in `cells` along each; `density` in kg/m². Its warp goes along the first
@@ -222,7 +218,6 @@ impl Cloth {
             copied: Vec::new(),
             warp,
             parts,
-            effects: Effects::default(),
         };
         cloth.check_densities()?;
         Ok(cloth)
@@ -235,22 +230,11 @@ impl Cloth {
         Self { name, ..self }
     }
 
-    /// Gives it an effect of its own, instead of the scene's of the same name: what it is made of, its thickness. Not for effects that act
-    /// on the whole scene, such as gravity.
-    pub fn add(&mut self, effect: impl Effect + 'static) -> &mut Self {
-        self.effects.add(effect);
-        self
-    }
-
-    /// Makes it of a material: sets its density, and gives it [`Stretch`](crate::effects::Stretch), [`Shear`](crate::effects::Shear) and
-    /// [`Bend`](crate::effects::Bend) of its own with the material's numbers. What is [added](Self::add) afterwards has precedence.
+    /// Makes it of a material. This sets its density. [`Stretch`](crate::effects::Stretch), [`Shear`](crate::effects::Shear) and
+    /// [`Bend`](crate::effects::Bend) take the material's numbers, unless the scene adds these effects itself.
     pub fn set_material(&mut self, material: Material) -> &mut Self {
         self.density = material.density;
         self.material = Some(material);
-        material
-            .effects()
-            .into_iter()
-            .for_each(|effect| self.effects.add_shared(effect));
         self
     }
 
@@ -383,7 +367,6 @@ impl Cloth {
     pub(crate) fn of(mesh: Mesh) -> Self {
         Self {
             name: NAME.to_owned(),
-            effects: Effects::default(),
             topology: mesh.topology().unwrap(),
             copied: Vec::new(),
             mesh,

@@ -31,9 +31,6 @@
 //!
 //! What real fabrics do beyond this: they get stiffer as they are stretched, and do not return on the way that they came.
 
-use crate::effects::{Bend, Effect, Shear, Stretch};
-use std::sync::Arc;
-
 /// A fabric: measured ones have names, and any other is one with its own numbers.
 ///
 /// ```
@@ -120,32 +117,6 @@ impl Material {
     #[must_use]
     pub fn bending_lengths(&self) -> [f64; 2] {
         self.bend.map(|rigidity| libm::cbrt(rigidity / (self.density * GRAVITY)))
-    }
-
-    /// Its resistance to being stretched.
-    pub(crate) const fn stretch(&self) -> Stretch {
-        Stretch {
-            weft_stiffness: self.stretch[1],
-            ..Stretch::isotropic(self.stretch[0])
-        }
-    }
-
-    /// Its resistance to being sheared.
-    pub(crate) const fn shear(&self) -> Shear {
-        Shear::new(self.shear)
-    }
-
-    /// Its resistance to being bent.
-    pub(crate) const fn bend(&self) -> Bend {
-        Bend {
-            weft_stiffness: self.bend[1],
-            ..Bend::isotropic(self.bend[0])
-        }
-    }
-
-    /// What a cloth of it calls for.
-    pub(crate) fn effects(&self) -> [Arc<dyn Effect>; 3] {
-        [Arc::new(self.stretch()), Arc::new(self.shear()), Arc::new(self.bend())]
     }
 }
 

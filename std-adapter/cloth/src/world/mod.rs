@@ -2,16 +2,15 @@
 
 mod animation;
 mod body;
-mod cloth;
+pub(crate) mod cloth;
 mod driven;
 mod incidence;
 mod material;
 mod motion;
 mod placement;
-mod read_cloth;
 mod rope;
 mod runs;
-mod shapes;
+pub(crate) mod shapes;
 pub mod sleeve;
 
 use crate::input::ValueError;

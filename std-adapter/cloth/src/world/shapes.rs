@@ -105,7 +105,7 @@ pub(crate) fn capsule([from, to]: [DVec3; 2], radius: f64, around: u32) -> Mesh 
 }
 
 /// The mesh of the file that `file` names.
-pub(super) fn of_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
+pub(crate) fn of_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
     let read = mesh::read(&path(table)?);
     let mesh = read.map_err(|error| table.error("file", error.to_string()))?.mesh;
     check(&mesh).map_err(|error| table.error("file", error.message))?;
@@ -113,7 +113,7 @@ pub(super) fn of_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
 }
 
 /// The same, perhaps without triangles, and its edges that belong to none.
-pub(super) fn of_file_with_loose_edges(table: &Table<'_>) -> Result<(Mesh, Vec<[u32; 2]>), SceneError> {
+pub(crate) fn of_file_with_loose_edges(table: &Table<'_>) -> Result<(Mesh, Vec<[u32; 2]>), SceneError> {
     let wrong = |message: String| table.error("file", message);
     let read = mesh::read_with_loose_features(&path(table)?);
     let LooseMesh { positions, topology } = read.map_err(|error| wrong(error.to_string()))?;

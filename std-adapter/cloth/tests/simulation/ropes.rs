@@ -239,12 +239,12 @@ fn tangle() -> Scene {
     scene.cloths.push(across.unwrap().named("across"));
     scene.cloths.push(sheet.unwrap().named("sheet"));
     let tied = [scene.part("along", "end").unwrap(), scene.part("across", "end").unwrap()];
-    for cloth in &mut scene.cloths[..2] {
-        cloth
-            .add(SelfCollision(Thickness::of(8e-3)))
-            .add(BodyContact(Thickness::of(4e-3)));
+    for rope in ["along", "across"] {
+        scene
+            .add_to(rope, SelfCollision(Thickness::of(8e-3)))
+            .add_to(rope, BodyContact(Thickness::of(4e-3)));
     }
-    scene.cloths[2].add(Stretch::isotropic(500.0));
+    scene.add_to("sheet", Stretch::isotropic(500.0));
     scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.1, 24).unwrap());
     scene
         .add(Gravity::default())
@@ -530,7 +530,7 @@ fn what_cannot_be_of_loose_edges_is_told_from_code() {
     let weightless = "`linear_density` is 0 kg/m, but must be from 1e-6 kg/m to 100 kg/m";
     assert_eq!(made(&[[0, 3]], [0.1, 0.0]).unwrap_err(), weightless);
     let mut scene = Scene::new(Cloth::rope(&[DVec3::ZERO, DVec3::X], 3, 0.1).unwrap().named("line"), 1e-3);
-    scene.cloths[0].add(Stretch::isotropic(1.0));
+    scene.add_to("line", Stretch::isotropic(1.0));
     let none = "stretch: 'stretch' has nothing to act on: the cloth 'line' has no triangles; what ropes resist is `rope_stretch` and `rope_bend`";
     assert_eq!(scene.check().unwrap_err().to_string(), none);
     let sheet = Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [2, 2], 0.1).unwrap();

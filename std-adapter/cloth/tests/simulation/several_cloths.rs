@@ -82,16 +82,18 @@ fn from_file() -> Scene {
 
 fn from_code() -> Scene {
     let corner = |height| DVec3::new(-0.15, -0.15, height);
-    let mut shell = sheet("shell", corner(0.08), 12, 0.2);
-    shell.add(SelfCollision(Thickness {
-        thickness: 5e-3,
-        separation: 1e-3,
-    }));
     let mut lining = sheet("lining", corner(0.076), 10, 0.08);
     lining.velocity = -0.1 * DVec3::Z;
-    lining.add(Stretch::isotropic(80.0)).add(SelfCollision(Thickness::of(3e-3)));
-    let mut scene = Scene::new(shell, 2e-3);
+    let mut scene = Scene::new(sheet("shell", corner(0.08), 12, 0.2), 2e-3);
     scene.cloths.push(lining);
+    let of_shell = Thickness {
+        thickness: 5e-3,
+        separation: 1e-3,
+    };
+    scene.add_to("shell", SelfCollision(of_shell));
+    scene
+        .add_to("lining", Stretch::isotropic(80.0))
+        .add_to("lining", SelfCollision(Thickness::of(3e-3)));
     scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap());
     let wind = Wind {
         velocity: DVec3::X,
@@ -131,7 +133,7 @@ fn several_cloths_have_the_same_bits_on_any_number_of_threads_and_resumed() {
     assert_eq!(whole.positions(), resumed.positions());
     // A cloth's own is part of the scene.
     let mut other = from_code();
-    other.cloths[1].add(Stretch::isotropic(81.0));
+    other.add_to("lining", Stretch::isotropic(81.0));
     assert!(Simulation::new(other, 1).unwrap().resume(&checkpoint).is_err());
 }
 
@@ -140,11 +142,7 @@ fn several_cloths_have_the_same_bits_on_any_number_of_threads_and_resumed() {
 fn cloths_that_do_not_meet_go_as_each_goes_alone_to_the_last_bit() {
     let places = [DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0)];
     let cloths = || {
-        let mut stiff = sheet("stiff", places[0], 9, 0.2);
-        stiff.add(Stretch::isotropic(900.0)).add(Wind {
-            velocity: DVec3::new(0.0, 2.0, 1.0),
-            ..Wind::default()
-        });
+        let stiff = sheet("stiff", places[0], 9, 0.2);
         let mut soft = sheet("soft", places[1], 14, 0.1);
         soft.velocity = DVec3::X;
         [stiff, soft]
@@ -154,6 +152,13 @@ fn cloths_that_do_not_meet_go_as_each_goes_alone_to_the_last_bit() {
         let mut scene = Scene::new(all.next().unwrap(), 1e-3);
         scene.cloths.extend(all);
         scene.add(Gravity::default()).add(Stretch::isotropic(60.0));
+        if scene.cloths[0].name == "stiff" {
+            let wind = Wind {
+                velocity: DVec3::new(0.0, 2.0, 1.0),
+                ..Wind::default()
+            };
+            scene.add_to("stiff", Stretch::isotropic(900.0)).add_to("stiff", wind);
+        }
         let corners = scene.cloths.iter().flat_map(|cloth| scene.part(&cloth.name, "left").unwrap());
         let corners: Vec<u32> = corners.collect();
         scene.add(Pins {
@@ -173,17 +178,18 @@ fn cloths_that_do_not_meet_go_as_each_goes_alone_to_the_last_bit() {
 #[test]
 fn two_cloths_keep_the_mean_of_their_thicknesses_from_each_other() {
     for thickness in [[6e-3, 6e-3], [6e-3, 2e-3], [2e-3, 2e-3]] {
-        let mut below = sheet("below", DVec3::ZERO, 12, 0.2);
-        below.add(SelfCollision(Thickness::of(thickness[0])));
+        let below = sheet("below", DVec3::ZERO, 12, 0.2);
         // Vertices of the one do not stand on vertices of the other.
-        let mut above = sheet("above", DVec3::new(0.011, 0.007, 0.01), 10, 0.1);
-        above.add(SelfCollision(Thickness::of(thickness[1])));
+        let above = sheet("above", DVec3::new(0.011, 0.007, 0.01), 10, 0.1);
         let rim = ["left", "right", "bottom", "top"];
         let mut rim: Vec<u32> = rim.into_iter().flat_map(|part| below.part(part).unwrap().to_vec()).collect();
         rim.sort_unstable();
         rim.dedup();
         let mut scene = Scene::new(below, 2e-3);
         scene.cloths.push(above);
+        for (cloth, thickness) in ["below", "above"].into_iter().zip(thickness) {
+            scene.add_to(cloth, SelfCollision(Thickness::of(thickness)));
+        }
         scene
             .add(Gravity::default())
             .add(Stretch::isotropic(500.0))
@@ -217,9 +223,8 @@ fn two_cloths_keep_the_mean_of_their_thicknesses_from_each_other() {
 fn a_cloth_of_its_own_stiffness_is_stretched_as_that_says() {
     // Hung side by side by their upper edges, far enough apart.
     let mut scene = Scene::new(sheet("first", DVec3::ZERO, 8, 0.2), 2e-3);
-    let mut second = sheet("second", DVec3::new(0.5, 0.0, 0.0), 8, 0.2);
-    second.add(Stretch::isotropic(20.0));
-    scene.cloths.push(second);
+    scene.cloths.push(sheet("second", DVec3::new(0.5, 0.0, 0.0), 8, 0.2));
+    scene.add_to("second", Stretch::isotropic(20.0));
     let tops = ["first", "second"]
         .into_iter()
         .flat_map(|name| scene.part(name, "top").unwrap());
@@ -272,15 +277,21 @@ fn what_is_wrong_with_several_cloths_is_told_with_their_names() {
         ),
         (
             complaint(|s| {
-                s.cloths[1].add(Stretch::isotropic(-1.0));
+                s.add_to("lining", Stretch::isotropic(-1.0));
             }),
             "stretch of 'lining': `stiffness` is -1 N/m, but must be from 0.001 N/m to 1e9 N/m",
         ),
         (
             complaint(|s| {
-                s.cloths[1].add(Gravity::default());
+                s.add_to("lining", Gravity::default());
             }),
             "gravity of 'lining': 'gravity' acts on the whole scene, so that no cloth has one of its own: name it in [effects.gravity]",
+        ),
+        (
+            complaint(|s| {
+                s.add_to("linen", Gravity::default());
+            }),
+            "there is no cloth 'linen'; did you mean 'lining'?",
         ),
         (
             complaint(|s| s.cloths.push(sheet("patch", DVec3::Z, 2, 0.1))),

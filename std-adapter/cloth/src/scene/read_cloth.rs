@@ -1,12 +1,12 @@
 //! `[cloth]`, or `[[cloth]]` for each of several.
 
-use super::cloth::{
+use crate::effects::effect_names;
+use crate::input::{SceneError, Table};
+use crate::world::cloth::{
     CELLS, CELLS_AROUND, CORNER, Cloth, DENSITY, FIRST, FROM, LINEAR_DENSITY_OF_EDGES, NAME, POINTS, RADIUS, REFINEMENT, SECOND,
     SEGMENTS, TO, VELOCITY, WARP,
 };
-use super::{Material, shapes};
-use crate::effects::effect_names;
-use crate::input::{SceneError, Table};
+use crate::world::{Material, shapes};
 use selvedge_core::glam::DVec3;
 
 #[derive(Clone, Copy)]

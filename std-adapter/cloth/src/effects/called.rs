@@ -5,10 +5,11 @@
 //! cloth is as it was.
 
 use super::registration::{Effect, Scope};
-use super::{rank, registration_of};
+use super::registry::{rank, registration_of};
+use super::{Bend, Shear, Stretch};
 use crate::effects::plan::{Fabric, Plan};
 use crate::input::ValueError;
-use crate::world::{Cloth, SceneParts};
+use crate::world::{Cloth, Material, SceneParts};
 use std::sync::Arc;
 
 /// Effects in the order in which they run, one of a name.
@@ -47,11 +48,22 @@ impl Effects {
     }
 }
 
-/// The scene's effects, and the cloths that may have some of their own.
-#[derive(Clone, Copy, Debug)]
+/// The effects that a cloth of a material needs.
+fn of_material(material: &Material) -> [Arc<dyn Effect>; 3] {
+    [
+        Arc::new(Stretch::of_material(material)),
+        Arc::new(Shear::of_material(material)),
+        Arc::new(Bend::of_material(material)),
+    ]
+}
+
+/// The scene's effects, its cloths, and the effects that single cloths have instead of the scene's.
+#[derive(Clone, Debug)]
 pub(crate) struct Called<'a> {
-    pub(crate) by_scene: &'a Effects,
-    pub(crate) cloths: &'a [Cloth],
+    by_scene: &'a Effects,
+    cloths: &'a [Cloth],
+    /// By cloth.
+    own: Vec<Effects>,
 }
 
 /// An effect as the scene has it, or a cloth of its own, that makes no sense.
@@ -64,9 +76,26 @@ pub(crate) struct Wrong {
 }
 
 impl<'a> Called<'a> {
+    /// `own` are the effects of single cloths, in their order. A cloth of a material gets the effects that neither it nor the scene has.
+    pub(crate) fn new(by_scene: &'a Effects, cloths: &'a [Cloth], mut own: Vec<Effects>) -> Self {
+        for (cloth, own) in cloths.iter().zip(&mut own) {
+            for effect in cloth.material.iter().flat_map(of_material) {
+                if by_scene.get(effect.name()).or(own.get(effect.name())).is_none() {
+                    own.add_shared(effect);
+                }
+            }
+        }
+        Self { by_scene, cloths, own }
+    }
+
+    /// The effects of single cloths, in their order.
+    pub(crate) fn own(&self) -> &[Effects] {
+        &self.own
+    }
+
     /// All names, in the order in which they run.
-    pub(crate) fn names(self) -> Vec<&'static str> {
-        let own = self.cloths.iter().flat_map(|cloth| cloth.effects.names());
+    pub(crate) fn names(&self) -> Vec<&'static str> {
+        let own = self.own.iter().flat_map(Effects::names);
         let mut names = Vec::new();
         for name in self.by_scene.names().chain(own) {
             if !names.contains(&name) {
@@ -78,13 +107,13 @@ impl<'a> Called<'a> {
     }
 
     /// What acts under a name: on which of the cloths, or on the whole scene.
-    pub(crate) fn acting(self, name: &str) -> Vec<(Option<usize>, &'a dyn Effect)> {
+    pub(crate) fn acting(&self, name: &str) -> Vec<(Option<usize>, &dyn Effect)> {
         let of_scene = self.by_scene.get(name);
         match of_scene {
             Some(effect) if effect.scope() == Scope::Scene => vec![(None, effect)],
             _ => {
-                let of_cloth = |(index, cloth): (usize, &'a Cloth)| {
-                    let effect = cloth.effects.get(name).or(of_scene)?;
+                let of_cloth = |(index, cloth): (usize, &Cloth)| {
+                    let effect = self.own[index].get(name).or(of_scene)?;
                     effect.acts_on().is_in(cloth).then_some((Some(index), effect))
                 };
                 self.cloths.iter().enumerate().filter_map(of_cloth).collect()
@@ -93,7 +122,7 @@ impl<'a> Called<'a> {
     }
 
     /// What the effects say of each cloth.
-    pub(crate) fn fabrics(self) -> Vec<Fabric> {
+    pub(crate) fn fabrics(&self) -> Vec<Fabric> {
         let mut fabrics = vec![Fabric::default(); self.cloths.len()];
         for name in self.names() {
             for (cloth, effect) in self.acting(name) {
@@ -104,11 +133,11 @@ impl<'a> Called<'a> {
     }
 
     /// Whether all of them make sense, each alone and together.
-    pub(crate) fn check(self, world: &SceneParts<'_>) -> Result<(), Wrong> {
+    pub(crate) fn check(&self, world: &SceneParts<'_>) -> Result<(), Wrong> {
         let names = self.names();
         let fabrics = self.fabrics();
         for &name in &names {
-            let own = self.cloths.iter().position(|cloth| cloth.effects.get(name).is_some());
+            let own = self.own.iter().position(|own| own.get(name).is_some());
             let complain = |error| {
                 let cloth = own.filter(|_| self.by_scene.get(name).is_none());
                 Wrong { name, cloth, error }
@@ -130,10 +159,10 @@ impl<'a> Called<'a> {
     }
 
     /// A cloth has of its own only what may be, and what all of them are to have all have.
-    fn check_scope(self, name: &'static str, own: Option<usize>, acting: usize) -> Result<(), Wrong> {
+    fn check_scope(&self, name: &'static str, own: Option<usize>, acting: usize) -> Result<(), Wrong> {
         let Some(cloth) = own else { return Ok(()) };
         let wrong = |message| Err(self.wrong(name, own, ValueError::new("", message)));
-        match self.cloths[cloth].effects.get(name).map(Effect::scope) {
+        match self.own[cloth].get(name).map(Effect::scope) {
             Some(Scope::Scene) => wrong(format!(
                 "'{name}' acts on the whole scene, so that no cloth has one of its own: name it in [effects.{name}]"
             )),
@@ -145,13 +174,13 @@ impl<'a> Called<'a> {
     }
 
     /// There is something to act on: in each cloth that has one of its own, and in some cloth for the scene's.
-    fn check_acts(self, name: &'static str, acting: usize) -> Result<(), Wrong> {
+    fn check_acts(&self, name: &'static str, acting: usize) -> Result<(), Wrong> {
         let wrong = |index: Option<usize>, effect: &dyn Effect| {
             let message = effect.acts_on().complaint(name, index.map(|index| &self.cloths[index]));
             Err(self.wrong(name, index, ValueError::new("", message)))
         };
-        for (index, cloth) in self.cloths.iter().enumerate() {
-            if let Some(effect) = cloth.effects.get(name).filter(|effect| !effect.acts_on().is_in(cloth)) {
+        for (index, (cloth, own)) in self.cloths.iter().zip(&self.own).enumerate() {
+            if let Some(effect) = own.get(name).filter(|effect| !effect.acts_on().is_in(cloth)) {
                 return wrong(Some(index), effect);
             }
         }
@@ -161,20 +190,20 @@ impl<'a> Called<'a> {
         }
     }
 
-    fn wrong(self, name: &'static str, cloth: Option<usize>, error: ValueError) -> Wrong {
+    fn wrong(&self, name: &'static str, cloth: Option<usize>, error: ValueError) -> Wrong {
         let of = match cloth {
             Some(cloth) if self.cloths.len() > 1 => format!("{name} of '{}'", self.cloths[cloth].name),
             _ => name.to_owned(),
         };
         Wrong {
             name,
-            cloth: cloth.filter(|&cloth| self.cloths[cloth].effects.get(name).is_some()),
+            cloth: cloth.filter(|&cloth| self.own[cloth].get(name).is_some()),
             error: error.of(&of),
         }
     }
 
     /// Puts all of them into the plan; returns their names.
-    pub(crate) fn register(self, plan: &mut Plan<'_>) -> Vec<&'static str> {
+    pub(crate) fn register(&self, plan: &mut Plan<'_>) -> Vec<&'static str> {
         plan.fabrics = self.fabrics();
         let names = self.names();
         for (index, name) in names.iter().enumerate() {
