@@ -1,32 +1,42 @@
-//! The clock of statistics: stands still without the feature `timing`, as machines without a clock need it.
+//! A clock that stands still without the feature `timing`, so that platforms without a clock never read one.
 
 use std::time::Duration;
 
-/// When something began.
+/// The moment at which something began.
+///
+/// ```
+/// let clock = selvedge::clock::Clock::now();
+/// let seconds = clock.elapsed().as_secs_f64(); // 0 without the feature `timing`
+/// assert!(seconds >= 0.0);
+/// ```
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Clock {
+pub struct Clock {
     #[cfg(feature = "timing")]
     begin: std::time::Instant,
 }
 
 impl Clock {
-    /// Now.
-    pub(crate) fn now() -> Self {
+    /// Starts the clock.
+    #[must_use]
+    pub fn now() -> Self {
         Self {
             #[cfg(feature = "timing")]
             begin: std::time::Instant::now(),
         }
     }
 
-    /// The time since then; zero without the feature.
+    /// Returns the time since the start; zero without the feature `timing`.
     #[cfg(feature = "timing")]
-    pub(crate) fn elapsed(self) -> Duration {
+    #[must_use]
+    pub fn elapsed(self) -> Duration {
         self.begin.elapsed()
     }
 
+    /// Returns zero, since the feature `timing` is off.
     #[cfg(not(feature = "timing"))]
     #[allow(clippy::unused_self, reason = "the same call with the feature")]
-    pub(crate) const fn elapsed(self) -> Duration {
+    #[must_use]
+    pub const fn elapsed(self) -> Duration {
         Duration::ZERO
     }
 }

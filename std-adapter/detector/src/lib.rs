@@ -22,7 +22,7 @@
 mod api;
 pub mod broad_phase;
 mod buffer;
-mod clock;
+pub mod clock;
 pub mod coherent;
 mod engine;
 mod mesh;

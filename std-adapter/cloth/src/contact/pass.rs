@@ -27,12 +27,12 @@ use super::separations::Separations;
 use super::solver::{ContactSolver, gap_error};
 use crate::model::step::{FREE, TimeStep};
 use selvedge::PairKind;
+use selvedge::clock::Clock;
 use selvedge::parallel;
 use selvedge::simd::Level;
 use selvedge_core::batch::LANES;
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
-use std::time::Instant;
 
 /// c of the module.
 const KEPT: f64 = 1.0 - 1e-5;
@@ -64,18 +64,18 @@ impl ContactSolver {
     pub(crate) fn certify(&mut self, step: &TimeStep<'_>, end: &mut [DVec3]) -> Result<(), Blocker> {
         let start = step.start;
         self.error = gap_error(start, end);
-        let begin = Instant::now();
+        let begin = Clock::now();
         self.candidates.cover(start, end, step.h);
         self.stages.candidates += begin.elapsed().as_secs_f64();
         self.counts.candidates += self.candidates.list.len() as u64;
 
-        let begin = Instant::now();
+        let begin = Clock::now();
         let open = self.check_all(start, end);
         self.counts.violated += open.len() as u64;
         self.stages.certificates += begin.elapsed().as_secs_f64();
         let mut result = Ok(());
         if !open.is_empty() {
-            let begin = Instant::now();
+            let begin = Clock::now();
             result = self.repair(open, step, end);
             self.stages.repairs += begin.elapsed().as_secs_f64();
         }

@@ -10,13 +10,13 @@ use super::relaxation::Relaxation;
 use super::report::{ContactCounts, ContactSeconds};
 use super::settings::ContactSettings;
 use crate::model::step::{Carrier, TimeStep, Touches};
+use selvedge::clock::Clock;
 use selvedge::simd::{Level, best_level};
 use selvedge::{StepError, Topology};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
 use selvedge_core::verification::lanes::Lanes;
-use std::time::Instant;
 
 /// Everything that contact needs, made only if an effect asks for it.
 #[derive(Debug)]
@@ -77,7 +77,7 @@ impl ContactSolver {
 
     /// Forgets the steps before; the next one is expected to lead from `start` to `end` in `h` seconds.
     pub(crate) fn refresh(&mut self, start: &[DVec3], end: &[DVec3], h: f64) {
-        let begin = Instant::now();
+        let begin = Clock::now();
         self.candidates.refresh(start, end, h);
         self.stages.candidates += begin.elapsed().as_secs_f64();
     }
@@ -105,7 +105,7 @@ impl ContactSolver {
 
     /// Sets up the contacts of a step that so far leads from `start` to `predicted`.
     pub(crate) fn prepare(&mut self, start: &[DVec3], predicted: &[DVec3]) {
-        let begin = Instant::now();
+        let begin = Clock::now();
         self.error = gap_error(start, predicted);
         if self.pushes {
             let (contacts, pairs, rules) = self.parts();

@@ -255,8 +255,9 @@ impl Scene {
             check_name("bodies", self.bodies[..index].iter().map(|other| &other.name), &body.name)?;
             body.check(self.time_step)?;
         }
+        let parts = self.parts()?;
         self.check_own()?;
-        self.called().check(&self.parts()?).map_err(|wrong| wrong.error)?;
+        self.called().check(&parts).map_err(|wrong| wrong.error)?;
         check_start(self.tangled_start, &self.called().names())
     }
 

@@ -11,13 +11,13 @@ use crate::effects::plan::Entry;
 use crate::model::step::{FREE, TimeStep};
 use crate::scene::OnBlocked;
 use crate::world::Kinematic;
-use std::time::Instant;
+use selvedge::clock::Clock;
 
 /// The shortest part of a step that is tried, in steps, or in parts of one in which nothing turns too far: so a step has an end.
 const SHORTEST: f64 = 1.0 / 64.0;
 
 /// What the clock of bodies and pins did in a step.
-enum Clock {
+enum BodyClock {
     Went,
     Waited,
 }
@@ -37,7 +37,7 @@ impl Simulation {
         }
         let result = threads.run(|| self.whole_step());
         let clock = self.state.clock;
-        let has_arrived = matches!(result, Ok(Clock::Went));
+        let has_arrived = matches!(result, Ok(BodyClock::Went));
         for driven in self.made.motions.iter_mut().filter_map(Kinematic::driven_mut) {
             driven.end(clock, has_arrived);
         }
@@ -45,9 +45,9 @@ impl Simulation {
         result.map(drop)
     }
 
-    fn whole_step(&mut self) -> Result<Clock, Blocked> {
+    fn whole_step(&mut self) -> Result<BodyClock, Blocked> {
         let mut left = self.time_step;
-        let mut of_the_step = Clock::Went;
+        let mut of_the_step = BodyClock::Went;
         let mut was_blocked = false;
         let mut longest = left;
         let shortest = SHORTEST * self.without_large_turn(left);
@@ -68,7 +68,7 @@ impl Simulation {
                     // Without anything that is forced to move a step can always be made.
                     self.attempt(left, 0.0).map_err(|blocker| self.described(blocker))?;
                     left = 0.0;
-                    of_the_step = Clock::Waited;
+                    of_the_step = BodyClock::Waited;
                 }
                 (OnBlocked::Stop, ..) => return Err(self.described(blocker)),
             }
@@ -236,7 +236,7 @@ impl Simulation {
 
 /// Runs what an effect does, and adds the time to it.
 fn timed(effects: &mut [EffectTime], effect: usize, action: impl FnOnce()) {
-    let begin = Instant::now();
+    let begin = Clock::now();
     action();
     effects[effect].seconds += begin.elapsed().as_secs_f64();
 }

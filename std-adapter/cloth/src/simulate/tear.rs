@@ -15,9 +15,9 @@ use super::tearing::{Copies, Meshes, Numbering, Retorn, Tearing};
 use crate::model::step::{FREE, Memory};
 use crate::model::tearing::{Tear, TornEdge, open};
 use crate::world::Cloth;
+use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
 use std::collections::BTreeMap;
-use std::time::Instant;
 
 /// By what share of its shortest edge the copies of a vertex move apart: less if more cannot be.
 const OPENINGS: [f64; 3] = [0.05, 0.01, 0.001];
@@ -50,7 +50,7 @@ impl Simulation {
     pub(super) fn tear(&mut self) {
         let Some(mut tearing) = self.tearing.take() else { return };
         if self.is_apart() {
-            let begin = Instant::now();
+            let begin = Clock::now();
             self.tear_what_is_loaded(&mut tearing);
             if let Some(tearable) = self.made.tearable.first() {
                 self.effects[tearable.effect].seconds += begin.elapsed().as_secs_f64();

@@ -13,8 +13,8 @@ use super::errors::SetupError;
 use super::simulation::Simulation;
 use super::tangled::{Tangled, Untangled, Untangling};
 use selvedge::Mesh;
+use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
-use std::time::Instant;
 
 /// How far a vertex is led in a step, in mean distances of vertices of the finest cloth: some steps for each triangle.
 const REACH: f64 = 0.3;
@@ -59,7 +59,7 @@ impl Simulation {
 
     /// Pulls apart what is tangled. What is left of it is for the caller to look at.
     pub(super) fn untangle(&mut self, spacing: f64, tell: &mut (dyn FnMut(Untangling) + Send)) -> Untangled {
-        let begin = Instant::now();
+        let begin = Clock::now();
         let forces = std::mem::take(&mut self.made.forces);
         let velocities = self.state.velocities.clone();
         let start = self.state.positions.clone();
