@@ -14,7 +14,7 @@ use bevy_mesh::{Indices, Mesh, Mesh3d, PrimitiveTopology};
 use bevy_time::{Fixed, Time};
 use bevy_transform::components::Transform;
 use selvedge::glam::{DMat3, DVec3};
-use selvedge_cloth::{Body, Cloth, Motion, Placement, Scene, Simulation, Tubes, ValueError, vertex_normals};
+use selvedge_cloth::{Body, Cloth, BodyMotion, Placement, Scene, Simulation, Tubes, ValueError, vertex_normals};
 use std::collections::BTreeMap;
 
 /// A cloth that is simulated in each fixed step, by a [`Scene`] made in code or read from a file.
@@ -41,7 +41,7 @@ use std::collections::BTreeMap;
 /// let mut scene = Scene::new(Cloth::sheet(corner, [DVec3::Z * 0.3, DVec3::X * 0.3], [20, 20], 0.2)?, 4e-3);
 /// scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.1, 24)?);
 /// scene.add(Gravity { acceleration: DVec3::NEG_Y * 9.81 }).add(Stretch::isotropic(1000.0));
-/// scene.add(BodyContact(Thickness::of(4e-3))).add(SelfCollision(Thickness::of(4e-3)));
+/// scene.add(BodyContact(Thickness::new(4e-3))).add(SelfCollision(Thickness::new(4e-3)));
 /// scene.on_blocked = OnBlocked::Yield;
 /// world.spawn(ClothSimulation::new(scene).led_by(0, ball));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -101,7 +101,7 @@ impl ClothSimulation {
         }
     }
 
-    /// A body of the scene, by its index, goes where an entity goes: its `Motion` is [`Driven`](Motion::Driven) from where the entity is at
+    /// A body of the scene, by its index, goes where an entity goes: its `BodyMotion` is [`Driven`](BodyMotion::Driven) from where the entity is at
     /// the start.
     ///
     /// In a fixed step it goes from where it stands to where the entity is, evenly, and turns about the entity's origin the shorter way. Once
@@ -196,12 +196,12 @@ pub fn mesh_of_cloths(scene: &Scene) -> Mesh {
 }
 
 /// A cloth of a Bevy mesh, as it is at rest, in metres and in the world's coordinates: with one vertex where the mesh has several at one position,
-/// in the order of the first of each. `warp` and `density` as [`Cloth::of_mesh`] has them.
+/// in the order of the first of each. `warp` and `density` as [`Cloth::from_mesh`] has them.
 ///
 /// # Errors
 /// If the mesh is not of triangles with positions, or cannot be cloth.
 pub fn cloth_of_mesh(mesh: &Mesh, warp: DVec3, density: f64) -> Result<Cloth, ClothMeshError> {
-    Ok(Cloth::of_mesh(joined(mesh)?, warp, density)?)
+    Ok(Cloth::from_mesh(joined(mesh)?, warp, density)?)
 }
 
 /// A body of a Bevy mesh, which the entity with that mesh may [lead](ClothSimulation::led_by).
@@ -209,7 +209,7 @@ pub fn cloth_of_mesh(mesh: &Mesh, warp: DVec3, density: f64) -> Result<Cloth, Cl
 /// # Errors
 /// If the mesh is not of triangles with positions.
 pub fn body_of_mesh(name: &str, mesh: &Mesh) -> Result<Body, MeshError> {
-    Ok(Body::of_mesh(name, joined(mesh)?))
+    Ok(Body::from_mesh(name, joined(mesh)?))
 }
 
 /// Why a Bevy mesh is no cloth.
@@ -337,9 +337,9 @@ impl ClothSimulation {
             let Some(own) = scene.bodies.get_mut(body) else {
                 return Err(SelvedgeError::NoBody { body, bodies });
             };
-            own.motion = Motion::Driven(placement);
+            own.motion = BodyMotion::Driven(placement);
         }
-        let tubes = (0..scene.cloths.len()).filter_map(|cloth| Some((cloth, Tubes::of(&scene, cloth)?)));
+        let tubes = (0..scene.cloths.len()).filter_map(|cloth| Some((cloth, Tubes::from_scene(&scene, cloth)?)));
         self.tubes = tubes.collect();
         let simulation = Simulation::new(*scene, self.threads).map_err(|error| SelvedgeError::Setup(error.to_string()))?;
         self.state = State::Running(Box::new(simulation));

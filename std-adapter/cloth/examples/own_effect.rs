@@ -66,7 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         .add(Gravity::default())
         .add(Stretch::isotropic(500.0))
         .add(Bend::isotropic(1e-5));
-    scene.add(SelfCollision(Thickness::of(3e-3)));
+    scene.add(SelfCollision(Thickness::new(3e-3)));
     scene.add(Magnet {
         at: DVec3::new(0.2, 0.1, -0.3),
         strength: 30.0,

@@ -16,7 +16,7 @@
 //! | [`Scene`] | **start here**: what is to be simulated, from code or from a file |
 //! | [`Cloth`], [`Body`], [`effects`] | what a scene consists of |
 //! | [`Material`] | cotton, denim, silk, wool, leather, latex: what they weigh and resist |
-//! | [`Motion`], [`Animation`] | where bodies go: on keyframes, as frames or a skinned figure of a glTF file say, or as the caller does |
+//! | [`BodyMotion`], [`Animation`] | where bodies go: on keyframes, as frames or a skinned figure of a glTF file say, or as the caller does |
 //! | [`Simulation`] | runs a scene: positions after each step, what each effect took, checkpoints |
 //! | [`vertex_normals`], [`Tubes`] | to show cloth, and ropes, as triangles |
 //! | [`effect_names`] | every effect that a scene may name |
@@ -37,7 +37,7 @@ mod scene;
 mod simulate;
 mod world;
 
-pub use contact::{Blocker, ContactCounts, ContactSeconds, Crossing, NearPair};
+pub use contact::{ContactCounts, ContactSeconds, Crossing, ProximityPair};
 pub use display::{Tubes, vertex_normals};
 pub use effects::effect_names;
 pub use input::{SceneError, ValueError};
@@ -50,9 +50,9 @@ pub use selvedge_core::glam;
 pub use selvedge_files as files;
 pub use simulate::{
     Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation, Tangled,
-    Untangled, Untangling,
+    Untangled, UntanglingProgress,
 };
-pub use world::{Animation, Body, Cloth, Keyframe, Material, Motion, Placement, RigidMotion, sleeve};
+pub use world::{Animation, Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Material, Placement, sleeve};
 
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
 pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");

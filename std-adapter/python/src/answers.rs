@@ -6,7 +6,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::PyModule;
 use selvedge::{Contact, ContactGeometry, Intersection, PairKind, Scalar, Topology};
 use selvedge_cloth::effects::Release;
-use selvedge_cloth::{Crossing, EdgeStretch, NearPair, TornEdge, Untangled};
+use selvedge_cloth::{Crossing, EdgeStretch, ProximityPair, TornEdge, Untangled};
 
 /// A class of `selvedge/_answers.py`.
 pub(crate) fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
@@ -146,7 +146,7 @@ pub(crate) fn show_intersections<'py>(py: Python<'py>, found: &[Intersection]) -
 }
 
 /// Of cloth in motion.
-pub(crate) fn show_near_pairs<'py>(py: Python<'py>, pairs: &[NearPair]) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn show_near_pairs<'py>(py: Python<'py>, pairs: &[ProximityPair]) -> PyResult<Bound<'py, PyAny>> {
     class(py, "NearPairs")?.call1((
         rows(py, pairs.iter().map(|pair| pair.vertices).collect())?,
         rows(py, pairs.iter().map(|pair| pair.weights).collect())?,

@@ -213,19 +213,21 @@ fn thrown(ropes: &[([DVec3; 3], DVec3)], is_kept: bool) -> Scene {
         let mut rope = Cloth::rope(points, 20, 0.02).expect("three places").named(&name);
         rope.velocity = *velocity;
         scene
-            .add_to(&name, RopeStretch::of(2e3))
+            .add_to(&name, RopeStretch::new(2e3))
             .add_to(&name, RopeBend::straight(1e-6));
         if is_kept {
-            scene.add_to(&name, SelfCollision(Thickness::of(6e-3)));
+            scene.add_to(&name, SelfCollision(Thickness::new(6e-3)));
         }
         scene.cloths.push(rope);
     }
     scene
         .bodies
         .push(Body::ball("ball", DVec3::Z * -0.2, 0.1, 12).expect("a ball"));
-    scene.add(BodyContact(Thickness::of(3e-3))).add(Friction { coefficient: 0.2 });
+    scene
+        .add(BodyContact(Thickness::new(3e-3)))
+        .add(Friction { coefficient: 0.2 });
     if is_kept {
-        scene.add(SelfCollision(Thickness::of(3e-3)));
+        scene.add(SelfCollision(Thickness::new(3e-3)));
     }
     scene
 }

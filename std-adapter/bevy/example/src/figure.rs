@@ -153,8 +153,8 @@ fn cape(cells: [u32; 2]) -> Result<Scene, ValueError> {
         .add(AirDrag { rate: 1.0 })
         .add(Friction { coefficient: 0.3 });
     scene
-        .add(BodyContact(Thickness::of(THICKNESS)))
-        .add(SelfCollision(Thickness::of(THICKNESS)));
+        .add(BodyContact(Thickness::new(THICKNESS)))
+        .add(SelfCollision(Thickness::new(THICKNESS)));
     Ok(scene)
 }
 

@@ -15,7 +15,7 @@ use selvedge_bevy::selvedge_cloth::effects::{
     BodyContact, Gravity, PinGroup, PinMotion, Pins, RopeStretch, SelfCollision, Stretch, Tearing, Thickness,
 };
 use selvedge_bevy::selvedge_cloth::glam::{DQuat, DVec3};
-use selvedge_bevy::selvedge_cloth::{Body, Cloth, Keyframe, Motion, OnBlocked, Placement, RigidMotion, Scene, Simulation};
+use selvedge_bevy::selvedge_cloth::{Body, Cloth, Keyframe, BodyMotion, OnBlocked, Placement, KeyframeMotion, Scene, Simulation};
 use selvedge_bevy::{
     ClothSimulation, RopesOf, SelvedgeError, SelvedgeProblem, body_of_mesh, cloth_of_mesh, mesh_of, mesh_of_cloths,
 };
@@ -67,8 +67,8 @@ fn over_a_ball() -> Scene {
         })
         .add(Stretch::isotropic(500.0));
     scene
-        .add(BodyContact(Thickness::of(4e-3)))
-        .add(SelfCollision(Thickness::of(4e-3)));
+        .add(BodyContact(Thickness::new(4e-3)))
+        .add(SelfCollision(Thickness::new(4e-3)));
     scene.on_blocked = OnBlocked::Yield;
     scene
 }
@@ -93,7 +93,7 @@ fn the_mesh_of_cloth_that_tears_is_torn_as_well() {
         translation: DVec3::X * x,
         ..Keyframe::default()
     });
-    let away = PinMotion::Own(RigidMotion::new(DVec3::ZERO, DVec3::Z, keys.to_vec()).unwrap().into());
+    let away = PinMotion::Own(KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys.to_vec()).unwrap().into());
     let right = PinGroup {
         vertices: right,
         motion: away,
@@ -101,7 +101,7 @@ fn the_mesh_of_cloth_that_tears_is_torn_as_well() {
     scene.add(Pins {
         groups: vec![PinGroup::resting(left), right],
     });
-    scene.add(Stretch::isotropic(500.0)).add(SelfCollision(Thickness::of(1e-3)));
+    scene.add(Stretch::isotropic(500.0)).add(SelfCollision(Thickness::new(1e-3)));
     scene.add(Tearing::above(50.0));
     let entity = app.world_mut().spawn((ClothSimulation::new(scene), Mesh3d(seen))).id();
     while app.world().resource::<Time<Fixed>>().elapsed_secs() < 0.3 {
@@ -196,7 +196,7 @@ fn a_cloth_is_that_of_a_simulation_driven_by_hand_bit_for_bit() {
     let mut scene = over_a_ball();
     // A fixed step of 1/64 s has four of about 4 ms.
     scene.time_step = 1.0 / 256.0;
-    scene.bodies[0].motion = Motion::Driven(Placement::default());
+    scene.bodies[0].motion = BodyMotion::Driven(Placement::default());
     let mut expected = Simulation::new(scene, 1).unwrap();
     for k in 0..40 {
         let height = 0.002 * k as f32;
@@ -277,7 +277,7 @@ fn a_cloth_may_be_made_of_a_mesh_whose_vertices_bevy_parts() {
             acceleration: DVec3::NEG_Y * 9.81,
         })
         .add(Stretch::isotropic(500.0));
-    scene.add(BodyContact(Thickness::of(4e-3)));
+    scene.add(BodyContact(Thickness::new(4e-3)));
     let handles = [add(&mut app, ball), add(&mut app, parted)];
     let [ball, tube] = handles.map(Mesh3d);
     let ball = app.world_mut().spawn(ball).id();
@@ -356,7 +356,7 @@ fn what_cannot_be_simulated_is_told_once_and_the_app_runs_on() {
         (cloth(|scene| scene.time_step = f64::NAN), "time_step"),
         (cloth(|scene| _ = scene.add(Stretch::isotropic(0.0))), "stiffness"),
         (
-            cloth(|scene| scene.bodies[0].motion = Motion::Driven(Placement::at(DVec3::Y * 0.12))),
+            cloth(|scene| scene.bodies[0].motion = BodyMotion::Driven(Placement::at(DVec3::Y * 0.12))),
             "starts with an intersection",
         ),
     ];
@@ -434,7 +434,7 @@ fn rope_and_sheet() -> Scene {
     let mut scene = over_a_ball();
     let points = [DVec3::new(0.5, 0.0, 0.0), DVec3::new(1.5, 0.0, 0.0)];
     scene.cloths.push(Cloth::rope(&points, 20, 0.05).unwrap().named("rope"));
-    scene.add(RopeStretch::of(1e4));
+    scene.add(RopeStretch::new(1e4));
     scene
 }
 
@@ -499,7 +499,7 @@ fn ropes_of_another_simulation_on_the_same_entity_take_the_place_of_the_first() 
     let handle = add(&mut app, empty_mesh());
     let rope = |segments| {
         let mut scene = Scene::new(Cloth::rope(&[DVec3::ZERO, DVec3::X], segments, 0.05).unwrap(), 4e-3);
-        scene.add(RopeStretch::of(1e4));
+        scene.add(RopeStretch::new(1e4));
         ClothSimulation::new(scene)
     };
     let cloth = app.world_mut().spawn(rope(20)).id();

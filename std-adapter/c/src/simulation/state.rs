@@ -4,7 +4,7 @@ use super::on;
 use super::run::SimulationHandle;
 use crate::input::{OutFrame, OutList, Plain};
 use crate::status::{Failure, Status};
-use selvedge_cloth::{NearPair, Simulation, vertex_normals};
+use selvedge_cloth::{ProximityPair, Simulation, vertex_normals};
 use std::borrow::Cow;
 
 /// A vertex and a face, or two edges, that came near each other in the last step.
@@ -21,8 +21,8 @@ pub struct NearPairRow {
     pub thickness: f64,
 }
 
-impl From<NearPair> for NearPairRow {
-    fn from(pair: NearPair) -> Self {
+impl From<ProximityPair> for NearPairRow {
+    fn from(pair: ProximityPair) -> Self {
         Self {
             vertices: pair.vertices,
             weights: pair.weights,

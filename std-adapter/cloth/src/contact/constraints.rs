@@ -34,12 +34,12 @@ pub(super) struct Contacts {
     /// The same as they are pushed: pairs of cloth with itself, and pairs with a body.
     open_of: [Vec<u32>; 2],
     /// Those of them that were near, and not kept apart yet, when it was their turn.
-    near: Vec<NearPair>,
+    near: Vec<ProximityPair>,
 }
 
 /// A pair that is near at the start of a step, and was not seen to be kept at its thickness by what pushed before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NearPair {
+pub struct ProximityPair {
     /// Vertex and face, or first edge and second edge; the cloth's vertices, then those of bodies.
     pub vertices: [u32; 4],
     /// Of each vertex in the way between the closest points: positive on the first side, where they add up to one, negative on the other.
@@ -126,7 +126,7 @@ impl Contacts {
     }
 
     /// Those that were near, and not kept apart yet, when it was their turn.
-    pub(super) fn near_pairs(&self) -> impl Iterator<Item = NearPair> {
+    pub(super) fn near_pairs(&self) -> impl Iterator<Item = ProximityPair> {
         self.near.iter().copied()
     }
 }
@@ -175,7 +175,7 @@ impl Known {
 }
 
 /// The pair as it is at the start of the step, if it is near there. `known` may say where it is closest, at a place in it.
-fn near(pair: &mut Candidate, known: Option<(&Known, usize)>, rules: Rules<'_>, step: &TimeStep<'_>) -> Option<NearPair> {
+fn near(pair: &mut Candidate, known: Option<(&Known, usize)>, rules: Rules<'_>, step: &TimeStep<'_>) -> Option<ProximityPair> {
     let closest = match known {
         Some((known, place)) => &known.at_start.found()[place],
         None => &pair.closest(step.start),
@@ -189,7 +189,7 @@ fn near(pair: &mut Candidate, known: Option<(&Known, usize)>, rules: Rules<'_>, 
         let at_rest = || known.map_or_else(|| pair.closest(rules.rest), |(known, place)| known.at_rest.found()[place]);
         pair.data.aim = Aim::own(thickness_of(pair, at_rest, rules)?);
     }
-    Some(NearPair {
+    Some(ProximityPair {
         vertices: pair.vertices,
         weights: closest.weights,
         normal: closest.direction,
@@ -229,7 +229,7 @@ fn thickness_of(pair: &Candidate, closest_at_rest: impl FnOnce() -> Closest, rul
 }
 
 /// Pushes a pair apart, if it is too near; whether it was.
-fn project(pair: &NearPair, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) -> bool {
+fn project(pair: &ProximityPair, step: &TimeStep<'_>, positions: &mut [DVec3], touches: &mut Touches) -> bool {
     let vertices = pair.vertices.map(|v| v as usize);
     let mut distance = -pair.thickness;
     for (vertex, weight) in vertices.into_iter().zip(pair.weights) {

@@ -126,7 +126,7 @@ fn common(a: Carrier, b: Carrier) -> Carrier {
 mod tests {
     use super::*;
     use crate::contact::candidate::{Aim, OfPair};
-    use crate::world::RigidMotion;
+    use crate::world::KeyframeMotion;
     use selvedge::PairKind;
 
     fn pair(vertices: [u32; 4]) -> Candidate {
@@ -149,7 +149,7 @@ mod tests {
         (carriers[8], carriers[9]) = (0, 1);
         let mut inverse_masses = [1.0; 10];
         inverse_masses[8..].fill(0.0);
-        let rest = [RigidMotion::resting().pose(0.0); 2];
+        let rest = [KeyframeMotion::resting().pose(0.0); 2];
         let step = TimeStep {
             time: 0.0,
             h: 1.0,

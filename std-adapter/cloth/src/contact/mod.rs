@@ -37,11 +37,12 @@ mod solver;
 mod truncation;
 mod untangling;
 
-pub use constraints::NearPair;
+pub use constraints::ProximityPair;
 pub use crossing::Crossing;
 pub(crate) use crossing::PairKey;
 pub(crate) use pass::LARGEST_TURN;
-pub use report::{Blocker, ContactCounts, ContactSeconds};
+pub(crate) use report::Blocker;
+pub use report::{ContactCounts, ContactSeconds};
 pub use settings::Thickness;
 pub(crate) use settings::{ContactSettings, RECOVERY};
 pub(crate) use solver::ContactSolver;

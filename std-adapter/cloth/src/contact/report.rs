@@ -46,15 +46,15 @@ impl ContactCounts {
 
 /// Why a step could not be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Blocker {
+pub(crate) struct Blocker {
     /// In seconds.
-    pub time: f64,
+    pub(crate) time: f64,
     /// Of the pair that is in the way.
-    pub kind: PairKind,
+    pub(crate) kind: PairKind,
     /// Its vertices, those of bodies after the cloth's.
-    pub vertices: [u32; 4],
+    pub(crate) vertices: [u32; 4],
     /// The body in the way; `None` if it is a pin, or the cloth itself.
-    pub body: Option<usize>,
+    pub(crate) body: Option<usize>,
 }
 
 /// Seconds of what effects share.

@@ -42,7 +42,7 @@ const NEIGHBOURS: f64 = 0.2;
 impl Thickness {
     /// A thickness in metres, of which every step is certified to keep a tenth.
     #[must_use]
-    pub const fn of(thickness: f64) -> Self {
+    pub const fn new(thickness: f64) -> Self {
         Self {
             thickness,
             separation: 0.1 * thickness,

@@ -1,7 +1,7 @@
 //! How large the surface is on either side of each contour: the smaller side is the one that has gone through (global intersection analysis,
-//! Baraff, Witkin and Kass 2003, "Untangling cloth").
+//! Baraff, Witkin and Kass 2003, "UntanglingProgress cloth").
 //!
-//! A contour that meets the border of another surface ends within its own, and does not cut it in two (Wicke, Lanker and Gross 2006, "Untangling
+//! A contour that meets the border of another surface ends within its own, and does not cut it in two (Wicke, Lanker and Gross 2006, "UntanglingProgress
 //! cloth with boundaries"). So nothing is flooded here: what is nearer, along edges that are not cut, to one side of a contour than to any other
 //! side of any contour is that side's.
 

@@ -2,7 +2,7 @@
 
 use super::candidate::{Candidate, time_of_impact_of};
 use super::candidates::{Candidates, candidates};
-use super::constraints::{Contacts, NearPair, Rules};
+use super::constraints::{Contacts, ProximityPair, Rules};
 use super::crossing::{Crossing, PairKey};
 use super::exempt::{Exempt, Tangle};
 use super::impact_zones::ImpactZones;
@@ -136,7 +136,7 @@ impl ContactSolver {
     }
 
     /// The pairs that came near in the last part of a step.
-    pub(crate) fn near_pairs(&self) -> impl Iterator<Item = NearPair> {
+    pub(crate) fn near_pairs(&self) -> impl Iterator<Item = ProximityPair> {
         self.contacts.near_pairs()
     }
 

@@ -1,4 +1,4 @@
-//! Untangling as the simulation calls it before its first step.
+//! UntanglingProgress as the simulation calls it before its first step.
 
 use super::contours::Contours;
 use super::solver::ContactSolver;

@@ -18,7 +18,7 @@ const THIN: f64 = 0.15;
 /// use selvedge_cloth::{Cloth, Scene, Tubes, glam::DVec3};
 ///
 /// let scene = Scene::new(Cloth::rope(&[DVec3::ZERO, DVec3::X], 10, 0.05)?, 1e-3);
-/// let tubes = Tubes::of(&scene, 0).expect("a rope has loose edges");
+/// let tubes = Tubes::from_scene(&scene, 0).expect("a rope has loose edges");
 /// let mut positions = Vec::new();
 /// tubes.place(&scene.cloths[0].mesh().positions, &mut positions);
 /// assert_eq!(positions.len(), tubes.vertex_count());
@@ -36,7 +36,7 @@ pub struct Tubes {
 impl Tubes {
     /// Of one of a scene's cloths, by its index; `None` if it has no loose edges, or there is none.
     #[must_use]
-    pub fn of(scene: &Scene, cloth: usize) -> Option<Self> {
+    pub fn from_scene(scene: &Scene, cloth: usize) -> Option<Self> {
         let own = scene.cloths.get(cloth).filter(|own| own.has_loose_edges())?;
         let edges = own.topology().loose_edges();
         let count = edges.len() as f64;
@@ -114,8 +114,8 @@ mod tests {
     fn a_rope_is_shown_as_a_closed_tube_as_thick_as_contact_keeps_it() {
         let points = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0)];
         let mut scene = Scene::new(Cloth::rope(&points, 20, 0.1).unwrap(), 1e-3);
-        scene.add(SelfCollision(Thickness::of(0.01)));
-        let tubes = Tubes::of(&scene, 0).unwrap();
+        scene.add(SelfCollision(Thickness::new(0.01)));
+        let tubes = Tubes::from_scene(&scene, 0).unwrap();
         let triangles = tubes.triangles(0);
         let mut positions = Vec::new();
         tubes.place(&scene.cloths[0].mesh().positions, &mut positions);

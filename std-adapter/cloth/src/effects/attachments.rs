@@ -20,7 +20,7 @@ use crate::effects::plan::Plan;
 use crate::input::{FORCE, Field, LENGTH, ValueError};
 use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::step::{Constraint, Memory, Release, TimeStep, Touches};
-use crate::world::{Motion, RigidMotion, SceneParts};
+use crate::world::{BodyMotion, KeyframeMotion, SceneParts};
 use selvedge_core::glam::DVec3;
 
 const LIMIT: Field = Field::new("limit", FORCE, 1e-6, 1e6);
@@ -56,7 +56,7 @@ pub struct Attachments {
 pub struct AttachmentGroup {
     /// As the scene numbers them, through all cloths; [`Scene::part`](crate::Scene::part) knows some by name.
     pub vertices: Vec<u32>,
-    /// What moves their anchors: not the caller ([`Motion::Driven`]), but a body that it drives may.
+    /// What moves their anchors: not the caller ([`BodyMotion::Driven`]), but a body that it drives may.
     pub motion: PinMotion,
     /// The force above which a vertex lets go, in N, for each vertex.
     pub limit: f64,
@@ -70,7 +70,7 @@ impl AttachmentGroup {
     pub fn resting(vertices: impl Into<Vec<u32>>, limit: f64) -> Self {
         Self {
             vertices: vertices.into(),
-            motion: PinMotion::Own(RigidMotion::resting().into()),
+            motion: PinMotion::Own(KeyframeMotion::resting().into()),
             limit,
             give: 1e-3,
         }
@@ -83,7 +83,7 @@ impl AttachmentGroup {
         GIVE.check(self.give)?;
         match &self.motion {
             &PinMotion::Body(body) => check_body(body, world),
-            PinMotion::Own(motion @ Motion::Keyframes(_)) => motion.check(self.vertices.len(), world.time_step),
+            PinMotion::Own(motion @ BodyMotion::Keyframes(_)) => motion.check(self.vertices.len(), world.time_step),
             PinMotion::Own(_) => {
                 let message =
                     "attachments go by keyframes or `follow` a body, which may be driven; they are not driven themselves";

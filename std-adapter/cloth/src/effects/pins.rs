@@ -7,7 +7,7 @@ use super::selection::{check_body, check_vertices, keys, placed, read_motion, re
 use crate::effects::plan::Plan;
 use crate::input::ValueError;
 use crate::model::step::Carrier;
-use crate::world::{Motion, RigidMotion, SceneParts};
+use crate::world::{BodyMotion, KeyframeMotion, SceneParts};
 
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["group"],
@@ -50,7 +50,7 @@ impl PinGroup {
     pub fn resting(vertices: impl Into<Vec<u32>>) -> Self {
         Self {
             vertices: vertices.into(),
-            motion: PinMotion::Own(RigidMotion::resting().into()),
+            motion: PinMotion::Own(KeyframeMotion::resting().into()),
         }
     }
 
@@ -61,7 +61,7 @@ impl PinGroup {
             &PinMotion::Body(body) => {
                 check_body(body, world)?;
                 match &world.bodies[body].motion {
-                    Motion::Animated(_) => {
+                    BodyMotion::Animated(_) => {
                         let name = &world.bodies[body].name;
                         let message =
                             format!("pins cannot follow '{name}', which changes its shape; give them a motion of their own");

@@ -13,7 +13,7 @@ use crate::model::hierarchy::{Hierarchy, Level};
 use crate::model::step::{Carrier, Constraint, FREE, Force};
 use crate::model::stitches::Tie;
 use crate::model::tearing::Tearable;
-use crate::world::{Cloth, Kinematic, Motion, SceneParts};
+use crate::world::{BodyMotion, Cloth, Kinematic, SceneParts};
 use selvedge_core::glam::DVec3;
 use std::ops::Range;
 use std::sync::Arc;
@@ -230,7 +230,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Adds what moves these vertices.
-    pub(crate) fn add_motion(&mut self, motion: Motion, vertices: Vec<u32>) -> Carrier {
+    pub(crate) fn add_motion(&mut self, motion: BodyMotion, vertices: Vec<u32>) -> Carrier {
         self.motions.push(Kinematic::new(motion, vertices));
         self.motions.len() as Carrier - 1
     }

@@ -18,7 +18,7 @@ pub(super) const REGISTRATION: Registration = Registration {
     keys: &["volume", "modulus"],
     needs: &[],
     read: |table, _| {
-        let mut pressure = InternalPressure::of_volume(table.required_number(&VOLUME)?);
+        let mut pressure = InternalPressure::with_volume_ratio(table.required_number(&VOLUME)?);
         if let Some(modulus) = table.number(&MODULUS)? {
             pressure.modulus = modulus;
         }
@@ -38,7 +38,7 @@ pub struct InternalPressure {
 impl InternalPressure {
     /// With air's modulus.
     #[must_use]
-    pub const fn of_volume(volume: f64) -> Self {
+    pub const fn with_volume_ratio(volume: f64) -> Self {
         Self { volume, modulus: 1e5 }
     }
 }

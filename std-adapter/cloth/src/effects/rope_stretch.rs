@@ -11,7 +11,7 @@ const STIFFNESS: Field = Field::new("stiffness", FORCE, 1e-3, 1e9);
 pub(super) const REGISTRATION: Registration = Registration {
     keys: &["stiffness"],
     needs: &[],
-    read: |table, _| Ok(Box::new(RopeStretch::of(table.required_number(&STIFFNESS)?))),
+    read: |table, _| Ok(Box::new(RopeStretch::new(table.required_number(&STIFFNESS)?))),
 };
 
 /// Resistance of loose edges to being stretched, or pressed together.
@@ -20,7 +20,7 @@ pub(super) const REGISTRATION: Registration = Registration {
 /// use selvedge_cloth::effects::RopeStretch;
 ///
 /// // A polyester cord of 6 mm: by a hundredth under 900 N.
-/// assert_eq!(RopeStretch::of(90e3).stiffness * 0.01, 900.0);
+/// assert_eq!(RopeStretch::new(90e3).stiffness * 0.01, 900.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RopeStretch {
@@ -31,7 +31,7 @@ pub struct RopeStretch {
 impl RopeStretch {
     /// Of an axial stiffness in N.
     #[must_use]
-    pub const fn of(stiffness: f64) -> Self {
+    pub const fn new(stiffness: f64) -> Self {
         Self { stiffness }
     }
 }

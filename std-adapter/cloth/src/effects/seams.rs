@@ -47,8 +47,8 @@ const TIED: f64 = 1e-6;
 /// scene.cloths.push(panel(0.12)?.named("right"));
 /// let rows = [scene.part("left", "right"), scene.part("right", "left")].map(Option::unwrap_or_default);
 /// let [first, second] = rows.clone();
-/// scene.add(SelfCollision(Thickness::of(2e-3)));
-/// scene.add(Seams { seams: vec![Seam { closing: Some(0.1), ..Seam::of(first, second) }] });
+/// scene.add(SelfCollision(Thickness::new(2e-3)));
+/// scene.add(Seams { seams: vec![Seam { closing: Some(0.1), ..Seam::new(first, second) }] });
 ///
 /// let mut simulation = Simulation::new(scene, 1)?;
 /// for _ in 0..60 {
@@ -83,7 +83,7 @@ pub struct Seam {
 impl Seam {
     /// Rows that are held as they are.
     #[must_use]
-    pub const fn of(first: Vec<u32>, second: Vec<u32>) -> Self {
+    pub const fn new(first: Vec<u32>, second: Vec<u32>) -> Self {
         Self {
             first,
             second,
@@ -153,7 +153,7 @@ fn thickness(seam: &Seam, world: &SceneParts<'_>, fabrics: &[Fabric]) -> f64 {
         let cloths = world.vertices_of_cloths().zip(fabrics);
         let own = cloths.filter(|(vertices, _)| row.iter().any(|&vertex| vertices.contains(&(vertex as usize))));
         let own = own.map(|(_, fabric)| fabric.thickness.unwrap_or(0.0));
-        Thickness::of(own.fold(0.0, f64::max))
+        Thickness::new(own.fold(0.0, f64::max))
     };
     thickest(&seam.first).between(thickest(&seam.second)).thickness
 }
@@ -169,7 +169,7 @@ fn read_seam(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Seam, SceneErr
         }
         of_cloth(&table, world)
     };
-    let mut seam = Seam::of(row("first")?, row("second")?);
+    let mut seam = Seam::new(row("first")?, row("second")?);
     if table.flag("reversed")? {
         seam.second.reverse();
     }

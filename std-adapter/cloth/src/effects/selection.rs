@@ -2,7 +2,7 @@
 
 use super::vertices::{named_cloth, no_vertex, of_cloth};
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError, suggestion};
-use crate::world::{Motion, SceneParts};
+use crate::world::{BodyMotion, SceneParts};
 use selvedge_core::glam::DVec3;
 
 const LOWER: Field = Field::vector("lower", LENGTH, LARGEST_COORDINATE);
@@ -19,7 +19,7 @@ pub enum PinMotion {
     /// They are fixed to a body, by its index in the scene, where both are at the start.
     Body(usize),
     /// They go on their own: a driven group of pins by [`Simulation::move_pins`](crate::Simulation::move_pins).
-    Own(Motion),
+    Own(BodyMotion),
 }
 
 /// The key by which a table says which vertices.
@@ -29,7 +29,7 @@ fn way(table: &Table<'_>) -> &'static str {
 
 /// Keys of a table of a group, and those that are its own.
 pub(super) fn keys<'a>(own: &[&'a str]) -> Vec<&'a str> {
-    [&WAYS[..], &["cloth", "follow"], &Motion::KEYS, own].concat()
+    [&WAYS[..], &["cloth", "follow"], &BodyMotion::KEYS, own].concat()
 }
 
 /// An error about a group that code could have made as well.
@@ -56,7 +56,7 @@ pub(super) fn read_vertices(table: &Table<'_>, world: &SceneParts<'_>) -> Result
 /// `follow` or keyframes say where they go.
 pub(super) fn read_motion(table: &Table<'_>, world: &SceneParts<'_>) -> Result<PinMotion, SceneError> {
     match table.text("follow")? {
-        None => Ok(PinMotion::Own(Motion::read(table, world.time_step)?)),
+        None => Ok(PinMotion::Own(BodyMotion::read(table, world.time_step)?)),
         Some(_) if table.has("keyframes") => {
             let message = "what follows a body (`follow`) has no keyframes of its own".to_owned();
             Err(table.error("keyframes", message))

@@ -50,15 +50,15 @@ pub(super) const REGISTRATION: Registration = Registration {
 /// ```
 /// use selvedge_cloth::effects::{PinGroup, PinMotion, Pins, SelfCollision, Stretch, Tearing, Thickness};
 /// use selvedge_cloth::glam::DVec3;
-/// use selvedge_cloth::{Cloth, Keyframe, RigidMotion, Scene, Simulation};
+/// use selvedge_cloth::{Cloth, Keyframe, KeyframeMotion, Scene, Simulation};
 ///
 /// // A strip with a perforation across its middle, whose ends are drawn apart by a centimetre.
 /// let mut scene = Scene::new(Cloth::sheet(DVec3::ZERO, [0.1 * DVec3::X, 0.05 * DVec3::Y], [10, 5], 0.2)?, 1e-3);
 /// let [left, right] = ["left", "right"].map(|part| scene.part("cloth", part).unwrap_or_default());
 /// let keys = [(0.0, 0.0), (0.1, 0.01)].map(|(time, x)| Keyframe { time, translation: DVec3::X * x, ..Keyframe::default() });
-/// let away = PinMotion::Own(RigidMotion::new(DVec3::ZERO, DVec3::Z, keys.to_vec())?.into());
+/// let away = PinMotion::Own(KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys.to_vec())?.into());
 /// scene.add(Pins { groups: vec![PinGroup::resting(left), PinGroup { vertices: right, motion: away }] });
-/// scene.add(Stretch::isotropic(1000.0)).add(SelfCollision(Thickness::of(1e-3)));
+/// scene.add(Stretch::isotropic(1000.0)).add(SelfCollision(Thickness::new(1e-3)));
 /// scene.add(Tearing::perforated((0..6).map(|row| 11 * row + 5).collect::<Vec<u32>>(), 20.0));
 ///
 /// let mut simulation = Simulation::new(scene, 1)?;

@@ -7,7 +7,7 @@ const THICKNESS: Field = Field::new("thickness", LENGTH, 1e-5, 0.1);
 const SEPARATION: Field = Field::new("separation", LENGTH, 1e-6, 0.1);
 
 pub(super) fn read(table: &Table<'_>) -> Result<Thickness, SceneError> {
-    let mut thickness = Thickness::of(table.required_number(&THICKNESS)?);
+    let mut thickness = Thickness::new(table.required_number(&THICKNESS)?);
     if let Some(separation) = table.number(&SEPARATION)? {
         thickness.separation = separation;
     }

@@ -66,16 +66,16 @@ pub enum TangledStart {
 ///
 /// ```
 /// use selvedge_cloth::effects::{Bend, BodyContact, Gravity, SelfCollision, Stretch, Thickness};
-/// use selvedge_cloth::{Body, Cloth, Motion, Placement, Scene, Simulation};
+/// use selvedge_cloth::{Body, Cloth, BodyMotion, Placement, Scene, Simulation};
 /// use selvedge_cloth::glam::DVec3;
 ///
 /// let cloth = Cloth::sheet(DVec3::new(-0.15, -0.15, 0.12), [DVec3::X * 0.3, DVec3::Y * 0.3], [12, 12], 0.2)?;
 /// let mut scene = Scene::new(cloth, 2e-3);
 /// let mut ball = Body::ball("ball", DVec3::ZERO, 0.1, 24)?;
-/// ball.motion = Motion::Driven(Placement::default());
+/// ball.motion = BodyMotion::Driven(Placement::default());
 /// scene.bodies.push(ball);
 /// scene.add(Gravity::default()).add(Stretch::isotropic(1000.0)).add(Bend::isotropic(1e-5));
-/// scene.add(BodyContact(Thickness::of(4e-3))).add(SelfCollision(Thickness::of(4e-3)));
+/// scene.add(BodyContact(Thickness::new(4e-3))).add(SelfCollision(Thickness::new(4e-3)));
 ///
 /// let mut simulation = Simulation::new(scene, 1)?;
 /// for step in 1..=50 {

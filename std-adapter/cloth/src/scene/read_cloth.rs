@@ -66,12 +66,12 @@ impl Cloth {
             ClothShape::File => {
                 let warp = table.vector(&WARP)?.unwrap_or(DVec3::X);
                 match table.number(&LINEAR_DENSITY_OF_EDGES)? {
-                    None => Self::of_mesh(shapes::of_file(table)?, warp, density()?),
+                    None => Self::from_mesh(shapes::of_file(table)?, warp, density()?),
                     Some(linear_density) => {
                         let (mesh, edges) = shapes::of_file_with_loose_edges(table)?;
                         // What has no triangles has no mass per area.
                         let density = if mesh.triangles.is_empty() { 0.0 } else { density()? };
-                        Self::of_mesh_with_loose_edges(mesh, &edges, warp, [density, linear_density])
+                        Self::from_mesh_with_loose_edges(mesh, &edges, warp, [density, linear_density])
                     }
                 }
             }

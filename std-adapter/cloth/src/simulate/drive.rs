@@ -26,7 +26,7 @@ pub enum DriveError {
         groups: usize,
     },
     /// It follows keyframes, or a body.
-    #[error("{what} cannot be moved by hand: give it `Motion::Driven` in the scene")]
+    #[error("{what} cannot be moved by hand: give it `BodyMotion::Driven` in the scene")]
     NotDriven {
         /// In words.
         what: String,
@@ -48,7 +48,7 @@ pub enum DriveError {
 }
 
 impl Simulation {
-    /// Leads a [driven](crate::Motion::Driven) body to another placement in the next step: it turns about its origin, the shorter way
+    /// Leads a [driven](crate::BodyMotion::Driven) body to another placement in the next step: it turns about its origin, the shorter way
     /// round, and moves along, both evenly. A step that is cut or has to wait leaves it on the way, where [`placement`](Self::placement)
     /// says; unless it is told again it stays there.
     ///
@@ -60,7 +60,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Leads each vertex of a [driven](crate::Motion::Driven) body straight to a position, in metres, in the next step: a body that
+    /// Leads each vertex of a [driven](crate::BodyMotion::Driven) body straight to a position, in metres, in the next step: a body that
     /// changes its shape, such as a skinned figure. Pins that follow it know no way to go then, and stay: move them on their own.
     ///
     /// # Errors
@@ -88,7 +88,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Where a [driven](crate::Motion::Driven) body stands now; `None` for any other, and for one that was moved vertex by vertex.
+    /// Where a [driven](crate::BodyMotion::Driven) body stands now; `None` for any other, and for one that was moved vertex by vertex.
     #[must_use]
     pub fn placement(&self, body: usize) -> Option<Placement> {
         let is_body = body < self.body_names.len();

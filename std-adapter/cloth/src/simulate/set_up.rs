@@ -5,7 +5,7 @@ use super::errors::SetupError;
 use super::measures::EffectTime;
 use super::simulation::{Simulation, Work};
 use super::state::State;
-use super::tangled::{Tangled, Untangling};
+use super::tangled::{Tangled, UntanglingProgress};
 use super::tearing::Tearing;
 use crate::model::hierarchy::mesh_spacing;
 use crate::model::step::{FREE, Touches};
@@ -21,14 +21,18 @@ impl Simulation {
     /// # Errors
     /// If something in the scene cannot be, it starts with an intersection, or the operating system refuses the threads.
     pub fn new(scene: Scene, threads: usize) -> Result<Self, SetupError> {
-        Self::new_telling(scene, threads, &mut |_| ())
+        Self::with_progress(scene, threads, &mut |_| ())
     }
 
     /// The same, and tells how untangling goes, before each of its steps, if the scene is [to be untangled](TangledStart::Untangle).
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn new_telling(scene: Scene, threads: usize, tell: &mut (dyn FnMut(Untangling) + Send)) -> Result<Self, SetupError> {
+    pub fn with_progress(
+        scene: Scene,
+        threads: usize,
+        tell: &mut (dyn FnMut(UntanglingProgress) + Send),
+    ) -> Result<Self, SetupError> {
         scene.check()?;
         let fingerprint = scene.fingerprint();
         let threads = Workers::new(Threads::from_count(threads))?;

@@ -5,7 +5,7 @@ use super::measures::{EdgeStretch, EffectTime};
 use super::state::State;
 use super::tangled::Untangled;
 use super::tearing::Tearing;
-use crate::contact::{ContactCounts, ContactSeconds, Crossing, NearPair};
+use crate::contact::{ContactCounts, ContactSeconds, Crossing, ProximityPair};
 use crate::model::energy::{Configuration, Energy};
 use crate::model::step::{Release, Touches};
 use crate::scene::{OnBlocked, TangledStart};
@@ -122,7 +122,7 @@ impl Simulation {
 
     /// The pairs that came near each other in the last part of the last step, as contact saw them at its start, but for those that pushes
     /// between others were seen to keep apart. None without a contact effect.
-    pub fn near_pairs(&self) -> impl Iterator<Item = NearPair> {
+    pub fn near_pairs(&self) -> impl Iterator<Item = ProximityPair> {
         self.made.contact.iter().flat_map(|contact| contact.near_pairs())
     }
 

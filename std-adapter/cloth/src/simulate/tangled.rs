@@ -8,7 +8,7 @@ use std::fmt;
 
 /// How untangling goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Untangling {
+pub struct UntanglingProgress {
     /// Steps so far.
     pub steps: u32,
     /// Edges that meet faces now.

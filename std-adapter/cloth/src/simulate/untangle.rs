@@ -11,7 +11,7 @@
 
 use super::errors::SetupError;
 use super::simulation::Simulation;
-use super::tangled::{Tangled, Untangled, Untangling};
+use super::tangled::{Tangled, Untangled, UntanglingProgress};
 use selvedge::Mesh;
 use selvedge::clock::Clock;
 use selvedge_core::glam::DVec3;
@@ -58,7 +58,7 @@ impl Simulation {
     }
 
     /// Pulls apart what is tangled. What is left of it is for the caller to look at.
-    pub(super) fn untangle(&mut self, spacing: f64, tell: &mut (dyn FnMut(Untangling) + Send)) -> Untangled {
+    pub(super) fn untangle(&mut self, spacing: f64, tell: &mut (dyn FnMut(UntanglingProgress) + Send)) -> Untangled {
         let begin = Clock::now();
         let forces = std::mem::take(&mut self.made.forces);
         let velocities = self.state.velocities.clone();
@@ -85,7 +85,7 @@ impl Simulation {
     }
 
     /// The steps of it; how many.
-    fn pull_apart(&mut self, reach: f64, tell: &mut (dyn FnMut(Untangling) + Send)) -> u32 {
+    fn pull_apart(&mut self, reach: f64, tell: &mut (dyn FnMut(UntanglingProgress) + Send)) -> u32 {
         let mut ways = vec![DVec3::ZERO; self.state.positions.len()];
         let Some(contact) = &self.made.contact else { return 0 };
         let mut untangler = contact.untangler(&self.state.positions);
@@ -94,7 +94,7 @@ impl Simulation {
         loop {
             let crossings = self.crossings().len();
             let steps = pulled + relaxed;
-            tell(Untangling { steps, crossings });
+            tell(UntanglingProgress { steps, crossings });
             let is_tangled = crossings > 0;
             if is_tangled {
                 if pulled == MOST {

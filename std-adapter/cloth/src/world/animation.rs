@@ -18,7 +18,7 @@ pub(crate) const FASTEST_VERTEX: f64 = 100.0;
 pub(super) const RATE: Field = Field::new("frames_per_second", FREQUENCY, 1e-3, 1e5);
 pub(super) const START: Field = Field::new("start", TIME, 0.0, LARGEST_TIME);
 
-/// Where each vertex of a body is at any time, known ahead: [`Motion::Animated`](crate::Motion::Animated).
+/// Where each vertex of a body is at any time, known ahead: [`BodyMotion::Animated`](crate::BodyMotion::Animated).
 ///
 /// Before its first key all is where it is there, after its last one as well.
 ///
@@ -28,13 +28,13 @@ pub(super) const START: Field = Field::new("start", TIME, 0.0, LARGEST_TIME);
 ///
 /// // A triangle whose tip goes up by 10 cm in half a second, from 1 s on.
 /// let frame = |height| vec![DVec3::ZERO, DVec3::X, DVec3::new(0.0, 1.0, height)];
-/// let animation = Animation::of_frames(vec![frame(0.0), frame(0.1)], 2.0)?.starting_at(1.0);
+/// let animation = Animation::from_frames(vec![frame(0.0), frame(0.1)], 2.0)?.starting_at(1.0);
 /// assert_eq!(animation.span(), [1.0, 1.5]);
 /// assert_eq!(animation.positions_at(1.25)[2].z, 0.05);
 /// let body = Body::animated("leaf", vec![[0, 1, 2]], animation);
 /// assert_eq!(body.mesh.positions, frame(0.0));
 ///
-/// let error = Animation::of_frames(vec![frame(0.0)], -1.0).unwrap_err();
+/// let error = Animation::from_frames(vec![frame(0.0)], -1.0).unwrap_err();
 /// assert_eq!(error.field, "frames_per_second");
 /// # Ok::<(), selvedge_cloth::ValueError>(())
 /// ```
@@ -75,7 +75,7 @@ impl Animation {
     ///
     /// # Errors
     /// If there is no frame, or they are not all of as many vertices, or the rate is none; if a coordinate is not finite or beyond a kilometre.
-    pub fn of_frames(frames: Vec<Vec<DVec3>>, frames_per_second: f64) -> Result<Self, ValueError> {
+    pub fn from_frames(frames: Vec<Vec<DVec3>>, frames_per_second: f64) -> Result<Self, ValueError> {
         RATE.check(frames_per_second)?;
         let wrong = |message: String| Err(ValueError::new("frames", message));
         let Some(first) = frames.first() else {
@@ -114,7 +114,7 @@ impl Animation {
     ///
     /// # Errors
     /// If a vertex is beyond a kilometre, or not finite, at one of its keys.
-    pub fn of_figure(figure: Figure) -> Result<Self, ValueError> {
+    pub fn from_figure(figure: Figure) -> Result<Self, ValueError> {
         let [first, last] = figure.span();
         let (mut before, mut at, mut jumps) = (Vec::new(), Vec::new(), Jumps::default());
         let mut last_key = first;

@@ -1,7 +1,7 @@
 //! `[[body]]`: what the cloth meets.
 
 use super::animation::{Animation, RATE, START};
-use super::motion::{Motion, RigidMotion};
+use super::motion::{BodyMotion, KeyframeMotion};
 use super::shapes;
 use crate::input::{Count, Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError};
 use selvedge::Mesh;
@@ -12,11 +12,11 @@ use selvedge_files::mesh::{self, MeshSequence};
 /// A kinematic body: it goes where it is told, whatever the cloth does.
 ///
 /// ```
-/// use selvedge_cloth::{Body, Motion, Placement};
+/// use selvedge_cloth::{Body, BodyMotion, Placement};
 /// use selvedge_cloth::glam::DVec3;
 ///
 /// let mut ball = Body::ball("ball", DVec3::ZERO, 0.1, 24)?;
-/// ball.motion = Motion::Driven(Placement::at(DVec3::Z));
+/// ball.motion = BodyMotion::Driven(Placement::at(DVec3::Z));
 /// assert!(Body::ball("ball", DVec3::ZERO, -0.1, 24).is_err());
 /// # Ok::<(), selvedge_cloth::ValueError>(())
 /// ```
@@ -27,7 +27,7 @@ pub struct Body {
     /// Its surface at rest.
     pub mesh: Mesh,
     /// Where it goes; it rests unless told otherwise.
-    pub motion: Motion,
+    pub motion: BodyMotion,
     /// Two points and a radius if it is a capsule or a ball: then contact is with the smooth surface.
     pub(crate) capsule: Option<([DVec3; 2], f64)>,
 }
@@ -67,7 +67,7 @@ impl Body {
         checked.map_err(|error| error.of(name))?;
         Ok(Self {
             capsule: Some(([from, to], radius)),
-            ..Self::of_mesh(name, shapes::capsule([from, to], radius, around))
+            ..Self::from_mesh(name, shapes::capsule([from, to], radius, around))
         })
     }
 
@@ -82,11 +82,11 @@ impl Body {
 
     /// Any surface, in metres.
     #[must_use]
-    pub fn of_mesh(name: &str, mesh: Mesh) -> Self {
+    pub fn from_mesh(name: &str, mesh: Mesh) -> Self {
         Self {
             name: name.to_owned(),
             mesh,
-            motion: Motion::Keyframes(RigidMotion::resting()),
+            motion: BodyMotion::Keyframes(KeyframeMotion::resting()),
             capsule: None,
         }
     }
@@ -96,8 +96,8 @@ impl Body {
     pub fn animated(name: &str, triangles: Vec<[u32; 3]>, animation: Animation) -> Self {
         let positions = animation.positions_at(animation.span()[0]);
         Self {
-            motion: Motion::Animated(animation),
-            ..Self::of_mesh(name, Mesh { positions, triangles })
+            motion: BodyMotion::Animated(animation),
+            ..Self::from_mesh(name, Mesh { positions, triangles })
         }
     }
 
@@ -119,7 +119,7 @@ impl Body {
         };
         let motion: &[&str] = match shape {
             BodyShape::Frames | BodyShape::Figure => &[],
-            _ => &Motion::KEYS,
+            _ => &BodyMotion::KEYS,
         };
         table.expect_keys(&[&["name", "shape"], motion, own].concat())?;
         let Some(name) = table.text("name")? else {
@@ -134,12 +134,12 @@ impl Body {
                 Self::capsule(name, ends, radius()?, around()?)
             }
             BodyShape::Ball => Self::ball(name, table.required_vector(&CENTRE)?, radius()?, around()?),
-            BodyShape::File => Ok(Self::of_mesh(name, shapes::of_file(table)?)),
+            BodyShape::File => Ok(Self::from_mesh(name, shapes::of_file(table)?)),
             BodyShape::Frames => return Self::read_frames(name, table, time_step),
             BodyShape::Figure => return Self::read_figure(name, table, time_step),
         };
         let mut body = made.map_err(|error| table.placed(&error))?;
-        body.motion = Motion::read(table, time_step)?;
+        body.motion = BodyMotion::read(table, time_step)?;
         Ok(body)
     }
 
@@ -149,7 +149,7 @@ impl Body {
         let rate = table.required_number(&RATE)?;
         let read = mesh::read_sequence(&table.folder().join(files));
         let MeshSequence { triangles, frames, .. } = read.map_err(|error| table.error("files", error.to_string()))?;
-        let animation = Animation::of_frames(frames, rate);
+        let animation = Animation::from_frames(frames, rate);
         Self::read_animated(name, table, time_step, triangles, animation, "files")
     }
 
@@ -169,7 +169,7 @@ impl Body {
             table.error(key, error.to_string())
         })?;
         let triangles = figure.mesh().triangles.clone();
-        Self::read_animated(name, table, time_step, triangles, Animation::of_figure(figure), "file")
+        Self::read_animated(name, table, time_step, triangles, Animation::from_figure(figure), "file")
     }
 
     /// The rest of what a table says of an animation, which was read from what `key` names.

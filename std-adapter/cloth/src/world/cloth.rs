@@ -142,11 +142,11 @@ impl Cloth {
     ///
     /// # Errors
     /// If a number is beyond its range, or the mesh has vertices without triangles, triangles without area, or none at all.
-    pub fn of_mesh(mesh: Mesh, warp: DVec3, density: f64) -> Result<Self, ValueError> {
+    pub fn from_mesh(mesh: Mesh, warp: DVec3, density: f64) -> Result<Self, ValueError> {
         Self::with_parts(mesh, warp, density, Vec::new())
     }
 
-    /// As [`of_mesh`](Self::of_mesh), with edges that belong to no triangle: fringes, laces, or ropes alone. Each names two vertices of the
+    /// As [`from_mesh`](Self::from_mesh), with edges that belong to no triangle: fringes, laces, or ropes alone. Each names two vertices of the
     /// mesh; every vertex is in a triangle or in such an edge. `densities` are in kg/m² and, of loose edges, in kg/m.
     ///
     /// ```
@@ -155,15 +155,15 @@ impl Cloth {
     /// let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_X * 2.0];
     /// let mesh = Mesh { positions, triangles: vec![[0, 1, 2]] };
     /// let tail = [[0, 3], [3, 4]];
-    /// let kite = Cloth::of_mesh_with_loose_edges(mesh, &tail, DVec3::X, [0.05, 0.002])?;
+    /// let kite = Cloth::from_mesh_with_loose_edges(mesh, &tail, DVec3::X, [0.05, 0.002])?;
     /// assert_eq!(kite.topology().loose_edges().len(), 2);
     /// # Ok::<(), selvedge_cloth::ValueError>(())
     /// ```
     ///
     /// # Errors
-    /// Those of [`of_mesh`](Self::of_mesh), but for a mesh without triangles that has loose edges; and if an edge names a vertex that is not there,
+    /// Those of [`from_mesh`](Self::from_mesh), but for a mesh without triangles that has loose edges; and if an edge names a vertex that is not there,
     /// joins what another one joins or a triangle does, or is shorter than a hundredth of a millimetre.
-    pub fn of_mesh_with_loose_edges(
+    pub fn from_mesh_with_loose_edges(
         mesh: Mesh,
         loose_edges: &[[u32; 2]],
         warp: DVec3,

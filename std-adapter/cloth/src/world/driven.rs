@@ -4,14 +4,14 @@
 //! one by one go straight. A step that has to be cut, or to wait, leaves them on the way; the next one starts from there.
 
 use super::animation::Animation;
-use super::motion::{Motion, Pose, RigidMotion};
+use super::motion::{BodyMotion, KeyframeMotion, Pose};
 use super::placement::Placement;
 use selvedge_core::glam::DVec3;
 
 /// What carries kinematic vertices.
 #[derive(Debug)]
 pub(crate) enum Kinematic {
-    Keyframes(RigidMotion),
+    Keyframes(KeyframeMotion),
     Animated(Animated),
     Driven(Box<Driven>),
 }
@@ -64,15 +64,15 @@ enum Leg {
 }
 
 impl Kinematic {
-    pub(crate) fn new(motion: Motion, vertices: Vec<u32>) -> Self {
+    pub(crate) fn new(motion: BodyMotion, vertices: Vec<u32>) -> Self {
         match motion {
-            Motion::Keyframes(motion) => Self::Keyframes(motion),
-            Motion::Animated(animation) => Self::Animated(Animated {
+            BodyMotion::Keyframes(motion) => Self::Keyframes(motion),
+            BodyMotion::Animated(animation) => Self::Animated(Animated {
                 vertices,
                 animation,
                 positions: Vec::new(),
             }),
-            Motion::Driven(placement) => {
+            BodyMotion::Driven(placement) => {
                 // Scenes are checked before.
                 let placement = placement.checked().unwrap_or(placement);
                 Self::Driven(Box::new(Driven {

@@ -20,7 +20,7 @@ pub use animation::Animation;
 pub use body::Body;
 pub use cloth::Cloth;
 pub use material::Material;
-pub use motion::{Keyframe, Motion, RigidMotion};
+pub use motion::{BodyMotion, Keyframe, KeyframeMotion};
 pub use placement::Placement;
 
 pub(crate) use animation::FASTEST_VERTEX;

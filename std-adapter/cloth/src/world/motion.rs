@@ -9,9 +9,9 @@ use selvedge_core::glam::DVec3;
 
 /// What moves a body, or pins.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Motion {
+pub enum BodyMotion {
     /// Known ahead.
-    Keyframes(RigidMotion),
+    Keyframes(KeyframeMotion),
     /// Known ahead, vertex by vertex: a body that changes its shape.
     Animated(Animation),
     /// By the caller, from here on: each step may be told where it leads, and where it is told nothing, all stays. See
@@ -19,7 +19,7 @@ pub enum Motion {
     Driven(Placement),
 }
 
-impl Motion {
+impl BodyMotion {
     /// # Errors
     /// If something turns or jumps too far in a step, a number is beyond its range, or it cannot move so many vertices.
     pub(crate) fn check(&self, vertices: usize, time_step: f64) -> Result<(), ValueError> {
@@ -31,30 +31,30 @@ impl Motion {
     }
 }
 
-impl Motion {
+impl BodyMotion {
     /// Keys of a table that describes a motion.
     pub(crate) const KEYS: [&'static str; 4] = ["pivot", "axis", "keyframes", "driven"];
 
     /// Reads what a table says of a motion: keyframes, or that it is driven, from where it is at rest.
     pub(crate) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         if !table.flag("driven")? {
-            return RigidMotion::read(table, time_step).map(Self::Keyframes);
+            return KeyframeMotion::read(table, time_step).map(Self::Keyframes);
         }
-        match RigidMotion::KEYS.into_iter().find(|key| table.has(key)) {
+        match KeyframeMotion::KEYS.into_iter().find(|key| table.has(key)) {
             None => Ok(Self::Driven(Placement::default())),
             Some(key) => Err(table.error(key, format!("what is driven from step to step has no `{key}`"))),
         }
     }
 }
 
-impl From<Animation> for Motion {
+impl From<Animation> for BodyMotion {
     fn from(animation: Animation) -> Self {
         Self::Animated(animation)
     }
 }
 
-impl From<RigidMotion> for Motion {
-    fn from(motion: RigidMotion) -> Self {
+impl From<KeyframeMotion> for BodyMotion {
+    fn from(motion: KeyframeMotion) -> Self {
         Self::Keyframes(motion)
     }
 }
@@ -62,7 +62,7 @@ impl From<RigidMotion> for Motion {
 /// A rigid motion: turns about an axis through a pivot, then moves along. Between keyframes both go smoothly, at rest at each
 /// keyframe; before the first and after the last nothing moves.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RigidMotion {
+pub struct KeyframeMotion {
     pivot: DVec3,
     /// Of length one.
     axis: DVec3,
@@ -136,7 +136,7 @@ pub(crate) struct Pose {
     pub(super) deformed: Option<f64>,
 }
 
-impl RigidMotion {
+impl KeyframeMotion {
     /// Of a table that describes keyframes.
     const KEYS: [&'static str; 3] = ["pivot", "axis", "keyframes"];
 
@@ -290,8 +290,8 @@ mod tests {
     use super::*;
     use std::f64::consts::FRAC_PI_2;
 
-    fn quarter_turn() -> RigidMotion {
-        RigidMotion {
+    fn quarter_turn() -> KeyframeMotion {
+        KeyframeMotion {
             pivot: DVec3::X,
             axis: DVec3::Z,
             keyframes: vec![

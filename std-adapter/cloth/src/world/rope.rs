@@ -22,7 +22,7 @@ impl Cloth {
     /// let line = Cloth::rope(&[DVec3::ZERO, DVec3::X], 20, 0.05)?.named("line");
     /// let mut scene = Scene::new(line, 2e-3);
     /// let ends = ["start", "end"].iter().filter_map(|part| scene.part("line", part)).flatten().collect::<Vec<_>>();
-    /// scene.add(Gravity::default()).add(RopeStretch::of(5e3)).add(RopeBend::straight(1e-4));
+    /// scene.add(Gravity::default()).add(RopeStretch::new(5e3)).add(RopeBend::straight(1e-4));
     /// scene.add(Pins { groups: vec![PinGroup::resting(ends)] });
     ///
     /// let mut simulation = Simulation::new(scene, 1)?;

@@ -15,7 +15,7 @@ fn balloon(is_inside_out: bool) -> Cloth {
     if is_inside_out {
         mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
     }
-    Cloth::of_mesh(mesh, DVec3::Z, 0.2).unwrap()
+    Cloth::from_mesh(mesh, DVec3::Z, 0.2).unwrap()
 }
 
 /// After so many steps of half a millisecond.
@@ -41,7 +41,7 @@ fn a_balloon_grows_until_its_skin_holds_the_pressure() {
         let effects = |scene: &mut Scene| {
             scene.time_step = 1e-4;
             scene.add(Stretch::isotropic(stiffness)).add(AirDrag { rate: 20.0 });
-            scene.add(Inflation::at(pressure)).add(SelfCollision(Thickness::of(1e-3)));
+            scene.add(Inflation::at(pressure)).add(SelfCollision(Thickness::new(1e-3)));
         };
         let inflated = run(balloon(is_inside_out), effects, 8000);
         let expected = RADIUS / (1.0 - pressure * RADIUS / (2.0 * stiffness));
@@ -233,7 +233,7 @@ fn fields_and_pressures_from_a_file_and_from_code_are_the_same_to_the_last_bit()
     let inflation = Inflation {
         keyframes: vec![key(0.0, 5.0), key(0.05, -10.0)],
     };
-    let effects = |scene: &mut Scene| _ = scene.add(WindField::of(sources)).add(inflation);
+    let effects = |scene: &mut Scene| _ = scene.add(WindField::from_sources(sources)).add(inflation);
     assert_eq!(of_file.positions(), run(sheet(), effects, 200).positions());
 }
 
@@ -287,7 +287,7 @@ fn wrong_air_is_named_with_its_unit_and_its_range() {
         velocity: DVec3::Y * f64::NAN,
         ..fan()
     };
-    let field = refused(&|scene| _ = scene.add(WindField::of(vec![AirSource::Fan(endless)])));
+    let field = refused(&|scene| _ = scene.add(WindField::from_sources(vec![AirSource::Fan(endless)])));
     assert!(field.starts_with("wind_field: `velocity` is NaN m/s"), "{field}");
     let nothing = refused(&|scene| _ = scene.add(Inflation { keyframes: Vec::new() }));
     assert!(nothing.starts_with("inflation: inflation needs a `pressure`"), "{nothing}");

@@ -6,7 +6,7 @@ use selvedge_cloth::effects::{BodyContact, Gravity, PinGroup, PinMotion, Pins, S
 use selvedge_cloth::files::animation::{Choice, read};
 use selvedge_cloth::files::mesh;
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Animation, Body, CHECKPOINT_STEPS, Cloth, Mesh, Motion, OnBlocked, Scene, Simulation};
+use selvedge_cloth::{Animation, Body, BodyMotion, CHECKPOINT_STEPS, Cloth, Mesh, OnBlocked, Scene, Simulation};
 use std::fs;
 use std::path::Path;
 
@@ -48,14 +48,14 @@ fn scene_with(cloth: Cloth, bodies: Vec<Body>) -> Scene {
     scene.bodies = bodies;
     scene.add(Gravity::default()).add(Stretch::isotropic(200.0));
     scene
-        .add(BodyContact(Thickness::of(4e-3)))
-        .add(SelfCollision(Thickness::of(4e-3)));
+        .add(BodyContact(Thickness::new(4e-3)))
+        .add(SelfCollision(Thickness::new(4e-3)));
     scene
 }
 
 fn on_breathing_ball() -> Scene {
     let (triangles, frames) = breathing(12);
-    let animation = Animation::of_frames(frames, 24.0).unwrap().starting_at(0.1);
+    let animation = Animation::from_frames(frames, 24.0).unwrap().starting_at(0.1);
     scene_with(sheet(0.08), vec![Body::animated("ball", triangles, animation)])
 }
 
@@ -69,7 +69,7 @@ fn at_each_step_a_body_is_exactly_where_its_animation_says_and_rests_before_and_
     let mut simulation = Simulation::new(on_breathing_ball(), 1).unwrap();
     let (_, frames) = breathing(12);
     let vertices = simulation.body_vertices(0).unwrap();
-    let animation = Animation::of_frames(frames.clone(), 24.0).unwrap().starting_at(0.1);
+    let animation = Animation::from_frames(frames.clone(), 24.0).unwrap().starting_at(0.1);
     assert_eq!(&simulation.positions()[vertices.clone()], frames[0]);
     for step in 1..=350 {
         simulation.step().unwrap();
@@ -111,7 +111,7 @@ fn a_body_of_frames_gives_the_same_bits_on_any_number_of_threads_and_resumed() {
     scene.bodies[0] = Body::animated(
         "ball",
         triangles,
-        Animation::of_frames(frames, 24.0).unwrap().starting_at(0.1),
+        Animation::from_frames(frames, 24.0).unwrap().starting_at(0.1),
     );
     let other = Simulation::new(scene, 1)
         .unwrap()
@@ -125,7 +125,7 @@ fn pinched(on_blocked: OnBlocked) -> Simulation {
         let ball = Body::ball(name, DVec3::ZERO, 0.06, 16).unwrap().mesh;
         let frame = |distance: f64| ball.positions.iter().map(|p| *p + DVec3::Z * (side * distance)).collect();
         let frames = vec![frame(0.08), frame(0.05), frame(0.05), frame(0.12)];
-        Body::animated(name, ball.triangles.clone(), Animation::of_frames(frames, 5.0).unwrap())
+        Body::animated(name, ball.triangles.clone(), Animation::from_frames(frames, 5.0).unwrap())
     };
     let mut scene = scene_with(sheet(0.0), vec![plate("below", -1.0), plate("above", 1.0)]);
     scene.on_blocked = on_blocked;
@@ -206,7 +206,7 @@ fn numbered_files_and_frames_of_code_make_the_same_scene() {
         );
         Scene::parse(&text, &folder.path().join("s.toml")).unwrap()
     };
-    let animation = Animation::of_frames(frames, 24.0).unwrap().starting_at(0.02);
+    let animation = Animation::from_frames(frames, 24.0).unwrap().starting_at(0.02);
     let of_code = scene_with(sheet(0.08), vec![Body::animated("ball", triangles, animation)]);
     let run = |scene| {
         let mut simulation = Simulation::new(scene, 1).unwrap();
@@ -262,7 +262,7 @@ fn a_figure_of_code_is_that_of_the_file() {
     )
     .unwrap();
     let triangles = figure.mesh().triangles.clone();
-    let body = Body::animated("figure", triangles, Animation::of_figure(figure).unwrap());
+    let body = Body::animated("figure", triangles, Animation::from_figure(figure).unwrap());
     let of_file = Scene::read(&scene_file("walker.toml")).unwrap();
     assert_eq!(of_file.bodies[0].mesh, body.mesh);
     assert_eq!(of_file.bodies[0].motion, body.motion);
@@ -274,9 +274,9 @@ fn pins_may_be_animated_as_well() {
     let top = cloth.part("top").unwrap().to_vec();
     let at_rest: Vec<DVec3> = top.iter().map(|&vertex| cloth.mesh().positions[vertex as usize]).collect();
     let moved = at_rest.iter().map(|p| *p + DVec3::Z * 0.05).collect();
-    let animation = Animation::of_frames(vec![at_rest, moved], 10.0).unwrap();
+    let animation = Animation::from_frames(vec![at_rest, moved], 10.0).unwrap();
     let pins = |vertices: Vec<u32>| {
-        let motion = PinMotion::Own(Motion::Animated(animation.clone()));
+        let motion = PinMotion::Own(BodyMotion::Animated(animation.clone()));
         Pins {
             groups: vec![PinGroup { vertices, motion }],
         }
@@ -307,7 +307,7 @@ fn pins_may_be_animated_as_well() {
 #[test]
 fn animations_that_cannot_be_are_refused_where_they_are_made() {
     let frame = |x: f64| vec![DVec3::ZERO, DVec3::X, DVec3::new(x, 1.0, 0.0)];
-    let message = |frames, rate| Animation::of_frames(frames, rate).unwrap_err().to_string();
+    let message = |frames, rate| Animation::from_frames(frames, rate).unwrap_err().to_string();
     assert_eq!(message(vec![], 24.0), "an animation needs at least one frame");
     assert_eq!(
         message(vec![frame(0.0), vec![]], 24.0),
@@ -324,14 +324,14 @@ fn animations_that_cannot_be_are_refused_where_they_are_made() {
     let scene = |animation: Animation| scene_with(sheet(0.5), vec![Body::animated("leaf", vec![[0, 1, 2]], animation)]);
     let refusal = |animation| Simulation::new(scene(animation), 1).unwrap_err().to_string();
     // A cut: five metres from one frame to the next.
-    let cut = Animation::of_frames(vec![frame(0.0), frame(0.1), frame(5.1)], 24.0).unwrap();
+    let cut = Animation::from_frames(vec![frame(0.0), frame(0.1), frame(5.1)], 24.0).unwrap();
     assert_eq!(
         refusal(cut),
         "leaf: vertex 2 moves at 120 m/s from 0.042 s of the animation on, but must not be faster than 100 m/s; is there a cut in the animation, or is its unit not the metre?"
     );
-    let early = Animation::of_frames(vec![frame(0.0)], 24.0).unwrap().starting_at(-1.0);
+    let early = Animation::from_frames(vec![frame(0.0)], 24.0).unwrap().starting_at(-1.0);
     assert!(refusal(early).starts_with("leaf: `start` is -1 s"));
-    let other = Animation::of_frames(vec![frame(0.0)], 24.0).unwrap();
+    let other = Animation::from_frames(vec![frame(0.0)], 24.0).unwrap();
     let mut scene = scene(other);
     scene.bodies[0].mesh.positions.push(DVec3::ONE);
     let message = Simulation::new(scene, 1).unwrap_err().to_string();

@@ -4,7 +4,9 @@ use selvedge::glam::DVec3;
 use selvedge_cloth::effects::{
     AirDrag, AttachmentGroup, Attachments, BodyContact, Gravity, PinMotion, Release, Shear, Stretch, Thickness,
 };
-use selvedge_cloth::{Animation, Body, CHECKPOINT_STEPS, Cloth, Keyframe, Motion, Placement, RigidMotion, Scene, Simulation};
+use selvedge_cloth::{
+    Animation, Body, BodyMotion, CHECKPOINT_STEPS, Cloth, Keyframe, KeyframeMotion, Placement, Scene, Simulation,
+};
 use std::path::Path;
 
 /// A sheet of 20 cm and 200 g/m², upright: it weighs 78.48 mN.
@@ -79,7 +81,7 @@ fn what_pulls_more_than_the_limit_comes_loose_and_falls() {
 /// A body that turns and goes up, one that the caller leads, and one that changes its shape.
 #[test]
 fn attachments_follow_bodies_however_they_move() {
-    let rigid = |at: DVec3, motion: Motion| {
+    let rigid = |at: DVec3, motion: BodyMotion| {
         let mut body = Body::ball("ball", at, 0.05, 24).unwrap();
         body.motion = motion;
         body
@@ -90,13 +92,13 @@ fn attachments_follow_bodies_however_they_move() {
         angle: 0.0,
         translation: DVec3::Z * height,
     };
-    let keyed = RigidMotion::new(at, DVec3::Z, vec![key(0.0, 0.0), key(1.0, 0.1)]).unwrap();
-    let mesh = rigid(at, RigidMotion::resting().into()).mesh;
+    let keyed = KeyframeMotion::new(at, DVec3::Z, vec![key(0.0, 0.0), key(1.0, 0.1)]).unwrap();
+    let mesh = rigid(at, KeyframeMotion::resting().into()).mesh;
     let frame = |height: f64| mesh.positions.iter().map(|p| *p + DVec3::Z * height).collect::<Vec<_>>();
-    let frames = Animation::of_frames(vec![frame(0.0), frame(0.1)], 1.0).unwrap();
+    let frames = Animation::from_frames(vec![frame(0.0), frame(0.1)], 1.0).unwrap();
     let bodies = [
         rigid(at, keyed.into()),
-        rigid(at, Motion::Driven(Placement::default())),
+        rigid(at, BodyMotion::Driven(Placement::default())),
         Body::animated("ball", mesh.triangles.clone(), frames),
     ];
     for (index, body) in bodies.into_iter().enumerate() {
@@ -104,7 +106,7 @@ fn attachments_follow_bodies_however_they_move() {
         group.motion = PinMotion::Body(0);
         let mut scene = hung(vec![group]);
         scene.bodies.push(body);
-        scene.add(BodyContact(Thickness::of(2e-3)));
+        scene.add(BodyContact(Thickness::new(2e-3)));
         let mut simulation = Simulation::new(scene, 1).unwrap();
         for step in 1..=1000 {
             if index == 1 {
@@ -161,7 +163,7 @@ fn attachments_from_a_file_and_from_code_are_the_same_to_the_last_bit() {
     };
     let keys = vec![key(0.1, DVec3::ZERO), key(0.5, DVec3::new(0.2, 0.0, 0.1))];
     let mut moved = AttachmentGroup::resting([CORNERS[1]], 0.1);
-    moved.motion = PinMotion::Own(RigidMotion::new(DVec3::ZERO, DVec3::Z, keys).unwrap().into());
+    moved.motion = PinMotion::Own(KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys).unwrap().into());
     let of_code = simulated(hung(vec![resting, moved]), 600);
     let mut of_file = of_file(2);
     (0..600).for_each(|_| of_file.step().unwrap());

@@ -70,7 +70,7 @@ fn found_over_given(mesh: &Mesh, cells: u32, turn: f64) -> f64 {
         all.filter(|(_, x)| is_meant(*x)).map(|(vertex, _)| vertex as u32).collect()
     };
     let (pinned, tip) = (of(&|x| x <= 1e-9), of(&|x| x > end - 0.5 * h));
-    let mut scene = Scene::new(Cloth::of_mesh(mesh, DVec3::X, DENSITY).unwrap(), 1e-3);
+    let mut scene = Scene::new(Cloth::from_mesh(mesh, DVec3::X, DENSITY).unwrap(), 1e-3);
     scene
         .add(Gravity::default())
         .add(Stretch::isotropic(1000.0))
@@ -116,7 +116,7 @@ fn the_weft_has_a_rigidity_of_its_own() {
             .filter(|&v| mesh.positions[v as usize].x <= 1e-9)
             .collect();
         let warp = DQuat::from_rotation_z(turn) * DVec3::X;
-        let mut scene = Scene::new(Cloth::of_mesh(mesh, warp, DENSITY).unwrap(), 1e-3);
+        let mut scene = Scene::new(Cloth::from_mesh(mesh, warp, DENSITY).unwrap(), 1e-3);
         scene.add(Gravity::default()).add(Stretch::isotropic(1000.0)).add(Bend {
             weft_stiffness: 1e-5,
             ..Bend::isotropic(1e-4)

@@ -241,7 +241,7 @@ fn in_free_fall_motion_and_weight_keep_their_sum_but_for_what_a_step_takes() {
 #[test]
 fn a_gas_holds_half_of_its_modulus_times_the_volume_that_it_lacks_squared() {
     let ball = Body::ball("ball", DVec3::new(5.0, 0.0, 0.0), 0.5, 24).unwrap();
-    let cloth = Cloth::of_mesh(ball.mesh, DVec3::Z, 0.2).unwrap();
+    let cloth = Cloth::from_mesh(ball.mesh, DVec3::Z, 0.2).unwrap();
     let corners = |t: &[u32; 3]| t.map(|v| cloth.mesh().positions[v as usize] - 5.0 * DVec3::X);
     let parts = cloth
         .mesh()

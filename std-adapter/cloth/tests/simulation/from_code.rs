@@ -7,7 +7,7 @@ use selvedge_cloth::effects::{
 };
 use selvedge_cloth::glam::{DQuat, DVec3};
 use selvedge_cloth::{
-    Body, CHECKPOINT_STEPS, Cloth, DriveError, Keyframe, Motion, OnBlocked, Placement, RigidMotion, Scene, Simulation,
+    Body, BodyMotion, CHECKPOINT_STEPS, Cloth, DriveError, Keyframe, KeyframeMotion, OnBlocked, Placement, Scene, Simulation,
 };
 use std::f64::consts::PI;
 use std::path::Path;
@@ -38,13 +38,13 @@ fn scene_with(body: Body, height: f64) -> Scene {
         groups: vec![PinGroup::resting(corners)],
     });
     scene
-        .add(BodyContact(Thickness::of(4e-3)))
-        .add(SelfCollision(Thickness::of(4e-3)));
+        .add(BodyContact(Thickness::new(4e-3)))
+        .add(SelfCollision(Thickness::new(4e-3)));
     scene
 }
 
 fn driven(mut body: Body) -> Body {
-    body.motion = Motion::Driven(Placement::default());
+    body.motion = BodyMotion::Driven(Placement::default());
     body
 }
 
@@ -139,16 +139,16 @@ fn code_and_file_make_the_same_scene_to_the_last_bit() {
         translation: 0.02 * DVec3::Z,
     };
     let keyframes = vec![Keyframe::default(), later];
-    arm.motion = RigidMotion::new(0.1 * DVec3::Z, 2.0 * DVec3::Y, keyframes).unwrap().into();
+    arm.motion = KeyframeMotion::new(0.1 * DVec3::Z, 2.0 * DVec3::Y, keyframes).unwrap().into();
     scene.bodies.push(arm);
     // In any order.
     scene.add(Friction { coefficient: 0.3 });
     let separation = 1e-3;
     scene.add(SelfCollision(Thickness {
         separation,
-        ..Thickness::of(4e-3)
+        ..Thickness::new(4e-3)
     }));
-    scene.add(BodyContact(Thickness::of(4e-3)));
+    scene.add(BodyContact(Thickness::new(4e-3)));
     scene
         .add(Stretch {
             weft_stiffness: 300.0,
@@ -188,7 +188,7 @@ fn pins_that_follow_a_driven_body_start_where_the_cloth_is() {
         translation: DVec3::new(3.0, -2.0, 5.0),
     };
     let mut ball = Body::ball("ball", DVec3::Z, 0.01, 12).unwrap();
-    ball.motion = Motion::Driven(standing);
+    ball.motion = BodyMotion::Driven(standing);
     let mut scene = scene_with(ball, 0.0);
     let vertices = scene.cloths[0].part("left").unwrap().to_vec();
     let rest = scene.cloths[0].mesh().positions.clone();
@@ -258,7 +258,7 @@ fn a_rotation_of_any_length_turns_and_does_not_scale() {
     let rotation = DQuat::from_rotation_z(0.5);
     let [unit, longer] = [1.0, 3.0].map(|length| {
         let mut scene = scene_with(bar(), 0.1);
-        scene.bodies[0].motion = Motion::Driven(Placement {
+        scene.bodies[0].motion = BodyMotion::Driven(Placement {
             rotation: rotation * length,
             translation: DVec3::ZERO,
         });
@@ -333,7 +333,7 @@ fn pins_go_where_code_leads_them() {
     let pinned = cloth.part("left").unwrap().to_vec();
     let start: Vec<_> = pinned.iter().map(|&v| cloth.mesh().positions[v as usize]).collect();
     let mut scene = Scene::new(cloth, 2e-3);
-    let motion = PinMotion::Own(Motion::Driven(Placement::default()));
+    let motion = PinMotion::Own(BodyMotion::Driven(Placement::default()));
     scene.add(Pins {
         groups: vec![PinGroup {
             vertices: pinned.clone(),
@@ -343,7 +343,7 @@ fn pins_go_where_code_leads_them() {
     scene
         .add(Gravity::default())
         .add(Stretch::isotropic(200.0))
-        .add(SelfCollision(Thickness::of(3e-3)));
+        .add(SelfCollision(Thickness::new(3e-3)));
     let mut simulation = Simulation::new(scene, 1).unwrap();
     for step in 1..=100 {
         // Drawn together, as a curtain.
@@ -363,7 +363,7 @@ fn a_body_that_has_to_wait_stands_where_it_is_said_to_stand_and_goes_on_from_the
     let mut scene = scene_with(ball(), 0.065);
     let mut above = ball();
     above.name = "above".to_owned();
-    above.motion = Motion::Driven(Placement::at(0.14 * DVec3::Z));
+    above.motion = BodyMotion::Driven(Placement::at(0.14 * DVec3::Z));
     scene.bodies.push(above);
     scene.on_blocked = OnBlocked::Hold;
     let mut simulation = Simulation::new(scene, 1).unwrap();
@@ -484,7 +484,7 @@ fn an_effect_of_a_callers_own_acts_is_timed_and_runs_after_ours() {
         .add(Balloon { ceiling: 0.05 })
         .add(Gravity::default())
         .add(Stretch::isotropic(100.0));
-    scene.add(SelfCollision(Thickness::of(3e-3)));
+    scene.add(SelfCollision(Thickness::new(3e-3)));
     assert_eq!(scene.effect_names(), ["gravity", "stretch", "self_collision", "balloon"]);
     let mut simulation = Simulation::new(scene, 1).unwrap();
     for _ in 0..100 {
@@ -527,7 +527,7 @@ fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_b
         angle,
         ..Keyframe::default()
     };
-    let turning = |keyframes| RigidMotion::new(DVec3::ZERO, up, keyframes).unwrap().into();
+    let turning = |keyframes| KeyframeMotion::new(DVec3::ZERO, up, keyframes).unwrap().into();
     let cases = [
         (
             complaint(|s| s.time_step = 0.0),
@@ -569,7 +569,7 @@ fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_b
             "ball: up to this keyframe it turns by",
         ),
         (
-            complaint(|s| s.bodies[0].motion = Motion::Driven(Placement::at(up * 1e9))),
+            complaint(|s| s.bodies[0].motion = BodyMotion::Driven(Placement::at(up * 1e9))),
             "ball: `translation` is 1e9 m",
         ),
         (
@@ -614,11 +614,11 @@ fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_b
             "strain_limit: `sweeps` is 0",
         ),
         (
-            of(InternalPressure::of_volume(1.1)),
+            of(InternalPressure::with_volume_ratio(1.1)),
             "internal_pressure: internal pressure needs a closed cloth, but this one has 48 open edges",
         ),
         (
-            of(SelfCollision(Thickness::of(0.0))),
+            of(SelfCollision(Thickness::new(0.0))),
             "self_collision: `thickness` is 0 m, but must be from 1e-5 m to 0.1 m",
         ),
         (
@@ -654,7 +654,7 @@ fn thirty_wrong_ways_to_use_it_from_code_get_thirty_errors_that_say_what_would_b
             "pins: there is no body 4: the scene has 1, from 0 on",
         ),
         (
-            complaint(|s| s.bodies[0].motion = Motion::Driven(Placement::at(0.1 * up))),
+            complaint(|s| s.bodies[0].motion = BodyMotion::Driven(Placement::at(0.1 * up))),
             "the scene starts with an intersection",
         ),
     ];
@@ -684,9 +684,9 @@ fn shapes_that_cannot_be_are_refused_where_they_are_made() {
     assert!(error(Cloth::sleeve(0, 0.1)).contains("`refinement` is 0"));
     let mut mesh = sheet(0.0).mesh().clone();
     mesh.triangles[0] = [0, 1, 1];
-    assert!(error(Cloth::of_mesh(mesh.clone(), x, 0.1)).contains("must consist of proper triangles"));
+    assert!(error(Cloth::from_mesh(mesh.clone(), x, 0.1)).contains("must consist of proper triangles"));
     mesh.triangles[0] = [0, 1, 5000];
-    assert!(error(Cloth::of_mesh(mesh, x, 0.1)).contains("the vertex 5000"));
+    assert!(error(Cloth::from_mesh(mesh, x, 0.1)).contains("the vertex 5000"));
     assert!(
         Body::capsule("arm", [x, y], 0.0, 24)
             .unwrap_err()
@@ -694,7 +694,7 @@ fn shapes_that_cannot_be_are_refused_where_they_are_made() {
             .starts_with("arm: `radius` is 0 m")
     );
     assert!(
-        RigidMotion::new(x, DVec3::ZERO, Vec::new())
+        KeyframeMotion::new(x, DVec3::ZERO, Vec::new())
             .unwrap_err()
             .to_string()
             .contains("`axis` must not be zero")

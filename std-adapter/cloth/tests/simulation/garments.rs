@@ -118,8 +118,8 @@ pub(crate) fn garment(name: &str, cells: u32, depth: f64) -> Scene {
         }
         _ => panic!("no garment is named {name}"),
     };
-    let mut scene = Scene::new(Cloth::of_mesh(mesh, DVec3::X, 0.2).unwrap(), 1e-3);
-    let thickness = Thickness::of(2e-3);
+    let mut scene = Scene::new(Cloth::from_mesh(mesh, DVec3::X, 0.2).unwrap(), 1e-3);
+    let thickness = Thickness::new(2e-3);
     scene.add(Stretch::isotropic(200.0)).add(Shear::new(50.0));
     scene.add(Bend::isotropic(1e-5)).add(SelfCollision(thickness));
     if !bodies.is_empty() {

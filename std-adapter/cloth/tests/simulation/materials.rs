@@ -88,7 +88,7 @@ fn denim_gives_under_its_weight_as_warp_weft_and_bias_say() {
     let sag = |warp: DVec3| {
         let strip = Cloth::sheet(DVec3::ZERO, [DVec3::X * 0.2, DVec3::NEG_Z * 0.6], [8, 24], 1.0).unwrap();
         let top = strip.part("bottom").unwrap().to_vec();
-        let mut strip = Cloth::of_mesh(strip.mesh().clone(), warp, 1.0).unwrap();
+        let mut strip = Cloth::from_mesh(strip.mesh().clone(), warp, 1.0).unwrap();
         strip.set_material(Material::DENIM);
         let mut scene = Scene::new(strip, 2e-4);
         scene.add(Gravity::default()).add(AirDrag { rate: 10.0 });

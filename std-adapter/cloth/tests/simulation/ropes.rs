@@ -56,7 +56,7 @@ fn hanging(segments: u32, stiffness: f64, time_step: f64) -> Scene {
     let mut scene = Scene::new(rope, time_step);
     scene
         .add(Gravity::default())
-        .add(RopeStretch::of(stiffness))
+        .add(RopeStretch::new(stiffness))
         .add(pinned(&[0]));
     scene.add(AirDrag { rate: 5.0 });
     scene
@@ -95,14 +95,14 @@ fn a_rope_of_two_hundred_edges_that_holds_a_weight_is_stretched_by_a_thousandth_
         mesh.positions.extend(&plate(-length_at_rest)[1..]);
         mesh.triangles = vec![[200, 201, 202], [201, 203, 202]];
         let edges: Vec<[u32; 2]> = (0..200).map(|k| [k, k + 1]).collect();
-        vec![Cloth::of_mesh_with_loose_edges(mesh, &edges, DVec3::X, [100.0, 0.05]).unwrap()]
+        vec![Cloth::from_mesh_with_loose_edges(mesh, &edges, DVec3::X, [100.0, 0.05]).unwrap()]
     };
     let tied = || {
         let mesh = Mesh {
             positions: plate(-length_at_rest - gap).to_vec(),
             triangles: vec![[0, 1, 2], [1, 3, 2]],
         };
-        vec![rope(), Cloth::of_mesh(mesh, DVec3::X, 100.0).unwrap().named("plate")]
+        vec![rope(), Cloth::from_mesh(mesh, DVec3::X, 100.0).unwrap().named("plate")]
     };
     for (is_tied, time_step) in [(false, 1e-3), (false, 4e-3), (true, 1e-3), (true, 4e-3)] {
         let mut cloths = if is_tied { tied() } else { one_mesh() }.into_iter();
@@ -110,13 +110,13 @@ fn a_rope_of_two_hundred_edges_that_holds_a_weight_is_stretched_by_a_thousandth_
         scene.cloths.extend(cloths);
         scene
             .add(Gravity::default())
-            .add(RopeStretch::of(stiffness))
+            .add(RopeStretch::new(stiffness))
             .add(AirDrag { rate: 5.0 });
         scene.add(Stretch::isotropic(1e5)).add(Shear::new(1e5)).add(pinned(&[0]));
         if is_tied {
             let seam = Seam {
                 gap: Some(gap),
-                ..Seam::of(vec![200], vec![201])
+                ..Seam::new(vec![200], vec![201])
             };
             scene.add(Seams { seams: vec![seam] });
         }
@@ -135,11 +135,11 @@ fn a_rope_of_two_hundred_edges_that_holds_a_weight_is_stretched_by_a_thousandth_
 fn a_taut_rope_that_is_plucked_comes_to_rest() {
     let rope = Cloth::rope(&[DVec3::ZERO, DVec3::X * 2.0], 200, 0.05).unwrap();
     let mut scene = Scene::new(rope, 1e-3);
-    scene.add(RopeStretch::of(1e4)).add(AirDrag { rate: 3.0 });
+    scene.add(RopeStretch::new(1e4)).add(AirDrag { rate: 3.0 });
     scene.add(Pins {
         groups: vec![PinGroup {
             vertices: vec![0, 200],
-            motion: selvedge_cloth::effects::PinMotion::Own(selvedge_cloth::Motion::Driven(Default::default())),
+            motion: selvedge_cloth::effects::PinMotion::Own(selvedge_cloth::BodyMotion::Driven(Default::default())),
         }],
     });
     scene.cloths[0].velocity = DVec3::Z;
@@ -164,7 +164,7 @@ fn a_clamped_rope_bends_under_its_weight_as_a_beam() {
         let rigidity = 0.15;
         scene
             .add(Gravity::default())
-            .add(RopeStretch::of(1e5))
+            .add(RopeStretch::new(1e5))
             .add(RopeBend::straight(rigidity));
         scene.add(pinned(&[0, 1])).add(AirDrag { rate: 20.0 });
         let simulation = run(scene, 1500);
@@ -184,7 +184,7 @@ fn a_slack_rope_hangs_in_a_catenary() {
     let mut scene = Scene::new(rope, 1e-3);
     scene
         .add(Gravity::default())
-        .add(RopeStretch::of(1e5))
+        .add(RopeStretch::new(1e5))
         .add(AirDrag { rate: 5.0 });
     scene.add(pinned(&[0, 120]));
     let simulation = run(scene, 3000);
@@ -211,11 +211,11 @@ fn a_ring_keeps_the_shape_that_it_rests_in() {
         triangles: Vec::new(),
     };
     let edges: Vec<_> = (0..16).map(|k| [k, (k + 1) % 16]).collect();
-    let hoop = Cloth::of_mesh_with_loose_edges(mesh, &edges, DVec3::X, [0.0, 0.1]).unwrap();
+    let hoop = Cloth::from_mesh_with_loose_edges(mesh, &edges, DVec3::X, [0.0, 0.1]).unwrap();
     let rest = hoop.mesh().positions.clone();
     let energy = |rest| {
         let mut scene = Scene::new(hoop.clone(), 1e-3);
-        scene.add(RopeStretch::of(1e4)).add(RopeBend { stiffness: 1e-2, rest });
+        scene.add(RopeStretch::new(1e4)).add(RopeBend { stiffness: 1e-2, rest });
         let mut simulation = run(scene, 0);
         let energy = simulation.energy().elastic().unwrap();
         (0..100).for_each(|_| simulation.step().unwrap());
@@ -241,24 +241,24 @@ fn tangle() -> Scene {
     let tied = [scene.part("along", "end").unwrap(), scene.part("across", "end").unwrap()];
     for rope in ["along", "across"] {
         scene
-            .add_to(rope, SelfCollision(Thickness::of(8e-3)))
-            .add_to(rope, BodyContact(Thickness::of(4e-3)));
+            .add_to(rope, SelfCollision(Thickness::new(8e-3)))
+            .add_to(rope, BodyContact(Thickness::new(4e-3)));
     }
     scene.add_to("sheet", Stretch::isotropic(500.0));
     scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.1, 24).unwrap());
     scene
         .add(Gravity::default())
-        .add(RopeStretch::of(5e3))
+        .add(RopeStretch::new(5e3))
         .add(RopeBend::straight(1e-5));
     scene
-        .add(SelfCollision(Thickness::of(3e-3)))
-        .add(BodyContact(Thickness::of(3e-3)));
+        .add(SelfCollision(Thickness::new(3e-3)))
+        .add(BodyContact(Thickness::new(3e-3)));
     scene.add(Friction { coefficient: 0.3 });
     let [first, second] = tied;
     scene.add(Seams {
         seams: vec![Seam {
             closing: Some(0.3),
-            ..Seam::of(first, second)
+            ..Seam::new(first, second)
         }],
     });
     scene
@@ -319,7 +319,7 @@ fn fringed(linear_density: f64) -> Cloth {
             last = next;
         }
     }
-    Cloth::of_mesh_with_loose_edges(mesh, &loose, DVec3::X, [0.1, linear_density]).unwrap()
+    Cloth::from_mesh_with_loose_edges(mesh, &loose, DVec3::X, [0.1, linear_density]).unwrap()
 }
 
 #[test]
@@ -329,8 +329,8 @@ fn a_fringe_hangs_from_the_cloth_that_it_is_of() {
     scene
         .add(Gravity::default())
         .add(Stretch::isotropic(1e3))
-        .add(RopeStretch::of(100.0));
-    scene.add(RopeBend::straight(1e-8)).add(SelfCollision(Thickness::of(2e-3)));
+        .add(RopeStretch::new(100.0));
+    scene.add(RopeBend::straight(1e-8)).add(SelfCollision(Thickness::new(2e-3)));
     scene.add(pinned(&[72, 80]));
     let masses: f64 = 0.2 * 0.2 * 0.1 + 9.0 * 0.05 * 0.002;
     let simulation = run(scene, 300);
@@ -410,7 +410,7 @@ fn a_scene_file_says_what_code_does() {
     let mut scene = Scene::new(Cloth::rope(&[DVec3::ZERO, DVec3::X], 20, 0.05).unwrap(), 2e-3);
     scene
         .add(Gravity::default())
-        .add(RopeStretch::of(5e3))
+        .add(RopeStretch::new(5e3))
         .add(RopeBend::straight(1e-4))
         .add(pinned(&[0]));
     let mut from_code = Simulation::new(scene, 1).unwrap();
@@ -510,7 +510,7 @@ fn what_cannot_be_of_loose_edges_is_told_from_code() {
         triangles: vec![[0, 1, 2]],
     };
     let made = |edges: &[[u32; 2]], densities| {
-        let made = Cloth::of_mesh_with_loose_edges(triangle(), edges, DVec3::X, densities);
+        let made = Cloth::from_mesh_with_loose_edges(triangle(), edges, DVec3::X, densities);
         made.map_err(|error| error.to_string())
     };
     assert!(made(&[[0, 3]], [0.1, 0.1]).is_ok());
@@ -535,7 +535,7 @@ fn what_cannot_be_of_loose_edges_is_told_from_code() {
     assert_eq!(scene.check().unwrap_err().to_string(), none);
     let sheet = Cloth::sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [2, 2], 0.1).unwrap();
     let mut scene = Scene::new(sheet, 1e-3);
-    scene.add(RopeStretch::of(1.0));
+    scene.add(RopeStretch::new(1.0));
     let none = "rope_stretch: 'rope_stretch' has nothing to act on: no cloth has loose edges";
     assert!(scene.check().unwrap_err().to_string().starts_with(none));
 }

@@ -22,7 +22,7 @@ fn panels() -> Scene {
         .add(Stretch::isotropic(300.0))
         .add(Shear::new(60.0));
     scene.add(Bend::isotropic(1e-5)).add(StrainLimit::at(1.1));
-    scene.add(SelfCollision(Thickness::of(THICKNESS)));
+    scene.add(SelfCollision(Thickness::new(THICKNESS)));
     scene
 }
 
@@ -41,7 +41,7 @@ fn bag() -> Scene {
         let [first, second] = rows(&scene, side);
         Seam {
             closing: Some(0.3),
-            ..Seam::of(first, second)
+            ..Seam::new(first, second)
         }
     };
     let seams = SIDES.map(seam).into();
@@ -100,7 +100,7 @@ fn a_seam_without_a_time_holds_rows_as_they_lie_and_one_that_is_not_named_lets_t
             .add(Gravity::default())
             .add(Stretch::isotropic(300.0))
             .add(Shear::new(60.0));
-        scene.add(SelfCollision(Thickness::of(THICKNESS)));
+        scene.add(SelfCollision(Thickness::new(THICKNESS)));
         let row = |cloth, part| scene.part(cloth, part).unwrap();
         let [top, first, second] = [row("upper", "top"), row("upper", "bottom"), row("lower", "top")];
         scene.add(Pins {
@@ -108,7 +108,7 @@ fn a_seam_without_a_time_holds_rows_as_they_lie_and_one_that_is_not_named_lets_t
         });
         if is_sewn {
             scene.add(Seams {
-                seams: vec![Seam::of(first.clone(), second.clone())],
+                seams: vec![Seam::new(first.clone(), second.clone())],
             });
         }
         let mut simulation = Simulation::new(scene, 1).unwrap();
@@ -133,7 +133,7 @@ fn seams_have_the_same_bits_on_any_number_of_threads_and_resumed_while_they_clos
                     Seam {
                         closing: Some(0.6),
                         gap: Some(0.004),
-                        ..Seam::of(first, second)
+                        ..Seam::new(first, second)
                     }
                 })
                 .into(),
@@ -155,7 +155,7 @@ fn seams_have_the_same_bits_on_any_number_of_threads_and_resumed_while_they_clos
 fn of(change: impl FnOnce(&mut Seam)) -> String {
     let mut scene = panels();
     let [first, second] = rows(&scene, "left");
-    let mut seam = Seam::of(first, second);
+    let mut seam = Seam::new(first, second);
     change(&mut seam);
     scene.add(Seams { seams: vec![seam] });
     Simulation::new(scene, 1).unwrap_err().to_string()

@@ -93,7 +93,7 @@ fn from_code() -> Scene {
     scene.add_to("shell", SelfCollision(of_shell));
     scene
         .add_to("lining", Stretch::isotropic(80.0))
-        .add_to("lining", SelfCollision(Thickness::of(3e-3)));
+        .add_to("lining", SelfCollision(Thickness::new(3e-3)));
     scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.06, 16).unwrap());
     let wind = Wind {
         velocity: DVec3::X,
@@ -101,7 +101,7 @@ fn from_code() -> Scene {
     };
     scene.add(Gravity::default()).add(wind).add(Stretch::isotropic(400.0));
     scene.add(Shear::new(40.0)).add(Friction { coefficient: 0.3 });
-    scene.add(BodyContact(Thickness::of(4e-3)));
+    scene.add(BodyContact(Thickness::new(4e-3)));
     let corner = scene.part("lining", "bottom-left").unwrap();
     scene.add(Pins {
         groups: vec![PinGroup::resting(corner)],
@@ -188,7 +188,7 @@ fn two_cloths_keep_the_mean_of_their_thicknesses_from_each_other() {
         let mut scene = Scene::new(below, 2e-3);
         scene.cloths.push(above);
         for (cloth, thickness) in ["below", "above"].into_iter().zip(thickness) {
-            scene.add_to(cloth, SelfCollision(Thickness::of(thickness)));
+            scene.add_to(cloth, SelfCollision(Thickness::new(thickness)));
         }
         scene
             .add(Gravity::default())
@@ -300,7 +300,7 @@ fn what_is_wrong_with_several_cloths_is_told_with_their_names() {
         ),
         (
             complaint(|s| {
-                s.add(InternalPressure::of_volume(1.1));
+                s.add(InternalPressure::with_volume_ratio(1.1));
             }),
             "internal_pressure of 'shell': internal pressure needs a closed cloth, but this one has 48 open edges",
         ),

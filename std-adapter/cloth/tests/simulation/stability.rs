@@ -52,16 +52,16 @@ fn a_hurricane_and_no_air_at_all() {
 fn what_is_pinned_too_near_to_a_body_flings_nothing_away() {
     // 35 µm from the body, across the slopes.
     let [above, thickness] = [50e-6, 50e-6];
-    let cloth = Cloth::of_mesh(folded(2, 0..4, 0.0), DVec3::X, 0.2).unwrap();
+    let cloth = Cloth::from_mesh(folded(2, 0..4, 0.0), DVec3::X, 0.2).unwrap();
     let ends = (0..4).flat_map(|row| [5 * row, 5 * row + 4]).collect::<Vec<u32>>();
     let mut scene = Scene::new(cloth, 1e-3);
-    scene.bodies = vec![Body::of_mesh("wedge", folded(3, -1..5, above))];
+    scene.bodies = vec![Body::from_mesh("wedge", folded(3, -1..5, above))];
     scene.add(Pins {
         groups: vec![PinGroup::resting(ends)],
     });
     scene
         .add(Stretch::isotropic(100.0))
-        .add(BodyContact(Thickness::of(thickness)));
+        .add(BodyContact(Thickness::new(thickness)));
     let mut simulation = Simulation::new(scene, 1).unwrap();
     for _ in 0..20 {
         let before = simulation.positions().to_vec();

@@ -4,7 +4,7 @@ use crate::garments::{NAMES, garment};
 use crate::{scene_file, set_up};
 use selvedge::{CollisionDetector, Intersection, Topology};
 use selvedge_cloth::effects::Gravity;
-use selvedge_cloth::{Scene, SetupError, Simulation, Tangled, TangledStart, Untangling};
+use selvedge_cloth::{Scene, SetupError, Simulation, Tangled, TangledStart, UntanglingProgress};
 
 /// A garment that starts so.
 fn starting(name: &str, cells: u32, depth: f64, start: TangledStart) -> Scene {
@@ -112,9 +112,9 @@ fn what_was_untangled_goes_on_as_any_other_scene_and_is_the_same_on_two_threads(
         let mut scene = starting("corner through itself", 20, 1.0, TangledStart::Untangle);
         scene.add(Gravity::default());
         let mut told = Vec::new();
-        let mut simulation = Simulation::new_telling(scene, threads, &mut |untangling| told.push(untangling)).unwrap();
+        let mut simulation = Simulation::with_progress(scene, threads, &mut |untangling| told.push(untangling)).unwrap();
         assert!(
-            matches!(told[0], Untangling { steps: 0, crossings } if crossings > 10),
+            matches!(told[0], UntanglingProgress { steps: 0, crossings } if crossings > 10),
             "{told:?}"
         );
         assert_eq!(told.last().unwrap().crossings, 0);

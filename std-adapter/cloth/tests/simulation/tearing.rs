@@ -6,7 +6,7 @@ use selvedge_cloth::effects::{
     SelfCollision, Shear, Stretch, Tearing, Thickness, TimeStep,
 };
 use selvedge_cloth::glam::DVec3;
-use selvedge_cloth::{Body, CHECKPOINT_STEPS, CheckpointError, Cloth, Keyframe, Motion, RigidMotion, Scene, Simulation};
+use selvedge_cloth::{Body, BodyMotion, CHECKPOINT_STEPS, CheckpointError, Cloth, Keyframe, KeyframeMotion, Scene, Simulation};
 use std::path::Path;
 
 /// Cells along and across a strip, of a centimetre each.
@@ -31,7 +31,7 @@ fn pulled(tearing: Tearing) -> Scene {
         translation: DVec3::X * x,
         ..Keyframe::default()
     });
-    let motion = RigidMotion::new(DVec3::ZERO, DVec3::Z, keys.to_vec()).unwrap();
+    let motion = KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys.to_vec()).unwrap();
     let right = PinGroup {
         vertices: column(CELLS[0]),
         motion: PinMotion::Own(motion.into()),
@@ -40,7 +40,7 @@ fn pulled(tearing: Tearing) -> Scene {
         groups: vec![PinGroup::resting(column(0)), right],
     });
     scene.add(Stretch::isotropic(1000.0)).add(Shear::new(100.0));
-    scene.add(SelfCollision(Thickness::of(1e-3))).add(tearing);
+    scene.add(SelfCollision(Thickness::new(1e-3))).add(tearing);
     scene
 }
 
@@ -172,7 +172,7 @@ fn sum(masses: &[f64], of: &[DVec3]) -> DVec3 {
 #[test]
 fn a_tear_keeps_mass_momentum_and_the_centre_of_mass() {
     let mut scene = Scene::new(strip("cloth", DVec3::ZERO), 1e-3);
-    scene.add(Stretch::isotropic(1000.0)).add(SelfCollision(Thickness::of(1e-3)));
+    scene.add(Stretch::isotropic(1000.0)).add(SelfCollision(Thickness::new(1e-3)));
     scene.add(Tearing::above(4.0)).add(Apart);
     let mut simulation = Simulation::new(scene, 1).unwrap();
     let all: f64 = masses(&simulation).iter().sum();
@@ -265,14 +265,14 @@ fn with_tassel(name: &str, at: DVec3, vertex: u32) -> Cloth {
     let mut mesh = strip(name, at).mesh().clone();
     let root = mesh.positions[vertex as usize];
     mesh.positions.extend([root - DVec3::Y * 0.01, root - DVec3::Y * 0.02]);
-    let made = Cloth::of_mesh_with_loose_edges(mesh, &[[vertex, 66], [66, 67]], DVec3::X, [0.2, 0.001]);
+    let made = Cloth::from_mesh_with_loose_edges(mesh, &[[vertex, 66], [66, 67]], DVec3::X, [0.2, 0.001]);
     made.unwrap().named(name)
 }
 
 fn with_tassels() -> Scene {
     let mut scene = pulled(Tearing::perforated(column(5), 50.0));
     scene.cloths = vec![with_tassel("cloth", DVec3::ZERO, 5), with_tassel("second", DVec3::Z * 0.1, 3)];
-    scene.add(RopeStretch::of(1000.0));
+    scene.add(RopeStretch::new(1000.0));
     scene
 }
 
@@ -311,9 +311,9 @@ fn a_balloon_that_has_torn_holds_no_pressure_any_more() {
     let (positions, triangles) = tetrahedron;
     let mesh = selvedge_cloth::Mesh { positions, triangles };
     let scene = |strength| {
-        let mut scene = Scene::new(Cloth::of_mesh(mesh.clone(), DVec3::X, 0.2).unwrap(), 1e-3);
-        scene.add(Stretch::isotropic(500.0)).add(SelfCollision(Thickness::of(1e-3)));
-        scene.add(InternalPressure::of_volume(2.0));
+        let mut scene = Scene::new(Cloth::from_mesh(mesh.clone(), DVec3::X, 0.2).unwrap(), 1e-3);
+        scene.add(Stretch::isotropic(500.0)).add(SelfCollision(Thickness::new(1e-3)));
+        scene.add(InternalPressure::with_volume_ratio(2.0));
         scene.add(Tearing::above(strength));
         scene
     };
@@ -350,7 +350,7 @@ fn refined((mut positions, triangles): (Vec<DVec3>, Vec<[u32; 3]>)) -> (Vec<DVec
 /// Cloth of decimetre cells between a groove and a wedge that are 40 µm from it: an opening of a thousandth of an edge goes 50 µm into the
 /// walls. Its ends are drawn up along these, around the wedge, and the groove goes away after 0.35 s.
 fn in_a_groove() -> Scene {
-    let cloth = Cloth::of_mesh(folded(2, 0..4, 0.0), DVec3::X, 0.2).unwrap();
+    let cloth = Cloth::from_mesh(folded(2, 0..4, 0.0), DVec3::X, 0.2).unwrap();
     let mut scene = Scene::new(cloth, 1e-3);
     let keys = |keys: [(f64, DVec3); 2]| {
         let key = |(time, translation)| Keyframe {
@@ -358,21 +358,21 @@ fn in_a_groove() -> Scene {
             translation,
             ..Keyframe::default()
         };
-        RigidMotion::new(DVec3::ZERO, DVec3::Z, keys.map(key).to_vec()).unwrap()
+        KeyframeMotion::new(DVec3::ZERO, DVec3::Z, keys.map(key).to_vec()).unwrap()
     };
     let away = keys([(0.35, DVec3::ZERO), (0.4, DVec3::Z * -0.02)]);
     let gap = 40e-6 * std::f64::consts::SQRT_2;
-    let mut groove = Body::of_mesh("groove", folded(3, -1..5, -gap));
-    groove.motion = Motion::Keyframes(away);
-    scene.bodies = vec![groove, Body::of_mesh("wedge", folded(3, -1..5, gap))];
+    let mut groove = Body::from_mesh("groove", folded(3, -1..5, -gap));
+    groove.motion = BodyMotion::Keyframes(away);
+    scene.bodies = vec![groove, Body::from_mesh("wedge", folded(3, -1..5, gap))];
     let drawn = |side: f64| PinMotion::Own(keys([(0.0, DVec3::ZERO), (0.15, DVec3::new(side, 0.0, 1.0) * 0.002)]).into());
     let ends = [-1.0, 1.0].map(|side: f64| PinGroup {
         vertices: (0..4).map(|row| 5 * row + if side < 0.0 { 0 } else { 4 }).collect(),
         motion: drawn(side),
     });
     scene.add(Pins { groups: ends.to_vec() });
-    scene.add(Stretch::isotropic(1000.0)).add(BodyContact(Thickness::of(50e-6)));
-    scene.add(SelfCollision(Thickness::of(50e-6)));
+    scene.add(Stretch::isotropic(1000.0)).add(BodyContact(Thickness::new(50e-6)));
+    scene.add(SelfCollision(Thickness::new(50e-6)));
     scene.add(Tearing::perforated([2, 7, 12, 17], 1.0));
     scene
 }

@@ -160,7 +160,7 @@ impl Simulate {
     fn set_up(&self, scene: Scene) -> Result<Simulation, Failure> {
         let name = scene.name.clone();
         let mut untangling = None;
-        let made = Simulation::new_telling(scene, self.threads.get(), &mut |now| {
+        let made = Simulation::with_progress(scene, self.threads.get(), &mut |now| {
             let shown = untangling.get_or_insert_with(|| Progress::shrinking("untangling, places left", now.crossings as u64));
             shown.set_steps(now.crossings as u64);
         });

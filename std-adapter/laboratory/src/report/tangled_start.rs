@@ -193,8 +193,8 @@ mod tests {
             positions: positions.map(DVec3::from).to_vec(),
             triangles: vec![[0, 1, 2], [3, 4, 5]],
         };
-        let mut scene = Scene::new(Cloth::of_mesh(mesh, DVec3::X, 0.1).unwrap(), 1e-3);
-        scene.add(SelfCollision(Thickness::of(1e-3)));
+        let mut scene = Scene::new(Cloth::from_mesh(mesh, DVec3::X, 0.1).unwrap(), 1e-3);
+        scene.add(SelfCollision(Thickness::new(1e-3)));
         match Simulation::new(scene, 1) {
             Err(SetupError::Tangled(tangled)) => *tangled,
             other => panic!("{:?}", other.err()),

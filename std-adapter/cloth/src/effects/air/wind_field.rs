@@ -35,7 +35,7 @@ pub(in crate::effects) const REGISTRATION: Registration = Registration {
             air_density: air.density,
             drag: air.coefficient,
             rope_diameter: air.rope_diameter,
-            ..WindField::of(sources)
+            ..WindField::from_sources(sources)
         }))
     },
 };
@@ -85,7 +85,7 @@ impl WindField {
 
     /// Of fans and vortices, as scene files have them.
     #[must_use]
-    pub fn of(sources: Vec<AirSource>) -> Self {
+    pub fn from_sources(sources: Vec<AirSource>) -> Self {
         Self::new(sources)
     }
 

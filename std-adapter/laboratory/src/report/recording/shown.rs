@@ -19,7 +19,7 @@ impl Shown {
         Self {
             vertices: mesh.positions.len(),
             has_triangles: !mesh.triangles.is_empty(),
-            tubes: Tubes::of(scene, index),
+            tubes: Tubes::from_scene(scene, index),
         }
     }
 
@@ -76,7 +76,7 @@ mod tests {
             positions,
             triangles: vec![[0, 1, 2]],
         };
-        let cloth = Cloth::of_mesh_with_loose_edges(mesh, &[[0, 3], [3, 4]], DVec3::X, [0.1, 0.1]).unwrap();
+        let cloth = Cloth::from_mesh_with_loose_edges(mesh, &[[0, 3], [3, 4]], DVec3::X, [0.1, 0.1]).unwrap();
         let scene = Scene::new(cloth, 1e-3);
         let shown = Shown::new(&scene, 0);
         let (count, triangles) = shown.mesh(&scene.cloths[0]);
