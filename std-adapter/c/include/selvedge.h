@@ -17,37 +17,37 @@
 #include <stdint.h>
 
 /**
- * Of the header: it changes with what was there before.
+ * The major version of the header. It changes with an incompatible change.
  */
 #define SELVEDGE_VERSION_MAJOR 0
 
 /**
- * Of the header: below 1.0 it changes with what was there before.
+ * The minor version of the header. Below 1.0 it changes with an incompatible change.
  */
 #define SELVEDGE_VERSION_MINOR 1
 
 /**
- * Of the header.
+ * The patch version of the header.
  */
 #define SELVEDGE_VERSION_PATCH 0
 
 /**
- * Of the header, as one number. That of the library is selvedge_version().
+ * The version of the header as one number. selvedge_version() returns that of the library.
  */
 #define SELVEDGE_VERSION (((1000000 * SELVEDGE_VERSION_MAJOR) + (1000 * SELVEDGE_VERSION_MINOR)) + SELVEDGE_VERSION_PATCH)
 
 /**
- * At first the tolerance of detectors for float: 2^-20, a micrometre where positions are in metres.
+ * The default tolerance of detectors for float: 2^-20, a micrometre if positions are in metres.
  */
 #define SELVEDGE_DEFAULT_TOLERANCE_F32 9.5367431640625e-7
 
 /**
- * At first the tolerance of detectors for double: 2^-30, a nanometre where positions are in metres.
+ * The default tolerance of detectors for double: 2^-30, a nanometre if positions are in metres.
  */
 #define SELVEDGE_DEFAULT_TOLERANCE_F64 9.313225746154785e-10
 
 /**
- * What became of a call.
+ * The result of a call.
  */
 enum selvedge_status
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -55,27 +55,27 @@ enum selvedge_status
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * All is well.
+   * The call succeeded.
    */
   SELVEDGE_STATUS_OK = 0,
   /**
-   * A pointer is NULL that must not be.
+   * A pointer is NULL where NULL is not allowed.
    */
   SELVEDGE_STATUS_NULL_POINTER = 1,
   /**
-   * A pointer is not aligned as its type has to be.
+   * A pointer does not have the alignment of its type.
    */
   SELVEDGE_STATUS_MISALIGNED_POINTER = 2,
   /**
-   * A count is larger than memory, or than what may be asked for.
+   * A count exceeds memory or the largest allowed value.
    */
   SELVEDGE_STATUS_BAD_COUNT = 3,
   /**
-   * A number is none of its enumeration's.
+   * A number is not a value of its enumeration.
    */
   SELVEDGE_STATUS_UNKNOWN_CONSTANT = 4,
   /**
-   * There is no such detector: it was freed, or never made.
+   * The detector was freed or never created.
    */
   SELVEDGE_STATUS_NO_SUCH_DETECTOR = 5,
   /**
@@ -99,7 +99,7 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_TOO_LARGE = 10,
   /**
-   * A list does not have an entry for each vertex.
+   * A list does not have one entry for each vertex.
    */
   SELVEDGE_STATUS_WRONG_LENGTH = 11,
   /**
@@ -115,23 +115,23 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_NO_SUCH_PAIR = 14,
   /**
-   * The operating system refuses threads, or there are more of them than any machine has use for.
+   * The threads could not be started, or their number is too large.
    */
   SELVEDGE_STATUS_NO_THREADS = 15,
   /**
-   * The operating system refuses memory.
+   * The operating system refused memory.
    */
   SELVEDGE_STATUS_NO_MEMORY = 16,
   /**
-   * The process was forked after the detector, world or simulation has started threads; they are not in the child.
+   * The process was forked after the detector, world or simulation had started threads. The child does not have them.
    */
   SELVEDGE_STATUS_FORKED = 17,
   /**
-   * The detector or world is cancelled.
+   * The call was cancelled.
    */
   SELVEDGE_STATUS_CANCELLED = 18,
   /**
-   * More pairs are near each other than may be looked at.
+   * There are more candidate pairs than the limit allows.
    */
   SELVEDGE_STATUS_TOO_MANY_PAIRS = 19,
   /**
@@ -139,63 +139,63 @@ enum selvedge_status
    */
   SELVEDGE_STATUS_BAD_TIME = 20,
   /**
-   * A fault of the library's own. The detector, world or simulation can only be freed from now on.
+   * The library has a bug. The detector, world or simulation can only be freed from now on.
    */
   SELVEDGE_STATUS_INTERNAL = 21,
   /**
-   * There is no such world: it was freed, or never made.
+   * The world was freed or never created.
    */
   SELVEDGE_STATUS_NO_SUCH_WORLD = 22,
   /**
-   * The world has no such mesh: it was removed, or is of another world.
+   * The world has no such mesh: it was removed, or it belongs to another world.
    */
   SELVEDGE_STATUS_NO_SUCH_MESH = 23,
   /**
-   * Two motions are given for one mesh.
+   * A mesh has two motions in one step.
    */
   SELVEDGE_STATUS_MOVED_TWICE = 24,
   /**
-   * A pose is none: a number is not finite, the quaternion is zero, or the mesh would be out of the range of numbers.
+   * A pose is invalid: a number is not finite, the quaternion is zero, or the mesh would leave the range of the format.
    */
   SELVEDGE_STATUS_BAD_POSE = 25,
   /**
-   * There is no such simulation: it was freed, or never made.
+   * The simulation was freed or never created.
    */
   SELVEDGE_STATUS_NO_SUCH_SIMULATION = 26,
   /**
-   * A scene cannot be read or used: the words name its file, line and column where one is at fault.
+   * A scene is invalid. The message names file, line and column where there is one.
    */
   SELVEDGE_STATUS_BAD_SCENE = 27,
   /**
-   * A step found no motion without an intersection, in a scene that stops then. What is done of the step stays.
+   * A step found no motion without an intersection, in a scene that stops then. The part of the step that was done remains.
    */
   SELVEDGE_STATUS_BLOCKED = 28,
   /**
-   * The scene has no such cloth, body, group of pins, or wind.
+   * The scene has no such cloth, body, group of pins or wind.
    */
   SELVEDGE_STATUS_NO_SUCH_PART = 29,
   /**
-   * A body or a group of pins has a motion of its own: its scene does not say that it is driven.
+   * A body or a group of pins cannot be moved: its scene does not say that it is driven.
    */
   SELVEDGE_STATUS_NOT_DRIVEN = 30,
   /**
-   * A position or a velocity is not finite, or beyond its range.
+   * A position or a velocity is not finite or out of its range.
    */
   SELVEDGE_STATUS_BAD_VALUE = 31,
   /**
-   * Bytes are no checkpoint, are damaged, or are one of another scene.
+   * The bytes are not a checkpoint, are damaged, or belong to another scene.
    */
   SELVEDGE_STATUS_BAD_CHECKPOINT = 32,
   /**
-   * There is no checkpoint after this step: one is every SELVEDGE_CHECKPOINT_STEPS steps.
+   * There is no checkpoint after this step. One exists every SELVEDGE_CHECKPOINT_STEPS steps.
    */
   SELVEDGE_STATUS_NO_CHECKPOINT = 33,
   /**
-   * A text is not UTF-8, or has a zero before its end.
+   * A text is not valid UTF-8.
    */
   SELVEDGE_STATUS_BAD_TEXT = 34,
   /**
-   * A scene starts with surfaces that pass through each other: the words say where first, and what the scene may say of it.
+   * A scene starts with surfaces that pass through each other. The message names the first place and the possible settings.
    */
   SELVEDGE_STATUS_TANGLED = 35,
 };
@@ -208,7 +208,7 @@ typedef int32_t selvedge_status;
 #endif // __cplusplus
 
 /**
- * Which primitives a pair is made of.
+ * The primitives of a pair.
  */
 enum selvedge_kind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -258,7 +258,7 @@ typedef uint32_t selvedge_scalar;
 #endif // __cplusplus
 
 /**
- * Which boxes tell candidates.
+ * The bounding boxes that generate candidates.
  */
 enum selvedge_boxes
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -266,11 +266,12 @@ enum selvedge_boxes
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
   /**
-   * Those at the start and at the end of the step, that are not in one order along an axis at both. Fewer pairs, in less time.
+   * The boxes at the start and at the end of the step. Two primitives are apart if an axis orders both pairs of boxes alike. This
+   * gives fewer pairs in less time.
    */
   SELVEDGE_BOXES_MOVING = 0,
   /**
-   * Those that primitives sweep, that overlap: what other systems call candidates.
+   * The boxes that primitives sweep; they overlap. Other libraries call these pairs candidates.
    */
   SELVEDGE_BOXES_SWEPT = 1,
 };
@@ -283,7 +284,7 @@ typedef uint32_t selvedge_boxes;
 #endif // __cplusplus
 
 /**
- * Which primitives intersect.
+ * The primitives that intersect.
  */
 enum selvedge_intersection_kind
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -312,10 +313,10 @@ typedef uint32_t selvedge_intersection_kind;
 #endif // __cplusplus
 
 /**
- * A mesh, and what is kept of it from step to step. Only pointers to it exist; they are numbers, and nothing is behind them.
+ * A detector for one mesh. Its pointer is a handle: a number that is looked up and never followed.
  *
- * One thread at a time: a call on a detector that another thread is using fails with SELVEDGE_STATUS_BUSY and changes nothing.
- * Detectors do not know of each other: each may be used by a thread of its own.
+ * One thread at a time may use a detector. A call on a detector in use fails with SELVEDGE_STATUS_BUSY and changes nothing.
+ * Different detectors are independent, and each may have a thread of its own.
  */
 typedef struct selvedge_detector selvedge_detector;
 
@@ -327,8 +328,8 @@ typedef struct selvedge_detector selvedge_detector;
 typedef struct selvedge_world selvedge_world;
 
 /**
- * What a vertex belongs to, and what it collides with, a bit for each group: two vertices collide if each is in a group that the
- * other's filter has.
+ * The groups of a vertex and the groups it collides with, a bit for each group. Two vertices collide if each is in a group of the
+ * other's filter.
  */
 typedef struct selvedge_groups {
   /**
@@ -342,7 +343,7 @@ typedef struct selvedge_groups {
 } selvedge_groups;
 
 /**
- * A vertex and a face, two edges, or two vertices, as those of an edge, by their numbers.
+ * The numbers of a vertex and a face, of two edges, or of two vertices (the ends of an edge).
  */
 typedef struct selvedge_pair {
   /**
@@ -356,11 +357,11 @@ typedef struct selvedge_pair {
 } selvedge_pair;
 
 /**
- * A pair for which contact during the step is not excluded.
+ * A pair that may touch during the step.
  */
 typedef struct selvedge_contact {
   /**
-   * When, in [0, 1] of the step: not after the exact time. Of a detector for float it is a float, widened without rounding.
+   * The time in [0, 1] of the step, not after the exact time. A detector for float gives a float, widened without rounding.
    */
   double time;
   /**
@@ -368,7 +369,7 @@ typedef struct selvedge_contact {
    */
   uint32_t kind;
   /**
-   * The vertex and the face, or the two edges. Faces are numbered as the triangles, edges as by selvedge_detector_edges.
+   * The vertex and the face, or the two edges. Faces have the numbers of the triangles, edges those of selvedge_detector_edges.
    */
   struct selvedge_pair pair;
   /**
@@ -378,7 +379,7 @@ typedef struct selvedge_contact {
 } selvedge_contact;
 
 /**
- * Two primitives of a mesh at rest that have a point in common, and no vertex.
+ * Two primitives of a mesh at rest that share a point, but no vertex.
  */
 typedef struct selvedge_intersection {
   /**
@@ -392,8 +393,8 @@ typedef struct selvedge_intersection {
 } selvedge_intersection;
 
 /**
- * Two primitives and how they lie to each other at some time: at that of a contact, or at rest. Lengths are in the unit of the
- * positions; all is computed in double, for float too.
+ * The geometry of two primitives at the time of a contact, or at rest. Lengths are in the unit of the positions. All values are
+ * computed in double, for float as well.
  */
 typedef struct selvedge_geometry {
   /**
@@ -409,52 +410,51 @@ typedef struct selvedge_geometry {
    */
   uint32_t vertices[4];
   /**
-   * Whether there is a normal. There is none where the two cannot be shown to have been apart: where they touch when the step
-   * begins, or have done so before; at rest, where they touch.
+   * Whether there is a normal. There is none if the two cannot be shown to have been apart: they touch at the start of the step or
+   * earlier in it; or, at rest, they touch.
    */
   bool has_normal;
   /**
-   * Of the four vertices, in [0, 1]: barycentric. Those of each side add up to one.
+   * Barycentric weights of the four vertices, in [0, 1]. The weights of each side add up to one.
    */
   double weights[4];
   /**
-   * The points of the first and of the second side that have these weights: the closest.
+   * The closest points of the first and of the second side; they have these weights.
    */
   double points[2][3];
   /**
-   * From the second side to the first, of length one; zeros if there is none.
+   * The direction from the second side to the first, of length one; zeros if there is no normal.
    */
   double normal[3];
   /**
-   * When the sides were certainly apart along the normal: at the time of contact, or a little before. 0 without a normal.
+   * A time at which the sides were certainly apart along the normal: that of the contact, or slightly earlier. 0 without a normal.
    */
   double separated_at;
   /**
-   * The distance of the two sides at that time is certainly not less than the first, not more than the second.
+   * A lower and an upper bound of the distance of the two sides at that time.
    */
   double distance[2];
   /**
-   * How fast the first point moves away from the second along the normal, in lengths a step: less than zero if they come
-   * nearer, zero without a normal.
+   * The speed at which the first point moves away from the second along the normal, in lengths per step. It is negative if they
+   * approach each other, and zero without a normal.
    */
   double speed;
 } selvedge_geometry;
 
 /**
- * What came of a step of which each vertex goes as far as it may.
+ * The counts of a step that was truncated vertex by vertex.
  */
 typedef struct selvedge_truncation {
   /**
-   * Vertices that go less than the whole of their way.
+   * The number of vertices that do not go their whole way.
    */
   size_t held_back;
   /**
-   * Pairs that are in contact at the start already. Their vertices rest. Where there are none, the step is certainly free of
-   * contact.
+   * The number of pairs in contact at the start. Their vertices rest. If it is 0, the step is certainly free of contact.
    */
   size_t in_contact;
   /**
-   * How often contacts were looked for.
+   * The number of searches for contacts.
    */
   size_t rounds;
 } selvedge_truncation;
@@ -465,27 +465,27 @@ typedef struct selvedge_truncation {
 typedef uint64_t selvedge_mesh;
 
 /**
- * A mesh of a world whose vertices move, each straight and at constant velocity: cloth, soft bodies. Such a mesh can also meet
- * itself.
+ * A mesh of a world whose vertices move, each on a straight path and at constant velocity, such as cloth or a soft body. The mesh
+ * can also meet itself.
  */
-typedef struct selvedge_deforming_f64 {
+typedef struct Deforming_f64 {
   /**
-   * Which mesh.
+   * The mesh.
    */
   selvedge_mesh mesh;
   /**
-   * 3 * `vertex_count` numbers: the positions at the start.
+   * The positions at the start: 3 * `vertex_count` numbers.
    */
   const double *start;
   /**
-   * And at the end.
+   * The positions at the end.
    */
   const double *end;
   /**
-   * As many as the mesh has.
+   * The number of vertices of the mesh.
    */
   size_t vertex_count;
-} selvedge_deforming_f64;
+} Deforming_f64;
 
 /**
  * Where a body is: what its shape, which is that it was inserted with, is turned and moved by.
@@ -537,28 +537,6 @@ typedef struct selvedge_world_contact {
 } selvedge_world_contact;
 
 /**
- * selvedge_deforming_f64 for float.
- */
-typedef struct selvedge_deforming_f32 {
-  /**
-   * Which mesh.
-   */
-  selvedge_mesh mesh;
-  /**
-   * 3 * `vertex_count` numbers: the positions at the start.
-   */
-  const float *start;
-  /**
-   * And at the end.
-   */
-  const float *end;
-  /**
-   * As many as the mesh has.
-   */
-  size_t vertex_count;
-} selvedge_deforming_f32;
-
-/**
  * Two primitives of a world and how they lie to each other at the time of a contact.
  */
 typedef struct selvedge_world_geometry {
@@ -572,40 +550,63 @@ typedef struct selvedge_world_geometry {
   struct selvedge_geometry geometry;
 } selvedge_world_geometry;
 
+/**
+ * A mesh of a world whose vertices move, each on a straight path and at constant velocity, such as cloth or a soft body. The mesh
+ * can also meet itself.
+ */
+typedef struct Deforming_f32 {
+  /**
+   * The mesh.
+   */
+  selvedge_mesh mesh;
+  /**
+   * The positions at the start: 3 * `vertex_count` numbers.
+   */
+  const float *start;
+  /**
+   * The positions at the end.
+   */
+  const float *end;
+  /**
+   * The number of vertices of the mesh.
+   */
+  size_t vertex_count;
+} Deforming_f32;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
 
 /**
- * The library's version in words, as "0.1.0". Never NULL; valid for ever.
+ * Returns the version of the library as a text, such as "0.1.0". Never NULL; valid forever.
  */
 const char *selvedge_version_string(void);
 
 /**
- * The library's version as a number: 1,000,000 * major + 1,000 * minor + patch. That of the header is SELVEDGE_VERSION.
+ * Returns the version of the library: 1,000,000 * major + 1,000 * minor + patch. SELVEDGE_VERSION is that of the header.
  */
 uint32_t selvedge_version(void);
 
 /**
- * What the last call that failed on this thread has to say, in words; empty if none has. Never NULL.
+ * Returns the message of the last failed call on this thread, or an empty text. Never NULL.
  *
- * Valid until the next call that fails on this thread, or the thread's end. A call that succeeds leaves it.
+ * The text is valid until the next failed call on this thread, or until the thread ends. Successful calls do not change it.
  */
 const char *selvedge_last_error(void);
 
 /**
- * A selvedge_status in a few words, for any number. Never NULL; valid for ever.
+ * Returns a short text for a selvedge_status, or for any other number. Never NULL; valid forever.
  */
 const char *selvedge_status_string(int32_t status);
 
 /**
- * A detector for a mesh. `scalar` is a selvedge_scalar: the format that its positions will have. On the calling thread at first,
- * all vertices moving, steps not coherent, contacts within the default tolerance.
+ * Creates a detector for a mesh. `scalar` is a selvedge_scalar, the format of its positions. By default it uses the calling thread,
+ * all vertices move, steps are not coherent, and contacts are pairs within the default tolerance.
  *
- * Edges and points that belong to no triangle, of ropes, hair and particles, are triangles that name a vertex twice, (a, b, b), or
- * three times, (p, p, p): they collide as what they are. A vertex that nothing names touches nothing.
+ * A triangle that names a vertex twice, (a, b, b), is a loose edge, and one that names it three times, (p, p, p), a point: parts of
+ * ropes, hair and particles. They collide as edges and points. A vertex that no triangle names collides with nothing.
  *
- * The triangles are copied. `*detector` becomes the handle; selvedge_detector_free gives back what it takes.
+ * The triangles are copied. `*detector` receives the handle; free it with selvedge_detector_free.
  *
  * The caller promises:
  * `triangles` points to 3 * `triangle_count` vertex numbers, `detector` to a pointer.
@@ -617,52 +618,51 @@ selvedge_status selvedge_detector_new(uint32_t scalar,
                                       struct selvedge_detector **detector);
 
 /**
- * Cuts the question short that another thread is asking, and each one from now on: it fails with SELVEDGE_STATUS_CANCELLED,
- * unless it is as good as answered. `cancelled` is not 0; 0 takes it back. Afterwards the detector answers as if nothing had
- * been.
+ * Cancels the call that another thread is making, and all later calls, if `cancelled` is not 0. They fail with
+ * SELVEDGE_STATUS_CANCELLED unless they are nearly done. 0 ends this; the detector then answers as usual.
  *
- * For any thread at any time: the only function that a detector in use does not refuse, but for selvedge_detector_free.
+ * Any thread may call this at any time. Besides selvedge_detector_free it is the only function that a detector in use accepts.
  */
 selvedge_status selvedge_detector_set_cancelled(struct selvedge_detector *detector,
                                                 int32_t cancelled);
 
 /**
- * Frees a detector and tells its threads to end; all that it has shown is gone with it. NULL is well. One that another thread is
- * using goes when that call has ended.
+ * Frees a detector, its lists and its threads. NULL is allowed. A detector that another thread is using is freed when that call
+ * has ended.
  */
 selvedge_status selvedge_detector_free(struct selvedge_detector *detector);
 
 /**
- * How many threads steps are split between: 1, as at first, is the one that calls; more are the detector's own; 0 is one for
- * each core. Answers are the same bit for bit. More than four for each core, and more than 256, are refused.
+ * Sets the number of threads of a step. 1, the default, is the calling thread; larger numbers start threads of the detector; 0 is
+ * one for each core. Answers are the same bit for bit. More than four for each core, or more than 256, are refused.
  */
 selvedge_status selvedge_detector_set_threads(struct selvedge_detector *detector,
                                               size_t count);
 
 /**
- * Contacts are pairs that cannot be proven to stay farther apart than `separation`; those that only come within `tolerance` of it
- * may be among them. At first the separation is 0, the tolerance SELVEDGE_DEFAULT_TOLERANCE_F32 or _F64.
+ * Reports pairs that may come within `separation` of each other. A pair that only comes within `separation + tolerance` may be
+ * among them. By default the separation is 0 and the tolerance is SELVEDGE_DEFAULT_TOLERANCE_F32 or _F64.
  *
- * Both in the unit of the positions. For a detector for float they are rounded up to a float.
+ * Both are in the unit of the positions. A detector for float rounds them up to a float.
  */
 selvedge_status selvedge_detector_set_within(struct selvedge_detector *detector,
                                              double separation,
                                              double tolerance);
 
 /**
- * Contacts are only pairs that truly touch, decided exactly. A time may be as much too early as the pair needs to come closer by
- * `tolerance`.
+ * Reports only pairs that truly touch, decided exactly. A reported time may be early: by as long as the pair takes to close the
+ * distance `tolerance`.
  *
- * In the unit of the positions. For a detector for float it is rounded up to a float.
+ * The tolerance is in the unit of the positions. A detector for float rounds it up to a float.
  */
 selvedge_status selvedge_detector_set_touching(struct selvedge_detector *detector,
                                                double tolerance);
 
 /**
- * Names the vertices that move: for each of them a byte that is not 0. NULL and 0: all of them, as at first.
+ * Names the moving vertices: a byte for each vertex, not 0 if it moves. NULL and 0, the default: all vertices move.
  *
- * From the next step on pairs of which no vertex moves are not looked at. Positions of vertices that do not move are taken from
- * the next step, and not looked at again until this is called anew. The bytes are copied.
+ * From the next step on, pairs without a moving vertex are skipped. The next step sets the positions of resting vertices; they are
+ * not read again until the next call of this function. The bytes are copied.
  *
  * The caller promises:
  * `moving` points to `count` bytes.
@@ -672,12 +672,14 @@ selvedge_status selvedge_detector_set_moving(struct selvedge_detector *detector,
                                              size_t count);
 
 /**
- * Which pairs are looked at from the next step on, in place of what was said before. Vertices do not collide whose groups do
- * not, that are of one patch, or that are an excluded pair, in either order; a pair is not looked at if no vertex of one side
- * collides with any of the other. NULL: no such rule. All three NULL: all pairs are looked at, as at first.
+ * Sets the collision filter, from the next step on. It replaces the previous one.
  *
- * `groups` and `patches` have an entry for each vertex, `vertex_count` of them; it is not looked at if both are NULL. Pairs of
- * selvedge_detector_contacts_of_f64 are looked at whatever this says. All is copied.
+ * Two vertices do not collide if their groups do not, if they have the same patch, or if they are an excluded pair, in either
+ * order. A pair of primitives is skipped if no vertex of one side collides with any vertex of the other. NULL omits a rule; with
+ * all three NULL, the default, no pair is skipped.
+ *
+ * `groups` and `patches` have an entry for each of the `vertex_count` vertices; the count is ignored if both are NULL. The filter
+ * does not apply to selvedge_detector_contacts_of_f64. All arguments are copied.
  *
  * The caller promises:
  * `groups` and `patches` are NULL or point to `vertex_count` entries, `excluded` to `excluded_count` pairs of vertices.
@@ -690,21 +692,21 @@ selvedge_status selvedge_detector_set_collision_filter(struct selvedge_detector 
                                                        size_t excluded_count);
 
 /**
- * Whether steps go on from one another, as those of a simulation do: 0, as at first, or not 0. Then a step takes less time where
- * vertices move by much less than an edge. The contacts are the same, in ascending order of their pairs' numbers.
+ * Sets whether each step starts where the last one ended, as in a simulation: not 0, or 0 as by default. Such steps are faster if
+ * vertices move by much less than an edge. The contacts are the same, in ascending order of their pairs.
  */
 selvedge_status selvedge_detector_set_coherent(struct selvedge_detector *detector,
                                                int32_t coherent);
 
 /**
- * Most pairs that a question may look at, of those that boxes leave; UINT64_MAX, as at first: as many as there are. One with
- * more fails with SELVEDGE_STATUS_TOO_MANY_PAIRS, on any number of threads.
+ * Limits the number of candidate pairs of a call. UINT64_MAX, the default, is no limit. A call with more pairs fails with
+ * SELVEDGE_STATUS_TOO_MANY_PAIRS, on any number of threads.
  */
 selvedge_status selvedge_detector_set_pair_limit(struct selvedge_detector *detector,
                                                  uint64_t limit);
 
 /**
- * How many threads a step uses.
+ * Returns the number of threads of a step.
  *
  * The caller promises:
  * `count` points to a number.
@@ -712,9 +714,9 @@ selvedge_status selvedge_detector_set_pair_limit(struct selvedge_detector *detec
 selvedge_status selvedge_detector_threads(const struct selvedge_detector *detector, size_t *count);
 
 /**
- * The edges of the mesh by their numbers, each as its vertices, the smaller first; `count` becomes how many there are.
+ * Returns the edges of the mesh in the order of their numbers. Each is a pair of vertices, the smaller number first.
  *
- * They stay where they are until the detector is freed.
+ * The list stays valid until the detector is freed.
  *
  * The caller promises:
  * `edges` points to a pointer, `count` to a number.
@@ -724,8 +726,8 @@ selvedge_status selvedge_detector_edges(const struct selvedge_detector *detector
                                         size_t *count);
 
 /**
- * All contacts of the step from `start` to `end`. They stay where they are until this detector's contacts are asked for again,
- * in either way, or it is freed. If there are none they are at NULL.
+ * Finds all contacts of the step from `start` to `end`. The list stays valid until the next search for contacts with this
+ * detector, or until the detector is freed. An empty list is at NULL.
  *
  * The caller promises:
  * `start` and `end` point to 3 * `vertex_count` numbers, `contacts` to a pointer, `count` to a number.
@@ -738,24 +740,11 @@ selvedge_status selvedge_detector_contacts_f64(struct selvedge_detector *detecto
                                                size_t *count);
 
 /**
- * selvedge_detector_contacts_f64 for float.
+ * Finds the contacts among the given pairs, in their order. The pairs may be this detector's own candidates. The list stays valid
+ * as for selvedge_detector_contacts_f64.
  *
  * The caller promises:
- * As selvedge_detector_contacts_f64.
- */
-selvedge_status selvedge_detector_contacts_f32(struct selvedge_detector *detector,
-                                               const float *start,
-                                               const float *end,
-                                               size_t vertex_count,
-                                               const struct selvedge_contact **contacts,
-                                               size_t *count);
-
-/**
- * The contacts among pairs that the caller has, in their order: so many of a vertex and a face, and so many of two edges. They
- * stay as those of selvedge_detector_contacts_f64. The pairs may be this detector's own candidates.
- *
- * The caller promises:
- * As selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to so many pairs.
+ * As selvedge_detector_contacts_f64; `vertex_face` and `edge_edge` point to as many pairs as their counts say.
  */
 selvedge_status selvedge_detector_contacts_of_f64(struct selvedge_detector *detector,
                                                   const double *start,
@@ -769,29 +758,13 @@ selvedge_status selvedge_detector_contacts_of_f64(struct selvedge_detector *dete
                                                   size_t *count);
 
 /**
- * selvedge_detector_contacts_of_f64 for float.
+ * Finds the earliest contact of the step. Of several at the same time it is the one with the smallest numbers.
+ *
+ * `*found` says whether there is one. If so, `*contact` receives it, and the step is free of contact before its time. Otherwise
+ * the whole step is free, and `*contact` stays unchanged.
  *
  * The caller promises:
- * As selvedge_detector_contacts_of_f64.
- */
-selvedge_status selvedge_detector_contacts_of_f32(struct selvedge_detector *detector,
-                                                  const float *start,
-                                                  const float *end,
-                                                  size_t vertex_count,
-                                                  const struct selvedge_pair *vertex_face,
-                                                  size_t vertex_face_count,
-                                                  const struct selvedge_pair *edge_edge,
-                                                  size_t edge_edge_count,
-                                                  const struct selvedge_contact **contacts,
-                                                  size_t *count);
-
-/**
- * The earliest contact of the step: of several at the same time the one with the smallest numbers. `*found` becomes whether
- * there is one. Then `*contact` becomes it, and the step is free of contact before its time; otherwise the whole step is, and
- * `*contact` stays.
- *
- * The caller promises:
- * `start` and `end` point to 3 * `vertex_count` numbers, `found` and `contact` to one of their type.
+ * `start` and `end` point to 3 * `vertex_count` numbers, `found` and `contact` to one value of their type.
  */
 selvedge_status selvedge_detector_earliest_f64(struct selvedge_detector *detector,
                                                const double *start,
@@ -801,23 +774,10 @@ selvedge_status selvedge_detector_earliest_f64(struct selvedge_detector *detecto
                                                struct selvedge_contact *contact);
 
 /**
- * selvedge_detector_earliest_f64 for float.
+ * Decides whether the step is certainly free of contact. The search ends at the first contact.
  *
  * The caller promises:
- * As selvedge_detector_earliest_f64.
- */
-selvedge_status selvedge_detector_earliest_f32(struct selvedge_detector *detector,
-                                               const float *start,
-                                               const float *end,
-                                               size_t vertex_count,
-                                               bool *found,
-                                               struct selvedge_contact *contact);
-
-/**
- * Whether the step is certainly free of contact. Ends at the first contact.
- *
- * The caller promises:
- * `start` and `end` point to 3 * `vertex_count` numbers, `is_free` to one of its type.
+ * `start` and `end` point to 3 * `vertex_count` numbers, `is_free` to one value of its type.
  */
 selvedge_status selvedge_detector_is_free_f64(struct selvedge_detector *detector,
                                               const double *start,
@@ -826,20 +786,9 @@ selvedge_status selvedge_detector_is_free_f64(struct selvedge_detector *detector
                                               bool *is_free);
 
 /**
- * selvedge_detector_is_free_f64 for float.
- *
- * The caller promises:
- * As selvedge_detector_is_free_f64.
- */
-selvedge_status selvedge_detector_is_free_f32(struct selvedge_detector *detector,
-                                              const float *start,
-                                              const float *end,
-                                              size_t vertex_count,
-                                              bool *is_free);
-
-/**
- * The pairs that boxes leave; all others are certainly farther apart than the separation throughout the step. `boxes`
- * is a selvedge_boxes. They stay where they are until this detector's candidates are asked for again, or it is freed.
+ * Finds the pairs that bounding boxes keep. All other pairs certainly stay farther apart than the separation throughout the step.
+ * `boxes` is a selvedge_boxes. The lists stay valid until the next search for candidates with this detector, or until the
+ * detector is freed.
  *
  * The caller promises:
  * `start` and `end` point to 3 * `vertex_count` numbers, `vertex_face` and `edge_edge` to pointers, the counts to numbers.
@@ -855,26 +804,11 @@ selvedge_status selvedge_detector_candidates_f64(struct selvedge_detector *detec
                                                  size_t *edge_edge_count);
 
 /**
- * selvedge_detector_candidates_f64 for float.
+ * Finds all intersections of the mesh at rest, exactly. They are edges and faces that meet, touching included, and primitives of
+ * neighbours that are folded flat onto each other.
  *
- * The caller promises:
- * As selvedge_detector_candidates_f64.
- */
-selvedge_status selvedge_detector_candidates_f32(struct selvedge_detector *detector,
-                                                 const float *start,
-                                                 const float *end,
-                                                 size_t vertex_count,
-                                                 uint32_t boxes,
-                                                 const struct selvedge_pair **vertex_face,
-                                                 size_t *vertex_face_count,
-                                                 const struct selvedge_pair **edge_edge,
-                                                 size_t *edge_edge_count);
-
-/**
- * All edges and faces that meet where the mesh is at `positions`, at rest, touching included, exactly; and vertices and faces,
- * and edges, that touch where neighbours are folded flat onto each other. None exactly if no two triangles have a point in
- * common besides the vertices and the edge that they share. They stay where they are until this detector's intersections are
- * asked for again, or it is freed.
+ * The list is empty exactly if no two triangles share a point besides the vertices and the edge that they have in common. It
+ * stays valid until the next search for intersections with this detector, or until the detector is freed.
  *
  * The caller promises:
  * `positions` points to 3 * `vertex_count` numbers, `intersections` to a pointer, `count` to a number.
@@ -886,22 +820,10 @@ selvedge_status selvedge_detector_intersections_f64(struct selvedge_detector *de
                                                     size_t *count);
 
 /**
- * selvedge_detector_intersections_f64 for float.
+ * Decides whether the mesh at rest intersects itself. The search ends at the first intersection.
  *
  * The caller promises:
- * As selvedge_detector_intersections_f64.
- */
-selvedge_status selvedge_detector_intersections_f32(struct selvedge_detector *detector,
-                                                    const float *positions,
-                                                    size_t vertex_count,
-                                                    const struct selvedge_intersection **intersections,
-                                                    size_t *count);
-
-/**
- * Whether there is any intersection. Ends at the first.
- *
- * The caller promises:
- * `positions` points to 3 * `vertex_count` numbers, `has_any` to one of its type.
+ * `positions` points to 3 * `vertex_count` numbers, `has_any` to one value of its type.
  */
 selvedge_status selvedge_detector_has_intersections_f64(struct selvedge_detector *detector,
                                                         const double *positions,
@@ -909,21 +831,12 @@ selvedge_status selvedge_detector_has_intersections_f64(struct selvedge_detector
                                                         bool *has_any);
 
 /**
- * selvedge_detector_has_intersections_f64 for float.
+ * Computes the geometry of each contact at its time: the closest points, their weights, a normal along which the two sides were
+ * certainly apart, and bounds of their distance.
  *
- * The caller promises:
- * As selvedge_detector_has_intersections_f64.
- */
-selvedge_status selvedge_detector_has_intersections_f32(struct selvedge_detector *detector,
-                                                        const float *positions,
-                                                        size_t vertex_count,
-                                                        bool *has_any);
-
-/**
- * How the two of each contact lie to each other at its time: the closest points, their weights, a normal along which they were
- * certainly apart, the range that their distance is in. `contacts` may be this detector's own list, or any rows of the caller's,
- * of which kind, pair and time are looked at; the geometries are in their order. For a detector for float a time is rounded down
- * to a float. They stay where they are until this detector's contact geometries are asked for again, or it is freed.
+ * `contacts` may be this detector's own list or rows of the caller, of which kind, pair and time are read. The geometries have the
+ * same order. A detector for float rounds a time down to a float. The list stays valid until the next call of this function for
+ * this detector, or until the detector is freed.
  *
  * The caller promises:
  * `start` and `end` point to 3 * `vertex_count` numbers, `contacts` to `contact_count` rows, `geometries` to a pointer, `count`
@@ -939,28 +852,13 @@ selvedge_status selvedge_detector_contact_geometries_f64(struct selvedge_detecto
                                                          size_t *count);
 
 /**
- * selvedge_detector_contact_geometries_f64 for float.
+ * Finds all pairs within `distance` of each other in a mesh at rest, with their closest points. None is missed; a pair that is a
+ * little farther apart may be included, and each row has bounds of its distance.
  *
- * The caller promises:
- * As selvedge_detector_contact_geometries_f64.
- */
-selvedge_status selvedge_detector_contact_geometries_f32(struct selvedge_detector *detector,
-                                                         const float *start,
-                                                         const float *end,
-                                                         size_t vertex_count,
-                                                         const struct selvedge_contact *contacts,
-                                                         size_t contact_count,
-                                                         const struct selvedge_geometry **geometries,
-                                                         size_t *count);
-
-/**
- * All pairs that are within `distance` of each other where the mesh is at `positions`, at rest, with their closest points: none
- * missed; a pair a little farther away may be among them, each tells the range that its distance is in. Ascending by kind and
- * pair. Not asked are pairs that share a vertex, pairs of which no vertex moves (selvedge_detector_set_moving) and those that
- * selvedge_detector_set_collision_filter excludes.
- *
- * `distance` is in the unit of the positions; for a detector for float it is rounded up to a float. The list stays where it is
- * until this detector is asked for what is near again, or it is freed.
+ * Rows ascend by kind and pair. Pairs that share a vertex, pairs without a moving vertex (selvedge_detector_set_moving) and pairs
+ * that selvedge_detector_set_collision_filter excludes are left out. `distance` is in the unit of the positions; a detector for
+ * float rounds it up to a float. The list stays valid until the next call of this function for this detector, or until the
+ * detector is freed.
  *
  * The caller promises:
  * `positions` points to 3 * `vertex_count` numbers, `geometries` to a pointer, `count` to a number.
@@ -973,46 +871,20 @@ selvedge_status selvedge_detector_near_f64(struct selvedge_detector *detector,
                                            size_t *count);
 
 /**
- * selvedge_detector_near_f64 for float.
+ * Moves each vertex from `start` towards `wanted` as far as its neighbourhood allows, and writes the positions to `end`. The step
+ * from `start` to `end` is free of contact, except for pairs in contact at the start; their vertices rest. `*truncation` receives
+ * the counts.
+ *
+ * `end` may be `wanted` or `start` itself: it is written last, and not by a call that fails.
  *
  * The caller promises:
- * As selvedge_detector_near_f64.
- */
-selvedge_status selvedge_detector_near_f32(struct selvedge_detector *detector,
-                                           const float *positions,
-                                           size_t vertex_count,
-                                           double distance,
-                                           const struct selvedge_geometry **geometries,
-                                           size_t *count);
-
-/**
- * Lets each vertex go from `start` to where it is `wanted` as far as its neighbourhood lets it: `end` becomes positions on these
- * ways such that the step from `start` to `end` is free of contact, but for pairs that are in contact at the start, whose
- * vertices rest. `*truncation` becomes what was done.
- *
- * `end` may be `wanted` or `start` itself: it is written to when all else is done, and not by a call that fails.
- *
- * The caller promises:
- * `start` and `wanted` point to 3 * `vertex_count` numbers, `end` to room for as many, `truncation` to one of its type.
+ * `start` and `wanted` point to 3 * `vertex_count` numbers, `end` to room for as many, `truncation` to one value of its type.
  */
 selvedge_status selvedge_detector_truncate_f64(struct selvedge_detector *detector,
                                                const double *start,
                                                const double *wanted,
                                                size_t vertex_count,
                                                double *end,
-                                               struct selvedge_truncation *truncation);
-
-/**
- * selvedge_detector_truncate_f64 for float.
- *
- * The caller promises:
- * As selvedge_detector_truncate_f64.
- */
-selvedge_status selvedge_detector_truncate_f32(struct selvedge_detector *detector,
-                                               const float *start,
-                                               const float *wanted,
-                                               size_t vertex_count,
-                                               float *end,
                                                struct selvedge_truncation *truncation);
 
 /**
@@ -1064,39 +936,6 @@ selvedge_status selvedge_world_set_touching(struct selvedge_world *world,
 selvedge_status selvedge_world_set_pair_limit(struct selvedge_world *world, uint64_t limit);
 
 /**
- * A new mesh that rests at these positions. `groups` say which meshes it is looked at with, itself among them; NULL: with all.
- * `*mesh` becomes its number.
- *
- * Triangles and positions are copied. Edges and points of ropes, hair and particles are triangles that name a vertex twice or three times,
- * as of a detector.
- *
- * The caller promises:
- * `triangles` points to 3 * `triangle_count` vertex numbers, `positions` to 3 * `vertex_count` numbers, `groups` to one entry unless it is
- * NULL, `mesh` to a number.
- */
-selvedge_status selvedge_world_insert_f64(struct selvedge_world *world,
-                                          size_t vertex_count,
-                                          const uint32_t *triangles,
-                                          size_t triangle_count,
-                                          const double *positions,
-                                          const struct selvedge_groups *groups,
-                                          selvedge_mesh *mesh);
-
-/**
- * selvedge_world_insert_f64 for float.
- *
- * The caller promises:
- * As selvedge_world_insert_f64.
- */
-selvedge_status selvedge_world_insert_f32(struct selvedge_world *world,
-                                          size_t vertex_count,
-                                          const uint32_t *triangles,
-                                          size_t triangle_count,
-                                          const float *positions,
-                                          const struct selvedge_groups *groups,
-                                          selvedge_mesh *mesh);
-
-/**
  * Takes a mesh out. Its number then names nothing, for good.
  */
 selvedge_status selvedge_world_remove(struct selvedge_world *world, selvedge_mesh mesh);
@@ -1125,18 +964,36 @@ selvedge_status selvedge_world_edges(const struct selvedge_world *world,
                                      size_t *count);
 
 /**
- * All contacts of a step in which these meshes move, each listed once, and all others rest: those that have moved rest where their last
- * motion ended. The contacts stay where they are until this world's contacts are asked for again, or it is freed. If there are none
- * they are at NULL.
+ * Inserts a mesh that rests at these positions. `*mesh` receives its number.
  *
- * If the question is refused nothing has changed; for one that is cut short see selvedge_world_set_cancelled.
+ * `groups` says which meshes it can collide with, itself included; NULL: with all. Triangles and positions are copied. Edges and
+ * points of ropes, hair and particles are triangles that name a vertex twice or three times, as for a detector.
  *
  * The caller promises:
- * `deforming` and `rigid` point to so many entries, each frame to 3 * `vertex_count` numbers, `contacts` to a pointer, `count` to a
- * number.
+ * `triangles` points to 3 * `triangle_count` vertex numbers, `positions` to 3 * `vertex_count` numbers, `groups` to one entry unless it is
+ * NULL, `mesh` to a number.
+ */
+selvedge_status selvedge_world_insert_f64(struct selvedge_world *world,
+                                          size_t vertex_count,
+                                          const uint32_t *triangles,
+                                          size_t triangle_count,
+                                          const double *positions,
+                                          const struct selvedge_groups *groups,
+                                          selvedge_mesh *mesh);
+
+/**
+ * Finds all contacts of a step in which the given meshes move. Each mesh is given at most once. All other meshes rest where their
+ * last motion ended.
+ *
+ * The list stays valid until the next search for contacts in this world, or until the world is freed. An empty list is at NULL. A
+ * refused call changes nothing; for a cancelled one see selvedge_world_set_cancelled.
+ *
+ * The caller promises:
+ * `deforming` and `rigid` point to as many entries as their counts say, each frame to 3 * `vertex_count` numbers, `contacts` to a
+ * pointer, `count` to a number.
  */
 selvedge_status selvedge_world_contacts_f64(struct selvedge_world *world,
-                                            const struct selvedge_deforming_f64 *deforming,
+                                            const struct Deforming_f64 *deforming,
                                             size_t deforming_count,
                                             const struct selvedge_rigid *rigid,
                                             size_t rigid_count,
@@ -1144,28 +1001,15 @@ selvedge_status selvedge_world_contacts_f64(struct selvedge_world *world,
                                             size_t *count);
 
 /**
- * selvedge_world_contacts_f64 for float.
+ * Finds the earliest contact of such a step. The step is free of contact before its time.
+ *
+ * `*found` says whether there is one. If not, the whole step is free, and `*contact` stays unchanged.
  *
  * The caller promises:
- * As selvedge_world_contacts_f64.
- */
-selvedge_status selvedge_world_contacts_f32(struct selvedge_world *world,
-                                            const struct selvedge_deforming_f32 *deforming,
-                                            size_t deforming_count,
-                                            const struct selvedge_rigid *rigid,
-                                            size_t rigid_count,
-                                            const struct selvedge_world_contact **contacts,
-                                            size_t *count);
-
-/**
- * The earliest contact of such a step, before which it is free of contact. `*found` becomes whether there is one; if there is none the
- * whole step is free, and nothing is written to `contact`.
- *
- * The caller promises:
- * As selvedge_world_contacts_f64; `found` and `contact` point to one each.
+ * As selvedge_world_contacts_f64; `found` and `contact` point to one value each.
  */
 selvedge_status selvedge_world_earliest_f64(struct selvedge_world *world,
-                                            const struct selvedge_deforming_f64 *deforming,
+                                            const struct Deforming_f64 *deforming,
                                             size_t deforming_count,
                                             const struct selvedge_rigid *rigid,
                                             size_t rigid_count,
@@ -1173,40 +1017,13 @@ selvedge_status selvedge_world_earliest_f64(struct selvedge_world *world,
                                             struct selvedge_world_contact *contact);
 
 /**
- * selvedge_world_earliest_f64 for float.
+ * Decides whether such a step is certainly free of contact.
  *
  * The caller promises:
- * As selvedge_world_earliest_f64.
- */
-selvedge_status selvedge_world_earliest_f32(struct selvedge_world *world,
-                                            const struct selvedge_deforming_f32 *deforming,
-                                            size_t deforming_count,
-                                            const struct selvedge_rigid *rigid,
-                                            size_t rigid_count,
-                                            bool *found,
-                                            struct selvedge_world_contact *contact);
-
-/**
- * Whether such a step is certainly free of contact.
- *
- * The caller promises:
- * As selvedge_world_contacts_f64; `is_free` points to one.
+ * As selvedge_world_contacts_f64; `is_free` points to one value.
  */
 selvedge_status selvedge_world_is_free_f64(struct selvedge_world *world,
-                                           const struct selvedge_deforming_f64 *deforming,
-                                           size_t deforming_count,
-                                           const struct selvedge_rigid *rigid,
-                                           size_t rigid_count,
-                                           bool *is_free);
-
-/**
- * selvedge_world_is_free_f64 for float.
- *
- * The caller promises:
- * As selvedge_world_is_free_f64.
- */
-selvedge_status selvedge_world_is_free_f32(struct selvedge_world *world,
-                                           const struct selvedge_deforming_f32 *deforming,
+                                           const struct Deforming_f64 *deforming,
                                            size_t deforming_count,
                                            const struct selvedge_rigid *rigid,
                                            size_t rigid_count,
@@ -1226,6 +1043,196 @@ selvedge_status selvedge_world_contact_geometries(struct selvedge_world *world,
                                                   size_t contact_count,
                                                   const struct selvedge_world_geometry **geometries,
                                                   size_t *count);
+
+/**
+ * selvedge_detector_contacts_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_contacts_f64.
+ */
+selvedge_status selvedge_detector_contacts_f32(struct selvedge_detector *detector,
+                                               const float *start,
+                                               const float *end,
+                                               size_t vertex_count,
+                                               const struct selvedge_contact **contacts,
+                                               size_t *count);
+
+/**
+ * selvedge_detector_contacts_of_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_contacts_of_f64.
+ */
+selvedge_status selvedge_detector_contacts_of_f32(struct selvedge_detector *detector,
+                                                  const float *start,
+                                                  const float *end,
+                                                  size_t vertex_count,
+                                                  const struct selvedge_pair *vertex_face,
+                                                  size_t vertex_face_count,
+                                                  const struct selvedge_pair *edge_edge,
+                                                  size_t edge_edge_count,
+                                                  const struct selvedge_contact **contacts,
+                                                  size_t *count);
+
+/**
+ * selvedge_detector_earliest_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_earliest_f64.
+ */
+selvedge_status selvedge_detector_earliest_f32(struct selvedge_detector *detector,
+                                               const float *start,
+                                               const float *end,
+                                               size_t vertex_count,
+                                               bool *found,
+                                               struct selvedge_contact *contact);
+
+/**
+ * selvedge_detector_is_free_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_is_free_f64.
+ */
+selvedge_status selvedge_detector_is_free_f32(struct selvedge_detector *detector,
+                                              const float *start,
+                                              const float *end,
+                                              size_t vertex_count,
+                                              bool *is_free);
+
+/**
+ * selvedge_detector_candidates_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_candidates_f64.
+ */
+selvedge_status selvedge_detector_candidates_f32(struct selvedge_detector *detector,
+                                                 const float *start,
+                                                 const float *end,
+                                                 size_t vertex_count,
+                                                 uint32_t boxes,
+                                                 const struct selvedge_pair **vertex_face,
+                                                 size_t *vertex_face_count,
+                                                 const struct selvedge_pair **edge_edge,
+                                                 size_t *edge_edge_count);
+
+/**
+ * selvedge_detector_intersections_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_intersections_f64.
+ */
+selvedge_status selvedge_detector_intersections_f32(struct selvedge_detector *detector,
+                                                    const float *positions,
+                                                    size_t vertex_count,
+                                                    const struct selvedge_intersection **intersections,
+                                                    size_t *count);
+
+/**
+ * selvedge_detector_has_intersections_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_has_intersections_f64.
+ */
+selvedge_status selvedge_detector_has_intersections_f32(struct selvedge_detector *detector,
+                                                        const float *positions,
+                                                        size_t vertex_count,
+                                                        bool *has_any);
+
+/**
+ * selvedge_detector_contact_geometries_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_contact_geometries_f64.
+ */
+selvedge_status selvedge_detector_contact_geometries_f32(struct selvedge_detector *detector,
+                                                         const float *start,
+                                                         const float *end,
+                                                         size_t vertex_count,
+                                                         const struct selvedge_contact *contacts,
+                                                         size_t contact_count,
+                                                         const struct selvedge_geometry **geometries,
+                                                         size_t *count);
+
+/**
+ * selvedge_detector_near_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_near_f64.
+ */
+selvedge_status selvedge_detector_near_f32(struct selvedge_detector *detector,
+                                           const float *positions,
+                                           size_t vertex_count,
+                                           double distance,
+                                           const struct selvedge_geometry **geometries,
+                                           size_t *count);
+
+/**
+ * selvedge_detector_truncate_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_detector_truncate_f64.
+ */
+selvedge_status selvedge_detector_truncate_f32(struct selvedge_detector *detector,
+                                               const float *start,
+                                               const float *wanted,
+                                               size_t vertex_count,
+                                               float *end,
+                                               struct selvedge_truncation *truncation);
+
+/**
+ * selvedge_world_insert_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_world_insert_f64.
+ */
+selvedge_status selvedge_world_insert_f32(struct selvedge_world *world,
+                                          size_t vertex_count,
+                                          const uint32_t *triangles,
+                                          size_t triangle_count,
+                                          const float *positions,
+                                          const struct selvedge_groups *groups,
+                                          selvedge_mesh *mesh);
+
+/**
+ * selvedge_world_contacts_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_world_contacts_f64.
+ */
+selvedge_status selvedge_world_contacts_f32(struct selvedge_world *world,
+                                            const struct Deforming_f32 *deforming,
+                                            size_t deforming_count,
+                                            const struct selvedge_rigid *rigid,
+                                            size_t rigid_count,
+                                            const struct selvedge_world_contact **contacts,
+                                            size_t *count);
+
+/**
+ * selvedge_world_earliest_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_world_earliest_f64.
+ */
+selvedge_status selvedge_world_earliest_f32(struct selvedge_world *world,
+                                            const struct Deforming_f32 *deforming,
+                                            size_t deforming_count,
+                                            const struct selvedge_rigid *rigid,
+                                            size_t rigid_count,
+                                            bool *found,
+                                            struct selvedge_world_contact *contact);
+
+/**
+ * selvedge_world_is_free_f64 for float.
+ *
+ * The caller promises:
+ * As selvedge_world_is_free_f64.
+ */
+selvedge_status selvedge_world_is_free_f32(struct selvedge_world *world,
+                                           const struct Deforming_f32 *deforming,
+                                           size_t deforming_count,
+                                           const struct selvedge_rigid *rigid,
+                                           size_t rigid_count,
+                                           bool *is_free);
 
 #ifdef __cplusplus
 }  // extern "C"

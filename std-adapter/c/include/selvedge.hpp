@@ -18,26 +18,26 @@
 
 namespace selvedge {
 
-/// A call that failed. It has changed nothing.
+/// A failed call. It has changed nothing.
 class error : public std::runtime_error {
  public:
   error(selvedge_status status, const std::string &words) : std::runtime_error(words), status_(status) {}
 
-  /// Why, as a number.
+  /// The status of the call.
   selvedge_status status() const noexcept { return status_; }
 
  private:
   selvedge_status status_;
 };
 
-/// Throws what the last call on this thread has to say, if it failed.
+/// Throws an `error` with the last message of this thread if the call failed.
 inline void check(selvedge_status status) {
   if (status != SELVEDGE_STATUS_OK) {
     throw error(status, std::string(selvedge_status_string(status)) + ": " + selvedge_last_error());
   }
 }
 
-/// A list that someone else owns: the function that returns it says how long it stays.
+/// A view of a list with another owner. The function that returns it says how long it stays valid.
 template <class T>
 class list {
  public:
@@ -56,8 +56,8 @@ class list {
   std::size_t count_ = 0;
 };
 
-/// Groups of three numbers in a row, that the caller owns: positions or triangles. Made of a pointer and how many groups there
-/// are, or of anything with data() and size() that holds the numbers, as std::vector.
+/// A view of the caller's positions or triangles: groups of three numbers. Construct it from a pointer and the number of groups, or
+/// from a container of numbers with data() and size(), such as std::vector.
 template <class T>
 class triples {
  public:
@@ -84,20 +84,20 @@ struct candidate_pairs {
   list<selvedge_pair> edge_edge;
 };
 
-/// Which pairs are not looked at. An empty list: no such rule.
+/// The pairs to skip. An empty list omits its rule.
 struct collision_filter {
-  /// For each vertex: two collide if each is in a group that the other's filter has.
+  /// One entry per vertex: two vertices collide if each is in a group of the other's filter.
   list<selvedge_groups> groups;
-  /// For each vertex: two of one patch do not collide.
+  /// One entry per vertex: two vertices of the same patch do not collide.
   list<std::uint32_t> patches;
-  /// Two vertices that do not collide.
+  /// Pairs of vertices that do not collide.
   list<selvedge_pair> excluded;
 };
 
-/// A mesh, and what is kept of it from step to step. `Scalar` is float or double, the format of the positions.
+/// A detector for one mesh. `Scalar` is float or double, the format of the positions.
 ///
-/// Can be moved, not copied. One thread at a time; another one gets SELVEDGE_STATUS_BUSY, but for set_cancelled. All functions
-/// throw `error`.
+/// It can be moved but not copied. One thread at a time may use it; another one gets SELVEDGE_STATUS_BUSY, except for
+/// set_cancelled. All functions throw `error`.
 template <class Scalar>
 class detector {
   static_assert(std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>, "positions are float or double");
@@ -111,22 +111,22 @@ class detector {
     handle_.reset(made);
   }
 
-  /// How many threads steps are split between: 1 is the one that calls, 0 one for each core.
+  /// Sets the number of threads of a step: 1 is the calling thread, 0 one for each core.
   void set_threads(std::size_t count) { check(selvedge_detector_set_threads(get(), count)); }
 
-  /// Contacts are pairs that may come closer than the separation; those that only come within the tolerance of it may be among them.
+  /// Reports pairs that may come within the separation of each other; a pair within separation + tolerance may be among them.
   void set_within(double separation, double tolerance) { check(selvedge_detector_set_within(get(), separation, tolerance)); }
 
-  /// Contacts are only pairs that truly touch.
+  /// Reports only pairs that truly touch.
   void set_touching(double tolerance) { check(selvedge_detector_set_touching(get(), tolerance)); }
 
-  /// Names the vertices that move: a byte that is not 0 for each that does.
+  /// Names the moving vertices: a byte for each vertex, not 0 if it moves.
   void set_moving(const std::uint8_t *moving, std::size_t count) { check(selvedge_detector_set_moving(get(), moving, count)); }
 
-  /// All vertices move.
+  /// Lets all vertices move.
   void set_all_moving() { check(selvedge_detector_set_moving(get(), nullptr, 0)); }
 
-  /// Which pairs are looked at from the next step on; `{}`: all of them. The lists are copied.
+  /// Sets the pairs to skip from the next step on; `{}`: none. The lists are copied.
   void set_collision_filter(const collision_filter &filter) {
     const auto &[groups, patches, excluded] = filter;
     if (!groups.empty() && !patches.empty() && groups.size() != patches.size()) {
@@ -139,23 +139,23 @@ class detector {
                                                  excluded.size()));
   }
 
-  /// Whether steps go on from one another.
+  /// Sets whether each step starts where the last one ended; such steps are faster.
   void set_coherent(bool coherent) { check(selvedge_detector_set_coherent(get(), coherent ? 1 : 0)); }
 
-  /// Most pairs that a question may look at; UINT64_MAX: as many as there are.
+  /// Limits the number of candidate pairs of a call; UINT64_MAX: no limit.
   void set_pair_limit(std::uint64_t limit) { check(selvedge_detector_set_pair_limit(get(), limit)); }
 
-  /// Cuts short the question that another thread is asking, and each one until it is taken back. For any thread at any time.
+  /// Cancels the call of another thread and all later calls, until this is called with false. Any thread may call it at any time.
   void set_cancelled(bool cancelled) { check(selvedge_detector_set_cancelled(get(), cancelled ? 1 : 0)); }
 
-  /// How many threads a step uses.
+  /// Returns the number of threads of a step.
   std::size_t threads() const {
     std::size_t count = 0;
     check(selvedge_detector_threads(get(), &count));
     return count;
   }
 
-  /// The edges by their numbers, each as its two vertices. They stay as long as the detector.
+  /// Returns the edges in the order of their numbers, each as its two vertices. The list lives as long as the detector.
   list<selvedge_pair> edges() const {
     const selvedge_pair *first = nullptr;
     std::size_t count = 0;
@@ -163,7 +163,7 @@ class detector {
     return {first, count};
   }
 
-  /// All contacts of the step. They stay until this detector's contacts are asked for again, in either way, or it is gone.
+  /// Finds all contacts of the step. The list is valid until the next search for contacts with this detector, or its end.
   list<selvedge_contact> contacts(triples<Scalar> start, triples<Scalar> end) {
     const selvedge_contact *first = nullptr;
     std::size_t count = 0;
@@ -176,7 +176,7 @@ class detector {
     return {first, count};
   }
 
-  /// The contacts among pairs that the caller has. They stay as those of `contacts`.
+  /// Finds the contacts among the given pairs. The list is valid as for `contacts`.
   list<selvedge_contact> contacts_of(triples<Scalar> start, triples<Scalar> end, const candidate_pairs &pairs) {
     const selvedge_contact *first = nullptr;
     std::size_t count = 0;
@@ -192,7 +192,7 @@ class detector {
     return {first, count};
   }
 
-  /// The earliest contact of the step, before which the step is free; none if the whole step is.
+  /// Finds the earliest contact; the step is free before its time. Returns none if the whole step is free.
   std::optional<selvedge_contact> earliest(triples<Scalar> start, triples<Scalar> end) {
     bool found = false;
     selvedge_contact contact{};
@@ -205,7 +205,7 @@ class detector {
     return found ? std::optional<selvedge_contact>(contact) : std::nullopt;
   }
 
-  /// Whether the step is certainly free of contact.
+  /// Decides whether the step is certainly free of contact.
   bool is_free(triples<Scalar> start, triples<Scalar> end) {
     bool free = false;
     const std::size_t vertices = common_size(start, end);
@@ -217,8 +217,8 @@ class detector {
     return free;
   }
 
-  /// How the two of each contact lie to each other at its time, in their order. They stay until this detector's contact
-  /// geometries are asked for again, or it is gone.
+  /// Computes the geometry of each contact at its time, in the same order. The list is valid until the next call for this detector, or
+  /// its end.
   list<selvedge_geometry> contact_geometries(triples<Scalar> start, triples<Scalar> end, list<selvedge_contact> contacts) {
     const selvedge_geometry *first = nullptr;
     std::size_t count = 0;
@@ -233,9 +233,9 @@ class detector {
     return {first, count};
   }
 
-  /// Lets each vertex go as far as its neighbourhood lets it: `end` becomes positions such that the step from `start` is free of
-  /// contact, but for pairs that are in contact at the start. Anything with data() and size(), as std::vector, that has as many
-  /// numbers as `start`; it may be one of the other two.
+  /// Moves each vertex as far as its neighbourhood allows. The step from `start` to `end` is free of contact, except for pairs in
+  /// contact at the start. `end` is a container with data() and size(), such as std::vector, with as many numbers as `start`; it may
+  /// be one of the other two.
   template <class Numbers>
   selvedge_truncation truncate(triples<Scalar> start, triples<Scalar> wanted, Numbers &end) {
     selvedge_truncation truncation{};
@@ -252,7 +252,7 @@ class detector {
     return truncation;
   }
 
-  /// The pairs that boxes leave. They stay until this detector's candidates are asked for again, or it is gone.
+  /// Finds the pairs that bounding boxes keep. The lists are valid until the next call for this detector, or its end.
   candidate_pairs candidates(triples<Scalar> start, triples<Scalar> end, selvedge_boxes boxes = SELVEDGE_BOXES_MOVING) {
     const selvedge_pair *vf = nullptr, *ee = nullptr;
     std::size_t vf_count = 0, ee_count = 0;
@@ -265,7 +265,7 @@ class detector {
     return {{vf, vf_count}, {ee, ee_count}};
   }
 
-  /// All primitives that meet at rest, exactly. They stay until this detector's intersections are asked for again, or it is gone.
+  /// Finds all intersections at rest, exactly. The list is valid until the next call for this detector, or its end.
   list<selvedge_intersection> intersections(triples<Scalar> positions) {
     const selvedge_intersection *first = nullptr;
     std::size_t count = 0;
@@ -277,7 +277,7 @@ class detector {
     return {first, count};
   }
 
-  /// Whether any primitives meet at rest.
+  /// Decides whether there is any intersection at rest.
   bool has_intersections(triples<Scalar> positions) {
     bool has_any = false;
     if constexpr (is_single) {
@@ -288,8 +288,8 @@ class detector {
     return has_any;
   }
 
-  /// All pairs within a distance of each other at rest, with their closest points. They stay until this detector is asked for
-  /// what is near again, or it is gone. (`near` alone is a macro of Windows'.)
+  /// Finds all pairs within a distance of each other at rest, with their closest points. The list is valid until the next call for
+  /// this detector, or its end. (The name is not `near`, which is a macro on Windows.)
   list<selvedge_geometry> near_pairs(triples<Scalar> positions, double distance) {
     const selvedge_geometry *first = nullptr;
     std::size_t count = 0;
@@ -301,7 +301,7 @@ class detector {
     return {first, count};
   }
 
-  /// For functions of selvedge.h; still owned here.
+  /// Returns the handle for functions of selvedge.h. This object still owns it.
   selvedge_detector *get() const noexcept { return handle_.get(); }
 
  private:
@@ -320,14 +320,14 @@ class detector {
   std::unique_ptr<selvedge_detector, freed> handle_;
 };
 
-/// What moves in a step of a world, and how; all else rests. `Scalar` is the world's. The positions are the caller's, and have to stay
-/// until the question is answered.
+/// The motions of a step of a world; meshes without a motion rest. `Scalar` is that of the world. The caller owns the positions and
+/// keeps them until the call returns.
 template <class Scalar>
 class motions {
  public:
   using deforming_type = std::conditional_t<std::is_same_v<Scalar, float>, selvedge_deforming_f32, selvedge_deforming_f64>;
 
-  /// Vertices go straight from their positions at the start to those at the end.
+  /// Moves the vertices straight from their positions at the start to those at the end.
   motions &deforms(selvedge_mesh mesh, triples<Scalar> start, triples<Scalar> end) {
     if (start.size() != end.size()) {
       throw error(SELVEDGE_STATUS_WRONG_LENGTH, "the start frame has " + std::to_string(start.size()) +
@@ -337,13 +337,13 @@ class motions {
     return *this;
   }
 
-  /// The mesh goes as one body from one pose to another, and turns the short way.
+  /// Moves the mesh as a rigid body from one pose to another; it rotates the short way.
   motions &goes(selvedge_mesh mesh, const selvedge_pose &start, const selvedge_pose &end) {
     rigid_.push_back({mesh, start, end});
     return *this;
   }
 
-  /// To be filled anew for another step.
+  /// Removes all motions, for another step.
   void clear() noexcept {
     deforming_.clear();
     rigid_.clear();
@@ -357,9 +357,9 @@ class motions {
   std::vector<selvedge_rigid> rigid_;
 };
 
-/// Meshes that come and go, and move as they like. `Scalar` is float or double, the format of the positions.
+/// A world of meshes that come and go and move independently. `Scalar` is float or double, the format of the positions.
 ///
-/// Can be moved, not copied. One thread at a time, as for a detector. All functions throw `error`.
+/// It can be moved but not copied. One thread at a time may use it, as for a detector. All functions throw `error`.
 template <class Scalar>
 class world {
   static_assert(std::is_same_v<Scalar, float> || std::is_same_v<Scalar, double>, "positions are float or double");
@@ -372,22 +372,22 @@ class world {
     handle_.reset(made);
   }
 
-  /// How many threads steps are split between: 1 is the one that calls, 0 one for each core.
+  /// Sets the number of threads of a step: 1 is the calling thread, 0 one for each core.
   void set_threads(std::size_t count) { check(selvedge_world_set_threads(get(), count)); }
 
-  /// Contacts are pairs that may come closer than the separation; those that only come within the tolerance of it may be among them.
+  /// Reports pairs that may come within the separation of each other; a pair within separation + tolerance may be among them.
   void set_within(double separation, double tolerance) { check(selvedge_world_set_within(get(), separation, tolerance)); }
 
-  /// Contacts are only pairs that truly touch.
+  /// Reports only pairs that truly touch.
   void set_touching(double tolerance) { check(selvedge_world_set_touching(get(), tolerance)); }
 
-  /// Most pairs that a step may look at; UINT64_MAX: as many as there are.
+  /// Limits the number of candidate pairs of a step; UINT64_MAX: no limit.
   void set_pair_limit(std::uint64_t limit) { check(selvedge_world_set_pair_limit(get(), limit)); }
 
-  /// Cuts short the step that another thread is asking about, and each one until it is taken back. For any thread at any time.
+  /// Cancels the call of another thread and all later calls, until this is called with false. Any thread may call it at any time.
   void set_cancelled(bool cancelled) { check(selvedge_world_set_cancelled(get(), cancelled ? 1 : 0)); }
 
-  /// A new mesh that rests at these positions. Its groups say which meshes it is looked at with, itself among them.
+  /// Inserts a mesh that rests at these positions. The groups say which meshes it can collide with, itself included.
   selvedge_mesh insert(triples<std::uint32_t> triangles, triples<Scalar> positions,
                        const selvedge_groups &groups = {UINT32_MAX, UINT32_MAX}) {
     selvedge_mesh mesh = 0;
@@ -399,13 +399,13 @@ class world {
     return mesh;
   }
 
-  /// Takes a mesh out. Its number then names nothing, for good.
+  /// Removes a mesh. Its number is never used again.
   void remove(selvedge_mesh mesh) { check(selvedge_world_remove(get(), mesh)); }
 
-  /// Which meshes this one is looked at with from now on, itself among them.
+  /// Sets which meshes this one can collide with from now on, itself included.
   void set_groups(selvedge_mesh mesh, const selvedge_groups &groups) { check(selvedge_world_set_groups(get(), mesh, &groups)); }
 
-  /// The edges of a mesh by their numbers, each as its two vertices. They stay until the mesh is removed, or the world is gone.
+  /// Returns the edges of a mesh, each as its two vertices. The list is valid until the mesh is removed, or the world's end.
   list<selvedge_pair> edges(selvedge_mesh mesh) const {
     const selvedge_pair *first = nullptr;
     std::size_t count = 0;
@@ -413,8 +413,8 @@ class world {
     return {first, count};
   }
 
-  /// All contacts of a step in which these meshes move, and all others rest. They stay until this world's contacts are asked for
-  /// again, or it is gone.
+  /// Finds all contacts of a step in which these meshes move and all others rest. The list is valid until the next search for
+  /// contacts in this world, or its end.
   list<selvedge_world_contact> contacts(const motions<Scalar> &moving) {
     const selvedge_world_contact *first = nullptr;
     std::size_t count = 0;
@@ -427,7 +427,7 @@ class world {
     return {first, count};
   }
 
-  /// The earliest contact of such a step, before which it is free; none if the whole step is.
+  /// Finds the earliest contact; the step is free before its time. Returns none if the whole step is free.
   std::optional<selvedge_world_contact> earliest(const motions<Scalar> &moving) {
     bool found = false;
     selvedge_world_contact contact{};
@@ -440,7 +440,7 @@ class world {
     return found ? std::optional<selvedge_world_contact>(contact) : std::nullopt;
   }
 
-  /// Whether such a step is certainly free of contact.
+  /// Decides whether such a step is certainly free of contact.
   bool is_free(const motions<Scalar> &moving) {
     bool free = false;
     const auto &[deforming, rigid] = parts(moving);
@@ -452,8 +452,8 @@ class world {
     return free;
   }
 
-  /// How the two of each contact of the last step lie to each other at its time, in their order. They stay until this world's
-  /// contact geometries are asked for again, or it is gone.
+  /// Computes the geometry of each contact of the last step at its time, in the same order. The list is valid until the next call for
+  /// this world, or its end.
   list<selvedge_world_geometry> contact_geometries(list<selvedge_world_contact> contacts) {
     const selvedge_world_geometry *first = nullptr;
     std::size_t count = 0;
@@ -461,7 +461,7 @@ class world {
     return {first, count};
   }
 
-  /// For functions of selvedge.h; still owned here.
+  /// Returns the handle for functions of selvedge.h. This object still owns it.
   selvedge_world *get() const noexcept { return handle_.get(); }
 
  private:

@@ -8,78 +8,78 @@
 
 namespace selvedge {
 
-/// A scene of cloth in motion, of which no state ever has an intersection. What a scene may say stands in
-/// std-adapter/cloth/scenes/README.md; all is in SI units.
+/// A simulation of cloth whose states never intersect. std-adapter/cloth/scenes/README.md describes scenes. All numbers are in SI
+/// units.
 ///
-/// Can be moved, not copied. One thread at a time, as for a detector. All functions throw `error`.
+/// It can be moved but not copied. One thread at a time may use it, as for a detector. All functions throw `error`.
 class simulation {
  public:
-  /// Of a scene's text, on so many threads (0: one for each core): their number changes no bit of the result. Paths in the text are
-  /// relative to the folder; an empty one is the process's own.
+  /// Creates a simulation from the text of a scene. The number of threads (0: one for each core) changes no bit of the result. Paths
+  /// in the text are relative to the folder; an empty one is the current folder.
   explicit simulation(const std::string &scene, const std::string &folder = {}, std::size_t threads = 1) {
     selvedge_simulation *made = nullptr;
     check(selvedge_simulation_new(text(scene), text(folder), threads, &made));
     handle_.reset(made);
   }
 
-  /// Of a scene file.
+  /// Creates a simulation from a scene file.
   static simulation read(const std::string &path, std::size_t threads = 1) {
     selvedge_simulation *made = nullptr;
     check(selvedge_simulation_read(text(path), threads, &made));
     return simulation(made);
   }
 
-  /// Does one step. It throws SELVEDGE_STATUS_BLOCKED where the scene wants to stop; what is done of the step stays.
+  /// Runs one step. It throws SELVEDGE_STATUS_BLOCKED if the scene stops there; the part of the step that was done remains.
   void step() { check(selvedge_simulation_step(get())); }
 
-  /// How much of what there is, which no step changes.
+  /// Returns the sizes of the scene. Only tearing changes them.
   selvedge_sizes sizes() const {
     selvedge_sizes sizes{};
     check(selvedge_simulation_sizes(get(), &sizes));
     return sizes;
   }
 
-  /// How far it is, and whether its state is certified.
+  /// Returns the progress and whether the state is certified.
   selvedge_progress progress() const {
     selvedge_progress progress{};
     check(selvedge_simulation_progress(get(), &progress));
     return progress;
   }
 
-  /// Where all vertices are, in metres: x y z of those of each cloth, then of bodies'.
+  /// Returns the positions of all vertices in metres: x y z, first of the cloths, then of the bodies.
   std::vector<double> positions() const { return copied<double>(selvedge_simulation_positions, sizes().vertex_count); }
 
-  /// How fast all vertices move, in m/s.
+  /// Returns the velocities of all vertices in m/s.
   std::vector<double> velocities() const { return copied<double>(selvedge_simulation_velocities, sizes().vertex_count); }
 
-  /// Which way the surface faces at each vertex, of length one.
+  /// Returns the normal of the surface at each vertex, of length one.
   std::vector<double> normals() const { return copied<double>(selvedge_simulation_normals, sizes().vertex_count); }
 
-  /// Three vertex numbers for each triangle. A step changes them only where cloth tears: then there are more vertices as well.
+  /// Returns three vertex numbers for each triangle. Only tearing changes them; it also adds vertices.
   std::vector<std::uint32_t> triangles() const {
     return copied<std::uint32_t>(selvedge_simulation_triangles, sizes().triangle_count);
   }
 
-  /// Two vertex numbers for each edge that belongs to no triangle: of ropes, laces and fringes. A step changes them only where cloth tears.
+  /// Returns two vertex numbers for each loose edge (ropes, laces and fringes). Only tearing changes them.
   std::vector<std::uint32_t> loose_edges() const {
     return copied<std::uint32_t>(selvedge_simulation_loose_edges, sizes().loose_edge_count, 2);
   }
 
-  /// The body of this name.
+  /// Finds the body of this name.
   selvedge_part body(const std::string &name) const {
     selvedge_part part{};
     check(selvedge_simulation_body(get(), text(name), &part));
     return part;
   }
 
-  /// The cloth of this name.
+  /// Finds the cloth of this name.
   selvedge_part cloth(const std::string &name) const {
     selvedge_part part{};
     check(selvedge_simulation_cloth(get(), text(name), &part));
     return part;
   }
 
-  /// The pairs that came near each other in the last step. They stay until they are asked for again, or the simulation is gone.
+  /// Returns the near pairs of the last step. The list is valid until the next call, or the end of the simulation.
   list<selvedge_near_pair> near_pairs() {
     const selvedge_near_pair *first = nullptr;
     std::size_t count = 0;
@@ -87,12 +87,12 @@ class simulation {
     return {first, count};
   }
 
-  /// Leads a driven body to another placement in the next step: its mesh as the scene has it, turned and then moved.
+  /// Moves a driven body to a placement in the next step: its mesh in the scene is rotated and then translated.
   void place_body(std::size_t body, const selvedge_pose &placement) {
     check(selvedge_simulation_place_body(get(), body, &placement));
   }
 
-  /// Where a driven body stands now; none of any other, nor of one that was moved vertex by vertex.
+  /// Returns the placement of a driven body; none for other bodies and for one that was moved vertex by vertex.
   std::optional<selvedge_pose> placement(std::size_t body) const {
     bool is_known = false;
     selvedge_pose placement{};
@@ -100,20 +100,20 @@ class simulation {
     return is_known ? std::optional<selvedge_pose>(placement) : std::nullopt;
   }
 
-  /// Leads each vertex of a driven body straight to a position in the next step.
+  /// Moves each vertex of a driven body straight to a position in the next step.
   void move_body(std::size_t body, triples<double> positions) {
     check(selvedge_simulation_move_body(get(), body, positions.data(), positions.size()));
   }
 
-  /// The same for a group of pins that is driven, by its number in the scene.
+  /// Moves each vertex of a driven group of pins in the next step. The group has its number in the scene.
   void move_pins(std::size_t group, triples<double> positions) {
     check(selvedge_simulation_move_pins(get(), group, positions.data(), positions.size()));
   }
 
-  /// Lets the wind that the scene has blow so from now on, in m/s.
+  /// Sets the velocity of the scene's wind from now on, in m/s.
   void set_wind(double x, double y, double z) { check(selvedge_simulation_set_wind(get(), x, y, z)); }
 
-  /// All that the rest of the simulation depends on; every SELVEDGE_CHECKPOINT_STEPS steps.
+  /// Returns the state as bytes. A checkpoint exists every SELVEDGE_CHECKPOINT_STEPS steps.
   std::vector<std::uint8_t> checkpoint() {
     const std::uint8_t *first = nullptr;
     std::size_t count = 0;
@@ -121,12 +121,12 @@ class simulation {
     return {first, first + count};
   }
 
-  /// Goes on from a checkpoint of the same scene, with the same bits as if that simulation had never ended.
+  /// Continues from a checkpoint of the same scene, with the same bits as an uninterrupted simulation.
   void resume(const std::vector<std::uint8_t> &checkpoint) {
     check(selvedge_simulation_resume(get(), checkpoint.data(), checkpoint.size()));
   }
 
-  /// For functions of selvedge_cloth.h; still owned here.
+  /// Returns the handle for functions of selvedge_cloth.h. This object still owns it.
   selvedge_simulation *get() const noexcept { return handle_.get(); }
 
  private:
@@ -136,7 +136,7 @@ class simulation {
 
   explicit simulation(selvedge_simulation *made) noexcept : handle_(made) {}
 
-  /// To C a zero ends a text, wherever it is.
+  /// Rejects a text with a zero inside, since C would end it there.
   static const char *text(const std::string &text) {
     if (text.find('\0') != std::string::npos) throw error(SELVEDGE_STATUS_BAD_TEXT, "a text has a zero before its end");
     return text.c_str();

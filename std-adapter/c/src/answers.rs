@@ -1,4 +1,4 @@
-//! What a detector has found, as C sees it.
+//! The rows in which C reads what a detector found.
 
 use crate::detector::Finder;
 use crate::input::unknown;
@@ -6,7 +6,7 @@ use crate::status::Failure;
 use selvedge::core::narrowing::rounded_down;
 use selvedge::{Contact, ContactGeometry, Geometry, Intersection, PairKind, Scalar, Topology, Truncation};
 
-/// Which primitives a pair is made of.
+/// The primitives of a pair.
 #[repr(u32)]
 #[derive(Clone, Copy)]
 pub enum Kind {
@@ -25,17 +25,18 @@ impl From<PairKind> for Kind {
     }
 }
 
-/// Which boxes tell candidates.
+/// The bounding boxes that generate candidates.
 #[repr(u32)]
 #[derive(Clone, Copy)]
 pub enum Boxes {
-    /// Those at the start and at the end of the step, that are not in one order along an axis at both. Fewer pairs, in less time.
+    /// The boxes at the start and at the end of the step. Two primitives are apart if an axis orders both pairs of boxes alike. This
+    /// gives fewer pairs in less time.
     Moving = 0,
-    /// Those that primitives sweep, that overlap: what other systems call candidates.
+    /// The boxes that primitives sweep; they overlap. Other libraries call these pairs candidates.
     Swept = 1,
 }
 
-/// A vertex and a face, two edges, or two vertices, as those of an edge, by their numbers.
+/// The numbers of a vertex and a face, of two edges, or of two vertices (the ends of an edge).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pair {
@@ -51,15 +52,15 @@ impl From<[u32; 2]> for Pair {
     }
 }
 
-/// A pair for which contact during the step is not excluded.
+/// A pair that may touch during the step.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactRow {
-    /// When, in [0, 1] of the step: not after the exact time. Of a detector for float it is a float, widened without rounding.
+    /// The time in [0, 1] of the step, not after the exact time. A detector for float gives a float, widened without rounding.
     pub time: f64,
     /// A selvedge_kind.
     pub kind: u32,
-    /// The vertex and the face, or the two edges. Faces are numbered as the triangles, edges as by selvedge_detector_edges.
+    /// The vertex and the face, or the two edges. Faces have the numbers of the triangles, edges those of selvedge_detector_edges.
     pub pair: Pair,
     /// The vertex and the face's three, or the ends of the first edge and of the second.
     pub vertices: [u32; 4],
@@ -75,7 +76,7 @@ impl ContactRow {
         }
     }
 
-    /// What primitives they are.
+    /// Returns the primitives.
     pub(crate) fn kind(&self) -> Result<PairKind, Failure> {
         match self.kind {
             number if number == Kind::VertexFace as u32 => Ok(PairKind::VertexFace),
@@ -84,7 +85,7 @@ impl ContactRow {
         }
     }
 
-    /// As the detector knows it, which looks whether the mesh has such a pair, and the step such a time.
+    /// Converts the row. The detector checks that the mesh has such a pair and that the time is valid.
     pub(crate) fn contact<S: Scalar>(&self) -> Result<Contact<S>, Failure> {
         Ok(Contact {
             kind: self.kind()?,
@@ -94,8 +95,8 @@ impl ContactRow {
     }
 }
 
-/// Two primitives and how they lie to each other at some time: at that of a contact, or at rest. Lengths are in the unit of the
-/// positions; all is computed in double, for float too.
+/// The geometry of two primitives at the time of a contact, or at rest. Lengths are in the unit of the positions. All values are
+/// computed in double, for float as well.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GeometryRow {
@@ -105,21 +106,21 @@ pub struct GeometryRow {
     pub pair: Pair,
     /// The vertex and the face's three, or the ends of the first edge and of the second.
     pub vertices: [u32; 4],
-    /// Whether there is a normal. There is none where the two cannot be shown to have been apart: where they touch when the step
-    /// begins, or have done so before; at rest, where they touch.
+    /// Whether there is a normal. There is none if the two cannot be shown to have been apart: they touch at the start of the step or
+    /// earlier in it; or, at rest, they touch.
     pub has_normal: bool,
-    /// Of the four vertices, in [0, 1]: barycentric. Those of each side add up to one.
+    /// Barycentric weights of the four vertices, in [0, 1]. The weights of each side add up to one.
     pub weights: [f64; 4],
-    /// The points of the first and of the second side that have these weights: the closest.
+    /// The closest points of the first and of the second side; they have these weights.
     pub points: [[f64; 3]; 2],
-    /// From the second side to the first, of length one; zeros if there is none.
+    /// The direction from the second side to the first, of length one; zeros if there is no normal.
     pub normal: [f64; 3],
-    /// When the sides were certainly apart along the normal: at the time of contact, or a little before. 0 without a normal.
+    /// A time at which the sides were certainly apart along the normal: that of the contact, or slightly earlier. 0 without a normal.
     pub separated_at: f64,
-    /// The distance of the two sides at that time is certainly not less than the first, not more than the second.
+    /// A lower and an upper bound of the distance of the two sides at that time.
     pub distance: [f64; 2],
-    /// How fast the first point moves away from the second along the normal, in lengths a step: less than zero if they come
-    /// nearer, zero without a normal.
+    /// The speed at which the first point moves away from the second along the normal, in lengths per step. It is negative if they
+    /// approach each other, and zero without a normal.
     pub speed: f64,
 }
 
@@ -146,16 +147,15 @@ impl GeometryRow {
     }
 }
 
-/// What came of a step of which each vertex goes as far as it may.
+/// The counts of a step that was truncated vertex by vertex.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TruncationRow {
-    /// Vertices that go less than the whole of their way.
+    /// The number of vertices that do not go their whole way.
     pub held_back: usize,
-    /// Pairs that are in contact at the start already. Their vertices rest. Where there are none, the step is certainly free of
-    /// contact.
+    /// The number of pairs in contact at the start. Their vertices rest. If it is 0, the step is certainly free of contact.
     pub in_contact: usize,
-    /// How often contacts were looked for.
+    /// The number of searches for contacts.
     pub rounds: usize,
 }
 
@@ -169,7 +169,7 @@ impl From<Truncation> for TruncationRow {
     }
 }
 
-/// Which primitives intersect.
+/// The primitives that intersect.
 #[repr(u32)]
 #[derive(Clone, Copy)]
 pub enum IntersectionKind {
@@ -181,7 +181,7 @@ pub enum IntersectionKind {
     EdgeEdge = 2,
 }
 
-/// Two primitives of a mesh at rest that have a point in common, and no vertex.
+/// Two primitives of a mesh at rest that share a point, but no vertex.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct IntersectionRow {
@@ -205,30 +205,30 @@ impl From<&Intersection> for IntersectionRow {
     }
 }
 
-/// Of vertices and faces, and of edges.
+/// Pairs of vertices and faces, and pairs of edges.
 #[derive(Default)]
 pub(crate) struct CandidatePairs {
     pub(crate) vertex_face: Vec<[u32; 2]>,
     pub(crate) edge_edge: Vec<[u32; 2]>,
 }
 
-/// The lists that pointers given to C show.
+/// The lists to which C holds pointers.
 #[derive(Default)]
 pub(crate) struct Answers {
     pub(crate) contacts: Vec<ContactRow>,
     pub(crate) candidates: CandidatePairs,
-    /// Where candidates go first: a question that is cut short leaves those that are shown.
+    /// New candidates go here first, so that a cancelled search keeps the list that C reads.
     pub(crate) found_candidates: CandidatePairs,
     pub(crate) found_at_rest: Vec<Intersection>,
     pub(crate) intersections: Vec<IntersectionRow>,
-    /// Of contacts or of what is near, before it is shown.
+    /// The geometries of contacts or near pairs, before C sees them.
     pub(crate) found_geometries: Vec<ContactGeometry>,
     pub(crate) contact_geometries: Vec<GeometryRow>,
     pub(crate) near: Vec<GeometryRow>,
 }
 
 impl Answers {
-    /// Takes over what the detector has found.
+    /// Copies the contacts that the detector found.
     pub(crate) fn show_contacts<S: Scalar>(&mut self, finder: &Finder<S>) -> &[ContactRow] {
         let topology = finder.detector.topology();
         self.contacts.clear();
@@ -237,23 +237,23 @@ impl Answers {
         &self.contacts
     }
 
-    /// Takes over the candidates that the detector has found.
+    /// Shows the candidates that the detector found.
     pub(crate) fn show_candidates(&mut self) -> &CandidatePairs {
         std::mem::swap(&mut self.candidates, &mut self.found_candidates);
         &self.candidates
     }
 
-    /// Takes over the geometries that the detector has found, of contacts.
+    /// Copies the geometries of contacts that the detector found.
     pub(crate) fn show_contact_geometries(&mut self) -> &[GeometryRow] {
         show_geometries(&self.found_geometries, &mut self.contact_geometries)
     }
 
-    /// Takes over the geometries that the detector has found, of what is near.
+    /// Copies the near pairs that the detector found.
     pub(crate) fn show_near(&mut self) -> &[GeometryRow] {
         show_geometries(&self.found_geometries, &mut self.near)
     }
 
-    /// Takes over what the detector has found at rest.
+    /// Copies the intersections that the detector found.
     pub(crate) fn show_intersections(&mut self) -> &[IntersectionRow] {
         self.intersections.clear();
         self.intersections

@@ -1,4 +1,4 @@
-//! Detectors, of either format.
+//! Detectors for either format.
 
 use crate::answers::Answers;
 use crate::guard::guarded;
@@ -7,10 +7,10 @@ use crate::input::{Out, Plain, unknown, view};
 use crate::status::{Failure, Status};
 use selvedge::{Cancellation, CollisionDetector, Contact, Scalar, Topology, TopologyError};
 
-/// A mesh, and what is kept of it from step to step. Only pointers to it exist; they are numbers, and nothing is behind them.
+/// A detector for one mesh. Its pointer is a handle: a number that is looked up and never followed.
 ///
-/// One thread at a time: a call on a detector that another thread is using fails with SELVEDGE_STATUS_BUSY and changes nothing.
-/// Detectors do not know of each other: each may be used by a thread of its own.
+/// One thread at a time may use a detector. A call on a detector in use fails with SELVEDGE_STATUS_BUSY and changes nothing.
+/// Different detectors are independent, and each may have a thread of its own.
 pub struct Handle {
     _nothing: [u8; 0],
 }
@@ -25,7 +25,7 @@ pub enum ScalarFormat {
     F64 = 1,
 }
 
-/// A detector for one format of positions, and where its contacts go first.
+/// A detector for one format of positions, with a buffer for its contacts.
 pub(crate) struct Finder<S: Scalar> {
     pub(crate) detector: CollisionDetector<S>,
     pub(crate) contacts: Vec<Contact<S>>,
@@ -45,7 +45,7 @@ pub(crate) enum AnyFinder {
     F64(Finder<f64>),
 }
 
-/// Does the same with a detector of either format.
+/// Evaluates one expression with a detector of either format.
 macro_rules! with_either {
     ($any:expr, $finder:ident => $action:expr) => {
         match $any {
@@ -56,7 +56,7 @@ macro_rules! with_either {
 }
 pub(crate) use with_either;
 
-/// A format of positions that there are detectors for.
+/// A format of positions.
 pub(crate) trait Format: Scalar + Plain {
     fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>>;
 }
@@ -79,7 +79,7 @@ impl Format for f64 {
     }
 }
 
-/// What a call works on.
+/// A detector and the lists that C reads.
 pub(crate) struct Detector {
     pub(crate) finder: AnyFinder,
     pub(crate) answers: Answers,
@@ -106,18 +106,18 @@ impl Handled for Detector {
     }
 }
 
-/// Does something with a detector.
+/// Runs `action` on a detector.
 pub(crate) fn on(handle: *const Handle, action: impl FnOnce(&mut Detector) -> Result<(), Failure>) -> Status {
     handles::on(handle, |_, detector| action(detector))
 }
 
-/// A detector for a mesh. `scalar` is a selvedge_scalar: the format that its positions will have. On the calling thread at first,
-/// all vertices moving, steps not coherent, contacts within the default tolerance.
+/// Creates a detector for a mesh. `scalar` is a selvedge_scalar, the format of its positions. By default it uses the calling thread,
+/// all vertices move, steps are not coherent, and contacts are pairs within the default tolerance.
 ///
-/// Edges and points that belong to no triangle, of ropes, hair and particles, are triangles that name a vertex twice, (a, b, b), or
-/// three times, (p, p, p): they collide as what they are. A vertex that nothing names touches nothing.
+/// A triangle that names a vertex twice, (a, b, b), is a loose edge, and one that names it three times, (p, p, p), a point: parts of
+/// ropes, hair and particles. They collide as edges and points. A vertex that no triangle names collides with nothing.
 ///
-/// The triangles are copied. `*detector` becomes the handle; selvedge_detector_free gives back what it takes.
+/// The triangles are copied. `*detector` receives the handle; free it with selvedge_detector_free.
 ///
 /// # Safety
 /// `triangles` points to 3 * `triangle_count` vertex numbers, `detector` to a pointer.
@@ -151,7 +151,7 @@ pub unsafe extern "C" fn selvedge_detector_new(
 /// Unless `triangles` is null or misaligned, it points to three numbers for each of so many.
 pub(crate) unsafe fn topology(vertex_count: usize, triangles: *const u32, triangle_count: usize) -> Result<Topology, Failure> {
     if triangle_count > Topology::MAX_TRIANGLES {
-        // Before one of them is looked at.
+        // Checked before any of them is read.
         let error = TopologyError::TooLarge {
             vertex_count,
             triangle_count,
@@ -161,7 +161,7 @@ pub(crate) unsafe fn topology(vertex_count: usize, triangles: *const u32, triang
     // SAFETY: the caller's promise.
     let given = unsafe { view::<_, 3>("triangles", triangles, triangle_count) }?;
     let mut triangles = Vec::new();
-    // Refused memory is an error here, where a wrong count is the likeliest reason.
+    // A wrong count is the likeliest reason why the system refuses memory, so that is an error and no abort.
     triangles.try_reserve_exact(given.len()).map_err(|_| {
         let text = format!("the operating system refuses memory for {} triangles", given.len());
         Failure::new(Status::NoMemory, text)
@@ -170,18 +170,17 @@ pub(crate) unsafe fn topology(vertex_count: usize, triangles: *const u32, triang
     Ok(Topology::new(vertex_count, triangles)?)
 }
 
-/// Cuts the question short that another thread is asking, and each one from now on: it fails with SELVEDGE_STATUS_CANCELLED,
-/// unless it is as good as answered. `cancelled` is not 0; 0 takes it back. Afterwards the detector answers as if nothing had
-/// been.
+/// Cancels the call that another thread is making, and all later calls, if `cancelled` is not 0. They fail with
+/// SELVEDGE_STATUS_CANCELLED unless they are nearly done. 0 ends this; the detector then answers as usual.
 ///
-/// For any thread at any time: the only function that a detector in use does not refuse, but for selvedge_detector_free.
+/// Any thread may call this at any time. Besides selvedge_detector_free it is the only function that a detector in use accepts.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_cancelled(detector: *mut Handle, cancelled: i32) -> Status {
     handles::set_cancelled::<Detector>(detector, cancelled)
 }
 
-/// Frees a detector and tells its threads to end; all that it has shown is gone with it. NULL is well. One that another thread is
-/// using goes when that call has ended.
+/// Frees a detector, its lists and its threads. NULL is allowed. A detector that another thread is using is freed when that call
+/// has ended.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_free(detector: *mut Handle) -> Status {
     handles::free::<Detector>(detector)

@@ -1,10 +1,9 @@
-//! What lives, and is named by handles: detectors, worlds and simulations.
+//! The registry of detectors, worlds and simulations.
 //!
-//! To C a handle is a pointer; here it is a number that was given once and never again, looked up at each call. So a handle that
-//! was freed, or never made, is told from one that lives, whatever memory holds, and no handle is ever followed.
+//! C sees a handle as a pointer. Here it is a number that is given out once, looked up at each call and never followed. A freed or
+//! invented handle is therefore recognised, whatever memory contains.
 //!
-//! What it stands for is behind a lock that only one call may have: a second thread is refused, not kept waiting. A panic poisons it,
-//! as it does all of Rust's, and that is the mark of something broken.
+//! Each item has a lock. A second thread is refused and does not wait. A panic poisons the lock, which marks the item as broken.
 
 use crate::guard::guarded;
 use crate::status::{Failure, Status};
@@ -14,29 +13,29 @@ use std::ptr;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
 
-/// What a handle can stand for.
+/// A type of item with handles.
 pub(crate) trait Handled: Send + Sized + 'static {
-    /// What its pointers point to, as C sees it.
+    /// The type behind the pointer in C.
     type Handle;
-    /// In words.
+    /// The name of the type in messages.
     const NAME: &'static str;
-    /// That there is none.
+    /// The status for an unknown handle.
     const NO_SUCH: Status;
 
     fn living() -> &'static Living<Self>;
 
-    /// What cuts its questions short; of what has none, one that nobody is given.
+    /// Returns the switch that cancels its calls. Items without one return a switch that is never used.
     fn cancellation(&self) -> Cancellation {
         Cancellation::default()
     }
 
-    /// Whether it has threads of its own when it is made.
+    /// Says whether the new item has threads of its own.
     fn has_threads(&self) -> bool {
         false
     }
 }
 
-/// All of a type, by the numbers of their handles.
+/// All items of a type, by the numbers of their handles.
 pub(crate) struct Living<T>(RwLock<BTreeMap<usize, Arc<Kept<T>>>>);
 
 impl<T> Living<T> {
@@ -45,10 +44,10 @@ impl<T> Living<T> {
     }
 }
 
-/// One of them, and what is known of it while a call has it.
+/// An item, and what other threads may know of it while a call uses it.
 pub(crate) struct Kept<T> {
     item: Mutex<T>,
-    /// The process whose threads it has, if it has any of its own.
+    /// The process that started its threads, if it has any.
     threads_of: Mutex<Option<u32>>,
     cancellation: Cancellation,
 }
@@ -58,21 +57,21 @@ impl<T> Kept<T> {
         self.threads_of.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// It has threads of its own, of this process, or none.
+    /// Records whether it has threads, which belong to this process.
     pub(crate) fn set_has_threads(&self, has_threads: bool) {
         *self.threads_of() = has_threads.then(std::process::id);
     }
 
-    /// Whether its threads stayed behind in a parent process. To wait for them would be for ever.
+    /// Says whether its threads stayed behind in a parent process. Waiting for them would never end.
     fn is_forked(&self) -> bool {
         self.threads_of().is_some_and(|process| process != std::process::id())
     }
 }
 
-/// Of all types. Zero is NULL.
+/// The next handle, for all types. Zero is NULL.
 static NEXT: AtomicUsize = AtomicUsize::new(1);
 
-/// From now on it lives. Returns its handle.
+/// Registers an item and returns its handle.
 pub(crate) fn keep<T: Handled>(item: T) -> Result<*mut T::Handle, Failure> {
     let one_more = |number: usize| number.checked_add(1);
     let number = NEXT.fetch_update(Ordering::Relaxed, Ordering::Relaxed, one_more);
@@ -95,7 +94,7 @@ fn no_such<T: Handled>(handle: *const T::Handle) -> Failure {
     if handle.is_null() {
         Failure::new(Status::NullPointer, format!("the {name} is NULL"))
     } else {
-        let text = format!("the {name} was freed before, or its handle did not come from selvedge_{name}_new");
+        let text = format!("the {name} has been freed, or its handle did not come from selvedge_{name}_new");
         Failure::new(T::NO_SUCH, text)
     }
 }
@@ -105,19 +104,19 @@ fn find<T: Handled>(handle: *const T::Handle) -> Result<Arc<Kept<T>>, Failure> {
     living.get(&handle.addr()).cloned().ok_or_else(|| no_such::<T>(handle))
 }
 
-/// Does something with what a handle stands for, and with what is kept beside it.
+/// Runs `action` on the item of a handle and on its record.
 pub(crate) fn on<T: Handled>(handle: *const T::Handle, action: impl FnOnce(&Kept<T>, &mut T) -> Result<(), Failure>) -> Status {
     guarded(|| {
         let kept = find::<T>(handle)?;
         let name = T::NAME;
         if kept.is_forked() {
-            let text = format!("the {name}'s threads are in the process that was forked: make one in the child");
+            let text = format!("the {name}'s threads are in the parent process: create a new {name} in the child");
             return Err(Failure::new(Status::Forked, text));
         }
         let mut item = kept.item.try_lock().map_err(|error| match error {
             TryLockError::WouldBlock => Failure::new(Status::Busy, format!("another thread is using the {name}")),
             TryLockError::Poisoned(_) => {
-                let text = format!("a call on this {name} failed by a fault of Selvedge's: it can only be freed");
+                let text = format!("a call on this {name} failed because of a bug in Selvedge: it can only be freed");
                 Failure::new(Status::Internal, text)
             }
         })?;
@@ -125,7 +124,7 @@ pub(crate) fn on<T: Handled>(handle: *const T::Handle, action: impl FnOnce(&Kept
     })
 }
 
-/// Cuts its questions short, or no more.
+/// Cancels the calls on an item, or ends that.
 pub(crate) fn set_cancelled<T: Handled>(handle: *const T::Handle, cancelled: i32) -> Status {
     guarded(|| {
         let cancellation = &find::<T>(handle)?.cancellation;
@@ -138,7 +137,7 @@ pub(crate) fn set_cancelled<T: Handled>(handle: *const T::Handle, cancelled: i32
     })
 }
 
-/// From now on it lives no more, nor does its handle; NULL is well.
+/// Frees an item and its handle. NULL is allowed.
 pub(crate) fn free<T: Handled>(handle: *const T::Handle) -> Status {
     guarded(|| {
         if handle.is_null() {
@@ -149,7 +148,7 @@ pub(crate) fn free<T: Handled>(handle: *const T::Handle) -> Status {
         drop(living);
         let kept = freed.ok_or_else(|| no_such::<T>(handle))?;
         if kept.is_forked() {
-            // The end would be told to threads that are not there. Its memory is the parent's.
+            // Its threads do not exist in this process, so it cannot be dropped. Its memory belongs to the parent.
             std::mem::forget(kept);
         }
         Ok(())

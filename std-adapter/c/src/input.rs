@@ -1,4 +1,4 @@
-//! What comes from C, checked: pointers, counts, numbers of enumerations.
+//! Checks what comes from C: pointers, counts and enumeration values.
 
 use crate::answers::{ContactRow, Pair};
 use crate::status::{Failure, Status};
@@ -7,7 +7,7 @@ use std::ffi::{CStr, c_char};
 use std::ptr::NonNull;
 use std::slice;
 
-/// Numbers of C's: any bits are one.
+/// A type for which all bits are a valid value.
 pub(crate) trait Plain: Copy {}
 impl Plain for u8 {}
 impl Plain for u32 {}
@@ -16,10 +16,10 @@ impl Plain for f64 {}
 impl Plain for ContactRow {}
 impl<T: Plain, const N: usize> Plain for [T; N] {}
 
-/// `count` groups of `N` numbers; none may be behind a null pointer.
+/// Returns `count` groups of `N` numbers. A null pointer is allowed if `count` is 0.
 ///
 /// # Safety
-/// A pointer that is neither null nor misaligned has that many behind it, which nobody writes to as long as the slice lives.
+/// A pointer that is neither null nor misaligned points to that many, and no other code writes to them while the slice lives.
 pub(crate) unsafe fn view<'a, T: Plain, const N: usize>(
     name: &str,
     start: *const T,
@@ -31,10 +31,10 @@ pub(crate) unsafe fn view<'a, T: Plain, const N: usize>(
     check_pointer(name, start)?;
     let bytes = count.checked_mul(size_of::<[T; N]>());
     if bytes.is_none_or(|bytes| bytes > isize::MAX as usize) {
-        let text = format!("{name} cannot have {count} entries: memory ends before");
+        let text = format!("{name} cannot have {count} entries: they do not fit into memory");
         return Err(Failure::new(Status::BadCount, text));
     }
-    // SAFETY: neither null nor misaligned, of a size that exists; any bits are a value of `T`; the rest is the caller's promise.
+    // SAFETY: neither null nor misaligned, of a valid size; any bits are a value of `T`; the rest is the caller's promise.
     Ok(unsafe { slice::from_raw_parts(start.cast(), count) })
 }
 
@@ -49,7 +49,7 @@ fn check_pointer<T>(name: &str, pointer: *const T) -> Result<(), Failure> {
     }
 }
 
-/// Where an answer goes. It is checked before the work is done, and written to after that.
+/// A place for an answer. It is checked before the work starts and written when the work is done.
 #[derive(Debug)]
 pub(crate) struct Out<T>(NonNull<T>);
 
@@ -65,12 +65,12 @@ impl<T> Out<T> {
 
     /// Writes the answer.
     pub(crate) fn set(self, answer: T) {
-        // SAFETY: aligned, and `new` was promised that it may be written to. What was there has no meaning, and is not dropped.
+        // SAFETY: aligned, and the caller of `new` promised that it may be written to. The old value is plain and is not dropped.
         unsafe { self.0.write(answer) }
     }
 }
 
-/// Where numbers go that the caller has room for: three for each of so many vertices, or as many as its rows have.
+/// Room of the caller for numbers: three for each vertex, or as many as a row has.
 #[derive(Debug)]
 pub(crate) struct OutFrame<S> {
     start: Out<S>,
@@ -86,26 +86,26 @@ impl<S: Plain> OutFrame<S> {
         Ok(Self { start, vertex_count })
     }
 
-    /// Writes one row after another, as far as there is room.
+    /// Writes the rows, as many as there is room for.
     #[cfg(feature = "cloth")]
     pub(crate) fn fill<const N: usize>(self, rows: impl Iterator<Item = [S; N]>) {
         let start = self.start.0.cast::<[S; N]>();
         for (index, row) in rows.take(self.vertex_count).enumerate() {
-            // SAFETY: aligned as its numbers are, and `new` was promised that so many may be written to.
+            // SAFETY: aligned as its numbers are, and the caller of `new` promised that so many may be written to.
             unsafe { start.add(index).write(row) };
         }
     }
 
-    /// Writes the positions, which are the library's own.
+    /// Writes positions that the library owns.
     pub(crate) fn set(self, positions: &[[S; 3]]) {
         let count = positions.len().min(self.vertex_count);
         let (from, to) = (NonNull::from(positions).cast::<[S; 3]>(), self.start.0.cast());
-        // SAFETY: aligned, and `new` was promised that so many may be written to; a slice of the library's is not among them.
+        // SAFETY: aligned, and the caller of `new` promised that so many may be written to; the library's slice does not overlap.
         unsafe { to.copy_from_nonoverlapping(from, count) };
     }
 }
 
-/// Where a list goes: its beginning and how many entries it has.
+/// A place for a list: its first entry and its length.
 #[derive(Debug)]
 pub(crate) struct OutList<T> {
     start: Out<*const T>,
@@ -121,7 +121,7 @@ impl<T> OutList<T> {
         Ok(Self { start, count })
     }
 
-    /// Writes where the list is. An empty one is at NULL.
+    /// Writes the address and the length of the list. An empty list is at NULL.
     pub(crate) fn set(self, list: &[T]) {
         self.start.set(if list.is_empty() { std::ptr::null() } else { list.as_ptr() });
         self.count.set(list.len());
@@ -129,9 +129,9 @@ impl<T> OutList<T> {
 }
 
 impl OutList<Pair> {
-    /// Writes where pairs are.
+    /// Writes the address and the number of pairs.
     pub(crate) fn set_pairs(self, pairs: &[[u32; 2]]) {
-        // Two numbers in a row, whether as fields or as an array.
+        // The layout is two numbers, as fields or as an array.
         let start = if pairs.is_empty() {
             std::ptr::null()
         } else {
@@ -142,10 +142,10 @@ impl OutList<Pair> {
     }
 }
 
-/// A text that a zero byte ends.
+/// Returns a text that ends with a zero byte.
 ///
 /// # Safety
-/// Unless it is null, there is a zero byte behind the pointer, and nobody writes up to it as long as the text lives.
+/// Unless the pointer is null, a zero byte follows it, and no other code writes to the text while it lives.
 #[cfg(feature = "cloth")]
 pub(crate) unsafe fn text<'a>(name: &str, start: *const c_char) -> Result<&'a str, Failure> {
     check_pointer(name, start)?;
@@ -155,7 +155,7 @@ pub(crate) unsafe fn text<'a>(name: &str, start: *const c_char) -> Result<&'a st
     bytes.to_str().map_err(not_utf8)
 }
 
-/// The number is none of the enumeration `name`.
+/// Returns the error that `number` is not a value of the enumeration `name`.
 pub(crate) fn unknown(name: &str, number: u32) -> Failure {
-    Failure::new(Status::UnknownConstant, format!("{number} is no {name}"))
+    Failure::new(Status::UnknownConstant, format!("{number} is not a value of {name}"))
 }

@@ -1,25 +1,28 @@
-//! Selvedge for C. `include/selvedge.h` is made of this; `include/selvedge.hpp` stands on it.
+//! Selvedge for C. cbindgen makes `include/selvedge.h` from this crate; `include/selvedge.hpp` wraps it for C++.
 //!
 //! ```text
-//! status     what becomes of a call: codes, texts, the last error of a thread
-//! guard      one call: panics are caught
-//! input      what comes from C: pointers, counts, numbers; nearly all that is unsafe
-//! handles    what lives, by its handles, which are numbers and never followed
-//! detector   detectors; settings, questions, answers    their functions, by what they are for
-//! world      worlds, and their functions
-//! simulation cloth in motion, with the feature `cloth`: `include/selvedge_cloth.h`, and `.hpp` on it
-//! version    macros and functions
+//! status      result codes, their texts, the last error of each thread
+//! guard       catches panics at the border
+//! input       checks pointers, counts and enumeration values; most `unsafe` code is here
+//! handles     looks up detectors, worlds and simulations by number
+//! detector    creates and frees detectors
+//! settings    how a detector searches
+//! questions   what C can ask a detector
+//! answers     the rows that C reads
+//! world       worlds of several meshes
+//! simulation  cloth in motion, with the feature `cloth` (`include/selvedge_cloth.h` and `.hpp`)
+//! version     version macros and functions
 //! ```
 //!
-//! All that the project has of `unsafe` is in this crate. A function of it trusts its caller in one thing: that a pointer which
-//! is neither null nor misaligned has so many items behind it as the count says, that nobody else writes to them meanwhile.
+//! This crate holds all `unsafe` code of the project. Its functions rely on one promise of the caller: a pointer that is neither
+//! null nor misaligned points to as many items as the count says, and no other thread writes to them during the call.
 
 #![deny(unsafe_op_in_unsafe_fn, clippy::undocumented_unsafe_blocks)]
-// Functions have to be public to be seen from C, though nobody can name them in Rust.
+// C can only see public functions. Rust code cannot name them.
 #![allow(unreachable_pub)]
 
 #[cfg(not(panic = "unwind"))]
-compile_error!("build the C interface with panic = \"unwind\": otherwise a fault of the library's ends the caller's program");
+compile_error!("build the C interface with panic = \"unwind\": otherwise a bug in the library ends the caller's program");
 
 mod answers;
 mod detector;

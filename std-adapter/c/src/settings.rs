@@ -1,4 +1,4 @@
-//! How a detector is to look, and what it knows of its mesh.
+//! The settings of a detector, and the edges of its mesh.
 
 use crate::answers::Pair;
 use crate::detector::{Detector, Handle, on, with_either};
@@ -9,15 +9,15 @@ use selvedge::core::elementary::Limits;
 use selvedge::core::narrowing::rounded_up;
 use selvedge::{CollisionFilter, Criterion, Groups, Scalar, StepError, Threads};
 
-// The next two are for the header, and for tests.
-/// At first the tolerance of detectors for float: 2^-20, a micrometre where positions are in metres.
+// The header and the tests use the next two.
+/// The default tolerance of detectors for float: 2^-20, a micrometre if positions are in metres.
 #[allow(dead_code)]
 pub const SELVEDGE_DEFAULT_TOLERANCE_F32: f64 = 9.5367431640625e-7;
-/// At first the tolerance of detectors for double: 2^-30, a nanometre where positions are in metres.
+/// The default tolerance of detectors for double: 2^-30, a nanometre if positions are in metres.
 #[allow(dead_code)]
 pub const SELVEDGE_DEFAULT_TOLERANCE_F64: f64 = 9.313225746154785e-10;
 
-/// A length in the format of the positions, not less than it was given: what is asked for is kept.
+/// Rounds a length up to the format of the positions, so that the requested distance is kept.
 pub(crate) fn length<S: Scalar>(given: f64) -> Result<S, Failure> {
     if given >= 0.0 && given.is_finite() {
         Ok(rounded_up(given))
@@ -26,8 +26,8 @@ pub(crate) fn length<S: Scalar>(given: f64) -> Result<S, Failure> {
     }
 }
 
-/// How many threads steps are split between: 1, as at first, is the one that calls; more are the detector's own; 0 is one for
-/// each core. Answers are the same bit for bit. More than four for each core, and more than 256, are refused.
+/// Sets the number of threads of a step. 1, the default, is the calling thread; larger numbers start threads of the detector; 0 is
+/// one for each core. Answers are the same bit for bit. More than four for each core, or more than 256, are refused.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_threads(detector: *mut Handle, count: usize) -> Status {
     handles::on::<Detector>(detector, |kept, it| {
@@ -37,10 +37,10 @@ pub extern "C" fn selvedge_detector_set_threads(detector: *mut Handle, count: us
     })
 }
 
-/// Contacts are pairs that cannot be proven to stay farther apart than `separation`; those that only come within `tolerance` of it
-/// may be among them. At first the separation is 0, the tolerance SELVEDGE_DEFAULT_TOLERANCE_F32 or _F64.
+/// Reports pairs that may come within `separation` of each other. A pair that only comes within `separation + tolerance` may be
+/// among them. By default the separation is 0 and the tolerance is SELVEDGE_DEFAULT_TOLERANCE_F32 or _F64.
 ///
-/// Both in the unit of the positions. For a detector for float they are rounded up to a float.
+/// Both are in the unit of the positions. A detector for float rounds them up to a float.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_within(detector: *mut Handle, separation: f64, tolerance: f64) -> Status {
     on(detector, |it| {
@@ -52,10 +52,10 @@ pub extern "C" fn selvedge_detector_set_within(detector: *mut Handle, separation
     })
 }
 
-/// Contacts are only pairs that truly touch, decided exactly. A time may be as much too early as the pair needs to come closer by
-/// `tolerance`.
+/// Reports only pairs that truly touch, decided exactly. A reported time may be early: by as long as the pair takes to close the
+/// distance `tolerance`.
 ///
-/// In the unit of the positions. For a detector for float it is rounded up to a float.
+/// The tolerance is in the unit of the positions. A detector for float rounds it up to a float.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_touching(detector: *mut Handle, tolerance: f64) -> Status {
     on(detector, |it| {
@@ -67,10 +67,10 @@ pub extern "C" fn selvedge_detector_set_touching(detector: *mut Handle, toleranc
     })
 }
 
-/// Names the vertices that move: for each of them a byte that is not 0. NULL and 0: all of them, as at first.
+/// Names the moving vertices: a byte for each vertex, not 0 if it moves. NULL and 0, the default: all vertices move.
 ///
-/// From the next step on pairs of which no vertex moves are not looked at. Positions of vertices that do not move are taken from
-/// the next step, and not looked at again until this is called anew. The bytes are copied.
+/// From the next step on, pairs without a moving vertex are skipped. The next step sets the positions of resting vertices; they are
+/// not read again until the next call of this function. The bytes are copied.
 ///
 /// # Safety
 /// `moving` points to `count` bytes.
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn selvedge_detector_set_moving(detector: *mut Handle, mov
             return Ok(());
         }
         if count != expected {
-            // Before one of them is looked at.
+            // Checked before any of them is read.
             return Err(StepError::WrongCount { found: count, expected }.into());
         }
         // SAFETY: the caller's promise.
@@ -94,8 +94,8 @@ pub unsafe extern "C" fn selvedge_detector_set_moving(detector: *mut Handle, mov
     })
 }
 
-/// What a vertex belongs to, and what it collides with, a bit for each group: two vertices collide if each is in a group that the
-/// other's filter has.
+/// The groups of a vertex and the groups it collides with, a bit for each group. Two vertices collide if each is in a group of the
+/// other's filter.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct GroupsRow {
@@ -105,12 +105,14 @@ pub struct GroupsRow {
     pub filter: u32,
 }
 
-/// Which pairs are looked at from the next step on, in place of what was said before. Vertices do not collide whose groups do
-/// not, that are of one patch, or that are an excluded pair, in either order; a pair is not looked at if no vertex of one side
-/// collides with any of the other. NULL: no such rule. All three NULL: all pairs are looked at, as at first.
+/// Sets the collision filter, from the next step on. It replaces the previous one.
 ///
-/// `groups` and `patches` have an entry for each vertex, `vertex_count` of them; it is not looked at if both are NULL. Pairs of
-/// selvedge_detector_contacts_of_f64 are looked at whatever this says. All is copied.
+/// Two vertices do not collide if their groups do not, if they have the same patch, or if they are an excluded pair, in either
+/// order. A pair of primitives is skipped if no vertex of one side collides with any vertex of the other. NULL omits a rule; with
+/// all three NULL, the default, no pair is skipped.
+///
+/// `groups` and `patches` have an entry for each of the `vertex_count` vertices; the count is ignored if both are NULL. The filter
+/// does not apply to selvedge_detector_contacts_of_f64. All arguments are copied.
 ///
 /// # Safety
 /// `groups` and `patches` are NULL or point to `vertex_count` entries, `excluded` to `excluded_count` pairs of vertices.
@@ -127,7 +129,7 @@ pub unsafe extern "C" fn selvedge_detector_set_collision_filter(
         let expected = it.topology().vertex_count();
         let has_entries = !groups.is_null() || !patches.is_null();
         if has_entries && vertex_count != expected {
-            // Before one of them is looked at.
+            // Checked before any of them is read.
             let found = vertex_count;
             return Err(StepError::WrongCount { found, expected }.into());
         }
@@ -151,8 +153,8 @@ pub unsafe extern "C" fn selvedge_detector_set_collision_filter(
     })
 }
 
-/// Whether steps go on from one another, as those of a simulation do: 0, as at first, or not 0. Then a step takes less time where
-/// vertices move by much less than an edge. The contacts are the same, in ascending order of their pairs' numbers.
+/// Sets whether each step starts where the last one ended, as in a simulation: not 0, or 0 as by default. Such steps are faster if
+/// vertices move by much less than an edge. The contacts are the same, in ascending order of their pairs.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_coherent(detector: *mut Handle, coherent: i32) -> Status {
     on(detector, |it| {
@@ -161,8 +163,8 @@ pub extern "C" fn selvedge_detector_set_coherent(detector: *mut Handle, coherent
     })
 }
 
-/// Most pairs that a question may look at, of those that boxes leave; UINT64_MAX, as at first: as many as there are. One with
-/// more fails with SELVEDGE_STATUS_TOO_MANY_PAIRS, on any number of threads.
+/// Limits the number of candidate pairs of a call. UINT64_MAX, the default, is no limit. A call with more pairs fails with
+/// SELVEDGE_STATUS_TOO_MANY_PAIRS, on any number of threads.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_detector_set_pair_limit(detector: *mut Handle, limit: u64) -> Status {
     on(detector, |it| {
@@ -172,7 +174,7 @@ pub extern "C" fn selvedge_detector_set_pair_limit(detector: *mut Handle, limit:
     })
 }
 
-/// How many threads a step uses.
+/// Returns the number of threads of a step.
 ///
 /// # Safety
 /// `count` points to a number.
@@ -186,9 +188,9 @@ pub unsafe extern "C" fn selvedge_detector_threads(detector: *const Handle, coun
     })
 }
 
-/// The edges of the mesh by their numbers, each as its vertices, the smaller first; `count` becomes how many there are.
+/// Returns the edges of the mesh in the order of their numbers. Each is a pair of vertices, the smaller number first.
 ///
-/// They stay where they are until the detector is freed.
+/// The list stays valid until the detector is freed.
 ///
 /// # Safety
 /// `edges` points to a pointer, `count` to a number.

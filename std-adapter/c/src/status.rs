@@ -1,25 +1,25 @@
-//! What becomes of a call.
+//! The results of calls, and the last error of each thread.
 
 use selvedge::{StepError, ThreadError, TopologyError, WorldError};
 use std::cell::Cell;
 use std::ffi::{CStr, c_char};
 use std::fmt::Display;
 
-/// What became of a call.
+/// The result of a call.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// All is well.
+    /// The call succeeded.
     Ok = 0,
-    /// A pointer is NULL that must not be.
+    /// A pointer is NULL where NULL is not allowed.
     NullPointer = 1,
-    /// A pointer is not aligned as its type has to be.
+    /// A pointer does not have the alignment of its type.
     MisalignedPointer = 2,
-    /// A count is larger than memory, or than what may be asked for.
+    /// A count exceeds memory or the largest allowed value.
     BadCount = 3,
-    /// A number is none of its enumeration's.
+    /// A number is not a value of its enumeration.
     UnknownConstant = 4,
-    /// There is no such detector: it was freed, or never made.
+    /// The detector was freed or never created.
     NoSuchDetector = 5,
     /// Another thread is using the detector, world or simulation.
     Busy = 6,
@@ -31,7 +31,7 @@ pub enum Status {
     VertexOutOfRange = 9,
     /// The mesh has more vertices or triangles than can be numbered.
     TooLarge = 10,
-    /// A list does not have an entry for each vertex.
+    /// A list does not have one entry for each vertex.
     WrongLength = 11,
     /// A coordinate is NaN or infinite.
     NotFinite = 12,
@@ -39,47 +39,47 @@ pub enum Status {
     BadLimit = 13,
     /// A pair names a vertex, a face or an edge that the mesh does not have.
     NoSuchPair = 14,
-    /// The operating system refuses threads, or there are more of them than any machine has use for.
+    /// The threads could not be started, or their number is too large.
     NoThreads = 15,
-    /// The operating system refuses memory.
+    /// The operating system refused memory.
     NoMemory = 16,
-    /// The process was forked after the detector, world or simulation has started threads; they are not in the child.
+    /// The process was forked after the detector, world or simulation had started threads. The child does not have them.
     Forked = 17,
-    /// The detector or world is cancelled.
+    /// The call was cancelled.
     Cancelled = 18,
-    /// More pairs are near each other than may be looked at.
+    /// There are more candidate pairs than the limit allows.
     TooManyPairs = 19,
     /// A contact's time is not in [0, 1].
     BadTime = 20,
-    /// A fault of the library's own. The detector, world or simulation can only be freed from now on.
+    /// The library has a bug. The detector, world or simulation can only be freed from now on.
     Internal = 21,
-    /// There is no such world: it was freed, or never made.
+    /// The world was freed or never created.
     NoSuchWorld = 22,
-    /// The world has no such mesh: it was removed, or is of another world.
+    /// The world has no such mesh: it was removed, or it belongs to another world.
     NoSuchMesh = 23,
-    /// Two motions are given for one mesh.
+    /// A mesh has two motions in one step.
     MovedTwice = 24,
-    /// A pose is none: a number is not finite, the quaternion is zero, or the mesh would be out of the range of numbers.
+    /// A pose is invalid: a number is not finite, the quaternion is zero, or the mesh would leave the range of the format.
     BadPose = 25,
-    /// There is no such simulation: it was freed, or never made.
+    /// The simulation was freed or never created.
     NoSuchSimulation = 26,
-    /// A scene cannot be read or used: the words name its file, line and column where one is at fault.
+    /// A scene is invalid. The message names file, line and column where there is one.
     BadScene = 27,
-    /// A step found no motion without an intersection, in a scene that stops then. What is done of the step stays.
+    /// A step found no motion without an intersection, in a scene that stops then. The part of the step that was done remains.
     Blocked = 28,
-    /// The scene has no such cloth, body, group of pins, or wind.
+    /// The scene has no such cloth, body, group of pins or wind.
     NoSuchPart = 29,
-    /// A body or a group of pins has a motion of its own: its scene does not say that it is driven.
+    /// A body or a group of pins cannot be moved: its scene does not say that it is driven.
     NotDriven = 30,
-    /// A position or a velocity is not finite, or beyond its range.
+    /// A position or a velocity is not finite or out of its range.
     BadValue = 31,
-    /// Bytes are no checkpoint, are damaged, or are one of another scene.
+    /// The bytes are not a checkpoint, are damaged, or belong to another scene.
     BadCheckpoint = 32,
-    /// There is no checkpoint after this step: one is every SELVEDGE_CHECKPOINT_STEPS steps.
+    /// There is no checkpoint after this step. One exists every SELVEDGE_CHECKPOINT_STEPS steps.
     NoCheckpoint = 33,
-    /// A text is not UTF-8, or has a zero before its end.
+    /// A text is not valid UTF-8.
     BadText = 34,
-    /// A scene starts with surfaces that pass through each other: the words say where first, and what the scene may say of it.
+    /// A scene starts with surfaces that pass through each other. The message names the first place and the possible settings.
     Tangled = 35,
 }
 
@@ -165,7 +165,7 @@ impl Status {
     }
 }
 
-/// A call that failed, in a code and in words.
+/// The status and the message of a failed call.
 #[derive(Debug)]
 pub(crate) struct Failure {
     pub(crate) status: Status,
@@ -201,7 +201,7 @@ impl From<StepError> for Failure {
             StepError::BadTime { .. } => Status::BadTime,
             StepError::Cancelled => Status::Cancelled,
             StepError::TooManyPairs { .. } => Status::TooManyPairs,
-            // One that this crate does not know yet.
+            // An error that this crate does not know yet.
             _ => Status::Internal,
         };
         Self::new(status, error)
@@ -216,7 +216,7 @@ impl From<WorldError> for Failure {
             WorldError::BadPositions { error, .. } | WorldError::Step(error) => Self::from(error).status,
             WorldError::BadPose { .. } => Status::BadPose,
             WorldError::TooLarge { .. } => Status::TooLarge,
-            // One that this crate does not know yet.
+            // An error that this crate does not know yet.
             _ => Status::Internal,
         };
         Self::new(status, error)
@@ -229,15 +229,15 @@ impl From<ThreadError> for Failure {
     }
 }
 
-/// Bytes of a last error, the final zero included. Three coordinates take the most, some 300 digits each.
+/// The size of a message in bytes, with the final zero. Three coordinates need the most, about 300 digits each.
 const ROOM: usize = 1280;
 
 thread_local! {
-    // Without memory of its own: nothing is to be freed, and it can be read for as long as the thread lives.
+    // It owns no memory, so it needs no destructor and can be read until the thread ends.
     static LAST: Cell<[u8; ROOM]> = const { Cell::new([0; ROOM]) };
 }
 
-/// Keeps the words for the thread that calls.
+/// Stores the message for the calling thread.
 pub(crate) fn remember(failure: &Failure) -> Status {
     let mut end = failure.text.len().min(ROOM - 1);
     while !failure.text.is_char_boundary(end) {
@@ -245,22 +245,22 @@ pub(crate) fn remember(failure: &Failure) -> Status {
     }
     let mut room = [0; ROOM];
     for (byte, &of_text) in room.iter_mut().zip(&failure.text.as_bytes()[..end]) {
-        // A zero would end it.
+        // A zero would end the text.
         *byte = if of_text == 0 { b' ' } else { of_text };
     }
     LAST.set(room);
     failure.status
 }
 
-/// What the last call that failed on this thread has to say, in words; empty if none has. Never NULL.
+/// Returns the message of the last failed call on this thread, or an empty text. Never NULL.
 ///
-/// Valid until the next call that fails on this thread, or the thread's end. A call that succeeds leaves it.
+/// The text is valid until the next failed call on this thread, or until the thread ends. Successful calls do not change it.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_last_error() -> *const c_char {
     LAST.with(|last| last.as_ptr().cast::<c_char>().cast_const())
 }
 
-/// A selvedge_status in a few words, for any number. Never NULL; valid for ever.
+/// Returns a short text for a selvedge_status, or for any other number. Never NULL; valid forever.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_status_string(status: i32) -> *const c_char {
     let known = Status::ALL.into_iter().find(|&known| known as i32 == status);

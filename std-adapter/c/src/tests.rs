@@ -2,7 +2,7 @@
 
 use crate::answers::{Boxes, ContactRow, GeometryRow, IntersectionRow, Kind, Pair, TruncationRow};
 use crate::detector::{Handle, ScalarFormat, on, selvedge_detector_free, selvedge_detector_new, selvedge_detector_set_cancelled};
-use crate::questions::*;
+use crate::questions::{double::*, single::*};
 use crate::settings::*;
 use crate::status::{Status, selvedge_last_error, selvedge_status_string};
 use selvedge::core::elementary::Limits;

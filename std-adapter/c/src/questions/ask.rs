@@ -1,4 +1,4 @@
-//! Each question once, for either format.
+//! The questions, generic over the format of the positions.
 
 use crate::answers::{Answers, Boxes, CandidatePairs, ContactRow, GeometryRow, IntersectionRow, Pair, TruncationRow};
 use crate::detector::{Detector, Finder, Format, Handle, on};
@@ -7,7 +7,7 @@ use crate::settings::length;
 use crate::status::{Failure, Status};
 use selvedge::{CandidateBoxes, Frame, StepError};
 
-/// What a question is about, as it came: `N` frames of a mesh, with their names.
+/// The arguments of a question, as C passes them: `N` frames of a mesh, with their names.
 pub(super) struct Asked<S, const N: usize> {
     detector: *mut Handle,
     frames: [(&'static str, *const S); N],
@@ -45,10 +45,10 @@ impl<S> AskedState<S> {
 }
 
 impl<S: Format, const N: usize> Asked<S, N> {
-    /// Puts the question, with the frames.
+    /// Runs `question` with the frames.
     ///
     /// # Safety
-    /// Unless they are null, misaligned or too few, the frames have 3 * `vertex_count` numbers, which nobody writes to meanwhile.
+    /// Unless they are null or misaligned, the frames have 3 * `vertex_count` numbers, and no other thread writes to them.
     unsafe fn ask(self, question: impl FnOnce(&mut Finder<S>, &mut Answers, [&[[S; 3]]; N]) -> Result<(), Failure>) -> Status {
         on(self.detector, |it| {
             let found = self.vertex_count;
@@ -59,7 +59,7 @@ impl<S: Format, const N: usize> Asked<S, N> {
                 return Err(Failure::new(Status::WrongScalar, text));
             };
             if found != expected {
-                // Before one of them is looked at.
+                // Checked before any of them is read.
                 let frame = Frame::Start;
                 return Err(StepError::WrongLength { frame, found, expected }.into());
             }
@@ -96,7 +96,7 @@ pub(super) unsafe fn find_contacts_of<S: Format>(
     contacts: *mut *const ContactRow,
     count: *mut usize,
 ) -> Status {
-    // SAFETY: the caller's promises. The pairs may be this detector's candidates, to which nothing is written here.
+    // SAFETY: the caller's promises. The pairs may be this detector's candidates; they are not written to here.
     unsafe {
         asked.ask(|finder, answers, [start, end]| {
             let out = OutList::new("contacts", contacts, count)?;
@@ -125,7 +125,7 @@ pub(super) unsafe fn find_earliest<S: Format>(asked: AskedStep<S>, found: *mut b
     }
 }
 
-pub(super) unsafe fn tell_free<S: Format>(asked: AskedStep<S>, is_free: *mut bool) -> Status {
+pub(super) unsafe fn answer_free<S: Format>(asked: AskedStep<S>, is_free: *mut bool) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
         asked.ask(|finder, _, [start, end]| {
@@ -178,7 +178,7 @@ pub(super) unsafe fn find_intersections<S: Format>(
     }
 }
 
-pub(super) unsafe fn tell_intersections<S: Format>(asked: AskedState<S>, has_any: *mut bool) -> Status {
+pub(super) unsafe fn answer_has_intersections<S: Format>(asked: AskedState<S>, has_any: *mut bool) -> Status {
     // SAFETY: the caller's promises.
     unsafe {
         asked.ask(|finder, _, [positions]| {
@@ -195,7 +195,7 @@ pub(super) unsafe fn find_contact_geometries<S: Format>(
     geometries: *mut *const GeometryRow,
     count: *mut usize,
 ) -> Status {
-    // SAFETY: the caller's promises. The contacts may be this detector's own, to which nothing is written here.
+    // SAFETY: the caller's promises. The contacts may be this detector's own; they are not written to here.
     unsafe {
         asked.ask(|finder, answers, [start, end]| {
             let out = OutList::new("geometries", geometries, count)?;
@@ -244,7 +244,7 @@ pub(super) unsafe fn truncate<S: Format>(asked: AskedStep<S>, end: *mut S, trunc
             Ok(())
         })
     };
-    // Not before the frames are looked at no more: the end may be one of them.
+    // Written only now, since `end` may be one of the frames.
     if let Some((end, truncation, found)) = out {
         end.set(&positions);
         truncation.set(found);

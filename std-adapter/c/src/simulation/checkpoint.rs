@@ -1,4 +1,4 @@
-//! A simulation's state as bytes, and back.
+//! Writes the state of a simulation to bytes, and reads it back.
 
 use super::on;
 use super::run::SimulationHandle;
@@ -6,7 +6,7 @@ use crate::input::{OutList, view};
 use crate::status::{Failure, Status};
 use selvedge_cloth::CheckpointError;
 
-/// A checkpoint can be taken before the first step, after so many steps, and again after so many more.
+/// A checkpoint can be taken before the first step and after every multiple of this number of steps.
 pub const SELVEDGE_CHECKPOINT_STEPS: u64 = 200;
 
 const _: () = assert!(SELVEDGE_CHECKPOINT_STEPS == selvedge_cloth::CHECKPOINT_STEPS);
@@ -17,10 +17,10 @@ impl From<CheckpointError> for Failure {
     }
 }
 
-/// All that the rest of the simulation depends on, as bytes to keep. What the next step was told, and the wind, is not in it.
-/// SELVEDGE_STATUS_NO_CHECKPOINT unless SELVEDGE_CHECKPOINT_STEPS divides the steps done.
+/// Returns the state of the simulation as bytes. Motions that were set for the next step and the wind are not included. The call fails
+/// with SELVEDGE_STATUS_NO_CHECKPOINT unless SELVEDGE_CHECKPOINT_STEPS divides the number of steps done.
 ///
-/// `*bytes` is the simulation's, until its next checkpoint is taken, or it is freed.
+/// The bytes belong to the simulation. They stay valid until its next checkpoint, or until it is freed.
 ///
 /// # Safety
 /// `bytes` points to a pointer, `count` to a number.
@@ -44,8 +44,8 @@ pub unsafe extern "C" fn selvedge_simulation_checkpoint(
     })
 }
 
-/// Goes on from a checkpoint of the same scene, with the same bits as if that simulation had never ended. The bytes are copied, and
-/// may be this simulation's own.
+/// Continues from a checkpoint of the same scene, with the same bits as an uninterrupted simulation. The bytes are copied; they may be
+/// this simulation's own.
 ///
 /// # Safety
 /// `bytes` points to `count` bytes.

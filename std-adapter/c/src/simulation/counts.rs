@@ -1,4 +1,4 @@
-//! What a simulation tells of itself in numbers: how much of what there is, how far it is, whether its state is certified.
+//! The sizes, the progress and the parts of a simulation.
 
 use super::on;
 use super::run::SimulationHandle;
@@ -8,65 +8,65 @@ use selvedge_cloth::Simulation;
 use std::ffi::c_char;
 use std::ops::Range;
 
-/// How much of what there is in a scene, which no step changes. Vertices and triangles are those of each cloth, then those of
-/// bodies, in the order of the scene.
+/// The sizes of a scene. Only tearing changes them. The vertices and triangles of the cloths come first, then those of the bodies,
+/// in the order of the scene.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SizesRow {
-    /// Of cloth and bodies.
+    /// The number for cloths and bodies together.
     pub vertex_count: usize,
-    /// Of cloth and bodies.
+    /// The number for cloths and bodies together.
     pub triangle_count: usize,
-    /// How many of the vertices are of cloth.
+    /// The number of vertices of cloth.
     pub cloth_vertex_count: usize,
-    /// How many of the triangles are of cloth.
+    /// The number of triangles of cloth.
     pub cloth_triangle_count: usize,
-    /// How many edges belong to no triangle: of ropes, laces and fringes.
+    /// The number of edges without a triangle: ropes, laces and fringes.
     pub loose_edge_count: usize,
-    /// How many cloths there are, numbered from 0 on.
+    /// The number of cloths; they are numbered from 0.
     pub cloth_count: usize,
-    /// How many bodies there are, numbered from 0 on.
+    /// The number of bodies; they are numbered from 0.
     pub body_count: usize,
-    /// Of a step, in seconds.
+    /// The time step in seconds.
     pub time_step: f64,
-    /// As many as the scene's duration has.
+    /// The number of steps in the scene's duration.
     pub steps: u64,
-    /// From one frame to the next.
+    /// The number of steps from one frame to the next.
     pub steps_per_frame: u64,
 }
 
-/// How far a simulation is, and what is promised of its state.
+/// The progress of a simulation and the guarantee of its state.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ProgressRow {
-    /// So far.
+    /// The number of steps done.
     pub steps_done: u64,
-    /// Simulated so far, in seconds.
+    /// The simulated time in seconds.
     pub time: f64,
-    /// How far bodies and pins are behind their keyframes, in seconds.
+    /// The time by which bodies and pins lag behind their keyframes, in seconds.
     pub lag: f64,
-    /// Steps in which bodies or pins had to wait, or to be let pass.
+    /// The number of steps in which bodies or pins had to wait or were let through.
     pub blocked_steps: u64,
-    /// Pairs that have left the promise since the start, in a scene that tolerates what is tangled there.
+    /// The number of pairs without a guarantee, in a scene that tolerates a tangled start.
     pub tolerated_pairs: usize,
-    /// Whether the state is certified to be free of intersections of whatever the scene's contact effects name: not without any,
-    /// not while a body is let pass, and not while what was tangled at the start is tolerated.
+    /// Whether the state is certified free of the intersections that the scene's contact effects name. It is false without a contact
+    /// effect, while a body is let through, and while a tangled start is tolerated.
     pub is_certified: bool,
 }
 
-/// A cloth or a body, among others and among the vertices.
+/// The place of a cloth or a body among the others and among the vertices.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PartRow {
-    /// Among the cloths, or the bodies, from 0 on.
+    /// Its number among the cloths or the bodies, from 0.
     pub number: usize,
-    /// The first of its vertices.
+    /// The number of its first vertex.
     pub first_vertex: usize,
-    /// They come one after another.
+    /// The number of its vertices, which are consecutive.
     pub vertex_count: usize,
 }
 
-/// How much of what there is.
+/// Returns the sizes of the scene.
 ///
 /// # Safety
 /// `sizes` points to one entry.
@@ -92,7 +92,7 @@ pub unsafe extern "C" fn selvedge_simulation_sizes(simulation: *const Simulation
     })
 }
 
-/// How far it is, and whether its state is certified.
+/// Returns the progress and whether the state is certified.
 ///
 /// # Safety
 /// `progress` points to one entry.
@@ -142,7 +142,7 @@ unsafe fn find_part(
     })
 }
 
-/// The body of this name.
+/// Finds the body of this name.
 ///
 /// # Safety
 /// `name` points to a text that a zero ends, `part` to one entry.
@@ -164,7 +164,7 @@ pub unsafe extern "C" fn selvedge_simulation_body(
     }
 }
 
-/// The cloth of this name.
+/// Finds the cloth of this name.
 ///
 /// # Safety
 /// As selvedge_simulation_body.

@@ -1,4 +1,4 @@
-//! What the next step is told: where bodies and pins go, how the wind blows.
+//! Moves bodies and pins in the next step, and sets the wind.
 
 use super::on;
 use super::run::SimulationHandle;
@@ -18,7 +18,7 @@ impl From<DriveError> for Failure {
                 "the scene has no wind: add [effects.wind] to it".to_owned(),
             ),
             DriveError::NotDriven { what } => {
-                let text = format!("{what} cannot be moved by hand: say `driven = true` of it in the scene");
+                let text = format!("{what} is not driven: add `driven = true` to it in the scene");
                 (Status::NotDriven, text)
             }
             DriveError::VertexCount { .. } => (Status::WrongLength, error.to_string()),
@@ -28,9 +28,9 @@ impl From<DriveError> for Failure {
     }
 }
 
-/// Leads the body `body`, which the scene says is driven, to another placement in the next step: its mesh as the scene has it, turned
-/// and then moved. It turns about its origin, the shorter way round, and moves along, both evenly. Unless it is told again it stays
-/// there; a step that is cut or has to wait leaves it on the way, where selvedge_simulation_placement says.
+/// Moves a driven body to a placement in the next step: its mesh in the scene is rotated and then translated. It rotates the short way
+/// about its origin while it moves, both at a constant rate. It then stays there. A step that is cut or has to wait leaves it on its
+/// way; selvedge_simulation_placement says where.
 ///
 /// # Safety
 /// `placement` points to one entry.
@@ -41,7 +41,7 @@ pub unsafe extern "C" fn selvedge_simulation_place_body(
     placement: *const Pose,
 ) -> Status {
     on(simulation, |it| {
-        // SAFETY: the caller's promise. Seven numbers in a row, whether as fields or as an array.
+        // SAFETY: the caller's promise. The layout is seven numbers, as fields or as an array.
         let given = unsafe { view::<f64, 7>("placement", placement.cast(), 1) }?;
         for &[x, y, z, w, a, b, c] in given {
             let placement = Placement {
@@ -54,8 +54,8 @@ pub unsafe extern "C" fn selvedge_simulation_place_body(
     })
 }
 
-/// Where a driven body stands now. `*is_known` tells whether it does: not of any other, nor of one that was moved vertex by vertex,
-/// and `*placement` is then left as it is.
+/// Returns the current placement of a driven body. `*is_known` is false for other bodies and for one that was moved vertex by vertex;
+/// `*placement` then stays unchanged.
 ///
 /// # Safety
 /// `is_known` and `placement` point to one entry each.
@@ -85,7 +85,7 @@ pub unsafe extern "C" fn selvedge_simulation_placement(
     })
 }
 
-/// Leads vertices to positions that came from C.
+/// Moves vertices to positions from C.
 ///
 /// # Safety
 /// Unless it is null or misaligned, `start` points to three numbers for each of `count`.
@@ -97,7 +97,7 @@ unsafe fn move_to(
     on(simulation, |it| {
         let most = it.simulation.positions().len();
         if count > most {
-            // Before one of them is looked at.
+            // Checked before any of them is read.
             check_count("vertices in the scene", count, most)?;
         }
         // SAFETY: the caller's promise.
@@ -107,8 +107,8 @@ unsafe fn move_to(
     })
 }
 
-/// Leads each vertex of a driven body straight to a position, in metres, in the next step: a body that changes its shape, such as a
-/// skinned figure. Pins that follow it know no way to go then, and stay: move them on their own.
+/// Moves each vertex of a driven body straight to a position, in metres, in the next step. Use it for a body that changes its shape,
+/// such as a skinned figure. Pins that follow such a body stay where they are; move them separately.
 ///
 /// # Safety
 /// `positions` points to 3 * `vertex_count` numbers.
@@ -127,7 +127,7 @@ pub unsafe extern "C" fn selvedge_simulation_move_body(
     }
 }
 
-/// The same for a group of pins that is driven, by its number in the scene, from 0 on.
+/// Moves each vertex of a driven group of pins in the next step. `group` is its number in the scene, from 0.
 ///
 /// # Safety
 /// As selvedge_simulation_move_body.
@@ -146,7 +146,7 @@ pub unsafe extern "C" fn selvedge_simulation_move_pins(
     }
 }
 
-/// Lets the wind that the scene has blow so from now on, in m/s.
+/// Sets the velocity of the scene's wind from now on, in m/s.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_simulation_set_wind(simulation: *mut SimulationHandle, x: f64, y: f64, z: f64) -> Status {
     on(simulation, |it| Ok(it.simulation.set_wind(DVec3::new(x, y, z))?))

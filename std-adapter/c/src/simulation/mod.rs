@@ -1,4 +1,4 @@
-//! Simulations of cloth: what stands behind their handles.
+//! The simulations behind the handles.
 
 pub(crate) mod checkpoint;
 pub(crate) mod counts;
@@ -14,7 +14,7 @@ use run::SimulationHandle;
 use selvedge_cloth::{SceneError, SetupError, Simulation};
 use state::NearPairRow;
 
-/// What a call works on.
+/// A simulation, facts about its scene, and the lists that C reads.
 pub(crate) struct HandledSimulation {
     simulation: Simulation,
     of_scene: OfScene,
@@ -22,14 +22,14 @@ pub(crate) struct HandledSimulation {
     answers: Answers,
 }
 
-/// What a scene says, which the simulation of it does not.
+/// Facts of the scene that the simulation does not store.
 struct OfScene {
     time_step: f64,
     steps: u64,
     steps_per_frame: u64,
 }
 
-/// The lists that pointers given to C show.
+/// The lists to which C holds pointers.
 #[derive(Default)]
 struct Answers {
     near_pairs: Vec<NearPairRow>,
@@ -69,7 +69,7 @@ impl From<SetupError> for Failure {
     }
 }
 
-/// Does something with a simulation.
+/// Runs `action` on a simulation.
 fn on(handle: *const SimulationHandle, action: impl FnOnce(&mut HandledSimulation) -> Result<(), Failure>) -> Status {
     handles::on(handle, |_, simulation| action(simulation))
 }

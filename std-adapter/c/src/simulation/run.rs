@@ -1,4 +1,4 @@
-//! How simulations are made, stepped and freed.
+//! Creates, steps and frees simulations.
 
 use super::{Answers, HandledSimulation, OfScene, on};
 use crate::guard::guarded;
@@ -9,14 +9,14 @@ use selvedge_cloth::{Scene, Simulation};
 use std::ffi::c_char;
 use std::path::Path;
 
-/// A scene in motion. Only pointers to it exist; they are numbers, and nothing is behind them.
+/// A simulation of a scene. Its pointer is a handle: a number that is looked up and never followed.
 ///
-/// One thread at a time, as for a detector.
+/// One thread at a time may use a simulation, as for a detector.
 pub struct SimulationHandle {
     _nothing: [u8; 0],
 }
 
-/// Sets a scene up. From now on it lives.
+/// Creates the simulation of a scene and registers it.
 fn keep(scene: Scene, threads: usize, out: Out<*mut SimulationHandle>) -> Result<(), Failure> {
     let of_scene = OfScene {
         time_step: scene.time_step,
@@ -32,12 +32,11 @@ fn keep(scene: Scene, threads: usize, out: Out<*mut SimulationHandle>) -> Result
     Ok(())
 }
 
-/// A simulation of the scene that `scene` is the text of, TOML as std-adapter/cloth/scenes/README.md explains, on `threads` threads
-/// (0: one for each core): their number changes no bit of the result. Paths in the text are relative to `folder`; NULL is the
-/// process's own.
+/// Creates a simulation from the text of a scene (TOML, see std-adapter/cloth/scenes/README.md). It uses `threads` threads, 0 for one
+/// per core; the result is the same bit for bit. Paths in the text are relative to `folder`; NULL is the current folder.
 ///
-/// Texts are UTF-8, with a zero at the end, and copied. Words about the scene call it scene.toml. `*simulation` becomes the handle;
-/// selvedge_simulation_free gives back what it takes.
+/// Texts are UTF-8, end with a zero and are copied. Messages call the scene scene.toml. `*simulation` receives the handle; free it with
+/// selvedge_simulation_free.
 ///
 /// # Safety
 /// `scene`, and `folder` unless it is NULL, point to texts that a zero ends, `simulation` to a pointer.
@@ -61,7 +60,7 @@ pub unsafe extern "C" fn selvedge_simulation_new(
     })
 }
 
-/// selvedge_simulation_new of a scene file. Paths in it are relative to its folder.
+/// Creates a simulation from a scene file, as selvedge_simulation_new. Paths in it are relative to its folder.
 ///
 /// # Safety
 /// `path` points to a text that a zero ends, `simulation` to a pointer.
@@ -78,8 +77,8 @@ pub unsafe extern "C" fn selvedge_simulation_read(
     })
 }
 
-/// Does one step. SELVEDGE_STATUS_BLOCKED: no motion was found that leaves the cloth free of intersections, in a scene that stops
-/// then; what is done of the step stays, and the words say what was in the way. The state is as free as it was before.
+/// Runs one step. SELVEDGE_STATUS_BLOCKED means that no motion leaves the cloth free of intersections, in a scene that stops then. The
+/// part of the step that was done remains, the message names the obstacle, and the state stays free of intersections.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_simulation_step(simulation: *mut SimulationHandle) -> Status {
     on(simulation, |it| {
@@ -88,7 +87,7 @@ pub extern "C" fn selvedge_simulation_step(simulation: *mut SimulationHandle) ->
     })
 }
 
-/// Frees a simulation and all that it has shown. NULL is well. One that another thread is using goes when that call has ended.
+/// Frees a simulation and its lists. NULL is allowed. A simulation that another thread is using is freed when that call has ended.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_simulation_free(simulation: *mut SimulationHandle) -> Status {
     handles::free::<HandledSimulation>(simulation)

@@ -1,4 +1,4 @@
-//! Where everything is, copied to where the caller has room; what came near what.
+//! Copies positions, velocities and meshes into the caller's arrays, and lists near pairs.
 
 use super::on;
 use super::run::SimulationHandle;
@@ -7,17 +7,18 @@ use crate::status::{Failure, Status};
 use selvedge_cloth::{ProximityPair, Simulation, vertex_normals};
 use std::borrow::Cow;
 
-/// A vertex and a face, or two edges, that came near each other in the last step.
+/// A vertex and a face, or two edges, that were near each other in the last step.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NearPairRow {
-    /// Vertex and face, or first edge and second edge; bodies' vertices come after the cloth's.
+    /// The vertices of the two sides. The vertices of bodies follow those of the cloths.
     pub vertices: [u32; 4],
-    /// Of each vertex in the way between the closest points: positive on the first side, where they add up to one, negative on the other.
+    /// The weight of each vertex in the vector between the closest points: positive on the first side, where they add up to one, and
+    /// negative on the second.
     pub weights: [f64; 4],
-    /// From the second side to the first, of length one.
+    /// The direction from the second side to the first, of length one.
     pub normal: [f64; 3],
-    /// How far apart the pair is to be, in metres.
+    /// The distance that contact keeps between the two, in metres.
     pub thickness: f64,
 }
 
@@ -32,7 +33,7 @@ impl From<ProximityPair> for NearPairRow {
     }
 }
 
-/// The list does not have as many entries as there are.
+/// Checks that a list has the expected number of entries.
 pub(super) fn check_count(what: &str, found: usize, expected: usize) -> Result<(), Failure> {
     if found == expected {
         return Ok(());
@@ -41,7 +42,7 @@ pub(super) fn check_count(what: &str, found: usize, expected: usize) -> Result<(
     Err(Failure::new(Status::WrongLength, text))
 }
 
-/// Writes what there is to where the caller has room for just that: anywhere if there is nothing.
+/// Writes all rows to the caller's array, which must have exactly their number. An empty list needs no array.
 ///
 /// # Safety
 /// Unless it is null or misaligned, `start` may be written to until the call ends, N numbers for each of `count`.
@@ -62,7 +63,7 @@ unsafe fn copy_rows<S: Plain, T: Copy + Into<[S; N]>, const N: usize>(
     })
 }
 
-/// Copies where all vertices are, in metres. `vertex_count` is that of selvedge_simulation_sizes.
+/// Copies the positions of all vertices, in metres. `vertex_count` is that of selvedge_simulation_sizes.
 ///
 /// # Safety
 /// `positions` has room for 3 * `vertex_count` numbers.
@@ -76,7 +77,7 @@ pub unsafe extern "C" fn selvedge_simulation_positions(
     unsafe { copy_rows(simulation, ("positions", positions, vertex_count), |it| it.positions().into()) }
 }
 
-/// Copies how fast all vertices move, in m/s.
+/// Copies the velocities of all vertices, in m/s.
 ///
 /// # Safety
 /// `velocities` has room for 3 * `vertex_count` numbers.
@@ -94,8 +95,8 @@ pub unsafe extern "C" fn selvedge_simulation_velocities(
     }
 }
 
-/// Copies which way the surface faces at each vertex: the mean direction of its triangles, weighted by area, of length one; zero
-/// where it has none.
+/// Copies the normal of the surface at each vertex: the mean of its triangles' normals, weighted by area, of length one. It is zero
+/// for a vertex without a surface.
 ///
 /// # Safety
 /// `normals` has room for 3 * `vertex_count` numbers.
@@ -114,8 +115,8 @@ pub unsafe extern "C" fn selvedge_simulation_normals(
     unsafe { copy_rows(simulation, ("normals", normals, vertex_count), all) }
 }
 
-/// Copies all triangles, three vertex numbers each. A step changes them only where cloth tears: then there are more vertices as well, and
-/// selvedge_simulation_sizes has new counts. `triangle_count` is that of selvedge_simulation_sizes.
+/// Copies all triangles, three vertex numbers each. Only tearing changes them; it also adds vertices, and selvedge_simulation_sizes
+/// then returns new counts. `triangle_count` is that of selvedge_simulation_sizes.
 ///
 /// # Safety
 /// `triangles` has room for 3 * `triangle_count` numbers.
@@ -133,8 +134,8 @@ pub unsafe extern "C" fn selvedge_simulation_triangles(
     }
 }
 
-/// Copies all loose edges, of ropes, laces and fringes: two vertex numbers each. A step changes them only where cloth tears.
-/// `loose_edge_count` is that of selvedge_simulation_sizes.
+/// Copies all loose edges (ropes, laces and fringes), two vertex numbers each. Only tearing changes them. `loose_edge_count` is that of
+/// selvedge_simulation_sizes.
 ///
 /// # Safety
 /// `loose_edges` has room for 2 * `loose_edge_count` numbers.
@@ -152,10 +153,9 @@ pub unsafe extern "C" fn selvedge_simulation_loose_edges(
     }
 }
 
-/// The pairs that came near each other in the last part of the last step, as contact saw them at its start. None without a contact
-/// effect.
+/// Returns the near pairs at the start of the last part of the last step. There are none without a contact effect.
 ///
-/// `*pairs` is the simulation's, until its near pairs are asked for again, or it is freed.
+/// The list belongs to the simulation. It stays valid until the next call of this function, or until the simulation is freed.
 ///
 /// # Safety
 /// `pairs` points to a pointer, `count` to a number.

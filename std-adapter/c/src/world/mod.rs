@@ -1,6 +1,12 @@
-//! Worlds: meshes that come and go, and how a world is to look.
+//! Worlds of several meshes, and their settings.
 
-pub(crate) mod steps;
+/// The functions for `double`.
+pub mod double;
+/// The functions for `float`.
+pub mod single {
+    include!(concat!(env!("OUT_DIR"), "/world.rs"));
+}
+pub mod steps;
 #[cfg(test)]
 mod tests;
 
@@ -17,17 +23,17 @@ use selvedge::{
 };
 use steps::{WorldContactRow, WorldGeometryRow};
 
-/// Meshes that come and go, and move as they like. Only pointers to it exist; they are numbers, and nothing is behind them.
+/// A world of meshes that come and go and move independently. Its pointer is a handle: a number that is looked up and never followed.
 ///
-/// One thread at a time, as for a detector.
+/// One thread at a time may use a world, as for a detector.
 pub struct WorldHandle {
     _nothing: [u8; 0],
 }
 
-/// A mesh of a world, as a number that is never 0. It stays its name for good: no other mesh of the world gets the same one.
+/// The number of a mesh of a world, never 0. No other mesh of the world ever receives the same number.
 pub type Mesh = u64;
 
-/// A world for one format of positions, and where its contacts go first.
+/// A world for one format of positions, with a buffer for its contacts.
 pub(crate) struct Finder<S: Scalar> {
     world: World<[S; 3]>,
     contacts: Vec<WorldContact<S>>,
@@ -47,7 +53,7 @@ pub(crate) enum AnyFinder {
     F64(Finder<f64>),
 }
 
-/// Does the same with a world of either format.
+/// Evaluates one expression with a world of either format.
 macro_rules! with_either {
     ($any:expr, $finder:ident => $action:expr) => {
         match $any {
@@ -58,7 +64,7 @@ macro_rules! with_either {
 }
 use with_either;
 
-/// A format of positions that there are worlds for.
+/// A format of positions.
 pub(crate) trait Format: Scalar + Plain {
     fn of(any: &mut AnyFinder) -> Option<&mut Finder<Self>>;
 }
@@ -81,17 +87,17 @@ impl Format for f64 {
     }
 }
 
-/// What a call works on.
+/// A world and the lists that C reads.
 pub(crate) struct HandledWorld {
     finder: AnyFinder,
     answers: Answers,
 }
 
-/// The lists that pointers given to C show.
+/// The lists to which C holds pointers.
 #[derive(Default)]
 struct Answers {
     contacts: Vec<WorldContactRow>,
-    /// Of contacts, before they are shown.
+    /// The geometries of contacts, before C sees them.
     found_geometries: Vec<WorldContactGeometry>,
     geometries: Vec<WorldGeometryRow>,
 }
@@ -111,12 +117,12 @@ impl Handled for HandledWorld {
     }
 }
 
-/// Does something with a world.
+/// Runs `action` on a world.
 fn on(handle: *const WorldHandle, action: impl FnOnce(&mut HandledWorld) -> Result<(), Failure>) -> Status {
     handles::on(handle, |_, world| action(world))
 }
 
-/// Does something with a world for positions of this format.
+/// Runs `action` on a world for positions of this format.
 fn on_format<S: Format>(
     handle: *const WorldHandle,
     action: impl FnOnce(&mut Finder<S>, &mut Answers) -> Result<(), Failure>,
@@ -131,14 +137,14 @@ fn on_format<S: Format>(
 }
 
 fn mesh(bits: Mesh) -> Result<MeshHandle, Failure> {
-    let none = || Failure::new(Status::NoSuchMesh, format!("{bits} is the number of no mesh"));
+    let none = || Failure::new(Status::NoSuchMesh, format!("{bits} is not the number of a mesh"));
     MeshHandle::from_bits(bits).ok_or_else(none)
 }
 
-/// A world without meshes. `scalar` is a selvedge_scalar: the format that its positions will have. On the calling thread at first,
-/// contacts within the default tolerance of that format.
+/// Creates a world without meshes. `scalar` is a selvedge_scalar, the format of its positions. By default it uses the calling thread,
+/// and contacts are pairs within the default tolerance of that format.
 ///
-/// `*world` becomes the handle; selvedge_world_free gives back what it takes.
+/// `*world` receives the handle; free it with selvedge_world_free.
 ///
 /// # Safety
 /// `world` points to a pointer.
@@ -160,20 +166,20 @@ pub unsafe extern "C" fn selvedge_world_new(scalar: u32, world: *mut *mut WorldH
     })
 }
 
-/// Frees a world, its meshes and all that it has shown. NULL is well. One that another thread is using goes when that call has ended.
+/// Frees a world, its meshes and its lists. NULL is allowed. A world that another thread is using is freed when that call has ended.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_free(world: *mut WorldHandle) -> Status {
     handles::free::<HandledWorld>(world)
 }
 
-/// As selvedge_detector_set_cancelled, for a world. A step that is cut short has begun: what was to move rests where it would have
-/// ended unless it is told to move again.
+/// Cancels calls on a world, as selvedge_detector_set_cancelled. A cancelled step has begun: its meshes rest at the end of their
+/// motions until they are given new ones.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_set_cancelled(world: *mut WorldHandle, cancelled: i32) -> Status {
     handles::set_cancelled::<HandledWorld>(world, cancelled)
 }
 
-/// How many threads steps are split between, as of a detector.
+/// Sets the number of threads of a step, as selvedge_detector_set_threads.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_set_threads(world: *mut WorldHandle, count: usize) -> Status {
     handles::on::<HandledWorld>(world, |kept, it| {
@@ -183,8 +189,8 @@ pub extern "C" fn selvedge_world_set_threads(world: *mut WorldHandle, count: usi
     })
 }
 
-/// Contacts are pairs that cannot be proven to stay farther apart than `separation`, as of a detector. The next step fits all boxes
-/// anew if the separation is another one.
+/// Sets the minimum separation and the tolerance, as selvedge_detector_set_within. If the separation changes, the next step fits all
+/// boxes again.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_set_within(world: *mut WorldHandle, separation: f64, tolerance: f64) -> Status {
     on(world, |it| {
@@ -196,7 +202,7 @@ pub extern "C" fn selvedge_world_set_within(world: *mut WorldHandle, separation:
     })
 }
 
-/// Contacts are only pairs that truly touch, decided exactly, as of a detector; of bodies that turn those within the tolerance.
+/// Reports only pairs that truly touch, as selvedge_detector_set_touching. For rotating bodies it reports pairs within the tolerance.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_set_touching(world: *mut WorldHandle, tolerance: f64) -> Status {
     on(world, |it| {
@@ -208,7 +214,7 @@ pub extern "C" fn selvedge_world_set_touching(world: *mut WorldHandle, tolerance
     })
 }
 
-/// Most pairs that a step may look at, as of a detector; UINT64_MAX, as at first: as many as there are.
+/// Limits the number of candidate pairs of a step, as selvedge_detector_set_pair_limit. UINT64_MAX, the default, is no limit.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_set_pair_limit(world: *mut WorldHandle, limit: u64) -> Status {
     on(world, |it| {
@@ -218,7 +224,7 @@ pub extern "C" fn selvedge_world_set_pair_limit(world: *mut WorldHandle, limit: 
     })
 }
 
-/// What came for a mesh that is to be inserted.
+/// The arguments of an insertion.
 struct Inserted<S> {
     vertex_count: usize,
     triangles: (*const u32, usize),
@@ -249,13 +255,15 @@ impl<S: Format> Inserted<S> {
     }
 }
 
+/// Returns the groups at a pointer; those that collide with all for NULL.
+///
 /// # Safety
 /// Unless it is null or misaligned, it points to groups.
 unsafe fn groups_at(groups: *const GroupsRow) -> Result<Groups, Failure> {
     if groups.is_null() {
         return Ok(Groups::ALL);
     }
-    // SAFETY: the caller's promise. Two numbers in a row, whether as fields or as an array.
+    // SAFETY: the caller's promise. The layout is two numbers, as fields or as an array.
     let given = unsafe { view::<_, 2>("groups", groups.cast::<u32>(), 1) }?;
     Ok(given
         .iter()
@@ -264,62 +272,7 @@ unsafe fn groups_at(groups: *const GroupsRow) -> Result<Groups, Failure> {
         .unwrap_or(Groups::ALL))
 }
 
-/// A new mesh that rests at these positions. `groups` say which meshes it is looked at with, itself among them; NULL: with all.
-/// `*mesh` becomes its number.
-///
-/// Triangles and positions are copied. Edges and points of ropes, hair and particles are triangles that name a vertex twice or three times,
-/// as of a detector.
-///
-/// # Safety
-/// `triangles` points to 3 * `triangle_count` vertex numbers, `positions` to 3 * `vertex_count` numbers, `groups` to one entry unless it is
-/// NULL, `mesh` to a number.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn selvedge_world_insert_f64(
-    world: *mut WorldHandle,
-    vertex_count: usize,
-    triangles: *const u32,
-    triangle_count: usize,
-    positions: *const f64,
-    groups: *const GroupsRow,
-    mesh: *mut Mesh,
-) -> Status {
-    let inserted = Inserted {
-        vertex_count,
-        triangles: (triangles, triangle_count),
-        positions,
-        groups,
-        mesh,
-    };
-    // SAFETY: the caller's promises.
-    unsafe { inserted.into(world) }
-}
-
-/// selvedge_world_insert_f64 for float.
-///
-/// # Safety
-/// As selvedge_world_insert_f64.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn selvedge_world_insert_f32(
-    world: *mut WorldHandle,
-    vertex_count: usize,
-    triangles: *const u32,
-    triangle_count: usize,
-    positions: *const f32,
-    groups: *const GroupsRow,
-    mesh: *mut Mesh,
-) -> Status {
-    let inserted = Inserted {
-        vertex_count,
-        triangles: (triangles, triangle_count),
-        positions,
-        groups,
-        mesh,
-    };
-    // SAFETY: the caller's promises.
-    unsafe { inserted.into(world) }
-}
-
-/// Takes a mesh out. Its number then names nothing, for good.
+/// Removes a mesh. Its number is never used again.
 #[unsafe(no_mangle)]
 pub extern "C" fn selvedge_world_remove(world: *mut WorldHandle, mesh: Mesh) -> Status {
     on(world, |it| {
@@ -328,7 +281,7 @@ pub extern "C" fn selvedge_world_remove(world: *mut WorldHandle, mesh: Mesh) -> 
     })
 }
 
-/// Which meshes this one is looked at with from now on, itself among them; NULL: with all.
+/// Sets which meshes this one can collide with from now on, itself included. NULL: with all.
 ///
 /// # Safety
 /// `groups` points to one entry unless it is NULL.
@@ -342,9 +295,9 @@ pub unsafe extern "C" fn selvedge_world_set_groups(world: *mut WorldHandle, mesh
     })
 }
 
-/// The edges of a mesh by their numbers, each as its vertices, the smaller first; `count` becomes how many there are.
+/// Returns the edges of a mesh in the order of their numbers. Each is a pair of vertices, the smaller number first.
 ///
-/// They stay where they are until the mesh is removed, or the world freed.
+/// The list stays valid until the mesh is removed or the world is freed.
 ///
 /// # Safety
 /// `edges` points to a pointer, `count` to a number.

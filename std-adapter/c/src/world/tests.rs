@@ -1,5 +1,7 @@
 //! C's functions for worlds, beside the world itself.
 
+use super::double::*;
+use super::single::*;
 use super::steps::*;
 use super::*;
 use crate::answers::{ContactRow, GeometryRow, Kind};
@@ -20,43 +22,41 @@ type OutPair<T> = (*mut *const T, *mut usize);
 /// The functions for a format, called as C does.
 trait ForC: Format {
     const FORMAT: ScalarFormat;
-    type Deforming;
     fn from_double(value: f64) -> Self;
-    fn deforming(mesh: Mesh, start: &[[Self; 3]], end: &[[Self; 3]]) -> Self::Deforming;
     /// # Safety
     /// As the functions themselves.
     unsafe fn insert(world: *mut WorldHandle, at: &[[Self; 3]], triangles: &[[u32; 3]], groups: Option<GroupsRow>) -> Mesh;
     /// # Safety
     /// As the functions themselves.
-    unsafe fn contacts(world: *mut WorldHandle, moving: (&[Self::Deforming], &[Rigid]), out: OutPair<WorldContactRow>) -> Status;
+    unsafe fn contacts(world: *mut WorldHandle, moving: (&[Deforming<Self>], &[Rigid]), out: OutPair<WorldContactRow>) -> Status;
     /// # Safety
     /// As the functions themselves.
     unsafe fn earliest(
         world: *mut WorldHandle,
-        moving: (&[Self::Deforming], &[Rigid]),
+        moving: (&[Deforming<Self>], &[Rigid]),
         found: *mut bool,
         out: *mut WorldContactRow,
     ) -> Status;
     /// # Safety
     /// As the functions themselves.
-    unsafe fn is_free(world: *mut WorldHandle, moving: (&[Self::Deforming], &[Rigid]), out: *mut bool) -> Status;
+    unsafe fn is_free(world: *mut WorldHandle, moving: (&[Deforming<Self>], &[Rigid]), out: *mut bool) -> Status;
+}
+
+fn deforming<S>(mesh: Mesh, start: &[[S; 3]], end: &[[S; 3]]) -> Deforming<S> {
+    Deforming {
+        mesh,
+        start: start.as_ptr().cast(),
+        end: end.as_ptr().cast(),
+        vertex_count: start.len(),
+    }
 }
 
 macro_rules! for_c {
-    ($scalar:ident = $format:ident, $deforming:ident: $insert:ident, $contacts:ident, $earliest:ident, $is_free:ident) => {
+    ($scalar:ident = $format:ident: $insert:ident, $contacts:ident, $earliest:ident, $is_free:ident) => {
         impl ForC for $scalar {
             const FORMAT: ScalarFormat = ScalarFormat::$format;
-            type Deforming = $deforming;
             fn from_double(value: f64) -> Self {
                 value as Self
-            }
-            fn deforming(mesh: Mesh, start: &[[Self; 3]], end: &[[Self; 3]]) -> $deforming {
-                $deforming {
-                    mesh,
-                    start: start.as_ptr().cast(),
-                    end: end.as_ptr().cast(),
-                    vertex_count: start.len(),
-                }
             }
             unsafe fn insert(
                 world: *mut WorldHandle,
@@ -84,7 +84,7 @@ macro_rules! for_c {
             }
             unsafe fn contacts(
                 world: *mut WorldHandle,
-                (deforming, rigid): (&[$deforming], &[Rigid]),
+                (deforming, rigid): (&[Deforming<Self>], &[Rigid]),
                 out: OutPair<WorldContactRow>,
             ) -> Status {
                 let (some, others) = (deforming.as_ptr(), rigid.as_ptr());
@@ -93,7 +93,7 @@ macro_rules! for_c {
             }
             unsafe fn earliest(
                 world: *mut WorldHandle,
-                (deforming, rigid): (&[$deforming], &[Rigid]),
+                (deforming, rigid): (&[Deforming<Self>], &[Rigid]),
                 found: *mut bool,
                 out: *mut WorldContactRow,
             ) -> Status {
@@ -101,7 +101,11 @@ macro_rules! for_c {
                 // SAFETY: the caller's promise.
                 unsafe { $earliest(world, some, deforming.len(), others, rigid.len(), found, out) }
             }
-            unsafe fn is_free(world: *mut WorldHandle, (deforming, rigid): (&[$deforming], &[Rigid]), out: *mut bool) -> Status {
+            unsafe fn is_free(
+                world: *mut WorldHandle,
+                (deforming, rigid): (&[Deforming<Self>], &[Rigid]),
+                out: *mut bool,
+            ) -> Status {
                 let (some, others) = (deforming.as_ptr(), rigid.as_ptr());
                 // SAFETY: the caller's promise.
                 unsafe { $is_free(world, some, deforming.len(), others, rigid.len(), out) }
@@ -110,15 +114,13 @@ macro_rules! for_c {
     };
 }
 for_c!(
-    f64 = F64,
-    DeformingF64: selvedge_world_insert_f64,
+    f64 = F64: selvedge_world_insert_f64,
     selvedge_world_contacts_f64,
     selvedge_world_earliest_f64,
     selvedge_world_is_free_f64
 );
 for_c!(
-    f32 = F32,
-    DeformingF32: selvedge_world_insert_f32,
+    f32 = F32: selvedge_world_insert_f32,
     selvedge_world_contacts_f32,
     selvedge_world_earliest_f32,
     selvedge_world_is_free_f32
@@ -276,7 +278,7 @@ fn a_story_is_told_as_in_rust<S: ForC>() {
                 },
             ),
         ];
-        let deforming = [S::deforming(cloth.to_bits(), &start, &end)];
+        let deforming = [deforming(cloth.to_bits(), &start, &end)];
         let rigid = [Rigid {
             mesh: plank.to_bits(),
             start: pose(poses[0]),
