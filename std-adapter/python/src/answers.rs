@@ -1,4 +1,4 @@
-//! Answers of the detector as arrays: columns are made without the interpreter, and handed to numpy without a copy.
+//! Converts results to arrays. Columns are built without the interpreter lock and passed to numpy without a copy.
 
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
@@ -15,7 +15,7 @@ pub(crate) fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyA
     module.bind(py).getattr(name)
 }
 
-/// As `selvedge.Kind` numbers it.
+/// Returns the number of `selvedge.Kind`.
 const fn number(kind: PairKind) -> u8 {
     match kind {
         PairKind::VertexFace => 0,
@@ -40,7 +40,7 @@ pub(crate) fn rows<'py, T: Element, const N: usize>(py: Python<'py>, values: Vec
     Ok(values.into_flattened().into_pyarray(py).reshape([count, N])?.into_any())
 }
 
-/// Contacts, and what they are beyond their times where that is wanted.
+/// Contacts, with their geometry if it is wanted.
 pub(crate) struct Columns<S> {
     kind: Vec<u8>,
     pair: Vec<[u32; 2]>,
@@ -70,7 +70,7 @@ impl<S: Scalar + Element> Columns<S> {
         }
     }
 
-    /// Of a mesh at rest.
+    /// Near pairs of a mesh at rest.
     pub(crate) fn at_rest(near: &[ContactGeometry]) -> Self {
         Self {
             kind: near.iter().map(|pair| number(pair.kind)).collect(),
@@ -145,7 +145,7 @@ pub(crate) fn show_intersections<'py>(py: Python<'py>, found: &[Intersection]) -
     class(py, "Intersections")?.call1((column(py, kinds), rows(py, pairs)?))
 }
 
-/// Of cloth in motion.
+/// The near pairs of a simulation.
 pub(crate) fn show_near_pairs<'py>(py: Python<'py>, pairs: &[ProximityPair]) -> PyResult<Bound<'py, PyAny>> {
     class(py, "NearPairs")?.call1((
         rows(py, pairs.iter().map(|pair| pair.vertices).collect())?,
@@ -155,7 +155,7 @@ pub(crate) fn show_near_pairs<'py>(py: Python<'py>, pairs: &[ProximityPair]) -> 
     ))
 }
 
-/// What is tangled.
+/// The crossings of a tangled state.
 pub(crate) fn show_crossings<'py>(py: Python<'py>, crossings: &[Crossing]) -> PyResult<Bound<'py, PyAny>> {
     let body = |crossing: &Crossing| crossing.body.map_or(-1, |body| body as i64);
     class(py, "Crossings")?.call1((
@@ -166,7 +166,7 @@ pub(crate) fn show_crossings<'py>(py: Python<'py>, crossings: &[Crossing]) -> Py
     ))
 }
 
-/// None if nothing was untangled.
+/// The result of untangling; None without one.
 pub(crate) fn show_untangled<'py>(py: Python<'py>, untangled: Option<&Untangled>) -> PyResult<Option<Bound<'py, PyAny>>> {
     let Some(&untangled) = untangled else {
         return Ok(None);
@@ -185,14 +185,14 @@ pub(crate) fn show_untangled<'py>(py: Python<'py>, untangled: Option<&Untangled>
         .map(Some)
 }
 
-/// Edges of cloth that have torn.
+/// The torn edges of cloth.
 pub(crate) fn show_torn_edges<'py>(py: Python<'py>, torn: &[TornEdge]) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let class = class(py, "TornEdge")?;
     let show = |edge: &TornEdge| class.call1((edge.cloth, (edge.vertices[0], edge.vertices[1]), edge.time, edge.load));
     torn.iter().map(show).collect()
 }
 
-/// Vertices that attachments have let go of.
+/// The vertices that attachments have released.
 pub(crate) fn show_released<'py>(py: Python<'py>, released: &[Release]) -> PyResult<Vec<Bound<'py, PyAny>>> {
     let class = class(py, "Release")?;
     let show = |release: &Release| class.call1((release.group, release.vertex, release.time));

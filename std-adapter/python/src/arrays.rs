@@ -1,4 +1,4 @@
-//! Arrays of the caller's, borrowed where they are as the library takes them, and made so by `selvedge/_arrays.py` where not.
+//! Borrows the caller's arrays if their layout fits; `selvedge/_arrays.py` converts the others.
 
 use crate::errors::{self, InputError};
 use numpy::{Element, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -12,11 +12,11 @@ fn helper<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     module.bind(py).getattr(name)
 }
 
-/// An array of rows that its readers see as it is: nobody who asks numpy may write to it meanwhile.
+/// A borrowed array of rows. numpy refuses writers while it lives.
 pub(crate) struct Rows<'py, T: Element, const N: usize>(PyReadonlyArray2<'py, T>);
 
 impl<'py, T: Element, const N: usize> Rows<'py, T, N> {
-    /// If it is in C order, aligned, of this machine's byte order and has `N` columns.
+    /// Returns the array if it is aligned, in C order and native byte order, and has `N` columns.
     fn as_it_is(value: &Bound<'py, PyAny>) -> Option<Self> {
         let array = value.cast::<PyArray2<T>>().ok()?;
         let fits = array.is_c_contiguous() && array.shape()[1] == N;
@@ -25,7 +25,7 @@ impl<'py, T: Element, const N: usize> Rows<'py, T, N> {
     }
 
     fn made(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Self> {
-        // Borrowed for writing by another extension: the only reason that is left.
+        // The only remaining reason: another extension has borrowed it for writing.
         Self::as_it_is(value).ok_or_else(|| InputError::new_err(format!("{name}: another extension is writing to it")))
     }
 
@@ -35,7 +35,7 @@ impl<'py, T: Element, const N: usize> Rows<'py, T, N> {
     }
 }
 
-/// `N` frames of positions in one format: `f32` if all are, else `f64`.
+/// `N` frames of positions in one format: `f32` if all frames are, otherwise `f64`.
 pub(crate) enum Frames<'py, const N: usize> {
     Single([Rows<'py, f32, 3>; N]),
     Double([Rows<'py, f64, 3>; N]),
@@ -80,7 +80,7 @@ fn rows_of<'py, T: Element, const N: usize>(
     rows.ok_or_else(|| error.unwrap_or_else(|| InputError::new_err("there are too few frames")))
 }
 
-/// All, or nothing.
+/// Returns all of the rows, or none.
 fn all<'a, 'py, T, const N: usize>(
     values: [(&'a str, &'a Bound<'py, PyAny>); N],
     mut make: impl FnMut(&'a str, &'a Bound<'py, PyAny>) -> Option<T>,
@@ -92,7 +92,7 @@ fn all<'a, 'py, T, const N: usize>(
     made.try_into().ok()
 }
 
-/// Does the same with frames of either format.
+/// Evaluates one expression with frames of either format.
 macro_rules! with_frames {
     ($frames:expr, $rows:pat => $action:expr) => {
         match $frames {
@@ -103,7 +103,7 @@ macro_rules! with_frames {
 }
 pub(crate) use with_frames;
 
-/// Rows of whole numbers, copied.
+/// Copies rows of whole numbers.
 pub(crate) fn indices<const N: usize>(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<[u32; N]>> {
     let rows = match Rows::<u32, N>::as_it_is(value) {
         Some(rows) => rows,
@@ -118,7 +118,7 @@ pub(crate) fn indices<const N: usize>(value: &Bound<'_, PyAny>, name: &str) -> P
     Ok(copied)
 }
 
-/// One truth value for each entry, copied.
+/// Copies one truth value per entry.
 pub(crate) fn flags(value: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<bool>> {
     let array = helper(value.py(), "flags")?.call1((value, name))?;
     Ok(array.cast::<numpy::PyArray1<bool>>()?.to_vec()?)

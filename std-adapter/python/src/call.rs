@@ -1,4 +1,4 @@
-//! One call from Python: without the interpreter, and ended by Ctrl-C.
+//! Runs a call without the interpreter lock; Ctrl-C interrupts it.
 
 use crate::errors;
 use pyo3::prelude::*;
@@ -8,31 +8,33 @@ use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::Duration;
 
-/// How long Ctrl-C may go unseen.
+/// The longest time until Ctrl-C is noticed.
 const POLL: Duration = Duration::from_millis(50);
 
-/// Whether a call may take long enough that somebody wants to end it.
+/// The expected length of a call.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Length {
-    /// A second at the very worst.
+    /// A second at most.
     Short,
-    /// Any.
+    /// Any length.
     Long,
 }
 
-/// Runs `action` without the interpreter. On Ctrl-C calls `stop`, which has `action` return soon, and raises `KeyboardInterrupt`.
+/// Runs `action` without the interpreter lock. On Ctrl-C it calls `stop`, so that `action` returns soon, and raises
+/// `KeyboardInterrupt`.
 ///
-/// Python runs handlers of signals on its main thread alone, and only if that asks for them: there the work goes to a thread of its own.
+/// Python runs signal handlers only on its main thread, and only when that thread checks for them. On the main thread the work
+/// therefore runs on a separate thread.
 ///
 /// # Errors
-/// The outer result is an exception; the inner one, words of a panic.
+/// The outer result is an exception, the inner one the message of a panic.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     length: Length,
     stop: impl Fn() + Send + Sync,
     action: impl FnOnce() -> T + Send,
 ) -> PyResult<Result<T, String>> {
-    let guarded = || catch_unwind(AssertUnwindSafe(action)).map_err(words_of);
+    let guarded = || catch_unwind(AssertUnwindSafe(action)).map_err(message_of);
     if length == Length::Short || !is_main_thread(py)? {
         return Ok(py.detach(guarded));
     }
@@ -40,13 +42,13 @@ pub(crate) fn interruptible<T: Send>(
         thread::scope(|scope| {
             let (sender, receiver) = sync_channel(1);
             let work = move || {
-                // Nobody waits for it any more only if this thread has panicked.
+                // The receiver is gone only if this thread has panicked.
                 let _ = sender.send(guarded());
             };
             thread::Builder::new()
                 .name("selvedge".into())
                 .spawn_scoped(scope, work)
-                .map_err(|error| errors::ThreadsError::new_err(format!("the operating system refuses a thread: {error}")))?;
+                .map_err(|error| errors::ThreadsError::new_err(format!("the operating system refused a thread: {error}")))?;
             loop {
                 match receiver.recv_timeout(POLL) {
                     Ok(done) => return Ok(done),
@@ -64,14 +66,14 @@ fn is_main_thread(py: Python<'_>) -> PyResult<bool> {
     main.eq(threading.call_method0("get_ident")?)
 }
 
-fn words_of(payload: Box<dyn Any + Send>) -> String {
+fn message_of(payload: Box<dyn Any + Send>) -> String {
     match (payload.downcast_ref::<String>(), payload.downcast_ref::<&str>()) {
-        (Some(words), _) => words.clone(),
-        (None, Some(&words)) => words.to_owned(),
+        (Some(message), _) => message.clone(),
+        (None, Some(&message)) => message.to_owned(),
         (None, None) => {
             // Another payload's drop may itself panic.
             std::mem::forget(payload);
-            "a panic without words".to_owned()
+            "a panic without a message".to_owned()
         }
     }
 }

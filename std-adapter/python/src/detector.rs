@@ -1,4 +1,4 @@
-//! A mesh, and what is kept of it from step to step.
+//! The class `Detector`.
 
 use crate::answers::{Columns, class, rows, show_contact, show_intersections};
 use crate::arrays::{Frames, flags, indices, with_frames};
@@ -12,18 +12,17 @@ use selvedge::{Cancellation, CandidateBoxes, StepError, Topology};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
-/// A question about so few pairs is asked on the caller's own thread, where Ctrl-C is seen when it ends: after a millisecond as a rule, after
-/// a second where all of them touch (0.8 s measured on 800 random triangles). A thread for each question would cost a third of those about
-/// a thousand triangles or a half, and more where other processes have the cores.
+/// Calls about so few pairs run on the caller's thread, where Ctrl-C is noticed when they end: usually after a millisecond, and after a
+/// second if all pairs touch. A thread for each call would cost a third to a half of the time of small meshes.
 const FEW_PAIRS: usize = 1 << 22;
 
-/// See the stub, `_native.pyi`: what is promised stands there.
+/// The stub, `_native.pyi`, documents the class.
 #[pyclass(frozen, module = "selvedge")]
 pub(crate) struct Detector {
     topology: Arc<Topology>,
     length: Length,
     finders: Mutex<Finders>,
-    /// Of the question that is being asked.
+    /// The cancellation of the running call.
     asked: Mutex<Option<Cancellation>>,
     is_broken: AtomicBool,
 }
@@ -39,18 +38,18 @@ impl Detector {
     fn finders(&self) -> PyResult<MutexGuard<'_, Finders>> {
         if self.is_broken.load(Ordering::Relaxed) {
             return Err(BrokenError::new_err(
-                "a call on this detector failed by a fault of Selvedge's: make another",
+                "a call on this detector failed because of a bug in Selvedge: create a new detector",
             ));
         }
         let finders = match self.finders.try_lock() {
             Ok(finders) => finders,
             Err(TryLockError::WouldBlock) => return Err(errors::busy()),
-            // What panics is caught before it gets here, and marks the detector.
+            // A panic is caught earlier and marks the detector.
             Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
         };
         if finders.is_forked() {
             return Err(ForkedError::new_err(
-                "the detector's threads are in the process that was forked: make one in the child, or start children by 'spawn'",
+                "the detector's threads are in the parent process: create a detector in the child, or start children by 'spawn'",
             ));
         }
         Ok(finders)
@@ -60,7 +59,7 @@ impl Detector {
         self.asked.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Puts a question about the whole mesh to the detector of a format, without the interpreter.
+    /// Runs a question about the whole mesh on the detector of a format, without the interpreter lock.
     fn ask<S: Format, T: Send>(
         &self,
         py: Python<'_>,
@@ -81,7 +80,7 @@ impl Detector {
         *self.asked() = Some(cancellation.clone());
         let answer = interruptible(py, length, || cancellation.cancel(), || question(finder));
         *self.asked() = None;
-        // For the next question. Nobody else has it any more.
+        // Kept for the next call; no other reference is left.
         cancellation.reset();
         match answer? {
             Ok(answer) => answer.map_err(|error| errors::of_step(&error)),
@@ -135,7 +134,7 @@ fn step<'py>(start: &Bound<'py, PyAny>, end: &Bound<'py, PyAny>) -> PyResult<Fra
     Frames::of([("start", start), ("end", end)])
 }
 
-/// How long a question about a mesh can take at most.
+/// Returns the expected length of a call about a mesh.
 fn length_of(topology: &Topology) -> Length {
     let (vertices, faces) = (topology.vertex_count(), topology.triangles().len());
     let edges = topology.edges().len();
@@ -216,7 +215,7 @@ impl Detector {
     ) -> PyResult<Bound<'py, PyAny>> {
         let vertex_face = indices::<2>(vertex_face, "vertex_face")?;
         let edge_edge = indices::<2>(edge_edge, "edge_edge")?;
-        // The list may be longer than what the mesh has: pairs may stand in it often.
+        // The list may be longer than the mesh: it may repeat pairs.
         let length = length_of_pairs(vertex_face.len() + edge_edge.len());
         with_frames!(step(start, end)?, [start, end] => {
             let (start, end) = (start.rows()?, end.rows()?);
@@ -314,7 +313,7 @@ impl Detector {
         })
     }
 
-    /// Of any thread.
+    /// Any thread may call this.
     fn cancel(&self) {
         if let Some(asked) = &*self.asked() {
             asked.cancel();
@@ -324,7 +323,7 @@ impl Detector {
     fn set_threads(&self, py: Python<'_>, threads: usize) -> PyResult<()> {
         let mut finders = self.finders()?;
         let finders = &mut *finders;
-        // The threads that are told to end may be waiting for nothing, but they are waited for.
+        // Dropping the detectors waits for their threads to end.
         let changed = py.detach(|| finders.change(Part::Threads, |settings| settings.threads = threads));
         changed.map_err(setting_error)
     }
@@ -333,13 +332,13 @@ impl Detector {
     fn set_limits(&self, separation: f64, tolerance: Option<f64>, touching: bool) -> PyResult<()> {
         if touching && separation != 0.0 {
             return Err(InputError::new_err(
-                "touching is decided exactly, and at no distance: give a separation of 0, or touching=False",
+                "touching is decided exactly, without a distance: pass a separation of 0, or touching=False",
             ));
         }
         let limits = (separation, tolerance, touching);
         let mut finders = self.finders()?;
         let of = |settings: &Settings| (settings.separation, settings.tolerance, settings.touching);
-        // Said again before each question: what settings there are besides, one entry for each vertex, is not copied for that.
+        // Set again before each call, so the other settings, with an entry per vertex, need no copy.
         if of(&finders.settings) == limits {
             return Ok(());
         }
@@ -414,7 +413,7 @@ impl Detector {
         )
     }
 
-    /// What makes it again: loose edges and points are faces already.
+    /// Returns the arguments that create it again. Loose edges and points are faces already.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
         let (py, this) = (slf.py(), slf.get());
         let settings = this.settings()?;
@@ -433,7 +432,7 @@ impl Detector {
     fn __setstate__(&self, state: &Bound<'_, PyDict>) -> PyResult<()> {
         let entry = |name: &str| {
             let entry = state.get_item(name)?;
-            entry.ok_or_else(|| InputError::new_err(format!("a pickled detector without {name}")))
+            entry.ok_or_else(|| InputError::new_err(format!("the pickled detector has no {name}")))
         };
         let some = |name: &str| Ok::<_, PyErr>(Some(entry(name)?).filter(|entry| !entry.is_none()));
         let (separation, tolerance, touching) = entry("limits")?.extract()?;

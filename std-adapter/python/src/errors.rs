@@ -1,4 +1,4 @@
-//! What went wrong, as an exception of `selvedge.errors`, in the words that the library has for it.
+//! Converts errors to exceptions of `selvedge.errors`, with the library's messages.
 
 use pyo3::PyErr;
 use pyo3::exceptions::PyMemoryError;
@@ -40,7 +40,7 @@ pub(crate) fn of_threads(error: &ThreadError) -> PyErr {
 }
 
 pub(crate) fn no_memory(what: &str, count: usize) -> PyErr {
-    PyMemoryError::new_err(format!("the operating system refuses memory for {count} {what}"))
+    PyMemoryError::new_err(format!("the operating system refused memory for {count} {what}"))
 }
 
 pub(crate) fn busy() -> PyErr {
@@ -48,5 +48,5 @@ pub(crate) fn busy() -> PyErr {
 }
 
 pub(crate) fn broken(words: &str) -> PyErr {
-    BrokenError::new_err(format!("a fault of Selvedge's, please report it: {words}"))
+    BrokenError::new_err(format!("a bug in Selvedge, please report it: {words}"))
 }

@@ -9,7 +9,7 @@ use selvedge::{
 };
 use std::sync::Arc;
 
-/// How a detector is to look: what pickles.
+/// The settings of a detector; they pickle.
 #[derive(Clone)]
 pub(crate) struct Settings {
     pub(crate) threads: usize,
@@ -41,7 +41,7 @@ impl Default for Settings {
     }
 }
 
-/// What is set at once.
+/// The settings that are passed together.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Part {
     Threads,
@@ -78,7 +78,7 @@ impl From<ThreadError> for SettingError {
     }
 }
 
-/// A length in the format of the positions, not less than it was given: what is asked for is kept.
+/// Rounds a length up to the format of the positions, so that the requested distance is kept.
 pub(crate) fn length<S: Scalar>(given: f64) -> Result<S, StepError> {
     if given >= 0.0 && given.is_finite() {
         Ok(rounded_up(given))
@@ -95,7 +95,7 @@ pub(crate) fn limits<S: Scalar>(separation: f64, tolerance: Option<f64>) -> Resu
     })
 }
 
-/// A detector for one format of positions, and where its answers go first.
+/// A detector for one format of positions, with buffers for its results.
 pub(crate) struct Finder<S: Scalar> {
     pub(crate) detector: CollisionDetector<S>,
     pub(crate) contacts: Vec<Contact<S>>,
@@ -146,17 +146,17 @@ impl<S: Scalar> Finder<S> {
     }
 }
 
-/// The detectors that there are: that for `f64` always, that for `f32` once it was asked for.
+/// The detectors for both formats. The one for `f64` always exists; the one for `f32` is created when it is needed.
 pub(crate) struct Finders {
     topology: Arc<Topology>,
     pub(crate) settings: Settings,
     single: Option<Finder<f32>>,
     double: Option<Finder<f64>>,
-    /// The process whose threads they have, if they have any of their own.
+    /// The process that started their threads, if they have any.
     threads_of: Option<u32>,
 }
 
-/// A format of positions that there are detectors for.
+/// A format of positions.
 pub(crate) trait Format: Scalar + Element {
     fn finder(finders: &mut Finders) -> &mut Option<Finder<Self>>;
 }
@@ -194,17 +194,17 @@ impl Finders {
         Ok(S::finder(self).as_mut().expect("it was made"))
     }
 
-    /// Whether their threads stayed behind in a parent process. To wait for them would be for ever.
+    /// Says whether their threads stayed behind in a parent process. Waiting for them would never end.
     pub(crate) fn is_forked(&self) -> bool {
         self.threads_of.is_some_and(|process| process != std::process::id())
     }
 
-    /// Changes a part of the settings, or nothing.
+    /// Changes a part of the settings, or none of them.
     pub(crate) fn change(&mut self, part: Part, change: impl FnOnce(&mut Settings)) -> Result<(), SettingError> {
         let mut settings = self.settings.clone();
         change(&mut settings);
         if let Err(error) = self.apply(&settings, part) {
-            // These were taken before; threads may be refused now, and then the detectors keep those that they have.
+            // The old settings were valid, but new threads may be refused; the detectors then keep the threads they have.
             let former = self.settings.clone();
             let _ = self.apply(&former, part);
             return Err(error);
@@ -227,7 +227,7 @@ impl Finders {
 impl Drop for Finders {
     fn drop(&mut self) {
         if self.is_forked() {
-            // The end would be told to threads that are not there. Their memory is the parent's.
+            // The threads do not exist in this process, so they cannot be stopped. Their memory belongs to the parent.
             std::mem::forget((self.single.take(), self.double.take()));
         }
     }

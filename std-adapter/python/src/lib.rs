@@ -1,10 +1,9 @@
 //! Selvedge for Python: the native part of the package `selvedge`.
 //!
 //! ```text
-//! numpy arrays ──▶ arrays.rs (borrowed as they are, or made so by _arrays.py) ──▶ the detector, without the interpreter ──▶ answers.rs
+//! numpy arrays ──▶ arrays.rs (borrowed, or converted by _arrays.py) ──▶ the detector, without the interpreter lock ──▶ answers.rs
 //! ```
-//! What a call may do to a thread, a process and an exception is in `call.rs` and `errors.rs`; the names of ipctk are Python alone,
-//! in `ipc.py`.
+//! `call.rs` and `errors.rs` handle threads, processes and exceptions. The names of ipctk are in `ipc.py`, in Python only.
 
 mod answers;
 mod arrays;
@@ -17,7 +16,7 @@ mod simulation;
 
 use pyo3::prelude::*;
 
-/// What `selvedge/__init__.py` shows.
+/// The names that `selvedge/__init__.py` re-exports.
 #[pymodule]
 mod _native {
     #[pymodule_export]

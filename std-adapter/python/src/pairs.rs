@@ -10,10 +10,10 @@ use selvedge::Scalar;
 use selvedge::core::elementary::{Contact, Impact, advance, contact};
 use selvedge::core::{Motion, PrimitivePair};
 
-/// Of rows: the vertex and the corners of the face, or the ends of both edges.
+/// Builds a pair from rows: the vertex and the corners of the face, or the ends of both edges.
 fn pair<S: Scalar + Element>(kind: u8, [start, end]: [&[[S; 3]]; 2]) -> PyResult<PrimitivePair<S>> {
     let kind =
-        kind_of(kind).ok_or_else(|| InputError::new_err(format!("{kind} is no Kind: 0 is vertex and face, 1 two edges")))?;
+        kind_of(kind).ok_or_else(|| InputError::new_err(format!("{kind} is not a Kind: 0 is a vertex and a face, 1 two edges")))?;
     let (Ok(start), Ok(end)) = (<[_; 4]>::try_from(start), <[_; 4]>::try_from(end)) else {
         let text = format!(
             "a pair has four points, of shape (4, 3), not {} and {}",
@@ -48,11 +48,11 @@ fn time_of<S: Scalar + Element>(
     }
     let limits = finder::limits(separation, tolerance).map_err(|error| errors::of_step(&error))?;
     let impact: Impact<S> = advance::time_of_impact(&pair(kind, frames)?, &limits);
-    // One that is later is none before that: a time is never after the exact one.
+    // A later time means no contact until then, since a time is never after the exact one.
     Ok(impact.time().map(S::to_f64).filter(|&time| time <= until))
 }
 
-/// When a pair comes into contact during the step, or None if it certainly does not. See the stub for what it promises.
+/// Returns the time at which a pair comes into contact, or None if it certainly does not. The stub documents it.
 #[pyfunction]
 #[pyo3(signature = (kind, start, end, *, separation=0.0, tolerance=None, until=1.0))]
 pub(crate) fn time_of_impact(
@@ -67,7 +67,7 @@ pub(crate) fn time_of_impact(
     with_frames!(frames, [start, end] => time_of(kind, [start.rows()?, end.rows()?], separation, tolerance, until))
 }
 
-/// Whether a pair touches during the step, exactly.
+/// Decides exactly whether a pair touches during the step.
 #[pyfunction]
 pub(crate) fn touches(kind: u8, start: &Bound<'_, PyAny>, end: &Bound<'_, PyAny>) -> PyResult<bool> {
     let frames = Frames::of([("start", start), ("end", end)])?;

@@ -1,4 +1,4 @@
-//! A scene in motion, step by step.
+//! The class `Simulation`.
 
 use crate::answers::{rows, show_crossings, show_near_pairs, show_released, show_torn_edges, show_untangled};
 use crate::arrays::{Frames, with_frames};
@@ -13,25 +13,25 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
-/// In messages about a scene that is no file.
+/// The name of a scene without a file, in messages.
 const SCENE: &str = "scene.toml";
 
-/// See the stub, `_native.pyi`: what is promised stands there.
+/// The stub, `_native.pyi`, documents the class.
 #[pyclass(frozen, module = "selvedge")]
 pub(crate) struct Simulation {
     simulation: Mutex<selvedge_cloth::Simulation>,
     shown: Mutex<Shown>,
     of_scene: OfScene,
-    /// The process whose threads it has, if it has any of its own.
+    /// The process that started its threads, if it has any.
     threads_of: Option<u32>,
     is_broken: AtomicBool,
 }
 
-/// Where all is, for the caller.
+/// The positions that the caller sees.
 struct Shown {
-    /// Written to after each call that does steps.
+    /// Updated after each call that runs steps.
     written: Py<PyArray2<f64>>,
-    /// What the caller sees of it: cannot be written to.
+    /// The read-only view that the caller sees.
     view: Py<PyAny>,
     vertices: usize,
 }
@@ -49,7 +49,7 @@ impl Shown {
     }
 }
 
-/// What a scene says, which the simulation of it does not.
+/// Facts of the scene that the simulation does not store.
 struct OfScene {
     steps: u64,
     steps_per_frame: u64,
@@ -101,18 +101,18 @@ impl Simulation {
     fn simulation(&self) -> PyResult<MutexGuard<'_, selvedge_cloth::Simulation>> {
         if self.is_broken.load(Ordering::Relaxed) {
             return Err(BrokenError::new_err(
-                "a step failed by a fault of Selvedge's: make the simulation anew",
+                "a step failed because of a bug in Selvedge: create the simulation again",
             ));
         }
         if self.threads_of.is_some_and(|process| process != std::process::id()) {
             return Err(ForkedError::new_err(
-                "the simulation's threads are in the process that was forked: make one in the child, or start children by 'spawn'",
+                "the simulation's threads are in the parent process: create a simulation in the child, or start children by 'spawn'",
             ));
         }
         match self.simulation.try_lock() {
             Ok(simulation) => Ok(simulation),
             Err(TryLockError::WouldBlock) => Err(errors::busy()),
-            // What panics is caught before it gets here, and marks the simulation.
+            // A panic is caught earlier and marks the simulation.
             Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
         }
     }
@@ -123,10 +123,10 @@ impl Simulation {
 
     fn show(&self, py: Python<'_>, simulation: &selvedge_cloth::Simulation) -> PyResult<()> {
         let vertices = simulation.positions().len();
-        // Nothing of Python's is called while it is locked.
+        // No Python code runs while it is locked.
         let known = self.shown().vertices;
         if known != vertices {
-            // Cloth has torn.
+            // Tearing has added vertices.
             let torn = Shown::new(py, vertices)?;
             *self.shown() = torn;
         }
@@ -140,7 +140,7 @@ impl Simulation {
     }
 }
 
-/// A body by its name, or by its index among the names.
+/// A body, by its name or by its index.
 #[derive(FromPyObject)]
 enum Body {
     Name(String),
@@ -165,7 +165,7 @@ fn drive_error(error: &DriveError) -> PyErr {
     InputError::new_err(error.to_string())
 }
 
-/// Positions in either format, as the simulation has them.
+/// Converts positions of either format to those of the simulation.
 fn copied(positions: &Bound<'_, PyAny>) -> PyResult<Vec<DVec3>> {
     with_frames!(Frames::of([("positions", positions)])?, [positions] => {
         let rows = positions.rows()?.iter();
@@ -214,7 +214,7 @@ impl Simulation {
     fn step(&self, py: Python<'_>, count: u64) -> PyResult<()> {
         let mut simulation = self.simulation()?;
         let simulation = &mut *simulation;
-        // On the caller's own thread: a step is not ended midway by anything, and signals are asked for after each.
+        // Runs on the caller's thread: nothing interrupts a step, and signals are checked after each.
         let mut done = Ok(Ok(Ok(())));
         for _ in 0..count {
             done = interruptible(py, Length::Short, || (), || simulation.step());
@@ -229,7 +229,7 @@ impl Simulation {
             self.is_broken.store(true, Ordering::Relaxed);
             return Err(errors::broken(words));
         }
-        // What is done of the steps stays, and is shown, also when somebody has ended them.
+        // The steps that were done remain and are shown, even after an interruption.
         self.show(py, simulation)?;
         match done? {
             Ok(Err(blocked)) => Err(BlockedError::new_err(blocked.to_string())),

@@ -1,11 +1,11 @@
-"""Which vertex–face and edge–edge pairs of a deforming triangle mesh collide during a time step: certified, none is ever missed.
+"""Finds every contact of a deforming triangle mesh during a time step, and never misses one.
 
-Start at :class:`Detector`: positions at the start and at the end of a step in, contacts out, as numpy arrays. :mod:`selvedge.ipc`
-has the names that users of ipctk know, :class:`Simulation` cloth, :mod:`selvedge.laboratory` what accuracy costs in time.
+Start with :class:`Detector`. It takes the positions at the start and at the end of a step and returns the contacts as numpy arrays.
+:mod:`selvedge.ipc` offers the names that users of ipctk know. :class:`Simulation` simulates cloth. :mod:`selvedge.laboratory` measures
+what accuracy costs in time.
 
-Positions are arrays of shape (vertex_count, 3) in any unit of length. float32 and float64 in C order are used where they are, others
-are copied. Times are in [0, 1] of the step. The interpreter is free for other threads while a question is answered; that nobody
-writes to the positions meanwhile is up to the caller.
+Positions are arrays of shape (vertex_count, 3) in any unit of length. float32 and float64 arrays in C order are not copied; others are.
+Times are in [0, 1] of the step. Calls release the interpreter lock. Do not write to the positions during a call.
 """
 
 from . import errors, ipc, laboratory

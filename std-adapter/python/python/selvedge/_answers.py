@@ -1,4 +1,4 @@
-"""What the detector answers: arrays with an entry, or a row, for each pair."""
+"""The results of the detector and the simulation: arrays with one entry or row per item."""
 
 from dataclasses import dataclass
 from enum import IntEnum
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 
 class Kind(IntEnum):
-    """Of what a pair is made."""
+    """The primitives of a pair."""
 
     VERTEX_FACE = 0
     """A vertex and a face."""
@@ -18,7 +18,7 @@ class Kind(IntEnum):
 
 
 class IntersectionKind(IntEnum):
-    """Which primitives of a mesh at rest meet."""
+    """The primitives of an intersection."""
 
     EDGE_FACE = 0
     """An edge passes through a face, or touches it."""
@@ -30,14 +30,14 @@ class IntersectionKind(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class ContactTimes:
-    """Contacts of a step: an entry for each."""
+    """The contacts of a step, without geometry."""
 
     kind: NDArray[np.uint8]
     """(n,) a :class:`Kind`."""
     pair: NDArray[np.uint32]
     """(n, 2) the vertex and the face, or the two edges, the smaller number first."""
     time: NDArray[Any]
-    """(n,) in [0, 1] of the step, in the format of the positions: never after the exact time."""
+    """(n,) the time in [0, 1] of the step, in the format of the positions; never after the exact time."""
     vertices: NDArray[np.uint32]
     """(n, 4) the vertex and the corners of the face, or the ends of both edges."""
 
@@ -47,21 +47,22 @@ class ContactTimes:
 
 @dataclass(frozen=True, eq=False)
 class Contacts(ContactTimes):
-    """Contacts of a step and how the two sides lie to each other at the time of contact. All in float64."""
+    """The contacts of a step with their geometry at the time of contact, in float64."""
 
     points: NDArray[np.float64]
-    """(n, 2, 3) the nearest points of the first and the second side, in the unit of the positions."""
+    """(n, 2, 3) the closest points of the first and the second side, in the unit of the positions."""
     weights: NDArray[np.float64]
-    """(n, 4) barycentric, of each side: the points are these weights times the vertices."""
+    """(n, 4) barycentric weights of each side: the points are these weights times the vertices."""
     normals: NDArray[np.float64]
-    """(n, 3) from the second side to the first as it was before contact, of length one. NaN where none can be shown: the pair touches
-    as the step begins, or is nearer than rounding can tell."""
+    """(n, 3) unit vectors from the second side to the first, just before contact. NaN if none can be certified: the pair touches at the
+    start of the step, or rounding hides its distance."""
     distances: NDArray[np.float64]
-    """(n, 2) the distance of the two sides is in this range."""
+    """(n, 2) a lower and an upper bound of the distance of the two sides."""
     speeds: NDArray[np.float64]
-    """(n,) how fast the first point moves away from the second along the normal, in lengths a step; negative as they approach."""
+    """(n,) the speed at which the first point moves away from the second along the normal, in lengths per step; negative if they
+    approach each other."""
     separated_at: NDArray[np.float64]
-    """(n,) when the sides were certainly apart along the normal: the time of contact, or a little before it."""
+    """(n,) a time at which the sides were certainly apart along the normal: that of the contact, or slightly earlier."""
 
 
 @dataclass(frozen=True)
@@ -69,18 +70,18 @@ class Contact:
     """One contact of a step."""
 
     kind: Kind
-    """Vertex and face, or two edges."""
+    """The primitives of the pair."""
     pair: tuple[int, int]
     """The vertex and the face, or the two edges, the smaller number first."""
     time: float
-    """In [0, 1] of the step: never after the exact time."""
+    """The time in [0, 1] of the step; never after the exact time."""
     vertices: tuple[int, int, int, int]
     """The vertex and the corners of the face, or the ends of both edges."""
 
 
 @dataclass(frozen=True, eq=False)
 class CandidatePairs:
-    """The pairs that boxes leave."""
+    """The pairs that bounding boxes keep."""
 
     vertex_face: NDArray[np.uint32]
     """(n, 2) a vertex and a face."""
@@ -93,7 +94,7 @@ class CandidatePairs:
 
 @dataclass(frozen=True, eq=False)
 class Intersections:
-    """Where a mesh at rest meets itself."""
+    """The intersections of a mesh at rest with itself."""
 
     kind: NDArray[np.uint8]
     """(n,) an :class:`IntersectionKind`."""
@@ -106,31 +107,31 @@ class Intersections:
 
 @dataclass(frozen=True, eq=False)
 class Truncation:
-    """A step that was cut vertex by vertex until it is free of contact."""
+    """A step that was truncated vertex by vertex until it is free of contact."""
 
     positions: NDArray[Any]
-    """(vertex_count, 3) where the step ends, in the format of the positions."""
+    """(vertex_count, 3) the positions at the end of the step, in the format of the positions."""
     held_back: int
-    """Vertices that go less than the whole of their way."""
+    """The number of vertices that do not go their whole way."""
     in_contact: int
-    """Pairs in contact at the start already; their vertices rest. With none, the step to ``positions`` is certainly free."""
+    """The number of pairs in contact at the start; their vertices rest. If it is 0, the step to ``positions`` is certainly free."""
     rounds: int
-    """How often contacts were looked for."""
+    """The number of searches for contacts."""
 
 
 @dataclass(frozen=True, eq=False)
 class NearPairs:
-    """Pairs of a simulation that came near each other in the last part of its last step, as contact saw them at its start."""
+    """The near pairs of a simulation, at the start of the last part of its last step."""
 
     vertices: NDArray[np.uint32]
     """(n, 4) a vertex and the corners of a face, or the ends of both edges: rows of the simulation's positions."""
     weights: NDArray[np.float64]
-    """(n, 4) of each vertex in the way between the nearest points: positive on the first side, where they add up to one, negative on
-    the other."""
+    """(n, 4) the weight of each vertex in the vector between the closest points: positive on the first side, where they add up to one,
+    and negative on the second."""
     normals: NDArray[np.float64]
-    """(n, 3) from the second side to the first, of length one."""
+    """(n, 3) unit vectors from the second side to the first."""
     thickness: NDArray[np.float64]
-    """(n,) how far apart the pair is to be, in metres."""
+    """(n,) the distance that contact keeps between the two, in metres."""
 
     def __len__(self) -> int:
         return len(self.vertices)
@@ -138,17 +139,17 @@ class NearPairs:
 
 @dataclass(frozen=True, eq=False)
 class Crossings:
-    """Edges that meet faces, of cloth with itself or with bodies. Where neighbours lie flat on each other, an edge may be a vertex twice, and a
-    face an edge with its second end twice."""
+    """Edges that meet faces, of cloth with itself or with bodies. If neighbours are folded flat, an edge may name one vertex twice, and a
+    face may be an edge whose second end is named twice."""
 
     edges: NDArray[np.uint32]
-    """(n, 2) rows of the simulation's positions, those of bodies after the cloth's."""
+    """(n, 2) rows of the simulation's positions; bodies follow the cloth."""
     faces: NDArray[np.uint32]
-    """(n, 3) likewise."""
+    """(n, 3) rows of the simulation's positions."""
     points: NDArray[np.float64]
-    """(n, 3) where they meet, in metres."""
+    """(n, 3) the points where they meet, in metres."""
     bodies: NDArray[np.int64]
-    """(n,) the body that one of them belongs to, by its index; -1 if both are cloth."""
+    """(n,) the index of the body that one of them belongs to; -1 if both are cloth."""
 
     def __len__(self) -> int:
         return len(self.edges)
@@ -156,41 +157,41 @@ class Crossings:
 
 @dataclass(frozen=True)
 class Untangled:
-    """What was pulled apart before the first step."""
+    """The result of untangling a scene before the first step."""
 
     crossings: int
-    """Edges that met faces where the scene starts."""
+    """The number of edges that met faces at the start."""
     left: int
-    """Those that still do."""
+    """The number of edges that still do."""
     steps: int
-    """Steps that were taken, without time."""
+    """The number of untangling steps; they take no simulated time."""
     edge_stretch: tuple[float, float]
-    """The length of edges then over that in the scene: of the 99th percentile, and of the longest."""
+    """The length of edges afterwards, relative to the scene: the 99th percentile and the largest."""
     farthest: float
-    """How far the cloth was moved where it was moved most, in metres."""
+    """The largest displacement of a vertex, in metres."""
     seconds: float
-    """How long it took."""
+    """The processing time."""
 
 
 class TornEdge(NamedTuple):
-    """An edge of cloth that has torn."""
+    """A torn edge of cloth."""
 
     cloth: int
-    """In the order of the scene."""
+    """The index of the cloth in the scene."""
     vertices: tuple[int, int]
-    """Its ends, as the cloth's mesh in the scene numbers them."""
+    """Its ends, numbered as in the cloth's mesh in the scene."""
     time: float
-    """When the step had ended after which it tore, in seconds."""
+    """The end of the step after which it tore, in seconds."""
     load: float
-    """What it was loaded with, in N for each metre of its length at rest."""
+    """Its load, in N per metre of its length at rest."""
 
 
 class Release(NamedTuple):
-    """A vertex that an attachment has let go of, for good."""
+    """A vertex that an attachment has released for good."""
 
     group: int
-    """Of attachments, in the order of the scene."""
+    """The index of the group of attachments in the scene."""
     vertex: int
-    """Of the cloth."""
+    """The vertex of the cloth."""
     time: float
-    """When the step began in which it let go, in seconds."""
+    """The start of the step that released it, in seconds."""

@@ -1,5 +1,5 @@
-"""What is native. Positions are anything that numpy makes an array of shape (vertex_count, 3) of: float32 and float64 in C order are
-used where they are, others copied; whole numbers and mixed formats become float64."""
+"""The native module. Positions are anything that numpy converts to an array of shape (vertex_count, 3). float32 and float64 arrays in C
+order are not copied; others are. Whole numbers and mixed formats become float64."""
 
 from collections.abc import Mapping, Sequence
 from os import PathLike
@@ -39,24 +39,24 @@ def time_of_impact(
     tolerance: float | None = None,
     until: float = 1.0,
 ) -> float | None:
-    """When a pair comes into contact during the step, in [0, 1]; None if it certainly does not, up to ``until``.
+    """Returns the time in [0, 1] at which a pair comes into contact, or None if it certainly does not, up to ``until``.
 
-    ``start`` and ``end`` have shape (4, 3): a vertex and the corners of a face, or the ends of two edges (``kind`` a
-    :class:`Kind`). The time is never after the exact one: before it the two are certainly farther apart than ``separation``. A pair
-    that only comes within ``separation + tolerance`` may be a contact too. Lengths in the unit of the positions.
+    ``start`` and ``end`` have shape (4, 3): a vertex and the corners of a face, or the ends of two edges (``kind`` is a
+    :class:`Kind`). The time is never after the exact one. Before it the two are certainly farther apart than ``separation``. A pair
+    that only comes within ``separation + tolerance`` may be reported too. Lengths are in the unit of the positions.
 
     Raises InputError for another shape, coordinates that are not finite, and lengths that are negative or not finite.
     """
 
 def touches(kind: int, start: ArrayLike, end: ArrayLike) -> bool:
-    """Whether a pair truly touches during the step: exact, for every input of finite numbers."""
+    """Decides exactly whether a pair touches during the step, for all finite numbers."""
 
 @final
 class Detector:
-    """A mesh, and what is kept of it from step to step.
+    """A collision detector for one mesh.
 
-    One thread at a time: a call while another thread is using it raises BusyError. It pickles with its settings. After ``fork`` a
-    detector with threads of its own raises ForkedError in the child; one without works.
+    One thread at a time may use it; a call from a second thread raises BusyError. It pickles with its settings. After ``fork`` a
+    detector with threads of its own raises ForkedError in the child; one without them works.
     """
 
     def __new__(
@@ -68,16 +68,16 @@ class Detector:
         edges: ArrayLike | None = None,
         points: ArrayLike | None = None,
     ) -> Detector:
-        """``faces`` of shape (n, 3) name vertices from 0; ``edges`` (n, 2) and ``points`` (n,) are those that no face has, of ropes,
-        hair and particles: faces (a, b, b) and (p, p, p) after the others. ``threads``: 1 is the one that calls, 0 one for each core.
-        Answers do not depend on it."""
+        """Creates a detector. ``faces`` has shape (n, 3) and names vertices from 0. ``edges`` (n, 2) and ``points`` (n,) are the loose
+        edges and points of ropes, hair and particles; they become faces (a, b, b) and (p, p, p) after the others. ``threads`` is 1 for
+        the calling thread or 0 for one per core. Answers do not depend on it."""
 
     @overload
     def contacts(self, start: ArrayLike, end: ArrayLike, *, geometry: Literal[True] = True) -> Contacts:
-        """All contacts of the step, and how the two sides lie to each other; without ``geometry`` their times alone.
+        """Finds all contacts of the step with their geometry, or only their times without ``geometry``.
 
-        Raises InputError for frames of another length and coordinates that are not finite, BusyError, ForkedError, CancelledError,
-        TooManyPairsError; Ctrl-C ends it and leaves the detector usable."""
+        Raises InputError for frames of another length and coordinates that are not finite, BusyError, ForkedError, CancelledError and
+        TooManyPairsError. Ctrl-C interrupts it and leaves the detector usable."""
 
     @overload
     def contacts(self, start: ArrayLike, end: ArrayLike, *, geometry: Literal[False]) -> ContactTimes: ...
@@ -87,7 +87,7 @@ class Detector:
     def contacts_of(
         self, start: ArrayLike, end: ArrayLike, vertex_face: ArrayLike, edge_edge: ArrayLike, *, geometry: Literal[True] = True
     ) -> Contacts:
-        """Those contacts that are among the pairs given, of shape (n, 2) each, in their order: as :meth:`contacts`."""
+        """Finds the contacts among the given pairs, of shape (n, 2) each, in their order. See :meth:`contacts`."""
 
     @overload
     def contacts_of(
@@ -98,43 +98,43 @@ class Detector:
         self, start: ArrayLike, end: ArrayLike, vertex_face: ArrayLike, edge_edge: ArrayLike, *, geometry: bool
     ) -> ContactTimes: ...
     def earliest(self, start: ArrayLike, end: ArrayLike) -> Contact | None:
-        """The earliest contact of the step. The step is certainly free of contact before its time, and as a whole if there is none."""
+        """Finds the earliest contact of the step. The step is certainly free of contact before its time; None if all of it is."""
 
     def is_free(self, start: ArrayLike, end: ArrayLike) -> bool:
-        """Whether the step is certainly free of contact. Ends at the first contact."""
+        """Decides whether the step is certainly free of contact. The search ends at the first contact."""
 
     def candidates(self, start: ArrayLike, end: ArrayLike, *, swept: bool = False) -> CandidatePairs:
-        """The pairs that boxes leave; all others are certainly farther apart than the separation throughout the step. By boxes that
-        move, or (more pairs, what other systems call candidates) by those that primitives sweep."""
+        """Finds the pairs that bounding boxes keep. All others certainly stay farther apart than the separation throughout the step. The
+        boxes move with the primitives; ``swept`` uses the boxes that primitives sweep, which keep more pairs."""
 
     def intersections(self, positions: ArrayLike) -> Intersections:
-        """Where a mesh at rest meets itself: exact, touching included. Empty exactly if no two faces have a point in common besides
-        vertices and edges that they share."""
+        """Finds all intersections of a mesh at rest, exactly, touching included. The result is empty exactly if no two faces share a
+        point besides the vertices and edges that they have in common."""
 
     def has_intersections(self, positions: ArrayLike) -> bool:
-        """Whether there is any of the intersections. Ends at the first."""
+        """Decides whether there is any intersection. The search ends at the first."""
 
     def near(self, positions: ArrayLike, distance: float) -> Contacts:
-        """All pairs of a mesh at rest within ``distance`` of each other, with their nearest points; times are 0. None is missed, a
-        pair by 2^-19 of the distance farther away may be among them."""
+        """Finds all pairs of a mesh at rest within ``distance`` of each other, with their closest points; times are 0. None is missed. A
+        pair that is farther apart by up to 2^-19 of the distance may be included."""
 
     def truncate(self, start: ArrayLike, wanted: ArrayLike) -> Truncation:
-        """Holds vertices back, each as far as its own neighbourhood asks for, so that the step is certainly free of contact."""
+        """Moves each vertex as far as its neighbourhood allows, so that the step is certainly free of contact."""
 
     def cancel(self) -> None:
-        """Ends the question that another thread is asking: there it raises CancelledError. Without one nothing happens."""
+        """Cancels the call of another thread, where it raises CancelledError. Without such a call nothing happens."""
 
     def set_threads(self, threads: int) -> None:
-        """How many threads steps are split between: 1 is the one that calls, 0 one for each core."""
+        """Sets the number of threads: 1 is the calling thread, 0 one for each core."""
 
     def set_limits(self, separation: float = 0.0, tolerance: float | None = None, *, touching: bool = False) -> None:
-        """Contacts are pairs that cannot be proven to stay farther apart than ``separation``; those that only come within ``tolerance`` of
-        it may be among them (at first 2^-30 for float64, 2^-20 for float32). Or, ``touching``, only pairs that truly touch, decided exactly. In
-        the unit of the positions; for float32 rounded up."""
+        """Sets the minimum separation. Pairs that may come within it are contacts; a pair that only comes within ``separation +
+        tolerance`` may be among them. The default tolerance is 2^-30 for float64 and 2^-20 for float32. With ``touching``, only pairs
+        that truly touch are contacts, decided exactly. Lengths are in the unit of the positions; for float32 they are rounded up."""
 
     def set_moving(self, moving: ArrayLike | None = None) -> None:
-        """Names the vertices that move, by one bool each; None: all, as at first. Pairs of which none moves are not looked at, and
-        positions of those that do not are taken from the next step and not again until this is called anew."""
+        """Names the moving vertices by one bool each. None, the default: all vertices move. Pairs without a moving vertex are skipped. The
+        next step sets the positions of resting vertices; they are not read again until the next call of this function."""
 
     def set_collision_filter(
         self,
@@ -143,16 +143,18 @@ class Detector:
         patches: ArrayLike | None = None,
         excluded: ArrayLike | None = None,
     ) -> None:
-        """Which pairs are looked at, in place of what was said before. ``groups`` (vertex_count, 2): the groups that a vertex is in and
-        those that it collides with, a bit each; two collide if each is in one that the other collides with. ``patches``
-        (vertex_count,): vertices of one patch do not collide. ``excluded`` (n, 2): pairs of vertices that do not. A pair of primitives
-        is looked at if any vertex of one collides with any of the other."""
+        """Sets the collision filter; it replaces the previous one.
+
+        ``groups`` (vertex_count, 2): bits of the groups of a vertex, and of the groups it collides with; two vertices collide if each is
+        in a group that the other collides with. ``patches`` (vertex_count,): vertices of the same patch do not collide. ``excluded``
+        (n, 2): pairs of vertices that do not collide. A pair of primitives is kept if any vertex of one collides with any vertex of the
+        other."""
 
     def set_coherent(self, coherent: bool) -> None:
-        """Whether steps go on from one another, as those of a simulation do: less time, the same contacts."""
+        """Sets whether each step starts where the last one ended. Such steps are faster; the contacts are the same."""
 
     def set_pair_limit(self, limit: int | None = None) -> None:
-        """Most pairs that a question may look at; one with more raises TooManyPairsError. None: no limit, as at first."""
+        """Limits the number of candidate pairs of a call; more raise TooManyPairsError. None, the default, is no limit."""
 
     @property
     def vertex_count(self) -> int: ...
@@ -161,65 +163,65 @@ class Detector:
         """(n, 3), a copy."""
     @property
     def edges(self) -> NDArray[np.uint32]:
-        """(n, 2) as the detector numbers them, the smaller vertex first; a copy."""
+        """(n, 2), in the order of their numbers, the smaller vertex first; a copy."""
     @property
     def components(self) -> NDArray[np.uint32]:
-        """(vertex_count,) the connected component of each vertex: as ``patches``, only different ones collide."""
+        """(vertex_count,) the connected component of each vertex. As ``patches``, they let only different components collide."""
     @property
     def threads(self) -> int: ...
 
 @final
 class Simulation:
-    """Cloth, step by step: certified free of intersections after each, on any number of threads with the same bits.
+    """A simulation of cloth. Each state is certified free of intersections, with the same bits on any number of threads.
 
-    ``scene`` is a scene file (TOML). See the project's documentation of scenes for what it can say. One that starts with surfaces that pass
-    through each other raises TangledError, which says where, unless it says otherwise (``tangled_start``)."""
+    ``scene`` is the path of a scene file (TOML); std-adapter/cloth/scenes/README.md describes the format. A scene that starts with
+    surfaces that pass through each other raises TangledError, unless its ``tangled_start`` allows it."""
 
     def __new__(cls, scene: str | PathLike[str], threads: int = 1) -> Simulation: ...
     @classmethod
     def from_text(cls, text: str, threads: int = 1, *, path: str | PathLike[str] | None = None) -> Simulation:
-        """Of the text of a scene file; ``path`` is for messages, and files that it names are in its folder."""
+        """Creates a simulation from the text of a scene. Messages name ``path``, and files in the scene are relative to its folder."""
 
     @classmethod
     def from_dict(cls, scene: Mapping[str, Any], threads: int = 1, *, folder: str | PathLike[str] | None = None) -> Simulation:
-        """Of a scene said in Python: a file's tables as dicts, its lists as lists or arrays."""
+        """Creates a simulation from a scene in Python: dicts for the tables of a file, lists or arrays for its lists."""
 
     def step(self, count: int = 1) -> None:
-        """Does so many steps. Ctrl-C ends them after a whole one; what is done stays. Raises BlockedError where bodies or pins force the
-        cloth where it cannot go, and the scene says to stop then."""
+        """Runs ``count`` steps. Ctrl-C stops after a whole step, and the steps that were done remain. Raises BlockedError if bodies or pins
+        force the cloth where it cannot go and the scene stops then."""
 
     @property
     def positions(self) -> NDArray[np.float64]:
-        """(n, 3) in metres: the cloth's vertices, then the bodies'. Always the same array, which shows where they are now: copy it to
-        keep it. It cannot be written to. Where cloth tears there are more vertices, hence another array, and :attr:`faces` are others."""
+        """(n, 3) the current positions in metres: the vertices of the cloths, then of the bodies. It is always the same read-only array;
+        copy it to keep it. Tearing adds vertices and so creates a new array and new :attr:`faces`."""
     @property
     def velocities(self) -> NDArray[np.float64]:
-        """(n, 3) in m/s, of :attr:`positions`; a copy."""
+        """(n, 3) the velocities of :attr:`positions` in m/s; a copy."""
     @property
     def normals(self) -> NDArray[np.float64]:
-        """(n, 3): the mean direction of the faces at each vertex, of length one; zero where they have none."""
+        """(n, 3) the unit normal at each vertex, averaged over its faces; zero for a vertex without a face."""
     @property
     def near_pairs(self) -> NearPairs:
-        """What came near each other in the last part of the last step; nothing without a contact effect. A copy."""
+        """The near pairs of the last part of the last step; none without a contact effect. A copy."""
     @property
     def crossings(self) -> Crossings:
-        """Where cloth still passes through itself or a body, of what the scene tolerates from its start. A copy."""
+        """The places where cloth still passes through itself or a body, if the scene tolerates a tangled start. A copy."""
     @property
     def tolerated_pairs(self) -> int:
-        """How many pairs have left the promise since the start: those about :attr:`crossings`, and those not apart yet."""
+        """The number of pairs without a guarantee: those at :attr:`crossings`, and those that are not apart yet."""
     @property
     def untangled(self) -> Untangled | None:
-        """What was pulled apart before the first step, if anything was."""
+        """The result of untangling before the first step, if there was any."""
     @property
     def released(self) -> list[Release]:
-        """What attachments have let go of so far, attachment by attachment."""
+        """The vertices that attachments have released so far, attachment by attachment."""
     @property
     def torn_edges(self) -> list[TornEdge]:
-        """What has torn so far, in the order in which it did."""
+        """The edges that have torn so far, in order of time."""
     @property
     def body_names(self) -> list[str]: ...
     def body_vertices(self, body: str | int) -> slice:
-        """The part of :attr:`positions` that is a body's."""
+        """The slice of :attr:`positions` that belongs to a body."""
 
     def place_body(
         self,
@@ -227,28 +229,28 @@ class Simulation:
         translation: Sequence[float] | NDArray[np.floating[Any]] = ...,
         rotation: Sequence[float] | NDArray[np.floating[Any]] = ...,
     ) -> None:
-        """Leads a body that the scene calls ``driven`` to where its points at rest are turned by ``rotation``, a quaternion (x, y, z, w)
-        as scipy has it, then moved, both at first not at all, in the next step: it turns the shorter way round. Where it would leave the cloth no way out, it stops
-        on the way, or the step fails, as the scene's ``on_blocked`` says."""
+        """Moves a driven body in the next step: its mesh in the scene is rotated by the quaternion ``rotation`` (x, y, z, w), as in scipy,
+        and then translated. It rotates the short way. If it leaves the cloth no room, it stops on its way or the step fails, depending on
+        the scene's ``on_blocked``."""
 
     def placement(self, body: str | int) -> tuple[list[float], list[float]] | None:
-        """Translation and rotation of a driven body now; None for any other, and for one that was moved vertex by vertex."""
+        """Returns the translation and rotation of a driven body; None for other bodies and for one that was moved vertex by vertex."""
 
     def move_body(self, body: str | int, positions: ArrayLike) -> None:
-        """Leads each vertex of a driven body straight to a position, in metres, in the next step: a skinned figure."""
+        """Moves each vertex of a driven body straight to a position, in metres, in the next step, as for a skinned figure."""
 
     def move_pins(self, group: int, positions: ArrayLike) -> None:
-        """The same for a group of pins that the scene calls ``driven``, by its index."""
+        """Moves each vertex of a driven group of pins, given by its index, in the next step."""
 
     def set_wind(self, velocity: Sequence[float] | NDArray[np.floating[Any]]) -> None:
-        """Lets the scene's wind blow so from now on, in m/s."""
+        """Sets the velocity of the scene's wind from now on, in m/s."""
 
     @property
     def faces(self) -> NDArray[np.uint32]:
-        """(n, 3): the cloth's, then the bodies'."""
+        """(n, 3) the faces of the cloths, then of the bodies."""
     @property
     def loose_edges(self) -> NDArray[np.uint32]:
-        """(n, 2): edges of cloths that belong to no face, of ropes, laces and fringes. Others where cloth tears, as :attr:`faces`."""
+        """(n, 2) the loose edges of cloths: ropes, laces and fringes. Tearing changes them, as :attr:`faces`."""
     @property
     def cloth_vertex_count(self) -> int: ...
     @property
@@ -260,12 +262,12 @@ class Simulation:
         """In seconds."""
     @property
     def steps(self) -> int:
-        """How many steps the scene takes."""
+        """The number of steps in the scene's duration."""
     @property
     def steps_per_frame(self) -> int: ...
     @property
     def settings(self) -> dict[str, str]:
-        """What trades time for accuracy, with value and unit."""
+        """The settings that trade time for accuracy, with values and units."""
     @property
     def steps_done(self) -> int: ...
     @property
@@ -273,29 +275,29 @@ class Simulation:
         """In seconds."""
     @property
     def lag(self) -> float:
-        """How far bodies and pins are behind their keyframes, in seconds."""
+        """The time by which bodies and pins lag behind their keyframes, in seconds."""
     @property
     def is_certified(self) -> bool:
-        """Whether the state is certified free of intersections of whatever the scene's contact effects name."""
+        """Whether the state is certified free of the intersections that the scene's contact effects name."""
     @property
     def blocked_steps(self) -> int: ...
     @property
     def edge_stretch(self) -> tuple[float, float]:
-        """The length of the cloth's edges over that at rest: of the 99th percentile, and of the longest."""
+        """The length of the cloth's edges relative to rest: the 99th percentile and the largest."""
     @property
     def effect_seconds(self) -> dict[str, float]:
-        """What each effect has taken so far."""
+        """The processing time of each effect so far."""
     @property
     def contact_counts(self) -> dict[str, int] | None:
-        """What contact has counted so far, None without a contact effect: ``candidates`` (pairs that boxes leave), ``looked_at`` (not
-        settled by the direction of the step before), ``pushed``, ``violated`` (not free on the motion wanted), ``zone_rounds``, ``held``
-        (vertices held back), ``cuts`` (times a step was cut in half)."""
+        """The counts of contact so far; None without a contact effect. ``candidates``: pairs that boxes keep; ``looked_at``: pairs that the
+        previous direction did not settle; ``pushed``; ``violated``: pairs that collide on the intended motion; ``zone_rounds``;
+        ``held``: vertices held back; ``cuts``: steps cut in half."""
     @property
     def contact_seconds(self) -> dict[str, float] | None:
-        """What contact has taken so far besides its pushes, None without a contact effect: ``candidates``, ``constraints``,
+        """The processing time of contact so far, without its pushes; None without a contact effect: ``candidates``, ``constraints``,
         ``certificates``, ``repairs``."""
     def checkpoint(self) -> bytes | None:
-        """All that the rest of the simulation depends on, every 200 steps; None in between."""
+        """Returns the state as bytes after every 200th step; None in between."""
 
     def resume(self, checkpoint: bytes) -> None:
-        """Goes on from a checkpoint of the same scene, with the same bits as if it had never ended."""
+        """Continues from a checkpoint of the same scene, with the same bits as an uninterrupted simulation."""

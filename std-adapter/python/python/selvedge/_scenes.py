@@ -1,6 +1,6 @@
-"""A scene said in Python, as the text of a scene file.
+"""Converts a scene from dicts to the text of a scene file.
 
-Some twenty lines, as the packages that write TOML know neither numpy's numbers nor which field they cannot write.
+Packages that write TOML do not accept numpy's numbers and do not name the field that they cannot write.
 """
 
 import json
@@ -12,12 +12,12 @@ from .errors import DataTypeError
 
 def _key(key: object) -> str:
     if not isinstance(key, str):
-        raise DataTypeError(f"a scene's names are text, not {key!r}")
+        raise DataTypeError(f"the names in a scene must be text, not {key!r}")
     return json.dumps(key)
 
 
 def _value(value: Any, place: str) -> str:
-    # TOML's basic strings are JSON's, escapes included; numbers that numpy has are numbers.
+    # TOML's basic strings are those of JSON, with the same escapes. A numpy number becomes a number of Python.
     if hasattr(value, "item") and getattr(value, "shape", None) == ():
         value = value.item()
     if isinstance(value, (bool, str)):
@@ -31,9 +31,9 @@ def _value(value: Any, place: str) -> str:
         value = value.tolist()
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(entry, f"{place}[{index}]") for index, entry in enumerate(value)) + "]"
-    raise DataTypeError(f"{place}: a scene has text, numbers, lists and tables, not {type(value).__name__}")
+    raise DataTypeError(f"{place}: a scene consists of text, numbers, lists and tables, not {type(value).__name__}")
 
 
 def text_of(scene: Mapping[str, Any]) -> str:
-    """Each entry of the outermost table on a line of its own, so that messages name the line."""
+    """Returns the text of a scene. Each entry of the outermost table has its own line, so that messages can name it."""
     return "".join(f"{_key(key)} = {_value(value, str(key))}\n" for key, value in scene.items())

@@ -1,35 +1,34 @@
-"""What can go wrong, in the words of the library and its command.
+"""The exceptions of the package.
 
-Every exception is an :class:`Error`, and the built-in one that says the same in general: code that knows nothing of Selvedge
-catches it too.
+Every exception is an :class:`Error` and also the matching built-in exception, so that general code can catch it.
 """
 
 from ._answers import Crossings, Untangled
 
 
 class Error(Exception):
-    """Of Selvedge's own."""
+    """The base class of all exceptions."""
 
 
 class InputError(Error, ValueError):
-    """A value cannot be taken: a shape, a count, an index, a coordinate that is not finite, a length that is negative."""
+    """An argument is invalid: its shape, a count, an index, a coordinate that is not finite, or a negative length."""
 
 
 class DataTypeError(Error, TypeError):
-    """Something is no array of numbers, or of numbers that would have to be rounded."""
+    """An argument is not an array of numbers, or its numbers would have to be rounded."""
 
 
 class SceneError(InputError):
-    """A scene says what cannot be; the text names file, line and field."""
+    """A scene is invalid. The message names file, line and field."""
 
 
 class TangledError(SceneError):
-    """A scene starts with surfaces that pass through each other, and does not want that, or untangling has left something of it."""
+    """A scene starts with surfaces that pass through each other and does not tolerate that, or untangling did not remove all of it."""
 
     crossings: Crossings
-    """All places."""
+    """All crossings."""
     untangled: Untangled | None
-    """What untangling did, if the scene asks for that."""
+    """The result of untangling, if the scene requests it."""
 
     def __init__(self, text: str, crossings: Crossings, untangled: Untangled | None) -> None:
         super().__init__(text)
@@ -37,7 +36,7 @@ class TangledError(SceneError):
 
 
 class CheckpointError(InputError):
-    """A checkpoint is of another scene, another version, or damaged."""
+    """A checkpoint is damaged, or it belongs to another scene or version."""
 
 
 class BusyError(Error, RuntimeError):
@@ -45,31 +44,31 @@ class BusyError(Error, RuntimeError):
 
 
 class ForkedError(Error, RuntimeError):
-    """The object's threads stayed behind in a parent process: make one in the child, or start children by ``spawn``."""
+    """The object's threads are in the parent process. Create the object in the child, or start children by ``spawn``."""
 
 
 class CancelledError(Error, RuntimeError):
-    """Another thread has called ``cancel``. The object answers as ever."""
+    """Another thread has called ``cancel``. The object remains usable."""
 
 
 class TooManyPairsError(Error, RuntimeError):
-    """More pairs are near each other than ``set_pair_limit`` allows to look at."""
+    """There are more candidate pairs than ``set_pair_limit`` allows."""
 
 
 class BlockedError(Error, RuntimeError):
-    """A step of a simulation could not be certified, and the scene says to stop then."""
+    """A step of a simulation could not be certified, and the scene stops then."""
 
 
 class CommandError(Error, RuntimeError):
-    """The ``selvedge`` command, which studies need, is missing, of another version, or did not end well."""
+    """The ``selvedge`` command, which studies need, is missing, has another version, or failed."""
 
 
 class ThreadsError(Error, OSError):
-    """The operating system refuses threads, or there are more of them than any machine has use for."""
+    """The threads could not be started, or their number is too large."""
 
 
 class BrokenError(Error, RuntimeError):
-    """A fault of Selvedge's own, please report it. The object cannot be used any more."""
+    """The library has a bug; please report it. The object can no longer be used."""
 
 
 __all__ = [

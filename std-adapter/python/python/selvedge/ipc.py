@@ -1,13 +1,13 @@
-"""The names that users of ipctk know, for what Selvedge has: familiar names, not a drop-in.
+"""Selvedge under the names that users of ipctk know. It is not a complete replacement for ipctk.
 
-``from selvedge import ipc as ipctk`` runs code that builds candidates, cuts steps and looks for intersections. What differs:
+``from selvedge import ipc as ipctk`` runs code that builds candidates, limits step sizes and looks for intersections. The differences:
 
-* Every answer is certified: a step size is never too long, a free step never has a contact. Step sizes are those of first contact, not
-  scaled back.
-* A pair that only comes within the tolerance of ``min_distance`` (a nanometre, if positions are in metres) may count as a contact.
-* ``broad_phase`` and ``narrow_phase_ccd`` take None alone: there is one of each.
-* Three dimensions alone. Barriers, potentials, friction and distances' derivatives are not here: asking for them raises
-  AttributeError, which says so.
+* Every answer is certified: a step size is never too long, and a free step never has a contact. A step size reaches to the first
+  contact and is not scaled back.
+* A pair that comes within the tolerance of ``min_distance`` (a nanometre, if positions are in metres) may be reported as a contact.
+* ``broad_phase`` and ``narrow_phase_ccd`` accept only None, since there is one of each.
+* Only three dimensions are supported. Barriers, potentials, friction and derivatives of distances are missing; using them raises
+  AttributeError.
 """
 
 from __future__ import annotations
@@ -51,21 +51,21 @@ _Rule = Callable[[_Indices, _Indices], _Flags]
 
 def __getattr__(name: str) -> Any:
     raise AttributeError(
-        f"selvedge.ipc has no {name}: it has collision detection alone ({', '.join(__all__)}); take ipctk for the rest"
+        f"selvedge.ipc has no {name}. It has only collision detection ({', '.join(__all__)}); use ipctk for the rest"
     )
 
 
 def _ours(**phases: object) -> None:
     for name, phase in phases.items():
         if phase is not None:
-            raise NotImplementedError(f"{name}: selvedge has one of its own; leave it out, or say None")
+            raise NotImplementedError(f"{name}: selvedge has only its own; leave the argument out or pass None")
 
 
 class CollisionFilter:
-    """Which vertices collide: of a function of two vertices, and joined by ``&``, ``|`` and ``~``.
+    """Says which vertices collide: from a function of two vertices, combined with ``&``, ``|`` and ``~``.
 
-    Two primitives are looked at if any vertex of one collides with any of the other. What the factories below make, and ``&`` of it, the
-    detector's traversal applies at no cost; a function of Python's, ``|`` and ``~`` are asked for each candidate pair.
+    A pair of primitives is kept if any vertex of one collides with any vertex of the other. The detector's traversal applies the filters
+    of the factories below, and their ``&``, at no cost. Python functions, ``|`` and ``~`` run for each candidate pair.
     """
 
     def __init__(self, can_collide: Callable[[int, int], bool] | None = None) -> None:
@@ -73,7 +73,7 @@ class CollisionFilter:
         self._rules: list[_Rule] = [] if can_collide is None else [_each(can_collide)]
 
     def __call__(self, vi: int, vj: int) -> bool:
-        """Whether two vertices may collide."""
+        """Says whether two vertices may collide."""
         return bool(self._allows(indices([vi], "vi", 1)[:, 0], indices([vj], "vj", 1)[:, 0])[0])
 
     def __and__(self, other: CollisionFilter) -> CollisionFilter:
@@ -97,10 +97,10 @@ class CollisionFilter:
 
 @dataclass(frozen=True)
 class _Data:
-    """A filter that the detector has too."""
+    """A filter that the detector can apply."""
 
     patches: _Indices | None = None
-    # Vertices, ascending, and the component of each; any other vertex is one of its own.
+    # Ascending vertices and the component of each; any other vertex is a component of its own.
     components: tuple[_Indices, _Indices] | None = None
     dynamic: int | None = None
     excluded: _Indices | None = None
@@ -124,7 +124,7 @@ class _Data:
         return self.patches is not None or self.components is not None
 
     def patches_of(self, count: int) -> _Indices | None:
-        """For the detector: of each of so many vertices."""
+        """Returns the patch of each of ``count`` vertices, for the detector."""
         if self.components is not None:
             return self._component(np.arange(count, dtype=np.uint32))
         if self.patches is not None and len(self.patches) != count:
@@ -134,7 +134,7 @@ class _Data:
     def _component(self, of: _Indices) -> _Indices:
         assert self.components is not None
         vertices, components = self.components
-        # A component is named by one of its vertices, so that others' numbers are free.
+        # A component has the number of one of its vertices, so other vertices cannot clash with it.
         at = np.minimum(np.searchsorted(vertices, of), len(vertices) - 1)
         return np.where(vertices[at] == of, components[at], of)
 
@@ -159,7 +159,7 @@ def _of_data(data: _Data) -> CollisionFilter:
 
 
 def make_sparse_filter(explicit_values: Mapping[tuple[int, int], bool], default_value: bool) -> CollisionFilter:
-    """Pairs of vertices, in either order, that collide or do not, and what all others do."""
+    """Lists pairs of vertices, in either order, that collide or do not; the default is for all other pairs."""
     listed = [pair for pair, collides in explicit_values.items() if bool(collides) != bool(default_value)]
     pairs = indices(np.array(listed, np.int64).reshape(-1, 2), "explicit_values", 2)
     unlike_default = _of_data(_Data(excluded=pairs))
@@ -167,29 +167,29 @@ def make_sparse_filter(explicit_values: Mapping[tuple[int, int], bool], default_
 
 
 def make_static_obstacle_filter(n_dynamic: int) -> CollisionFilter:
-    """Vertices from ``n_dynamic`` on are static: two of them do not collide."""
+    """Makes all vertices from ``n_dynamic`` on static: two static vertices do not collide."""
     if n_dynamic < 0:
         raise InputError(f"n_dynamic is {n_dynamic}: it must not be negative")
     return _of_data(_Data(dynamic=n_dynamic))
 
 
 def make_vertex_patches_filter(patch_ids: ArrayLike) -> CollisionFilter:
-    """Vertices of one patch do not collide. An entry for each vertex."""
+    """Excludes pairs of vertices in the same patch. ``patch_ids`` has an entry per vertex."""
     _, patches = np.unique(np.asarray(patch_ids), return_inverse=True)
     return _of_data(_Data(patches=indices(patches.reshape(-1), "patch_ids", 1)[:, 0]))
 
 
 def make_connected_components_filter(faces: ArrayLike) -> CollisionFilter:
-    """Vertices of one connected component do not collide."""
+    """Excludes pairs of vertices in the same connected component."""
     vertices, corners = np.unique(indices(faces, "faces", 3), return_inverse=True)
     components = Detector(corners.reshape(-1, 3), len(vertices)).components
     return _of_data(_Data(components=(vertices, vertices[components])))
 
 
 class CollisionMesh:
-    """Positions at rest and the mesh on them: of faces, and of edges, of which those that no face has collide too.
+    """A mesh of faces and edges with its positions at rest. Edges without a face collide too.
 
-    Edges keep the numbers that they have here. It pickles, but for a filter made of functions.
+    Edges keep the numbers that they have here. It pickles, unless its filter contains Python functions.
     """
 
     def __init__(
@@ -207,7 +207,7 @@ class CollisionMesh:
         own_faces = indices([] if faces is None else faces, "faces", 3)
         own_edges = indices([] if edges is None else edges, "edges", 2)
         of_faces = Detector(own_faces, len(self._rest), threads) if len(own_faces) else None
-        # As many edges as the faces have are theirs alone, if all of theirs are among them: `_numbers` looks whether.
+        # If there are as many edges as the faces have, they are expected to be the same; `_numbers` checks that.
         if of_faces is not None and len(own_edges) in (0, len(of_faces.edges)):
             self._detector = of_faces
         else:
@@ -251,7 +251,7 @@ class CollisionMesh:
 
     @property
     def can_collide(self) -> CollisionFilter:
-        """Which vertices collide; at first all."""
+        """The collision filter; by default all vertices collide."""
         return self._can_collide
 
     @can_collide.setter
@@ -262,10 +262,10 @@ class CollisionMesh:
             if data.dynamic is not None:
                 is_static = np.arange(self.num_vertices) >= data.dynamic
                 both = groups if groups is not None else np.full((self.num_vertices, 2), 3, np.uint32)
-                # Static ones are in group 2 alone, and collide with group 1 alone.
+                # Static vertices are only in group 2 and collide only with group 1.
                 both[is_static] = (2, 1)
                 groups = both
-            # The traversal has one list of patches; further ones are asked for each candidate.
+            # The traversal has one list of patches; further lists are applied to each candidate.
             of_data = data.patches_of(self.num_vertices)
             patches = of_data if patches is None else patches
             if data.excluded is not None:
@@ -279,7 +279,7 @@ class CollisionMesh:
         return bool(given._rules) or sum(data.has_patches for data in given._data) > 1
 
     def _allowed(self, pairs: CandidatePairs) -> CandidatePairs:
-        """Those that rules of Python's leave."""
+        """Returns the pairs that the Python rules keep."""
         if not self._has_rules():
             return pairs
         faces, ends = self._detector.faces, self._detector.edges
@@ -303,7 +303,7 @@ def _keys(pairs: _Indices) -> NDArray[np.uint64]:
 
 
 def _numbers(ours: _Indices, theirs: _Indices) -> _Indices:
-    """For each of our edges the caller's number."""
+    """Returns the caller's number of each of our edges."""
     keys, wanted = _keys(theirs), _keys(ours)
     if np.array_equal(keys, wanted):
         return np.arange(len(ours), dtype=np.uint32)
@@ -311,19 +311,19 @@ def _numbers(ours: _Indices, theirs: _Indices) -> _Indices:
     at = np.searchsorted(keys, wanted, sorter=order)
     found = order[np.minimum(at, len(order) - 1)] if len(order) else np.zeros(0, np.intp)
     if len(found) != len(ours) or np.any(keys[found] != wanted):
-        raise InputError("edges: an edge of the faces is not among them; leave edges out, or make them by ipc.edges(faces)")
+        raise InputError("edges: an edge of the faces is missing; leave edges out, or create them with ipc.edges(faces)")
     return found.astype(np.uint32)
 
 
 def edges(faces: ArrayLike) -> _Indices:
-    """The edges of faces, each once."""
+    """Returns the edges of the faces, each once."""
     return _edges_of(indices(faces, "faces", 3))
 
 
 def _edges_of(faces: _Indices) -> _Indices:
     if not len(faces):
         return np.zeros((0, 2), np.uint32)
-    # Whatever their numbers are: no more vertices than there are corners.
+    # Renumbered, so that there are no more vertices than corners.
     vertices, corners = np.unique(faces, return_inverse=True)
     return vertices[Detector(corners.reshape(-1, 3), len(vertices)).edges]
 
@@ -333,13 +333,13 @@ _T = TypeVar("_T")
 
 def _with_limits(mesh: CollisionMesh, separation: float, action: Callable[[Detector], _T]) -> _T:
     if not isinstance(mesh, CollisionMesh):
-        raise DataTypeError(f"mesh: a CollisionMesh is expected, not {type(mesh).__name__}")
+        raise DataTypeError(f"mesh: expected a CollisionMesh, not {type(mesh).__name__}")
     mesh._detector.set_limits(separation)
     return action(mesh._detector)
 
 
 def _step_size(mesh: CollisionMesh, start: ArrayLike, end: ArrayLike, min_distance: float) -> float | None:
-    """Of the first contact, or None."""
+    """Returns the time of the first contact, or None."""
     if mesh._has_rules():
         candidates = Candidates()
         candidates.build(mesh, start, end, min_distance / 2.0)
@@ -356,7 +356,7 @@ def is_step_collision_free(
     broad_phase: None = None,
     narrow_phase_ccd: None = None,
 ) -> bool:
-    """Whether the step is certainly free of contact."""
+    """Decides whether the step is certainly free of contact."""
     _ours(broad_phase=broad_phase, narrow_phase_ccd=narrow_phase_ccd)
     if isinstance(mesh, CollisionMesh) and mesh._has_rules():
         return _step_size(mesh, vertices_t0, vertices_t1, min_distance) is None
@@ -371,14 +371,14 @@ def compute_collision_free_stepsize(
     broad_phase: None = None,
     narrow_phase_ccd: None = None,
 ) -> float:
-    """How much of the step is certainly free of contact, in [0, 1]: any shorter one is."""
+    """Returns a step size in [0, 1]; any shorter step is certainly free of contact."""
     _ours(broad_phase=broad_phase, narrow_phase_ccd=narrow_phase_ccd)
     size = _step_size(mesh, vertices_t0, vertices_t1, min_distance)
     return 1.0 if size is None else size
 
 
 def has_intersections(mesh: CollisionMesh, vertices: ArrayLike, broad_phase: None = None) -> bool:
-    """Whether a mesh at rest meets itself: exact, touching included. The filter is not asked."""
+    """Decides exactly whether a mesh at rest intersects itself, touching included. The filter is not applied."""
     _ours(broad_phase=broad_phase)
     return _with_limits(mesh, 0.0, lambda detector: detector.has_intersections(vertices))
 
@@ -405,7 +405,7 @@ class _Stencil:
         tmax: float = 1.0,
         narrow_phase_ccd: None = None,
     ) -> tuple[bool, float]:
-        """Whether the pair comes into contact, and when."""
+        """Returns whether the pair comes into contact, and when."""
         _ours(narrow_phase_ccd=narrow_phase_ccd)
         ids = self._ids(edges, faces)
         start, end = np.asarray(vertices_t0)[ids], np.asarray(vertices_t1)[ids]
@@ -414,7 +414,7 @@ class _Stencil:
 
 @dataclass(frozen=True)
 class EdgeEdgeCandidate(_Stencil):
-    """Two edges, by the mesh's numbers."""
+    """Two edges, with the numbers of the mesh."""
 
     edge0_id: int
     edge1_id: int
@@ -426,7 +426,7 @@ class EdgeEdgeCandidate(_Stencil):
 
 @dataclass(frozen=True)
 class FaceVertexCandidate(_Stencil):
-    """A face and a vertex, by the mesh's numbers."""
+    """A face and a vertex, with the numbers of the mesh."""
 
     face_id: int
     vertex_id: int
@@ -437,7 +437,7 @@ class FaceVertexCandidate(_Stencil):
 
 
 class Candidates:
-    """Pairs that boxes leave: of the boxes that primitives sweep, as ipctk's."""
+    """The pairs whose swept boxes overlap, as in ipctk."""
 
     def __init__(self) -> None:
         self.clear()
@@ -450,11 +450,12 @@ class Candidates:
         inflation_radius: float = 0.0,
         broad_phase: None = None,
     ) -> None:
-        """Of a step, or of a mesh at rest if there is no ``vertices_t1``. Boxes are wider by ``inflation_radius`` on all sides."""
+        """Finds the candidates of a step, or of a mesh at rest without ``vertices_t1``. ``inflation_radius`` enlarges the boxes on all
+        sides."""
         _ours(broad_phase=broad_phase)
         end: ArrayLike = vertices_t0
         if isinstance(vertices_t1, (int, float)):
-            # ipctk's other signature: a mesh at rest and the radius.
+            # The other signature in ipctk: a mesh at rest and the radius.
             inflation_radius = vertices_t1
         elif vertices_t1 is not None:
             end = vertices_t1
@@ -462,12 +463,12 @@ class Candidates:
         self._pairs, self._numbers = mesh._allowed(find), mesh._numbers
 
     def clear(self) -> None:
-        """Leaves none."""
+        """Removes all candidates."""
         none = np.zeros((0, 2), np.uint32)
         self._pairs, self._numbers = CandidatePairs(none, none), np.zeros(0, np.uint32)
 
     def empty(self) -> bool:
-        """Whether there are none."""
+        """Says whether there are no candidates."""
         return not len(self)
 
     def __len__(self) -> int:
@@ -476,7 +477,7 @@ class Candidates:
     def __getitem__(self, index: int) -> EdgeEdgeCandidate | FaceVertexCandidate:
         edge_edge = len(self._pairs.edge_edge)
         if not -len(self) <= index < len(self):
-            raise IndexError(f"there are {len(self)} candidates, and none {index}")
+            raise IndexError(f"there are {len(self)} candidates; index {index} is out of range")
         index %= len(self)
         if index < edge_edge:
             return EdgeEdgeCandidate(*self._numbers[self._pairs.edge_edge[index]].tolist())
@@ -489,12 +490,12 @@ class Candidates:
 
     @property
     def ee_candidates(self) -> _Indices:
-        """(n, 2) of two edges."""
+        """(n, 2) pairs of edges."""
         return self._numbers[self._pairs.edge_edge]
 
     @property
     def fv_candidates(self) -> _Indices:
-        """(n, 2) of a face and a vertex. (Faces from the mesh's number of faces on are edges that no face has.)"""
+        """(n, 2) pairs of a face and a vertex. Face numbers from the mesh's number of faces on are loose edges."""
         return self._pairs.vertex_face[:, ::-1]
 
     def _step_size(self, mesh: CollisionMesh, start: ArrayLike, end: ArrayLike, min_distance: float) -> float | None:
@@ -514,7 +515,7 @@ class Candidates:
         min_distance: float = 0.0,
         narrow_phase_ccd: None = None,
     ) -> bool:
-        """Whether these pairs are certainly free of contact in the step."""
+        """Decides whether these pairs are certainly free of contact during the step."""
         _ours(narrow_phase_ccd=narrow_phase_ccd)
         return self._step_size(mesh, vertices_t0, vertices_t1, min_distance) is None
 
@@ -526,14 +527,14 @@ class Candidates:
         min_distance: float = 0.0,
         narrow_phase_ccd: None = None,
     ) -> float:
-        """How much of the step is certainly free of contact among these pairs, in [0, 1]."""
+        """Returns a step size in [0, 1]; these pairs are certainly free of contact in any shorter step."""
         _ours(narrow_phase_ccd=narrow_phase_ccd)
         size = self._step_size(mesh, vertices_t0, vertices_t1, min_distance)
         return 1.0 if size is None else size
 
 
 def _found(time: float | None) -> tuple[bool, float]:
-    # As ipctk has it: an infinite time where there is none.
+    # As in ipctk, the time is infinite without a contact.
     return (False, float("inf")) if time is None else (True, time)
 
 
@@ -546,7 +547,7 @@ def point_triangle_ccd(
     p_t1: ArrayLike, t0_t1: ArrayLike, t1_t1: ArrayLike, t2_t1: ArrayLike,
     min_distance: float = 0.0, tmax: float = 1.0,
 ) -> tuple[bool, float]:  # fmt: skip
-    """Whether a point and a triangle come into contact, and when."""
+    """Returns whether a point and a triangle come into contact, and when."""
     start, end = _points(p_t0, t0_t0, t1_t0, t2_t0), _points(p_t1, t0_t1, t1_t1, t2_t1)
     return _found(time_of_impact(Kind.VERTEX_FACE, start, end, separation=min_distance, until=tmax))
 
@@ -556,7 +557,7 @@ def edge_edge_ccd(
     ea0_t1: ArrayLike, ea1_t1: ArrayLike, eb0_t1: ArrayLike, eb1_t1: ArrayLike,
     min_distance: float = 0.0, tmax: float = 1.0,
 ) -> tuple[bool, float]:  # fmt: skip
-    """Whether two edges come into contact, and when."""
+    """Returns whether two edges come into contact, and when."""
     start, end = _points(ea0_t0, ea1_t0, eb0_t0, eb1_t0), _points(ea0_t1, ea1_t1, eb0_t1, eb1_t1)
     return _found(time_of_impact(Kind.EDGE_EDGE, start, end, separation=min_distance, until=tmax))
 
@@ -566,7 +567,7 @@ def point_edge_ccd(
     p_t1: ArrayLike, e0_t1: ArrayLike, e1_t1: ArrayLike,
     min_distance: float = 0.0, tmax: float = 1.0,
 ) -> tuple[bool, float]:  # fmt: skip
-    """Whether a point and an edge come into contact, and when: the edge is a triangle without area."""
+    """Returns whether a point and an edge come into contact, and when. The edge is treated as a triangle without area."""
     return point_triangle_ccd(p_t0, e0_t0, e1_t0, e1_t0, p_t1, e0_t1, e1_t1, e1_t1, min_distance, tmax)
 
 
@@ -574,5 +575,5 @@ def point_point_ccd(
     p0_t0: ArrayLike, p1_t0: ArrayLike, p0_t1: ArrayLike, p1_t1: ArrayLike,
     min_distance: float = 0.0, tmax: float = 1.0,
 ) -> tuple[bool, float]:  # fmt: skip
-    """Whether two points come into contact, and when."""
+    """Returns whether two points come into contact, and when."""
     return point_edge_ccd(p0_t0, p1_t0, p1_t0, p0_t1, p1_t1, p1_t1, min_distance, tmax)

@@ -1,8 +1,8 @@
-"""What accuracy costs in time, and where methods go wrong: the command's studies as arrays.
+"""Measures what accuracy costs in time and where methods go wrong, by running the `selvedge` command.
 
-Every published method on the same steps (:func:`compare`), every filter and elementary test on the same pairs (:func:`accuracy`), every
-method's answer to hard cases of the literature (:func:`hard_cases`). A table is a dict of columns of equal length, which
-``pandas.DataFrame`` and ``polars.DataFrame`` take as they are; ``examples/accuracy.ipynb`` plots them.
+:func:`compare` runs every published method on the same steps, :func:`accuracy` every filter and elementary test on the same pairs, and
+:func:`hard_cases` every method on degenerate pairs from the literature. A table is a dict of columns of equal length, which
+``pandas.DataFrame`` and ``polars.DataFrame`` accept; ``examples/accuracy.ipynb`` plots them.
 
 The studies measure other people's methods too, which may miss contacts, so they are not in this package but in the ``selvedge``
 command: ``pip install selvedge-command`` (in a clone: ``pip install ./std-adapter/command``). ``SELVEDGE_COMMAND`` names another one.
@@ -27,10 +27,10 @@ from ._native import __version__
 from .errors import CommandError, InputError
 
 Table = dict[str, NDArray[Any]]
-"""Columns of equal length by name. What was not measured is NaN in a column of numbers, else None."""
+"""Columns of equal length by name. A missing value is NaN in a column of numbers and None elsewhere."""
 
 Step = tuple[ArrayLike, ArrayLike, ArrayLike]
-"""Faces, positions at the start of a step and at its end."""
+"""The faces and the positions at the start and at the end of a step."""
 
 
 def compare(step: Step | None = None, *, pipelines: Sequence[str] = (), threads: int = 1, rounds: int = 3) -> dict[str, Table]:
@@ -97,7 +97,7 @@ def accuracy(
 
 
 def hard_cases(name: str = "", *, scalar: Literal["f32", "f64"] = "f64") -> Table:
-    """Asks every method about hard cases by name: degenerate pairs, grazes, shapes of the literature, at several sizes and places.
+    """Runs every method on hard cases: degenerate pairs, grazes and shapes of the literature, at several sizes and places.
 
     :param name: only cases whose name contains it
     :param scalar: the format to compute in; in f32 only cases whose coordinates it holds exactly
@@ -116,7 +116,7 @@ def hard_cases(name: str = "", *, scalar: Literal["f32", "f64"] = "f64") -> Tabl
 
 
 def _table(rows: list[dict[str, Any]]) -> Table:
-    """Rows as columns; what is nested gets both names."""
+    """Converts rows to columns; a nested value gets both names."""
     flat = [dict(_flat(row)) for row in rows]
     names = dict.fromkeys(name for row in flat for name in row)
     return {name: _column([row.get(name) for row in flat]) for name in names}
@@ -142,7 +142,7 @@ def _column(values: list[Any]) -> NDArray[Any]:
 
 @contextmanager
 def _meshes(step: Step | None) -> Iterator[list[str]]:
-    """The two meshes of a step as files, bit for bit."""
+    """Writes the two meshes of a step to files, bit for bit."""
     if step is None:
         yield []
         return
@@ -174,7 +174,7 @@ def _ply(faces: NDArray[np.uint32], positions: NDArray[np.float64]) -> bytes:
 
 
 def _command() -> str:
-    """The command beside this Python, or on the path; of this very version, whose documents are known."""
+    """Returns the command beside this Python or on the path. It must have the same version."""
     scripts = sysconfig.get_path("scripts")
     path = os.environ.get("SELVEDGE_COMMAND") or shutil.which("selvedge", path=scripts) or shutil.which("selvedge")
     if path is None:
@@ -184,7 +184,7 @@ def _command() -> str:
     except (OSError, subprocess.CalledProcessError) as error:
         raise CommandError(f"{path}: cannot be run: {error}") from None
     if version != ["selvedge", __version__]:
-        raise CommandError(f"{path}: is {' '.join(version) or 'another program'}, this package is {__version__}; install both anew")
+        raise CommandError(f"{path} is {' '.join(version) or 'another program'}, but this package is {__version__}; install both again")
     return path
 
 
