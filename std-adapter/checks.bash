@@ -1,4 +1,4 @@
-# What checks beside the workspace share, to be sourced by a check.sh whose options may have --present: it says what is missing, and ends well.
+# Shared by the check.sh scripts outside the workspace. With the option --present they skip the check if something is missing.
 say() { printf '\n== %s\n' "$*"; }
 missing() {
     if [ "${present:-}" ]; then

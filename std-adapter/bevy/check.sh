@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# The plugin: formatting, lints, documentation, tests, without a window. Needs Rust 1.95 or newer, and crates.io for what is not there yet.
-# --present: says so and ends well where they are missing. example/ is built by hand.
+# Checks the plugin: formatting, lints, documentation, tests, without a window. Needs Rust 1.95 or newer, and crates.io.
+# --present: skips the check where they are missing. example/ is built by hand.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 # shellcheck source=std-adapter/checks.bash
 source ../checks.bash
 
-# As in Cargo.toml.
+# The version in Cargo.toml.
 least=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
 rust=$(rustc --version | cut -d ' ' -f 2)
 [ "$(printf '%s\n' "$least" "$rust" | sort -V | head -n 1)" = "$least" ] || missing "Rust $rust is too old: Bevy needs $least"
@@ -19,7 +19,7 @@ export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$PWD/target}/bevy
 say "Bevy: formatting, lints, documentation"
 cargo fmt --check
 cargo fmt --check --manifest-path example/Cargo.toml
-# Clippy as the compiler: Bevy's crates are built once for both, not checked for the one and compiled for the other.
+# Clippy serves as the compiler, so that Bevy's crates are built once for lints and tests.
 export RUSTFLAGS="-D warnings"
 test_with_clippy() { RUSTC_WORKSPACE_WRAPPER=clippy-driver cargo test --locked "$@"; }
 test_with_clippy --all-targets --no-run
@@ -27,4 +27,4 @@ RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps
 
 say "Bevy: tests"
 test_with_clippy
-say "Bevy: all as it should be"
+say "Bevy: everything passed"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs the library into a folder, and builds and runs the programs in C and C++ on it as somebody else would: by each compiler
-# that is there, every warning an error, plainly and under the address and undefined-behaviour sanitizers; through pkg-config and
-# CMake. What is missing is skipped, and said. Linux; a few minutes, most of which is the library with link-time optimisation.
+# Installs the library into a folder, then builds and runs the C and C++ programs against it as a user would: with every available
+# compiler, warnings as errors, with and without the address and undefined-behaviour sanitizers, through pkg-config and CMake. Missing
+# tools are skipped with a message. Linux; a few minutes, mostly link-time optimisation of the library.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -16,7 +16,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 prefix=$folder/installed
 export LD_LIBRARY_PATH=$prefix/lib PKG_CONFIG_PATH=$prefix/lib/pkgconfig
-# A count beyond reason is to be refused as plainly as without a sanitizer.
+# The library must refuse absurd counts under a sanitizer as well.
 export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=8192:detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1
 
 say "library without cloth: make install"
@@ -28,18 +28,18 @@ if is_there nm && nm -D "$prefix/lib/libselvedge.so" | grep selvedge_simulation;
 say "library: make install CLOTH=yes"
 make --no-print-directory install CLOTH=yes PREFIX="$prefix"
 
-say "what it shows to others"
+say "exported symbols"
 version=$(cargo pkgid | sed 's/.*[@#]//')
 if is_there readelf; then
     readelf -d "$prefix/lib/libselvedge.so" | grep -q "SONAME.*\[libselvedge.so.${version%.*}\]" || give_up "its SONAME is another"
     foreign=$(nm -D --defined-only "$prefix/lib/libselvedge.so" | awk '{ print $3 }' | grep -v '^selvedge_' || true)
-    [ -z "$foreign" ] || give_up "it shows symbols that are not ours: $foreign"
+    [ -z "$foreign" ] || give_up "it exports foreign symbols: $foreign"
     stat -c '%s bytes %n' "$prefix"/lib/libselvedge.so."$version" "$prefix"/lib/libselvedge.a
 else
     echo "skipped: readelf is missing"
 fi
 
-say "frames: a tetrahedron that falls through a square"
+say "frames: a tetrahedron falls through a square"
 frame() { # HEIGHT
     printf 'v %s 0\n' "-2 -2" "2 -2" "2 2" "-2 2"
     for vertex in "0 0 0" "1 0 1" "0 1 1" "-1 -1 1"; do
@@ -58,7 +58,7 @@ sanitizers=(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-fra
 printed=
 flown=
 
-# Builds a program and runs it, with frames if it takes them.
+# Builds and runs a program, with frames if it takes them.
 try() { # NAME OUTPUT COMMAND...
     local name=$1 output=$2
     shift 2
@@ -67,13 +67,13 @@ try() { # NAME OUTPUT COMMAND...
     frames)
         "$folder/program" "${frames[@]}" >"$output"
         "$folder/program" --float "${frames[@]}" >>"$output"
-        [ -z "$printed" ] || cmp "$printed" "$output" || give_up "$* gives a program that prints something else"
+        [ -z "$printed" ] || cmp "$printed" "$output" || give_up "$* builds a program with different output"
         [ -n "$printed" ] || cp "$output" "$folder/first" && printed=$folder/first
         ;;
     flag)
         "$folder/program" >"$output"
         [ -n "$flown" ] || { cp "$output" "$folder/flag" && flown=$folder/flag; }
-        cmp "$flown" "$output" || give_up "$* gives a flag that flies otherwise"
+        cmp "$flown" "$output" || give_up "$* builds a flag with different output"
         grep -q '^500 of 500 states are certified' "$output" || give_up "not every state of the flag is certified"
         ;;
     *) "$folder/program" ;;
@@ -94,33 +94,33 @@ for compiler in gcc clang g++ clang++; do
         for source in examples/{frames,flag} tests/programs/{refusals,simulations,fork,fork_simulation}; do
             [ -e "$source.$suffix" ] || continue
             for mode in plain sanitized; do
-                # The sanitizers' own allocator may be locked by a thread that the child does not have: it waits now and then.
+                # The allocator of the sanitizers may be locked by a thread that the child does not have, and then hangs.
                 [ "$mode" = plain ] || [[ $source != tests/programs/fork* ]] || continue
                 extra=(-O2)
                 [ $mode = plain ] || extra=(-O1 "${sanitizers[@]}")
                 try "$(basename $source)" "$folder/output" "$compiler" "-std=$standard" "${warnings[@]}" "${extra[@]}" \
                     -I "$prefix/include" "$source.$suffix" -L "$prefix/lib" -lselvedge -lm
-                echo "$source.$suffix, $standard, $mode: as it should be"
+                echo "$source.$suffix, $standard, $mode: passed"
             done
         done
     done
 done
 [ -n "$printed" ] || give_up "there is no compiler"
-grep -c ' time ' "$printed" | sed 's/$/ contacts, the same from all of them/'
+grep -c ' time ' "$printed" | sed 's/$/ contacts, the same from all programs/'
 
 say "pkg-config"
 if is_there pkg-config && is_there gcc; then
-    [ "$(pkg-config --modversion selvedge)" = "$version" ] || give_up "pkg-config tells another version"
+    [ "$(pkg-config --modversion selvedge)" = "$version" ] || give_up "pkg-config reports another version"
     # shellcheck disable=SC2046 # words on purpose
     try frames "$folder/output" gcc examples/frames.c $(pkg-config --cflags --libs selvedge)
-    # The archive in place of -lselvedge; the system's libraries as the package names them.
+    # The archive instead of -lselvedge, with the system libraries that the package names.
     # shellcheck disable=SC2046
     try frames "$folder/output" gcc examples/frames.c $(pkg-config --cflags selvedge) "$prefix/lib/libselvedge.a" \
         $(pkg-config --static --libs-only-l selvedge | sed 's/-lselvedge//') -lm
     # shellcheck disable=SC2046
     try flag "$folder/output" gcc examples/flag.c $(pkg-config --cflags selvedge) "$prefix/lib/libselvedge.a" \
         $(pkg-config --static --libs-only-l selvedge | sed 's/-lselvedge//') -lm
-    echo "shared and static: as it should be"
+    echo "shared and static: passed"
 else
     echo "skipped: pkg-config or gcc is missing"
 fi
@@ -131,17 +131,17 @@ if is_there cmake && is_there g++; then
     cmake --build "$folder/cmake" >/dev/null
     for program in frames-c-shared frames-c-static frames-cpp-shared frames-cpp-static; do
         { "$folder/cmake/$program" "${frames[@]}" && "$folder/cmake/$program" --float "${frames[@]}"; } >"$folder/output"
-        cmp "$printed" "$folder/output" || give_up "$program prints something else"
-        echo "$program: as it should be"
+        cmp "$printed" "$folder/output" || give_up "$program has different output"
+        echo "$program: passed"
     done
-    "$folder/cmake/flag-static" | cmp "$flown" - || give_up "flag-static flies otherwise"
+    "$folder/cmake/flag-static" | cmp "$flown" - || give_up "flag-static has different output"
 else
     echo "skipped: cmake or g++ is missing"
 fi
 
 make --no-print-directory uninstall PREFIX="$prefix"
-# It once was a file after an installation by root, with what rustc wrote there: the next cargo failed on it.
+# An installation by root must not replace the null device by a file.
 [ -c /dev/null ] || give_up "/dev/null is no longer a device"
 left=$(find "$prefix" -type f -o -type l)
 [ -z "$left" ] || give_up "uninstall has left $left"
-say "C and C++: all as it should be"
+say "C and C++: everything passed"
