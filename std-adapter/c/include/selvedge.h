@@ -468,7 +468,7 @@ typedef uint64_t selvedge_mesh;
  * A mesh of a world whose vertices move, each on a straight path and at constant velocity, such as cloth or a soft body. The mesh
  * can also meet itself.
  */
-typedef struct Deforming_f64 {
+typedef struct selvedge_deforming_f64 {
   /**
    * The mesh.
    */
@@ -485,7 +485,7 @@ typedef struct Deforming_f64 {
    * The number of vertices of the mesh.
    */
   size_t vertex_count;
-} Deforming_f64;
+} selvedge_deforming_f64;
 
 /**
  * The place of a body: the rotation and the translation of the shape that it was inserted with.
@@ -554,7 +554,7 @@ typedef struct selvedge_world_geometry {
  * A mesh of a world whose vertices move, each on a straight path and at constant velocity, such as cloth or a soft body. The mesh
  * can also meet itself.
  */
-typedef struct Deforming_f32 {
+typedef struct selvedge_deforming_f32 {
   /**
    * The mesh.
    */
@@ -571,7 +571,7 @@ typedef struct Deforming_f32 {
    * The number of vertices of the mesh.
    */
   size_t vertex_count;
-} Deforming_f32;
+} selvedge_deforming_f32;
 
 #ifdef __cplusplus
 extern "C" {
@@ -994,7 +994,7 @@ selvedge_status selvedge_world_insert_f64(struct selvedge_world *world,
  * pointer, `count` to a number.
  */
 selvedge_status selvedge_world_contacts_f64(struct selvedge_world *world,
-                                            const struct Deforming_f64 *deforming,
+                                            const struct selvedge_deforming_f64 *deforming,
                                             size_t deforming_count,
                                             const struct selvedge_rigid *rigid,
                                             size_t rigid_count,
@@ -1010,7 +1010,7 @@ selvedge_status selvedge_world_contacts_f64(struct selvedge_world *world,
  * As selvedge_world_contacts_f64; `found` and `contact` point to one value each.
  */
 selvedge_status selvedge_world_earliest_f64(struct selvedge_world *world,
-                                            const struct Deforming_f64 *deforming,
+                                            const struct selvedge_deforming_f64 *deforming,
                                             size_t deforming_count,
                                             const struct selvedge_rigid *rigid,
                                             size_t rigid_count,
@@ -1024,7 +1024,7 @@ selvedge_status selvedge_world_earliest_f64(struct selvedge_world *world,
  * As selvedge_world_contacts_f64; `is_free` points to one value.
  */
 selvedge_status selvedge_world_is_free_f64(struct selvedge_world *world,
-                                           const struct Deforming_f64 *deforming,
+                                           const struct selvedge_deforming_f64 *deforming,
                                            size_t deforming_count,
                                            const struct selvedge_rigid *rigid,
                                            size_t rigid_count,
@@ -1201,7 +1201,7 @@ selvedge_status selvedge_world_insert_f32(struct selvedge_world *world,
  * As selvedge_world_contacts_f64.
  */
 selvedge_status selvedge_world_contacts_f32(struct selvedge_world *world,
-                                            const struct Deforming_f32 *deforming,
+                                            const struct selvedge_deforming_f32 *deforming,
                                             size_t deforming_count,
                                             const struct selvedge_rigid *rigid,
                                             size_t rigid_count,
@@ -1215,7 +1215,7 @@ selvedge_status selvedge_world_contacts_f32(struct selvedge_world *world,
  * As selvedge_world_earliest_f64.
  */
 selvedge_status selvedge_world_earliest_f32(struct selvedge_world *world,
-                                            const struct Deforming_f32 *deforming,
+                                            const struct selvedge_deforming_f32 *deforming,
                                             size_t deforming_count,
                                             const struct selvedge_rigid *rigid,
                                             size_t rigid_count,
@@ -1229,7 +1229,7 @@ selvedge_status selvedge_world_earliest_f32(struct selvedge_world *world,
  * As selvedge_world_is_free_f64.
  */
 selvedge_status selvedge_world_is_free_f32(struct selvedge_world *world,
-                                           const struct Deforming_f32 *deforming,
+                                           const struct selvedge_deforming_f32 *deforming,
                                            size_t deforming_count,
                                            const struct selvedge_rigid *rigid,
                                            size_t rigid_count,
