@@ -31,7 +31,7 @@
 //! | [`motion`] | the primitive pair, of either kind, in [`glam`] types | |
 //! | [`filter`] | culls pairs that are never coplanar, or never within a separation: a [`Filter`](filter::Filter) of some [`Tier`](filter::Tier) | certified or exact |
 //! | [`batch`] | the tests of `boxes` and `filter`, and rounds of advancing, on sixteen pairs side by side, alone or from a mesh | the same verdicts, bit for bit; certified |
-//! | [`boxes`] | swept boxes, segment against box, relative boxes, 18-DOPs | exact or certified |
+//! | [`boxes`] | swept boxes, segment against box, relative boxes | exact or certified |
 //! | [`separation`] | how far a pair keeps apart, and for how long: for callers that follow the same pairs step by step | certified |
 //! | [`narrowing`] | times and lengths in another format, rounded to the safe side | certified |
 //! | [`features`], [`distribution`] | representative features of a triangle; a candidate triangle pair to its primitive pairs | each pair once |

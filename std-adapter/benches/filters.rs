@@ -7,7 +7,7 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use selvedge_core::PairKind;
 use selvedge_core::batch::{BatchTest, LANES, Level, Mask, Test, Tile, VertexRow, culled_from_rows, culled_from_tiles};
-use selvedge_core::filter::{Depth, Filter, Tier};
+use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::{Motion, PrimitivePair, Scalar, filter};
 use std::hint::black_box;
 use std::time::Duration;
@@ -159,19 +159,13 @@ fn bench<S: Scalar>(criterion: &mut Criterion) {
             ("swept boxes", Test::SweptBoxes),
             ("segment against box", Test::SegmentBox),
             ("relative boxes, three axes", Test::RelativeBoxes),
-            ("relative boxes, nine directions", Test::RelativeBoxesNine),
-            ("normal direction", Test::NormalDirection),
         ] {
             bench.batched(name, test);
         }
         for (name, tier) in [
-            ("by edge", Tier::MagnitudesByEdge),
-            ("by axis", Tier::MagnitudesByAxis),
             ("permanent", Tier::Permanent),
             ("widened", Tier::Widened),
             ("exact", Tier::Exact),
-            ("subdivided once", Tier::Subdivided(Depth::One)),
-            ("subdivided four times", Tier::Subdivided(Depth::Four)),
         ] {
             bench.batched(name, Filter::new(tier));
         }

@@ -15,7 +15,7 @@
 outer = 16;      #! core/src/kernels/coplanarity.rs: let outer = roundoff * p0.x.splat(L::Scalar::small(16));
 inner = 20;      #! core/src/kernels/coplanarity.rs: let inner = roundoff * p0.x.splat(L::Scalar::small(20));
 magnitudes = 96; #! core/src/kernels/coplanarity.rs: let constant = L::Scalar::small(96);
-four = 4;        #! core/src/filter/certified.rs: let inner = outer * outer.splat(L::Scalar::small(4));
+four = 4;        #! core/src/filter/certified.rs: let inner = error_bound_by_magnitudes(largest) * largest.x.splat(L::Scalar::small(4));
 eta = 1b@eta@;   #~ core/src/kernels/coplanarity.rs: more * more * more.splat(L::Scalar::UNDERFLOW)
 lambda = 1b@lambda@;
 

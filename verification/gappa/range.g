@@ -4,17 +4,12 @@
 # roundings:
 # 1. Four control values and their bounds: 18 monomials, and a sum of four of them.
 # 2. The normal of EE: components of c - b at most 2M, of n0 4M^2, of h 8M^2; the largest square is h.h.
-# 3. A segment's products; a direction's, with w up to 16 M^2.
-# 4. Time of impact: edges of 2M, normals of 8M^2 and their squares; a separation up to the extent; products of four numbers.
-# 5. Inside functions, within half an edge: at most 24 A.A, with A of components 2M^2.
+# 3. Time of impact: edges of 2M, normals of 8M^2 and their squares; a separation up to the extent; products of four numbers.
 
 #~ core/src/kernels/coplanarity.rs: largest.splat(L::Scalar::LARGEST_EDGE).greater(largest)
 #~ core/src/kernels/advance/corners.rs: !largest.greater(largest.splat(L::Scalar::LARGEST_EXTENT))
-#~ core/src/filter/inside.rs: let half = largest.splat(L::Scalar::HALF) * largest.splat(L::Scalar::LARGEST_EDGE);
 { m in [0, 1b@edge@] /\ x in [0, 1b@extent@] /\ r in [1, 1.01]
 ->  4 * 20 * m * m * m * r <= 1b@max@
 /\ 3 * (8 * m * m) * (8 * m * m) * r <= 1b@max@
-/\ (16 * m * m) * m * 24 * r <= 1b@max@
-/\ 24 * 12 * (0.5 * m) * (0.5 * m) * (0.5 * m) * (0.5 * m) * r <= 1b@max@
 /\ 3 * (8 * x * x) * (8 * x * x) * r <= 1b@max@
 /\ 3 * x * (8 * x * x) * 4 * r <= 1b@max@ }

@@ -1,7 +1,7 @@
-(* Tests that only compare coordinates, or sums of two: what they cull does not touch. *)
+(* Tests that only compare coordinates: what they cull does not touch. *)
 From Coq Require Import Reals ZArith Lra Lia Bool Psatz.
 From Flocq Require Import Core.
-From Selvedge Require Import Arithmetic Expressions Geometry Orders Gaps.
+From Selvedge Require Import Arithmetic Expressions Geometry Orders.
 From Selvedge Require Boxes.
 Open Scope R_scope.
 
@@ -64,9 +64,8 @@ Proof. intros ([? ?] & [? ?] & [? ?] & [? ?]) t time. apply (ahead_of_a_segment 
 
 Variable f : format.
 Variable of : environment.
-Variable gap : R.
 Variable value_of : number -> R.
-Hypothesis run : execution f of gap place value_of.
+Hypothesis run : execution f of place value_of.
 
 Ltac split_orders h := repeat match type of h with _ \/ _ => destruct h as [h|h] | _ /\ _ => destruct h as [h ?O] end.
 Ltac spread := repeat match goal with
@@ -90,73 +89,4 @@ Theorem three_axes_of_a_vertex_and_a_face : says f of value_of Boxes.a_vertex_an
 Proof. ends_of_swept. Qed.
 Theorem three_axes_of_two_edges : says f of value_of Boxes.two_edges.culled_by_three_axes -> never_touch_edges.
 Proof. ends_of_swept. Qed.
-
-(* Nine directions: sums of two coordinates, each rounded once. *)
-Hypothesis ok : reasonable f.
-Hypothesis are_numbers : forall c, representable f (place c).
-Variable g : Z.
-Hypothesis gap_is : gap = power g.
-Hypothesis gap_is_wide : (least_exponent f + precision f - 1 + precision f + 9 <= g)%Z.
-Ltac along_a_direction := first [along_an_axis
-  | along (Point 1 1 0) | along (Point (-1) (-1) 0) | along (Point 1 (-1) 0) | along (Point (-1) 1 0)
-  | along (Point 1 0 1) | along (Point (-1) 0 (-1)) | along (Point 1 0 (-1)) | along (Point (-1) 0 1)
-  | along (Point 0 1 1) | along (Point 0 (-1) (-1)) | along (Point 0 1 (-1)) | along (Point 0 (-1) 1)].
-
-(* Where operands are kept. *)
-Section Kept.
-Hypothesis keeps_operands : flushes_operands of = false.
-Lemma seen_is x : seen f of x = x. Proof. unfold seen. now rewrite keeps_operands. Qed.
-Lemma larger_representable x y : representable f x -> representable f y -> representable f (Rmax x y).
-Proof. intros. now apply Rmax_case. Qed.
-Lemma twice_lam : 2 * lam f <= gap.
-Proof. rewrite gap_is. pose proof (gap_wide f ok g gap_is_wide). pose proof (lam_pos f). lra. Qed.
-Ltac is_representable := repeat apply larger_representable; first [apply are_numbers | apply (rounded_representable f of ok)].
-Ltac spread_sums := repeat match goal with
-  | H : rounded _ _ (_ + gap) < _ |- _ => apply (beyond_gap f of gap ok) in H; [|is_representable|exact twice_lam]
-  | H : Rmax _ _ < _ |- _ => apply Rmax_Rlt in H as [? ?]
-  | H : _ < Rmin _ _ |- _ => apply Rmin_Rgt in H as [? ?]
-  | H : Rmin _ _ > _ |- _ => apply Rmin_Rgt in H as [? ?]
-  | H : _ /\ _ |- _ => destruct H
-  | H : _ > _ |- _ => apply Rgt_lt in H
-  | H : rounded _ _ _ < rounded _ _ _ |- _ => apply (rounded_order f of ok) in H end.
-Ltac ends_of_nine := intros culled; apply (says_what_is_ordered _ _ _ _ _ run) in culled; cbn in culled; rewrite !seen_is in culled;
-  destruct culled as [culled _]; split_orders culled; spread_sums; along_a_direction.
-Lemma kept_of_a_vertex_and_a_face :
-  says f of value_of Boxes.a_vertex_and_a_face.culled_by_nine_directions -> never_touch_vertex_and_face.
-Proof. ends_of_nine. Qed.
-Lemma kept_of_two_edges : says f of value_of Boxes.two_edges.culled_by_nine_directions -> never_touch_edges.
-Proof. ends_of_nine. Qed.
-End Kept.
-
-(* Where operands below the normal numbers count as zero. *)
-Section Flushed.
-Hypothesis flushes : flushes_operands of = true.
-Ltac spread_seen := repeat match goal with
-  | H : seen _ _ (rounded _ _ (Rmax _ _ + power g)) < _ |- _ => apply (one_gap f ok of g) in H as [? ?]
-  | H : _ < Rmin _ _ |- _ => apply Rmin_Rgt in H as [? ?]
-  | H : Rmin _ _ > _ |- _ => apply Rmin_Rgt in H as [? ?]
-  | H : _ /\ _ |- _ => destruct H
-  | H : _ > _ |- _ => apply Rgt_lt in H end;
-  repeat match goal with
-  | H : seen _ _ (rounded _ _ (seen _ _ (place _) + power g)) < _ |- _ =>
-      apply (coordinates_in_order f ok of g flushes) in H; [|apply are_numbers]
-  | H : seen _ _ (rounded _ _ (seen _ _ (rounded _ _ (_ + _)) + power g)) < _ |- _ =>
-      apply (sums_in_order f ok of g gap_is_wide flushes) in H; [|apply are_numbers..]
-  | H : seen _ _ (rounded _ _ (seen _ _ (rounded _ _ (_ - _)) + power g)) < _ |- _ =>
-      apply (differences_in_order f ok of g gap_is_wide flushes) in H; [|apply are_numbers..] end.
-Ltac ends_of_nine := intros culled; apply (says_what_is_ordered _ _ _ _ _ run) in culled; cbn in culled;
-  rewrite !gap_is, !(gap_seen f ok of g gap_is_wide flushes) in culled;
-  destruct culled as [culled _]; split_orders culled; spread_seen; along_a_direction.
-Lemma flushed_of_a_vertex_and_a_face :
-  says f of value_of Boxes.a_vertex_and_a_face.culled_by_nine_directions -> never_touch_vertex_and_face.
-Proof. ends_of_nine. Qed.
-Lemma flushed_of_two_edges : says f of value_of Boxes.two_edges.culled_by_nine_directions -> never_touch_edges.
-Proof. ends_of_nine. Qed.
-End Flushed.
-
-Theorem nine_directions_of_a_vertex_and_a_face :
-  says f of value_of Boxes.a_vertex_and_a_face.culled_by_nine_directions -> never_touch_vertex_and_face.
-Proof. destruct (flushes_operands of) eqn:d; [apply flushed_of_a_vertex_and_a_face|apply kept_of_a_vertex_and_a_face]; exact d. Qed.
-Theorem nine_directions_of_two_edges : says f of value_of Boxes.two_edges.culled_by_nine_directions -> never_touch_edges.
-Proof. destruct (flushes_operands of) eqn:d; [apply flushed_of_two_edges|apply kept_of_two_edges]; exact d. Qed.
 End OfAPair.

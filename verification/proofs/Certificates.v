@@ -1,5 +1,5 @@
-(* In exact numbers: what the certificates of the time of impact, of a separation, of truncation and the inside functions rest on. Their
-   roundings are not proven here. *)
+(* In exact numbers: what the certificates of the time of impact, of a separation and of truncation rest on. Their roundings are not proven
+   here. *)
 From Coq Require Import Reals Lra Psatz.
 From Selvedge Require Import Geometry.
 From Selvedge Require Apart.
@@ -88,38 +88,4 @@ Proof.
   apply (held_direction m d _ _ 0 1 t time_).
   - unfold ahead_by, at_ in *. cbn [start finish]. replace (dot d _) with (dot d (minus start_p start_q)); [exact before|]. unfold dot, minus, plus, scaled; simpl; ring.
   - unfold ahead_by, at_. cbn [start finish]. replace (dot d _) with (dot d (towards p wanted_p s') - dot d (towards q wanted_q r')); [lra|]. unfold dot, minus, plus, scaled; simpl; ring.
-Qed.
-
-(* Inside functions (core/src/filter/inside.rs): where the sets touch, each turn from one corner to the next has a product with the sum of all
-   turns that is not negative. *)
-Definition turn a b := cross a b.
-Theorem turns_of_a_triangle p a b c : vertex_in_triangle p a b c -> let e := minus p in
-  let all := plus (turn (e a) (e b)) (plus (turn (e b) (e c)) (turn (e c) (e a))) in
-  0 <= dot (turn (e a) (e b)) all /\ 0 <= dot (turn (e b) (e c)) all /\ 0 <= dot (turn (e c) (e a)) all.
-Proof.
-  intros (u & v & w & u0 & v0 & w0 & one & ->). cbv zeta. set (N := cross (minus a b) (minus b c)).
-  assert (squares : 0 <= dot N N) by (unfold dot; nra). replace u with (1 - v - w) in * by lra.
-  repeat split; match goal with |- 0 <= ?d => first
-    [replace d with (w * dot N N); [now apply Rmult_le_pos|]; unfold N, dot, turn, cross, minus, plus, scaled; simpl; ring
-    |replace d with ((1 - v - w) * dot N N); [now apply Rmult_le_pos|]; unfold N, dot, turn, cross, minus, plus, scaled; simpl; ring
-    |replace d with (v * dot N N); [now apply Rmult_le_pos|]; unfold N, dot, turn, cross, minus, plus, scaled; simpl; ring] end.
-Qed.
-Theorem turns_of_a_parallelogram u v k l : segments_meet u v k l ->
-  let '(a, b, c, d) := (minus u k, minus u l, minus v k, minus v l) in
-  let all := plus (plus (turn a b) (turn b d)) (plus (turn d c) (turn c a)) in
-  (0 <= dot (turn a b) all /\ 0 <= dot (turn b d) all) /\ (0 <= dot (turn d c) all /\ 0 <= dot (turn c a) all).
-Proof.
-  intros (r & s & r01 & s01 & same). cbv zeta. set (D := minus v u). set (E := minus l k). set (N := cross D E).
-  assert (squares : 0 <= dot N N) by (unfold dot; nra).
-  assert (a_is : minus u k = minus (scaled s E) (scaled r D)).
-  { apply (f_equal (fun m => minus m (plus k (scaled r D)))) in same. unfold minus, plus, scaled, D, E in *; simpl in *. injection same as X Y Z_. f_equal; lra. }
-  assert (b_is : minus u l = minus (minus (scaled s E) (scaled r D)) E) by (rewrite <- a_is; unfold minus, E; simpl; f_equal; ring).
-  assert (c_is : minus v k = plus (minus (scaled s E) (scaled r D)) D) by (rewrite <- a_is; unfold minus, plus, D; simpl; f_equal; ring).
-  assert (d_is : minus v l = minus (plus (minus (scaled s E) (scaled r D)) D) E) by (rewrite <- c_is; unfold minus, E; simpl; f_equal; ring).
-  rewrite a_is, b_is, c_is, d_is. clearbody D E. unfold N in squares. clear - r01 s01 squares.
-  repeat split; match goal with |- 0 <= ?d => first
-    [replace d with (2 * (r * dot (cross D E) (cross D E))); [assert (0 <= r * dot (cross D E) (cross D E)) by (apply Rmult_le_pos; lra); lra|unfold dot, turn, cross, minus, plus, scaled; simpl; ring]
-    |replace d with (2 * ((1 - r) * dot (cross D E) (cross D E))); [assert (0 <= (1 - r) * dot (cross D E) (cross D E)) by (apply Rmult_le_pos; lra); lra|unfold dot, turn, cross, minus, plus, scaled; simpl; ring]
-    |replace d with (2 * (s * dot (cross D E) (cross D E))); [assert (0 <= s * dot (cross D E) (cross D E)) by (apply Rmult_le_pos; lra); lra|unfold dot, turn, cross, minus, plus, scaled; simpl; ring]
-    |replace d with (2 * ((1 - s) * dot (cross D E) (cross D E))); [assert (0 <= (1 - s) * dot (cross D E) (cross D E)) by (apply Rmult_le_pos; lra); lra|unfold dot, turn, cross, minus, plus, scaled; simpl; ring]] end.
 Qed.

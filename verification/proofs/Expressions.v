@@ -10,9 +10,6 @@ Inductive axis := X | Y | Z_.
 Inductive component := Component (e : edge) (t : time) (a : axis).
 (* A coordinate of one of a pair's four points, 0 to 3. *)
 Inductive coordinate := Coordinate (point : nat) (t : time) (a : axis).
-(* Differences of points in tests that need others: five pairs of points, which Corners.v names. *)
-Inductive span := S0 | S1 | S2 | S3 | S4.
-Inductive span_component := Span (s : span) (t : time) (a : axis).
 Inductive constant := UnitRoundoff | Underflow | LargestEdge | Half | Small (count : Z).
 (* An expression over differences that are named by a type of their own: here by `component`. *)
 Inductive expr_of (difference : Type) :=

@@ -1,5 +1,4 @@
-(* What the certified filter decides by three magnitudes, in all tiers and in the first alternative of the permanent's, proves of the
-   exact control values. *)
+(* What the certified filter decides by three magnitudes, its first alternative, proves of the exact control values. *)
 From Coq Require Import Reals ZArith Lra Lia Bool Psatz.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Filter Permanent.
@@ -240,23 +239,10 @@ Lemma inner_representable : representable f (val inner). Proof. now apply (repre
 End Magnitudes.
 
 (* Of the code. *)
-Definition part_by_edge c := match c with Component B _ _ => First | Component C _ _ => Second | Component P _ _ => Third end.
 Definition part_by_axis c := match c with Component _ _ X => First | Component _ _ Y => Second | Component _ _ Z_ => Third end.
-Definition eight (k0 k1 k2 k3 outer_ inner_ : expr) := Either
-  (Both (Both (Greater k0 outer_) (Greater k1 inner_)) (Both (Greater k2 inner_) (Greater k3 outer_)))
-  (Both (Both (Greater (Negative outer_) k0) (Greater (Negative inner_) k1)) (Both (Greater (Negative inner_) k2) (Greater (Negative outer_) k3))).
-Definition eight_of := eight control_value_0 control_value_1 control_value_2 control_value_3.
-(* The largest by edge, and by axis, of all differences. *)
-Definition by_edge := Larger (Larger s210 s212) s215.
+(* The largest along an axis of all differences. *)
 Definition by_axis := Larger (Larger s121 s129) s138.
-Definition outer_by_edge := outer by_edge s210 s212 s215.
-Definition inner_by_edge := inner by_edge s210 s212 s215.
-Definition outer_by_axis := outer by_axis s121 s129 s138.
 Definition inner_by_axis := inner by_axis s121 s129 s138.
-Theorem the_code_decides_by_edge_so : culled_by_edge = Both (eight_of outer_by_edge inner_by_edge) (Greater (Constant LargestEdge) by_edge).
-Proof. reflexivity. Qed.
-Theorem the_code_decides_by_axis_so : culled_by_axis = Both (eight_of outer_by_axis inner_by_axis) (Greater (Constant LargestEdge) by_axis).
-Proof. reflexivity. Qed.
 (* Of the permanent's tier, where no lane needs the permanent; this is its first alternative. *)
 Definition least := Smaller (Smaller control_value_0 control_value_1) (Smaller control_value_2 control_value_3).
 Definition greatest := Larger (Larger control_value_0 control_value_1) (Larger control_value_2 control_value_3).
@@ -281,19 +267,11 @@ Definition exactly_one_sign := let e := exact (exactly from to) in
   (0 < e control_value_0 /\ 0 < e control_value_1 /\ 0 < e control_value_2 /\ 0 < e control_value_3) \/
   (e control_value_0 < 0 /\ e control_value_1 < 0 /\ e control_value_2 < 0 /\ e control_value_3 < 0).
 
-Lemma all_occur_by_edge c : occurs c by_edge = true.
-Proof. destruct c as [[| |] [|] [| |]]; vm_compute; reflexivity. Qed.
 Lemma all_occur_by_axis c : occurs c by_axis = true.
-Proof. destruct c as [[| |] [|] [| |]]; vm_compute; reflexivity. Qed.
-Lemma occurs_by_edge c : occurs c (of_which s210 s212 s215 (part_by_edge c)) = true.
 Proof. destruct c as [[| |] [|] [| |]]; vm_compute; reflexivity. Qed.
 Lemma occurs_by_axis c : occurs c (of_which s121 s129 s138 (part_by_axis c)) = true.
 Proof. destruct c as [[| |] [|] [| |]]; vm_compute; reflexivity. Qed.
 Ltac count := intros X_ Y_ Z_ ? ? ?; cbv -[Rplus Rminus Rmult Ropp Rabs IZR]; rewrite !Rabs_pos_eq by assumption; ring.
-Lemma counts_by_edge X_ Y_ Z_ :
-  count_is part_by_edge X_ Y_ Z_ control_value_0 6 /\ count_is part_by_edge X_ Y_ Z_ control_value_1 18 /\
-  count_is part_by_edge X_ Y_ Z_ control_value_2 18 /\ count_is part_by_edge X_ Y_ Z_ control_value_3 6.
-Proof. revert X_ Y_ Z_. intros X_ Y_ Z_. repeat split; revert X_ Y_ Z_; count. Qed.
 Lemma counts_by_axis X_ Y_ Z_ :
   count_is part_by_axis X_ Y_ Z_ control_value_0 6 /\ count_is part_by_axis X_ Y_ Z_ control_value_1 18 /\
   count_is part_by_axis X_ Y_ Z_ control_value_2 18 /\ count_is part_by_axis X_ Y_ Z_ control_value_3 6.
@@ -304,27 +282,8 @@ Hypothesis in_range : forall c, exists x, value_of (Difference c) = Number x /\ 
 Ltac three_by M all part occ counts x y z k n which_count :=
   apply (by_three f ok from to value_of run in_range M eq_refl all eq_refl x y z eq_refl part occ (first_of k) (second_of k) n which_count);
   [vm_compute; reflexivity | | intros; apply counts | ].
-Ltac edge k n c := three_by by_edge all_occur_by_edge part_by_edge occurs_by_edge counts_by_edge s210 s212 s215 k n c.
 Ltac axis k n c := three_by by_axis all_occur_by_axis part_by_axis occurs_by_axis counts_by_axis s121 s129 s138 k n c.
 
-Lemma proven_by_edge : proves control_value_0 (val outer_by_edge) /\ proves control_value_1 (val inner_by_edge) /\
-  proves control_value_2 (val inner_by_edge) /\ proves control_value_3 (val outer_by_edge).
-Proof.
-  split; [|split; [|split]]; [edge control_value_0 4%nat 6|edge control_value_1 6%nat 18|edge control_value_2 6%nat 18|edge control_value_3 4%nat 6].
-  all: try (apply (outer_representable f ok from to value_of run in_range); reflexivity).
-  all: try (apply (inner_representable f ok from to value_of run in_range); reflexivity).
-  1, 4: left; repeat split; apply (outer_enough f ok from to value_of run in_range); reflexivity.
-  all: right; repeat split; apply (inner_enough f ok from to value_of run in_range); reflexivity.
-Qed.
-Lemma proven_by_axis : proves control_value_0 (val outer_by_axis) /\ proves control_value_1 (val inner_by_axis) /\
-  proves control_value_2 (val inner_by_axis) /\ proves control_value_3 (val outer_by_axis).
-Proof.
-  split; [|split; [|split]]; [axis control_value_0 4%nat 6|axis control_value_1 6%nat 18|axis control_value_2 6%nat 18|axis control_value_3 4%nat 6].
-  all: try (apply (outer_representable f ok from to value_of run in_range); reflexivity).
-  all: try (apply (inner_representable f ok from to value_of run in_range); reflexivity).
-  1, 4: left; repeat split; apply (outer_enough f ok from to value_of run in_range); reflexivity.
-  all: right; repeat split; apply (inner_enough f ok from to value_of run in_range); reflexivity.
-Qed.
 Definition one_bound := Sum inner_by_axis (Minus sum_of_all sum_of_all).
 Lemma proven_by_one : proves control_value_0 (val one_bound) /\ proves control_value_1 (val one_bound) /\
   proves control_value_2 (val one_bound) /\ proves control_value_3 (val one_bound).
@@ -335,16 +294,6 @@ Proof.
   all: right; repeat split; apply (one_enough f ok from to value_of run in_range); reflexivity.
 Qed.
 
-Notation above := (above f ok from to value_of run in_range).
-Notation below_ := (below_ f ok from to value_of run in_range).
-Lemma eight_prove o i : fits o = true -> fits i = true ->
-  proves control_value_0 (val o) /\ proves control_value_1 (val i) /\ proves control_value_2 (val i) /\ proves control_value_3 (val o) ->
-  says f value_of (eight_of o i) -> exactly_one_sign.
-Proof.
-  intros fo fi (p0 & p1 & p2 & p3) [[[A B] [C D]]|[[A B] [C D]]]; [left|right]; cbv zeta.
-  - repeat apply conj; [apply (above _ o)|apply (above _ i)|apply (above _ i)|apply (above _ o)]; first [assumption|reflexivity].
-  - repeat apply conj; [apply (below_ _ o)|apply (below_ _ i)|apply (below_ _ i)|apply (below_ _ o)]; first [assumption|reflexivity].
-Qed.
 Notation number := (Culling.number f ok from to value_of run in_range).
 Lemma larger_is_one a b B : fits (Larger a b) = true -> l <= B -> B < val (Larger a b) -> B < val a \/ B < val b.
 Proof.
@@ -378,19 +327,7 @@ Proof.
 Qed.
 End InRange.
 
-(* What each tier's decision proves. *)
-Theorem by_edge_proves_one_sign : says f value_of culled_by_edge -> exactly_one_sign.
-Proof.
-  rewrite the_code_decides_by_edge_so. intros [signs small].
-  assert (in_range := range f ok from to value_of run by_edge eq_refl all_occur_by_edge small).
-  exact (eight_prove in_range outer_by_edge inner_by_edge eq_refl eq_refl (proven_by_edge in_range) signs).
-Qed.
-Theorem by_axis_proves_one_sign : says f value_of culled_by_axis -> exactly_one_sign.
-Proof.
-  rewrite the_code_decides_by_axis_so. intros [signs small].
-  assert (in_range := range f ok from to value_of run by_axis eq_refl all_occur_by_axis small).
-  exact (eight_prove in_range outer_by_axis inner_by_axis eq_refl eq_refl (proven_by_axis in_range) signs).
-Qed.
+(* What the decision proves. *)
 Theorem alone_proves_one_sign : says f value_of culled_by_permanent_alone -> exactly_one_sign.
 Proof.
   rewrite the_code_decides_alone_so. intros [signs small].

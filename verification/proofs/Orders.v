@@ -6,32 +6,24 @@ Open Scope R_scope.
 
 Inductive number :=
 | Value (c : coordinate)
-| Gap
-| Sum (a b : number) | Minus (a b : number)
 | Larger (a b : number) | Smaller (a b : number).
 (* `Finite` asks whether the coordinates are, which the theorems assume. *)
 Inductive mask := Greater (a b : number) | Both (a b : mask) | Either (a b : mask) | Finite.
 
-(* An environment: what overflows is above all that does not, so exponents have no end here; one direction of rounding, and whether subnormal results and operands count as zero. *)
-Record environment := Environment { direction : R -> Z; valid : Valid_rnd direction; flushes_results : bool; flushes_operands : bool }.
+(* An environment: whether subnormal operands count as zero. Comparisons round nothing. *)
+Record environment := Environment { flushes_operands : bool }.
 
 Section Machine.
 Variable f : format.
 Variable of : environment.
-Notation fexp := (FLT_exp (least_exponent f) (precision f)).
 Definition flushed (x : R) := if Rlt_dec (Rabs x) (lam f) then 0 else x.
-(* What an operand counts as, and what an operation gives. *)
+(* What an operand counts as. *)
 Definition seen x := if flushes_operands of then flushed x else x.
-Definition rounded z := if flushes_results of then flushed (round radix2 fexp (direction of) z) else round radix2 fexp (direction of) z.
-Variable gap : R.
 Variable place : coordinate -> R.
 (* One of the two, as a comparison has it, and perhaps as it is seen. *)
 Definition chosen x y out := (seen y <= seen x /\ (out = x \/ out = seen x)) \/ (seen x <= seen y /\ (out = y \/ out = seen y)).
 Definition execution (value_of : number -> R) := forall e, match e with
   | Value c => value_of e = place c
-  | Gap => value_of e = gap
-  | Sum a b => value_of e = rounded (seen (value_of a) + seen (value_of b))
-  | Minus a b => value_of e = rounded (seen (value_of a) - seen (value_of b))
   | Larger a b => chosen (value_of a) (value_of b) (value_of e)
   | Smaller a b => chosen (- value_of a) (- value_of b) (- value_of e) end.
 Fixpoint says (value_of : number -> R) m := match m with
@@ -78,18 +70,12 @@ Qed.
 (* What is seen of a number, whichever of two equal ones a maximum is. *)
 Fixpoint sight e := match e with
   | Value c => seen (place c)
-  | Gap => seen gap
-  | Sum a b => seen (rounded (sight a + sight b))
-  | Minus a b => seen (rounded (sight a - sight b))
   | Larger a b => Rmax (sight a) (sight b)
   | Smaller a b => Rmin (sight a) (sight b) end.
 Lemma is_seen e : seen (value_of e) = sight e.
 Proof.
   induction e; cbn [sight].
   - now rewrite (run (Value c)).
-  - now rewrite (run Gap).
-  - now rewrite (run (Sum e1 e2)), IHe1, IHe2.
-  - now rewrite (run (Minus e1 e2)), IHe1, IHe2.
   - now rewrite seen_larger, IHe1, IHe2.
   - now rewrite seen_smaller, IHe1, IHe2.
 Qed.
@@ -101,37 +87,4 @@ Fixpoint orders m := match m with
 Theorem says_what_is_ordered m : says value_of m -> orders m.
 Proof. induction m; cbn [says orders]; rewrite ?is_seen; tauto. Qed.
 End Run.
-
-(* Sums. *)
-Hypothesis ok : reasonable f.
-Lemma valid_exponents : Valid_exp fexp. Proof. exact (Arithmetic.valid f ok). Qed.
-Local Existing Instance valid_exponents.
-Local Existing Instance valid.
-Lemma rounded_monotone x y : x <= y -> rounded x <= rounded y.
-Proof. intro h. unfold rounded. destruct (flushes_results of); [apply flushed_monotone|]; now apply round_le; auto with typeclass_instances. Qed.
-Lemma rounded_order x y : rounded x < rounded y -> x < y.
-Proof. intro h. apply Rnot_le_lt. intro le. apply rounded_monotone in le. lra. Qed.
-Lemma rounded_representable x : representable f (rounded x).
-Proof.
-  unfold rounded. assert (representable f (round radix2 fexp (direction of) x)) by (apply generic_format_round; auto with typeclass_instances).
-  destruct (flushes_results of); [|assumption]. unfold flushed. destruct (Rlt_dec _ _); [apply generic_format_0|assumption].
-Qed.
-Lemma rounded_exactly x : representable f x -> lam f <= Rabs x -> rounded x = x.
-Proof.
-  intros rep big. unfold rounded. rewrite round_generic by auto with typeclass_instances. destruct (flushes_results of); [|reflexivity].
-  unfold flushed. destruct (Rlt_dec _ _); [lra|reflexivity].
-Qed.
-Lemma lam_representable : representable f (lam f).
-Proof.
-  apply generic_format_bpow. unfold FLT_exp. destruct ok. assert (24 <= precision f)%Z by assumption. lia.
-Qed.
-(* Where operands are not flushed, a number that exceeds another's sum with the gap exceeds that. *)
-Lemma beyond_gap z x : representable f z -> 2 * lam f <= gap -> rounded (z + gap) < x -> z < x.
-Proof.
-  intros rep wide_ h. eapply Rle_lt_trans; [|exact h]. assert (0 < lam f) by apply bpow_gt_0.
-  destruct (Rlt_le_dec (Rabs z) (lam f)) as [small|big].
-  - assert (lam f <= z + gap) by (unfold Rabs in small; destruct (Rcase_abs z); lra). pose proof (rounded_monotone _ _ H0) as r.
-    rewrite (rounded_exactly (lam f)) in r; [|apply lam_representable|rewrite Rabs_pos_eq; lra]. pose proof (Rle_abs z). lra.
-  - rewrite <- (rounded_exactly z rep big) at 1. apply rounded_monotone. lra.
-Qed.
 End Machine.

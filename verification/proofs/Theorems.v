@@ -1,10 +1,10 @@
 (* What is proven, for a reader who reads nothing else. Words are defined in Geometry.v (contact, volume), Arithmetic.v (one operation),
    Expressions.v (an execution), and Filter.v (what the code of the certified filter computes); for boxes in Orders.v (an
-   execution) and Boxes.v; for tests on corners in Direction.v (one environment) and Corners.v. *)
+   execution) and Boxes.v. *)
 From Coq Require Import Reals ZArith Lra Lia.
 From Flocq Require Import Core.
 From Selvedge Require Import Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes.
-From Selvedge Require Orders Boxes Apart Certificates Nearest Corners Direction Parts Halves Witnesses Integers.
+From Selvedge Require Orders Boxes Apart Certificates Nearest Witnesses Integers.
 Open Scope R_scope.
 
 (* 1. Both formats are ones that the theorems below hold for. *)
@@ -63,19 +63,15 @@ Qed.
 (* 5. **From the bits to the geometry**: what a tier of the filter culls has no contact in the step. `place` are the coordinates, any
       finite numbers; `value_of` any execution of the code's operations, in any rounding direction, with subnormal numbers kept or
       flushed, operands and results; `says` that the comparisons may come out so. *)
-Inductive decision := MagnitudesByEdge | MagnitudesByAxis | PermanentOfNoLane | PermanentOfSomeLane.
+Inductive decision := PermanentOfNoLane | PermanentOfSomeLane.
 (* What the code decides, word by word: Filter.v. The permanent's tier leaves out its second half where no lane needs it. *)
 Definition culled_by decision := match decision with
-  | MagnitudesByEdge => culled_by_edge
-  | MagnitudesByAxis => culled_by_axis
   | PermanentOfNoLane => culled_by_permanent_alone
   | PermanentOfSomeLane => culled_by_permanent end.
 Definition executed {component : Type} f (of : component -> coordinate * coordinate) := execution f (fun c => place (snd (of c))) (fun c => place (fst (of c))).
 Lemma culled_has_one_sign f of tier value_of : reasonable f -> executed f of value_of -> says f value_of (culled_by tier) -> have_one_sign of.
 Proof.
   intros ok run culled. destruct tier.
-  - exact (by_edge_proves_one_sign f ok _ _ value_of run culled).
-  - exact (by_axis_proves_one_sign f ok _ _ value_of run culled).
   - exact (alone_proves_one_sign f ok _ _ value_of run culled).
   - exact (by_permanent_proves_one_sign f ok _ _ value_of run culled).
 Qed.
@@ -105,93 +101,34 @@ Proof.
   apply (culled_edges_do_not_touch f PermanentOfSomeLane value_of); try assumption. destruct which as [-> | ->]; assumption.
 Qed.
 
-(* 7. Swept boxes, relative boxes along three axes, and along nine directions: they compare coordinates, or sums of two that are rounded
-      once. `environment` is one direction of rounding for all, and whether subnormal results and operands count as zero. The gap that
-      one sum must exceed another by is a power of two, not too small for the format; core's constants are not. *)
-Definition wide_gap f g := (least_exponent f + precision f - 1 + precision f + 9 <= g)%Z.
-Theorem gaps_are_wide : wide_gap binary32 Boxes.gap_of_binary32 /\ wide_gap binary64 Boxes.gap_of_binary64.
-Proof. split; vm_compute; discriminate. Qed.
-Inductive box_test := SweptBoxes | ThreeAxes | NineDirections.
+(* 7. Swept boxes, and relative boxes along three axes: they compare coordinates. `environment` says whether subnormal operands count as
+      zero, the same for all of a pair. *)
+Inductive box_test := SweptBoxes | ThreeAxes.
 Definition of_a_vertex_and_a_face test := match test with
   | SweptBoxes => Boxes.a_vertex_and_a_face.culled_by_swept_boxes
-  | ThreeAxes => Boxes.a_vertex_and_a_face.culled_by_three_axes
-  | NineDirections => Boxes.a_vertex_and_a_face.culled_by_nine_directions end.
+  | ThreeAxes => Boxes.a_vertex_and_a_face.culled_by_three_axes end.
 Definition of_two_edges test := match test with
   | SweptBoxes => Boxes.two_edges.culled_by_swept_boxes
-  | ThreeAxes => Boxes.two_edges.culled_by_three_axes
-  | NineDirections => Boxes.two_edges.culled_by_nine_directions end.
-Theorem boxes_apart_exclude_contact_of_a_vertex_and_a_face f environment g test value_of t : reasonable f -> wide_gap f g ->
-  (forall c, representable f (place c)) -> Orders.execution f environment (power g) place value_of ->
-  Orders.says f environment value_of (of_a_vertex_and_a_face test) -> 0 <= t <= 1 ->
+  | ThreeAxes => Boxes.two_edges.culled_by_three_axes end.
+Theorem boxes_apart_exclude_contact_of_a_vertex_and_a_face f environment test value_of t :
+  Orders.execution f environment place value_of -> Orders.says f environment value_of (of_a_vertex_and_a_face test) -> 0 <= t <= 1 ->
   ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
 Proof.
-  intros ok wide_ numbers run culled. revert t. destruct test.
-  - exact (Apart.swept_boxes_of_a_vertex_and_a_face place f environment (power g) value_of run culled).
-  - exact (Apart.three_axes_of_a_vertex_and_a_face place f environment (power g) value_of run culled).
-  - exact (Apart.nine_directions_of_a_vertex_and_a_face place f environment (power g) value_of run ok numbers g eq_refl wide_ culled).
+  intros run culled. revert t. destruct test.
+  - exact (Apart.swept_boxes_of_a_vertex_and_a_face place f environment value_of run culled).
+  - exact (Apart.three_axes_of_a_vertex_and_a_face place f environment value_of run culled).
 Qed.
-Theorem boxes_apart_exclude_contact_of_two_edges f environment g test value_of t : reasonable f -> wide_gap f g ->
-  (forall c, representable f (place c)) -> Orders.execution f environment (power g) place value_of ->
-  Orders.says f environment value_of (of_two_edges test) -> 0 <= t <= 1 ->
+Theorem boxes_apart_exclude_contact_of_two_edges f environment test value_of t :
+  Orders.execution f environment place value_of -> Orders.says f environment value_of (of_two_edges test) -> 0 <= t <= 1 ->
   ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
 Proof.
-  intros ok wide_ numbers run culled. revert t. destruct test.
-  - exact (Apart.swept_boxes_of_two_edges place f environment (power g) value_of run culled).
-  - exact (Apart.three_axes_of_two_edges place f environment (power g) value_of run culled).
-  - exact (Apart.nine_directions_of_two_edges place f environment (power g) value_of run ok numbers g eq_refl wide_ culled).
-Qed.
-
-(* 8. A fixed direction, the pair's normal in the middle of the step, as the code rounds it. `products_alike`: an operand below the normal
-      numbers counts as zero in all products of the pair, or in none, as `flushes` says. *)
-Definition difference_of := Direction.difference_of.
-Theorem a_direction_excludes_contact_of_a_vertex_and_a_face f flushes value_of t : reasonable f ->
-  executed f (difference_of Corners.a_vertex_and_a_face.ends) value_of -> Direction.products_alike f flushes value_of ->
-  says f value_of Corners.a_vertex_and_a_face.culled_by_normal -> 0 <= t <= 1 ->
-  ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
-Proof. intros ok run alike culled. exact (Direction.a_direction_between_a_vertex_and_a_face place f ok value_of flushes alike run culled t). Qed.
-Theorem a_direction_excludes_contact_of_two_edges f flushes value_of t : reasonable f ->
-  executed f (difference_of Corners.two_edges.ends) value_of -> Direction.products_alike f flushes value_of ->
-  says f value_of Corners.two_edges.culled_by_normal -> 0 <= t <= 1 ->
-  ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
-Proof. intros ok run alike culled. exact (Direction.a_direction_between_two_edges place f ok value_of flushes alike run culled t). Qed.
-
-(* 9. The filter in parts of the step: 2, 4, 8 or 16. *)
-Inductive parts := Two | Four | Eight | Sixteen.
-Definition parts_of_a_vertex_and_a_face n := match n with
-  | Two => Corners.a_vertex_and_a_face.culled_in_2_parts
-  | Four => Corners.a_vertex_and_a_face.culled_in_4_parts
-  | Eight => Corners.a_vertex_and_a_face.culled_in_8_parts
-  | Sixteen => Corners.a_vertex_and_a_face.culled_in_16_parts end.
-Definition parts_of_two_edges n := match n with
-  | Two => Corners.two_edges.culled_in_2_parts
-  | Four => Corners.two_edges.culled_in_4_parts
-  | Eight => Corners.two_edges.culled_in_8_parts
-  | Sixteen => Corners.two_edges.culled_in_16_parts end.
-Theorem clear_parts_exclude_contact_of_a_vertex_and_a_face f n value_of t : reasonable f ->
-  executed f (difference_of Corners.a_vertex_and_a_face.ends) value_of -> says f value_of (parts_of_a_vertex_and_a_face n) -> 0 <= t <= 1 ->
-  ~ vertex_in_triangle (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
-Proof.
-  intros ok run culled. revert t. destruct Parts.the_code_of_a_vertex_and_a_face as (two & four & eight & sixteen).
-  assert (any : forall halvings, (halvings <= 4)%nat -> says f value_of (Parts.clear_in_parts Parts.names_of_a_vertex_and_a_face
-    Direction.corners_of_a_vertex_and_a_face halvings) -> Apart.never_touch_vertex_and_face place)
-    by (intros h few; exact (Halves.parts_of_a_vertex_and_a_face place f ok value_of h few run)).
-  destruct n; cbn [parts_of_a_vertex_and_a_face] in culled; [rewrite two in culled|rewrite four in culled|rewrite eight in culled|rewrite sixteen in culled];
-    (eapply any; [|exact culled]; lia).
-Qed.
-Theorem clear_parts_exclude_contact_of_two_edges f n value_of t : reasonable f ->
-  executed f (difference_of Corners.two_edges.ends) value_of -> says f value_of (parts_of_two_edges n) -> 0 <= t <= 1 ->
-  ~ segments_meet (at_ (path_of 0) t) (at_ (path_of 1) t) (at_ (path_of 2) t) (at_ (path_of 3) t).
-Proof.
-  intros ok run culled. revert t. destruct Parts.the_code_of_two_edges as (two & four & eight & sixteen).
-  assert (any : forall halvings, (halvings <= 4)%nat -> says f value_of (Parts.clear_in_parts Parts.names_of_two_edges
-    Direction.corners_of_two_edges halvings) -> Apart.never_touch_edges place)
-    by (intros h few; exact (Halves.parts_of_two_edges place f ok value_of h few run)).
-  destruct n; cbn [parts_of_two_edges] in culled; [rewrite two in culled|rewrite four in culled|rewrite eight in culled|rewrite sixteen in culled];
-    (eapply any; [|exact culled]; lia).
+  intros run culled. revert t. destruct test.
+  - exact (Apart.swept_boxes_of_two_edges place f environment value_of run culled).
+  - exact (Apart.three_axes_of_two_edges place f environment value_of run culled).
 Qed.
 End OfAPair.
 
-(* 10. None of this is empty. Executions exist, whatever the coordinates (to nearest is one); and there are coordinates that each decision
+(* 8. None of this is empty. Executions exist, whatever the coordinates (to nearest is one); and there are coordinates that each decision
       culls in one, vertex and face or two edges, in both formats: computed in Coq with Flocq's binary numbers. *)
 Theorem executions_exist place (of : component -> coordinate * coordinate) : (exists value_of, executed place binary32 of value_of) /\ (exists value_of, executed place binary64 of value_of).
 Proof.
@@ -207,28 +144,16 @@ Proof. intro which. apply (Witnesses.every_decision_culls_some (culled_by tier) 
 (* By the permanent itself: what the code asks last. *)
 Theorem the_permanent_culls_some_pair : culls_some_pair binary32 vertex_face last_part /\ culls_some_pair binary32 edge_edge last_part.
 Proof. exact Witnesses.the_last_part_culls_some. Qed.
-Theorem every_box_test_culls_some_pair f gap test : reasonable f -> 0 <= gap <= 1 -> exists environment place place' value_of value_of',
-  Orders.execution f environment gap place value_of /\ Orders.says f environment value_of (of_a_vertex_and_a_face test) /\
-  Orders.execution f environment gap place' value_of' /\ Orders.says f environment value_of' (of_two_edges test).
+Theorem every_box_test_culls_some_pair f test : exists environment place place' value_of value_of',
+  Orders.execution f environment place value_of /\ Orders.says f environment value_of (of_a_vertex_and_a_face test) /\
+  Orders.execution f environment place' value_of' /\ Orders.says f environment value_of' (of_two_edges test).
 Proof.
-  intros ok fits_. destruct (Witnesses.every_box_test_culls_some f gap ok fits_) as (v & v' & run & run' & a & b & c & d & e & g).
+  destruct (Witnesses.every_box_test_culls_some f) as (v & v' & run & run' & a & b & c & d).
   exists Witnesses.plain, (Witnesses.beside 1), (Witnesses.beside 2), v, v'.
   split; [exact run|]. split; [destruct test; assumption|]. split; [exact run'|]. destruct test; assumption.
 Qed.
 
-Theorem a_direction_culls_some_pair f : f = binary32 \/ f = binary64 ->
-  Witnesses.culls_some_alike f (difference_of Corners.a_vertex_and_a_face.ends) Corners.a_vertex_and_a_face.culled_by_normal /\
-  Witnesses.culls_some_alike f (difference_of Corners.two_edges.ends) Corners.two_edges.culled_by_normal.
-Proof. exact (Witnesses.a_direction_culls_some f). Qed.
-Theorem parts_cull_some_pair n f : f = binary32 \/ f = binary64 ->
-  culls_some_pair f (difference_of Corners.a_vertex_and_a_face.ends) (parts_of_a_vertex_and_a_face n) /\
-  culls_some_pair f (difference_of Corners.two_edges.ends) (parts_of_two_edges n).
-Proof.
-  intro which. destruct Parts.the_code_of_a_vertex_and_a_face as (a & b & c & d). destruct Parts.the_code_of_two_edges as (a' & b' & c' & d').
-  destruct n; cbn [parts_of_a_vertex_and_a_face parts_of_two_edges]; rewrite ?a, ?b, ?c, ?d, ?a', ?b', ?c', ?d'; exact (Witnesses.parts_cull_some _ f which).
-Qed.
-
-(* 11. Exact signs: whole numbers in words of 64 bits. Written after the code by hand (`Integers.v`), not traced from it. A coordinate is
+(* 9. Exact signs: whole numbers in words of 64 bits. Written after the code by hand (`Integers.v`), not traced from it. A coordinate is
        a significand and a shift, of at most 64 n - 3 bits; b, c, p are differences of such; along each axis they count in a unit of their own,
        a power of two. What the words of a control value say is that value in those units, so that its sign is that of their top word. *)
 Theorem coordinates_are_exact n significand shift : (- 2 ^ 63 <= significand < 2 ^ 63)%Z -> (0 <= shift)%Z -> Integers.fits n (significand * 2 ^ shift) ->
@@ -283,8 +208,8 @@ Theorem control_values_fit_three_times_the_words n x : (1 <= n)%Z -> (Z.abs x <=
   (- Integers.word ^ (3 * n) <= 2 * x < Integers.word ^ (3 * n))%Z.
 Proof. intro h. exact (Integers.three_words_suffice n h x). Qed.
 
-(* 12. What the certificates of the time of impact, of a separation, of truncation and the inside functions rest on stands in Certificates.v, in
-       exact numbers: a direction held or turning over a part of the step, the volume there, shares of ways, turns around the origin. *)
+(* 10. What the certificates of the time of impact, of a separation and of truncation rest on stands in Certificates.v, in exact numbers: a
+       direction held or turning over a part of the step, the volume there, shares of ways. *)
 
 Print Assumptions formats_are_reasonable.
 Print Assumptions an_operation_is_nearly_exact.
@@ -294,19 +219,12 @@ Print Assumptions a_culled_vertex_and_face_do_not_touch.
 Print Assumptions culled_edges_do_not_touch.
 Print Assumptions widened_culls_no_vertex_and_face_that_touch.
 Print Assumptions widened_culls_no_edges_that_touch.
-Print Assumptions gaps_are_wide.
 Print Assumptions boxes_apart_exclude_contact_of_a_vertex_and_a_face.
 Print Assumptions boxes_apart_exclude_contact_of_two_edges.
-Print Assumptions a_direction_excludes_contact_of_a_vertex_and_a_face.
-Print Assumptions a_direction_excludes_contact_of_two_edges.
-Print Assumptions clear_parts_exclude_contact_of_a_vertex_and_a_face.
-Print Assumptions clear_parts_exclude_contact_of_two_edges.
 Print Assumptions executions_exist.
 Print Assumptions every_decision_culls_some_pair.
 Print Assumptions the_permanent_culls_some_pair.
 Print Assumptions every_box_test_culls_some_pair.
-Print Assumptions a_direction_culls_some_pair.
-Print Assumptions parts_cull_some_pair.
 Print Assumptions coordinates_are_exact.
 Print Assumptions outer_signs_are_exact.
 Print Assumptions inner_signs_are_exact.
@@ -325,5 +243,3 @@ Print Assumptions Certificates.held_direction.
 Print Assumptions Certificates.turning_direction.
 Print Assumptions Certificates.one_sign_on_a_part.
 Print Assumptions Certificates.truncated_ways_keep_the_gap.
-Print Assumptions Certificates.turns_of_a_triangle.
-Print Assumptions Certificates.turns_of_a_parallelogram.

@@ -2,7 +2,7 @@
 From Coq Require Import Reals ZArith Lra Lia Bool List.
 From Flocq Require Import Core BinarySingleNaN.
 From Selvedge Require Import Arithmetic Expressions Filter Permanent Magnitudes Nearest.
-From Selvedge Require Orders Boxes Corners Direction Parts.
+From Selvedge Require Orders Boxes.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -58,11 +58,11 @@ Definition single {component : Type} := holds_of (component := component) 24 128
 Definition double {component : Type} := holds_of (component := component) 53 1024 (-1000) 250 gt53 lt53.
 
 (* At rest far above, all tiers cull, in both formats; close above only the permanent itself, the last part of the decision, does. *)
-Definition decisions := [culled_by_edge; culled_by_axis; culled_by_permanent_alone; culled_by_permanent].
+Definition decisions := [culled_by_permanent_alone; culled_by_permanent].
 Lemma all_tiers_cull_what_is_far : forall m, In m decisions ->
   single 4 4 in_vertex_face vertex_face m = true /\ single 4 4 in_edge_edge edge_edge m = true /\
   double 4 4 in_vertex_face vertex_face m = true /\ double 4 4 in_edge_edge edge_edge m = true.
-Proof. intros m [<-|[<-|[<-|[<-|[]]]]]; repeat split; vm_compute; reflexivity. Qed.
+Proof. intros m [<-|[<-|[]]]; repeat split; vm_compute; reflexivity. Qed.
 Lemma the_permanent_culls_what_is_close :
   single 1048576 32 in_vertex_face vertex_face first_part = false /\ single 1048576 32 in_vertex_face vertex_face last_part = true /\
   single 1048576 32 in_edge_edge edge_edge first_part = false /\ single 1048576 32 in_edge_edge edge_edge last_part = true.
@@ -96,89 +96,31 @@ Proof.
   - culls_by 24%Z 128%Z (-117)%Z 30%Z single_is_reasonable 1048576%Z 32%Z in_edge_edge edge_edge b.
 Qed.
 
-(* The same for the tests on corners. In parts, what is clear as a whole is clear in all tiers. *)
-Definition culls_some_alike f (of : span_component -> coordinate * coordinate) m := exists (place : coordinate -> R) value_of,
-  (forall c, representable f (place (fst (of c))) /\ representable f (place (snd (of c)))) /\
-  execution f (fun c => place (snd (of c))) (fun c => place (fst (of c))) value_of /\ Direction.products_alike f false value_of /\ says f value_of m.
-Definition ends_vertex_face := Direction.difference_of Corners.a_vertex_and_a_face.ends.
-Definition ends_edges := Direction.difference_of Corners.two_edges.ends.
-Definition clear_as_a_whole names := Both (Both (Greater (Constant LargestEdge) (Parts.k_ names Permanent.largest)) (Both (Both Finite Finite) (Both Finite Finite)))
-  (Parts.flat_nowhere (Parts.volume_bound names) (Parts.volumes names)).
-Lemma clear_in_all_parts f value_of names corner n : says f value_of (clear_as_a_whole names) -> says f value_of (Parts.clear_in_parts names corner n).
-Proof. intros [range_ flat]. split; [exact range_|]. destruct n; [left|left; left]; exact flat. Qed.
-Lemma tests_on_corners_cull_what_is_far :
-  (single 4 4 in_vertex_face ends_vertex_face Corners.a_vertex_and_a_face.culled_by_normal = true /\
-  double 4 4 in_vertex_face ends_vertex_face Corners.a_vertex_and_a_face.culled_by_normal = true /\
-  single 4 4 in_edge_edge ends_edges Corners.two_edges.culled_by_normal = true /\
-  double 4 4 in_edge_edge ends_edges Corners.two_edges.culled_by_normal = true) /\
-  (single 4 4 in_vertex_face ends_vertex_face (clear_as_a_whole Parts.names_of_a_vertex_and_a_face) = true /\
-  double 4 4 in_vertex_face ends_vertex_face (clear_as_a_whole Parts.names_of_a_vertex_and_a_face) = true /\
-  single 4 4 in_edge_edge ends_edges (clear_as_a_whole Parts.names_of_two_edges) = true /\
-  double 4 4 in_edge_edge ends_edges (clear_as_a_whole Parts.names_of_two_edges) = true).
-Proof. repeat split; vm_compute; reflexivity. Qed.
-Ltac culls_alike prec emax underflow_ largest_ ok n h roles of proof :=
-  destruct (witness_alike prec emax underflow_ largest_ _ _ ok n h roles of _ ltac:(intros [[| | | |] [|] [| |]]; split; vm_compute; reflexivity) proof)
-    as (value_of & run & alike & culled); clear - run alike culled; exists (placed prec emax _ _ n h roles), value_of;
-  split; [intro c; split; apply binary_is_representable; exact _|].
-Theorem a_direction_culls_some f : f = binary32 \/ f = binary64 ->
-  culls_some_alike f ends_vertex_face Corners.a_vertex_and_a_face.culled_by_normal /\ culls_some_alike f ends_edges Corners.two_edges.culled_by_normal.
-Proof.
-  destruct tests_on_corners_cull_what_is_far as [(a & b & c & d) _]. intros [-> | ->]; split.
-  - culls_alike 24%Z 128%Z (-117)%Z 30%Z single_is_reasonable 4%Z 4%Z in_vertex_face ends_vertex_face a. auto.
-  - culls_alike 24%Z 128%Z (-117)%Z 30%Z single_is_reasonable 4%Z 4%Z in_edge_edge ends_edges c. auto.
-  - culls_alike 53%Z 1024%Z (-1000)%Z 250%Z double_is_reasonable 4%Z 4%Z in_vertex_face ends_vertex_face b. auto.
-  - culls_alike 53%Z 1024%Z (-1000)%Z 250%Z double_is_reasonable 4%Z 4%Z in_edge_edge ends_edges d. auto.
-Qed.
-Theorem parts_cull_some n f : f = binary32 \/ f = binary64 ->
-  culls_some f ends_vertex_face (Parts.clear_in_parts Parts.names_of_a_vertex_and_a_face Direction.corners_of_a_vertex_and_a_face n) /\
-  culls_some f ends_edges (Parts.clear_in_parts Parts.names_of_two_edges Direction.corners_of_two_edges n).
-Proof.
-  destruct tests_on_corners_cull_what_is_far as [_ (a & b & c & d)]. intros [-> | ->]; split.
-  - culls_alike 24%Z 128%Z (-117)%Z 30%Z single_is_reasonable 4%Z 4%Z in_vertex_face ends_vertex_face a. split; [exact run|now apply clear_in_all_parts].
-  - culls_alike 24%Z 128%Z (-117)%Z 30%Z single_is_reasonable 4%Z 4%Z in_edge_edge ends_edges c. split; [exact run|now apply clear_in_all_parts].
-  - culls_alike 53%Z 1024%Z (-1000)%Z 250%Z double_is_reasonable 4%Z 4%Z in_vertex_face ends_vertex_face b. split; [exact run|now apply clear_in_all_parts].
-  - culls_alike 53%Z 1024%Z (-1000)%Z 250%Z double_is_reasonable 4%Z 4%Z in_edge_edge ends_edges d. split; [exact run|now apply clear_in_all_parts].
-Qed.
-
-(* Boxes: one set at x = 2 and the other at 0, to nearest with nothing flushed. *)
+(* Boxes: one set at x = 2 and the other at 0, with nothing flushed. *)
 Definition beside first (c : coordinate) : R := let '(Coordinate point _ axis_) := c in
   if Nat.ltb point first then match axis_ with X => 2 | _ => 0 end else 0.
-Definition plain := Orders.Environment (round_mode mode_NE) (valid_rnd_round_mode mode_NE) false false.
+Definition plain := Orders.Environment false.
 Section Boxes_.
 Variable f : format.
-Hypothesis ok : reasonable f.
-Variable gap : R.
-Hypothesis gap_fits : 0 <= gap <= 1.
 Variable place : coordinate -> R.
-Notation sight := (Orders.sight f plain gap place).
-Lemma sight_is_an_execution : Orders.execution f plain gap place sight.
+Notation sight := (Orders.sight f plain place).
+Lemma sight_is_an_execution : Orders.execution f plain place sight.
 Proof.
-  intros [c| |a b|a b|a b|a b]; cbn; try reflexivity.
+  intros [c|a b|a b]; cbn; try reflexivity.
   - unfold Orders.chosen, Rmax. destruct (Rle_dec (sight a) (sight b)); [right|left]; cbn; split; auto; lra.
   - unfold Orders.chosen, Rmin. destruct (Rle_dec (sight a) (sight b)); [left|right]; cbn; split; auto; lra.
 Qed.
-Lemma gap_below_two : Orders.rounded f plain (0 + gap) < 2.
-Proof.
-  assert (representable f 1).
-  { unfold representable. change 1 with (bpow radix2 0). apply generic_format_bpow. unfold FLT_exp. destruct ok. lia. }
-  assert (Orders.rounded f plain 1 = 1) as E.
-  { apply Orders.rounded_exactly; [assumption|]. rewrite Rabs_R1. pose proof (lam_small f ok). lra. }
-  pose proof (Orders.rounded_monotone f plain ok (0 + gap) 1 ltac:(lra)). lra.
-Qed.
 End Boxes_.
-Theorem every_box_test_culls_some f gap : reasonable f -> 0 <= gap <= 1 -> exists value_of value_of',
-  Orders.execution f plain gap (beside 1) value_of /\ Orders.execution f plain gap (beside 2) value_of' /\
+Theorem every_box_test_culls_some f : exists value_of value_of',
+  Orders.execution f plain (beside 1) value_of /\ Orders.execution f plain (beside 2) value_of' /\
   Orders.says f plain value_of Boxes.a_vertex_and_a_face.culled_by_swept_boxes /\
   Orders.says f plain value_of Boxes.a_vertex_and_a_face.culled_by_three_axes /\
-  Orders.says f plain value_of Boxes.a_vertex_and_a_face.culled_by_nine_directions /\
   Orders.says f plain value_of' Boxes.two_edges.culled_by_swept_boxes /\
-  Orders.says f plain value_of' Boxes.two_edges.culled_by_three_axes /\
-  Orders.says f plain value_of' Boxes.two_edges.culled_by_nine_directions.
+  Orders.says f plain value_of' Boxes.two_edges.culled_by_three_axes.
 Proof.
-  intros ok fits_. exists (Orders.sight f plain gap (beside 1)), (Orders.sight f plain gap (beside 2)).
-  pose proof (gap_below_two f ok gap fits_) as small.
+  exists (Orders.sight f plain (beside 1)), (Orders.sight f plain (beside 2)).
   assert (max : forall x : R, Rmax x x = x) by (intro x; apply Rmax_left; lra).
   assert (min : forall x : R, Rmin x x = x) by (intro x; apply Rmin_left; lra).
   split; [apply sight_is_an_execution|]. split; [apply sight_is_an_execution|].
-  repeat split; cbn; repeat left; rewrite ?max, ?min; repeat split; first [lra | exact small].
+  repeat split; cbn; repeat left; rewrite ?max, ?min; repeat split; lra.
 Qed.

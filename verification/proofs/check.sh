@@ -21,11 +21,10 @@ fi
 
 # In the order in which they build on each other; the last one prints what its theorems assume. mutations.py reads what stands above those
 # that are written from the kernels:
-# above Filter: Permanent Magnitudes Parts Halves Witnesses Theorems
-# above Boxes: Apart Certificates Direction Parts Halves Witnesses Theorems
-# above Corners: Direction Parts Halves Witnesses Theorems
-files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Gaps Boxes Apart Certificates
-    Corners Direction Parts Halves Nearest Witnesses Integers Theorems)
+# above Filter: Permanent Magnitudes Witnesses Theorems
+# above Boxes: Apart Certificates Witnesses Theorems
+files=(Arithmetic Expressions Errors Bounds Culling Decisions Geometry Filter Permanent Magnitudes Orders Boxes Apart Certificates Nearest
+    Witnesses Integers Theorems)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp ./*.v "$folder"

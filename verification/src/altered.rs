@@ -6,7 +6,6 @@ use crate::generator::{Format, PairCase};
 use selvedge_core::PairKind;
 use selvedge_core::elementary::advance::time_of_impact_of_points;
 use selvedge_core::elementary::{Impact, Limits};
-use selvedge_core::verification::coplanarity::Bound;
 #[cfg(doc)]
 use selvedge_core::verification::coplanarity::MovingTetrahedron;
 use selvedge_core::verification::lanes::{Lanes, Rounding};
@@ -25,8 +24,6 @@ pub trait Factors {
     const UNDERFLOW: f64 = 1.0;
     /// Times the largest edge.
     const LARGEST_EDGE: f64 = 1.0;
-    /// Times the gap between sums.
-    const SUM_GAP: f64 = 1.0;
 }
 
 /// The same number, but with other constants.
@@ -98,7 +95,6 @@ impl<F, S: Format> Rounding for Altered<F, S> {
     const UNIT_ROUNDOFF: Self = Self::new(S::UNIT_ROUNDOFF);
     const UNDERFLOW: Self = Self::new(S::UNDERFLOW);
     const LARGEST_EDGE: Self = Self::new(S::LARGEST_EDGE);
-    const SUM_GAP: Self = Self::new(S::SUM_GAP);
     const LARGEST_EXTENT: Self = Self::new(S::LARGEST_EXTENT);
     const EXTENT_UNDERFLOW: Self = Self::new(S::EXTENT_UNDERFLOW);
     const SAFE_SQUARE: Self = Self::new(S::SAFE_SQUARE);
@@ -122,8 +118,6 @@ impl<F: Factors, S: Format> Lanes for Altered<F, S> {
             F::UNDERFLOW
         } else if value == S::LARGEST_EDGE {
             F::LARGEST_EDGE
-        } else if value == S::SUM_GAP {
-            F::SUM_GAP
         } else {
             return Self::new(value);
         };
@@ -185,25 +179,14 @@ pub fn time_of_impact<F: Factors, S: Format>(pair: &PairCase<S>, limits: &Limits
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kernel {
     /// [`is_never_coplanar`](MovingTetrahedron::is_never_coplanar).
-    Bounded(Bound),
+    NonCoplanarity,
     /// [`have_disjoint_primitive_boxes`](PairPoints::have_disjoint_primitive_boxes); keeps EE.
     Segment,
-    /// [`are_apart_along_nine_directions`](PairPoints::are_apart_along_nine_directions).
-    NineDirections,
-    /// [`are_apart_along_normal`](PairPoints::are_apart_along_normal).
-    Normal,
 }
 
 impl Kernel {
     /// All kernels that are certified.
-    pub const CERTIFIED: [Self; 6] = [
-        Self::Bounded(Bound::MagnitudesByEdge),
-        Self::Bounded(Bound::MagnitudesByAxis),
-        Self::Bounded(Bound::Permanent),
-        Self::Segment,
-        Self::NineDirections,
-        Self::Normal,
-    ];
+    pub const CERTIFIED: [Self; 2] = [Self::NonCoplanarity, Self::Segment];
 
     /// Whether the kernel culls the pair, with its constants times `F`.
     pub fn culls<F: Factors, S: Format>(self, pair: &PairCase<S>) -> bool {
@@ -213,10 +196,8 @@ impl Kernel {
     fn on<P: PairShape, F: Factors, S: Format>(self, points: &PairPoints<S>) -> bool {
         let points = altered::<F, S>(points);
         match self {
-            Self::Bounded(bound) => points.tetrahedron::<P>().is_never_coplanar(bound),
+            Self::NonCoplanarity => points.tetrahedron::<P>().is_never_coplanar(),
             Self::Segment => P::KIND == PairKind::VertexFace && points.have_disjoint_primitive_boxes::<P>(),
-            Self::NineDirections => points.are_apart_along_nine_directions::<P>(),
-            Self::Normal => points.are_apart_along_normal::<P>(),
         }
     }
 }

@@ -2,8 +2,9 @@
 //! what the pipeline does in batches can be done again by hand.
 
 use crate::generator::{Format, PairCase};
-use selvedge_core::boxes::{Aabb, Dop18, relative, segment, swept_boxes};
+use selvedge_core::boxes::{Aabb, relative, segment, swept_boxes};
 use selvedge_core::{Verdict, filter};
+use selvedge_laboratory::baselines::nine_directions::{self, Dop18};
 use selvedge_laboratory::baselines::plain;
 use selvedge_laboratory::methods::CullingTest;
 
@@ -30,7 +31,7 @@ pub fn verdict<S: Format>(test: CullingTest, case: &PairCase<S>) -> Verdict {
             Verdict::culled_if(!first.overlaps(&second))
         }
         CullingTest::RelativeBoxes | CullingTest::SubspaceThree => relative::three_axes(pair),
-        CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => relative::nine_directions(pair),
+        CullingTest::RelativeBoxesNine | CullingTest::SubspaceNine => nine_directions::separated(pair),
         CullingTest::PlainNonCoplanarity => plain::non_coplanarity(pair),
         CullingTest::CertifiedNonCoplanarity => filter::certified::non_coplanarity(pair),
     }

@@ -14,7 +14,7 @@ use selvedge_core::batch::{
 use selvedge_core::boxes::block::BoxBlock;
 use selvedge_core::boxes::mapping::{Inset, Mapping};
 use selvedge_core::boxes::moving::{MovingBlock, MovingBox};
-use selvedge_core::boxes::{Aabb, Dop18, direction, relative, segment, swept_boxes};
+use selvedge_core::boxes::{Aabb, relative, segment, swept_boxes};
 use selvedge_core::distribution::distribute;
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::glam::DVec3;
@@ -50,23 +50,10 @@ fn tiers<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
             }
         }
     }
-    let normal = direction::normal(pair).is_culled();
-    answers |= 1 << u32::from(normal);
-    for mask in in_every_form(Test::NormalDirection, pair, &mut masks) {
-        answers |= 1 << mask;
-    }
-    let agrees = match answers {
+    match answers {
         0b01 => 0,
         0b10 => 1,
         _ => 2,
-    };
-    // It culls what no tier culls, and the other way round.
-    let outside = bit(0, filter::inside::never_inside(pair));
-    let mut in_batches = in_every_form(Test::InsideFunctions, pair, &mut masks).into_iter();
-    if in_batches.all(|mask| u32::from(mask) == outside) {
-        agrees
-    } else {
-        2
     }
 }
 
@@ -99,7 +86,6 @@ fn batched<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     }
     at(0, Test::SweptBoxes, pair)
         | at(1, Test::RelativeBoxes, pair)
-        | at(2, Test::RelativeBoxesNine, pair)
         | at(4, Filter::new(Tier::Permanent), pair)
 }
 
@@ -117,14 +103,13 @@ fn exactly<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
 fn verdicts<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     bit(0, swept_boxes(pair))
         | bit(1, relative::three_axes(pair))
-        | bit(2, relative::nine_directions(pair))
         | bit(4, filter::certified::non_coplanarity(pair))
 }
 
 /// These answers, whether the batched ones differ, and the exact ones.
 fn with_batches<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
     let verdicts = verdicts(pair);
-    let differ = (verdicts & 0b1_0111) != batched(pair);
+    let differ = (verdicts & 0b1_0011) != batched(pair);
     verdicts | u32::from(differ) << 9 | exactly(pair) << 10 | tiers(pair) << 13
 }
 
@@ -171,21 +156,14 @@ fn all_tests<S: Scalar>(points: &Points<S>) -> [u32; 2] {
     let [a, b, c, d] = motions;
     let vertex_face = PrimitivePair::vertex_face(a, [b, c, d]);
     let edge_edge = PrimitivePair::edge_edge([a, b], [c, d]);
-    let dops = motions.map(|motion| Dop18::swept(&motion));
-    let apart = |one: bool, other: bool| u32::from(!one) << 5 | u32::from(!other) << 6;
+    let apart = |overlap: bool| u32::from(!overlap) << 5;
     [
         with_batches(&vertex_face)
-            | apart(
-                Aabb::swept(&[a]).overlaps(&Aabb::swept(&[b, c, d])),
-                dops[0].overlaps(&dops[1].merged(&dops[2]).merged(&dops[3])),
-            )
+            | apart(Aabb::swept(&[a]).overlaps(&Aabb::swept(&[b, c, d])))
             | bit(7, segment::primitive_boxes(&vertex_face))
             | elementary_tests(&vertex_face),
         with_batches(&edge_edge)
-            | apart(
-                Aabb::swept(&[a, b]).overlaps(&Aabb::swept(&[c, d])),
-                dops[0].merged(&dops[1]).overlaps(&dops[2].merged(&dops[3])),
-            )
+            | apart(Aabb::swept(&[a, b]).overlaps(&Aabb::swept(&[c, d])))
             | elementary_tests(&edge_edge),
     ]
 }

@@ -6,12 +6,13 @@
 use super::advance::{Round, RoundQuestion, round};
 use super::chunk::{Chunk, edge, points, some};
 use super::lane_test::VolumeTest;
-use super::{Bounded, LANES, Level, Mask, VertexRow};
+use super::{LANES, Level, Mask, VertexRow};
 #[cfg(feature = "verification")]
 use super::{PointsTest, Test, Tile};
 use crate::PairKind;
 use crate::coplanarity::{Decision, MovingTetrahedron};
 use crate::filter::Filter;
+use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
 use crate::points::PairShape;
 use crate::scalar::Scalar;
@@ -23,12 +24,13 @@ use fearless_simd::{Simd, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 /// None of it is generic but what the feature `verification` adds, so that its many kernels (for each instruction set and kind) are
 /// compiled once, in this crate, and not in every crate that calls them.
 pub trait BatchScalar: Copy {
-    /// What the filter's bound says of sixteen pairs, or nothing of those that are not `wanted`. `None` if an index is not in the rows.
+    /// Decides sixteen pairs by the certified filter. Pairs that are not `wanted` may stay undecided. Returns `None` if an index is
+    /// not in the rows.
     #[doc(hidden)]
-    fn bounded(
+    fn by_filter(
         level: Level,
         kind: PairKind,
-        bounded: Bounded<Self>,
+        separation: Option<Self>,
         pairs: Sixteen<'_, Self>,
         wanted: Mask,
     ) -> Option<Decision<Mask>>;
@@ -113,6 +115,21 @@ fn test_points<P: PairShape, L: Chunk>(token: L::Token, test: impl PointsTest, p
         first += L::WIDTH;
     }
     Some(culled)
+}
+
+/// The certified filter, with a separation or without.
+#[derive(Clone, Copy)]
+struct NonCoplanarity<S>(Option<S>);
+
+impl<S: Scalar> VolumeTest<S> for NonCoplanarity<S> {
+    #[inline(always)]
+    fn on<P: PairShape, L: Lanes<Scalar = S>>(self, tetrahedron: &MovingTetrahedron<L>) -> Decision<L::Mask> {
+        let separation = self.0.map(
+            #[inline(always)]
+            |separation| tetrahedron.p[0].x.splat(separation),
+        );
+        tetrahedron.decide::<P>(separation)
+    }
 }
 
 /// Whether one pair alone is not among the `wanted`. Several at a time are cheaper than asking.
@@ -243,14 +260,14 @@ macro_rules! vectorized {
 macro_rules! batch_scalar {
     ($scalar:ident, $lanes:tt, rounds: $round_lanes:tt) => {
         impl BatchScalar for $scalar {
-            fn bounded(
+            fn by_filter(
                 level: Level,
                 kind: PairKind,
-                bounded: Bounded<Self>,
+                separation: Option<Self>,
                 pairs: Sixteen<'_, Self>,
                 wanted: Mask,
             ) -> Option<Decision<Mask>> {
-                of_kind!(kind, P => vectorized!(level, $lanes, test_volume::<P>(bounded, pairs, wanted)))
+                of_kind!(kind, P => vectorized!(level, $lanes, test_volume::<P>(NonCoplanarity(separation), pairs, wanted)))
             }
 
             #[cold]

@@ -42,12 +42,6 @@ mod shown {
         SegmentBox,
         /// [`boxes::relative::three_axes`](crate::boxes::relative::three_axes).
         RelativeBoxes,
-        /// [`boxes::relative::nine_directions`](crate::boxes::relative::nine_directions).
-        RelativeBoxesNine,
-        /// [`boxes::direction::normal`](crate::boxes::direction::normal).
-        NormalDirection,
-        /// [`inside::never_inside`](crate::filter::inside::never_inside).
-        InsideFunctions,
     }
 
     impl PointsTest for Test {
@@ -57,9 +51,6 @@ mod shown {
                 Self::SweptBoxes => points.have_disjoint_swept_boxes::<P>(),
                 Self::SegmentBox => points.have_disjoint_primitive_boxes::<P>(),
                 Self::RelativeBoxes => points.are_apart_along_three_axes::<P>(),
-                Self::RelativeBoxesNine => points.are_apart_along_nine_directions::<P>(),
-                Self::NormalDirection => points.are_apart_along_normal::<P>(),
-                Self::InsideFunctions => points.are_outside_of_one_side::<P>(),
             }
         }
     }

@@ -47,8 +47,6 @@ pub use advance::{Round, RoundQuestion, advance_from_rows};
 pub use closest::closest_points;
 pub use compared::{Compares, Loop, in_lanes};
 pub use fearless_simd::Level;
-#[cfg(not(feature = "verification"))]
-use lane_test::VolumeTest;
 #[cfg(feature = "verification")]
 pub use lane_test::{ByPoints, ByVolume, PointsTest, Test, VolumeTest};
 use rows::Padded;
@@ -58,10 +56,8 @@ pub use strays::largest_strays_from_rows;
 pub use tile::{Tile, culled, culled_from_tiles};
 
 use crate::PairKind;
-use crate::coplanarity::{Bound, Decision, MovingTetrahedron};
+use crate::coplanarity::Decision;
 use crate::filter::Filter;
-use crate::lanes::Lanes;
-use crate::points::PairShape;
 use crate::scalar::Scalar;
 pub(crate) use kernels::{BatchScalar, Sixteen};
 
@@ -77,24 +73,6 @@ pub(crate) fn next_lane(lanes: &mut Mask) -> usize {
     let lane = lanes.trailing_zeros() as usize % LANES;
     *lanes &= lanes.wrapping_sub(1);
     lane
-}
-
-#[doc(hidden)]
-#[derive(Clone, Copy, Debug)]
-pub struct Bounded<S> {
-    bound: Bound,
-    separation: Option<S>,
-}
-
-impl<S: Scalar> VolumeTest<S> for Bounded<S> {
-    #[inline(always)]
-    fn on<P: PairShape, L: Lanes<Scalar = S>>(self, tetrahedron: &MovingTetrahedron<L>) -> Decision<L::Mask> {
-        let separation = self.separation.map(
-            #[inline(always)]
-            |separation| tetrahedron.p[0].x.splat(separation),
-        );
-        tetrahedron.decide::<P>(self.bound, separation)
-    }
 }
 
 /// What can be asked of a batch: a [`Filter`] of any tier and separation; with the feature `verification` a test of boxes as well, or a
@@ -121,11 +99,7 @@ impl<S: Scalar> BatchTest<S> for Filter<S> {
     /// Side by side as far as the tier's bound goes, then one by one.
     #[inline(always)]
     fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, wanted: Mask) -> Option<Mask> {
-        let bounded = Bounded {
-            bound: self.tier().bound(),
-            separation: self.positive_separation(),
-        };
-        let Decision { mut culled, settled } = S::bounded(level, kind, bounded, pairs, wanted)?;
+        let Decision { mut culled, settled } = S::by_filter(level, kind, self.positive_separation(), pairs, wanted)?;
         // One by one, of those that the tier has more to say of.
         let mut open = self.tier().open(culled, settled) & wanted;
         while open != 0 {

@@ -1,38 +1,15 @@
-//! Box tests on primitive pairs, from the loosest to the strongest.
+//! Box tests on primitive pairs, from the loosest to the strongest, and boxes for hierarchies.
 //!
 //! | test | what it compares | rounding |
 //! |---|---|---|
 //! | [`Aabb`] | swept axis-aligned boxes | exact: comparisons only |
-//! | [`segment`] | the vertex's path against the face's swept box (the paper's VF test) | certified bound |
-//! | [`Dop18`] | swept boxes along 9 directions (Hutter, Fuhrmann 2007) | exact: rounding is monotone |
-//! | [`relative`] | 3 or 9 directions, both ends of the step apart: the two sets in the same order | exact |
+//! | [`segment`] | the vertex's path with the face's swept box (the paper's VF test) | certified bound |
+//! | [`relative`] | the order of the two sets along an axis, at both ends of the step | exact |
 //! | [`moving`] | the boxes of any two sets at both ends of the step: relative boxes for a hierarchy | exact |
-//! | [`block`] | the boxes of sixteen sets within a distance of another, at rest | none: for classes of pairs, not for proofs |
-//! | [`mapping`] | how positions of any format become `f32` boxes, with a separation or without, and are asked for a smaller one | monotone; a proven bound with one |
-//! | [`direction`] | the same along any direction, by default the pair's own normal | certified bound |
+//! | [`block`] | the boxes of sixteen resting sets with a box, within a distance | not certified: it sorts pairs into classes |
+//! | [`mapping`] | how positions of any format become `f32` boxes, for any separation | monotone, or a certified bound |
 //!
-//! # Why sums may round
-//! Rounding is monotone, in any direction: x ≤ y implies fl(x) ≤ fl(y). So fl(a) > fl(b) *proves* a > b, although
-//! fl(a) = fl(b) says nothing. Tests along the diagonals ±x±y compare sums of two coordinates, each rounded once, and need no
-//! error bound. A sum of three would be rounded twice, and the argument would not hold.
-//!
-//! Flushing *results* below λ, the smallest normal number, to zero is monotone as well; flushing *operands* is so for a
-//! comparison of coordinates, but not for a sum: λ/2 + λ/2 would become 0. Hence one sum must exceed the other plus
-//! g = [`Rounding::SUM_GAP`](crate::lanes::Rounding::SUM_GAP), far above λ and absorbed by whatever is above g/u, which is
-//! anything but dust. Why that suffices, with A = fl(a + b) > fl(Z + g), Z = fl(c + d), when operands are flushed:
-//! * |Z| ≤ g/16u: then A ≥ Z + g/2, and roundings and flushed operands make up less than g/2.
-//! * |Z| > g/16u: A and Z are floating-point numbers, A > Z. At most one operand of a sum of that size is flushed, and the
-//!   sum of the others, as real numbers, is in the same strict order. They are multiples of a step far above λ, or differ
-//!   by one normal operand: by λ at least, which is more than what was flushed.
-//!
-//! **Compilers** assume that nothing is flushed. Where comparisons of coordinates stand beside sums they may make one vector operation
-//! of both and add zero to the coordinates, which changes nothing then; but in a thread that flushes results (without taking
-//! operands for zero) it makes one side of a comparison zero and leaves the other. LLVM did so to the tests along nine directions,
-//! which then culled pairs of subnormal coordinates that touch. So these ask coordinates for the gap as well. It is
-//! absorbed in the same way: with A > fl(Z + g) and A or Z flushed, A ≥ g/2 is normal and Z is off by λ at most. Tests along
-//! three axes have no sums that could be mixed with their comparisons.
-//!
-//! Box tests see motion as linear: a coordinate, or a sum of coordinates, lies between its values at both ends.
+//! Motion is linear in all of them: a coordinate lies between its values at both ends of the step.
 
 /// Whether a test of the four points' values at the start and at the end holds along one of the axes.
 ///
@@ -74,8 +51,6 @@ macro_rules! values {
 mod aabb;
 #[cfg(feature = "batch")]
 pub mod block;
-pub mod direction;
-mod dop;
 #[cfg(feature = "batch")]
 pub mod mapping;
 #[cfg(feature = "batch")]
@@ -84,7 +59,6 @@ pub mod relative;
 pub mod segment;
 
 pub use aabb::Aabb;
-pub use dop::Dop18;
 
 use crate::lanes::Lanes;
 use crate::motion::PrimitivePair;
@@ -117,16 +91,4 @@ fn are_disjoint_intervals<P: PairShape, L: Lanes>(start: [L; 4], end: [L; 4]) ->
     let [[low_1, high_1], [other_low_1, other_high_1]] = P::ranges(end);
     low_0.smaller(low_1).greater(other_high_0.larger(other_high_1))
         | other_low_0.smaller(other_low_1).greater(high_0.larger(high_1))
-}
-
-/// Whether all values from `least` to `greatest` are above `bound`, or all below its negative. False with NaN in the bound.
-#[inline(always)]
-fn are_beyond<L: Lanes>(least: L, greatest: L, bound: L) -> L::Mask {
-    least.greater(bound) | (-bound).greater(greatest)
-}
-
-/// The nine directions of an 18-DOP, as values of one point: x, y, z, x±y, x±z, y±z. The sums are rounded.
-#[inline(always)]
-fn along_nine_directions<S: Scalar>([x, y, z]: [S; 3]) -> [S; 9] {
-    [x, y, z, x + y, x - y, x + z, x - z, y + z, y - z]
 }

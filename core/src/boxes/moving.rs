@@ -9,7 +9,7 @@
 //!
 //! # Boxes in fewer digits
 //! A block holds `f32`. Coordinates of more digits may be mapped by any function that never exchanges two of them (rounding is
-//! one, [in any direction](super#why-sums-may-round)): what is strictly ordered after the mapping was so before, so nothing
+//! one, in any direction): what is strictly ordered after the mapping was so before, so nothing
 //! has to be rounded outwards, and no pair that touches is culled. Pairs that are apart by less than the mapping shows are
 //! kept.
 

@@ -19,7 +19,7 @@
 //!
 //! Strict inequalities: what touches is kept, and d = 0 gives 0 > η, which is false.
 
-use super::{Aabb, are_beyond};
+use super::Aabb;
 use crate::PairKind;
 use crate::coplanarity::is_in_range;
 use crate::lanes::{Lanes, Rounding};
@@ -102,7 +102,7 @@ fn separates<L: Lanes>([lower_j, upper_j, d_j]: [L; 3], [lower_k, upper_k, d_k]:
     let roundoff = constant(L::Scalar::small(8)) * constant(L::Scalar::UNIT_ROUNDOFF);
     let underflow = (reach + constant(L::Scalar::ONE)) * constant(L::Scalar::UNDERFLOW);
     let bound = roundoff * sizes + underflow;
-    are_beyond(least, largest, bound) & is_in_range(reach)
+    (least.greater(bound) | (-bound).greater(largest)) & is_in_range(reach)
 }
 
 #[cfg(test)]

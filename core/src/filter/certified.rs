@@ -1,28 +1,23 @@
 //! The certified non-coplanarity filter: a culled pair is never coplanar in [0, 1], rounding included.
 //!
-//! The four control values of the signed volume must each exceed a bound of their rounding error
-//! ([`coplanarity`](crate::coplanarity) derives three of them), all with the same sign. The converse does not hold: a kept
-//! pair may never be coplanar either. With a separation s > 0 they must exceed the bound and s times the normal's length.
+//! All four control values of the signed volume must exceed a bound of their rounding error, with the same sign.
+//! [`coplanarity`](crate::coplanarity) derives two such bounds. With a separation s > 0 they must exceed the bound plus s times the
+//! normal's length. A kept pair may never be coplanar either.
 //!
-//! The bound by the permanent is the sharpest, and takes as long as the control values themselves. But it is wanted
-//! only for values that have one sign and do not clear the cheap bound by magnitudes, which is hardly ever: so the
-//! cheap bound is asked first.
+//! The bound by the permanent is the sharper one, and costs as much as the control values themselves. It is computed only where all
+//! values have one sign but do not clear the cheap bound by magnitudes, which is rare.
 
-use crate::coplanarity::{
-    Bound, ControlValues, Decision, MovingTetrahedron, error_bound_by_magnitudes, is_in_range, zero_if_finite,
-};
+use crate::coplanarity::{ControlValues, Decision, MovingTetrahedron, error_bound_by_magnitudes, is_in_range, zero_if_finite};
 use crate::lanes::{Lanes, Rounding};
 use crate::motion::PrimitivePair;
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::Scalar;
-use crate::vector::Vector;
 use crate::verdict::Verdict;
 
-/// Culls `pair` if its four points are certainly not coplanar at any time in [0, 1]. The bound is the
-/// [`Permanent`](Bound::Permanent).
+/// Culls `pair` if its four points are certainly not coplanar at any time in [0, 1].
 ///
-/// Certified in every floating-point environment ([`Rounding`]). NaN, infinities and overflow keep the pair; so do
-/// zero-length edges and zero-area triangles, whose volume is zero.
+/// Certified in every floating-point environment ([`Rounding`]). NaN, infinities and overflow keep the pair. Zero-length edges and
+/// zero-area triangles keep it as well, since their volume is zero.
 ///
 /// ```
 /// use selvedge_core::{filter::certified::non_coplanarity, glam::Vec3, PrimitivePair, Motion, Verdict};
@@ -34,24 +29,24 @@ use crate::verdict::Verdict;
 /// ```
 #[inline(always)]
 pub fn non_coplanarity<S: Scalar>(pair: &PrimitivePair<S>) -> Verdict {
-    Verdict::culled_if(of_kind!(pair.kind, P => PairPoints::from(pair).tetrahedron::<P>().is_never_coplanar(Bound::Permanent)))
+    Verdict::culled_if(of_kind!(pair.kind, P => PairPoints::from(pair).tetrahedron::<P>().is_never_coplanar()))
 }
 
 impl<L: Lanes> MovingTetrahedron<L> {
     /// The decision on any number of lanes: true proves that the lane's points are never coplanar in [0, 1].
     #[inline(always)]
     #[must_use]
-    pub fn is_never_coplanar(&self, bound: Bound) -> L::Mask {
-        decide_beyond(bound, self, None).culled
+    pub fn is_never_coplanar(&self) -> L::Mask {
+        decide_beyond(self, None).culled
     }
 
     /// The decision with a separation s on any number of lanes: `culled` proves that at no time in [0, 1] the vertex is within s
     /// of the face's plane, or the line of one edge within s of the other's.
     ///
-    /// The separation must be positive and finite; `None` is zero, and then the kind of the pair does not matter.
+    /// The separation must be positive and finite. `None` means zero, and then the kind of the pair does not matter.
     #[inline(always)]
     #[must_use]
-    pub fn decide<P: PairShape>(&self, bound: Bound, separation: Option<L>) -> Decision<L::Mask> {
+    pub fn decide<P: PairShape>(&self, separation: Option<L>) -> Decision<L::Mask> {
         #[allow(
             clippy::manual_map,
             reason = "a closure is not always inlined into code for a wider instruction set"
@@ -60,56 +55,30 @@ impl<L: Lanes> MovingTetrahedron<L> {
             Some(separation) => Some(separation * self.largest_normal(P::KIND)),
             None => None,
         };
-        decide_beyond(bound, self, clearance)
+        decide_beyond(self, clearance)
     }
 }
 
-/// Whether the control values all exceed their error bounds and the clearance, with one sign.
+/// Decides whether all control values exceed their error bounds and the clearance, with one sign.
 #[inline(always)]
-fn decide_beyond<L: Lanes>(bound: Bound, tetrahedron: &MovingTetrahedron<L>, clearance: Option<L>) -> Decision<L::Mask> {
-    let values = tetrahedron.control_values();
-    let zero = tetrahedron.p[0].x.splat(L::Scalar::ZERO);
-    let culled = match bound {
-        Bound::MagnitudesByEdge => by_magnitudes(&values, tetrahedron.largest_by_edge(), clearance),
-        Bound::MagnitudesByAxis => by_magnitudes(&values, tetrahedron.largest_by_axis(), clearance),
-        Bound::Permanent => return by_permanent(tetrahedron, &values, clearance),
-    };
-    Decision {
-        culled,
-        settled: zero.greater(zero),
-    }
-}
-
-#[inline(always)]
-fn by_magnitudes<L: Lanes>(values: &ControlValues<L>, largest: Vector<L>, clearance: Option<L>) -> L::Mask {
-    let outer = error_bound_by_magnitudes(largest);
-    let inner = outer * outer.splat(L::Scalar::small(4));
-    let bounds = with_clearance([outer, inner, inner, outer], clearance);
-    values.one_sign_beyond(bounds) & is_in_range(largest.largest())
-}
-
-#[inline(always)]
-fn by_permanent<L: Lanes>(
-    tetrahedron: &MovingTetrahedron<L>,
-    values: &ControlValues<L>,
-    clearance: Option<L>,
-) -> Decision<L::Mask> {
+fn decide_beyond<L: Lanes>(tetrahedron: &MovingTetrahedron<L>, clearance: Option<L>) -> Decision<L::Mask> {
+    let values: ControlValues<L> = tetrahedron.control_values();
     let largest = tetrahedron.largest_by_axis();
     let in_range = is_in_range(largest.largest());
 
-    // One bound, the largest of the four, so that the least and the greatest value tell all.
+    // One bound for all four, the largest, so that the least and the greatest value decide.
     let [k0, k1, k2, k3] = values.0;
     let inner = error_bound_by_magnitudes(largest) * largest.x.splat(L::Scalar::small(4));
     let inner = inner + zero_if_finite(values.0);
     let [_, bound, ..] = with_clearance([inner; 4], clearance);
     let least = k0.smaller(k1).smaller(k2.smaller(k3));
     let greatest = k0.larger(k1).larger(k2.larger(k3));
-    // The smallest magnitude if all have one sign, else not positive; and the other way round.
+    // The smallest magnitude if all values have one sign, else not positive. The other: positive only with both signs.
     let of_one_sign = least.larger(-greatest);
     let of_both_signs = greatest.smaller(-least);
     let decided = of_one_sign.greater(bound) & in_range;
 
-    // Cloth and floors are often flat along an axis, throughout. Differences that are zero are exactly so.
+    // Cloth and floors are often flat along an axis throughout the step. A difference that is computed as zero is exactly zero.
     let zero = largest.x.splat(L::Scalar::ZERO);
     let least_extent = largest.x.smaller(largest.y).smaller(largest.z);
     let is_flat = in_range ^ (in_range & least_extent.greater(zero));
@@ -125,7 +94,7 @@ fn by_permanent<L: Lanes>(
     Decision { culled, settled }
 }
 
-/// The middle control values are tripled, and so is what they must clear.
+/// Adds the clearance to the bounds. The middle control values are tripled, so theirs is as well.
 #[inline(always)]
 fn with_clearance<L: Lanes>([e0, e1, e2, e3]: [L; 4], clearance: Option<L>) -> [L; 4] {
     let Some(outer) = clearance else {

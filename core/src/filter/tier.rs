@@ -1,8 +1,7 @@
 //! One choice for all non-coplanarity filters.
 
-use super::subdivided::Depth;
 use super::widened;
-use crate::coplanarity::{Bound, MovingTetrahedron, is_in_range};
+use crate::coplanarity::{MovingTetrahedron, is_in_range};
 use crate::exact;
 use crate::lanes::Rounding;
 use crate::motion::PrimitivePair;
@@ -10,72 +9,43 @@ use crate::points::PairPoints;
 use crate::scalar::Scalar;
 use crate::verdict::Verdict;
 
-/// How sure and how sharp a non-coplanarity filter is.
+/// How sharp a non-coplanarity filter is. Every tier is certified.
 ///
-/// What accuracy costs in time, measured, is in `docs/accuracy.md` (`selvedge accuracy`). In short: take
-/// [`Permanent`](Self::Permanent); take [`Exact`](Self::Exact) where every last pair counts.
+/// `docs/accuracy.md` has the measured cost of each (`selvedge accuracy`). In short: take [`Permanent`](Self::Permanent) for `f64`
+/// and [`Widened`](Self::Widened) for `f32` positions; take [`Exact`](Self::Exact) where every last pair counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tier {
-    /// Certified by the largest components of the tetrahedron's edges.
-    MagnitudesByEdge,
-    /// Certified by the largest components along each axis.
-    MagnitudesByAxis,
-    /// Certified by the permanent of each control value.
+    /// Bounds the rounding error by the permanent of each control value.
     #[default]
     Permanent,
     /// [`Permanent`](Self::Permanent) in the pair's own format, then in `f64` where that does not decide. For `f64`
     /// positions the same as `Permanent`.
     Widened,
-    /// [`Permanent`](Self::Permanent), then in parts of the step. Culls pairs that never *touch*, although they may be
-    /// coplanar at some time.
-    Subdivided(Depth),
-    /// By the exact signs of the control values: [`Permanent`](Self::Permanent) first, integers where that does not decide.
-    /// (Where a thread flushes subnormal numbers it keeps a pair whose extent along an axis is subnormal.)
+    /// The exact signs of the control values: [`Permanent`](Self::Permanent) first, integers where that does not decide.
+    ///
+    /// In a thread that flushes subnormal numbers it keeps a pair whose extent along an axis is subnormal.
     Exact,
 }
 
 impl Tier {
-    /// Every tier, in the order of the accuracy that one may expect.
-    pub const ALL: [Self; 9] = [
-        Self::MagnitudesByEdge,
-        Self::MagnitudesByAxis,
-        Self::Permanent,
-        Self::Widened,
-        Self::Exact,
-        Self::Subdivided(Depth::One),
-        Self::Subdivided(Depth::Two),
-        Self::Subdivided(Depth::Three),
-        Self::Subdivided(Depth::Four),
-    ];
+    /// Every tier, the bluntest first.
+    pub const ALL: [Self; 3] = [Self::Permanent, Self::Widened, Self::Exact];
 
-    /// Which of the pairs that its bound has or has not culled it looks at again: none, those undecided, or all that are
-    /// kept. One bit for each pair.
+    /// Returns the pairs that the tier looks at one by one, given those that its bound has culled or settled. One bit a pair.
     #[inline(always)]
     pub(crate) fn open(self, culled: u16, settled: u16) -> u16 {
         match self {
-            Self::MagnitudesByEdge | Self::MagnitudesByAxis | Self::Permanent => 0,
+            Self::Permanent => 0,
             Self::Widened | Self::Exact => !(culled | settled),
-            Self::Subdivided(_) => !culled,
-        }
-    }
-
-    /// The part of the tier that looks at several pairs side by side.
-    pub(crate) const fn bound(self) -> Bound {
-        match self {
-            Self::MagnitudesByEdge => Bound::MagnitudesByEdge,
-            Self::MagnitudesByAxis => Bound::MagnitudesByAxis,
-            Self::Permanent | Self::Widened | Self::Subdivided(_) | Self::Exact => Bound::Permanent,
         }
     }
 }
 
 /// A non-coplanarity filter: its [`Tier`], and the separation that pairs must keep.
 ///
-/// Certified in every floating-point environment
-/// ([`Rounding`](crate::lanes::Rounding)): a pair that it culls is, at no time in [0, 1], coplanar, or within the separation.
-/// ([`Tier::Subdivided`]: does not touch, or come within the separation.) NaN, infinities and coordinates whose
-/// differences exceed [`LARGEST_EDGE`](crate::lanes::Rounding::LARGEST_EDGE) keep the pair, except that [`Tier::Exact`] knows no
-/// such limit.
+/// Certified in every floating-point environment ([`Rounding`](crate::lanes::Rounding)): a culled pair is at no time in [0, 1]
+/// coplanar, or within the separation. NaN and infinities keep the pair. So do coordinates whose differences exceed
+/// [`LARGEST_EDGE`](crate::lanes::Rounding::LARGEST_EDGE), except with [`Tier::Exact`].
 ///
 /// ```
 /// use selvedge_core::filter::{Filter, Tier};
@@ -98,7 +68,7 @@ pub struct Filter<S> {
 }
 
 impl<S: Scalar> Filter<S> {
-    /// A filter of this tier that culls pairs that never touch: separation zero.
+    /// A filter of this tier with separation zero: it culls pairs that never touch.
     #[must_use]
     pub const fn new(tier: Tier) -> Self {
         Self {
@@ -107,11 +77,11 @@ impl<S: Scalar> Filter<S> {
         }
     }
 
-    /// The same filter for pairs that must stay farther apart than `separation`, in the unit of the positions. `None` if
-    /// it is negative, infinite or NaN.
+    /// The same filter for pairs that must stay farther apart than `separation`, in the unit of the positions. Returns `None` if
+    /// `separation` is negative, infinite or NaN.
     ///
-    /// A subnormal separation is [raised](Scalar::raised_to_normal) to the smallest normal number, so that it counts in threads
-    /// that take subnormal numbers for zero too.
+    /// A subnormal separation is [raised](Scalar::raised_to_normal) to the smallest normal number, so that it also counts in threads
+    /// that treat subnormal numbers as zero.
     #[must_use]
     pub fn with_separation(self, separation: S) -> Option<Self> {
         (separation >= S::ZERO && separation.is_finite()).then_some(Self {
@@ -120,50 +90,46 @@ impl<S: Scalar> Filter<S> {
         })
     }
 
-    /// How sure and how sharp it is.
+    /// The filter's tier.
     #[must_use]
     pub const fn tier(&self) -> Tier {
         self.tier
     }
 
-    /// What pairs must stay farther apart than to be culled. Zero: they must not touch.
+    /// The distance that culled pairs exceed. Zero: they do not touch.
     #[must_use]
     pub const fn separation(&self) -> S {
         self.separation
     }
 
-    /// The separation, or `None` if there is none.
+    /// The separation, or `None` if it is zero.
     #[inline(always)]
     pub(crate) fn positive_separation(&self) -> Option<S> {
         (self.separation > S::ZERO).then_some(self.separation)
     }
 
-    /// Culls `pair`, or keeps it.
+    /// Culls or keeps `pair`.
     #[inline]
     pub fn verdict(&self, pair: &PrimitivePair<S>) -> Verdict {
-        let (bound, separation) = (self.tier.bound(), self.positive_separation());
+        let separation = self.positive_separation();
         let points = PairPoints::from(pair);
-        let decision = of_kind!(pair.kind, P => points.tetrahedron::<P>().decide::<P>(bound, separation));
+        let decision = of_kind!(pair.kind, P => points.tetrahedron::<P>().decide::<P>(separation));
         let culled = u16::from(decision.culled);
         let is_open = self.tier.open(culled, u16::from(decision.settled)) & 1 != 0;
         Verdict::culled_if(decision.culled || is_open && self.culls_open(pair))
     }
 
-    /// What the tier does with one pair that is [open](Tier::open).
+    /// Returns whether the tier culls one pair that is [open](Tier::open).
     #[cold]
     pub(crate) fn culls_open(&self, pair: &PrimitivePair<S>) -> bool {
         match self.tier {
-            Tier::MagnitudesByEdge | Tier::MagnitudesByAxis | Tier::Permanent => false,
+            Tier::Permanent => false,
             Tier::Widened => S::UNIT_ROUNDOFF.to_f64() > f64::UNIT_ROUNDOFF && widened::culls(pair, self.positive_separation()),
-            Tier::Subdivided(depth) => {
-                let points = PairPoints::from(pair);
-                of_kind!(pair.kind, P => points.never_touch_in_parts::<P>(self.positive_separation(), depth))
-            }
             Tier::Exact => self.culls_exactly(pair),
         }
     }
 
-    /// By the exact signs, of which those that rounding leaves certain are not computed again.
+    /// Decides by the exact signs. Signs that rounding leaves certain are not computed again.
     fn culls_exactly(&self, pair: &PrimitivePair<S>) -> bool {
         if let Some(separation) = self.positive_separation() {
             return exact::is_never_within(pair, separation, exact::UNKNOWN);
@@ -180,7 +146,7 @@ impl<S: Scalar> Filter<S> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Depth, Filter, Tier};
+    use super::{Filter, Tier};
 
     /// A lane that is culled, one that is settled, one that is both and one that is neither.
     #[test]
@@ -189,7 +155,6 @@ mod tests {
         assert_eq!(open(Tier::Permanent), 0);
         assert_eq!(open(Tier::Widened), 0b1000);
         assert_eq!(open(Tier::Exact), 0b1000);
-        assert_eq!(open(Tier::Subdivided(Depth::One)), 0b1010);
     }
 
     #[test]

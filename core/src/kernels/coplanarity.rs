@@ -35,8 +35,7 @@
 //! bounds, are proven by Gappa for both formats, and Coq accepts the proofs: `verification/gappa`.
 //!
 //! **Without the permanent.** Each monomial is at most Mx·My·Mz, the product of the largest magnitudes along each axis
-//! ([`largest_by_axis`](MovingTetrahedron::largest_by_axis)), or the product of the largest components of B, C and P
-//! ([`largest_by_edge`](MovingTetrahedron::largest_by_edge)). With 6 monomials in k₀ and 18 in 3k₁, Cᵢ·P̂ᵢ may be replaced
+//! ([`largest_by_axis`](MovingTetrahedron::largest_by_axis)). With 6 monomials in k₀ and 18 in 3k₁, Cᵢ·P̂ᵢ may be replaced
 //! by 96u or 384u times the product: 96u(1 − 2u)⁵ ≥ 6((1 + 2u)⁷ − 1)/(1 − 2u)³ and
 //! 384u(1 − 2u)⁵ ≥ 18((1 + 2u)⁹ − 1)/(1 − 2u)³ hold for u ≤ 2⁻¹⁰. (The quotients: the product is one of computed
 //! differences, and the error's monomials are those of exact ones.)
@@ -82,25 +81,13 @@ pub struct MovingTetrahedron<L> {
 #[derive(Clone, Copy, Debug)]
 pub struct ControlValues<L>(pub [L; 4]);
 
-/// How the rounding error of the control values is bounded, the cheapest and loosest first. See
-/// [Rounding](self#rounding).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Bound {
-    /// From the largest components of the tetrahedron's three edges.
-    MagnitudesByEdge,
-    /// From the largest components along each axis.
-    MagnitudesByAxis,
-    /// From the permanent of each control value, where [`MagnitudesByAxis`](Self::MagnitudesByAxis) does not decide.
-    Permanent,
-}
-
 /// What control values and their error bounds tell of a lane's pair. If neither, they leave it undecided.
 #[derive(Clone, Copy, Debug)]
 pub struct Decision<M> {
     /// All beyond their bounds, with one sign.
     pub culled: M,
     /// No sharper bound can cull: two of them are beyond their bounds with opposite signs, or all are zero since the pair
-    /// has no extent along an axis. Only with [`Bound::Permanent`].
+    /// has no extent along an axis.
     pub settled: M,
 }
 
@@ -130,26 +117,13 @@ impl<L: Lanes> MovingTetrahedron<L> {
     #[inline(always)]
     #[must_use]
     pub fn largest_by_axis(&self) -> Vector<L> {
-        let [b, c, p] = self.largest_of_edges();
-        b.larger(c).larger(p)
-    }
-
-    /// The largest component of B, of C and of P at both ends, as the components of a vector. NaN may be dropped.
-    #[inline(always)]
-    #[must_use]
-    pub fn largest_by_edge(&self) -> Vector<L> {
-        let [b, c, p] = self.largest_of_edges();
-        Vector::new(b.largest(), c.largest(), p.largest())
-    }
-
-    #[inline(always)]
-    fn largest_of_edges(&self) -> [Vector<L>; 3] {
         let ([b0, b1], [c0, c1], [p0, p1]) = (self.b, self.c, self.p);
-        [
+        let (b, c, p) = (
             b0.abs().larger(b1.abs()),
             c0.abs().larger(c1.abs()),
             p0.abs().larger(p1.abs()),
-        ]
+        );
+        b.larger(c).larger(p)
     }
 
     /// Eᵢ of the module's documentation, by the permanent: a computed control value above Eᵢ (below −Eᵢ) proves that the
@@ -200,7 +174,7 @@ impl<L: Lanes> MovingTetrahedron<L> {
 }
 
 /// E of the module's documentation without the permanent, for k₀ and k₃; four times as much for 3k₁ and 3k₂. `largest`
-/// is [`MovingTetrahedron::largest_by_axis`] or [`MovingTetrahedron::largest_by_edge`].
+/// is [`MovingTetrahedron::largest_by_axis`].
 #[inline(always)]
 #[must_use]
 pub fn error_bound_by_magnitudes<L: Lanes>(largest: Vector<L>) -> L {

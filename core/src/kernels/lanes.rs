@@ -32,9 +32,6 @@ pub trait Rounding: Copy {
     /// below 3·(8·2⁶⁰)², which is 2¹²⁷·⁶ (3·(8·2⁵⁰⁰)²). To nearest overflow is infinite, and every test keeps what is not finite; but rounding
     /// towards zero stops at the largest finite number, which nothing would notice.
     const LARGEST_EDGE: Self;
-    /// What one sum of two coordinates must exceed another by, so that flushed operands do not matter: η/u, 2⁻⁹³ for
-    /// `f32`, 2⁻⁹⁴⁷ for `f64`. See [`boxes`](crate::boxes#why-sums-may-round).
-    const SUM_GAP: Self;
     /// Differences of points along an axis up to which the time of impact proves anything: 2²⁹ for `f32`, 2²⁵⁰ for `f64`. Products
     /// of four numbers of eight times this size do not overflow.
     const LARGEST_EXTENT: Self;
@@ -157,7 +154,6 @@ macro_rules! one_lane {
             const UNIT_ROUNDOFF: Self = <$scalar>::EPSILON / 2.0;
             const UNDERFLOW: Self = $power_of_two($constants.underflow);
             const LARGEST_EDGE: Self = $power_of_two($constants.largest_edge);
-            const SUM_GAP: Self = $power_of_two($constants.sum_gap);
             const LARGEST_EXTENT: Self = $power_of_two($constants.largest_extent);
             const EXTENT_UNDERFLOW: Self = $power_of_two($constants.extent_underflow);
             const SAFE_SQUARE: Self = $power_of_two($constants.safe_square);
@@ -244,7 +240,6 @@ pub(crate) const fn power_of_two_f64(exponent: i64) -> f64 {
 struct Exponents {
     underflow: i64,
     largest_edge: i64,
-    sum_gap: i64,
     largest_extent: i64,
     extent_underflow: i64,
     safe_square: i64,
@@ -254,7 +249,6 @@ struct Exponents {
 const SINGLE: Exponents = Exponents {
     underflow: -117,
     largest_edge: 30,
-    sum_gap: -93,
     largest_extent: 29,
     extent_underflow: -100,
     safe_square: -100,
@@ -264,7 +258,6 @@ const SINGLE: Exponents = Exponents {
 const DOUBLE: Exponents = Exponents {
     underflow: -1000,
     largest_edge: 250,
-    sum_gap: -947,
     largest_extent: 250,
     extent_underflow: -960,
     safe_square: -900,
@@ -283,11 +276,9 @@ mod tests {
         assert_eq!(f64::from(f32::UNIT_ROUNDOFF), libm::exp2(-24.0));
         assert_eq!(f64::from(f32::UNDERFLOW), libm::exp2(-117.0));
         assert_eq!(f64::from(f32::LARGEST_EDGE), libm::exp2(30.0));
-        assert_eq!(f32::SUM_GAP * f32::UNIT_ROUNDOFF, f32::UNDERFLOW);
         assert_eq!(f64::UNIT_ROUNDOFF, libm::exp2(-53.0));
         assert_eq!(f64::UNDERFLOW, libm::exp2(-1000.0));
         assert_eq!(f64::LARGEST_EDGE, libm::exp2(250.0));
-        assert_eq!(f64::SUM_GAP * f64::UNIT_ROUNDOFF, f64::UNDERFLOW);
     }
 
     #[test]

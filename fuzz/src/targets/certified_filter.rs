@@ -2,7 +2,6 @@ use super::pair::{self, Numbers};
 use selvedge::PairKind;
 use selvedge::core::Verdict;
 use selvedge::core::filter::certified::non_coplanarity;
-use selvedge::core::verification::coplanarity::Bound;
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::coplanar;
 
@@ -38,7 +37,7 @@ fn whole_numbers(points: &[[[i8; 3]; 2]; 4]) {
     let case = PairCase::<f64>::new(PairKind::VertexFace, points.map(|ends| ends.map(double)));
     let expected = one_sign(tripled_control_values(points));
     assert_eq!(verdict(&case).is_culled(), expected, "{case:?}");
-    assert_eq!(case.tetrahedron().is_never_coplanar(Bound::Permanent), expected);
+    assert_eq!(case.tetrahedron().is_never_coplanar(), expected);
 }
 
 fn one_sign(values: [i64; 4]) -> bool {

@@ -3,8 +3,6 @@ s/@u@/-53/g
 s/@lambda@/-1022/g
 s/@eta@/-1000/g
 s/@edge@/250/g
-s/@gap@/-947/g
-s/@gap16@/-898/g
 s/@max@/1024/g
 s/@mu@/-960/g
 s/@extent@/250/g

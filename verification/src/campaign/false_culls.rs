@@ -2,17 +2,15 @@
 //!
 //! # Who judges
 //! A cull without separation is proven right by the exact signs of the control values
-//! ([`control_value_signs`], itself checked against rationals in the tests), or for subdivided tiers by relative boxes; one
+//! ([`control_value_signs`], itself checked against rationals in the tests); one
 //! with a separation by [`is_never_within`]. What that does not prove, the [`oracle`] decides, and of what
-//! it does prove the oracle confirms every 10,000th. A cull is false if the pair is coplanar, is within the separation, or, for
-//! subdivided tiers, touches.
+//! it does prove the oracle confirms every 10,000th. A cull is false if the pair is coplanar, or is within the separation.
 
 use crate::campaign::{self, Findings};
 use crate::generator::{Choices, Format, PairCase};
 use crate::oracle::{self, PairKind};
 use proptest::prelude::Rng;
 use selvedge_core::PrimitivePair;
-use selvedge_core::boxes::relative;
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::verification::exact::{UNKNOWN, control_value_signs, is_never_within};
 use selvedge_laboratory::baselines::as_computed::AsComputed;
@@ -37,16 +35,13 @@ pub enum Rule {
 }
 
 impl Rule {
-    /// Every rule, in the order of a [`Progress`]'s rows. (Of subdivided tiers with a separation the oracle would have to decide
-    /// too many: the property tests have them.)
+    /// Every rule, in the order of a [`Progress`]'s rows.
     #[must_use]
     pub fn all() -> Vec<Self> {
-        let whole = |tier: &Tier| !matches!(tier, Tier::Subdivided(_));
-        let separated = Tier::ALL.into_iter().filter(whole);
         [Self::Plain, Self::Uncertified]
             .into_iter()
             .chain(Tier::ALL.map(|tier| Self::Tier(tier, false)))
-            .chain(separated.map(|tier| Self::Tier(tier, true)))
+            .chain(Tier::ALL.map(|tier| Self::Tier(tier, true)))
             .collect()
     }
 
@@ -308,7 +303,6 @@ impl<'a, S: Format> Judged<'a, S> {
             Rule::Tier(_, true) => *self
                 .is_beyond
                 .get_or_init(|| is_never_within(&self.pair, self.separation, UNKNOWN)),
-            Rule::Tier(Tier::Subdivided(_), false) => self.has_one_sign() || relative::nine_directions(&self.pair).is_culled(),
             Rule::Plain | Rule::Uncertified | Rule::Tier(_, false) => self.has_one_sign(),
         }
     }
@@ -328,7 +322,6 @@ impl<'a, S: Format> Judged<'a, S> {
             Rule::Tier(_, true) => *self
                 .within
                 .get_or_init(|| oracle::within(&self.case.question(), self.separation.to_f64())),
-            Rule::Tier(Tier::Subdivided(_), false) => self.touches(),
             Rule::Plain | Rule::Uncertified | Rule::Tier(_, false) => self.is_coplanar(),
         }
     }

@@ -97,7 +97,7 @@ impl<S: Format> PairCase<S> {
     /// Those tests keep pairs that are apart by less, and rounding decides about half a gap.
     #[must_use]
     pub fn has_dust(&self) -> bool {
-        let is_dust = |x: S| x != S::ZERO && x.abs() + S::SUM_GAP != x.abs();
+        let is_dust = |x: S| x != S::ZERO && x.abs() + S::UNDERFLOW / S::UNIT_ROUNDOFF != x.abs();
         self.coordinates().any(is_dust)
     }
 

@@ -8,32 +8,23 @@ use selvedge_core::batch::{
     BatchTest, ByPoints, ByVolume, LANES, Mask, Test, Tile, VertexRow, closest_points, culled, culled_from_rows,
     culled_from_tiles, largest_strays_from_rows,
 };
-use selvedge_core::boxes::direction;
-use selvedge_core::filter::{Filter, Tier, inside};
+use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::glam::{DVec3, Vec3A};
 use selvedge_core::separation::clearance::Clearance;
 use selvedge_core::separation::closest::Closest;
 use selvedge_laboratory::baselines::as_computed::AsComputed;
+use selvedge_laboratory::baselines::nine_directions::NineDirections;
 use selvedge_laboratory::baselines::plain::Plain;
 use selvedge_laboratory::methods::{CullingTest, Preset};
 use selvedge_laboratory::pipeline::Pipeline;
 use selvedge_verification::culling::verdict;
 use selvedge_verification::generator::{Choices, Format, PairCase, check, from_choices, meshes};
 
-const TESTS: [(Test, CullingTest); 4] = [
+const TESTS: [(Test, CullingTest); 3] = [
     (Test::SweptBoxes, CullingTest::SweptBoxes),
     (Test::SegmentBox, CullingTest::SegmentBox),
     (Test::RelativeBoxes, CullingTest::RelativeBoxes),
-    (Test::RelativeBoxesNine, CullingTest::RelativeBoxesNine),
 ];
-
-fn direction_verdict<S: Format>(case: &PairCase<S>) -> Verdict {
-    direction::normal(&case.pair())
-}
-
-fn inside_verdict<S: Format>(case: &PairCase<S>) -> Verdict {
-    inside::never_inside(&case.pair())
-}
 
 fn filter_verdict<S: Format>(filter: Filter<S>, case: &PairCase<S>) -> Verdict {
     filter.verdict(&case.pair())
@@ -127,8 +118,7 @@ fn verdicts_agree<S: Format>(kind: PairKind) {
         for (test, one_by_one) in TESTS {
             batch.agrees(test, |pair: &PairCase<S>| verdict(one_by_one, pair))?;
         }
-        batch.agrees(Test::NormalDirection, direction_verdict)?;
-        batch.agrees(Test::InsideFunctions, inside_verdict)?;
+        batch.agrees(ByPoints(NineDirections), |pair: &PairCase<S>| verdict(CullingTest::RelativeBoxesNine, pair))?;
         batch.agrees(ByPoints(Plain), |pair: &PairCase<S>| verdict(CullingTest::PlainNonCoplanarity, pair))?;
         let as_computed = AsComputed::<S>::new();
         let separated = as_computed.with_separation(S::exact(1, -scale)).expect("a length");

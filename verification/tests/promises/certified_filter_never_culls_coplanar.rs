@@ -2,7 +2,6 @@
 
 use proptest::prelude::*;
 use selvedge_core::PairKind;
-use selvedge_core::verification::coplanarity::Bound;
 use selvedge_laboratory::methods::CullingTest::{CertifiedNonCoplanarity, PlainNonCoplanarity};
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling::verdict;
@@ -117,7 +116,7 @@ fn what_the_f32_filter_culls_the_f64_filter_culls_too() {
 
 /// The kernel behind [`culls`], with other constants.
 fn culls_with<F: Factors, S: Format>(pair: &PairCase<S>) -> bool {
-    Kernel::Bounded(Bound::Permanent).culls::<F, S>(pair)
+    Kernel::NonCoplanarity.culls::<F, S>(pair)
 }
 
 struct Unchanged;

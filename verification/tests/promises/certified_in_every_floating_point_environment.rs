@@ -7,10 +7,9 @@ use crate::support::environment::Environment;
 use proptest::prelude::*;
 use selvedge::simd::available_levels;
 use selvedge_core::PairKind;
-use selvedge_core::batch::{BatchTest, Level, Test, Tile, culled_from_tiles};
-use selvedge_core::boxes::direction;
-use selvedge_core::filter::{Filter, Tier, inside};
-use selvedge_core::verification::coplanarity::Bound;
+use selvedge_core::batch::{BatchTest, ByPoints, Level, Test, Tile, culled_from_tiles};
+use selvedge_core::filter::{Filter, Tier};
+use selvedge_laboratory::baselines::nine_directions::NineDirections;
 use selvedge_verification::altered::{Factors, Kernel};
 use selvedge_verification::culling;
 use selvedge_verification::generator::{
@@ -19,22 +18,7 @@ use selvedge_verification::generator::{
 use selvedge_verification::oracle::collides;
 use std::hint::black_box;
 
-const BOX_TESTS: [Test; 6] = [
-    Test::SweptBoxes,
-    Test::SegmentBox,
-    Test::RelativeBoxes,
-    Test::RelativeBoxesNine,
-    Test::NormalDirection,
-    Test::InsideFunctions,
-];
-
-/// Certified tiers that promise to keep coplanar pairs, and those that promise to keep touching ones only.
-fn tiers(only_touching: bool) -> impl Iterator<Item = Tier> {
-    let is_subdivided = |tier: &Tier| matches!(tier, Tier::Subdivided(_));
-    Tier::ALL
-        .into_iter()
-        .filter(move |tier| only_touching || !is_subdivided(tier))
-}
+const BOX_TESTS: [Test; 3] = [Test::SweptBoxes, Test::SegmentBox, Test::RelativeBoxes];
 
 /// Everything certified that culls the pair: one by one, and batched on every level.
 fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
@@ -47,7 +31,7 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
     let (kind, primitives) = (pair.kind, pair.pair());
     let mut tile = Tile::unknown();
     tile.set(5, pair.motions());
-    for tier in tiers(touches) {
+    for tier in Tier::ALL {
         let filter = Filter::<S>::new(tier);
         note(filter.verdict(&primitives).is_culled(), &|| format!("{tier:?}"));
         for (name, level) in available_levels() {
@@ -59,13 +43,15 @@ fn culling<S: Format>(pair: &PairCase<S>, touches: bool) -> Vec<String> {
         for test in culling::certified() {
             note(culling::verdict(test, pair).is_culled(), &|| format!("{test:?}"));
         }
-        note(direction::normal(&primitives).is_culled(), &|| "normal".into());
-        note(inside::never_inside(&primitives).is_culled(), &|| "inside functions".into());
         for test in BOX_TESTS {
             for (name, level) in available_levels() {
                 let culled = batch_culls(level, kind, test, &tile);
                 note(culled, &|| format!("{test:?} on {name}"));
             }
+        }
+        for (name, level) in available_levels() {
+            let culled = batch_culls(level, kind, ByPoints(NineDirections), &tile);
+            note(culled, &|| format!("nine directions on {name}"));
         }
     }
     culling
@@ -194,11 +180,6 @@ impl Factors for NoUnderflowTerm {
     const UNDERFLOW: f64 = 0.0;
 }
 
-struct NoGap;
-impl Factors for NoGap {
-    const SUM_GAP: f64 = 0.0;
-}
-
 struct NoLimit;
 impl Factors for NoLimit {
     const LARGEST_EDGE: f64 = f64::INFINITY;
@@ -208,8 +189,6 @@ struct AnEighth;
 impl Factors for AnEighth {
     const UNIT_ROUNDOFF: f64 = 0.125;
 }
-
-const PERMANENT: Kernel = Kernel::Bounded(Bound::Permanent);
 
 /// A touching pair that a kernel would cull in an environment if it were not for one of its constants.
 fn is_culled_but_for<F: Factors, S: Format>(kernel: Kernel, environment: Environment, kind: PairKind, points: [[[S; 3]; 2]; 4]) {
@@ -238,7 +217,7 @@ fn without_the_underflow_term_flushing_would_cull_a_tiny_touching_pair_f32() {
         [-5.115_907_7e-13, -2.273_736_8e-13, 1.136_868_4e-13],
     ];
     let environment = Environment::FLUSHING;
-    is_culled_but_for::<NoUnderflowTerm, f32>(PERMANENT, environment, PairKind::EdgeEdge, at_rest(points));
+    is_culled_but_for::<NoUnderflowTerm, f32>(Kernel::NonCoplanarity, environment, PairKind::EdgeEdge, at_rest(points));
 }
 
 #[test]
@@ -262,44 +241,7 @@ fn without_the_underflow_term_flushing_would_cull_a_tiny_touching_pair_f64() {
         ],
     ];
     let environment = Environment::FLUSHING;
-    is_culled_but_for::<NoUnderflowTerm, f64>(PERMANENT, environment, PairKind::EdgeEdge, at_rest(points));
-}
-
-/// To nearest, and with subnormal numbers.
-#[test]
-fn without_the_underflow_term_the_normal_direction_would_cull_a_tiny_touching_pair_f32() {
-    let points = [
-        [-1.998_401_4e-15, 4.218_847_5e-15, 4.662_936_7e-15],
-        [6.217_249e-15, 6.217_249e-15, -5.329_070_5e-15],
-        [-1.776_356_8e-15, 3.552_713_7e-15, 6.217_249e-15],
-        [-2.664_535_3e-15, 6.217_249e-15, 0.0],
-    ];
-    let environment = Environment::DEFAULT;
-    is_culled_but_for::<NoUnderflowTerm, f32>(Kernel::Normal, environment, PairKind::VertexFace, at_rest(points));
-}
-
-#[test]
-fn without_the_gap_between_sums_flushing_would_cull_a_touching_pair_f32() {
-    let points = [
-        [0.0, 1.198_883_7e-38, -1.095_855_8e-38],
-        [0.0, 3.511_846_8e-38, -2.724_644_4e-38],
-        [0.0, 4.695_376_7e-38, -3.783_048_5e-38],
-        [0.0, -2.297_609_3e-38, 1.591_337e-38],
-    ];
-    let environment = Environment::FLUSHING;
-    is_culled_but_for::<NoGap, f32>(Kernel::NineDirections, environment, PairKind::VertexFace, at_rest(points));
-}
-
-#[test]
-fn without_the_gap_between_sums_flushing_would_cull_a_touching_pair_f64() {
-    let points = [
-        [0.0, 1.334_116_618_434_735_5e-308, -3.936_141_313_639_537_3e-308],
-        [0.0, 2.136_611_270_948_34e-308, -7.802_331_248_665_893e-308],
-        [0.0, -6.024_128_114_925_13e-309, -2.798_534_686_025_052e-308],
-        [0.0, 2.302_381_333_398_36e-308, -4.504_944_627_446_78e-308],
-    ];
-    let environment = Environment::FLUSHING;
-    is_culled_but_for::<NoGap, f64>(Kernel::NineDirections, environment, PairKind::EdgeEdge, at_rest(points));
+    is_culled_but_for::<NoUnderflowTerm, f64>(Kernel::NonCoplanarity, environment, PairKind::EdgeEdge, at_rest(points));
 }
 
 /// Volumes above the largest number become that number.
@@ -316,7 +258,7 @@ fn without_the_limit_of_edges_rounding_downward_would_cull_a_large_touching_pair
         [-1.429_023_079_063_106_8e140, -4.763_410_263_543_689_3e139, 0.0],
     ];
     let environment = Environment::DOWNWARD;
-    is_culled_but_for::<NoLimit, f64>(PERMANENT, environment, PairKind::VertexFace, at_rest(points));
+    is_culled_but_for::<NoLimit, f64>(Kernel::NonCoplanarity, environment, PairKind::VertexFace, at_rest(points));
 }
 
 #[test]
@@ -342,7 +284,7 @@ fn with_an_eighth_of_the_rounding_bound_rounding_upward_would_cull_a_touching_pa
         [[-15_851.0, -7613.0, -7441.0], [-15_851.0, -7613.0, -7442.0]],
     ];
     let environment = Environment::UPWARD;
-    is_culled_but_for::<AnEighth, f32>(PERMANENT, environment, PairKind::EdgeEdge, points);
+    is_culled_but_for::<AnEighth, f32>(Kernel::NonCoplanarity, environment, PairKind::EdgeEdge, points);
 }
 
 /// A vertex at rest that much above a triangle at rest, and a separation larger than it but subnormal, which flushing compares as
@@ -354,7 +296,7 @@ fn keeps_within_a_subnormal_separation<S: Format>(height: S, separation: S) {
         kind: PairKind::VertexFace,
         points: at_rest([[o, o, height], face[0], face[1], face[2]]),
     };
-    for tier in tiers(true) {
+    for tier in Tier::ALL {
         let filter = Filter::new(tier).with_separation(separation);
         let filter = filter.expect("finite and not negative");
         let verdict = Environment::FLUSHING.run(&pair, |pair| filter.verdict(&pair.pair()));

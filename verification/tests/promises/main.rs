@@ -27,7 +27,6 @@ mod exact_signs_are_those_of_rationals;
 mod false_culls_are_counted;
 mod generator_makes_what_it_promises;
 mod hard_cases_have_exact_answers;
-mod inside_functions_never_cull_what_touches;
 mod intersections_are_exact;
 mod known_examples;
 mod minifloat_exhaustive;

@@ -12,7 +12,7 @@
 use crate::support::rationals::half_to_the;
 use dashu_int::IBig;
 use dashu_ratio::RBig;
-use selvedge_core::verification::coplanarity::{Bound, MovingTetrahedron};
+use selvedge_core::verification::coplanarity::MovingTetrahedron;
 use selvedge_core::verification::vector::Vector;
 use selvedge_verification::minifloat::{DOWNWARD, FLUSHING, Minifloat, TO_NEAREST, TOWARDS_ZERO, UPWARD, every};
 
@@ -81,8 +81,7 @@ impl Seen {
                 }
             }
         }
-        let bounds = [Bound::Permanent, Bound::MagnitudesByAxis, Bound::MagnitudesByEdge];
-        if bounds.map(|bound| tetrahedron.is_never_coplanar(bound)).contains(&true) {
+        if tetrahedron.is_never_coplanar() {
             self.culled += 1;
             let signs = [0, 1, 2, 3].map(|k| exact_control_value(points, k).signum());
             assert!(signs == [1; 4] || signs == [-1; 4], "{points:?} is culled");

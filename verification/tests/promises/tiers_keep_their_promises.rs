@@ -4,19 +4,12 @@ use crate::support::distance::distance;
 use crate::support::rationals::{InRationals, separations};
 use proptest::prelude::*;
 use selvedge_core::PairKind;
-use selvedge_core::boxes::direction;
-use selvedge_core::filter::{Depth, Filter, Tier};
+use selvedge_core::filter::{Filter, Tier};
 use selvedge_laboratory::baselines::as_computed::AsComputed;
 use selvedge_verification::generator::{
     Format, Moment, PairCase, check, coplanar_pairs, extraordinary_pairs, grazes_of_a_box, pairs_of_any_kind, touching_pairs,
 };
 use selvedge_verification::oracle::{collides, coplanar, within};
-
-const DEPTHS: [Depth; 4] = [Depth::One, Depth::Two, Depth::Three, Depth::Four];
-
-fn certified() -> impl Iterator<Item = Tier> {
-    Tier::ALL.into_iter()
-}
 
 fn culls_as_computed<S: Format>(pair: &PairCase<S>, separation: S) -> bool {
     let filter = AsComputed::new().with_separation(separation).expect("a length");
@@ -36,25 +29,13 @@ fn culls_beyond<S: Format>(tier: Tier, separation: S, pair: &PairCase<S>) -> boo
     filter_culls(filter.expect("a length"), pair)
 }
 
-fn normal_culls<S: Format>(pair: &PairCase<S>) -> bool {
-    direction::normal(&pair.pair()).is_culled()
-}
-
-const fn is_subdivided(tier: Tier) -> bool {
-    matches!(tier, Tier::Subdivided(_))
-}
-
-/// Nothing certified may cull it: the oracle is asked once, and only if something does.
+/// Asks the oracle once, and only if a tier culls the pair.
 fn nothing_culls_what_it_must_not<S: Format>(pair: &PairCase<S>) -> Result<(), TestCaseError> {
-    let (all, culling): (Vec<_>, Vec<_>) = certified()
-        .filter(|&tier| culls(tier, pair))
-        .partition(|&tier| is_subdivided(tier));
-    let question = pair.question();
+    let culling: Vec<_> = Tier::ALL.into_iter().filter(|&tier| culls(tier, pair)).collect();
     if !culling.is_empty() {
+        let question = pair.question();
         let coplanar = coplanar(&question.start, &question.end);
         prop_assert!(!coplanar, "coplanar, culled by {culling:?}");
-    } else if !all.is_empty() || normal_culls(pair) {
-        prop_assert!(collides(&question).is_none(), "touches, culled by {all:?}");
     }
     Ok(())
 }
@@ -78,11 +59,10 @@ property!(
         if pair.is_finite() {
             return nothing_culls_what_it_must_not(pair);
         }
-        for tier in certified() {
+        for tier in Tier::ALL {
             prop_assert!(!culls(tier, pair), "{tier:?}");
             prop_assert!(!culls_beyond(tier, S::ONE, pair), "{tier:?}");
         }
-        prop_assert!(!normal_culls(pair));
         Ok(())
     }
 );
@@ -93,21 +73,20 @@ property!(
     touching_pairs(),
     |moment: Moment| {
         let pair = moment.pair();
-        for tier in certified() {
+        for tier in Tier::ALL {
             prop_assert!(!culls(tier, &pair), "{tier:?}");
         }
-        prop_assert!(!normal_culls(&pair));
         Ok(())
     }
 );
 
 property!(
-    only_subdivided_culls_what_is_built_to_be_coplanar,
+    nothing_certified_culls_what_is_built_to_be_coplanar,
     25_000,
     coplanar_pairs(),
     |moment: Moment| {
         let pair = moment.pair();
-        for tier in certified().filter(|&tier| !is_subdivided(tier)) {
+        for tier in Tier::ALL {
             prop_assert!(!culls(tier, &pair), "{tier:?}");
         }
         Ok(())
@@ -149,21 +128,10 @@ fn lengths<S: Format>(pair: &PairCase<S>) -> Vec<S> {
 }
 
 property!(sharper_tiers_cull_whatever_others_cull, 40_000, pairs_of_any_kind(), |pair| {
-    use Tier::{Exact, MagnitudesByAxis, MagnitudesByEdge, Permanent, Subdivided, Widened};
+    use Tier::{Exact, Permanent, Widened};
     let lengths = lengths(pair);
-    for pair_of_tiers in [
-        [MagnitudesByEdge, Exact],
-        [MagnitudesByAxis, Exact],
-        [Permanent, Widened],
-        [Widened, Exact],
-        [Permanent, Exact],
-        [Permanent, Subdivided(Depth::One)],
-    ] {
+    for pair_of_tiers in [[Permanent, Widened], [Widened, Exact], [Permanent, Exact]] {
         is_at_least_as_sharp(pair, &lengths, pair_of_tiers)?;
-    }
-    for depths in DEPTHS.windows(2) {
-        let tiers = [Subdivided(depths[0]), Subdivided(depths[1])];
-        is_at_least_as_sharp(pair, &lengths, tiers)?;
     }
     Ok(())
 });
@@ -197,7 +165,8 @@ property!(
     |pair| {
         let exact = InRationals::new(pair);
         for separation in separations(pair, &exact) {
-            let culling: Vec<_> = certified()
+            let culling: Vec<_> = Tier::ALL
+                .into_iter()
                 .filter(|&tier| culls_beyond(tier, separation, pair))
                 .collect();
             if culling.is_empty() {
@@ -207,7 +176,7 @@ property!(
             prop_assert!(!within, "{culling:?} by {separation}");
             for tier in culling {
                 prop_assert!(
-                    is_subdivided(tier) || exact.are_beyond(&crate::support::rationals::rational(separation)),
+                    exact.are_beyond(&crate::support::rationals::rational(separation)),
                     "{tier:?} by {separation}, nearer to the plane or the line"
                 );
             }
@@ -228,7 +197,10 @@ fn nothing_certified_culls_beyond_the_distance_at_a_time<S: Format>() {
         for part in 0..=8 {
             let separation = S::from_f64(distance(&question, f64::from(part) / 8.0));
             for separation in [separation.nudged(2), separation.nudged(-40).abs()] {
-                let culling: Vec<_> = certified().filter(|&tier| culls_beyond(tier, separation, pair)).collect();
+                let culling: Vec<_> = Tier::ALL
+                    .into_iter()
+                    .filter(|&tier| culls_beyond(tier, separation, pair))
+                    .collect();
                 if !culling.is_empty() {
                     culled.set(culled.get() + 1);
                     let within = within(&question, separation.to_f64());
@@ -283,7 +255,7 @@ fn uncertified_culls_a_vertex_on_a_corner<S: Format>(pair: &PairCase<S>) {
     assert!(pair.points[1..].contains(&pair.points[0]));
     assert!(collides(&pair.question()).is_some());
     assert!(culls_as_computed(pair, S::ZERO));
-    for tier in certified() {
+    for tier in Tier::ALL {
         assert!(!culls(tier, pair), "{tier:?}");
     }
 }

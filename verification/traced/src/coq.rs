@@ -1,4 +1,4 @@
-//! What the certified filter, the box tests and the tests on corners compute, as terms of Coq, written from core's kernels themselves.
+//! What the certified filter and the box tests compute, as terms of Coq, written from core's kernels themselves.
 //!
 //! `verification/proofs` speaks of them: what they compute, and what its signs prove.
 
@@ -6,8 +6,7 @@ use crate::Text;
 use crate::gappa::tetrahedron;
 use crate::symbols::{Mask, MaskStep, Step, Trace, Traced, if_any, trace};
 use selvedge_core::Scalar;
-use selvedge_core::filter::Depth;
-use selvedge_core::verification::coplanarity::{Bound, MovingTetrahedron};
+use selvedge_core::verification::coplanarity::MovingTetrahedron;
 use selvedge_core::verification::lanes::Rounding;
 use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
 use selvedge_core::verification::vector::Vector;
@@ -30,21 +29,10 @@ From Selvedge Require Import Expressions Orders.
 
 ";
 
-const CORNERS_HEAD: &str = "\
-(* What a fixed direction and the filter in parts of the step ask: core/src/boxes/direction.rs, core/src/filter/subdivided.rs,
-   core/src/kernels/coplanarity.rs, core/src/kernels/points.rs.
-   Written from the code by verification/traced/src/coq.rs. *)
-From Coq Require Import ZArith.
-From Selvedge Require Import Arithmetic Expressions.
-Notation number := (expr_of span_component).
-Notation test := (mask_of span_component).
-
-";
-
 /// The files that `verification/proofs` builds on.
 #[must_use]
 pub fn files() -> Vec<Text> {
-    [("Filter.v", filter()), ("Boxes.v", boxes()), ("Corners.v", corners())]
+    [("Filter.v", filter()), ("Boxes.v", boxes())]
         .map(|(name, text)| (name.to_owned(), text))
         .into()
 }
@@ -58,13 +46,11 @@ fn filter() -> String {
 
     let ((values, bounds, masks), steps) = trace(|| {
         let points = tetrahedron();
-        let by_permanent = points.is_never_coplanar(Bound::Permanent);
+        let by_permanent = points.is_never_coplanar();
         let masks = [
-            ("by_edge", points.is_never_coplanar(Bound::MagnitudesByEdge)),
-            ("by_axis", points.is_never_coplanar(Bound::MagnitudesByAxis)),
             // Where no lane needs the permanent, and where one does.
             ("by_permanent_alone", by_permanent),
-            ("by_permanent", if_any(|| points.is_never_coplanar(Bound::Permanent))),
+            ("by_permanent", if_any(|| points.is_never_coplanar())),
         ];
         (points.control_values().0, points.error_bounds(), masks)
     });
@@ -84,10 +70,6 @@ fn filter() -> String {
 
 fn boxes() -> String {
     let mut text = String::from(BOXES_HEAD);
-    for (format, gap) in [("binary32", f32::SUM_GAP.to_f64()), ("binary64", f64::SUM_GAP)] {
-        writeln!(text, "Definition gap_of_{format} := ({})%Z.", exponent(gap)).expect("a string");
-    }
-    text.push('\n');
     box_tests::<VertexFace>("a_vertex_and_a_face", &mut text);
     box_tests::<EdgeEdge>("two_edges", &mut text);
     text
@@ -99,7 +81,6 @@ fn box_tests<P: PairShape>(of: &str, text: &mut String) {
         [
             ("swept_boxes", points.have_disjoint_swept_boxes::<P>()),
             ("three_axes", points.are_apart_along_three_axes::<P>()),
-            ("nine_directions", points.are_apart_along_nine_directions::<P>()),
         ]
     });
     let mut terms = Terms::new("number", &steps);
@@ -109,42 +90,6 @@ fn box_tests<P: PairShape>(of: &str, text: &mut String) {
         writeln!(text, "Definition culled_by_{name} := {formula}.").expect("a string");
     }
     writeln!(text, "End {of}.\n").expect("a string");
-}
-
-fn corners() -> String {
-    let mut text = String::from(CORNERS_HEAD);
-    tests_on_corners::<VertexFace>("a_vertex_and_a_face", "vertex, a, b, c", &mut text);
-    tests_on_corners::<EdgeEdge>("two_edges", "u, v, k, l", &mut text);
-    text
-}
-
-fn tests_on_corners<P: PairShape>(of: &str, order: &str, text: &mut String) {
-    let (masks, steps) = trace(|| {
-        let points = coordinates();
-        let in_parts = |depth| if_any(|| points.never_touch_in_parts::<P>(None, depth));
-        [
-            ("by_normal", points.are_apart_along_normal::<P>()),
-            ("in_2_parts", in_parts(Depth::One)),
-            ("in_4_parts", in_parts(Depth::Two)),
-            ("in_8_parts", in_parts(Depth::Three)),
-            ("in_16_parts", in_parts(Depth::Four)),
-        ]
-    });
-    let mut terms = Terms::of_spans(&steps);
-    for (name, mask) in masks {
-        let formula = terms.mask(mask);
-        writeln!(terms.text, "Definition culled_{name} : test := {formula}.").expect("a string");
-    }
-    writeln!(
-        text,
-        "Module {of}.\n(* Points 0 to 3 are {order}; of these two each span is the difference. *)"
-    )
-    .expect("a string");
-    writeln!(text, "Definition ends span := match span with").expect("a string");
-    for (index, [to, from]) in terms.spans.iter().flatten().enumerate() {
-        writeln!(text, "| S{index} => ({to}, {from})").expect("a string");
-    }
-    writeln!(text, "end.\n{}End {of}.\n", terms.text).expect("a string");
 }
 
 /// A pair's 24 coordinates.
@@ -219,10 +164,6 @@ struct Terms<'a> {
     steps: BTreeMap<usize, String>,
     masks: BTreeMap<usize, String>,
     number_type: &'static str,
-    /// Where masks have names too.
-    mask_type: Option<&'static str>,
-    /// Pairs of points whose differences are leaves, in the order in which they are met; without them leaves have names.
-    spans: Option<Vec<[usize; 2]>>,
     text: String,
 }
 
@@ -234,18 +175,7 @@ impl<'a> Terms<'a> {
             steps: BTreeMap::new(),
             masks: BTreeMap::new(),
             number_type,
-            mask_type: None,
-            spans: None,
             text: String::new(),
-        }
-    }
-
-    /// From differences of coordinates on; masks have names.
-    fn of_spans(trace: &'a Trace) -> Self {
-        Self {
-            mask_type: Some("test"),
-            spans: Some(Vec::new()),
-            ..Self::new("number", trace)
         }
     }
 
@@ -265,35 +195,12 @@ impl<'a> Terms<'a> {
         name
     }
 
-    /// A difference of two points' coordinates as a leaf, if leaves are such.
-    fn span(&mut self, to: Traced, from: Traced) -> Option<String> {
-        let spans = self.spans.as_mut()?;
-        let coordinate = |number| match number {
-            Traced::Step(index) => match &self.trace.steps[index] {
-                Step::Input(name) => name.strip_prefix("Coordinate ")?.split_once(' '),
-                _ => None,
-            },
-            _ => None,
-        };
-        let ((to, place), (from, same_place)) = (coordinate(to)?, coordinate(from)?);
-        if place != same_place {
-            return None;
-        }
-        let ends = [to, from].map(|point| point.parse().expect("a point's number"));
-        let index = spans.iter().position(|span| *span == ends).unwrap_or_else(|| {
-            spans.push(ends);
-            spans.len() - 1
-        });
-        Some(format!("Difference (Span S{index} {place})"))
-    }
-
     fn number(&mut self, number: Traced) -> String {
         let Traced::Step(index) = number else {
             return match number {
                 Traced::UnitRoundoff | Traced::Underflow | Traced::LargestEdge | Traced::Half => {
                     format!("(Constant {number:?})")
                 }
-                Traced::SumGap => "Gap".to_owned(),
                 Traced::Small(count) => format!("(Constant (Small {count}))"),
                 other => panic!("{other:?} is not known to the proof"),
             };
@@ -302,13 +209,9 @@ impl<'a> Terms<'a> {
             return name.clone();
         }
         let term = match self.trace.steps[index].clone() {
-            Step::Input(name) if self.spans.is_some() => panic!("{name} alone is not known to the proof"),
             Step::Input(name) => leaf(&name),
             Step::Sum(a, b) => self.operation("Sum", a, b),
-            Step::Difference(a, b) => match self.span(a, b) {
-                Some(leaf) => leaf,
-                None => self.operation("Minus", a, b),
-            },
+            Step::Difference(a, b) => self.operation("Minus", a, b),
             Step::Product(a, b) => self.operation("Product", a, b),
             Step::Larger(a, b) => self.operation("Larger", a, b),
             Step::Smaller(a, b) => self.operation("Smaller", a, b),
@@ -331,7 +234,6 @@ impl<'a> Terms<'a> {
             return name.clone();
         }
         let term = match self.trace.masks[mask.index] {
-            // Of finite numbers the proof says nothing but that.
             MaskStep::Greater(Traced::Infinity, _) => return "Finite".to_owned(),
             MaskStep::Greater(a, b) => {
                 let (a, b) = (self.number(a), self.number(b));
@@ -347,12 +249,8 @@ impl<'a> Terms<'a> {
             }
             other => panic!("{other:?} is not known to the proof"),
         };
-        let name = match self.mask_type {
-            Some(mask_type) => self.named('m', mask_type, term),
-            None => term,
-        };
-        self.masks.insert(mask.index, name.clone());
-        name
+        self.masks.insert(mask.index, term.clone());
+        term
     }
 }
 

@@ -6,7 +6,6 @@ use crate::Text;
 use crate::symbols::{Step, Trace, Traced, trace};
 use selvedge_core::PairKind;
 use selvedge_core::verification::coplanarity::MovingTetrahedron;
-use selvedge_core::verification::points::{PairPoints, PairShape};
 use selvedge_core::verification::vector::Vector;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -82,27 +81,6 @@ pub fn tetrahedron() -> MovingTetrahedron<Traced> {
         c: edge("c"),
         p: edge("p"),
     }
-}
-
-/// The five control values of the inside function of a pair's first side, each with what it must be less than, computed from
-/// differences of points.
-#[must_use]
-pub fn inside<P: PairShape>() -> ([[Traced; 2]; 5], Trace) {
-    let (_, mut steps) = trace(|| {
-        let points = |end: u32| {
-            ["p", "a", "b", "c"].map(|name| Vector::from(["x", "y", "z"].map(|axis| Traced::input(format!("{name}{end}{axis}")))))
-        };
-        let points = PairPoints {
-            start: points(0),
-            end: points(1),
-        };
-        points.are_outside_of_one_side::<P>()
-    });
-    steps.begin_with_differences();
-    // The bound comes first in each comparison, and those of the first side before all others.
-    let mut comparisons = steps.comparisons.iter();
-    let values = [(); 5].map(|()| comparisons.next().expect("five control values"));
-    (values.map(|&[bound, value]| [value, bound]), steps)
 }
 
 fn control_value(claim: &Claim, value: Traced, trace: &Trace) -> Text {

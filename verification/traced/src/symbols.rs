@@ -19,8 +19,6 @@ pub enum Traced {
     Underflow,
     /// Where pairs are out of range.
     LargestEdge,
-    /// The gap between sums.
-    SumGap,
     /// Where extents are out of range.
     LargestExtent,
     /// μ.
@@ -247,7 +245,6 @@ impl Rounding for Traced {
     const UNIT_ROUNDOFF: Self = Self::UnitRoundoff;
     const UNDERFLOW: Self = Self::Underflow;
     const LARGEST_EDGE: Self = Self::LargestEdge;
-    const SUM_GAP: Self = Self::SumGap;
     const LARGEST_EXTENT: Self = Self::LargestExtent;
     const EXTENT_UNDERFLOW: Self = Self::ExtentUnderflow;
     const SAFE_SQUARE: Self = Self::SafeSquare;

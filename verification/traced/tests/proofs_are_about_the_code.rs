@@ -7,9 +7,9 @@ use selvedge_core::verification::advance::corners::Corners;
 use selvedge_core::verification::advance::directions::are_apart_turning;
 use selvedge_core::verification::advance::volume::SignedVolume;
 use selvedge_core::verification::lanes::Rounding;
-use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
+use selvedge_core::verification::points::PairPoints;
 use selvedge_core::verification::vector::Vector;
-use selvedge_traced::gappa::{inside, tetrahedron};
+use selvedge_traced::gappa::tetrahedron;
 use selvedge_traced::symbols::{Mask, Paths, Trace, Traced, trace};
 use selvedge_traced::{Prover, accepted};
 use std::collections::BTreeMap;
@@ -125,7 +125,6 @@ fn constants_are_those_of<S: Scalar>(smallest_normal: f64, digits: i32, infinity
     assert_eq!(power("u"), <S as Rounding>::UNIT_ROUNDOFF.to_f64());
     assert_eq!(power("eta"), S::UNDERFLOW.to_f64());
     assert_eq!(power("edge"), S::LARGEST_EDGE.to_f64());
-    assert_eq!(power("gap"), S::SUM_GAP.to_f64());
     assert_eq!(power("extent"), S::LARGEST_EXTENT.to_f64());
     assert_eq!(power("mu"), S::EXTENT_UNDERFLOW.to_f64());
     assert_eq!(power("squares"), S::SAFE_SQUARE.to_f64());
@@ -133,7 +132,6 @@ fn constants_are_those_of<S: Scalar>(smallest_normal: f64, digits: i32, infinity
     assert_eq!(power("lambda"), smallest_normal);
     assert_eq!(power("max"), infinity);
     assert_eq!(exponents["u"], -digits);
-    assert_eq!(exponents["gap16"], exponents["gap"] - exponents["u"] - 4);
 }
 
 #[test]
@@ -192,40 +190,6 @@ fn roundings_are_as_many_as_the_scripts_say() {
             .filter(|(monomial, _)| monomial.contains(&format!("{:?}", Traced::Underflow)));
         let counts: Vec<u32> = underflow.map(|(_, &count)| count).collect();
         assert!(!counts.is_empty() && counts.iter().all(|&count| count < 6), "{counts:?}");
-    }
-}
-
-/// Of one kind of pair: the monomials of each control value of an inside function have at most as many roundings as `inside.g` says.
-fn roundings_of_inside_functions<P: PairShape>() -> [[u32; 2]; 5] {
-    // Each monomial has four differences of points.
-    const OF_FOUR_DIFFERENCES: u32 = 4;
-    let (values, trace) = inside::<P>();
-    let names = ["first", "second", "third", "second", "first"];
-    let mut counts = [[0; 2]; 5];
-    for (index, ([value, bound], name)) in values.into_iter().zip(names).enumerate() {
-        let [of_value, of_bound] = counts_in("inside.g", name);
-        let value = trace.paths_but_last(value);
-        // A multiple of every product of two components of A.
-        let bound = trace.paths(bound);
-        let most = |paths: &Paths| *paths.values().max().expect("a monomial");
-        counts[index] = [most(&value) + OF_FOUR_DIFFERENCES, most(&bound)];
-        assert!(counts[index][0] <= of_value, "{name}: {counts:?}");
-        assert!(counts[index][1] <= of_bound, "{name}: {counts:?}");
-    }
-    counts
-}
-
-#[test]
-fn roundings_of_inside_functions_are_as_many_as_the_script_says() {
-    let (faces, edges) = (
-        roundings_of_inside_functions::<VertexFace>(),
-        roundings_of_inside_functions::<EdgeEdge>(),
-    );
-    // No more than that: a script that said too many would prove less than it could.
-    let most = |[a, b]: [u32; 2], [c, d]: [u32; 2]| [a.max(c), b.max(d)];
-    for (index, name) in ["first", "second", "third"].into_iter().enumerate() {
-        let counted = most(faces[index], edges[index]);
-        assert_eq!(counted, counts_in("inside.g", name), "{name}");
     }
 }
 

@@ -1,10 +1,11 @@
-//! Filters and elementary tests that others published, and what certification is compared with. **They promise nothing**: each may
-//! cull a pair that touches, or miss a contact, as its own page says.
+//! Filters and elementary tests that others published, and what certification is compared with. Except [`nine_directions`]
+//! **they promise nothing**: each may cull a pair that touches, or miss a contact, as its own page says.
 //!
 //! | baseline | what it is | what is not promised |
 //! |---|---|---|
 //! | [`plain`] | the paper's non-coplanarity filter, equations 1 to 14, as printed | rounding is ignored: culls a colliding pair now and then |
 //! | [`as_computed`] | control values of one sign, as computed | rounding is ignored as well |
+//! | [`nine_directions`] | subspace filter (Tang, Li, Wang 2011) and 18-DOPs (Hutter, Fuhrmann 2007) | nothing: they never cull what touches |
 //! | [`cubic`] | the plain textbook test (Provot 1997) | misses contacts |
 //! | [`bernstein_sign`] | signs of polynomials (Tang et al. 2014) without their exact arithmetic; whether, not when | misses contacts |
 //! | [`additive`] | additive advancement (Li et al. 2021) | rounding is ignored: in practice no miss, many false alarms |
@@ -17,6 +18,7 @@ pub mod additive;
 pub mod as_computed;
 pub mod bernstein_sign;
 pub mod cubic;
+pub mod nine_directions;
 pub mod plain;
 pub mod tight_inclusion;
 pub mod uncertified;

@@ -80,7 +80,6 @@ impl<S: Scalar> Rounding for Unbounded<S> {
     const UNIT_ROUNDOFF: Self = Self(S::ZERO);
     const UNDERFLOW: Self = Self(S::UNDERFLOW);
     const LARGEST_EDGE: Self = Self(S::LARGEST_EDGE);
-    const SUM_GAP: Self = Self(S::SUM_GAP);
     const LARGEST_EXTENT: Self = Self(S::LARGEST_EXTENT);
     const EXTENT_UNDERFLOW: Self = Self(S::EXTENT_UNDERFLOW);
     const SAFE_SQUARE: Self = Self(S::SAFE_SQUARE);

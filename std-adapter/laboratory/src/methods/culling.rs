@@ -1,7 +1,8 @@
 use super::table::table;
 use super::{Ask, MeasuredFilter, WithLanes, WithTest};
-use selvedge_core::batch::Test;
-use selvedge_core::boxes::{self, Dop18};
+use crate::baselines::nine_directions::{self, Dop18, NineDirections};
+use selvedge_core::batch::{ByPoints, Test};
+use selvedge_core::boxes;
 use selvedge_core::filter::certified;
 use selvedge_core::{PrimitivePair, Scalar};
 
@@ -89,7 +90,7 @@ impl CullingTest {
             Self::StoredDop18 => with.with(have_disjoint_dops),
             Self::SegmentBox => with.with(|pair| boxes::segment::primitive_boxes(pair).is_culled()),
             Self::RelativeBoxes | Self::SubspaceThree => with.with(|pair| boxes::relative::three_axes(pair).is_culled()),
-            Self::RelativeBoxesNine | Self::SubspaceNine => with.with(|pair| boxes::relative::nine_directions(pair).is_culled()),
+            Self::RelativeBoxesNine | Self::SubspaceNine => with.with(|pair| nine_directions::separated(pair).is_culled()),
             Self::PlainNonCoplanarity => MeasuredFilter::Paper.run(S::ZERO, with),
             // Core's function for one pair without a separation: quicker than its filter, with the same verdicts.
             Self::CertifiedNonCoplanarity => with.with(|pair| certified::non_coplanarity(pair).is_culled()),
@@ -103,7 +104,7 @@ impl CullingTest {
             Self::SweptBoxes | Self::StoredSweptBoxes => with.with(Test::SweptBoxes),
             Self::SegmentBox => with.with(Test::SegmentBox),
             Self::RelativeBoxes | Self::SubspaceThree => with.with(Test::RelativeBoxes),
-            Self::RelativeBoxesNine | Self::SubspaceNine => with.with(Test::RelativeBoxesNine),
+            Self::RelativeBoxesNine | Self::SubspaceNine => with.with(ByPoints(NineDirections)),
             Self::PlainNonCoplanarity => MeasuredFilter::Paper.run_lanes(S::ZERO, with),
             Self::CertifiedNonCoplanarity => MeasuredFilter::Permanent.run_lanes(S::ZERO, with),
             Self::StoredDop18 => {}

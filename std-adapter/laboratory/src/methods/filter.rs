@@ -4,7 +4,7 @@ use crate::baselines::as_computed::AsComputed;
 use crate::baselines::plain::{self, Plain};
 use selvedge_core::Scalar;
 use selvedge_core::batch::{ByPoints, ByVolume};
-use selvedge_core::filter::{Depth, Filter, Tier};
+use selvedge_core::filter::{Filter, Tier};
 
 table! {
     /// A non-coplanarity filter whose accuracy and time are measured: two without proof, then every [`Tier`].
@@ -13,24 +13,12 @@ table! {
         Paper = "paper": None,
         /// [`AsComputed`](crate::baselines::as_computed::AsComputed): signs as computed. **Not certified.**
         Uncertified = "uncertified": None,
-        /// [`Tier::MagnitudesByEdge`].
-        ByEdge = "by_edge": Some(Tier::MagnitudesByEdge),
-        /// [`Tier::MagnitudesByAxis`].
-        ByAxis = "by_axis": Some(Tier::MagnitudesByAxis),
         /// [`Tier::Permanent`].
         Permanent = "permanent": Some(Tier::Permanent),
         /// [`Tier::Widened`].
         Widened = "widened": Some(Tier::Widened),
         /// [`Tier::Exact`].
         Exact = "exact": Some(Tier::Exact),
-        /// [`Tier::Subdivided`], as its [`Depth`] says.
-        SubdividedOne = "subdivided_1": Some(Tier::Subdivided(Depth::One)),
-        /// The same.
-        SubdividedTwo = "subdivided_2": Some(Tier::Subdivided(Depth::Two)),
-        /// The same.
-        SubdividedThree = "subdivided_3": Some(Tier::Subdivided(Depth::Three)),
-        /// The same.
-        SubdividedFour = "subdivided_4": Some(Tier::Subdivided(Depth::Four)),
     }
 }
 
@@ -45,13 +33,6 @@ impl MeasuredFilter {
     #[must_use]
     pub const fn is_certified(self) -> bool {
         self.tier().is_some()
-    }
-
-    /// Whether all that it culls must be culled by exact signs as well. [`Tier::Subdivided`] culls coplanar pairs that do
-    /// not touch.
-    #[must_use]
-    pub const fn decides_by_whole_step(self) -> bool {
-        !matches!(self.tier(), Some(Tier::Subdivided(_)))
     }
 
     /// Does `with` what it does, with whether a pair is culled: one that stays farther apart than `separation`, which

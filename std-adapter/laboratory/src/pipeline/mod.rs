@@ -54,6 +54,7 @@ pub use selvedge::Contact;
 pub use selvedge::StepError;
 pub use selvedge::ThreadError;
 
+use crate::baselines::nine_directions::Dop18;
 use crate::broad_phase::{BroadPhase, SweptBox};
 #[cfg(doc)]
 use crate::methods::Preset;
@@ -69,7 +70,7 @@ use selvedge::parallel::{self, Workers};
 use selvedge::simd::{Level, best_level};
 use selvedge::{CollisionDetector, Criterion, Threads};
 use selvedge_core::batch::VertexRow;
-use selvedge_core::boxes::{Aabb, Dop18};
+use selvedge_core::boxes::Aabb;
 use selvedge_core::elementary::Limits;
 use selvedge_core::{Motion, Scalar};
 use std::sync::Arc;

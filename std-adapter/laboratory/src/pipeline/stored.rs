@@ -1,8 +1,9 @@
 //! A bounding volume for every vertex, edge and face, refitted each step.
 
 use super::pairs::MovingMesh;
+use crate::baselines::nine_directions::Dop18;
 use selvedge::parallel::fill;
-use selvedge_core::boxes::{Aabb, Dop18};
+use selvedge_core::boxes::Aabb;
 use selvedge_core::{Motion, Scalar};
 
 /// A volume that holds what moves during the step.

@@ -328,7 +328,6 @@ fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
     for row in &set.rows {
         for &time in &row.times {
             let is_best = row.best_time() == Some(time);
-            let proves_the_same = row.false_culls().is_some();
             rows.push(json!({
                 "set": set.name,
                 "tier": row.filter.name(),
@@ -341,8 +340,7 @@ fn accuracy_rows(set: &AccuracySet) -> Vec<Value> {
                 "culled_fraction": share(row.culled, set.pairs()),
                 "cullable_fraction": share(set.cullable, set.pairs()),
                 "kept_of_cullable_fraction": share(row.kept_cullable, set.cullable),
-                "false_culls": row.false_culls(),
-                "culled_beyond_exact": (!proves_the_same).then_some(row.culled_beyond_exact),
+                "false_culls": row.false_culls,
             }));
         }
     }

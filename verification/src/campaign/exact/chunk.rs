@@ -71,8 +71,7 @@ impl Chunk<'_> {
                         culled(self.level, Filter::new(Tier::Permanent), &pairs, masks);
                         continue;
                     }
-                    Claim::RelativeBoxes => Test::RelativeBoxesNine,
-                    Claim::NormalDirection => Test::NormalDirection,
+                    Claim::RelativeBoxes => Test::RelativeBoxes,
                     Claim::SegmentBox => Test::SegmentBox,
                     Claim::Plain => {
                         culled(self.level, ByPoints(Plain), &pairs, masks);

@@ -30,10 +30,8 @@ pub const SAMPLE: u64 = 20_000;
 pub enum Claim {
     /// [`Tier::Permanent`](selvedge_core::filter::Tier::Permanent): never coplanar.
     Filter,
-    /// [`Test::RelativeBoxesNine`](selvedge_core::batch::Test::RelativeBoxesNine): never touches, as all below.
+    /// [`Test::RelativeBoxes`](selvedge_core::batch::Test::RelativeBoxes): never touches, as all below.
     RelativeBoxes,
-    /// [`Test::NormalDirection`](selvedge_core::batch::Test::NormalDirection).
-    NormalDirection,
     /// [`Test::SegmentBox`](selvedge_core::batch::Test::SegmentBox).
     SegmentBox,
     /// [`time_of_impact`](selvedge_core::elementary::advance::time_of_impact) without a separation, tolerance zero or the default.
@@ -44,13 +42,7 @@ pub enum Claim {
 
 impl Claim {
     /// Those that are certified.
-    pub const CERTIFIED: [Self; 5] = [
-        Self::Filter,
-        Self::RelativeBoxes,
-        Self::NormalDirection,
-        Self::SegmentBox,
-        Self::TimeOfImpact,
-    ];
+    pub const CERTIFIED: [Self; 4] = [Self::Filter, Self::RelativeBoxes, Self::SegmentBox, Self::TimeOfImpact];
 
     /// Whether it says that the points are never coplanar; else, that the sets never touch.
     const fn is_of_the_volume(self) -> bool {

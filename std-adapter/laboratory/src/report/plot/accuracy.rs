@@ -13,14 +13,10 @@ const SHARES: TowardsNone = TowardsNone {
     step: 24.0,
 };
 const LINES: [&str; 8] = ["all", "99.9999 %", "99.999 %", "99.99 %", "99.9 %", "99 %", "90 %", "none"];
-const LEGEND: [(Look, &str); 5] = [
+const LEGEND: [(Look, &str); 4] = [
     (Look::CERTIFIED, "certified"),
     (Look::ONE_AT_A_TIME, "certified, one by one"),
     (Look::EXACT, "exact"),
-    (
-        Look::SUBDIVIDED,
-        "certified, in parts of the step (+: culled beyond exact signs)",
-    ),
     (Look::UNSAFE, "unsafe: culls without proof"),
 ];
 
@@ -90,7 +86,6 @@ fn measured(set: &AccuracySet) -> Vec<Measured<'_>> {
 
 fn look(filter: MeasuredFilter) -> Look {
     match filter {
-        filter if !filter.decides_by_whole_step() => Look::SUBDIVIDED,
         MeasuredFilter::Exact => Look::EXACT,
         filter if filter.is_certified() => Look::CERTIFIED,
         _ => Look::UNSAFE,
@@ -105,12 +100,12 @@ fn panel(set: &AccuracySet, rows: &[Measured<'_>], axis: &LogAxis) -> Panel {
         Mark {
             look: measured.look,
             at: [axis.place(measured.nanoseconds), SHARES.place(kept)],
-            name: Some(name(measured, set)),
+            name: Some(name(measured)),
         }
     };
     let strip = rows.iter().filter(is_unsafe).map(|measured| StripRow {
         places: vec![axis.place(measured.nanoseconds)],
-        name: name(measured, set),
+        name: name(measured),
     });
     let marks: Vec<_> = proven.map(mark).collect();
     Panel {
@@ -131,16 +126,15 @@ fn is_unsafe(measured: &Measured<'_>) -> bool {
     measured.look == Look::UNSAFE
 }
 
-fn name(measured: &Measured<'_>, set: &AccuracySet) -> String {
+fn name(measured: &Measured<'_>) -> String {
     let Measured { row, look, nanoseconds } = *measured;
     let filter = match row.filter {
         MeasuredFilter::Uncertified => "as computed".to_owned(),
         filter => filter.name().replace('_', " "),
     };
     let time = time(nanoseconds * 1e-9);
-    match (look, row.culled_beyond_exact) {
+    match (look, row.false_culls) {
         (Look::ONE_AT_A_TIME, _) => format!("{filter}, one by one: {time}"),
-        (Look::SUBDIVIDED, beyond) => format!("{filter}: {time}, +{}", percent(beyond, set.pairs(), 1)),
         (Look::UNSAFE, 0) => format!("{filter}: {time}, none false here"),
         (Look::UNSAFE, beyond) => format!("{filter}: {time}, {} false", grouped(beyond)),
         _ => format!("{filter}: {time}"),
@@ -161,11 +155,7 @@ mod tests {
             filter,
             culled: cullable - kept,
             kept_cullable: kept,
-            culled_beyond_exact: if filter.decides_by_whole_step() && filter.is_certified() {
-                0
-            } else {
-                1234
-            },
+            false_culls: if filter.is_certified() { 0 } else { 1234 },
             times: [("one", 8.0), ("avx2", 3.0)]
                 .map(|(backend, nanoseconds)| BackendTime { backend, nanoseconds })
                 .to_vec(),
@@ -205,7 +195,6 @@ mod tests {
             "permanent: 3.00 ns",
             "permanent, one by one: 8.00 ns",
             "exact: 3.00 ns",
-            "subdivided 4: 3.00 ns, +1.2\u{a0}%",
             "as computed: 3.00 ns, 1,234 false",
             "paper: 3.00 ns, 1,234 false",
         ] {

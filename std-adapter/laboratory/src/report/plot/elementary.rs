@@ -15,7 +15,7 @@ const ERRORS: TowardsNone = TowardsNone {
 const LEGEND: [(Look, &str); 4] = [
     (Look::CERTIFIED, "certified"),
     (Look::EXACT, "exact verdict"),
-    (Look::SUBDIVIDED, "Tight-Inclusion, re-implemented"),
+    (Look::BISECTION, "Tight-Inclusion, re-implemented"),
     (Look::UNSAFE, "unsafe: misses contacts, or finds them too late"),
 ];
 
@@ -31,7 +31,7 @@ fn look(method: ElementaryTest) -> Look {
     match method {
         ElementaryTest::Certified(_) => Look::CERTIFIED,
         ElementaryTest::Exact => Look::EXACT,
-        ElementaryTest::TightInclusion(_) => Look::SUBDIVIDED,
+        ElementaryTest::TightInclusion(_) => Look::BISECTION,
         _ => Look::UNSAFE,
     }
 }
@@ -70,7 +70,7 @@ fn panel(set: &ElementarySet, axis: &LogAxis) -> Panel {
         .collect();
     // In the order of the set's rows, so from the widest tolerance of a test to the tightest.
     let of_look = |wanted| proven.iter().filter(move |(row, _)| look(row.method) == wanted);
-    let curves = [Look::CERTIFIED, Look::SUBDIVIDED].map(|look| Curve {
+    let curves = [Look::CERTIFIED, Look::BISECTION].map(|look| Curve {
         points: of_look(look).map(|(_, at)| *at).collect(),
         colour: look.colour,
         width: 1.5,

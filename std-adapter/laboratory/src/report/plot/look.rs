@@ -29,8 +29,8 @@ impl Look {
     pub(super) const ONE_AT_A_TIME: Self = Self::new("#0072b2", Shape::Ring);
     /// By exact arithmetic.
     pub(super) const EXACT: Self = Self::new("#007a58", Shape::Diamond);
-    /// In parts of the step.
-    pub(super) const SUBDIVIDED: Self = Self::new("#a8508a", Shape::Triangle);
+    /// By bisection of time and parameters.
+    pub(super) const BISECTION: Self = Self::new("#a8508a", Shape::Triangle);
     /// Without proof.
     pub(super) const UNSAFE: Self = Self::new("#d55e00", Shape::Cross);
 

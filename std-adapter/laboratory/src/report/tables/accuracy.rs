@@ -82,10 +82,7 @@ fn cells(set: &AccuracySet, row: &AccuracyRow, backends: &[&str]) -> Vec<String>
         format!("{}{mark}", row.filter),
         finite(share(row.culled), |share| format!("{share:.2}")),
         per_100_000(row.kept_cullable, set.cullable),
-        match row.false_culls() {
-            Some(false_culls) => grouped(false_culls),
-            None => finite(share(row.culled_beyond_exact), |share| format!("+{share:.2}")),
-        },
+        grouped(row.false_culls),
     ];
     let time = |time: Option<f64>| time.map_or_else(String::new, nanoseconds);
     cells.extend(backends.iter().map(|backend| time(row.time(backend))));

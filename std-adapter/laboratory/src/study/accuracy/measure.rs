@@ -151,7 +151,7 @@ struct Measurement<S> {
     tiled: usize,
     culled: usize,
     kept_cullable: usize,
-    culled_beyond_exact: usize,
+    false_culls: usize,
 }
 
 #[derive(Clone, Copy)]
@@ -183,7 +183,7 @@ impl<S: Scalar> Measurement<S> {
             tiled: 0,
             culled: 0,
             kept_cullable: 0,
-            culled_beyond_exact: 0,
+            false_culls: 0,
         })
     }
 
@@ -194,7 +194,7 @@ impl<S: Scalar> Measurement<S> {
         self.culled += ones(&masks);
         for (&culled, &exact) in masks.iter().zip(exact) {
             self.kept_cullable += (exact & !culled).count_ones() as usize;
-            self.culled_beyond_exact += (culled & !exact).count_ones() as usize;
+            self.false_culls += (culled & !exact).count_ones() as usize;
         }
         masks
     }
@@ -244,7 +244,7 @@ impl<S: Scalar> Measurement<S> {
             filter: self.filter,
             culled: self.culled,
             kept_cullable: self.kept_cullable,
-            culled_beyond_exact: self.culled_beyond_exact,
+            false_culls: self.false_culls,
             times: times.collect(),
             in_first_cache: (self.tiled > 0).then(|| nanoseconds(self.tiled_seconds, self.tiled)),
         }
