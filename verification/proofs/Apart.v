@@ -78,7 +78,7 @@ Ltac spread := repeat match goal with
 Ltac along w := (apply (a_fixed_direction_excludes_contact_of_a_vertex_and_a_face w) || apply (a_fixed_direction_excludes_contact_of_two_edges w));
   unfold ahead; repeat split; unfold dot, minus; simpl; lra.
 Ltac along_an_axis := first [along (Point 1 0 0) | along (Point (-1) 0 0) | along (Point 0 1 0) | along (Point 0 (-1) 0) | along (Point 0 0 1) | along (Point 0 0 (-1))].
-Ltac ends_of_swept := intros culled; apply (says_what_is_ordered _ _ _ _ _ run) in culled; cbn in culled; destruct culled as [culled _];
+Ltac ends_of_swept := intros culled; apply (says_what_is_ordered _ _ _ _ run) in culled; cbn in culled; destruct culled as [culled _];
   split_orders culled; spread; along_an_axis.
 
 Theorem swept_boxes_of_a_vertex_and_a_face : says f of value_of Boxes.a_vertex_and_a_face.culled_by_swept_boxes -> never_touch_vertex_and_face.

@@ -7,8 +7,6 @@ Open Scope R_scope.
 Class Distinguished (difference : Type) := difference_dec : forall c d : difference, {c = d} + {c <> d}.
 #[global] Instance component_dec : Distinguished component.
 Proof. intros c d. repeat decide equality. Defined.
-#[global] Instance span_component_dec : Distinguished span_component.
-Proof. intros c d. repeat decide equality. Defined.
 
 (* Trees of maxima over magnitudes of differences. *)
 Section Maxima.
