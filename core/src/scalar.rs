@@ -1,11 +1,7 @@
 //! `f32` and `f64`, the two number formats that positions come in.
 
-#[cfg(feature = "batch")]
-use crate::batch::BatchScalar;
 use crate::lanes::{Number, power_of_two_f64};
 use core::fmt::{Debug, Display};
-#[cfg(not(feature = "batch"))]
-use core::marker::Copy as BatchScalar;
 
 mod sealed {
     pub trait Sealed {}
@@ -19,7 +15,7 @@ mod sealed {
 /// `f32` or `f64`: the format of a caller's positions, with the [`glam`] vector type that goes with it.
 ///
 /// Sealed: the adapter's promises are checked for these two formats only.
-pub trait Scalar: Number + BatchScalar + Debug + Display + Default + Send + Sync + 'static + sealed::Sealed {
+pub trait Scalar: Number + Debug + Display + Default + Send + Sync + 'static + sealed::Sealed {
     /// [`glam::Vec3`] or [`glam::DVec3`].
     type Vector: Position<Scalar = Self>;
 
@@ -49,6 +45,25 @@ pub trait Scalar: Number + BatchScalar + Debug + Display + Default + Send + Sync
     ///
     /// For lengths that are safe to overstate: a thread may compare a subnormal one as zero, as if none had been asked for.
     fn raised_to_normal(self) -> Self;
+    /// Names the format of a value that is generic over it, so that code for one format can be called.
+    #[doc(hidden)]
+    fn in_format<F: Family>(value: F::Of<Self>) -> InFormat<F>;
+}
+
+/// Types that there are one of for each format.
+#[doc(hidden)]
+pub trait Family {
+    /// The type for a format.
+    type Of<S: Scalar>;
+}
+
+/// A value of a family, and its format.
+#[doc(hidden)]
+pub enum InFormat<F: Family> {
+    /// In `f32`.
+    Single(F::Of<f32>),
+    /// In `f64`.
+    Double(F::Of<f64>),
 }
 
 /// A position, from which its [`Scalar`] can be inferred: [`glam::Vec3`], [`glam::DVec3`], `[f32; 3]` or `[f64; 3]`. Sealed.
@@ -64,7 +79,7 @@ impl<S: Scalar> Position for [S; 3] {
 }
 
 macro_rules! scalar {
-    ($scalar:ident, $vector:ty, $exponent_bits:literal, $to_f64:path, $truncated:path) => {
+    ($scalar:ident, $format:ident, $vector:ty, $exponent_bits:literal, $to_f64:path, $truncated:path) => {
         impl Position for $vector {
             type Scalar = $scalar;
         }
@@ -111,12 +126,17 @@ macro_rules! scalar {
                 let is_subnormal = self.to_bits().wrapping_sub(1) < <$scalar>::MIN_POSITIVE.to_bits() - 1;
                 if is_subnormal { <$scalar>::MIN_POSITIVE } else { self }
             }
+
+            #[inline(always)]
+            fn in_format<F: Family>(value: F::Of<Self>) -> InFormat<F> {
+                InFormat::$format(value)
+            }
         }
     };
 }
 
-scalar!(f32, glam::Vec3, 8, widened, truncated);
-scalar!(f64, glam::DVec3, 11, core::convert::identity, core::convert::identity);
+scalar!(f32, Single, glam::Vec3, 8, widened, truncated);
+scalar!(f64, Double, glam::DVec3, 11, core::convert::identity, core::convert::identity);
 
 /// A subnormal number goes by way of its digits, since a thread may take it for zero in arithmetic.
 #[inline(always)]

@@ -3,14 +3,20 @@
 //! [`advance_from_rows`] is one [round](crate::kernels::advance::round) of the certified
 //! [time of impact](crate::elementary::advance::time_of_impact) for pairs of a mesh.
 
-use super::rows::Padded;
-use super::{LANES, Level, Mask, VertexRow};
-use crate::PairKind;
+use super::chunk::{Chunk, points};
+use super::mask::{LANES, Mask};
+use super::rows::{Padded, VertexRow};
+use super::sixteen::Sixteen;
+use crate::kind::PairKind;
 use crate::elementary::Limits;
 use crate::kernels::advance::round;
 use crate::lanes::{Lanes, Rounding};
 use crate::points::{PairPoints, PairShape};
-use crate::scalar::Scalar;
+use crate::scalar::{Family, InFormat, Scalar};
+use core::marker::PhantomData;
+use fearless_simd::Level;
+#[cfg(not(unoptimised))]
+use fearless_simd::{Simd, f32x8, f32x16, f64x2, f64x4, f64x8};
 
 /// What a round found of sixteen pairs. A pair in none of the three has advanced, and is still open.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -95,7 +101,7 @@ pub fn advance_from_rows<S: Scalar>(
             continue;
         }
         let whole = match (indices.first_chunk(), times.first_chunk_mut()) {
-            (Some(indices), Some(times)) => S::round(level, kind, &question, rows, indices, times, Mask::MAX),
+            (Some(indices), Some(times)) => sixteen(level, kind, &question, rows, indices, times),
             _ => None,
         };
         *round = whole.unwrap_or_else(|| padded(level, kind, &question, rows, indices, times));
@@ -124,7 +130,7 @@ fn padded<S: Scalar>(
     for (own, &time) in whole_times.iter_mut().zip(times.iter()) {
         *own = time;
     }
-    let Some(round) = S::round(level, kind, question, rows, &indices, &mut whole_times, known) else {
+    let Some(round) = sixteen(level, kind, question, rows, &indices, &mut whole_times) else {
         return all;
     };
     for (lane, (time, new)) in times.iter_mut().zip(whole_times).enumerate() {
@@ -138,9 +144,73 @@ fn padded<S: Scalar>(
     all
 }
 
+/// One round for sixteen pairs, from their times on. Returns `None`, and changes no time, if an index is not in the rows.
+fn sixteen<S: Scalar>(
+    level: Level,
+    kind: PairKind,
+    question: &RoundQuestion<S>,
+    rows: &[VertexRow<S>],
+    indices: &[[u32; 4]; LANES],
+    times: &mut [S; LANES],
+) -> Option<Round> {
+    match S::in_format::<Input<'_>>((question, rows, times)) {
+        InFormat::Single((question, rows, times)) => single(level, kind, question, rows, indices, times),
+        InFormat::Double((question, rows, times)) => double(level, kind, question, rows, indices, times),
+    }
+}
+
+/// What a round reads and writes, in either format.
+struct Input<'a>(PhantomData<&'a ()>);
+
+impl<'a> Family for Input<'a> {
+    type Of<S: Scalar> = (&'a RoundQuestion<S>, &'a [VertexRow<S>], &'a mut [S; LANES]);
+}
+
+macro_rules! rounds {
+    ($name:ident, $scalar:ident, $lanes:tt) => {
+        fn $name(
+            level: Level,
+            kind: PairKind,
+            question: &RoundQuestion<$scalar>,
+            rows: &[VertexRow<$scalar>],
+            indices: &[[u32; 4]; LANES],
+            times: &mut [$scalar; LANES],
+        ) -> Option<Round> {
+            of_kind!(kind, P => vectorized!(level, $lanes, all::<P>(question, rows, indices, times)))
+        }
+    };
+}
+
+// Rounds have long chains of dependent operations: two registers of `f32` at a time keep the machine busy.
+rounds!(single, f32, [f32x16, f32x16, f32x8, f32]);
+rounds!(double, f64, [f64x8, f64x4, f64x2, f64]);
+
+/// Times are written only when all pairs are known to be in the rows, so that they are the same for each width.
+#[inline(always)]
+fn all<P: PairShape, L: Chunk>(
+    token: L::Token,
+    question: &RoundQuestion<L::Scalar>,
+    rows: &[VertexRow<L::Scalar>],
+    indices: &[[u32; 4]; LANES],
+    times: &mut [L::Scalar; LANES],
+) -> Option<Round> {
+    let (mut all, mut new) = (Round::default(), *times);
+    for chunk in 0..LANES / L::WIDTH {
+        let first = chunk * L::WIDTH;
+        let points = points::<L>(token, Sixteen::Mesh { rows, indices }, first)?;
+        let found = round::<P, L>(&points, L::load(token, times, first), question);
+        found.time.store(&mut new, first);
+        all.apart |= L::bits(found.apart) << first;
+        all.near |= L::bits(found.near) << first;
+        all.stuck |= L::bits(found.stuck) << first;
+    }
+    *times = new;
+    Some(all)
+}
+
 /// One round in lanes.
 #[inline(always)]
-pub(super) fn round<P: PairShape, L: Lanes>(
+fn round<P: PairShape, L: Lanes>(
     points: &PairPoints<L>,
     time: L,
     question: &RoundQuestion<L::Scalar>,

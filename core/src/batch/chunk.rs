@@ -1,6 +1,8 @@
 //! As many of sixteen pairs as go side by side at once: what a vector register holds, or one.
 
-use super::{LANES, Mask, Sixteen, VertexRow};
+use super::mask::{LANES, Mask};
+use super::rows::VertexRow;
+use super::sixteen::Sixteen;
 use crate::lanes::Lanes;
 use crate::points::PairPoints;
 use crate::scalar::Scalar;
@@ -25,31 +27,8 @@ pub(super) trait Chunk: Lanes<Scalar: Scalar> {
     fn bits(mask: Self::Mask) -> Mask;
     /// One of the parts of a row, the first of which is 0.
     fn part(token: Self::Token, row: &VertexRow<Self::Scalar>, part: usize) -> Self::Part;
-    /// The same of the second row less the first.
-    #[inline(always)]
-    fn between(token: Self::Token, from: &VertexRow<Self::Scalar>, to: &VertexRow<Self::Scalar>, part: usize) -> Self::Part {
-        Self::part(token, to, part) - Self::part(token, from, part)
-    }
     /// Lanes of start and end, of which `row` gives the rows by lane and part. `None` if it gives none.
     fn columns(row: impl Fn(usize, usize) -> Option<Self::Part>) -> Option<[Vector<Self>; 2]>;
-}
-
-/// `?`, which is a call in builds without optimisation.
-macro_rules! some {
-    ($option:expr) => {
-        match $option {
-            Some(value) => value,
-            None => return None,
-        }
-    };
-}
-pub(super) use some;
-
-/// One of the rows, if there is such a one. (`get` takes long in builds without optimisation.)
-#[inline(always)]
-fn row<S>(rows: &[VertexRow<S>], index: u32) -> Option<&VertexRow<S>> {
-    let index = index as usize;
-    if index < rows.len() { Some(&rows[index]) } else { None }
 }
 
 /// The points of the pairs from `first` on. `None` if an index is not in the rows.
@@ -70,14 +49,13 @@ pub(super) fn points<L: Chunk>(token: L::Token, pairs: Sixteen<'_, L::Scalar>, f
                         )
                     },
                 ),
-                Sixteen::Mesh { rows, indices } => some!(L::columns(
+                Sixteen::Mesh { rows, indices } => L::columns(
                     #[inline(always)]
-                    |lane, part| Some(L::part(
-                        token,
-                        some!(row(rows, indices[(first + lane) % LANES][$point])),
-                        part
-                    )),
-                )),
+                    |lane, part| {
+                        let row = rows.get(indices[(first + lane) % LANES][$point] as usize)?;
+                        Some(L::part(token, row, part))
+                    },
+                )?,
             }
         };
     }
@@ -103,14 +81,71 @@ pub(super) fn edge<L: Chunk>(
         #[inline(always)]
         |lane, part| {
             let [from, to] = ends(indices[(first + lane) % LANES]);
-            Some(L::between(token, some!(row(rows, from)), some!(row(rows, to)), part))
+            let (from, to) = (rows.get(from as usize)?, rows.get(to as usize)?);
+            Some(L::part(token, to, part) - L::part(token, from, part))
         },
     )
 }
 
+/// The start and the end of a vertex, or of a difference of two, for one lane alone.
+#[derive(Clone, Copy)]
+pub(super) struct Row<S>([Vector<S>; 2]);
+
+impl<S: Lanes> Sub for Row<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self([self.0[0] - other.0[0], self.0[1] - other.0[1]])
+    }
+}
+
+macro_rules! one_lane {
+    ($scalar:ident) => {
+        impl Chunk for $scalar {
+            type Token = ();
+            type Part = Row<$scalar>;
+
+            const WIDTH: usize = 1;
+
+            #[inline(always)]
+            fn load((): (), numbers: &[$scalar; LANES], first: usize) -> Self {
+                numbers[first % LANES]
+            }
+
+            #[inline(always)]
+            fn store(self, numbers: &mut [$scalar; LANES], first: usize) {
+                numbers[first % LANES] = self;
+            }
+
+            #[inline(always)]
+            fn bits(mask: bool) -> Mask {
+                mask.into()
+            }
+
+            #[inline(always)]
+            fn part((): (), row: &VertexRow<$scalar>, _: usize) -> Row<$scalar> {
+                let [x, y, z, _, u, v, w, _] = row.0;
+                Row([Vector::new(x, y, z), Vector::new(u, v, w)])
+            }
+
+            #[inline(always)]
+            fn columns(row: impl Fn(usize, usize) -> Option<Row<$scalar>>) -> Option<[Vector<Self>; 2]> {
+                Some(row(0, 0)?.0)
+            }
+        }
+    };
+}
+
+one_lane!(f32);
+one_lane!(f64);
+
 #[cfg(not(unoptimised))]
 mod vectors {
-    use super::{Chunk, LANES, Mask, Vector, VertexRow};
+    use super::Chunk;
+    use crate::batch::mask::{LANES, Mask};
+    use crate::batch::rows::VertexRow;
+    use crate::vector::Vector;
     use fearless_simd::{Simd, SimdBase, SimdCombine, SimdMask, SimdSplit, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 
     /// Transposes N rows of N numbers by log₂ N rounds of interleaving row k with row k + N/2. For N = 8:

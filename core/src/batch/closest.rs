@@ -1,11 +1,12 @@
 //! The closest points of many pairs.
 
 use super::chunk::Chunk;
-use super::{LANES, Level};
-use crate::PairKind;
+use super::mask::LANES;
+use crate::kind::PairKind;
 use crate::points::PairShape;
 use crate::separation::closest::{Closest, Found};
 use crate::vector::Vector;
+use fearless_simd::Level;
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, f64x2, f64x4, f64x8};
 use glam::DVec3;
@@ -67,8 +68,8 @@ fn all<P: PairShape, L: Chunk<Scalar = f64>>(token: L::Token, Sixteen(pairs): &S
         way: [[0.0; LANES]; 3],
         direction: [[0.0; LANES]; 3],
     };
-    let mut first = 0;
-    while first < LANES {
+    for chunk in 0..LANES / L::WIDTH {
+        let first = chunk * L::WIDTH;
         // Macros, not closures: what is not inlined has none of the machine's instructions.
         macro_rules! point {
             ($point:literal) => {
@@ -94,7 +95,6 @@ fn all<P: PairShape, L: Chunk<Scalar = f64>>(token: L::Token, Sixteen(pairs): &S
         d.store(&mut ways.weights[3], first);
         store!(found.way, ways.way);
         store!(found.direction, ways.direction);
-        first += L::WIDTH;
     }
     ways
 }

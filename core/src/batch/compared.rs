@@ -19,10 +19,11 @@
 //! assert_eq!(in_lanes(Level::baseline(), CountAbove(&rows, 12.0)), 3);
 //! ```
 
-use super::{LANES, Level, Mask, next_lane};
+use super::mask::{LANES, Mask, next_lane};
 use crate::boxes::Aabb;
 use crate::boxes::block::BoxBlock;
 use crate::boxes::moving::{MovingBlock, MovingBox};
+use fearless_simd::Level;
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x16, u32x16};
 
@@ -94,11 +95,8 @@ impl Compares for OneByOne {
 
     #[inline(always)]
     fn above(self, numbers: &[f32; LANES], limits: &[f32; LANES]) -> Mask {
-        let mut above = 0;
-        for lane in 0..LANES {
-            above |= Mask::from(numbers[lane] > limits[lane]) << lane;
-        }
-        above
+        let lanes = numbers.iter().zip(limits).enumerate();
+        lanes.fold(0, |above, (lane, (number, limit))| above | Mask::from(number > limit) << lane)
     }
 
     #[inline(always)]
@@ -106,17 +104,8 @@ impl Compares for OneByOne {
         let (mut asked, mut equal) = (among, 0);
         while asked != 0 {
             let lane = next_lane(&mut asked);
-            let (mut row, mut k) = (0, 0);
-            while row < M && k < N {
-                if rows[row][lane] == wanted[k] {
-                    equal |= 1 << lane;
-                    break;
-                }
-                k += 1;
-                if k == N {
-                    (row, k) = (row + 1, 0);
-                }
-            }
+            let is_equal = rows.iter().any(|row| wanted.contains(&row[lane]));
+            equal |= Mask::from(is_equal) << lane;
         }
         equal
     }

@@ -8,6 +8,7 @@ pub use shown::{ByPoints, ByVolume, Test};
 use crate::coplanarity::{Decision, MovingTetrahedron};
 use crate::lanes::Lanes;
 use crate::points::PairShape;
+use crate::scalar::Scalar;
 
 /// A test of the pairs' points, on any number of lanes.
 #[cfg(feature = "verification")]
@@ -16,21 +17,25 @@ pub trait PointsTest: Copy {
     fn on<P: PairShape, L: Lanes>(self, points: &crate::points::PairPoints<L>) -> L::Mask;
 }
 
-/// A test of the pairs' signed volumes, on any number of lanes of the format `S`.
+/// A test of the pairs' signed volumes, on any number of lanes.
 #[cfg_attr(not(feature = "verification"), allow(unreachable_pub))]
-pub trait VolumeTest<S>: Copy {
-    /// What it says of the lanes' pairs. Nothing is made of what it calls settled.
-    fn on<P: PairShape, L: Lanes<Scalar = S>>(self, tetrahedron: &MovingTetrahedron<L>) -> Decision<L::Mask>;
+pub trait VolumeTest: Copy {
+    /// Decides the lanes' pairs. A caller's test may leave [`settled`](Decision::settled) false.
+    fn on<P: PairShape, L: Lanes<Scalar: Scalar>>(self, tetrahedron: &MovingTetrahedron<L>) -> Decision<L::Mask>;
 }
 
 #[cfg(feature = "verification")]
 mod shown {
     use super::{PointsTest, VolumeTest};
-    use crate::PairKind;
-    use crate::batch::{BatchTest, Level, Mask, Sixteen};
+    use crate::batch::culled::BatchTest;
+    use crate::batch::kernels;
+    use crate::batch::mask::Mask;
+    use crate::batch::sixteen::Sixteen;
+    use crate::kind::PairKind;
     use crate::lanes::Lanes;
     use crate::points::{PairPoints, PairShape};
     use crate::scalar::Scalar;
+    use fearless_simd::Level;
 
     /// A culling test of the pairs' points that runs on batches. See [`boxes`](crate::boxes) and [`filter`](crate::filter).
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -58,7 +63,7 @@ mod shown {
     impl<S: Scalar> BatchTest<S> for Test {
         #[inline(always)]
         fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, _: Mask) -> Option<Mask> {
-            S::by_test(level, kind, self, pairs)
+            kernels::by_test(level, kind, self, pairs)
         }
     }
 
@@ -73,14 +78,14 @@ mod shown {
     impl<S: Scalar, T: PointsTest> BatchTest<S> for ByPoints<T> {
         #[inline(always)]
         fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, _: Mask) -> Option<Mask> {
-            S::by_points(level, kind, self.0, pairs)
+            kernels::by_points(level, kind, self.0, pairs)
         }
     }
 
-    impl<S: Scalar, T: VolumeTest<S>> BatchTest<S> for ByVolume<T> {
+    impl<S: Scalar, T: VolumeTest> BatchTest<S> for ByVolume<T> {
         #[inline(always)]
-        fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, wanted: Mask) -> Option<Mask> {
-            Some(S::by_volume(level, kind, self.0, pairs, wanted)?.culled)
+        fn sixteen(self, level: Level, kind: PairKind, pairs: Sixteen<'_, S>, _: Mask) -> Option<Mask> {
+            Some(kernels::by_volume(level, kind, self.0, pairs)?.culled)
         }
     }
 }

@@ -1,4 +1,4 @@
-use super::{LANES, Mask};
+use super::mask::{LANES, Mask};
 use crate::motion::Motion;
 use crate::scalar::Scalar;
 

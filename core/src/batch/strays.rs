@@ -1,11 +1,13 @@
 //! How far the points of many pairs may [stray](crate::separation::clearance).
 
 use super::chunk::{Chunk, points};
-use super::rows::Padded;
-use super::{LANES, Level, Sixteen, VertexRow};
-use crate::PairKind;
+use super::mask::LANES;
+use super::rows::{Padded, VertexRow};
+use super::sixteen::Sixteen;
+use crate::kind::PairKind;
 use crate::points::PairShape;
 use crate::separation::clearance::{Clearance, largest_stray};
+use fearless_simd::Level;
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, f32x4, f32x8, f32x16};
 
@@ -93,12 +95,11 @@ fn all<P: PairShape, L: Chunk<Scalar = f32>>(
     indices: &[[u32; 4]; LANES],
     strays: &mut [f32; LANES],
 ) -> Option<()> {
-    let mut first = 0;
-    while first < LANES {
+    for chunk in 0..LANES / L::WIDTH {
+        let first = chunk * L::WIDTH;
         let points = points::<L>(token, Sixteen::Mesh { rows, indices }, first)?;
         let asked = [L::load(token, &asked[0], first), L::load(token, &asked[1], first)];
         largest_stray::<P, L>(&points, asked).store(strays, first);
-        first += L::WIDTH;
     }
     Some(())
 }

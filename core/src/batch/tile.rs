@@ -1,7 +1,10 @@
-use super::{BatchTest, LANES, Level, Mask, Sixteen};
-use crate::PairKind;
+use super::culled::BatchTest;
+use super::mask::{LANES, Mask};
+use super::sixteen::Sixteen;
+use crate::kind::PairKind;
 use crate::motion::{Motion, PrimitivePair};
 use crate::scalar::Scalar;
+use fearless_simd::Level;
 
 /// Sixteen pairs side by side: for each of the four points, at the start and at the end, three coordinates of sixteen pairs.
 ///

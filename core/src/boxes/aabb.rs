@@ -66,13 +66,10 @@ impl<S: Scalar> Aabb<S> {
     /// Becomes the smallest box that holds both.
     #[inline]
     pub fn merge(&mut self, other: &Self) {
-        // Written out and in place: of all that a step does once for each vertex and box, the most.
-        self.lower[0] = other.lower[0].smaller(self.lower[0]);
-        self.lower[1] = other.lower[1].smaller(self.lower[1]);
-        self.lower[2] = other.lower[2].smaller(self.lower[2]);
-        self.upper[0] = other.upper[0].larger(self.upper[0]);
-        self.upper[1] = other.upper[1].larger(self.upper[1]);
-        self.upper[2] = other.upper[2].larger(self.upper[2]);
+        for axis in 0..3 {
+            self.lower[axis] = other.lower[axis].smaller(self.lower[axis]);
+            self.upper[axis] = other.upper[axis].larger(self.upper[axis]);
+        }
     }
 
     /// Whether the closed boxes share a point. Exact.

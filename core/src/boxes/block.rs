@@ -1,7 +1,7 @@
 //! Sixteen boxes side by side.
 
 use super::Aabb;
-use crate::batch::{LANES, Mask, next_lane};
+use crate::batch::mask::{LANES, Mask, next_lane};
 
 /// Sixteen boxes side by side: for each coordinate of the lower and the upper corner one row of sixteen numbers.
 ///
@@ -87,6 +87,7 @@ impl BoxBlock {
     }
 
     /// The numbers of all lanes: lower corners, then upper ones.
+    #[cfg(not(unoptimised))]
     #[inline(always)]
     pub(crate) const fn rows(&self) -> &[[f32; LANES]; 6] {
         &self.rows

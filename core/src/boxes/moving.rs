@@ -15,7 +15,9 @@
 
 use super::Aabb;
 use super::block::BoxBlock;
-use crate::batch::{LANES, Mask, next_lane};
+#[cfg(not(unoptimised))]
+use crate::batch::mask::LANES;
+use crate::batch::mask::{Mask, next_lane};
 use crate::motion::Motion;
 use crate::scalar::Scalar;
 
@@ -147,14 +149,14 @@ impl MovingBlock {
         }
     }
 
-    /// Puts a box in lane `lane`. Does nothing from lane [`LANES`] on.
+    /// Puts a box in lane `lane`. Does nothing from lane [`LANES`](crate::batch::LANES) on.
     #[inline]
     pub const fn set(&mut self, lane: usize, moving: &MovingBox<f32>) {
         self.start.set(lane, &moving.start);
         self.end.set(lane, &moving.end);
     }
 
-    /// The box in lane `lane`; an [empty](MovingBox::empty) one from lane [`LANES`] on.
+    /// The box in lane `lane`; an [empty](MovingBox::empty) one from lane [`LANES`](crate::batch::LANES) on.
     #[inline(always)]
     #[must_use]
     pub fn get(&self, lane: usize) -> MovingBox<f32> {
@@ -178,25 +180,16 @@ impl MovingBlock {
     /// lanes at once: [`Compares::near`](crate::batch::Compares::near).
     #[must_use]
     pub fn near(&self, other: &MovingBox<f32>, among: Mask) -> Mask {
-        let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = self.rows();
-        let (start, end) = (&other.start, &other.end);
         let (mut asked, mut near) = (among, 0);
         while asked != 0 {
             let lane = next_lane(&mut asked);
-            let is_apart = a[lane] > start.upper[0] && g[lane] > end.upper[0]
-                || d[lane] < start.lower[0] && j[lane] < end.lower[0]
-                || b[lane] > start.upper[1] && h[lane] > end.upper[1]
-                || e[lane] < start.lower[1] && k[lane] < end.lower[1]
-                || c[lane] > start.upper[2] && i[lane] > end.upper[2]
-                || f[lane] < start.lower[2] && l[lane] < end.lower[2];
-            if !is_apart {
-                near |= 1 << lane;
-            }
+            near |= Mask::from(!self.get(lane).is_apart_from(other)) << lane;
         }
         near
     }
 
     /// The numbers of all lanes at the start, and at the end.
+    #[cfg(not(unoptimised))]
     #[inline(always)]
     pub(crate) const fn rows(&self) -> (&[[f32; LANES]; 6], &[[f32; LANES]; 6]) {
         (self.start.rows(), self.end.rows())

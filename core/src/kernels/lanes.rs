@@ -133,21 +133,6 @@ pub(crate) fn roundoffs<L: Lanes>(like: L, count: u8) -> L {
     like.splat(L::Scalar::small(count)) * like.splat(L::Scalar::UNIT_ROUNDOFF)
 }
 
-/// One or the other. Without optimisation a branch that is hard to predict takes longer than to store both.
-#[cfg(unoptimised)]
-macro_rules! either {
-    ($condition:expr, $if_true:expr, $if_false:expr) => {
-        [$if_false, $if_true][($condition) as usize]
-    };
-}
-#[cfg(not(unoptimised))]
-macro_rules! either {
-    ($condition:expr, $if_true:expr, $if_false:expr) => {
-        if $condition { $if_true } else { $if_false }
-    };
-}
-pub(crate) use either;
-
 macro_rules! one_lane {
     ($scalar:ty, $sqrt:path, $power_of_two:path, $constants:expr) => {
         impl Rounding for $scalar {
@@ -195,12 +180,12 @@ macro_rules! one_lane {
 
             #[inline(always)]
             fn larger(self, other: Self) -> Self {
-                either!(self > other, self, other)
+                if self > other { self } else { other }
             }
 
             #[inline(always)]
             fn smaller(self, other: Self) -> Self {
-                either!(self < other, self, other)
+                if self < other { self } else { other }
             }
 
             #[inline(always)]

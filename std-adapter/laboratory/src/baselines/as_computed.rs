@@ -6,7 +6,7 @@
 use selvedge_core::batch::VolumeTest;
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::verification::coplanarity::{Decision, MovingTetrahedron};
-use selvedge_core::verification::lanes::Lanes;
+use selvedge_core::verification::lanes::{Lanes, Rounding};
 use selvedge_core::verification::of_kind;
 use selvedge_core::verification::points::PairShape;
 use selvedge_core::{PrimitivePair, Scalar, Verdict};
@@ -56,14 +56,14 @@ impl<S: Scalar> Default for AsComputed<S> {
     }
 }
 
-impl<S: Scalar> VolumeTest<S> for AsComputed<S> {
+impl<S: Scalar> VolumeTest for AsComputed<S> {
     #[inline(always)]
-    fn on<P: PairShape, L: Lanes<Scalar = S>>(self, tetrahedron: &MovingTetrahedron<L>) -> Decision<L::Mask> {
+    fn on<P: PairShape, L: Lanes<Scalar: Scalar>>(self, tetrahedron: &MovingTetrahedron<L>) -> Decision<L::Mask> {
         let constant = |value| tetrahedron.p[0].x.splat(value);
-        let zero = constant(S::ZERO);
+        let zero = constant(L::Scalar::ZERO);
         let clearances = if self.separation > S::ZERO {
-            let outer = constant(self.separation) * tetrahedron.largest_normal(P::KIND);
-            let inner = outer * constant(S::small(3));
+            let outer = constant(L::Scalar::from_f64(self.separation.to_f64())) * tetrahedron.largest_normal(P::KIND);
+            let inner = outer * constant(L::Scalar::small(3));
             [outer, inner, inner, outer]
         } else {
             [zero; 4]
