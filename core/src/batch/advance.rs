@@ -7,9 +7,9 @@ use super::chunk::{Chunk, points};
 use super::mask::{LANES, Mask};
 use super::rows::{Padded, VertexRow};
 use super::sixteen::Sixteen;
-use crate::kind::PairKind;
 use crate::elementary::Limits;
 use crate::kernels::advance::round;
+use crate::kind::PairKind;
 use crate::lanes::{Lanes, Rounding};
 use crate::points::{PairPoints, PairShape};
 use crate::scalar::{Family, InFormat, Scalar};
@@ -210,11 +210,7 @@ fn all<P: PairShape, L: Chunk>(
 
 /// One round in lanes.
 #[inline(always)]
-fn round<P: PairShape, L: Lanes>(
-    points: &PairPoints<L>,
-    time: L,
-    question: &RoundQuestion<L::Scalar>,
-) -> round::Found<L>
+fn round<P: PairShape, L: Lanes>(points: &PairPoints<L>, time: L, question: &RoundQuestion<L::Scalar>) -> round::Found<L>
 where
     L::Scalar: Scalar,
 {
