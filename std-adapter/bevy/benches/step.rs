@@ -1,4 +1,4 @@
-//! What a fixed step costs beside the detector's own work: a thousand bodies, of which some move.
+//! The cost of a fixed step beside the detector's own work: a thousand bodies, some of which move.
 
 use bevy_app::{App, FixedPostUpdate};
 use bevy_asset::Assets;
@@ -15,12 +15,12 @@ use std::time::Instant;
 
 const BODIES: usize = 1000;
 
-/// Balls in a grid, each overlapping its neighbours.
+/// Creates balls in a grid, each overlapping its neighbours.
 fn place(body: usize, height: f32) -> [f32; 3] {
     [(body % 32) as f32 * 0.9, (body / 32) as f32 * 0.9, height]
 }
 
-/// Up and down.
+/// Moves bodies up and down.
 fn height(step: usize) -> f32 {
     if step.is_multiple_of(2) { 0.0 } else { 0.02 }
 }

@@ -1,4 +1,4 @@
-//! The components of what collides.
+//! The components of colliding entities.
 
 use bevy_asset::Handle;
 use bevy_ecs::component::Component;
@@ -6,33 +6,33 @@ use bevy_mesh::Mesh;
 use bevy_transform::components::Transform;
 use selvedge::Groups;
 
-/// An entity whose mesh collides: that of its [`CollisionMesh`], or else of its `Mesh3d`.
+/// An entity whose mesh collides. The mesh is that of its [`CollisionMesh`], or otherwise of its `Mesh3d`.
 ///
-/// It takes part from the first fixed step on in which it has both, and its mesh is loaded; where it is then is where it starts.
+/// It takes part from the first fixed step in which it has a loaded mesh, and starts where it is then.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[require(Transform, CollisionGroups)]
 pub enum CollisionBody {
-    /// Stays where it is. A new `Transform` puts it elsewhere, without a way in between on which it would meet anything.
+    /// Rests. A new `Transform` places it elsewhere, and it meets nothing on the way.
     #[default]
     Fixed,
-    /// Moves as one body, with its `Transform` and those of its ancestors: in a step from where it was at the end of the step before to where it is
-    /// now, on arcs if it turns. Its pivot, the mesh's origin, moves straight.
+    /// Moves as a rigid body, with its `Transform` and those of its ancestors. A step leads from its place at the end of the previous step
+    /// to its current place; vertices move on arcs if it rotates. Its pivot, the mesh's origin, moves straight.
     ///
-    /// To put it elsewhere without a way in between let it be `Fixed` for a step.
+    /// Make it `Fixed` for a step to place it elsewhere without contacts on the way.
     ///
-    /// While its scale changes its vertices move straight, and its hierarchies are built anew each step.
+    /// While its scale changes, its vertices move straight, and its hierarchies are built again in each step.
     Rigid,
-    /// Each vertex moves straight from where it was to where it is now: the mesh's positions may change each step, and so may its `Transform`.
+    /// Deforms. Each vertex moves straight from its previous to its current position; the mesh and the `Transform` may change in each step.
     /// It can meet itself.
     Deforming,
 }
 
-/// The mesh that collides, where it is not the one that is seen: a coarser one, say.
+/// The mesh that collides, if it differs from the rendered one, such as a coarser mesh.
 #[derive(Component, Clone, Debug)]
 pub struct CollisionMesh(pub Handle<Mesh>);
 
-/// Which other bodies this one is looked at with; at first all. With itself as well: a [`Deforming`](CollisionBody::Deforming) body that is in
-/// no group that it collides with does not meet itself.
+/// The bodies that this one can collide with; by default all. A [`Deforming`](CollisionBody::Deforming) body does not meet itself if it is
+/// in none of the groups that it collides with.
 ///
 /// ```
 /// use selvedge_bevy::{CollisionGroups, Groups};

@@ -1,4 +1,4 @@
-//! Cloth: a simulation that entities lead, and that moves the mesh of another.
+//! Cloth simulations whose bodies follow entities.
 
 use crate::error::tell;
 use crate::place::{Place, Places};
@@ -17,17 +17,16 @@ use selvedge::glam::{DMat3, DVec3};
 use selvedge_cloth::{Body, Cloth, BodyMotion, Placement, Scene, Simulation, Tubes, ValueError, vertex_normals};
 use std::collections::BTreeMap;
 
-/// A cloth that is simulated in each fixed step, by a [`Scene`] made in code or read from a file.
+/// A simulation of cloth that runs in each fixed step, from a [`Scene`] made in code or read from a file.
 ///
-/// The scene is in the world's coordinates, in metres. Bodies of it that are [led by](Self::led_by) an entity go where that entity goes, as its
-/// mesh would. The positions and normals of the cloth are written into the entity's own `Mesh3d`, if it has one: that of
-/// [`mesh_of`] the cloth, or of [all cloths](mesh_of_cloths), or the one that [`cloth_of_mesh`] was made of. No other entity should have the same mesh. The entity's `Transform` does
-/// not move the cloth.
+/// The scene is in world coordinates, in metres. Its bodies can [follow](Self::led_by) entities. The positions and normals of the cloth are
+/// written into the entity's own `Mesh3d`, if it has one: a mesh from [`mesh_of`], from [`mesh_of_cloths`], or the one that was passed to
+/// [`cloth_of_mesh`]. No other entity should have the same mesh. The entity's `Transform` does not move the cloth.
 ///
-/// Where cloth tears its mesh gets a vertex for each corner of a triangle, with all that they have; [`cloth_of_mesh`] and [`mesh_of`] have
-/// the cloth's triangles in its order, which is what this asks for.
+/// When cloth tears, its mesh receives one vertex per corner of a triangle, with all attributes. This needs the triangles in the cloth's
+/// order, as [`cloth_of_mesh`] and [`mesh_of`] have them.
 ///
-/// The scene's time step is made to fit: the nearest whole part of the fixed time step.
+/// The time step of the scene is rounded to the nearest whole fraction of the fixed time step.
 ///
 /// ```
 /// use bevy_ecs::world::World;
@@ -50,16 +49,16 @@ use std::collections::BTreeMap;
 #[require(Transform)]
 pub struct ClothSimulation {
     state: State,
-    /// Of bodies of the scene, by their index.
+    /// The entities that bodies follow, by the index of the body.
     leaders: BTreeMap<usize, Entity>,
     threads: usize,
-    /// Of the simulation, in seconds.
+    /// The time step of the simulation in seconds.
     step: f64,
-    /// Of cloths that have loose edges, by their index, once it runs.
+    /// The tubes of cloths with loose edges, by the index of the cloth, once it runs.
     tubes: Vec<(usize, Tubes)>,
-    /// Of each vertex of the mesh that is seen, the cloth's.
+    /// The cloth's vertex of each vertex of the rendered mesh.
     vertices: Option<Vec<u32>>,
-    /// Edges that had torn when they were found.
+    /// The number of torn edges when this list was made.
     torn: usize,
     normals: Vec<DVec3>,
     told: BTreeMap<Part, SelvedgeError>,
@@ -67,14 +66,14 @@ pub struct ClothSimulation {
 
 #[derive(Debug)]
 enum State {
-    /// Until the first step.
+    /// The scene, until the first step.
     Planned(Box<Scene>),
     Running(Box<Simulation>),
-    /// What it was at last, if it ever ran.
+    /// Its last state, if it ever ran.
     Ended(Option<Box<Simulation>>),
 }
 
-/// What a problem is about: each is told once until it is mended.
+/// The subject of a problem. Each problem is reported once until it is fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Part {
     Whole,
@@ -84,8 +83,8 @@ enum Part {
 }
 
 impl ClothSimulation {
-    /// Of this scene, on one thread. It starts in the first fixed step in which all entities that lead bodies have a place; what is wrong with it
-    /// is told then.
+    /// Creates a simulation of a scene, on one thread. It starts in the first fixed step in which all followed entities have a place; errors
+    /// are reported then.
     #[must_use]
     pub fn new(scene: Scene) -> Self {
         Self {
@@ -101,25 +100,25 @@ impl ClothSimulation {
         }
     }
 
-    /// A body of the scene, by its index, goes where an entity goes: its `BodyMotion` is [`Driven`](BodyMotion::Driven) from where the entity is at
-    /// the start.
+    /// Lets a body of the scene, given by its index, follow an entity. Its `BodyMotion` becomes [`Driven`](BodyMotion::Driven), from the
+    /// entity's place at the start.
     ///
-    /// In a fixed step it goes from where it stands to where the entity is, evenly, and turns about the entity's origin the shorter way. Once
-    /// the entity has no `Transform`, or is despawned, the body stays where it is.
+    /// In a fixed step it moves from its place to that of the entity at a constant rate, and rotates the short way about the entity's
+    /// origin. If the entity loses its `Transform` or is despawned, the body stays where it is.
     #[must_use]
     pub fn led_by(mut self, body: usize, entity: Entity) -> Self {
         self.leaders.insert(body, entity);
         self
     }
 
-    /// On so many threads (0: one for each core), which change no bit of the result.
+    /// Sets the number of threads (0: one for each core). It changes no bit of the result.
     #[must_use]
     pub const fn on_threads(mut self, threads: usize) -> Self {
         self.threads = threads;
         self
     }
 
-    /// What is simulated; `None` until it has started, and if it could not.
+    /// Returns the simulation; `None` until it has started, and if it could not start.
     #[must_use]
     pub fn simulation(&self) -> Option<&Simulation> {
         match &self.state {
@@ -129,7 +128,7 @@ impl ClothSimulation {
         }
     }
 
-    /// To turn the wind, or to lead pins and bodies that change their shape. Steps are the plugin's.
+    /// Returns the simulation, to set the wind or to move pins and deforming bodies. The plugin runs the steps.
     #[must_use]
     pub fn simulation_mut(&mut self) -> Option<&mut Simulation> {
         match &mut self.state {
@@ -139,18 +138,18 @@ impl ClothSimulation {
         }
     }
 
-    /// Of what is simulated, the ropes, laces and fringes of cloths, by the index of these.
+    /// Returns the tubes of ropes, laces and fringes, by the index of their cloth.
     pub(crate) fn tubes(&self) -> &[(usize, Tubes)] {
         &self.tubes
     }
 
-    /// Whether it does no more steps: it could not be set up, or is blocked and its scene wants to stop then.
+    /// Says whether it has stopped: its set-up failed, or it is blocked and its scene stops then.
     #[must_use]
     pub const fn has_ended(&self) -> bool {
         matches!(self.state, State::Ended(_))
     }
 
-    /// Whether this differs from what was last told of that part.
+    /// Says whether this differs from the last report on that subject.
     fn is_new(&mut self, part: Part, result: Result<(), SelvedgeError>) -> Option<SelvedgeError> {
         match result {
             Ok(()) => {
@@ -166,7 +165,8 @@ impl ClothSimulation {
     }
 }
 
-/// A Bevy mesh to be seen, of [`Cloth::mesh`] or a body's: positions, smooth normals and triangles. A cloth's material should be double-sided.
+/// Creates a Bevy mesh for rendering from [`Cloth::mesh`] or a body's mesh: positions, smooth normals and triangles. The material of a cloth
+/// should be double-sided.
 #[must_use]
 pub fn mesh_of(mesh: &selvedge::Mesh) -> Mesh {
     let mut normals = Vec::new();
@@ -178,8 +178,7 @@ pub fn mesh_of(mesh: &selvedge::Mesh) -> Mesh {
         .with_inserted_indices(Indices::U32(mesh.triangles.as_flattened().to_vec()))
 }
 
-/// A Bevy mesh in which all cloths of a scene are seen: their vertices one cloth after the other, and their triangles. Ropes have none; they are
-/// seen by [`RopesOf`](crate::RopesOf).
+/// Creates a Bevy mesh with all cloths of a scene, one after the other. Ropes have no triangles; [`RopesOf`](crate::RopesOf) shows them.
 #[must_use]
 pub fn mesh_of_cloths(scene: &Scene) -> Mesh {
     let mut all = selvedge::Mesh {
@@ -195,30 +194,30 @@ pub fn mesh_of_cloths(scene: &Scene) -> Mesh {
     mesh_of(&all)
 }
 
-/// A cloth of a Bevy mesh, as it is at rest, in metres and in the world's coordinates: with one vertex where the mesh has several at one position,
-/// in the order of the first of each. `warp` and `density` as [`Cloth::from_mesh`] has them.
+/// Creates a cloth at rest from a Bevy mesh, in metres and in world coordinates. Vertices at the same position become one vertex, in the
+/// order of the first of each. `warp` and `density` as [`Cloth::from_mesh`] has them.
 ///
 /// # Errors
-/// If the mesh is not of triangles with positions, or cannot be cloth.
+/// If the mesh does not consist of triangles with positions, or cannot be cloth.
 pub fn cloth_of_mesh(mesh: &Mesh, warp: DVec3, density: f64) -> Result<Cloth, ClothMeshError> {
     Ok(Cloth::from_mesh(joined(mesh)?, warp, density)?)
 }
 
-/// A body of a Bevy mesh, which the entity with that mesh may [lead](ClothSimulation::led_by).
+/// Creates a body from a Bevy mesh. It can [follow](ClothSimulation::led_by) the entity with that mesh.
 ///
 /// # Errors
-/// If the mesh is not of triangles with positions.
+/// If the mesh does not consist of triangles with positions.
 pub fn body_of_mesh(name: &str, mesh: &Mesh) -> Result<Body, MeshError> {
     Ok(Body::from_mesh(name, joined(mesh)?))
 }
 
-/// Why a Bevy mesh is no cloth.
+/// The reason why a Bevy mesh cannot be cloth.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ClothMeshError {
-    /// It cannot be read.
+    /// The mesh cannot be read.
     #[error("the mesh cannot be cloth: {0}")]
     Mesh(#[from] MeshError),
-    /// It has triangles without area, say.
+    /// The cloth is invalid, for example because of triangles without area.
     #[error(transparent)]
     Value(#[from] ValueError),
 }
@@ -234,7 +233,7 @@ fn joined(mesh: &Mesh) -> Result<selvedge::Mesh, MeshError> {
     })
 }
 
-/// Leads bodies to where their entities are, does the steps, and writes meshes.
+/// Moves bodies to their entities, runs the steps, and writes meshes.
 pub(crate) fn step_cloths(
     mut cloths: Query<'_, '_, (Entity, &mut ClothSimulation, Option<&Mesh3d>)>,
     places: Places<'_, '_>,
@@ -262,11 +261,11 @@ pub(crate) fn step_cloths(
     }
 }
 
-/// What was asked for or tried, and what came of it.
+/// The attempts of a fixed step and their results.
 type Met = BTreeMap<Part, Result<(), SelvedgeError>>;
 
 impl ClothSimulation {
-    /// Where bodies are to go.
+    /// The goals of the bodies.
     fn leading(&self, places: &Places<'_, '_>, met: &mut Met) -> BTreeMap<usize, Placement> {
         let mut leading = BTreeMap::new();
         for (&body, &leader) in &self.leaders {
@@ -290,7 +289,7 @@ impl ClothSimulation {
         leading
     }
 
-    /// Through a fixed step, of so many seconds.
+    /// Runs through a fixed step of this many seconds.
     fn advance(&mut self, leading: &BTreeMap<usize, Placement>, fixed: f64, met: &mut Met) {
         if matches!(self.state, State::Planned(_)) && leading.len() == self.leaders.len() {
             let result = self.start(leading, fixed);
@@ -346,7 +345,7 @@ impl ClothSimulation {
         Ok(())
     }
 
-    /// Writes the cloth into the mesh that is seen, which is at `place`.
+    /// Writes the cloth into the rendered mesh, which is at `place`.
     fn write(&mut self, place: Place, mesh: &mut Mesh) -> Result<(), SelvedgeError> {
         let Self {
             state,
@@ -391,7 +390,7 @@ impl ClothSimulation {
     }
 }
 
-/// Gives each corner of a mesh a vertex of its own, so that it may be torn anywhere; of each the cloth's.
+/// Gives each corner of a mesh a vertex of its own, so that it can tear anywhere. Returns the cloth's vertex of each.
 fn tear(mesh: &mut Mesh, simulation: &Simulation) -> Result<Vec<u32>, SelvedgeError> {
     let triangles = &simulation.triangles()[..simulation.cloth_triangles()];
     let seen = triangles_of(mesh)?.len();
@@ -405,13 +404,13 @@ fn tear(mesh: &mut Mesh, simulation: &Simulation) -> Result<Vec<u32>, SelvedgeEr
     Ok(triangles.as_flattened().to_vec())
 }
 
-/// How many steps a fixed step has.
+/// Returns the number of steps in a fixed step.
 fn parts(fixed: f64, step: f64) -> u32 {
-    // What is no number is refused when the scene is checked.
+    // The check of the scene refuses NaN.
     (fixed / step).round().clamp(1.0, 1e6) as u32
 }
 
-/// The first of so many steps that are left of the way from where the body stands to its goal.
+/// Returns the placement after the first of the remaining steps from the body's place to its goal.
 fn lead(simulation: &mut Simulation, body: usize, goal: Placement, left: u32) -> Result<(), SelvedgeError> {
     let share = f64::from(left).recip();
     let next = match simulation.placement(body) {

@@ -1,4 +1,4 @@
-//! Contacts: the entities of a Bevy world as meshes of the detector's.
+//! Contacts between the entities of a Bevy world.
 
 use crate::error::tell;
 use crate::place::{Place, Places};
@@ -18,34 +18,33 @@ use selvedge::{
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::{Arc, Weak};
 
-/// What counts as a contact, and how contacts are looked for. May be changed at any time.
+/// The settings of the search for contacts. They may change at any time.
 #[derive(Resource, Clone, Copy, Debug, Default)]
 pub struct CollisionSettings {
-    /// At first bodies that touch, in the unit of Bevy's positions.
+    /// The criterion for a contact, in the unit of Bevy's positions; by default bodies that touch.
     pub criterion: Criterion<f64>,
-    /// At first the one that runs the system. The same contacts in the same order on any number of threads.
+    /// The threads; by default the one that runs the system. Contacts and their order do not depend on it.
     pub threads: Threads,
-    /// Most pairs that a step may look at; at first any number.
+    /// The largest number of candidate pairs of a step; by default there is no limit.
     pub pair_limit: Option<u64>,
 }
 
-/// Contact of two bodies, or of one with itself, in this fixed step, that is not excluded: no contact is missed.
+/// A contact of two bodies, or of one with itself, in this fixed step. No contact is missed.
 ///
-/// A touch is often several of these: one for each pair of a vertex and a face, or of two edges, that meet.
+/// One touch often gives several contacts: one for each vertex–face or edge–edge pair that meets.
 #[derive(Message, Clone, Copy, Debug, PartialEq)]
 pub struct BodyContact {
-    /// Vertex–face or edge–edge.
+    /// The kind of pair: vertex–face or edge–edge.
     pub kind: PairKind,
-    /// The body of the vertex and that of the face, or those of the two edges. Either may have been despawned since.
+    /// The bodies of the vertex and of the face, or of the two edges. They may have been despawned since.
     pub entities: [Entity; 2],
-    /// The vertex and the corners of the face, or the ends of both edges, as their meshes number them. Where a mesh has several vertices at one
-    /// position it is the first of them.
+    /// The vertex and the corners of the face, or the ends of both edges, with the numbers of their meshes. Of several vertices at the same
+    /// position it is the first.
     pub vertices: [u32; 4],
-    /// When, in [0, 1] of the step: not after the exact time, and hardly before it.
+    /// The time in [0, 1] of the step. It is never after the exact time.
     pub time: f64,
-    /// Where, in Bevy's world at that time: the points of both sides that meet, their weights of the four vertices, the unit normal from the second
-    /// side to the first, how fast they approach each other along it, in lengths a fixed step; with [what is promised
-    /// of each](selvedge::core::separation::geometry).
+    /// The geometry at that time in Bevy's world: the closest points of both sides, their barycentric weights, the unit normal from the second
+    /// side to the first, and the speed along it in lengths per fixed step. See [its guarantees](selvedge::core::separation::geometry).
     pub geometry: Geometry,
 }
 
@@ -53,17 +52,17 @@ pub struct BodyContact {
 #[derive(Resource, Default)]
 pub(crate) struct Collisions {
     world: World<DVec3>,
-    /// In the order in which they are moved, which is to be the same on each run.
+    /// The bodies in the order of their motions, which is the same on each run.
     bodies: BTreeMap<Entity, Body>,
     entities: HashMap<MeshHandle, Entity>,
-    /// What was told last about those that are out, or stay behind.
+    /// The last reports about bodies that do not take part or lag behind.
     problems: BTreeMap<Entity, SelvedgeError>,
-    /// Meshes that were read and found wanting.
+    /// Meshes that were read and refused.
     refused: HashMap<AssetId<Mesh>, MeshError>,
-    /// One for all bodies of a mesh.
+    /// One shape for all bodies of a mesh.
     shapes: HashMap<AssetId<Mesh>, Weak<Shape>>,
     found: Vec<WorldContact<f64>>,
-    /// Of each that was found.
+    /// The geometry of each contact.
     geometries: Vec<WorldContactGeometry>,
 }
 
@@ -71,17 +70,17 @@ struct Body {
     handle: MeshHandle,
     source: Source,
     shape: Arc<Shape>,
-    /// Where it was inserted: the form that its shape has in the world of meshes.
+    /// The form with which its shape was inserted.
     inserted: Place,
-    /// At the end of the last step.
+    /// Its place at the end of the last step.
     place: Place,
-    /// Where each vertex was at the end of the last step, of a deforming body.
+    /// The vertices of a deforming body at the end of the last step.
     positions: Vec<DVec3>,
-    /// Whether the world of meshes is to be told where it is, even if it does not move.
+    /// Whether its place must be set, even if it does not move.
     is_new: bool,
 }
 
-/// What a body was made of.
+/// The source of a body's shape.
 #[derive(Clone, Copy)]
 struct Source {
     kind: CollisionBody,
@@ -89,11 +88,11 @@ struct Source {
     groups: Groups,
 }
 
-/// A body's way through a step.
+/// The motion of a body in a step.
 enum Way {
-    /// As one, to there.
+    /// Rigid, to this place.
     Rigid(Place),
-    /// Each point straight from one position to another, while the body goes to a place, and its mesh's vertices to positions.
+    /// Each point straight from one position to another, while the body moves to a place and its mesh's vertices to positions.
     Straight {
         points: [Vec<DVec3>; 2],
         place: Place,
@@ -101,7 +100,7 @@ enum Way {
     },
 }
 
-/// A body as its entity has it.
+/// The components of a body.
 type Wanted<'a> = (
     Entity,
     &'a CollisionBody,
@@ -110,7 +109,7 @@ type Wanted<'a> = (
     Option<&'a Mesh3d>,
 );
 
-/// Lets bodies in and out, moves them from where they were to where they are, and writes the contacts.
+/// Inserts and removes bodies, moves them to their current places, and writes the contacts.
 pub(crate) fn find_contacts(
     mut collisions: ResMut<'_, Collisions>,
     settings: Res<'_, CollisionSettings>,
@@ -154,7 +153,7 @@ pub(crate) fn find_contacts(
     let result = collisions.run(&mut ways, &mut met);
     collisions.settle(ways);
     for (&entity, error) in &met {
-        // It is met again in each step until it is mended, but told once.
+        // The problem recurs in each step until it is fixed, but it is reported once.
         if collisions.problems.get(&entity) != Some(error) {
             tell(&mut problems, Some(entity), error.clone());
         }
@@ -167,7 +166,7 @@ pub(crate) fn find_contacts(
 }
 
 impl Collisions {
-    /// Why a setting was not taken.
+    /// The reason why a setting was refused.
     fn set(&mut self, settings: &CollisionSettings) -> Vec<String> {
         self.world.set_pair_limit(settings.pair_limit);
         let criterion = self
@@ -179,14 +178,14 @@ impl Collisions {
         criterion.into_iter().chain(threads).collect()
     }
 
-    /// Meshes that have changed are read anew.
+    /// Reads changed meshes again.
     fn forget(&mut self, changed: &HashSet<AssetId<Mesh>>) {
         self.refused.retain(|mesh, _| !changed.contains(mesh));
         self.shapes
             .retain(|mesh, shape| !changed.contains(mesh) && shape.strong_count() > 0);
     }
 
-    /// Those that were despawned, or have lost a component, leave.
+    /// Removes bodies that were despawned or have lost a component.
     fn keep_only(&mut self, wanted: &[Wanted<'_>]) {
         let is_wanted = |entity: &Entity| wanted.binary_search_by_key(entity, |&(own, ..)| own).is_ok();
         let gone: Vec<Entity> = self.bodies.keys().filter(|entity| !is_wanted(entity)).copied().collect();
@@ -198,12 +197,12 @@ impl Collisions {
     fn remove(&mut self, entity: Entity) -> Option<Body> {
         let body = self.bodies.remove(&entity)?;
         self.entities.remove(&body.handle);
-        // It is there: only here are meshes removed.
+        // The mesh exists: only this function removes meshes.
         let _ = self.world.remove(body.handle);
         Some(body)
     }
 
-    /// How a body that is at `place` now has come there; `None` if it rests, or its mesh is not there, or not yet.
+    /// Returns the motion of a body to its current `place`; `None` if it rests or its mesh is not loaded.
     fn way(
         &mut self,
         (entity, &kind, groups, own, seen): Wanted<'_>,
@@ -226,7 +225,7 @@ impl Collisions {
         };
         if !self.bodies.get(&entity).is_some_and(stays) {
             let last = self.remove(entity);
-            // A rigid body that has another form or mesh now goes on from where it was.
+            // A rigid body with a new form or mesh continues from its previous place.
             let last = last.filter(|body| [kind, body.source.kind] == [CollisionBody::Rigid; 2]);
             let shape = self.shape(id, mesh)?;
             let start = last.map_or(place, |body| body.place);
@@ -259,12 +258,12 @@ impl Collisions {
         }
     }
 
-    /// The shape of a mesh, which all its bodies share.
+    /// Returns the shape of a mesh, which all its bodies share.
     fn shape(&mut self, id: AssetId<Mesh>, mesh: &Mesh) -> Result<Arc<Shape>, MeshError> {
         if let Some(error) = self.refused.get(&id) {
             return Err(error.clone());
         }
-        // Of a mesh that has changed Bevy tells in the next frame.
+        // Bevy reports a changed mesh in the next frame.
         let has_all = |shape: &Arc<Shape>| positions_of(mesh).is_ok_and(|positions| positions.len() == shape.points.len());
         if let Some(shape) = self.shapes.get(&id).and_then(Weak::upgrade).filter(has_all) {
             return Ok(shape);
@@ -277,7 +276,7 @@ impl Collisions {
         shape
     }
 
-    /// Takes a body in, with its vertices at these positions.
+    /// Inserts a body with its vertices at these positions.
     fn insert(
         &mut self,
         entity: Entity,
@@ -310,14 +309,14 @@ impl Collisions {
             return Ok(None);
         };
         if ends.len() != body.shape.points.len() {
-            // Of another shape, which is known in the next frame.
+            // The shape has changed, which is known in the next frame.
             return Ok(None);
         }
         if body.positions == ends && !body.is_new {
             return Ok(None);
         }
         if !body.shape.is_together(&ends) {
-            // What was one point opens.
+            // Vertices that shared a point have come apart.
             let Some(last) = self.remove(entity) else { return Ok(None) };
             let keys = last.shape.points.iter().zip(&ends);
             let keys = keys.map(|(&point, end)| (point, (end + DVec3::ZERO).to_array().map(f64::to_bits)));
@@ -331,7 +330,7 @@ impl Collisions {
         }))
     }
 
-    /// Finds the contacts. What the world of meshes does not take as it moves stays where it is, and is among those `met`.
+    /// Finds the contacts. A body whose motion is refused stays where it is and is listed in `met`.
     fn run(&mut self, ways: &mut Vec<(Entity, Way)>, met: &mut BTreeMap<Entity, SelvedgeError>) -> Result<(), WorldError> {
         loop {
             let motions = ways.iter().filter_map(|(entity, way)| {
@@ -363,13 +362,13 @@ impl Collisions {
             ways.retain(|&(own, _)| own != entity);
             met.insert(entity, SelvedgeError::World(error));
             if self.bodies.get(&entity).is_some_and(|body| body.is_new) {
-                // It is not where it was inserted.
+                // It has left the place where it was inserted.
                 self.remove(entity);
             }
         }
     }
 
-    /// Where a step ends the next one starts.
+    /// Makes the end of this step the start of the next.
     fn settle(&mut self, ways: Vec<(Entity, Way)>) {
         for (entity, way) in ways {
             let Some(body) = self.bodies.get_mut(&entity) else { continue };
@@ -387,12 +386,12 @@ impl Collisions {
             let entities = [*first?, *second?];
             let [first, second] = entities.map(|entity| self.bodies.get(&entity));
             let bodies = [first?, second?];
-            // While its scale changes a rigid body has the motion of a deforming one.
+            // A rigid body whose scale changes has the motion of a deforming one.
             if entities[0] == entities[1] && bodies[0].source.kind != CollisionBody::Deforming {
                 return None;
             }
             let [a, b, c, d] = found.vertices;
-            // The second point is the other side's of a vertex and a face.
+            // For a vertex and a face, the second point belongs to the other side.
             let second = bodies[usize::from(contact.kind == PairKind::VertexFace)];
             Some(BodyContact {
                 kind: contact.kind,
@@ -420,7 +419,7 @@ impl Body {
         }
         let mesh = positions_of(mesh)?;
         if mesh.len() != self.shape.points.len() {
-            // Of another shape: it goes all the way once that is known, by an event in the next frame.
+            // The shape has changed; an event of the next frame reports it.
             return Ok(None);
         }
         let points = [self.place, place].map(|place| {
@@ -434,7 +433,7 @@ impl Body {
         }))
     }
 
-    /// The first vertex of a point.
+    /// Returns the first vertex of a point.
     fn vertex(&self, point: u32) -> u32 {
         self.shape.vertices[point as usize]
     }

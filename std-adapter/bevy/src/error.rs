@@ -1,4 +1,4 @@
-//! What went wrong, as messages.
+//! Problems, as messages.
 
 use crate::MeshError;
 use bevy_ecs::entity::Entity;
@@ -6,96 +6,96 @@ use bevy_ecs::message::{Message, MessageWriter};
 use selvedge::WorldError;
 use selvedge_cloth::{Blocked, DriveError};
 
-/// Something that could not be done, and to whom it happened. It is logged as a warning as well; everything else goes on.
+/// A problem of an entity. It is also logged as a warning, and everything else continues.
 #[derive(Message, Clone, Debug, PartialEq)]
 pub struct SelvedgeProblem {
-    /// Whose; `None` if it is the [settings'](crate::CollisionSettings) or a whole step's.
+    /// The entity; `None` for a problem of the [settings](crate::CollisionSettings) or of a whole step.
     pub entity: Option<Entity>,
-    /// What it is.
+    /// The problem.
     pub error: SelvedgeError,
 }
 
-/// What can go wrong.
+/// The kinds of problems.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SelvedgeError {
-    /// The mesh of a body cannot collide, or that of a cloth cannot be written. It is looked at again when the asset changes.
+    /// The mesh of a body cannot collide, or that of a cloth cannot be written. It is read again when the asset changes.
     #[error("its mesh cannot be used: {0}")]
     Mesh(#[from] MeshError),
-    /// A body or one of its ancestors has no `Transform`. It stays out, or where it is, until that changes.
+    /// A body or one of its ancestors has no `Transform`. Until that changes, it does not take part or stays where it is.
     #[error("it cannot be placed: entity {entity} has no Transform; give it one")]
     NoTransform {
-        /// Which of them.
+        /// The entity without it.
         entity: Entity,
     },
-    /// Numbers of a `Transform` are not finite, or its rotation is zero. It stays out, or where it is, until that changes.
-    #[error("it cannot be placed: a Transform of it or its ancestors has numbers that are not finite, or a rotation of zero")]
+    /// A `Transform` is not finite, or its rotation is zero. Until that changes, the body does not take part or stays where it is.
+    #[error("it cannot be placed: its Transform or that of an ancestor is not finite or has a rotation of zero")]
     BadTransform,
-    /// The world of bodies did not take one: it is out of the range of numbers, or they are too many.
+    /// A body was refused: it is out of range, or there are too many bodies.
     #[error("{0}")]
     World(WorldError),
-    /// A step's contacts were not found: there are more pairs than the limit, say. Bodies are where they would have ended.
-    #[error("this step's contacts are not known: {0}")]
+    /// The contacts of a step could not be found, for example because of the limit of pairs. The bodies are at the end of the step.
+    #[error("the contacts of this step could not be found: {0}")]
     Step(WorldError),
-    /// A cloth's scene cannot be simulated. It never starts.
+    /// The scene of a cloth is invalid. It never starts.
     #[error("the scene cannot be simulated: {0}")]
     Setup(String),
-    /// A cloth cannot go on without an intersection, and its scene wants to stop then: see `Scene::on_blocked`.
-    #[error("the cloth ends: {0}")]
+    /// A cloth cannot continue without an intersection, and its scene stops then; see `Scene::on_blocked`.
+    #[error("the cloth stops: {0}")]
     Blocked(Blocked),
-    /// An entity leads a body that the scene does not have.
-    #[error("there is no body {body} to be led: the scene has {bodies}, from 0 on")]
+    /// A followed body does not exist in the scene.
+    #[error("there is no body {body}: the scene has {bodies}, numbered from 0")]
     NoBody {
-        /// Which body.
+        /// The index of the body.
         body: usize,
-        /// How many there are.
+        /// The number of bodies.
         bodies: usize,
     },
-    /// A body cannot be led to where its entity is: that is beyond a kilometre, say. It stops on the way.
-    #[error("a body cannot be led to where its entity is: {0}")]
+    /// A body cannot reach its entity, for example because it is more than a kilometre away. It stops on the way.
+    #[error("a body cannot follow its entity: {0}")]
     Lead(DriveError),
-    /// An entity that leads a body has a scale, which the body would not follow. It stays.
-    #[error("entity {entity} leads a body, but has a scale: give the body that size instead")]
+    /// The entity of a body has a scale, which the body cannot follow. The body stays.
+    #[error("entity {entity} has a scale, which its body cannot follow: give the body that size instead")]
     ScaledLeader {
-        /// Which entity.
+        /// The entity.
         entity: Entity,
     },
-    /// The fixed time step was changed after the cloth had started: it goes on with its own, slower or faster than the rest.
-    #[error("the fixed time step is {fixed} s now, but the cloth has started with steps of {step} s")]
+    /// The fixed time step changed after the cloth had started. The cloth keeps its own, and runs slower or faster than the rest.
+    #[error("the fixed time step is now {fixed} s, but the cloth started with steps of {step} s")]
     TimeStep {
-        /// The cloth's, in seconds.
+        /// The time step of the cloth, in seconds.
         step: f64,
-        /// Bevy's, in seconds.
+        /// The time step of Bevy, in seconds.
         fixed: f64,
     },
-    /// The mesh that is seen is not the cloth's.
+    /// The rendered mesh does not match the cloth.
     #[error(
         "its Mesh3d has {seen} vertices, but the cloth has {cloth}: give it the mesh that the cloth was made of, or `mesh_of`"
     )]
     OtherMesh {
-        /// Vertices of the mesh.
+        /// The number of vertices of the mesh.
         seen: usize,
-        /// Vertices of the cloth.
+        /// The number of vertices of the cloth.
         cloth: usize,
     },
-    /// Ropes are to be seen of an entity without cloth.
-    #[error("there are no ropes to be seen: entity {entity} has no ClothSimulation")]
+    /// The entity whose ropes are shown has no cloth.
+    #[error("no ropes to show: entity {entity} has no ClothSimulation")]
     NoCloth {
-        /// Which entity.
+        /// The entity.
         entity: Entity,
     },
-    /// Ropes are to be seen of a cloth that has none.
-    #[error("there are no ropes to be seen: the cloth of entity {entity} has no loose edges")]
+    /// The cloth whose ropes are shown has none.
+    #[error("no ropes to show: the cloth of entity {entity} has no loose edges")]
     NoRopes {
-        /// Which entity.
+        /// The entity.
         entity: Entity,
     },
-    /// A setting was not taken; the one before holds.
-    #[error("a setting was not taken: {0}")]
+    /// A setting was refused; the previous one remains.
+    #[error("a setting was refused: {0}")]
     Setting(String),
 }
 
-/// Tells and logs problems.
+/// Writes and logs problems.
 pub(crate) fn tell(problems: &mut MessageWriter<'_, SelvedgeProblem>, entity: Option<Entity>, error: SelvedgeError) {
     match entity {
         Some(entity) => tracing::warn!("selvedge: entity {entity}: {error}"),

@@ -1,7 +1,7 @@
-//! Contacts of moving meshes in Bevy as messages, none of which is ever missed; and cloth that entities lead.
+//! Contacts of moving meshes in Bevy as messages, without a missed contact, and cloth whose bodies follow entities.
 //!
-//! **Start at [`SelvedgePlugin`]**: entities with a [`CollisionBody`] and a mesh take part, and each [`BodyContact`] is a message. A
-//! [`ClothSimulation`] moves the mesh of its entity. The readme says when what happens.
+//! **Start with [`SelvedgePlugin`]**: entities with a [`CollisionBody`] and a mesh take part, and each [`BodyContact`] is a message. A
+//! [`ClothSimulation`] moves the mesh of its entity. The readme explains the schedule.
 //!
 //! ```text
 //! Transforms, meshes ──▶ place, shape ──▶ collisions: bodies of a World ──▶ BodyContact
@@ -34,12 +34,12 @@ use bevy_ecs::schedule::{IntoScheduleConfigs, SystemSet};
 use bevy_mesh::Mesh;
 use bevy_time::{Fixed, Time};
 
-/// What the plugin does in each fixed step, in `FixedPostUpdate`, in this order.
+/// The system sets of the plugin in each fixed step, in `FixedPostUpdate`, in this order.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SelvedgeSystems {
-    /// Cloths do their steps, and their meshes are written.
+    /// Cloths run their steps and write their meshes.
     Cloth,
-    /// Contacts of the step are found and written.
+    /// The contacts of the step are found and written.
     Contacts,
 }
 
@@ -51,7 +51,7 @@ pub struct SelvedgePlugin;
 
 impl Plugin for SelvedgePlugin {
     fn build(&self, app: &mut App) {
-        // Where `MeshPlugin` is missing there are no meshes, but nothing breaks.
+        // Without `MeshPlugin` there are no meshes, but nothing breaks.
         app.init_resource::<Assets<Mesh>>()
             .add_message::<AssetEvent<Mesh>>()
             .init_resource::<CollisionSettings>()
@@ -68,7 +68,7 @@ impl Plugin for SelvedgePlugin {
     }
 }
 
-/// The readme's examples are tests.
+/// The examples of the readme are tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 mod readme {}

@@ -1,4 +1,4 @@
-//! Where entities are, in `f64`.
+//! The places of entities, in `f64`.
 
 use crate::SelvedgeError;
 use bevy_ecs::entity::Entity;
@@ -7,8 +7,8 @@ use bevy_ecs::system::{Query, SystemParam};
 use bevy_transform::components::Transform;
 use selvedge::glam::{DMat3, DQuat, DVec3};
 
-/// A position p of the entity's mesh is at rotation · (form · p) + translation in the world. The form is the scale, and what is left of
-/// ancestors' scales that are not the same along all axes.
+/// A position p of the entity's mesh is at rotation · (form · p) + translation in the world. The form contains the scale and the shear that
+/// results from non-uniform scales of ancestors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     pub(crate) rotation: DQuat,
@@ -20,14 +20,14 @@ impl Place {
     fn of(transform: &Transform) -> Self {
         let [x, y, z, w] = transform.rotation.to_array().map(f64::from);
         Self {
-            // Of f32 numbers: of length one but for their rounding.
+            // The quaternion comes from f32 numbers, so its length is one except for rounding.
             rotation: DQuat::from_xyzw(x, y, z, w).normalize(),
             form: DMat3::from_diagonal(widened(transform.scale.to_array())),
             translation: widened(transform.translation.to_array()),
         }
     }
 
-    /// What is at `self` in a parent that is here.
+    /// Returns the place in the world of a child that is at `self` in `parent`.
     fn with_parent(self, parent: Self) -> Self {
         let turned = DMat3::from_quat(self.rotation);
         Self {
@@ -41,11 +41,11 @@ impl Place {
         self.rotation.is_finite() && self.form.is_finite() && self.translation.is_finite()
     }
 
-    /// Whether what moves from one to the other keeps its form.
+    /// Says whether a motion from one place to the other keeps the form.
     ///
     /// The form is a product of matrices whose numbers come from `f32`. Each ancestor adds errors of a few units in the last place of `f64`,
-    /// together less than 2⁻⁴⁰ of it below a hundred ancestors; the smallest change of a scale that `f32` can hold is 2⁻²⁴ of it. What is taken for
-    /// the same is so by far less than the rounding of the mesh's positions.
+    /// together less than 2⁻⁴⁰ of it below a hundred ancestors; the smallest change of a scale that `f32` can hold is 2⁻²⁴ of it. Forms that are
+    /// taken for equal differ by far less than the rounding of the mesh's positions.
     pub(crate) fn has_form_of(&self, other: &Self) -> bool {
         let largest = |matrix: DMat3| {
             matrix
@@ -64,7 +64,7 @@ impl Place {
         DMat3::from_quat(self.rotation) * self.form
     }
 
-    /// A position that the pose is still to move.
+    /// Returns a position in the form, before the pose.
     pub(crate) fn formed(&self, position: [f32; 3]) -> DVec3 {
         self.form * widened(position)
     }
@@ -78,8 +78,8 @@ fn widened(position: [f32; 3]) -> DVec3 {
     DVec3::from_array(position.map(f64::from))
 }
 
-/// Where entities are now: from their `Transform`s and those of their ancestors, as
-/// [`TransformHelper`](bevy_transform::helper::TransformHelper) has it, since `GlobalTransform` is that of the last frame while the fixed schedules run.
+/// Computes the current places of entities from their `Transform`s and those of their ancestors, like
+/// [`TransformHelper`](bevy_transform::helper::TransformHelper). `GlobalTransform` is one frame old while the fixed schedules run.
 #[derive(SystemParam)]
 pub(crate) struct Places<'w, 's> {
     transforms: Query<'w, 's, &'static Transform>,

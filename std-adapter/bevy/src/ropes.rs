@@ -1,4 +1,4 @@
-//! Ropes, laces and fringes of a cloth, seen as tubes.
+//! Ropes, laces and fringes of a cloth, rendered as tubes.
 
 use crate::cloth::ClothSimulation;
 use crate::error::tell;
@@ -15,11 +15,11 @@ use bevy_transform::components::Transform;
 use selvedge::glam::DVec3;
 use selvedge_cloth::{Simulation, Tubes, vertex_normals};
 
-/// Shows the ropes, laces and fringes of another entity's [`ClothSimulation`] in the `Mesh3d` of this one, as closed tubes: as thick as
-/// `self_collision` keeps them from each other.
+/// Shows the ropes, laces and fringes of another entity's [`ClothSimulation`] in the `Mesh3d` of this one, as closed tubes. Their diameter is
+/// the distance that `self_collision` keeps.
 ///
-/// Whatever that mesh is, it is made anew, of triangles with positions and normals, when the simulation starts, and written in each step. The
-/// entity's `Transform` does not move the ropes.
+/// The mesh is replaced when the simulation starts, by triangles with positions and normals, and written in each step. The entity's
+/// `Transform` does not move the ropes.
 ///
 /// ```
 /// use bevy_asset::{Assets, RenderAssetUsages};
@@ -42,19 +42,19 @@ use selvedge_cloth::{Simulation, Tubes, vertex_normals};
 #[require(Transform)]
 pub struct RopesOf {
     cloth: Entity,
-    /// The tubes whose triangles are here: others where the entity has got another simulation.
+    /// The tubes of these triangles. They change if the entity receives another simulation.
     tubes: Vec<(usize, Tubes)>,
-    /// The mesh that has these triangles.
+    /// The mesh with these triangles.
     made: Option<AssetId<Mesh>>,
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
     normals: Vec<DVec3>,
-    /// What was wrong when it was last looked at.
+    /// The last problem.
     told: Option<SelvedgeError>,
 }
 
 impl RopesOf {
-    /// Of this entity's cloth.
+    /// Shows the ropes of this entity's cloth.
     #[must_use]
     pub const fn new(cloth: Entity) -> Self {
         Self {
@@ -68,13 +68,13 @@ impl RopesOf {
         }
     }
 
-    /// Whose ropes it shows.
+    /// Returns the entity whose ropes it shows.
     #[must_use]
     pub const fn cloth(&self) -> Entity {
         self.cloth
     }
 
-    /// Looks where the tubes are.
+    /// Finds the tubes.
     fn look(&mut self, tubes: &[(usize, Tubes)], simulation: &Simulation) {
         self.positions.clear();
         let is_new = self.tubes != tubes;
@@ -93,7 +93,7 @@ impl RopesOf {
         vertex_normals(&self.positions, &self.triangles, &mut self.normals);
     }
 
-    /// The mesh, if it is the one that has the triangles; else it is made anew.
+    /// Returns the mesh; creates it again unless it has these triangles.
     fn prepare(&mut self, id: AssetId<Mesh>, mesh: &mut Mesh) {
         let corners = mesh.try_indices().map_or(0, Indices::len);
         if self.made != Some(id) || corners != 3 * self.triangles.len() {
@@ -104,7 +104,7 @@ impl RopesOf {
     }
 }
 
-/// Writes the tubes of all that show ropes.
+/// Writes the tubes of all entities that show ropes.
 pub(crate) fn show_ropes(
     mut all: Query<'_, '_, (Entity, &mut RopesOf, &Mesh3d)>,
     cloths: Query<'_, '_, &ClothSimulation>,

@@ -1,11 +1,11 @@
-//! What is seen: positions and normals of a simulation, written into a mesh.
+//! Writes the positions and normals of a simulation into a rendered mesh.
 
 use crate::SelvedgeError;
 use crate::place::Place;
 use bevy_mesh::{Mesh, VertexAttributeValues};
 use selvedge::glam::DVec3;
 
-/// Writes where vertices are in the world, and the surface's normals there, into a mesh that is at `place`.
+/// Writes vertices and normals, given in world coordinates, into a mesh at `place`.
 pub(crate) fn write(
     mesh: &mut Mesh,
     place: Place,
@@ -24,7 +24,7 @@ pub(crate) fn write(
     Ok(())
 }
 
-/// Where the mesh has room for them nothing is allocated.
+/// Allocates nothing if the mesh has room for them.
 fn put(mesh: &mut Mesh, are_positions: bool, values: impl Iterator<Item = [f32; 3]>) {
     let attribute = if are_positions {
         Mesh::ATTRIBUTE_POSITION
@@ -36,7 +36,7 @@ fn put(mesh: &mut Mesh, are_positions: bool, values: impl Iterator<Item = [f32; 
             all.clear();
             all.extend(values);
         }
-        // Its positions have been read, or it is new, so that it takes attributes.
+        // The mesh is new or its positions were read, so it accepts attributes.
         _ => drop(mesh.try_insert_attribute(attribute, values.collect::<Vec<_>>())),
     }
 }

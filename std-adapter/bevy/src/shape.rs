@@ -1,4 +1,4 @@
-//! What of Bevy's meshes collides: positions and triangles, joined where Bevy parts them.
+//! The colliding shape of a Bevy mesh: positions and triangles, with seams joined.
 
 use bevy_mesh::{Indices, Mesh, MeshAccessError, PrimitiveTopology, VertexAttributeValues};
 use selvedge::{Topology, TopologyError};
@@ -6,29 +6,29 @@ use std::collections::HashMap;
 use std::hash::Hash;
 use std::sync::Arc;
 
-/// Why a `Mesh` cannot collide.
+/// The reason why a `Mesh` cannot collide.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshError {
-    /// It is none of triangles, each given by three indices or vertices.
+    /// It is not a triangle list.
     #[error("its primitive topology is {found:?}: make it a TriangleList")]
     NotTriangles {
-        /// What it is.
+        /// Its topology.
         found: PrimitiveTopology,
     },
-    /// It has no attribute `Mesh::ATTRIBUTE_POSITION`.
+    /// The attribute `Mesh::ATTRIBUTE_POSITION` is missing.
     #[error("it has no positions: insert the attribute Mesh::ATTRIBUTE_POSITION")]
     NoPositions,
-    /// Its positions are compressed, or of two dimensions.
-    #[error("its positions are no Float32x3: uncompressed ones in three dimensions are needed")]
+    /// The positions are compressed or two-dimensional.
+    #[error("its positions are not Float32x3: uncompressed positions in three dimensions are needed")]
     PositionFormat,
     /// Bevy has moved its data to the graphics card.
-    #[error("its data is on the graphics card alone: give the mesh RenderAssetUsages::MAIN_WORLD, too")]
+    #[error("its data is only on the graphics card: add RenderAssetUsages::MAIN_WORLD to the mesh")]
     OnlyRendered,
-    /// It has indices or vertices that are left over.
-    #[error("it has {count} corners, which is not three for each triangle")]
+    /// The number of indices or vertices is not a multiple of three.
+    #[error("it has {count} corners, which is not a multiple of three")]
     Corners {
-        /// How many indices, or vertices without indices.
+        /// The number of indices, or of vertices without indices.
         count: usize,
     },
     /// A position is NaN or infinite.
@@ -42,7 +42,7 @@ pub enum MeshError {
     Topology(TopologyError),
 }
 
-/// A mesh's positions, if they can collide.
+/// Returns the positions of a mesh, if they can collide.
 pub(crate) fn positions_of(mesh: &Mesh) -> Result<&[[f32; 3]], MeshError> {
     let positions = match mesh.try_attribute(Mesh::ATTRIBUTE_POSITION) {
         Ok(VertexAttributeValues::Float32x3(positions)) => positions,
@@ -56,7 +56,7 @@ pub(crate) fn positions_of(mesh: &Mesh) -> Result<&[[f32; 3]], MeshError> {
     }
 }
 
-/// A mesh's triangles, as its vertices are numbered.
+/// Returns the triangles of a mesh, with its vertex numbers.
 pub(crate) fn triangles_of(mesh: &Mesh) -> Result<Vec<[u32; 3]>, MeshError> {
     if mesh.primitive_topology() != PrimitiveTopology::TriangleList {
         let found = mesh.primitive_topology();
@@ -67,7 +67,7 @@ pub(crate) fn triangles_of(mesh: &Mesh) -> Result<Vec<[u32; 3]>, MeshError> {
         Ok(Some(Indices::U32(indices))) => indices.clone(),
         Ok(None) | Err(MeshAccessError::NotFound) => {
             let count = positions_of(mesh)?.len();
-            // As topologies count them, which refuse so many.
+            // A topology refuses so many vertices.
             (0..u32::try_from(count).unwrap_or(u32::MAX)).collect()
         }
         Err(MeshAccessError::ExtractedToRenderWorld) => return Err(MeshError::OnlyRendered),
@@ -80,17 +80,17 @@ pub(crate) fn triangles_of(mesh: &Mesh) -> Result<Vec<[u32; 3]>, MeshError> {
     }
 }
 
-/// Triangles between points, each of which is one or several of a mesh's vertices. Bevy's meshes have a vertex several times where its normal
-/// or its texture coordinate differs from face to face: what collides has it once.
+/// Triangles between points. A Bevy mesh repeats a vertex whose normal or texture coordinate differs between faces; the shape has one point
+/// for all of them.
 #[derive(Debug)]
 pub(crate) struct Shape {
-    /// As the mesh numbers vertices.
+    /// The triangles with the vertex numbers of the mesh.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Of each vertex the point.
+    /// The point of each vertex.
     pub(crate) points: Vec<u32>,
-    /// Of each point its first vertex.
+    /// The first vertex of each point.
     pub(crate) vertices: Vec<u32>,
-    /// Of points.
+    /// The topology of the points.
     pub(crate) topology: Arc<Topology>,
 }
 
@@ -98,14 +98,14 @@ impl Shape {
     pub(crate) fn of(mesh: &Mesh) -> Result<Self, MeshError> {
         let triangles = triangles_of(mesh)?;
         let positions = positions_of(mesh)?;
-        // Adding zero makes one zero of two.
+        // Adding zero turns −0 into +0.
         Self::new(
             triangles,
             positions.iter().map(|position| position.map(|x| (x + 0.0).to_bits())),
         )
     }
 
-    /// Vertices with the same key are one point.
+    /// Joins vertices with the same key.
     pub(crate) fn new<K: Hash + Eq>(triangles: Vec<[u32; 3]>, keys: impl Iterator<Item = K>) -> Result<Self, MeshError> {
         let mut vertices = Vec::new();
         let mut points_by_key = HashMap::new();
@@ -142,12 +142,12 @@ impl Shape {
         })
     }
 
-    /// Something of each point, given that of each vertex.
+    /// Converts a list per vertex to a list per point.
     pub(crate) fn of_points<T: Copy>(&self, of_vertices: &[T]) -> Vec<T> {
         self.vertices.iter().map(|&vertex| of_vertices[vertex as usize]).collect()
     }
 
-    /// Whether all vertices of a point are at one place.
+    /// Says whether all vertices of each point have the same position.
     pub(crate) fn is_together<T: PartialEq>(&self, of_vertices: &[T]) -> bool {
         let first = |point: u32| self.vertices[point as usize] as usize;
         self.points

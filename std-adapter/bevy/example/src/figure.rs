@@ -1,4 +1,4 @@
-//! A figure of capsules that walks along keyframes, with a cape that hangs on its shoulders. y is up, lengths are in metres.
+//! A figure of capsules that walks along keyframes, with a cape on its shoulders. y is up, and lengths are in metres.
 
 use bevy_asset::Assets;
 use bevy_ecs::component::Component;
@@ -18,16 +18,16 @@ use selvedge_bevy::selvedge_cloth::glam::DVec3;
 use selvedge_bevy::selvedge_cloth::{Body, Cloth, OnBlocked, Scene, ValueError};
 use selvedge_bevy::{ClothSimulation, CollisionBody, CollisionGroups, Groups, mesh_of};
 
-/// How long it walks, in seconds.
+/// The length of the walk in seconds.
 pub(crate) const DURATION: f32 = 4.5;
 
-/// Between cape and body, and between parts of the cape.
+/// The distance between cape and body, and between parts of the cape.
 const THICKNESS: f64 = 4e-3;
 
-/// Limbs overlap, which are then no contacts.
+/// The group of the limbs, which overlap without contacts.
 const PARTS: CollisionGroups = CollisionGroups(Groups::new(0b01, 0b10));
 
-/// Where an entity is at which time, in seconds; in between it goes smoothly.
+/// The places of an entity over time, in seconds, with smooth motion between them.
 #[derive(Component, Clone, Debug)]
 pub(crate) struct Keyframes(Vec<(f32, Transform)>);
 
@@ -51,31 +51,31 @@ impl Keyframes {
     }
 }
 
-/// A system for `FixedUpdate`.
+/// Moves entities along their keyframes; a system for `FixedUpdate`.
 pub(crate) fn walk(time: Res<'_, Time<Fixed>>, mut limbs: Query<'_, '_, (&Keyframes, &mut Transform)>) {
     for (keyframes, mut transform) in &mut limbs {
         *transform = keyframes.at(time.elapsed_secs());
     }
 }
 
-/// Its entities.
+/// The entities of the figure.
 #[derive(Clone, Debug)]
 pub(crate) struct Figure {
     /// Torso, shoulders, head, legs and arms.
     pub(crate) parts: Vec<Entity>,
-    /// What hangs on it.
+    /// The cape.
     pub(crate) cape: Entity,
 }
 
-/// Puts a figure into the world, whose cape has so many cells across and down.
+/// Spawns a figure whose cape has this many cells across and down.
 ///
 /// # Errors
-/// If a cape cannot have so many.
+/// If a cape cannot have so many cells.
 pub(crate) fn spawn(world: &mut World, cells: [u32; 2]) -> Result<Figure, ValueError> {
     let root = world.spawn(stroll()).id();
     let capsule = |name, from: [f64; 3], to: [f64; 3], radius| Body::capsule(name, [from, to].map(DVec3::from_array), radius, 24);
     let still = |at: [f32; 3]| Keyframes(vec![(0.0, Transform::from_translation(at.into()))]);
-    // What each consists of, about its own joint; and its joint's motion.
+    // Each limb's capsule, relative to its joint, and the motion of the joint.
     let parts = [
         (capsule("torso", [0.0, 1.0, 0.0], [0.0, 1.32, 0.0], 0.12)?, still([0.0; 3])),
         (
@@ -125,7 +125,7 @@ pub(crate) fn spawn(world: &mut World, cells: [u32; 2]) -> Result<Figure, ValueE
 }
 
 fn cape(cells: [u32; 2]) -> Result<Scene, ValueError> {
-    // Down its back, on the torso's shoulders.
+    // The cape hangs down the back from the shoulders of the torso.
     let sides = [DVec3::new(0.44, 0.0, 0.0), DVec3::new(0.0, -0.96, -0.25)];
     let cloth = Cloth::sheet(DVec3::new(-0.22, 1.46, -0.10), sides, cells, 0.25)?;
     let top = cloth.part("bottom").unwrap_or_default().iter().copied();
@@ -158,7 +158,7 @@ fn cape(cells: [u32; 2]) -> Result<Scene, ValueError> {
     Ok(scene)
 }
 
-/// Walks two and a half metres, and turns round quickly.
+/// Returns the motion of the torso: it walks two and a half metres and turns round quickly.
 fn stroll() -> (Keyframes, Transform) {
     let there = Vec3::new(0.0, 0.0, 2.4);
     let turned = |part: f32| Transform::from_translation(there).with_rotation(Quat::from_rotation_y(part * std::f32::consts::PI));
@@ -173,7 +173,7 @@ fn stroll() -> (Keyframes, Transform) {
     (Keyframes(keyframes), Transform::IDENTITY)
 }
 
-/// A limb that swings to and fro while the figure walks.
+/// Returns the motion of a limb that swings while the figure walks.
 fn swing(joint: [f32; 3], angle: f32) -> Keyframes {
     let at = |share: f32| Transform::from_translation(joint.into()).with_rotation(Quat::from_rotation_x(share * angle));
     let times = [(0.5, 0.0), (0.75, 1.0), (1.25, -1.0), (1.75, 1.0), (2.25, -1.0), (2.5, 0.0)];

@@ -1,6 +1,6 @@
 //! A cape on a moving figure, in a window.
 //!
-//! `cargo run` shows it; with a folder as argument it leaves pictures there, and ends.
+//! `cargo run` shows it. With a folder as argument it writes pictures there and exits.
 
 mod figure;
 
@@ -10,14 +10,14 @@ use figure::{DURATION, Figure, Keyframes};
 use selvedge_bevy::{BodyContact, ClothSimulation, CollisionBody, CollisionGroups, Groups, SelvedgePlugin};
 use std::path::PathBuf;
 
-/// When pictures are taken, in seconds.
+/// The times of the pictures in seconds.
 const PICTURES: [f32; 6] = [0.9, 1.5, 2.2, 2.8, 3.1, 4.0];
 
-/// A ball beside the way that lights up where a hand meets it.
+/// A ball beside the path that lights up when a hand touches it.
 #[derive(Component)]
 struct Lamp;
 
-/// Where pictures go, and how many were taken.
+/// The folder for pictures, and the number of pictures taken.
 #[derive(Resource, Default)]
 struct Pictures {
     folder: Option<PathBuf>,
@@ -32,7 +32,7 @@ fn main() {
         ..default()
     };
     let mut app = App::new();
-    // The figure knows nothing of what is seen.
+    // The figure has no materials of its own.
     app.register_required_components::<Keyframes, Visibility>();
     app.add_plugins(DefaultPlugins.set(WindowPlugin {
         primary_window: Some(window),
@@ -98,14 +98,14 @@ fn setup(world: &mut World) {
     world.spawn((Camera3d::default(), Transform::default()));
 }
 
-/// The camera stays beside and behind the figure.
+/// Keeps the camera beside and behind the figure.
 fn follow(torso: Query<&GlobalTransform, With<Keyframes>>, mut camera: Single<&mut Transform, With<Camera3d>>) {
     let farthest = torso.iter().map(|place| place.translation().z).fold(0.0, f32::max);
     let centre = Vec3::new(0.0, 0.95, farthest);
     **camera = Transform::from_translation(centre + Vec3::new(-1.7, 0.7, -2.0)).looking_at(centre, Vec3::Y);
 }
 
-/// Contacts are messages.
+/// Lights up the ball when a contact message names it.
 fn ring(
     mut contacts: MessageReader<BodyContact>,
     mut lamps: Query<&mut MeshMaterial3d<StandardMaterial>, With<Lamp>>,
@@ -120,7 +120,7 @@ fn ring(
     }
 }
 
-/// What the certificate says, once a second.
+/// Logs the certificate once a second.
 fn tell(time: Res<Time<Fixed>>, mut second: Local<u32>, cape: Single<&ClothSimulation>) {
     if time.elapsed_secs() as u32 > *second
         && let Some(simulation) = cape.simulation()
