@@ -17,3 +17,8 @@ pub mod generator;
 pub mod hard_cases;
 pub mod minifloat;
 pub mod oracle;
+
+/// The examples of the project's readme are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
