@@ -16,7 +16,7 @@ use selvedge_core::PrimitivePair;
 use selvedge_core::elementary::advance::certain_contact;
 use selvedge_core::elementary::advance::{ROUNDS, time_of_impact, time_of_impact_and_work};
 use selvedge_core::elementary::contact::contact_and_evidence;
-use selvedge_core::elementary::{Contact, Impact, Limits, Reason, contact};
+use selvedge_core::elementary::{ContactVerdict, Impact, Limits, Reason, contact};
 use selvedge_core::verification::advance::Work;
 use selvedge_core::verification::exact::Evidence;
 use selvedge_laboratory::methods::{CullingTest, ElementaryTest, Redundancy, Source, Stages};
@@ -71,7 +71,7 @@ impl Set {
     /// Whether a pair collides, in the format at hand.
     fn touches<S: Format>(&self, case: &PairCase<S>, pair: &PrimitivePair<S>) -> bool {
         if self.name == "stress" && self.points.len() > ASKED {
-            contact(pair) == Contact::Happens
+            contact(pair) == ContactVerdict::Happens
         } else {
             collides(&case.question()).is_some()
         }
@@ -204,7 +204,7 @@ fn stress(count: usize, seed: u64) -> usize {
             if count <= ASKED {
                 return collides(&pair.question()).is_some();
             }
-            contact(&pair.pair()) == Contact::Happens
+            contact(&pair.pair()) == ContactVerdict::Happens
         });
         let set = Set {
             name: "stress".into(),
@@ -417,7 +417,7 @@ fn measure_verdict<S: Format>(set: &Set, cases: &[PairCase<S>], pairs: &[Primiti
             worst = worst.max(took);
         }
         evidence[rests_on as usize] += 1;
-        let touches = verdict == Contact::Happens;
+        let touches = verdict == ContactVerdict::Happens;
         positives += usize::from(touches);
         if touches != truth {
             let exact = set.touches(case, pair);

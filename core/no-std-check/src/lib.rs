@@ -19,7 +19,7 @@ use selvedge_core::distribution::distribute;
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::glam::DVec3;
 use selvedge_core::separation::clearance::{Clearance, are_boxes_within, nearness};
-use selvedge_core::separation::closest::Closest;
+use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
 use selvedge_core::separation::geometry::geometry;
 use selvedge_core::separation::{course, largest_coordinate};
@@ -135,8 +135,8 @@ fn advanced<S: Scalar>(pair: &PrimitivePair<S>) -> Option<S> {
 /// One bit where the exact verdict is that there is no contact, another where whole numbers alone, the certified time of impact, or its
 /// confirmation disagree with that.
 fn elementary_tests<S: Scalar>(pair: &PrimitivePair<S>) -> u32 {
-    use elementary::{Contact, Limits, advance, contact};
-    let touches = contact(pair) == Contact::Happens;
+    use elementary::{ContactVerdict, Limits, advance, contact};
+    let touches = contact(pair) == ContactVerdict::Happens;
     let limits = Limits::default();
     let time = advance::time_of_impact(pair, &limits).time();
     let confirmed = time.and_then(|time| advance::certain_contact(pair, time));
@@ -197,7 +197,7 @@ pub extern "C" fn height(points: &Points<f64>) -> f64 {
 /// The lanes of a block with the first point in lane 3 and the box of the other three in lane 5 that are near the first point.
 #[unsafe(no_mangle)]
 pub extern "C" fn near(points: &Points<f32>) -> u32 {
-    let [a, b, c, d] = points.map(|[start, end]| MovingBox::<f32>::of(&Motion::new(start.into(), end.into())));
+    let [a, b, c, d] = points.map(|[start, end]| MovingBox::<f32>::from_motion(&Motion::new(start.into(), end.into())));
     let mut block = MovingBlock::empty();
     block.set(3, &a);
     block.set(5, &b.merged(&c).merged(&d));
@@ -226,16 +226,16 @@ pub extern "C" fn separations(points: &Points<f64>) -> u32 {
     ];
     let [start, end] = ends;
     let largest = largest_coordinate(&start).max(largest_coordinate(&end));
-    let (kind, error) = (PairKind::VertexFace, GapError::of_coordinates(largest));
+    let (kind, error) = (PairKind::VertexFace, GapError::from_largest_coordinate(largest));
     let mapping = Mapping::new(&Aabb::everything(), 0.5, 1.0, false);
     let [a, b, c, d] = points.map(|[start, end]| mapping.vertex(start, end));
     let face = b.merged(&c).merged(&d);
-    let drawn_in = a.drawn_in(Inset::new(0.5, 0.25).of(&a));
-    let mut closest = [Closest::default()];
+    let drawn_in = a.drawn_in(Inset::new(0.5, 0.25).for_bounds(&a));
+    let mut closest = [ClosestPoints::default()];
     closest_points(Level::baseline(), kind, &[start], &mut closest);
     let bound = distance_from_below(kind, start, closest[0].direction, error);
     let known = SeparatingDirection::NONE.or_better(kind, DVec3::Z, start, error);
-    let found = SeparatingDirection::found(kind, DVec3::Z, ends, 0.5, error);
+    let found = SeparatingDirection::for_step(kind, DVec3::Z, ends, 0.5, error);
     let in_single = ends.map(|points| points.map(|point| point.as_vec3a()));
     let clearance = Clearance::new(0.25, largest, 0.0);
     let rows = points.map(|[start, end]| VertexRow::new(Motion::new(DVec3::from(start).as_vec3(), DVec3::from(end).as_vec3())));

@@ -210,12 +210,12 @@ fn all<P: PairShape, L: Chunk>(
 
 /// One round in lanes.
 #[inline(always)]
-fn round<P: PairShape, L: Lanes>(points: &PairPoints<L>, time: L, question: &RoundQuestion<L::Scalar>) -> round::Found<L>
+fn round<P: PairShape, L: Lanes>(points: &PairPoints<L>, time: L, question: &RoundQuestion<L::Scalar>) -> round::RoundResult<L>
 where
     L::Scalar: Scalar,
 {
     let Limits { tolerance, separation } = question.limits;
-    let question = round::Question {
+    let question = round::RoundInput {
         near: time.splat(tolerance + separation),
         separation: (separation > L::Scalar::ZERO).then(|| time.splat(separation)),
         until: time.splat(question.until),

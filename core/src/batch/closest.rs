@@ -4,27 +4,27 @@ use super::chunk::Chunk;
 use super::mask::LANES;
 use crate::kind::PairKind;
 use crate::points::PairShape;
-use crate::separation::closest::{Closest, Found};
+use crate::separation::closest::{ClosestInLanes, ClosestPoints};
 use crate::vector::Vector;
 use fearless_simd::Level;
 #[cfg(not(unoptimised))]
 use fearless_simd::{Simd, f64x2, f64x4, f64x8};
 use glam::DVec3;
 
-/// Sets in `closest` where each pair, of whose four points these are, is closest: [`Closest::of`], to the bit, but for the bits of NaN. As many
+/// Sets in `closest` where each pair, of whose four points these are, is closest: [`ClosestPoints::from_points`], to the bit, but for the bits of NaN. As many
 /// as there are of both. Certifies nothing.
 ///
 /// ```
 /// use selvedge_core::batch::{Level, closest_points};
-/// use selvedge_core::{PairKind, glam::DVec3, separation::closest::Closest};
+/// use selvedge_core::{PairKind, glam::DVec3, separation::closest::ClosestPoints};
 ///
 /// let face = [DVec3::ZERO, DVec3::X, DVec3::Y];
 /// let above = [0.5, 0.25].map(|height| [DVec3::new(0.2, 0.2, height), face[0], face[1], face[2]]);
-/// let mut closest = [Closest::default(); 2];
+/// let mut closest = [ClosestPoints::default(); 2];
 /// closest_points(Level::baseline(), PairKind::VertexFace, &above, &mut closest);
 /// assert_eq!(closest.map(|own| own.distance()), [0.5, 0.25]);
 /// ```
-pub fn closest_points(level: Level, kind: PairKind, pairs: &[[DVec3; 4]], closest: &mut [Closest]) {
+pub fn closest_points(level: Level, kind: PairKind, pairs: &[[DVec3; 4]], closest: &mut [ClosestPoints]) {
     for (pairs, closest) in pairs.chunks(LANES).zip(closest.chunks_mut(LANES)) {
         let mut sixteen = Sixteen([[[0.0; LANES]; 3]; 4]);
         for (lane, pair) in pairs.iter().enumerate() {
@@ -38,7 +38,7 @@ pub fn closest_points(level: Level, kind: PairKind, pairs: &[[DVec3; 4]], closes
         let vector = |[x, y, z]: &[[f64; LANES]; 3], lane: usize| DVec3::new(x[lane], y[lane], z[lane]);
         for (lane, closest) in closest.iter_mut().enumerate() {
             let lane = lane % LANES;
-            *closest = Closest {
+            *closest = ClosestPoints {
                 weights: weights.map(|row| row[lane]),
                 way: vector(&way, lane),
                 direction: vector(&direction, lane),
@@ -87,7 +87,7 @@ fn all<P: PairShape, L: Chunk<Scalar = f64>>(token: L::Token, Sixteen(pairs): &S
                 $vector.z.store(&mut $rows[2], first);
             };
         }
-        let found = Found::<L>::of::<P>([point!(0), point!(1), point!(2), point!(3)]);
+        let found = ClosestInLanes::<L>::of::<P>([point!(0), point!(1), point!(2), point!(3)]);
         let [a, b, c, d] = found.weights;
         a.store(&mut ways.weights[0], first);
         b.store(&mut ways.weights[1], first);

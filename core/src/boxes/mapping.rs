@@ -132,7 +132,7 @@ impl Mapping {
 /// let extent = Aabb { lower: [0.0; 3], upper: [2.0; 3] };
 /// let mapping = Mapping::new(&extent, 0.5, 1.0, false);
 /// let [own, other] = [0.0, 0.4].map(|x| mapping.vertex([x, 0.0, 0.0], [x + 1.0, 0.0, 0.0]));
-/// let is_apart = |smaller: f64| own.drawn_in(Inset::new(0.5, smaller).of(&own)).is_apart_from(&other);
+/// let is_apart = |smaller: f64| own.drawn_in(Inset::new(0.5, smaller).for_bounds(&own)).is_apart_from(&other);
 /// assert!(!own.is_apart_from(&other));
 /// assert!(is_apart(0.0) && is_apart(0.399) && !is_apart(0.4));
 /// ```
@@ -157,7 +157,7 @@ impl Inset {
     /// to draw in or it cannot be told.
     #[inline]
     #[must_use]
-    pub fn of(self, bounds: &MovingBox<f32>) -> f32 {
+    pub fn for_bounds(self, bounds: &MovingBox<f32>) -> f32 {
         let corners = [bounds.start.lower, bounds.start.upper, bounds.end.lower, bounds.end.upper];
         let largest = corners.iter().flatten().fold(0.0, |largest: f32, x| largest.larger(x.abs()));
         let sum = largest + self.by;

@@ -26,8 +26,8 @@ use crate::scalar::Scalar;
 /// ```
 /// use selvedge_core::boxes::moving::MovingBox;
 /// // A point that follows another one at a distance, over ten times that distance.
-/// let first = MovingBox::<f64>::of(&([0.0, 0.0, 0.0], [10.0, 0.0, 0.0]).into());
-/// let second = MovingBox::of(&([1.0, 0.0, 0.0], [11.0, 0.0, 0.0]).into());
+/// let first = MovingBox::<f64>::from_motion(&([0.0, 0.0, 0.0], [10.0, 0.0, 0.0]).into());
+/// let second = MovingBox::from_motion(&([1.0, 0.0, 0.0], [11.0, 0.0, 0.0]).into());
 /// assert!(first.is_apart_from(&second));
 /// assert!(first.swept().overlaps(&second.swept()));
 /// ```
@@ -52,7 +52,7 @@ impl<S: Scalar> MovingBox<S> {
     /// The boxes of one moving point. Unbounded, and so apart from nothing, if a coordinate is NaN or infinite.
     #[inline]
     #[must_use]
-    pub fn of(motion: &Motion<S>) -> Self {
+    pub fn from_motion(motion: &Motion<S>) -> Self {
         if !motion.is_finite() {
             return Self {
                 start: Aabb::everything(),
@@ -126,7 +126,7 @@ impl MovingBox<f32> {
 ///
 /// ```
 /// use selvedge_core::{batch::Level, boxes::moving::{MovingBlock, MovingBox}};
-/// let point = |x: f32| MovingBox::of(&([x, 0.0, 0.0], [x, 1.0, 0.0]).into());
+/// let point = |x: f32| MovingBox::from_motion(&([x, 0.0, 0.0], [x, 1.0, 0.0]).into());
 /// let mut block = MovingBlock::empty();
 /// for lane in 0..16 {
 ///     block.set(lane, &point(lane as f32));

@@ -8,7 +8,7 @@
 //!    without passing through, coplanar motion, distances of a rounding error.
 //!
 //! ```
-//! use selvedge_core::elementary::{Contact, contact};
+//! use selvedge_core::elementary::{ContactVerdict, contact};
 //! use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
 //!
 //! // A vertex that comes down onto a face until it is 1e-300 above it, or touches it at the last moment.
@@ -16,13 +16,13 @@
 //!     Motion::new(DVec3::new(0.2, 0.2, 1.0), DVec3::new(0.2, 0.2, height)),
 //!     [DVec3::ZERO, DVec3::X, DVec3::Y].map(Motion::resting),
 //! );
-//! assert_eq!(contact(&lands_at(1e-300)), Contact::Never);
-//! assert_eq!(contact(&lands_at(0.0)), Contact::Happens);
+//! assert_eq!(contact(&lands_at(1e-300)), ContactVerdict::Never);
+//! assert_eq!(contact(&lands_at(0.0)), ContactVerdict::Happens);
 //! ```
 //!
 //! # What is promised
 //! * **The truth, for every finite input**, `f32` and `f64`, subnormal and largest numbers included, in every floating-point environment.
-//!   NaN and infinity have no truth: [`Contact::Undefined`].
+//!   NaN and infinity have no truth: [`ContactVerdict::Undefined`].
 //! * **A bounded amount of work**: that of the [time of impact](super::advance), at most 18 attempts at confirmation, and in
 //!   whole numbers what `exact::touches` states: nothing is refined until it is good enough. Time grows with the square of the
 //!   number of bits from a coordinate's highest to another's lowest along an axis: microseconds with everyday coordinates, some milliseconds
@@ -37,7 +37,7 @@ use crate::scalar::Scalar;
 /// Whether two moving sets share a point at some time in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[must_use = "a contact has to be dealt with"]
-pub enum Contact {
+pub enum ContactVerdict {
     /// At no time.
     Never,
     /// At some time.
@@ -48,14 +48,14 @@ pub enum Contact {
 
 /// Whether the pair touches at some time in [0, 1]. Exact: see the [module](self).
 #[inline]
-pub fn contact<S: Scalar>(pair: &PrimitivePair<S>) -> Contact {
+pub fn contact<S: Scalar>(pair: &PrimitivePair<S>) -> ContactVerdict {
     answer(pair, &time_of_impact(pair, &exactly())).0
 }
 
 /// [`contact`], and what the answer rests on.
 #[cfg(feature = "verification")]
 #[inline]
-pub fn contact_and_evidence<S: Scalar>(pair: &PrimitivePair<S>) -> (Contact, Evidence) {
+pub fn contact_and_evidence<S: Scalar>(pair: &PrimitivePair<S>) -> (ContactVerdict, Evidence) {
     answer(pair, &time_of_impact(pair, &exactly()))
 }
 
@@ -63,7 +63,7 @@ pub fn contact_and_evidence<S: Scalar>(pair: &PrimitivePair<S>) -> (Contact, Evi
 /// verdict of `impact`, which must be this pair's.
 ///
 /// ```
-/// use selvedge_core::elementary::{Contact, Limits, advance::time_of_impact, contact::settled};
+/// use selvedge_core::elementary::{ContactVerdict, Limits, advance::time_of_impact, contact::settled};
 /// use selvedge_core::{glam::DVec3, Motion, PrimitivePair};
 /// // It comes to rest above an inclined face, by less than the errors of rounding.
 /// let pair = PrimitivePair::vertex_face(
@@ -72,11 +72,11 @@ pub fn contact_and_evidence<S: Scalar>(pair: &PrimitivePair<S>) -> (Contact, Evi
 /// );
 /// let impact = time_of_impact(&pair, &Limits { tolerance: 1e-6, separation: 0.0 });
 /// assert!(impact.time().is_some());
-/// assert_eq!(settled(&pair, &impact), Contact::Never);
+/// assert_eq!(settled(&pair, &impact), ContactVerdict::Never);
 /// ```
 #[cfg(feature = "batch")]
 #[inline]
-pub fn settled<S: Scalar>(pair: &PrimitivePair<S>, impact: &Impact<S>) -> Contact {
+pub fn settled<S: Scalar>(pair: &PrimitivePair<S>, impact: &Impact<S>) -> ContactVerdict {
     answer(pair, impact).0
 }
 
@@ -89,38 +89,38 @@ const fn exactly<S: Scalar>() -> Limits<S> {
 }
 
 #[inline(always)]
-fn answer<S: Scalar>(pair: &PrimitivePair<S>, impact: &Impact<S>) -> (Contact, Evidence) {
+fn answer<S: Scalar>(pair: &PrimitivePair<S>, impact: &Impact<S>) -> (ContactVerdict, Evidence) {
     match *impact {
-        Impact::Never => (Contact::Never, Evidence::Separation),
+        Impact::Never => (ContactVerdict::Never, Evidence::Separation),
         Impact::Possible { time, .. } => settled_from(pair, time),
     }
 }
 
 /// Where contact from `time` on is not excluded.
 #[inline(never)]
-fn settled_from<S: Scalar>(pair: &PrimitivePair<S>, time: S) -> (Contact, Evidence) {
+fn settled_from<S: Scalar>(pair: &PrimitivePair<S>, time: S) -> (ContactVerdict, Evidence) {
     if certain_contact(pair, time).is_some() {
-        return (Contact::Happens, Evidence::Crossing);
+        return (ContactVerdict::Happens, Evidence::Crossing);
     }
     if let Some(answer) = settled_in_f64(pair, time) {
         return answer;
     }
     match exact::touches(pair) {
-        Some(false) => (Contact::Never, Evidence::WholeNumbers),
-        Some(true) => (Contact::Happens, Evidence::WholeNumbers),
-        None => (Contact::Undefined, Evidence::Nothing),
+        Some(false) => (ContactVerdict::Never, Evidence::WholeNumbers),
+        Some(true) => (ContactVerdict::Happens, Evidence::WholeNumbers),
+        None => (ContactVerdict::Undefined, Evidence::Nothing),
     }
 }
 
 /// What `f64` proves of a narrower format's pair, for which contact from `time` on is not excluded.
-fn settled_in_f64<S: Scalar>(pair: &PrimitivePair<S>, time: S) -> Option<(Contact, Evidence)> {
+fn settled_in_f64<S: Scalar>(pair: &PrimitivePair<S>, time: S) -> Option<(ContactVerdict, Evidence)> {
     if S::FRACTION_BITS + 1 >= f64::MANTISSA_DIGITS {
         return None;
     }
     let pair = pair.widened();
     let from = time.to_f64();
     let Some(time) = time_of_impact_within(&pair, &exactly(), from, 1.0).time() else {
-        return Some((Contact::Never, Evidence::Separation));
+        return Some((ContactVerdict::Never, Evidence::Separation));
     };
-    certain_contact(&pair, time).map(|_| (Contact::Happens, Evidence::Crossing))
+    certain_contact(&pair, time).map(|_| (ContactVerdict::Happens, Evidence::Crossing))
 }

@@ -9,5 +9,5 @@ pub mod advance;
 pub mod contact;
 mod impact;
 
-pub use contact::{Contact, contact};
+pub use contact::{ContactVerdict, contact};
 pub use impact::{Impact, Limits, Reason};

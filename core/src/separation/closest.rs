@@ -11,7 +11,7 @@ use glam::DVec3;
 
 /// The shortest way from the second set of a pair to the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Closest {
+pub struct ClosestPoints {
     /// Of the four points in [`way`](Self::way): those of the first set add up to 1, those of the second to −1.
     pub weights: [f64; 4],
     /// Σ weightᵢ·xᵢ.
@@ -21,13 +21,13 @@ pub struct Closest {
     pub direction: DVec3,
 }
 
-impl Closest {
+impl ClosestPoints {
     /// Of the pair whose four vertices are these. What comes of points that are not finite, or of products of four lengths that overflow, means
     /// nothing. [`closest_points`](crate::batch::closest_points) is the same of many pairs.
     #[must_use]
-    pub fn of(kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> Self {
+    pub fn from_points(kind: PairKind, [p, q, r, s]: [DVec3; 4]) -> Self {
         let points = [vector(p), vector(q), vector(r), vector(s)];
-        let found = of_kind!(kind, P => Found::of::<P>(points));
+        let found = of_kind!(kind, P => ClosestInLanes::of::<P>(points));
         let [way, direction] = [found.way, found.direction].map(|Vector { x, y, z }| DVec3::new(x, y, z));
         Self {
             weights: found.weights,
@@ -48,15 +48,15 @@ const fn vector(point: DVec3) -> Vector<f64> {
     Vector::new(point.x, point.y, point.z)
 }
 
-/// What [`Closest`] says, of one pair or of one in each lane.
+/// What [`ClosestPoints`] says, of one pair or of one in each lane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Found<L> {
+pub(crate) struct ClosestInLanes<L> {
     pub(crate) weights: [L; 4],
     pub(crate) way: Vector<L>,
     pub(crate) direction: Vector<L>,
 }
 
-impl<L: Lanes<Scalar = f64>> Found<L> {
+impl<L: Lanes<Scalar = f64>> ClosestInLanes<L> {
     #[inline(always)]
     pub(crate) fn of<P: PairShape>(points: [Vector<L>; 4]) -> Self {
         let [p, q, r, s] = points;

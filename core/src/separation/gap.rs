@@ -37,7 +37,7 @@ impl<S: Scalar> GapError<S> {
     /// [`largest_coordinate`](super::largest_coordinate). Infinite, so that nothing is proven, if that is NaN or too large.
     #[inline]
     #[must_use]
-    pub fn of_coordinates(largest: S) -> Self {
+    pub fn from_largest_coordinate(largest: S) -> Self {
         if largest <= S::LARGEST_EDGE {
             Self(S::small(64) * S::UNIT_ROUNDOFF * largest + S::UNDERFLOW)
         } else {
@@ -103,7 +103,7 @@ fn is_short<S: Scalar>(direction: [S; 3]) -> bool {
 /// ```
 /// use selvedge_core::{PairKind, glam::DVec3, separation::gap::{GapError, distance_from_below}};
 /// let points = [DVec3::new(0.2, 0.2, 0.5), DVec3::ZERO, DVec3::X, DVec3::Y];
-/// let bound = distance_from_below(PairKind::VertexFace, points, DVec3::Z, GapError::of_coordinates(1.0));
+/// let bound = distance_from_below(PairKind::VertexFace, points, DVec3::Z, GapError::from_largest_coordinate(1.0));
 /// assert!(bound <= 0.5 && bound > 0.499_999);
 /// ```
 #[inline]
@@ -121,8 +121,8 @@ pub fn distance_from_below<P: Position>(kind: PairKind, points: [P; 4], directio
 /// use selvedge_core::{PairKind, glam::DVec3, separation::gap::{GapError, SeparatingDirection}};
 /// let kind = PairKind::VertexFace;
 /// let at = |height| [DVec3::new(0.2, 0.2, height), DVec3::ZERO, DVec3::X, DVec3::Y];
-/// let error = GapError::of_coordinates(1.0);
-/// let found = SeparatingDirection::found(kind, DVec3::Z, [at(0.5), at(0.4)], 0.1, error).unwrap();
+/// let error = GapError::from_largest_coordinate(1.0);
+/// let found = SeparatingDirection::for_step(kind, DVec3::Z, [at(0.5), at(0.4)], 0.1, error).unwrap();
 /// assert!(found.gap() <= 0.4);
 /// // The next step, on to 0.2, costs four dot products; the one to 0.05 is no longer proven.
 /// let later = found.lasts(kind, at(0.2), 0.1, error).unwrap();
@@ -229,7 +229,7 @@ impl SeparatingDirection {
     /// to the end. It is rounded first: what is returned is what proves it.
     #[inline]
     #[must_use]
-    pub fn found<P: Position>(
+    pub fn for_step<P: Position>(
         kind: PairKind,
         direction: P,
         [start, end]: [[P; 4]; 2],

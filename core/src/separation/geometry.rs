@@ -31,7 +31,7 @@
 //! A gap is computed of positions that are off by 8u·D along each axis, 13.9u·D each: 28u·D more than the 49u·D that [`GapError`] of D allows
 //! 64u·D for. So it is asked for 2D. Gappa has proven all of these (`verification/gappa/geometry.g`).
 
-use super::closest::Closest;
+use super::closest::ClosestPoints;
 use super::gap::{GapError, distance_from_below};
 use super::largest_coordinate;
 use crate::kind::PairKind;
@@ -113,7 +113,7 @@ pub(crate) struct Instant {
 pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) -> Instant) -> Geometry {
     let (is_time, time) = (time.is_some(), time.unwrap_or(0.0));
     let now = at(time);
-    let closest = Closest::of(kind, now.points);
+    let closest = ClosestPoints::from_points(kind, now.points);
     let weights = barycentric(kind, closest.weights);
     let met = both(kind, weights, now.points);
 
@@ -124,7 +124,7 @@ pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) ->
         let own = if share == 0.0 {
             closest
         } else {
-            Closest::of(kind, before.points)
+            ClosestPoints::from_points(kind, before.points)
         };
         let directions = [own.direction, across, -across].map(|direction| {
             // Once more: the length of a tiny vector is not known to its last digit.
@@ -164,7 +164,7 @@ pub(crate) fn of_instants(kind: PairKind, time: Option<f64>, at: impl Fn(f64) ->
 impl Instant {
     /// A lower bound of the distance of the two sides, as they truly are, by a direction from the second to the first; zero if it shows none.
     fn distance_from_below(&self, kind: PairKind, direction: DVec3) -> f64 {
-        let error = GapError::of_coordinates(2.0 * self.largest);
+        let error = GapError::from_largest_coordinate(2.0 * self.largest);
         let computed = distance_from_below(kind, self.points, direction, error);
         if self.error == 0.0 {
             computed

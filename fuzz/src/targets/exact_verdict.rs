@@ -1,6 +1,6 @@
 use super::pair::{self, Numbers};
 use selvedge::PairKind;
-use selvedge::core::elementary::{Contact, contact};
+use selvedge::core::elementary::{ContactVerdict, contact};
 use selvedge::core::verification::exact::touches;
 use selvedge_verification::generator::{Format, PairCase};
 use selvedge_verification::oracle::collides;
@@ -22,11 +22,11 @@ pub fn exact_verdict(data: &[u8]) {
 fn check<S: Format>(case: &PairCase<S>) {
     let expected = if case.is_finite() {
         match collides(&case.question()) {
-            Some(_) => Contact::Happens,
-            None => Contact::Never,
+            Some(_) => ContactVerdict::Happens,
+            None => ContactVerdict::Never,
         }
     } else {
-        Contact::Undefined
+        ContactVerdict::Undefined
     };
     let order = match case.kind {
         PairKind::VertexFace => [0, 2, 3, 1],
@@ -38,12 +38,12 @@ fn check<S: Format>(case: &PairCase<S>) {
 }
 
 /// After floating point, and in whole numbers alone.
-fn verdicts<S: Format>(case: &PairCase<S>) -> [Contact; 2] {
+fn verdicts<S: Format>(case: &PairCase<S>) -> [ContactVerdict; 2] {
     let pair = case.pair();
     let in_whole_numbers = match touches(&pair) {
-        Some(true) => Contact::Happens,
-        Some(false) => Contact::Never,
-        None => Contact::Undefined,
+        Some(true) => ContactVerdict::Happens,
+        Some(false) => ContactVerdict::Never,
+        None => ContactVerdict::Undefined,
     };
     [contact(&pair), in_whole_numbers]
 }

@@ -15,7 +15,7 @@ use selvedge::core::elementary::{Impact, Limits, contact};
 use selvedge::core::filter::{Filter, Tier};
 use selvedge::core::glam::DVec3;
 use selvedge::core::separation::clearance::Clearance;
-use selvedge::core::separation::closest::Closest;
+use selvedge::core::separation::closest::ClosestPoints;
 use selvedge::core::{Motion, PrimitivePair};
 use selvedge::{CandidateBoxes, CollisionDetector, Contact, Criterion, PairKind, Scalar, StepError, Topology};
 
@@ -175,9 +175,9 @@ fn ask_of_many<S: Scalar>(kind: PairKind, pairs: &[PrimitivePair<S>], digest: &m
     largest_strays_from_rows(level, kind, &clearances, &in_single, &indices, &classes, &mut strays);
     strays.iter().for_each(|&stray| digest.add(stray.max(0.0).to_bits()));
     let at_start: Vec<_> = pairs.iter().map(|pair| pair.motions.map(in_double)).collect();
-    let mut closest = vec![Closest::default(); pairs.len()];
+    let mut closest = vec![ClosestPoints::default(); pairs.len()];
     closest_points(level, kind, &at_start, &mut closest);
-    for Closest { weights, way, direction } in closest {
+    for ClosestPoints { weights, way, direction } in closest {
         let numbers = weights.into_iter().chain(way.to_array()).chain(direction.to_array());
         // What is no number is none in whatever bits.
         numbers.for_each(|number| digest.add(if number.is_nan() { 0 } else { number.to_bits() }));

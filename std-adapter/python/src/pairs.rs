@@ -7,7 +7,7 @@ use crate::finder;
 use numpy::Element;
 use pyo3::prelude::*;
 use selvedge::Scalar;
-use selvedge::core::elementary::{Contact, Impact, advance, contact};
+use selvedge::core::elementary::{ContactVerdict, Impact, advance, contact};
 use selvedge::core::{Motion, PrimitivePair};
 
 /// Builds a pair from rows: the vertex and the corners of the face, or the ends of both edges.
@@ -71,5 +71,5 @@ pub(crate) fn time_of_impact(
 #[pyfunction]
 pub(crate) fn touches(kind: u8, start: &Bound<'_, PyAny>, end: &Bound<'_, PyAny>) -> PyResult<bool> {
     let frames = Frames::of([("start", start), ("end", end)])?;
-    with_frames!(frames, [start, end] => Ok(contact(&pair(kind, [start.rows()?, end.rows()?])?) != Contact::Never))
+    with_frames!(frames, [start, end] => Ok(contact(&pair(kind, [start.rows()?, end.rows()?])?) != ContactVerdict::Never))
 }

@@ -11,7 +11,7 @@ use selvedge_core::batch::{
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::glam::{DVec3, Vec3A};
 use selvedge_core::separation::clearance::Clearance;
-use selvedge_core::separation::closest::Closest;
+use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_laboratory::baselines::as_computed::AsComputed;
 use selvedge_laboratory::baselines::nine_directions::NineDirections;
 use selvedge_laboratory::baselines::plain::Plain;
@@ -190,7 +190,7 @@ fn how_far_edges_may_stray() {
 }
 
 /// What is no number is none in whatever bits.
-fn number_bits(closest: &Closest) -> [u64; 10] {
+fn number_bits(closest: &ClosestPoints) -> [u64; 10] {
     let [a, b, c, d] = closest.weights;
     let ([e, f, g], [h, i, j]) = (closest.way.to_array(), closest.direction.to_array());
     [a, b, c, d, e, f, g, h, i, j].map(|number| if number.is_nan() { f64::NAN } else { number }.to_bits())
@@ -199,9 +199,9 @@ fn number_bits(closest: &Closest) -> [u64; 10] {
 fn closest_points_agree(kind: PairKind) {
     proptest!(config(), |(pairs in some_pairs::<f64>(kind))| {
         let points: Vec<_> = pairs.iter().map(|pair| pair.points.map(|point| DVec3::from_array(point[0]))).collect();
-        let expected: Vec<_> = points.iter().map(|&points| number_bits(&Closest::of(kind, points))).collect();
+        let expected: Vec<_> = points.iter().map(|&points| number_bits(&ClosestPoints::from_points(kind, points))).collect();
         for (name, level) in available_levels() {
-            let mut closest = vec![Closest::default(); points.len()];
+            let mut closest = vec![ClosestPoints::default(); points.len()];
             closest_points(level, kind, &points, &mut closest);
             let found: Vec<_> = closest.iter().map(number_bits).collect();
             prop_assert_eq!(&found, &expected, "{}", name);

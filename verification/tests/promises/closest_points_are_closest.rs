@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use selvedge_core::PairKind;
 use selvedge_core::glam::DVec3;
-use selvedge_core::separation::closest::Closest;
+use selvedge_core::separation::closest::ClosestPoints;
 
 fn point() -> impl Strategy<Value = DVec3> {
     prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from)
@@ -30,7 +30,7 @@ proptest! {
     #[test]
     fn no_point_of_a_grid_is_closer(points in prop::array::uniform4(point())) {
         for kind in [PairKind::VertexFace, PairKind::EdgeEdge] {
-            let closest = Closest::of(kind, points);
+            let closest = ClosestPoints::from_points(kind, points);
             let grid = on_a_grid(kind, points);
             prop_assert!(closest.distance() <= grid + 1e-12);
             prop_assert!(closest.distance() >= grid - 0.15);

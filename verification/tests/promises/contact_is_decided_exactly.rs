@@ -4,7 +4,7 @@ use crate::support::environment::Environment;
 use crate::support::widths::at_the_limit_of_a_width;
 use proptest::prelude::*;
 use selvedge_core::PairKind;
-use selvedge_core::elementary::Contact;
+use selvedge_core::elementary::ContactVerdict;
 use selvedge_core::elementary::contact::contact_and_evidence;
 use selvedge_core::verification::exact::{self, Evidence};
 use selvedge_verification::generator::{
@@ -22,16 +22,16 @@ fn touches<S: Format>(pair: &PairCase<S>) -> Option<bool> {
 }
 
 /// The same, after floating point has had its try.
-fn verdict<S: Format>(pair: &PairCase<S>) -> (Contact, Evidence) {
+fn verdict<S: Format>(pair: &PairCase<S>) -> (ContactVerdict, Evidence) {
     contact_and_evidence(&pair.pair())
 }
 
 /// What the verdict should be where whole numbers say this.
-fn as_contact(touches: Option<bool>) -> Contact {
+fn as_contact(touches: Option<bool>) -> ContactVerdict {
     match touches {
-        Some(true) => Contact::Happens,
-        Some(false) => Contact::Never,
-        None => Contact::Undefined,
+        Some(true) => ContactVerdict::Happens,
+        Some(false) => ContactVerdict::Never,
+        None => ContactVerdict::Undefined,
     }
 }
 
@@ -146,7 +146,7 @@ property!(what_is_not_finite_is_undefined, 8_000, extraordinary_pairs(), |pair| 
         return agree_with_the_oracle(pair);
     }
     prop_assert_eq!(touches(pair), None);
-    prop_assert_eq!(verdict(pair), (Contact::Undefined, Evidence::Nothing));
+    prop_assert_eq!(verdict(pair), (ContactVerdict::Undefined, Evidence::Nothing));
     Ok(())
 });
 

@@ -209,7 +209,7 @@ impl Question for Boxes {
         let motions = case.motions();
         let target = Aabb::swept(&motions[1..]);
         bits = bits << 1 | u64::from(segment::misses(&motions[0], &target));
-        let boxes = motions.map(|motion| MovingBox::of(&motion));
+        let boxes = motions.map(|motion| MovingBox::from_motion(&motion));
         let [first, second] = [boxes[0].merged(&boxes[1]), boxes[2].merged(&boxes[3])];
         bits = bits << 1 | u64::from(first.is_apart_from(&second));
         digest.add(bits);
@@ -245,7 +245,7 @@ impl Question for Blocks {
     fn ask<S: Format>(case: &PairCase<S>, _: &PrimitivePair<S>, digest: &mut Digest) {
         let mut block = MovingBlock::empty();
         let narrow = case.points.map(|ends| ends.map(|x| x.map(|x| x.to_f64() as f32)));
-        let boxes = narrow.map(|[start, end]| MovingBox::of(&(start, end).into()));
+        let boxes = narrow.map(|[start, end]| MovingBox::from_motion(&(start, end).into()));
         for (lane, moving) in boxes.iter().enumerate() {
             block.set(5 * lane, moving);
         }

@@ -3,7 +3,7 @@
 
 use selvedge_core::Scalar;
 use selvedge_core::elementary::advance::time_of_impact;
-use selvedge_core::elementary::{Contact as Verdict, Impact, Limits, contact};
+use selvedge_core::elementary::{ContactVerdict as Verdict, Impact, Limits, contact};
 use selvedge_laboratory::hard_cases::{Contact, HardCase, hard_cases};
 use selvedge_laboratory::methods::QueryMethod;
 use selvedge_verification::generator::{Format, PairCase};

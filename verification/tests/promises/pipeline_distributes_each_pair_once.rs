@@ -7,7 +7,7 @@ use selvedge::PairKind::{self, EdgeEdge, VertexFace};
 use selvedge::Topology;
 use selvedge::broad_phase::MovingBroadPhase;
 use selvedge_core::elementary::advance::time_of_impact;
-use selvedge_core::elementary::{Contact, Limits, contact};
+use selvedge_core::elementary::{ContactVerdict, Limits, contact};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_laboratory::baselines::cubic;
 use selvedge_laboratory::methods::{ElementaryTest, Preset, Redundancy, Source, Stage, Stages};
@@ -249,7 +249,7 @@ fn every_preset_ends_with_what_its_own_tests_leave<S: Format>(mesh: &MeshCase<S>
             match stages.elementary {
                 ElementaryTest::Cubic => cubic::time_of_impact(&pair),
                 ElementaryTest::TimeOfImpact => certified,
-                ElementaryTest::Exact => certified.filter(|_| contact(&pair) == Contact::Happens),
+                ElementaryTest::Exact => certified.filter(|_| contact(&pair) == ContactVerdict::Happens),
                 other => panic!("{preset} ends with {other}"),
             }
         };

@@ -60,7 +60,7 @@ fn ends<S: Format>(pair: &PairCase<S>) -> [[S::Vector; 4]; 2] {
 }
 
 fn error_of<S: Format>(pair: &PairCase<S>) -> GapError<S> {
-    GapError::of_coordinates(largest_coordinate(&ends(pair).concat()))
+    GapError::from_largest_coordinate(largest_coordinate(&ends(pair).concat()))
 }
 
 /// Directions between points of the two sets, their normals, and the axes: of length one, or a little more.
@@ -109,7 +109,7 @@ fn largest_accepted<S: Format>(accepts: impl Fn(S) -> bool) -> Option<S> {
 fn is_kept_apart<S: Format>(pair: &PairCase<S>, directions: &[S::Vector], separation: S) -> bool {
     let (kind, error, [start, end]) = (pair.kind, error_of(pair), ends(pair));
     directions.iter().any(|&direction| {
-        let found = SeparatingDirection::found(kind, direction, [start, end], separation, error);
+        let found = SeparatingDirection::for_step(kind, direction, [start, end], separation, error);
         let at_start = SeparatingDirection::NONE.or_better(kind, direction, start, error);
         let lasts = at_start.lasts(kind, end, separation, error);
         found.is_some() || lasts.is_some()
@@ -179,7 +179,7 @@ property!(a_bound_of_the_distance_is_not_above_it, 600, pairs_of_any_kind(), |pa
         let (error, [start, end]) = (error_of(pair), ends(pair));
         let stored = directions.iter().flat_map(|&direction| {
             let none = SeparatingDirection::NONE;
-            let found = SeparatingDirection::found(kind, direction, [start, end], S::ZERO, error);
+            let found = SeparatingDirection::for_step(kind, direction, [start, end], S::ZERO, error);
             let lasting = none.or_better(kind, direction, start, error).lasts(kind, end, S::ZERO, error);
             let at_end = none.or_better(kind, direction, end, error);
             [found, lasting, Some(at_end)].into_iter().flatten()
@@ -209,14 +209,14 @@ property!(what_is_not_finite_is_never_kept_apart, 800, extraordinary_pairs(), |p
 #[test]
 fn a_direction_that_is_longer_than_one_or_no_number_proves_nothing() {
     let points = [DVec3::Z, DVec3::ZERO, DVec3::X, DVec3::Y];
-    let (kind, error) = (PairKind::VertexFace, GapError::of_coordinates(1.0));
+    let (kind, error) = (PairKind::VertexFace, GapError::from_largest_coordinate(1.0));
     for length in [1.000_01, 2.0, f64::INFINITY, f64::NAN] {
         let direction = DVec3::new(0.0, 0.0, length);
         assert_eq!(distance_from_below(kind, points, direction, error), 0.0);
-        assert_eq!(SeparatingDirection::found(kind, direction, [points; 2], 0.0, error), None);
+        assert_eq!(SeparatingDirection::for_step(kind, direction, [points; 2], 0.0, error), None);
     }
     for separation in [1.0, f64::INFINITY, f64::NAN] {
-        let found = SeparatingDirection::found(kind, DVec3::Z, [points; 2], separation, error);
+        let found = SeparatingDirection::for_step(kind, DVec3::Z, [points; 2], separation, error);
         assert_eq!(found, None);
     }
 }
@@ -451,7 +451,7 @@ fn are_boxes_apart<S: Format>(pair: &PairCase<S>, separation: S, until: S) -> bo
 /// Whether boxes that are made for `separation` show the pair to be apart by more than a smaller one.
 fn are_drawn_in_boxes_apart<S: Format>(pair: &PairCase<S>, separation: S, smaller: S) -> bool {
     let [first, second] = boxes(pair, separation, S::ONE);
-    let inset = Inset::new(separation.to_f64(), smaller.to_f64()).of(&first);
+    let inset = Inset::new(separation.to_f64(), smaller.to_f64()).for_bounds(&first);
     first.drawn_in(inset).is_apart_from(&second)
 }
 
@@ -523,14 +523,14 @@ fn boxes_that_are_drawn_in_show_nearly_all_that_is_kept_and_nothing_that_cannot_
     let [first, second] = boxes(&pair, 0.5, 1.0);
     assert!(first.is_apart_from(&second));
     for smaller in [0.5, 0.75, 0.5 - 1e-20, f64::INFINITY, f64::NAN] {
-        let inset = Inset::new(0.5, smaller).of(&first);
+        let inset = Inset::new(0.5, smaller).for_bounds(&first);
         assert!(!first.drawn_in(inset).is_apart_from(&second), "{smaller}");
     }
-    let far = MovingBox::of(&([1e31_f32, 0.0, 0.0], [1e31, 0.0, 0.0]).into());
+    let far = MovingBox::from_motion(&([1e31_f32, 0.0, 0.0], [1e31, 0.0, 0.0]).into());
     let inset = Inset::new(0.5, 0.25);
-    assert!(!far.drawn_in(inset.of(&far)).is_apart_from(&second));
+    assert!(!far.drawn_in(inset.for_bounds(&far)).is_apart_from(&second));
     let everywhere = boxes(&pair.map(|_| f64::NAN), 0.5, 1.0)[0];
-    assert!(!everywhere.drawn_in(inset.of(&everywhere)).is_apart_from(&second));
+    assert!(!everywhere.drawn_in(inset.for_bounds(&everywhere)).is_apart_from(&second));
 }
 
 property!(

@@ -11,7 +11,7 @@ use selvedge_core::elementary::advance::time_of_impact_of_points;
 use selvedge_core::elementary::{Impact, Limits};
 use selvedge_core::verification::advance::corners::Corners;
 use selvedge_core::verification::advance::directions::are_apart_turning;
-use selvedge_core::verification::advance::round::{Question, round};
+use selvedge_core::verification::advance::round::{RoundInput, round};
 use selvedge_core::verification::advance::volume::SignedVolume;
 use selvedge_core::verification::lanes::Rounding;
 use selvedge_core::verification::points::{EdgeEdge, PairPoints, PairShape, VertexFace};
@@ -326,7 +326,7 @@ fn random_times<P: PairShape, const ENVIRONMENT: u32>() -> [u64; 2] {
         let mut in_rounds = Some(zero);
         for sweep in 0..4 {
             let Some(from) = in_rounds else { break };
-            let question = Question {
+            let question = RoundInput {
                 near: zero,
                 separation: None,
                 until: one,

@@ -146,7 +146,7 @@ fn a_pair_keeps_its_separation_for_all_smaller_shares() {
             [start, wanted],
             direction,
             separation,
-            GapError::of_coordinates(largest),
+            GapError::from_largest_coordinate(largest),
         ) else {
             return Ok(());
         };
@@ -156,8 +156,8 @@ fn a_pair_keeps_its_separation_for_all_smaller_shares() {
             prop_assert!((0.0..=1.0).contains(&shares[corner]));
             ends[corner] = Motion::new(start[corner], wanted[corner]).at(shares[corner] * parts[corner]);
         }
-        let error = GapError::of_coordinates(largest);
-        let others = SeparatingDirection::found(kind, direction, [before, start], separation, error).map(|_| before);
+        let error = GapError::from_largest_coordinate(largest);
+        let others = SeparatingDirection::for_step(kind, direction, [before, start], separation, error).map(|_| before);
         from_a_base.set(from_a_base.get() + usize::from(others.is_some()));
         for from in [start].into_iter().chain(others) {
             let motions = [0, 1, 2, 3].map(|corner| [from[corner].to_array(), ends[corner].to_array()]);

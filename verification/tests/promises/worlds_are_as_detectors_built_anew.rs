@@ -7,7 +7,7 @@ use selvedge::{
     CollisionDetector, CollisionFilter, Criterion, Geometry, Groups, MeshHandle, MeshMotion, PairKind, Position, Scalar,
     StepError, Threads, Topology, World, WorldContact, WorldContactGeometry, WorldError,
 };
-use selvedge_core::separation::closest::Closest;
+use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_verification::generator::side_of;
 use std::cell::Cell;
 use std::f64::consts::PI;
@@ -727,7 +727,7 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<
     for own in &told {
         let at = |time: f64| [0, 1, 2, 3].map(|k| place(own.meshes[side_of(own.kind, k)], own.vertices[k] as usize, time));
         let geometry = own.geometry;
-        let distance = Closest::of(own.kind, at(own.time)).distance();
+        let distance = ClosestPoints::from_points(own.kind, at(own.time)).distance();
         let [from, to] = geometry.distance;
         prop_assert!(
             from <= distance + 1e-10 && distance - 1e-10 <= to && to < distance + 1e-9,
@@ -781,7 +781,7 @@ fn turning_bodies_are_not_missed(seed: u64, count: &Cell<[usize; 3]>) -> Result<
                                     [own(p), own(q), others(r), others(s)]
                                 }
                             };
-                            Closest::of(kind, points).distance()
+                            ClosestPoints::from_points(kind, points).distance()
                         };
                         let until = told.unwrap_or(1.0);
                         for k in 0..=40 {

@@ -14,7 +14,7 @@ use crate::points::{PairPoints, PairShape};
 
 /// What a round is asked, the same in each lane.
 #[derive(Clone, Copy, Debug)]
-pub struct Question<L> {
+pub struct RoundInput<L> {
     /// The distance within which a pair is near: the tolerance and the separation.
     pub near: L,
     /// The separation, if it is not zero.
@@ -27,7 +27,7 @@ pub struct Question<L> {
 
 /// What a round found: in each lane one of the three, or none of them if the pair has advanced and is still open.
 #[derive(Clone, Copy, Debug)]
-pub struct Found<L: Lanes> {
+pub struct RoundResult<L: Lanes> {
     /// The time up to which the pair is proven to be apart.
     pub time: L,
     /// Certainly farther apart than the separation up to the time of interest.
@@ -41,7 +41,7 @@ pub struct Found<L: Lanes> {
 /// One round, from `time` on, up to which the pairs are proven to be apart.
 #[inline(always)]
 #[must_use]
-pub fn round<P: PairShape, L: Lanes>(points: &PairPoints<L>, time: L, question: &Question<L>) -> Found<L> {
+pub fn round<P: PairShape, L: Lanes>(points: &PairPoints<L>, time: L, question: &RoundInput<L>) -> RoundResult<L> {
     match P::KIND {
         PairKind::VertexFace => round_of(points, &Corners::of_vertex_face(points), time, question),
         PairKind::EdgeEdge => round_of(points, &Corners::of_edge_edge(points), time, question),
@@ -53,8 +53,8 @@ fn round_of<L: Lanes, const N: usize>(
     points: &PairPoints<L>,
     corners: &Corners<L, N>,
     time: L,
-    question: &Question<L>,
-) -> Found<L> {
+    question: &RoundInput<L>,
+) -> RoundResult<L> {
     let is_in_range = corners.are_in_range() & points.is_finite();
     let now = corners.at(time);
     let w = closest_by_selects(&now, corners.extent);
@@ -65,7 +65,7 @@ fn round_of<L: Lanes, const N: usize>(
     let others = !near;
     if L::may_leave(others) {
         // Whatever is proven from here on, a near pair keeps its time. There are no others.
-        return Found {
+        return RoundResult {
             time,
             apart: others,
             near,
@@ -89,7 +89,7 @@ fn round_of<L: Lanes, const N: usize>(
     }
 
     let open = is_proven & !near;
-    Found {
+    RoundResult {
         time: L::select(open, until, time),
         apart: open & until.greater(question.until),
         near,

@@ -8,7 +8,7 @@ use selvedge_core::batch::{LANES, closest_points};
 use selvedge_core::elementary::Limits;
 use selvedge_core::elementary::advance::time_of_impact;
 use selvedge_core::glam::DVec3;
-use selvedge_core::separation::closest::Closest;
+use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::{Motion, PrimitivePair};
 
@@ -58,7 +58,7 @@ impl OfPair {
 #[derive(Default)]
 pub(super) struct ClosestOfSome {
     points: [[DVec3; 4]; LANES],
-    closest: [Closest; LANES],
+    closest: [ClosestPoints; LANES],
 }
 
 impl ClosestOfSome {
@@ -68,7 +68,7 @@ impl ClosestOfSome {
         level: Level,
         pairs: impl Iterator<Item = &'a Candidate>,
         positions: &[DVec3],
-    ) -> &[Closest] {
+    ) -> &[ClosestPoints] {
         let (mut kind, mut count) = (PairKind::VertexFace, 0);
         for (points, pair) in self.points.iter_mut().zip(pairs) {
             *points = pair.points(positions);
@@ -80,7 +80,7 @@ impl ClosestOfSome {
     }
 
     /// In the order of the pairs.
-    pub(super) const fn found(&self) -> &[Closest] {
+    pub(super) const fn found(&self) -> &[ClosestPoints] {
         &self.closest
     }
 }
@@ -135,26 +135,26 @@ mod tests {
                 body: FREE,
             };
             let mut pair = Candidate::new(kind, [0, 0], [0, 1, 2, 3], of_pair);
-            let error = GapError::of_coordinates(2.0);
+            let error = GapError::from_largest_coordinate(2.0);
             let until = impact(&mut pair, [&start, &end], separation, error);
             let gap = f64::from(pair.gap());
             for step in 0..=40 {
                 let t = f64::from(step) / 40.0;
                 let at = [0, 1, 2, 3].map(|k| start[k].lerp(end[k], t));
-                let distance = Closest::of(kind, at).distance();
+                let distance = ClosestPoints::from_points(kind, at).distance();
                 if until.is_none_or(|until| t < until) {
                     prop_assert!(distance > separation * (1.0 - 1e-9), "{distance} at {t}");
                 }
             }
-            prop_assert!(Closest::of(kind, end).distance() >= gap);
-            prop_assert!(pair.distance_from_below(&start, error) <= Closest::of(kind, start).distance());
+            prop_assert!(ClosestPoints::from_points(kind, end).distance() >= gap);
+            prop_assert!(pair.distance_from_below(&start, error) <= ClosestPoints::from_points(kind, start).distance());
             // And from the start to where repairs may have moved it: the gap at the start was large enough.
             let moved = [0, 1, 2, 3].map(|k| end[k] + moves[(k + 1) % 4] * 0.1);
             let mut again = pair;
             if until.is_none() && again.stays_apart(&moved, separation, error) {
                 for step in 0..=20 {
                     let at = [0, 1, 2, 3].map(|k| start[k].lerp(moved[k], f64::from(step) / 20.0));
-                    prop_assert!(Closest::of(kind, at).distance() > separation * (1.0 - 1e-9));
+                    prop_assert!(ClosestPoints::from_points(kind, at).distance() > separation * (1.0 - 1e-9));
                 }
             }
             // And once more from where it is: the gap is right there, as `stays_apart` takes it to be.
@@ -162,7 +162,7 @@ mod tests {
             if pair.stays_apart(&on, separation, error) {
                 for t in [0.0, 0.25, 0.5, 0.75, 1.0] {
                     let at = [0, 1, 2, 3].map(|k| end[k].lerp(on[k], t));
-                    prop_assert!(Closest::of(kind, at).distance() > separation * (1.0 - 1e-9));
+                    prop_assert!(ClosestPoints::from_points(kind, at).distance() > separation * (1.0 - 1e-9));
                 }
             }
         }

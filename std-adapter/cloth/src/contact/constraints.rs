@@ -6,7 +6,7 @@
 //! or the mesh would lock, and [less](super::neighbours). What was tangled has no such distance at rest, and the two sides of a tear have none
 //! at all: they come apart to at least the thickness of neighbours.
 //!
-//! **Only where it matters.** Closest points are found when it is the turn of a pair to push, and not if the direction that it remembers
+//! **Only where it matters.** ClosestPoints points are found when it is the turn of a pair to push, and not if the direction that it remembers
 //! keeps it at its thickness by then: where cloth lies on something each vertex has many pairs, and a push or two see to all of them. On a
 //! figure that walks in a shirt a third of the pairs that would come too near by themselves are left. A pair that remembers no direction is
 //! not kept by any: where that is so of many, as after a checkpoint, closest points are found of [several at once](Known).
@@ -21,7 +21,7 @@ use selvedge::parallel::add_kept;
 use selvedge::simd::Level;
 use selvedge_core::batch::LANES;
 use selvedge_core::glam::DVec3;
-use selvedge_core::separation::closest::Closest;
+use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_core::separation::gap::{GapError, distance_from_below};
 use selvedge_core::separation::largest_coordinate;
 use std::hint::select_unpredictable;
@@ -198,7 +198,7 @@ fn near(pair: &mut Candidate, known: Option<(&Known, usize)>, rules: Rules<'_>, 
 }
 
 /// The thickness that a pair can have: the one that is asked for, but for neighbours in one cloth.
-fn thickness_of(pair: &Candidate, closest_at_rest: impl FnOnce() -> Closest, rules: Rules<'_>) -> Option<f64> {
+fn thickness_of(pair: &Candidate, closest_at_rest: impl FnOnce() -> ClosestPoints, rules: Rules<'_>) -> Option<f64> {
     let Rules {
         settings, exempt, rest, ..
     } = rules;
@@ -218,7 +218,7 @@ fn thickness_of(pair: &Candidate, closest_at_rest: impl FnOnce() -> Closest, rul
     let own = own.min(0.5 * closest.distance());
     let has_torn = || {
         let points = pair.points(rest);
-        let error = GapError::of_coordinates(largest_coordinate(&points));
+        let error = GapError::from_largest_coordinate(largest_coordinate(&points));
         distance_from_below(pair.kind, points, closest.direction, error) == 0.0
     };
     Some(if exempt.is_parting(pair) || has_torn() {

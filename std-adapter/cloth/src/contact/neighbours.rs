@@ -7,7 +7,7 @@ use super::settings::{ContactSettings, NEIGHBOURS_AT_REST, Thickness};
 use selvedge::PairKind;
 use selvedge::Topology;
 use selvedge::broad_phase::MovingBroadPhase;
-use selvedge::core::separation::closest::Closest;
+use selvedge::core::separation::closest::ClosestPoints;
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
@@ -28,7 +28,7 @@ pub(super) fn are_many(topology: &Arc<Topology>, rest: &[DVec3], cloth_vertices:
         let vertices = topology.vertices_of(kind, pair).map(|v| v as usize);
         vertices.iter().all(|&vertex| is_cloth(vertex)) && {
             let [one, .., other] = vertices.map(|v| v as u32);
-            let distance = || Closest::of(kind, vertices.map(|v| rest[v])).distance();
+            let distance = || ClosestPoints::from_points(kind, vertices.map(|v| rest[v])).distance();
             settings.are_of_one_cloth(one, other) && distance() < at_rest(settings.of_cloths()[settings.cloth_of(one)])
         }
     };

@@ -121,7 +121,7 @@ mod tests {
     use crate::contact::candidate::{Aim, OfPair};
     use crate::model::step::FREE;
     use proptest::prelude::*;
-    use selvedge_core::separation::closest::Closest;
+    use selvedge_core::separation::closest::ClosestPoints;
 
     fn points() -> impl Strategy<Value = [DVec3; 4]> {
         prop::array::uniform4(prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from))
@@ -137,7 +137,7 @@ mod tests {
             is_edge in any::<bool>(),
         ) {
             let kind = if is_edge { PairKind::EdgeEdge } else { PairKind::VertexFace };
-            let kept = 0.5 * Closest::of(kind, start).distance();
+            let kept = 0.5 * ClosestPoints::from_points(kind, start).distance();
             prop_assume!(kept > 1e-3);
             let inverse_masses = [0, 1, 2, 3].map(|corner| if corner == fixed { 0.0 } else { 1.0 + corner as f64 });
             let step = TimeStep { time: 0.0, h: 1.0, start: &start, inverse_masses: &inverse_masses, held: &[], poses: &[] };
@@ -151,7 +151,7 @@ mod tests {
             relaxation.relax(1000, &step, &mut end, &mut moved);
             for t in [0.0, 0.25, 0.5, 0.75, 1.0] {
                 let at = [0, 1, 2, 3].map(|corner| start[corner].lerp(end[corner], t));
-                prop_assert!(Closest::of(kind, at).distance() > kept * (1.0 - 1e-9));
+                prop_assert!(ClosestPoints::from_points(kind, at).distance() > kept * (1.0 - 1e-9));
             }
             for corner in 0..4 {
                 prop_assert!(moved[corner] || end[corner] == wanted[corner]);

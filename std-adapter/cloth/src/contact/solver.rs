@@ -61,7 +61,7 @@ impl ContactSolver {
             settings,
             carriers: carriers.to_vec(),
             rest: rest.to_vec(),
-            error: GapError::of_coordinates(0.0),
+            error: GapError::from_largest_coordinate(0.0),
             level: best_level(),
             contacts: Contacts::default(),
             moved: vec![false; rest.len()],
@@ -208,5 +208,5 @@ impl ContactSolver {
 
 /// Of gaps between these positions.
 pub(super) fn gap_error(start: &[DVec3], end: &[DVec3]) -> GapError<f64> {
-    GapError::of_coordinates(largest_coordinate(start).larger(largest_coordinate(end)))
+    GapError::from_largest_coordinate(largest_coordinate(start).larger(largest_coordinate(end)))
 }

@@ -1,7 +1,7 @@
 //! Several cloths in a scene, each with what it is made of.
 
 use selvedge::core::PairKind;
-use selvedge::core::separation::closest::Closest;
+use selvedge::core::separation::closest::ClosestPoints;
 use selvedge_cloth::effects::{
     AirDrag, BodyContact, Friction, Gravity, InternalPressure, PinGroup, Pins, SelfCollision, Shear, Stretch, Thickness, Wind,
 };
@@ -201,7 +201,7 @@ fn two_cloths_keep_the_mean_of_their_thicknesses_from_each_other() {
         let (positions, triangles) = (simulation.positions(), simulation.triangles());
         let distances = (169..290).map(|vertex| {
             let to = |t: &[u32; 3]| {
-                Closest::of(
+                ClosestPoints::from_points(
                     PairKind::VertexFace,
                     [vertex, t[0], t[1], t[2]].map(|v| positions[v as usize]),
                 )

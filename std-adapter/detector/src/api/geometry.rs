@@ -8,7 +8,7 @@ use crate::parallel;
 use crate::step::{Contact, Frame, StepError, check_length, check_pair, exactly};
 use selvedge_core::elementary::Limits;
 use selvedge_core::narrowing::widened;
-use selvedge_core::separation::closest::Closest;
+use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_core::separation::gap::{GapError, distance_from_below};
 use selvedge_core::separation::geometry::{Geometry, geometry};
 use selvedge_core::separation::largest_coordinate;
@@ -131,7 +131,7 @@ impl<S: Scalar> CollisionDetector<S> {
         self.engine.stop.result()?;
         near.clear();
         let topology = self.engine.topology();
-        let error = GapError::of_coordinates(largest_coordinate(positions).to_f64());
+        let error = GapError::from_largest_coordinate(largest_coordinate(positions).to_f64());
         let mut pairs = Vec::new();
         for (kind, candidates) in [(PairKind::VertexFace, vertex_face), (PairKind::EdgeEdge, edge_edge)] {
             // Most are farther away than their boxes, and nobody asks for their geometry.
@@ -140,7 +140,7 @@ impl<S: Scalar> CollisionDetector<S> {
                     let points = topology
                         .vertices_of(kind, *pair)
                         .map(|vertex| exactly(positions[vertex as usize]));
-                    let direction = Closest::of(kind, points).direction;
+                    let direction = ClosestPoints::from_points(kind, points).direction;
                     let is_farther = distance_from_below(kind, points, direction, error) > distance;
                     !is_farther
                 };

@@ -205,7 +205,7 @@ impl<const N: usize, const M: usize> Trees<'_, N, M> {
         // Counted all the same: how good the hierarchies are does not depend on who takes part.
         tests += u64::from((own & !with_partners(node_a, others & node_b.moving)).count_ones());
         own &= with_partners(node_a, others & node_b.moving);
-        let inset = self.of_neighbours.map(|inset| inset.of(&node_a.bounds));
+        let inset = self.of_neighbours.map(|inset| inset.for_bounds(&node_a.bounds));
         let corners = &self.second.corners[b as usize];
         let (first, second) = (a * LANES as u32, b * LANES as u32);
         while own != 0 {

@@ -158,7 +158,7 @@ impl Followed {
 
         // Four times what is needed: the elementary test gives up on what is nearer than 20u of its size, and calls it a contact.
         let largest = largest_coordinate(start).max(largest_coordinate(end));
-        let error = GapError::of_coordinates(4.0 * largest);
+        let error = GapError::from_largest_coordinate(4.0 * largest);
         let mapping = mapping_within(motions, separation);
         let mut open = Open {
             pairs: std::mem::take(&mut self.open),

@@ -347,7 +347,7 @@ mod tests {
         let mut near = NearPairs::new(topology, Numbered, vec![true; 6], reach).unwrap();
         near.find(&positions, &positions, 1.0);
         assert!(near.list.iter().all(|pair| pair.data == 7 && pair.gap() == f32::NEG_INFINITY));
-        let error = GapError::of_coordinates(1.0);
+        let error = GapError::from_largest_coordinate(1.0);
         for (number, pair) in (0..).zip(&mut near.list) {
             assert!(pair.keeps_apart([&positions, &positions], 0.05, error));
             pair.data = number;

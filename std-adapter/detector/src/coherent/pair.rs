@@ -4,7 +4,7 @@
 
 use crate::PairKind;
 use selvedge_core::glam::DVec3;
-use selvedge_core::separation::closest::Closest;
+use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_core::separation::gap::{GapError, SeparatingDirection, distance_from_below};
 use selvedge_core::separation::truncation::most_shares;
 
@@ -78,8 +78,8 @@ impl<D: Copy> NearPair<D> {
     }
 
     /// Its closest points at rest.
-    pub fn closest(&self, positions: &[DVec3]) -> Closest {
-        Closest::of(self.kind, self.points(positions))
+    pub fn closest(&self, positions: &[DVec3]) -> ClosestPoints {
+        ClosestPoints::from_points(self.kind, self.points(positions))
     }
 
     /// A lower bound of the distance at the end of the last step that was looked at; −∞ if there is none.
@@ -153,7 +153,7 @@ impl<D: Copy> NearPair<D> {
         error: GapError<f64>,
     ) -> bool {
         let points = [self.points(start), self.points(end)];
-        let found = |direction| SeparatingDirection::found(self.kind, direction, points, separation, error);
+        let found = |direction| SeparatingDirection::for_step(self.kind, direction, points, separation, error);
         let kept = found(at_end).or_else(|| found(self.closest(start).direction));
         let is_kept = self.remember_if(kept);
         if !is_kept {
@@ -176,10 +176,10 @@ impl<D: Copy> NearPair<D> {
     /// `base`.
     pub fn shares(&mut self, start: &[DVec3], [base, wanted]: [&[DVec3]; 2], separation: f64, error: GapError<f64>) -> [f64; 4] {
         let (kind, [start, base, wanted]) = (self.kind, [self.points(start), self.points(base), self.points(wanted)]);
-        let directions = [start, base, wanted].map(|points| Closest::of(kind, points).direction);
+        let directions = [start, base, wanted].map(|points| ClosestPoints::from_points(kind, points).direction);
         let directions = directions.into_iter().chain([self.separating.direction()]);
         let is_kept =
-            |&direction: &DVec3| SeparatingDirection::found(kind, direction, [start, base], separation, error).is_some();
+            |&direction: &DVec3| SeparatingDirection::for_step(kind, direction, [start, base], separation, error).is_some();
         let most = most_shares(kind, [base, wanted], directions.filter(is_kept), separation, error);
         let Some((direction, shares)) = most else {
             self.forget_gap();

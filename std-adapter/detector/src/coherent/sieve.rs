@@ -95,7 +95,7 @@ mod tests {
     use super::super::OfClass;
     use super::*;
     use proptest::prelude::*;
-    use selvedge_core::separation::closest::Closest;
+    use selvedge_core::separation::closest::ClosestPoints;
 
     fn point() -> impl Strategy<Value = DVec3> {
         prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from)
@@ -164,7 +164,7 @@ mod tests {
             let least = (0..=20).map(|step| {
                 let t = f64::from(step) / 20.0;
                 let at = [0, 1, 2, 3].map(|k| start[k].lerp(end[k], t) + strayed(k));
-                Closest::of(kind, at).distance()
+                ClosestPoints::from_points(kind, at).distance()
             });
             let least = least.fold(f64::INFINITY, f64::min) * (1.0 + 1e-9);
             for class in 0..CLASSES {

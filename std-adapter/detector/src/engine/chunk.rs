@@ -30,7 +30,7 @@ use crate::step::Contact;
 use selvedge_core::batch::{LANES, Mask, VertexRow, culled_from_rows};
 use selvedge_core::elementary::advance::time_of_impact_within;
 use selvedge_core::elementary::contact::settled;
-use selvedge_core::elementary::{Contact as Verdict, Impact, Limits, Reason};
+use selvedge_core::elementary::{ContactVerdict as Verdict, Impact, Limits, Reason};
 use selvedge_core::filter::{Filter, Tier};
 use selvedge_core::narrowing::rounded_up;
 use selvedge_core::{PrimitivePair, Scalar};

@@ -27,7 +27,7 @@ use crate::parallel::Workers;
 use crate::step::{Contact, Step, StepError, Truncation};
 use selvedge_core::Motion;
 use selvedge_core::glam::DVec3;
-use selvedge_core::separation::closest::Closest;
+use selvedge_core::separation::closest::ClosestPoints;
 use selvedge_core::separation::gap::GapError;
 use selvedge_core::separation::largest_coordinate;
 use selvedge_core::separation::truncation::most_shares;
@@ -73,7 +73,7 @@ impl Held<'_> {
         for corner in 0..4 {
             met[corner] = Motion::new(start[corner], end[corner]).at(contact.time);
         }
-        let directions = [start, met, wanted].map(|points| Closest::of(contact.kind, points).direction);
+        let directions = [start, met, wanted].map(|points| ClosestPoints::from_points(contact.kind, points).direction);
         let most = most_shares(contact.kind, [start, wanted], directions, self.distance, self.error);
         most.map(|(_, shares)| shares)
     }
@@ -115,7 +115,7 @@ impl Engine {
             start,
             wanted,
             distance: separation + 2.0 * question.limits.tolerance,
-            error: GapError::of_coordinates(largest),
+            error: GapError::from_largest_coordinate(largest),
             shares: vec![1.0; start.len()],
             changed: vec![false; start.len()],
             parted: BTreeSet::new(),

@@ -1,5 +1,5 @@
 use super::{Ask, CullingTest, ElementaryTest, Preset, Stages, WithTest};
-use selvedge_core::elementary::{self, Contact};
+use selvedge_core::elementary::{self, ContactVerdict};
 use selvedge_core::{PrimitivePair, Scalar};
 use std::fmt;
 use std::str::FromStr;
@@ -72,7 +72,7 @@ impl QueryMethod {
                 with.with(|pair| !is_culled(pair) && SELVEDGE.elementary.time(pair).is_some())
             }
             Self::Culling(test) => test.run(Kept(with)),
-            Self::Elementary(ElementaryTest::Exact) => with.with(|pair| elementary::contact(pair) != Contact::Never),
+            Self::Elementary(ElementaryTest::Exact) => with.with(|pair| elementary::contact(pair) != ContactVerdict::Never),
             Self::Elementary(test) => test.run(Kept(with)),
         }
     }

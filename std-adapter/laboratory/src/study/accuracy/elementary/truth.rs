@@ -1,6 +1,6 @@
 use selvedge_core::elementary::advance::certain_contact;
 use selvedge_core::elementary::advance::time_of_impact;
-use selvedge_core::elementary::{Contact, Limits, contact};
+use selvedge_core::elementary::{ContactVerdict, Limits, contact};
 use selvedge_core::{PrimitivePair, Scalar};
 
 /// A first contact that is enclosed less closely than this, in steps, counts as one of unknown time.
@@ -25,11 +25,11 @@ pub enum ExactAnswer {
 pub fn exact_answer<S: Scalar>(pair: &PrimitivePair<S>) -> ExactAnswer {
     let pair = pair.widened();
     match contact(&pair) {
-        Contact::Never => ExactAnswer::Never,
-        Contact::Happens => ExactAnswer::Touches {
+        ContactVerdict::Never => ExactAnswer::Never,
+        ContactVerdict::Happens => ExactAnswer::Touches {
             first: first_time(&pair),
         },
-        Contact::Undefined => ExactAnswer::Touches { first: None },
+        ContactVerdict::Undefined => ExactAnswer::Touches { first: None },
     }
 }
 
