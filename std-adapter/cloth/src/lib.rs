@@ -1,26 +1,34 @@
-//! Cloth simulation that pays only for the effects that its scene calls for.
+//! Cloth simulation in which every accepted state is free of intersections, and in which you pay only for the effects that you
+//! use.
 //!
-//! A [`Scene`] is made in code or read from a TOML file; a [`Simulation`] runs it, step by step. An effect that the scene does not name
-//! is not constructed, allocates nothing, runs nothing and is in no report.
+//! You make a [`Scene`] in code or read it from a TOML file. A [`Simulation`] runs it step by step. If the scene does not name an
+//! effect, the effect is not constructed, allocates nothing and runs nothing.
 //!
 //! ```text
-//! code, or a scene file ──▶ Scene ──▶ effects register into a plan ──▶ Simulation ◀── each step: bodies, pins, wind
-//!                                                             │ each step
-//!                          forces ▸ prediction ▸ constraints ▸ contacts ▸ friction ▸ certified pass ▸ velocities
+//! code or scene file ──▶ Scene ──▶ effects register into a plan ──▶ Simulation ◀── per step: bodies, pins, wind
+//!                                                              │ each step
+//!                           forces ▸ prediction ▸ constraints ▸ contacts ▸ friction ▸ certified pass ▸ velocities
 //!
-//! input ▸ world ▸ model ▸ contact ▸ effects ▸ scene ▸ display, simulate      each imports only what stands before it
+//! input ▸ world ▸ model ▸ contact ▸ effects ▸ scene ▸ display, simulate      each folder imports only from those before it
 //! ```
 //!
-//! | item | what it is |
+//! | item | meaning |
 //! |---|---|
-//! | [`Scene`] | **start here**: what is to be simulated, from code or from a file |
-//! | [`Cloth`], [`Body`], [`effects`] | what a scene consists of |
-//! | [`Material`] | cotton, denim, silk, wool, leather, latex: what they weigh and resist |
-//! | [`BodyMotion`], [`Animation`] | where bodies go: on keyframes, as frames or a skinned figure of a glTF file say, or as the caller does |
-//! | [`Simulation`] | runs a scene: positions after each step, what each effect took, checkpoints |
-//! | [`vertex_normals`], [`Tubes`] | to show cloth, and ropes, as triangles |
-//! | [`effect_names`] | every effect that a scene may name |
-//! | [`sleeve`] | the paper's sleeve at any size, of which scenes can be made |
+//! | [`Scene`] | **start here**: cloths, bodies and effects, from code or from a file |
+//! | [`Cloth`], [`Body`], [`effects`] | the parts of a scene |
+//! | [`Material`] | cotton, denim, silk, wool, leather, latex: density and stiffness |
+//! | [`BodyMotion`], [`Animation`] | how bodies move: along keyframes, by a file's frames or skeleton, or as the caller says |
+//! | [`Simulation`] | runs a scene; gives positions, energy, statistics and checkpoints |
+//! | [`vertex_normals`], [`Tubes`] | cloth and ropes as triangles for display |
+//! | [`effect_names`] | all effects that a scene file may name |
+//! | [`sleeve`] | the sleeve of the paper at any resolution |
+//!
+//! Units are SI throughout: metres, kilograms, seconds, newtons, radians.
+//!
+//! | feature | adds |
+//! |---|---|
+//! | `gltf` | bodies from glTF files |
+//! | `timing` | a clock, so that [`Simulation::effects`] and [`Simulation::contact_seconds`] count seconds; without it they are zero |
 
 #![forbid(unsafe_code)]
 #![expect(
@@ -46,7 +54,7 @@ pub use model::tearing::TornEdge;
 pub use scene::{OnBlocked, Scene, TangledStart};
 pub use selvedge::Mesh;
 pub use selvedge_core::glam;
-/// Readers of meshes, numbered frames and figures: what [`Animation`]s are made of.
+/// Readers of meshes, numbered frames and figures, from which [`Animation`]s are made.
 pub use selvedge_files as files;
 pub use simulate::{
     Blocked, CHECKPOINT_STEPS, CheckpointError, DriveError, EdgeStretch, EffectTime, FASTEST, SetupError, Simulation, Tangled,
@@ -57,10 +65,10 @@ pub use world::{Animation, Body, BodyMotion, Cloth, Keyframe, KeyframeMotion, Ma
 /// The scene of the paper's sleeve on a bending arm, as text for [`Scene::parse`].
 pub const ARM_SLEEVE: &str = include_str!("../scenes/arm-sleeve.toml");
 
-/// The scene of a skinned figure that walks in a shirt, as text: its files are `walker.glb` and `walker-shirt.ply` beside it.
+/// The scene of a skinned figure that walks in a shirt, as text. Its files `walker.glb` and `walker-shirt.ply` lie beside it.
 pub const WALKER: &str = include_str!("../scenes/walker.toml");
 
-/// The readme's examples are tests.
+/// Runs the readme's examples as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 mod readme {}

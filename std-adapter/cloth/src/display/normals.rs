@@ -1,8 +1,9 @@
-//! Which way a surface faces at its vertices.
+//! Normals of vertices.
 
 use selvedge_core::glam::DVec3;
 
-/// The mean direction of the triangles at each vertex, weighted by area, of length one; zero where they have none. Replaces `normals`.
+/// Computes the normal of each vertex: the mean direction of its triangles, weighted by area. Replaces `normals`. Vertices
+/// without triangles get zero.
 ///
 /// ```
 /// use selvedge_cloth::glam::DVec3;

@@ -1,4 +1,4 @@
-//! Loose edges as thin tubes, so that whatever shows triangles shows ropes.
+//! Loose edges as thin tubes, so that programs that draw triangles can draw ropes.
 
 use crate::scene::Scene;
 use libm::{cos, sin};
@@ -6,13 +6,13 @@ use selvedge_core::glam::DVec3;
 use std::array;
 use std::f64::consts::TAU;
 
-/// Of a ring of a tube.
+/// Vertices of a ring of a tube.
 const SIDES: u32 = 8;
-/// Where no contact says how thick a rope is: its radius, in lengths of its edges.
+/// The radius in edge lengths, for ropes without contact.
 const THIN: f64 = 0.15;
 
-/// The ropes, laces and fringes of a cloth as closed tubes of eight sides, for what shows triangles: as thick as `self_collision` keeps them from each
-/// other, or else thin beside the length of their edges.
+/// The ropes, laces and fringes of a cloth as closed tubes of eight sides. They are as thick as `self_collision` keeps them
+/// apart; without it they are thin.
 ///
 /// ```
 /// use selvedge_cloth::{Cloth, Scene, Tubes, glam::DVec3};
@@ -34,7 +34,8 @@ pub struct Tubes {
 }
 
 impl Tubes {
-    /// Of one of a scene's cloths, by its index; `None` if it has no loose edges, or there is none.
+    /// Makes the tubes of one of the scene's cloths, by its index. Returns `None` if the cloth has no loose edges or does not
+    /// exist.
     #[must_use]
     pub fn from_scene(scene: &Scene, cloth: usize) -> Option<Self> {
         let own = scene.cloths.get(cloth).filter(|own| own.has_loose_edges())?;
@@ -48,13 +49,13 @@ impl Tubes {
         })
     }
 
-    /// How many vertices they have.
+    /// Returns the number of vertices.
     #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.rows.iter().map(|row| row.len() * SIDES as usize).sum()
     }
 
-    /// Their triangles, turned outwards; their vertices are numbered from `first` on.
+    /// Returns the triangles, facing outwards. Vertices are numbered from `first`.
     #[must_use]
     pub fn triangles(&self, first: u32) -> Vec<[u32; 3]> {
         let mut triangles = Vec::new();
@@ -78,10 +79,10 @@ impl Tubes {
         triangles
     }
 
-    /// Adds where their vertices are when those of the cloth are at `own`.
+    /// Appends the positions of the tubes' vertices to `shown`, when the cloth's vertices are at `own`.
     ///
     /// # Panics
-    /// If there are fewer than the cloth has.
+    /// If `own` has fewer vertices than the cloth.
     pub fn place(&self, own: &[DVec3], shown: &mut Vec<DVec3>) {
         let corners: [[f64; 2]; SIDES as usize] = array::from_fn(|corner| {
             let angle = TAU * corner as f64 / f64::from(SIDES);

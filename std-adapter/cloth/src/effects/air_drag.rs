@@ -1,4 +1,4 @@
-//! Air drag: still air slows every vertex down at the same rate, v′ = −r·v. Solved exactly, so stable for any rate.
+//! Air drag: still air slows all vertices at the same rate, v′ = −r·v. The solution is exact, so it is stable for any rate.
 
 use super::registration::{Effect, Registration};
 use crate::effects::plan::Plan;
@@ -19,10 +19,10 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Air that slows everything down, still air where there is no [`Wind`](super::Wind).
+/// Drag of still air on all vertices. [`Wind`](super::Wind) is air that moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AirDrag {
-    /// The share of its velocity that a vertex loses in a short time, per second.
+    /// The rate at which a vertex loses velocity, in 1/s.
     pub rate: f64,
 }
 

@@ -1,22 +1,23 @@
-//! What a vertex is attached to, and where that is.
+//! The anchor of an attached vertex.
 //!
-//! The anchor of a vertex that follows a body is a point on one of its triangles, the nearest at the start, and so far from it: so that it goes with
-//! bodies that change their shape as well.
+//! The anchor on a body is a point of its nearest triangle at the start, with its distance in front of the triangle, so that it
+//! follows bodies that deform as well.
 
 use crate::model::step::{Carrier, TimeStep};
 use selvedge_core::glam::DVec3;
 
-/// What a vertex is attached to.
+/// The anchor of a vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Anchor {
-    /// A point that a motion carries, where it is when not moved at all.
+    /// A point that a motion carries, given without any motion.
     Carried(Carrier, DVec3),
-    /// A point of a triangle: shares of its sides from its first vertex, and how far in front of it.
+    /// A point of a triangle: its coordinates along the two sides from the first vertex, and its distance in front of the
+    /// triangle.
     On([u32; 3], [f64; 3]),
 }
 
 impl Anchor {
-    /// On the nearest of these triangles, by their middles.
+    /// Makes an anchor on the nearest of these triangles, by their centres.
     pub(super) fn on(triangles: &[[u32; 3]], positions: &[DVec3], point: DVec3) -> Self {
         let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
         let distance = |t: &[u32; 3]| (corners(t).iter().sum::<DVec3>() / 3.0).distance_squared(point);
@@ -33,7 +34,7 @@ impl Anchor {
         Self::On(*triangle, [shares[0], shares[1], way.dot(normal.normalize_or_zero())])
     }
 
-    /// Where it is at the end of a step, with bodies where they are then.
+    /// Returns the position at the end of a step, where bodies are then.
     pub(super) fn at(&self, step: &TimeStep<'_>, positions: &[DVec3]) -> DVec3 {
         match *self {
             Self::Carried(carrier, point) => step.poses[carrier as usize][1].apply(point),

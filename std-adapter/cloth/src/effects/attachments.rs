@@ -1,14 +1,14 @@
-//! Attachments: vertices that are held with a limited force. Above it they let go, each by itself, and for good.
+//! Attachments hold vertices with a limited force. Beyond it each vertex is released, by itself and for good.
 //!
-//! Each is a spring between a vertex and its anchor, of the stiffness k = limit/give: the force is the limit where the spring is as long as
-//! it gives. A vertex lets go when a step was made at whose end it is farther from its anchor than that; steps that could not be made change
-//! nothing.
+//! Each attachment is a spring between a vertex and its anchor, of the stiffness k = limit/give: the force is the limit when the
+//! spring is as long as `give`. A vertex is released when an accepted step ends with the vertex farther from its anchor than
+//! that.
 //!
-//! One implicit step wants (M + h²K)·x = M·y + h²k·a + …, y being where inertia leads, a the anchor, K the springs'. They are the part
-//! of it that is diagonal: for all other constraints the mass of a held vertex is m + h²k ([`Memory::hold`]), and it starts from
-//! (m·y + h²k·a)/(m + h²k). At rest the force is then k·|x − a| whatever else pulls, and light vertices are held as well as heavy ones:
-//! were the spring a constraint among others, it would pull its vertex back by as much as the others had moved it, h²/m times the force, which is
-//! many edges on a fine mesh.
+//! One implicit step solves (M + h²K)·x = M·y + h²k·a + …, where y is the inertial prediction, a the anchor and K the springs'
+//! matrix. The springs are the diagonal part: for all other constraints the mass of a held vertex is m + h²k ([`Memory::hold`]),
+//! and the vertex starts from (m·y + h²k·a)/(m + h²k). At rest the force is then k·|x − a| whatever else pulls, and light
+//! vertices are held as well as heavy ones. (A spring as one constraint among others would pull its vertex back by as much as the
+//! others moved it, h²/m times the force, which is many edges on a fine mesh.)
 //!
 //! Coarse levels of stretch and strain limit weigh their seeds in the same way.
 
@@ -44,28 +44,29 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Vertices of the cloth that are held until something pulls too much.
+/// Vertices of the cloth that are held until the force exceeds a limit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Attachments {
-    /// Each vertex is in one of them at most.
+    /// Groups of vertices. A vertex may be in one group at most.
     pub groups: Vec<AttachmentGroup>,
 }
 
-/// Vertices that are held together with what they are attached to.
+/// A group of held vertices with a common motion of their anchors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AttachmentGroup {
-    /// As the scene numbers them, through all cloths; [`Scene::part`](crate::Scene::part) knows some by name.
+    /// The vertices, as the scene numbers them through all cloths. [`Scene::part`](crate::Scene::part) returns named ones.
     pub vertices: Vec<u32>,
-    /// What moves their anchors: not the caller ([`BodyMotion::Driven`]), but a body that it drives may.
+    /// The motion of the anchors. The caller cannot drive it directly ([`BodyMotion::Driven`]), but it may follow a body that the
+    /// caller drives.
     pub motion: PinMotion,
-    /// The force above which a vertex lets go, in N, for each vertex.
+    /// The force in N above which a vertex is released, for each vertex.
     pub limit: f64,
-    /// How far a vertex is from its anchor when it does, in m.
+    /// The distance in m from the anchor at which a vertex is released.
     pub give: f64,
 }
 
 impl AttachmentGroup {
-    /// Vertices whose anchors stay where they are at the start; of each a force in N, at a millimetre.
+    /// Holds vertices at their initial positions, with a force in N for each, which is reached at a millimetre.
     #[must_use]
     pub fn resting(vertices: impl Into<Vec<u32>>, limit: f64) -> Self {
         Self {
@@ -76,7 +77,7 @@ impl AttachmentGroup {
         }
     }
 
-    /// Marks its vertices as taken.
+    /// Checks the group, and marks its vertices as taken.
     fn check(&self, world: &SceneParts<'_>, taken: &mut [bool]) -> Result<(), ValueError> {
         check_vertices(&self.vertices, taken, "attached")?;
         LIMIT.check(self.limit)?;
@@ -147,13 +148,13 @@ struct Attachment {
     group: usize,
     vertex: u32,
     anchor: Anchor,
-    /// Where that was at the end of the last step.
+    /// The anchor's position at the end of the last step.
     last: DVec3,
     /// In N/m.
     stiffness: f64,
     /// In m.
     give: f64,
-    /// In seconds, when it has let go.
+    /// The time of the release, in seconds.
     released: Option<f64>,
 }
 
@@ -202,7 +203,7 @@ impl Memory for Holding {
         }
     }
 
-    /// Of each the time when it let go, −1 while it holds, and where its anchor was.
+    /// Returns for each vertex the time of its release, −1 while it holds, and the position of its anchor.
     fn numbers(&self) -> Vec<f64> {
         let of = |held: &Attachment| {
             let [x, y, z] = held.last.to_array();

@@ -1,8 +1,7 @@
-//! Which effects a scene calls for, and on what each of them acts.
+//! The effects of a scene, and the cloths on which each of them acts.
 //!
-//! A scene has effects, and a cloth may have some of its own. What a cloth is made of stands with the cloth, under the name that the
-//! scene's effect has, with the same keys: so there is nothing new to learn, an effect needs no list of cloths in it, and a scene of one
-//! cloth is as it was.
+//! A scene has effects, and a cloth may have some of its own. The table of a cloth's own effect stands with the cloth and has the
+//! same name and keys as the scene's. So effects need no list of cloths.
 
 use super::registration::{Effect, Scope};
 use super::registry::{rank, registration_of};
@@ -12,12 +11,12 @@ use crate::input::ValueError;
 use crate::world::{Cloth, Material, SceneParts};
 use std::sync::Arc;
 
-/// Effects in the order in which they run, one of a name.
+/// Effects in the order in which they run, one of each name.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Effects(Vec<Arc<dyn Effect>>);
 
 impl Effects {
-    /// Calls for an effect, instead of one of the same name if there is one.
+    /// Adds an effect, and replaces one of the same name.
     pub(crate) fn add(&mut self, effect: impl Effect + 'static) {
         self.add_shared(Arc::new(effect));
     }
@@ -33,12 +32,12 @@ impl Effects {
         self.0.iter().map(|effect| &**effect).find(|effect| effect.name() == name)
     }
 
-    /// The effect of a name, to be shared.
+    /// Returns the effect of a name, to be shared.
     pub(crate) fn shared(&self, name: &str) -> Option<Arc<dyn Effect>> {
         self.0.iter().find(|effect| effect.name() == name).cloned()
     }
 
-    /// Forgets all but those of these names.
+    /// Keeps the effects of these names.
     pub(crate) fn keep(&mut self, names: &[&str]) {
         self.0.retain(|effect| names.contains(&effect.name()));
     }
@@ -48,7 +47,7 @@ impl Effects {
     }
 }
 
-/// The effects that a cloth of a material needs.
+/// Returns the effects of a cloth of this material.
 fn of_material(material: &Material) -> [Arc<dyn Effect>; 3] {
     [
         Arc::new(Stretch::of_material(material)),
@@ -66,17 +65,18 @@ pub(crate) struct Called<'a> {
     own: Vec<Effects>,
 }
 
-/// An effect as the scene has it, or a cloth of its own, that makes no sense.
+/// An invalid effect, of the scene or of one cloth.
 #[derive(Debug)]
 pub(crate) struct Wrong {
     pub(crate) name: &'static str,
-    /// Whose own it is.
+    /// The cloth whose own effect it is.
     pub(crate) cloth: Option<usize>,
     pub(crate) error: ValueError,
 }
 
 impl<'a> Called<'a> {
-    /// `own` are the effects of single cloths, in their order. A cloth of a material gets the effects that neither it nor the scene has.
+    /// Collects effects. `own` are the effects of single cloths, in their order. A cloth of a material gets the effects that
+    /// neither it nor the scene has.
     pub(crate) fn new(by_scene: &'a Effects, cloths: &'a [Cloth], mut own: Vec<Effects>) -> Self {
         for (cloth, own) in cloths.iter().zip(&mut own) {
             for effect in cloth.material.iter().flat_map(of_material) {
@@ -88,12 +88,12 @@ impl<'a> Called<'a> {
         Self { by_scene, cloths, own }
     }
 
-    /// The effects of single cloths, in their order.
+    /// Returns the effects of single cloths, in their order.
     pub(crate) fn own(&self) -> &[Effects] {
         &self.own
     }
 
-    /// All names, in the order in which they run.
+    /// Returns all names, in the order in which the effects run.
     pub(crate) fn names(&self) -> Vec<&'static str> {
         let own = self.own.iter().flat_map(Effects::names);
         let mut names = Vec::new();
@@ -106,7 +106,7 @@ impl<'a> Called<'a> {
         names
     }
 
-    /// What acts under a name: on which of the cloths, or on the whole scene.
+    /// Returns the effects of a name, each with the cloth on which it acts, or `None` for the whole scene.
     pub(crate) fn acting(&self, name: &str) -> Vec<(Option<usize>, &dyn Effect)> {
         let of_scene = self.by_scene.get(name);
         match of_scene {
@@ -121,7 +121,7 @@ impl<'a> Called<'a> {
         }
     }
 
-    /// What the effects say of each cloth.
+    /// Returns the properties of each cloth that effects announce.
     pub(crate) fn fabrics(&self) -> Vec<Fabric> {
         let mut fabrics = vec![Fabric::default(); self.cloths.len()];
         for name in self.names() {
@@ -132,7 +132,7 @@ impl<'a> Called<'a> {
         fabrics
     }
 
-    /// Whether all of them make sense, each alone and together.
+    /// Checks all effects, each alone and together.
     pub(crate) fn check(&self, world: &SceneParts<'_>) -> Result<(), Wrong> {
         let names = self.names();
         let fabrics = self.fabrics();
@@ -158,7 +158,7 @@ impl<'a> Called<'a> {
         Ok(())
     }
 
-    /// A cloth has of its own only what may be, and what all of them are to have all have.
+    /// Checks that a cloth's own effect may belong to one cloth, and that effects between cloths belong to all of them.
     fn check_scope(&self, name: &'static str, own: Option<usize>, acting: usize) -> Result<(), Wrong> {
         let Some(cloth) = own else { return Ok(()) };
         let wrong = |message| Err(self.wrong(name, own, ValueError::new("", message)));
@@ -173,7 +173,7 @@ impl<'a> Called<'a> {
         }
     }
 
-    /// There is something to act on: in each cloth that has one of its own, and in some cloth for the scene's.
+    /// Checks that each effect has something to act on.
     fn check_acts(&self, name: &'static str, acting: usize) -> Result<(), Wrong> {
         let wrong = |index: Option<usize>, effect: &dyn Effect| {
             let message = effect.acts_on().complaint(name, index.map(|index| &self.cloths[index]));
@@ -202,7 +202,7 @@ impl<'a> Called<'a> {
         }
     }
 
-    /// Puts all of them into the plan; returns their names.
+    /// Registers all effects with the plan; returns their names.
     pub(crate) fn register(&self, plan: &mut Plan<'_>) -> Vec<&'static str> {
         plan.fabrics = self.fabrics();
         let names = self.names();

@@ -1,7 +1,7 @@
-//! The volume that a closed cloth holds, and what pushes on it from inside.
+//! The volume of a closed cloth, and its gradient.
 //!
-//! V = ⅙Σ a·(b × c), relative to the first vertex, so that it does not depend on where the cloth is. Its gradient at a vertex is a third of
-//! the area vectors around it: what a pressure of one pascal pushes it with, in N, whether the cloth is closed or not.
+//! V = ⅙Σ a·(b × c), relative to the first vertex, so that it does not depend on the cloth's position. Its gradient at a vertex
+//! is a third of the area vectors around it: the force in N of a pressure of one pascal, whether the cloth is closed or not.
 
 use crate::model::membrane::triangles_around;
 use crate::world::Cloth;
@@ -28,7 +28,7 @@ impl Walls {
         }
     }
 
-    /// In m³, if the cloth is closed: negative if its triangles are turned inside.
+    /// Returns the volume in m³, if the cloth is closed. It is negative if the triangles face inwards.
     pub(super) fn volume(&self, positions: &[DVec3]) -> f64 {
         let origin = positions[0];
         let parts = self.triangles.iter().map(|triangle| {
@@ -38,7 +38,7 @@ impl Walls {
         parts.sum::<f64>() / 6.0
     }
 
-    /// Looks where all is, before gradients are asked for.
+    /// Computes the triangles' normals, which the gradients need.
     pub(super) fn look(&mut self, positions: &[DVec3]) {
         parallel::fill(&mut self.normals, &self.triangles, |triangle| {
             let [a, b, c] = triangle.map(|v| positions[v as usize]);
@@ -46,19 +46,19 @@ impl Walls {
         });
     }
 
-    /// Of the volume, in m².
+    /// Returns the gradient of the volume, in m².
     pub(super) fn gradient(&self, vertex: usize) -> DVec3 {
         let around = self.incidence.of(vertex).iter();
         around.map(|&(triangle, _)| self.normals[triangle as usize]).sum()
     }
 
-    /// Vertices.
+    /// Returns the number of vertices.
     pub(super) fn len(&self) -> usize {
         self.incidence.len()
     }
 }
 
-/// How many edges of a cloth are open: none if it is closed.
+/// Returns the number of open edges of a cloth; zero if it is closed.
 pub(super) fn open_edges(topology: &Topology) -> usize {
     let statistics = topology.statistics();
     statistics.boundary_edges + statistics.non_manifold_edges

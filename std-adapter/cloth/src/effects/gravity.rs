@@ -1,4 +1,4 @@
-//! Gravity: the same acceleration everywhere.
+//! Gravity: a uniform acceleration.
 
 use super::registration::{Effect, Registration, Scope};
 use crate::effects::plan::Plan;
@@ -21,7 +21,7 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// The same acceleration everywhere.
+/// A uniform acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity {
     /// In m/s².
@@ -38,7 +38,7 @@ impl Default for Gravity {
 }
 
 impl Gravity {
-    /// What the table of a scene's effects says of it, if it does.
+    /// Reads the acceleration from the table of a scene's effects, if it has gravity.
     pub(crate) fn read_acceleration(effects: &Table<'_>) -> Result<Option<DVec3>, SceneError> {
         let table = effects.table("gravity")?;
         table.map_or(Ok(None), |table| table.vector(&ACCELERATING))

@@ -1,5 +1,6 @@
-//! Inflation: a pressure that is given, over time, on one side of the cloth. On a vertex it is p times the gradient of the volume
-//! ([`Walls`]), so that a closed cloth gets neither a push nor a turn as a whole. It does work, like wind: it tells no energy.
+//! Inflation: a prescribed pressure over time on one side of the cloth. The force on a vertex is the pressure times the gradient
+//! of the volume ([`Walls`]), so that a closed cloth gets neither a net force nor a torque. The pressure does work, like wind,
+//! and stores no energy.
 
 use super::enclosed::{Walls, open_edges};
 use super::registration::{ActsOn, Effect, Registration};
@@ -42,11 +43,11 @@ fn read_keyframes(table: &Table<'_>) -> Result<Vec<PressureKey>, SceneError> {
     Ok(keyframes)
 }
 
-/// A pressure on one side of the cloth, from outside to inside if it is negative: of a closed cloth from its inside, of an open one
-/// towards where its triangles' corners go counter-clockwise.
+/// A pressure on one side of the cloth, from inside on a closed cloth. On an open cloth it pushes towards the side from which
+/// triangles are counter-clockwise. A negative pressure pushes the other way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inflation {
-    /// In order; in between it changes evenly, before the first and after the last one it stays. One at least.
+    /// Keyframes in order, at least one. The pressure is linear in between, and constant before the first and after the last.
     pub keyframes: Vec<PressureKey>,
 }
 
@@ -55,7 +56,7 @@ pub struct Inflation {
 pub struct PressureKey {
     /// In seconds of the simulation.
     pub time: f64,
-    /// Above that of the air around, in Pa.
+    /// Above that of the surrounding air, in Pa.
     pub pressure: f64,
 }
 
@@ -67,14 +68,14 @@ impl PressureKey {
 }
 
 impl Inflation {
-    /// The same pressure at any time, in Pa.
+    /// Sets a constant pressure, in Pa.
     #[must_use]
     pub fn at(pressure: f64) -> Self {
         let keyframes = vec![PressureKey { time: 0.0, pressure }];
         Self { keyframes }
     }
 
-    /// In Pa, at a time in seconds.
+    /// Returns the pressure in Pa at a time in seconds.
     fn pressure(&self, time: f64) -> f64 {
         let keys = &self.keyframes;
         let next = keys.partition_point(|key| key.time <= time);
@@ -119,7 +120,7 @@ impl Effect for Inflation {
 #[derive(Debug)]
 struct Inflating {
     inflation: Inflation,
-    /// Which way the triangles' normals go.
+    /// The side to which the triangles' normals point.
     outward: f64,
     walls: Walls,
 }

@@ -1,27 +1,27 @@
-//! Tension over longer ways than an edge: on each coarse [`Level`], from the coarsest to the finest, one sweep over its triangles, whose
-//! moves all vertices follow; then the effect's own sweep on the mesh.
+//! Tension over distances longer than an edge. On each coarse [`Level`], from the coarsest to the finest, one sweep over its
+//! triangles moves the seeds, and all vertices follow. Then comes the effect's own sweep on the mesh.
 //!
 //! ```text
 //! positions ──▶ of seeds ──▶ sweep ──▶ moves of seeds ──▶ every vertex by its shares ──▶ the next finer level … ──▶ the mesh
 //! ```
 //!
-//! A coarse triangle knows the cloth only by its corners, so that it may be sure of little:
+//! A coarse triangle knows the cloth only by its corners, so it must be careful:
 //!
-//! * **Nothing is pushed.** Corners that have come nearer may have a fold between them; those that are farther apart than the cloth
+//! * **It never pushes.** Corners that have come nearer may have a fold between them. Corners farther apart than the cloth
 //!   between them is long do stretch it.
-//! * **In the principal direction**, with the compliance that warp, weft and shear have together: at an angle of φ to the warp
-//!   a stretch e costs ½k(φ)·e² an area, with 1/k(φ) = cos⁴φ/k_u + sin⁴φ/k_v + cos²φ·sin²φ/G (a fabric without any transverse
-//!   contraction). Warp and weft one by one leave the pull along a diagonal to the mesh. Without shear stiffness nothing resists that
-//!   pull, and warp and weft it is.
-//! * **No more than its sides say**: the three corners of a tube or a fold can come nearer to each other, and yet the triangle be longer
-//!   in one direction, since it gets flatter in others. So a triangle with no side longer than at rest is left alone, and otherwise
-//!   it is stretched by no more than [`TRUST`] times what its longest side is. Without that, levels with few triangles prop the cloth up.
-//!   With it, it does not matter how coarse the coarsest is.
+//! * **It acts in the principal direction**, with the combined compliance of warp, weft and shear. At an angle of φ to the warp a
+//!   stretch e costs ½k(φ)·e² per area, with 1/k(φ) = cos⁴φ/k_u + sin⁴φ/k_v + cos²φ·sin²φ/G (a fabric without transverse
+//!   contraction). Warp and weft one by one would leave a diagonal pull to the mesh. Without shear stiffness nothing resists that
+//!   pull, and warp and weft are used.
+//! * **It believes its sides.** The three corners of a tube or a fold may come nearer to each other while the triangle gets
+//!   longer in one direction, since it gets flatter in others. So a triangle without a side longer than at rest is left alone;
+//!   otherwise its stretch is at most [`TRUST`] times that of its longest side. Without this rule levels of few triangles prop
+//!   the cloth up. With it the coarseness of the coarsest level does not matter.
 //!
-//! L levels and the mesh share the stiffness: each has (L + 1) times the compliance, since each would otherwise do all of the work.
-//! The mesh keeps its own, as it would without levels: what is left for it is local.
+//! L levels and the mesh share the stiffness: each level has (L + 1) times the compliance, since each alone would do all of the
+//! work. The mesh keeps its own compliance, because the rest is local.
 //!
-//! Masses of seeds are such that what conserves their momentum conserves that of the cloth ([`Level::inverse_masses`]).
+//! The seeds' masses are such that conserving their momentum conserves that of the cloth ([`Level::inverse_masses`]).
 
 use crate::input::{Count, SceneError, Table, ValueError};
 use crate::model::energy::{Configuration, StoredEnergy};
@@ -32,8 +32,8 @@ use crate::model::step::{Constraint, TimeStep, Touches};
 use selvedge_core::glam::DVec3;
 use std::sync::Arc;
 
-/// How much more a triangle may be stretched than its longest side. A stretch of e along one direction stretches a side at an angle of φ to
-/// it by e·cos²φ, and the nearest side of a right-angled triangle with equal legs is no farther than 45° off: e/2.
+/// The largest ratio of a triangle's stretch to that of its longest side. A stretch of e along one direction stretches a side at
+/// an angle of φ to it by e·cos²φ. The nearest side of a right-angled triangle with equal legs is at most 45° off: e/2.
 const TRUST: f64 = 2.0;
 
 /// An effect on coarse levels, then on the mesh.
@@ -48,15 +48,15 @@ pub(super) struct OnLevels<C> {
 struct OnLevel {
     level: Arc<Level>,
     triangles: Schedule<Tension, 3>,
-    /// Of the seeds.
+    /// Positions of the seeds before the sweep.
     before: Vec<DVec3>,
     after: Vec<DVec3>,
-    /// Of the seeds, where something holds vertices.
+    /// Of the seeds, if something holds vertices.
     inverse_masses: Vec<f64>,
 }
 
 impl<C> OnLevels<C> {
-    /// `levels` go from fine to coarse.
+    /// Makes the effect on `levels`, which go from fine to coarse.
     pub(super) fn new(levels: Vec<Arc<Level>>, mesh: C, tension: impl Fn(&CoarseTriangle) -> Tension) -> Self {
         let on_level = |level: Arc<Level>| {
             let triangles = level.triangles.iter();
@@ -84,7 +84,7 @@ impl<C: Constraint> Constraint for OnLevels<C> {
         self.mesh.project(step, positions, touches);
     }
 
-    /// The mesh's own: levels only get it there sooner.
+    /// Returns the mesh's own energy: levels only speed up convergence.
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
         self.mesh.energy(now)
     }
@@ -111,20 +111,20 @@ impl Constraint for OnLevel {
     }
 }
 
-/// Keeps a coarse triangle from being stretched.
+/// Resists the stretch of a coarse triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tension {
     membrane: Membrane,
-    /// One over the squares of its sides at rest, in 1/m².
+    /// One over the squares of the sides at rest, in 1/m².
     per_square: [f64; 3],
-    /// Nothing is done up to this stretch.
+    /// The stretch up to which nothing happens.
     slack: f64,
-    /// Of warp, weft and shear, in 1/J. `None` for shear: it gives without end.
+    /// Compliances of warp, weft and shear, in 1/J. `None` for shear: no resistance.
     compliance: [Option<f64>; 3],
 }
 
 impl Tension {
-    /// Stiffnesses of warp, weft and shear in N/m.
+    /// Resists stretch, with stiffnesses of warp, weft and shear in N/m.
     pub(super) fn stretch(triangle: &CoarseTriangle, stiffness: [Option<f64>; 3]) -> Self {
         let area = triangle.area;
         Self {
@@ -133,7 +133,7 @@ impl Tension {
         }
     }
 
-    /// It gives nothing beyond `limit`.
+    /// Allows no stretch beyond `limit`.
     pub(super) fn limit(triangle: &CoarseTriangle, limit: f64) -> Self {
         Self {
             membrane: triangle.membrane,
@@ -143,7 +143,7 @@ impl Tension {
         }
     }
 
-    /// The square of the largest stretch of a side.
+    /// Returns the square of the largest stretch of a side.
     #[inline(always)]
     fn squared_side(&self, x: [DVec3; 3]) -> f64 {
         let sides = [x[1] - x[0], x[2] - x[1], x[0] - x[2]];
@@ -151,7 +151,7 @@ impl Tension {
         squared(0).max(squared(1)).max(squared(2))
     }
 
-    /// Takes back a stretch along a direction, of length one, by `excess`.
+    /// Reduces the stretch along a unit direction by `excess`.
     #[inline(always)]
     fn pull(&self, x: [DVec3; 3], w: [f64; 3], [du, dv]: [f64; 2], excess: f64, compliance: f64) -> [DVec3; 3] {
         let Membrane { a, b } = self.membrane;
@@ -160,7 +160,7 @@ impl Tension {
         let stretched = image(two, x);
         let length = stretched.length();
         let weight = w[0] * c[0] * c[0] + w[1] * c[1] * c[1] + w[2] * c[2] * c[2];
-        // Whatever is too large to square is left to the mesh.
+        // The mesh handles values that overflow when squared.
         if !(excess > 0.0 && weight > 0.0 && length.is_finite()) {
             return [DVec3::ZERO; 3];
         }
@@ -207,7 +207,8 @@ impl Local<3> for Tension {
 
 const MOST: Count = Count::new("levels", 0, 32);
 
-/// `levels`: the most of them, from the finest; all that there are use for if it is not there. None at all: the effect on the mesh alone.
+/// Reads `levels`: the largest number of levels, from the finest. All useful ones if the key is missing; 0 runs the effect on the
+/// mesh alone.
 pub(super) fn read_most(table: &Table<'_>) -> Result<Option<u32>, SceneError> {
     table.count(&MOST)
 }
@@ -228,7 +229,7 @@ mod tests {
 
     const FABRIC: [Option<f64>; 3] = [Some(400.0), Some(300.0), Some(80.0)];
 
-    /// What the levels make of these positions, with nothing on the mesh itself.
+    /// Returns the positions after the levels' sweeps, without a sweep on the mesh.
     fn moved(cloth: &Cloth, positions: &[DVec3], tension: impl Fn(&CoarseTriangle) -> Tension) -> Vec<DVec3> {
         let masses = cloth.masses();
         let mut hierarchy = Hierarchy::new(cloth, masses.clone(), vec![false; masses.len()]);
@@ -282,7 +283,7 @@ mod tests {
         }
     }
 
-    /// Flat triangles between points of a curved cloth have sides that are shorter than the cloth: at rest nothing pulls.
+    /// Flat triangles between points of a curved cloth have sides shorter than the cloth: at rest nothing pulls.
     #[test]
     fn curved_cloth_at_rest_is_left_alone() {
         let tube = tube([DVec3::ZERO, DVec3::Z], 0.2, [80, 64]);

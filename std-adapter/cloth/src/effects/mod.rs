@@ -1,9 +1,9 @@
-//! What acts on cloth, one file each: settings as scene files have them, in SI units, for [`Scene::add`](crate::Scene::add), and for
-//! [`Cloth::add`](crate::Cloth::add) where one of several cloths has its own.
+//! Effects: everything that acts on cloth, one file each. Their fields are the settings of scene files, in SI units.
+//! [`Scene::add`](crate::Scene::add) adds one to a scene, [`Scene::add_to`](crate::Scene::add_to) to one of several cloths.
 //!
-//! An effect of a caller's own implements [`Effect`], and puts [`Force`]s and [`Constraint`]s into the [`Plan`] of a step; they run after
-//! ours and before contact, so that every step is certified whatever they do. `examples/own_effect.rs` has one.
-// Adding one of ours takes its own file, a `mod` line, a `pub use` and a line of `REGISTRY`.
+//! Your own effect implements [`Effect`], and puts [`Force`]s and [`Constraint`]s into the [`Plan`] of a step. These run after
+//! the effects of this crate and before contact, so that every step is certified whatever they do. See `examples/own_effect.rs`.
+// To add an effect here: its own file, a `mod` line, a `pub use`, and a line of `REGISTRY`.
 
 mod air;
 mod air_drag;

@@ -1,4 +1,4 @@
-//! What an effect does to one of several cloths, in a step that has them all: it is shown the vertices of that cloth alone.
+//! An effect on one of several cloths: it sees the vertices of that cloth alone.
 
 use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::step::{Constraint, Force, Memory, Release, TimeStep, Touches};
@@ -8,9 +8,9 @@ use std::ops::Range;
 /// A force or constraint on one of several cloths.
 #[derive(Debug)]
 pub(crate) struct OfCloth<T> {
-    /// Of the cloth, among the scene's.
+    /// The cloth's vertices among the scene's.
     vertices: Range<usize>,
-    /// Of its vertices, those that something holds.
+    /// Those of its vertices that something holds.
     held: Vec<(u32, f64)>,
     action: T,
 }

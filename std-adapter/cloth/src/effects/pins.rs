@@ -1,4 +1,4 @@
-//! Pins: vertices that are kinematic, moved by keyframes of their own, by the body that they follow, or by the caller.
+//! Pins: kinematic vertices, moved by keyframes, by a body that they follow, or by the caller.
 
 pub use super::selection::PinMotion;
 
@@ -28,24 +28,24 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Vertices of the cloth that go where they are told, whatever pulls at them.
+/// Vertices of the cloth that follow a prescribed motion, whatever the forces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pins {
-    /// Each vertex is in one of them at most.
+    /// Groups of vertices. A vertex may be in one group at most.
     pub groups: Vec<PinGroup>,
 }
 
-/// Pinned vertices that are moved together.
+/// A group of pinned vertices with a common motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PinGroup {
-    /// As the scene numbers them, through all cloths; [`Scene::part`](crate::Scene::part) knows some by name.
+    /// The vertices, as the scene numbers them through all cloths. [`Scene::part`](crate::Scene::part) returns named ones.
     pub vertices: Vec<u32>,
-    /// What moves them.
+    /// The motion.
     pub motion: PinMotion,
 }
 
 impl PinGroup {
-    /// Vertices that stay where they are.
+    /// Holds vertices at their initial positions.
     #[must_use]
     pub fn resting(vertices: impl Into<Vec<u32>>) -> Self {
         Self {
@@ -54,7 +54,7 @@ impl PinGroup {
         }
     }
 
-    /// Marks its vertices as taken.
+    /// Checks the group, and marks its vertices as taken.
     fn check(&self, world: &SceneParts<'_>, taken: &mut [bool]) -> Result<(), ValueError> {
         check_vertices(&self.vertices, taken, "pinned")?;
         match &self.motion {

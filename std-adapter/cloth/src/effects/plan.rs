@@ -1,10 +1,10 @@
-//! What a step consists of, put together by the effects that a scene calls for.
+//! The plan of a step. Effects register with it.
 //!
-//! Each effect registers what it does into one of the phases below and owns its data. A phase without entries does not exist;
-//! effects run in the order of the registry, not of the file.
+//! Each effect puts forces and constraints into the phases below, and owns their data. A phase without entries costs nothing.
+//! Effects run in the order of the registry, not of the file.
 //!
-//! Where there are several cloths, an effect that acts on each by itself registers once for each. What it does then is
-//! [shown](super::of_cloth) the vertices of that cloth alone; where there is one cloth it sees everything, and nothing stands in between.
+//! An effect that acts on each cloth by itself registers once for each, and [sees](super::of_cloth) the vertices of that cloth
+//! alone. In a scene of one cloth it sees everything, without any indirection.
 
 use super::of_cloth::OfCloth;
 use crate::contact::ContactSettings;
@@ -18,7 +18,7 @@ use selvedge_core::glam::DVec3;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// An entry of a phase and the effect that it belongs to.
+/// An entry of a phase, and its effect.
 #[derive(Debug)]
 pub(crate) struct Entry<T: ?Sized> {
     /// Index into the scene's effects.
@@ -26,53 +26,53 @@ pub(crate) struct Entry<T: ?Sized> {
     pub(crate) action: Box<T>,
 }
 
-/// What the scene's effects say of the fabric before any of them registers.
+/// Properties of a cloth that its effects announce before any of them registers.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Fabric {
-    /// How stiff warp and weft are, in N/m; `None`: no effect makes them so.
+    /// Stretch stiffness of warp and weft, in N/m.
     pub(crate) stretch: Option<[f64; 2]>,
-    /// How stiff the angle between warp and weft is, in N/m; `None`: no effect makes it so.
+    /// Stiffness of the angle between warp and weft, in N/m.
     pub(crate) shear: Option<f64>,
-    /// What it keeps from itself, in metres; `None`: no effect makes it so.
+    /// The distance that the cloth keeps from itself, in metres.
     pub(crate) thickness: Option<f64>,
-    /// When folds stay; `None`: never.
+    /// When folds become permanent.
     pub(crate) folds: Option<Yield>,
 }
 
-/// What a step consists of: effects put into it what they do.
+/// The parts of a step, which effects register.
 #[derive(Debug)]
 pub struct Plan<'a> {
     pub(crate) scene: SceneParts<'a>,
     /// The effect that is registering.
     pub(crate) effect: usize,
-    /// The cloth that it acts on; `None`: the whole scene.
+    /// The cloth on which it acts; `None` for the whole scene.
     cloth: Option<usize>,
-    /// Of each cloth.
+    /// By cloth.
     pub(crate) fabrics: Vec<Fabric>,
-    /// Of each cloth, its vertices among the scene's.
+    /// The range of each cloth's vertices among the scene's.
     vertices: Vec<Range<usize>>,
     /// Of the vertices of all cloths, in 1/kg.
     pub(crate) inverse_masses: Vec<f64>,
     /// Of the vertices of all cloths.
     pub(crate) carriers: Vec<Carrier>,
-    /// Bodies' motions, then those of pins.
+    /// Motions of bodies, then those of pins.
     pub(crate) motions: Vec<Kinematic>,
-    /// Of each group of pins.
+    /// By group of pins.
     pub(crate) pins: Vec<Carrier>,
-    /// Single vertices that seams join: those of ropes are to know of it.
+    /// Single vertices that seams join; ropes need to know them.
     pub(crate) ties: Vec<Tie>,
     pub(crate) forces: Vec<Entry<dyn Force>>,
     pub(crate) constraints: Vec<Entry<dyn Constraint>>,
     pub(crate) contact: ContactSettings,
     pub(crate) friction: Vec<Entry<dyn Constraint>>,
-    /// Of cloths that may tear.
+    /// Cloths that may tear.
     pub(crate) tearable: Vec<Tearable>,
-    /// Of each cloth: made for the first effect that asks for levels.
+    /// By cloth, made for the first effect that needs levels.
     hierarchies: Vec<Option<Hierarchy<'a>>>,
 }
 
 impl<'a> Plan<'a> {
-    /// A plan without any effect.
+    /// Makes a plan without effects.
     pub(crate) fn new(scene: SceneParts<'a>) -> Self {
         let count = scene.cloth_vertices();
         let mut first = count as u32;
@@ -101,23 +101,23 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Lets an effect register, by its index: for one of the cloths, or for the whole scene.
+    /// Begins the registration of an effect, by its index, for one of the cloths or for the whole scene.
     pub(crate) fn begin(&mut self, effect: usize, cloth: Option<usize>) {
         (self.effect, self.cloth) = (effect, cloth);
         self.scene = self.scene.of_cloth(cloth);
     }
 
-    /// The cloth that the registering effect acts on: the first if it acts on the whole scene.
+    /// Returns the cloth on which the registering effect acts; the first if it acts on the whole scene.
     pub(crate) fn cloth(&self) -> usize {
         self.cloth.unwrap_or(0)
     }
 
-    /// What the effects say of the cloth that the registering one acts on.
+    /// Returns the announced properties of that cloth.
     pub(crate) fn fabric(&self) -> Fabric {
         self.fabrics[self.cloth()]
     }
 
-    /// Of the vertices that the registering effect sees of cloth, in 1/kg.
+    /// Returns the inverse masses, in 1/kg, of the vertices that the registering effect sees.
     pub(crate) fn inverse_masses(&self) -> &[f64] {
         match self.cloth {
             Some(cloth) => &self.inverse_masses[self.vertices[cloth].clone()],
@@ -125,7 +125,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The vertices of the cloth that the registering effect acts on, if there are others.
+    /// Returns the vertices of the cloth on which the registering effect acts, if there are several cloths.
     fn part(&self) -> Option<Range<usize>> {
         let cloth = self.cloth.filter(|_| self.vertices.len() > 1)?;
         Some(self.vertices[cloth].clone())
@@ -138,19 +138,20 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// What it acts on.
+    /// Returns the scene on which the effect acts.
     #[must_use]
     pub fn scene(&self) -> SceneParts<'a> {
         self.scene
     }
 
-    /// The mass of each vertex of the cloth that it acts on, in kg: a third of its triangles', and half of its loose edges'.
+    /// Returns the mass of each vertex of the cloth, in kg: a third of the mass of its triangles and half of that of its loose
+    /// edges.
     #[must_use]
     pub fn masses(&self) -> Vec<f64> {
         self.scene.cloth.masses()
     }
 
-    /// Forces act in the order in which effects put them here, before anything else.
+    /// Adds a force. Forces run first in a step, in the order of these calls.
     pub fn add_force(&mut self, force: impl Force + 'static) {
         let force: Box<dyn Force> = match self.part() {
             Some(vertices) => Box::new(OfCloth::new(vertices, force)),
@@ -159,7 +160,7 @@ impl<'a> Plan<'a> {
         self.forces.push(self.entry(force));
     }
 
-    /// Constraints act in the order in which effects put them here, after forces and before contact.
+    /// Adds a constraint. Constraints run after forces and before contact, in the order of these calls.
     pub fn add_constraint(&mut self, constraint: impl Constraint + 'static) {
         let constraint: Box<dyn Constraint> = match self.part() {
             Some(vertices) => Box::new(OfCloth::new(vertices, constraint)),
@@ -168,29 +169,30 @@ impl<'a> Plan<'a> {
         self.constraints.push(self.entry(constraint));
     }
 
-    /// The same, of a constraint that knows vertices as the scene numbers them.
+    /// Adds a constraint that numbers vertices as the scene does.
     pub(crate) fn add_constraint_on_scene(&mut self, constraint: impl Constraint + 'static) {
         self.constraints.push(self.entry(Box::new(constraint)));
     }
 
-    /// The number in the scene of the first vertex of the cloth that it acts on.
+    /// Returns the number in the scene of the cloth's first vertex.
     pub(crate) fn first_vertex(&self) -> u32 {
         self.part().map_or(0, |vertices| vertices.start as u32)
     }
 
-    /// Runs after all contacts.
+    /// Adds a constraint that runs after all contacts.
     pub(crate) fn add_friction(&mut self, friction: impl Constraint + 'static) {
         self.friction.push(self.entry(Box::new(friction)));
     }
 
-    /// Tears the cloth that it acts on.
+    /// Makes the cloth tear.
     pub(crate) fn add_tearable(&mut self, tearable: Tearable) {
         self.tearable.push(tearable.placed(self.effect, self.cloth()));
     }
 
-    /// Coarser levels of the cloth that it acts on, from fine to coarse, whose seeds are no farther apart than `coarsest`: the `most` finest of them.
+    /// Returns coarser levels of the cloth, from fine to coarse, with seeds at most `coarsest` apart; only the `most` finest of
+    /// them.
     ///
-    /// Pins are known: they register before.
+    /// Pins are known, since they register before.
     pub(crate) fn levels(&mut self, coarsest: f64, most: Option<u32>) -> Vec<Arc<Level>> {
         if most == Some(0) || coarsest <= 0.0 {
             return Vec::new();
@@ -205,7 +207,7 @@ impl<'a> Plan<'a> {
         levels
     }
 
-    /// Where all vertices are at the start, but for pinned ones: those of cloths, then the bodies'.
+    /// Returns the initial positions of all vertices, cloths' then bodies', except for pinned ones.
     pub(crate) fn start(&mut self) -> Vec<DVec3> {
         let cloths = self.scene.cloths.iter();
         let mut positions: Vec<DVec3> = cloths.flat_map(|cloth| cloth.mesh.positions.iter().copied()).collect();
@@ -220,7 +222,7 @@ impl<'a> Plan<'a> {
         positions
     }
 
-    /// The triangles of a body, on all vertices.
+    /// Returns the triangles of a body, as the scene numbers vertices.
     pub(crate) fn triangles_of(&self, body: usize) -> Vec<[u32; 3]> {
         let before = &self.scene.bodies[..body];
         let of_bodies: usize = before.iter().map(|body| body.mesh.positions.len()).sum();
@@ -229,7 +231,7 @@ impl<'a> Plan<'a> {
         own.map(|triangle| triangle.map(|vertex| first + vertex)).collect()
     }
 
-    /// Adds what moves these vertices.
+    /// Adds a motion of these vertices.
     pub(crate) fn add_motion(&mut self, motion: BodyMotion, vertices: Vec<u32>) -> Carrier {
         self.motions.push(Kinematic::new(motion, vertices));
         self.motions.len() as Carrier - 1

@@ -1,4 +1,4 @@
-//! Plasticity of folds: what is bent too far keeps some of it ([`bending`](crate::model::bending)). Bending does it; this says when.
+//! Plastic folds: cloth that is bent too far keeps some of the bend ([`bending`](crate::model::bending)).
 
 use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::{Fabric, Plan};
@@ -19,19 +19,20 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Folds that stay when cloth is bent too far. Acts through [`Bend`](super::Bend), whose part that is too stiff for its stages is left out then.
+/// Folds that stay after cloth is bent too far. They act through [`Bend`](super::Bend), which then leaves out the part that is
+/// too stiff for its stages.
 ///
-/// A mesh whose edges are h long cannot be bent by more than some 2/h.
+/// A mesh with edges of length h cannot be bent by more than about 2/h.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlasticFolds {
-    /// How far cloth may be bent and still go back, in 1/m: one over the radius. A fold gives back so much.
+    /// The largest elastic curvature, in 1/m: one over the radius. A fold springs back by as much.
     pub yield_curvature: f64,
-    /// In what time what is beyond that comes down to 1/e of it, in s; 0: at once.
+    /// The time in s in which the excess falls to 1/e of itself; 0: at once.
     pub creep: f64,
 }
 
 impl PlasticFolds {
-    /// At once, beyond a curvature in 1/m.
+    /// Makes folds stay at once beyond a curvature in 1/m.
     #[must_use]
     pub const fn beyond(yield_curvature: f64) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! Internal pressure: a closed cloth keeps a volume, as a constraint on all its vertices at once (Müller et al. 2007).
+//! Internal pressure: a closed cloth keeps its volume, by one constraint on all its vertices (Müller et al. 2007).
 //!
 //! C = V(x) − r·V₀ with the volume V ([`Walls`]) and the energy ½·K·C²/(r·V₀), K a bulk modulus: compliance r·V₀/K.
 
@@ -26,17 +26,17 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// A closed cloth keeps a volume, as if it were full of a gas.
+/// A closed cloth keeps a volume, as if it were filled with gas.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InternalPressure {
-    /// The volume aimed at over that at rest.
+    /// The target volume over the volume at rest.
     pub volume: f64,
-    /// How hard the gas is to compress, in Pa.
+    /// The bulk modulus of the gas, in Pa.
     pub modulus: f64,
 }
 
 impl InternalPressure {
-    /// With air's modulus.
+    /// Sets the target volume, with the modulus of air.
     #[must_use]
     pub const fn with_volume_ratio(volume: f64) -> Self {
         Self { volume, modulus: 1e5 }
@@ -67,7 +67,7 @@ impl Effect for InternalPressure {
     fn register(&self, plan: &mut Plan<'_>) {
         let cloth = plan.scene.cloth;
         if open_edges(&cloth.topology) > 0 {
-            // It has torn: nothing holds the gas any more.
+            // A torn cloth no longer holds gas.
             return;
         }
         let walls = Walls::new(cloth);

@@ -1,11 +1,11 @@
-//! Effects as scene files name them.
+//! Effects in scene files.
 
 use super::called::Effects;
 use super::registry::{REGISTRY, effect_names, registration_of};
 use crate::input::{SceneError, Table, suggestion};
 use crate::world::SceneParts;
 
-/// Reads the effects that `[effects]` names, and constructs no other; [`Called::check`] follows.
+/// Reads the effects that `[effects]` names, and constructs no other. [`Called::check`](super::Called::check) follows.
 pub(crate) fn read(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Effects, SceneError> {
     for (name, place) in table.keys() {
         if registration_of(name).is_none() {
@@ -16,7 +16,7 @@ pub(crate) fn read(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Effects,
     read_known(table, world)
 }
 
-/// The same from a table that has other keys as well: a cloth's own.
+/// Reads the effects from a table with other keys as well: a cloth's.
 pub(crate) fn read_known(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Effects, SceneError> {
     let mut effects = Effects::default();
     for (name, registration) in REGISTRY {

@@ -1,80 +1,80 @@
-//! What an effect is to the rest: how its table is read, and what it puts into the plan.
+//! The interface of an effect: how its table is read, and what it registers.
 
 use crate::effects::plan::{Fabric, Plan};
 use crate::input::{SceneError, Table, ValueError};
 use crate::world::{Cloth, SceneParts};
 use std::fmt::Debug;
 
-/// Something that acts on the cloth: one of [`effects`](crate::effects), or a caller's own.
+/// An effect on cloth: one of [`effects`](crate::effects), or your own.
 ///
-/// `Debug` is to show every setting: checkpoints tell scenes apart by it.
+/// `Debug` must show every setting, since checkpoints use it to distinguish scenes.
 pub trait Effect: Debug + Send + Sync {
-    /// As scene files and reports call it.
+    /// Returns the name in scene files and reports.
     fn name(&self) -> &'static str;
 
-    /// Whether its settings make sense, alone and with this cloth and these bodies.
+    /// Checks the settings, alone and with the scene's cloths and bodies.
     ///
     /// # Errors
-    /// Which of them does not, and what would.
+    /// If a setting is invalid. The message says which values are valid.
     fn check(&self, _world: &SceneParts<'_>) -> Result<(), ValueError> {
         Ok(())
     }
 
-    /// Says what effects that register before it must know.
+    /// Announces properties that effects need before any of them registers.
     #[doc(hidden)]
     fn announce(&self, _fabric: &mut Fabric) {}
 
-    /// On what it acts at a time: how often it registers in a scene of several cloths.
+    /// Returns whether the effect registers for each cloth or for the whole scene.
     fn scope(&self) -> Scope {
         Scope::Cloth
     }
 
-    /// Of what of a cloth it acts: on a cloth without that it does not register.
+    /// Returns the part of a cloth on which the effect acts. It does not register for a cloth without that part.
     fn acts_on(&self) -> ActsOn {
         ActsOn::Vertices
     }
 
-    /// Whether its settings make sense with what all cloths' effects have announced.
+    /// Checks the settings with the announced properties of all cloths.
     #[doc(hidden)]
     fn check_fabrics(&self, _world: &SceneParts<'_>, _fabrics: &[Fabric]) -> Result<(), ValueError> {
         Ok(())
     }
 
-    /// Puts what the effect does into the plan of a step: once for each cloth on which it acts, or once for the scene. And again, of other meshes,
-    /// whenever cloth has torn.
+    /// Registers forces and constraints with the plan of a step: once for each cloth, or once for the scene. It is called again,
+    /// with new meshes, whenever cloth has torn.
     fn register(&self, plan: &mut Plan<'_>);
 
-    /// What it says of the fabric, for people to read: each property in words, and its value with its unit.
+    /// Returns properties of the fabric for display, each with its value and unit.
     fn fabric(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
 
-    /// What trades time for accuracy, with its unit.
+    /// Returns the settings that trade time for accuracy, each with its value and unit.
     fn settings(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
 }
 
-/// On what an effect acts at a time, where a scene has several cloths.
+/// The extent of an effect in a scene of several cloths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// On each cloth by itself: what it puts into the plan sees the vertices of that cloth alone, numbered as in its mesh. A cloth may
-    /// have [its own](crate::Cloth::add), and one that has none, in a scene that has none either, is left alone.
+    /// Each cloth by itself. The effect sees the vertices of that cloth alone, numbered as in its mesh. A cloth may have [its
+    /// own](crate::Scene::add_to) effect; without any it is left alone.
     Cloth,
-    /// The same, but it has to do with what cloths do to each other: all have one, or none.
+    /// Each cloth by itself, but the effect is about pairs of cloths: all cloths have one, or none.
     AllCloths,
-    /// On the whole scene: it sees the vertices of all cloths, one after the other in the order of the scene, then those of bodies.
+    /// The whole scene. The effect sees the vertices of all cloths in the order of the scene, then those of bodies.
     Scene,
 }
 
-/// What an effect needs of a cloth to have something to do.
+/// The part of a cloth on which an effect acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ActsOn {
-    /// Its vertices, which all have.
+    /// Vertices, which all cloths have.
     Vertices,
-    /// Its triangles, which ropes do not have.
+    /// Triangles, which ropes do not have.
     Triangles,
-    /// Its loose edges: ropes, laces, fringes.
+    /// Loose edges: ropes, laces, fringes.
     LooseEdges,
 }
 
@@ -87,7 +87,7 @@ impl ActsOn {
         }
     }
 
-    /// What is told where there is none of it: in a cloth, or in all cloths.
+    /// Returns the message for a cloth, or a scene, without that part.
     pub(super) fn complaint(self, effect: &str, cloth: Option<&Cloth>) -> String {
         let (what, instead) = match self {
             Self::Vertices => ("vertices", ""),
@@ -108,17 +108,17 @@ impl ActsOn {
 /// Reads an effect's table; [`check`](Effect::check) follows.
 type Read = fn(&Table<'_>, &SceneParts<'_>) -> Result<Box<dyn Effect>, SceneError>;
 
-/// An effect that scenes can call for.
+/// An effect that scene files may name.
 pub(crate) struct Registration {
     /// The keys of its table.
     pub(crate) keys: &'static [&'static str],
-    /// It makes no sense unless one of these is there too; if any are named.
+    /// Effects of which at least one must be present; empty if it needs none.
     pub(crate) needs: &'static [&'static str],
     pub(crate) read: Read,
 }
 
 impl Registration {
-    /// Whether the effect `name` has something to act on, among the effects that are there.
+    /// Checks that one of the effects that `name` needs is present.
     pub(crate) fn check_needs(&self, name: &str, is_there: impl Fn(&str) -> bool) -> Result<(), ValueError> {
         if self.needs.is_empty() || self.needs.iter().any(|other| is_there(other)) {
             return Ok(());

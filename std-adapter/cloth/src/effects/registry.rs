@@ -6,7 +6,7 @@ use super::{
     rope_stretch, seams, self_collision, shear, strain_limit, stretch, tearing,
 };
 
-/// Every effect, in the order in which they run.
+/// All effects, in the order in which they run.
 pub(super) const REGISTRY: &[(&str, Registration)] = &[
     ("gravity", gravity::REGISTRATION),
     ("wind", air::wind::REGISTRATION),
@@ -35,13 +35,13 @@ pub(super) fn registration_of(name: &str) -> Option<&'static Registration> {
     Some(registration)
 }
 
-/// Its place in the order in which effects run; a caller's own come after ours.
+/// Returns the place in the order in which effects run; other effects come after those of this crate.
 pub(super) fn rank(name: &str) -> usize {
     let place = REGISTRY.iter().position(|(known, _)| *known == name);
     place.unwrap_or(REGISTRY.len())
 }
 
-/// The names of all effects.
+/// Returns the names of all effects.
 #[must_use]
 pub fn effect_names() -> Vec<&'static str> {
     REGISTRY.iter().map(|(name, _)| *name).collect()

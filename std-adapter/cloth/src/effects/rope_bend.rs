@@ -1,4 +1,4 @@
-//! Resistance of loose edges to being bent: of ropes, laces and fringes ([`rope`](crate::model::rope)).
+//! Bending resistance of loose edges: ropes, laces and fringes ([`rope`](crate::model::rope)).
 
 use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::Plan;
@@ -20,30 +20,30 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Resistance of loose edges to being bent where two of them meet, and no third.
+/// Bending resistance where exactly two loose edges meet.
 ///
-/// It does not resist being twisted, and where a rope begins at a triangle's vertex it turns freely, as on a ring.
+/// There is no resistance to twist. Where a rope begins at a triangle's vertex it turns freely, as on a ring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RopeBend {
-    /// The flexural rigidity in N·m²: the moment that it takes to bend it by a radian a metre. Of a solid rod of the diameter d that is
-    /// Young's modulus times πd⁴/64; of strands that slide on each other much less.
+    /// The flexural rigidity in N·m²: the moment that bends the rope by a radian per metre. For a solid rod of the diameter d it
+    /// is Young's modulus times πd⁴/64; for strands that slide on each other much less.
     pub stiffness: f64,
-    /// How it is bent where it holds no energy.
+    /// The shape without energy.
     pub rest: RopeShape,
 }
 
-/// How a rope is bent at rest.
+/// The shape of a rope at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RopeShape {
-    /// Not at all, however the scene lays it.
+    /// Straight, however the scene lays the rope.
     #[default]
     Straight,
-    /// By as much at each vertex as in the scene; to which side does not matter.
+    /// Bent at each vertex as in the scene, to any side.
     AsBuilt,
 }
 
 impl RopeBend {
-    /// Of a flexural rigidity in N·m², straight at rest.
+    /// Sets a flexural rigidity in N·m² and a straight rest shape.
     #[must_use]
     pub const fn straight(stiffness: f64) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! Resistance of loose edges to being stretched: of ropes, laces and fringes ([`rope`](crate::model::rope)).
+//! Stretch resistance of loose edges: ropes, laces and fringes ([`rope`](crate::model::rope)).
 
 use super::registration::{ActsOn, Effect, Registration};
 use crate::effects::plan::Plan;
@@ -14,22 +14,23 @@ pub(super) const REGISTRATION: Registration = Registration {
     read: |table, _| Ok(Box::new(RopeStretch::new(table.required_number(&STIFFNESS)?))),
 };
 
-/// Resistance of loose edges to being stretched, or pressed together.
+/// Resistance of loose edges to stretch and compression.
 ///
 /// ```
 /// use selvedge_cloth::effects::RopeStretch;
 ///
-/// // A polyester cord of 6 mm: by a hundredth under 900 N.
+/// // A polyester cord of 6 mm stretches by a hundredth under 900 N.
 /// assert_eq!(RopeStretch::new(90e3).stiffness * 0.01, 900.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RopeStretch {
-    /// The axial stiffness in N: the force that would make it twice as long. Of a solid rod that is Young's modulus times its cross-section.
+    /// The axial stiffness in N: the force that doubles the length. For a solid rod it is Young's modulus times the
+    /// cross-section.
     pub stiffness: f64,
 }
 
 impl RopeStretch {
-    /// Of an axial stiffness in N.
+    /// Sets an axial stiffness in N.
     #[must_use]
     pub const fn new(stiffness: f64) -> Self {
         Self { stiffness }

@@ -1,9 +1,8 @@
 //! Seams: rows of vertices that are held together, or drawn together over a time ([`stitches`](crate::model::stitches)).
 //!
-//! **A seam never joins what must not touch.** Two rows that become one would share their vertices, and a cloth that is joined to another
-//! within no distance at all has no state without a contact. So a closed seam has a gap, of no less than the thickness that contact keeps
-//! between the two: there seam and contact agree, and the certificate has nothing to do with either. (Cloth that is one piece from the
-//! start is a mesh whose triangles share their vertices.)
+//! **A seam keeps a gap.** Two rows at no distance would be in contact, and no state would be free. So a closed seam has a gap of
+//! at least the thickness that contact keeps between the rows: seam and contact then agree. (Cloth that is one piece is a mesh
+//! whose triangles share vertices.)
 //!
 //! A seam does not resist bending.
 
@@ -31,8 +30,8 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// How far apart two vertices are that are tied to each other without a gap, in metres: what has no length has no direction, along which a rope
-/// could pull.
+/// The distance of two vertices that are tied without a gap, in metres. A tie without length would have no direction along which
+/// a rope could pull.
 const TIED: f64 = 1e-6;
 
 /// Rows of vertices of one cloth or of two that are sewn together.
@@ -60,28 +59,28 @@ const TIED: f64 = 1e-6;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seams {
-    /// One or more.
+    /// The seams, at least one.
     pub seams: Vec<Seam>,
 }
 
-/// Two rows of vertices that are sewn together; or two vertices, such as the end of a rope and what it is tied to.
+/// Two rows of vertices that are sewn together, or two single vertices, such as the end of a rope and a vertex of cloth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seam {
-    /// Vertices one after the other, as the scene numbers them, through all cloths; [`Scene::part`](crate::Scene::part) knows some by name.
-    /// Where the row ends at the vertex at which it begins it is closed.
+    /// Successive vertices, as the scene numbers them through all cloths. [`Scene::part`](crate::Scene::part) returns named ones.
+    /// A closed row ends with its first vertex.
     pub first: Vec<u32>,
-    /// The same, beginning at the same end. It need not have as many.
+    /// The other row, from the same end. It may have another number of vertices.
     pub second: Vec<u32>,
-    /// How far apart the rows are when the seam is closed, in metres: at least the thickness that contact keeps between them, which it is if
-    /// nothing else is said.
+    /// The distance of the rows when the seam is closed, in metres: at least the thickness that contact keeps between them, which
+    /// is the default.
     pub gap: Option<f64>,
-    /// After which time it is closed, in seconds from the start; till then the rows are drawn together evenly. `None`: they are held as near
-    /// as they are at the start, or within the gap if that is more.
+    /// The time after which the seam is closed, in seconds from the start. Until then the rows approach evenly. `None` holds the
+    /// rows at their initial distance, or at the gap if that is larger.
     pub closing: Option<f64>,
 }
 
 impl Seam {
-    /// Rows that are held as they are.
+    /// Holds two rows at their initial distance.
     #[must_use]
     pub const fn new(first: Vec<u32>, second: Vec<u32>) -> Self {
         Self {
@@ -92,7 +91,7 @@ impl Seam {
         }
     }
 
-    /// Whether there are two rows; of what there is, `gap` and `closing` are numbers that can be.
+    /// Checks that there are two rows, and the numbers `gap` and `closing`.
     fn check(&self, rest: &[DVec3]) -> Result<(), ValueError> {
         for (name, row) in [("first", &self.first), ("second", &self.second)] {
             let wrong = |message| Err(ValueError::new(name, message));
@@ -114,13 +113,13 @@ impl Seam {
         self.closing.map_or(Ok(()), |closing| CLOSING.check(closing))
     }
 
-    /// Each with how far apart its points are at the start, in metres.
+    /// Returns the stitches, each with the initial distance of its points, in metres.
     fn stitches(&self, rest: &[DVec3]) -> Vec<(Stitch, f64)> {
         let made = stitches(&self.first, &self.second, rest).into_iter();
         made.map(|stitch| (stitch, stitch.length(rest))).collect()
     }
 
-    /// Whether the closed seam leaves contact its thickness, and how fast it closes.
+    /// Checks that the closed seam leaves contact its thickness, and that it does not close too fast.
     fn check_ways(&self, rest: &[DVec3], thickness: f64) -> Result<(), ValueError> {
         let gap = self.gap.unwrap_or(thickness);
         if gap < thickness {
@@ -142,12 +141,12 @@ impl Seam {
     }
 }
 
-/// Where vertices of all cloths are at rest.
+/// Returns the positions of all cloths at rest.
 fn rest_of(world: &SceneParts<'_>) -> Vec<DVec3> {
     world.cloths.iter().flat_map(|cloth| &cloth.mesh.positions).copied().collect()
 }
 
-/// What contact keeps between the rows of a seam, at most, in metres; none if nobody asks for contact.
+/// Returns the largest thickness that contact keeps between the rows of a seam, in metres; zero without contact.
 fn thickness(seam: &Seam, world: &SceneParts<'_>, fabrics: &[Fabric]) -> f64 {
     let thickest = |row: &[u32]| {
         let cloths = world.vertices_of_cloths().zip(fabrics);

@@ -1,4 +1,4 @@
-//! Which vertices of the cloth are meant, and where they are led: by a table of a group, for pins and attachments.
+//! The vertices and the motion of a group of pins or attachments.
 
 use super::vertices::{named_cloth, no_vertex, of_cloth};
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, SceneError, Table, ValueError, suggestion};
@@ -10,29 +10,29 @@ const UPPER: Field = Field::vector("upper", LENGTH, LARGEST_COORDINATE);
 const CENTRE: Field = Field::vector("centre", LENGTH, LARGEST_COORDINATE);
 const RADIUS: Field = Field::new("radius", LENGTH, 1e-6, LARGEST_COORDINATE);
 
-/// How a table says which vertices.
+/// The keys of which one selects the vertices.
 pub(super) const WAYS: [&str; 4] = ["part", "vertices", "box", "ball"];
 
-/// What leads vertices.
+/// The motion of a group of vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PinMotion {
-    /// They are fixed to a body, by its index in the scene, where both are at the start.
+    /// They are fixed to a body, given by its index in the scene, at its initial placement.
     Body(usize),
-    /// They go on their own: a driven group of pins by [`Simulation::move_pins`](crate::Simulation::move_pins).
+    /// They have a motion of their own. [`Simulation::move_pins`](crate::Simulation::move_pins) moves a driven group of pins.
     Own(BodyMotion),
 }
 
-/// The key by which a table says which vertices.
+/// Returns the key that selects the vertices.
 fn way(table: &Table<'_>) -> &'static str {
     WAYS.into_iter().rev().find(|way| table.has(way)).unwrap_or(WAYS[0])
 }
 
-/// Keys of a table of a group, and those that are its own.
+/// Returns the keys of a group's table: the common ones and `own`.
 pub(super) fn keys<'a>(own: &[&'a str]) -> Vec<&'a str> {
     [&WAYS[..], &["cloth", "follow"], &BodyMotion::KEYS, own].concat()
 }
 
-/// An error about a group that code could have made as well.
+/// Adds the place to an error about a group.
 pub(super) fn placed(table: &Table<'_>, error: ValueError) -> SceneError {
     match error.field {
         "vertices" => table.error(way(table), error.message),
@@ -40,7 +40,7 @@ pub(super) fn placed(table: &Table<'_>, error: ValueError) -> SceneError {
     }
 }
 
-/// Exactly one of `part`, `vertices`, `box` and `ball` says which vertices.
+/// Reads the vertices, which exactly one of `part`, `vertices`, `box` and `ball` selects.
 pub(super) fn read_vertices(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Vec<u32>, SceneError> {
     if WAYS.into_iter().filter(|way| table.has(way)).count() != 1 {
         let message = "a group needs exactly one of `part`, `vertices`, `box` and `ball`".to_owned();
@@ -53,7 +53,7 @@ pub(super) fn read_vertices(table: &Table<'_>, world: &SceneParts<'_>) -> Result
     }
 }
 
-/// `follow` or keyframes say where they go.
+/// Reads the motion: `follow`, or keyframes.
 pub(super) fn read_motion(table: &Table<'_>, world: &SceneParts<'_>) -> Result<PinMotion, SceneError> {
     match table.text("follow")? {
         None => Ok(PinMotion::Own(BodyMotion::read(table, world.time_step)?)),
@@ -85,7 +85,7 @@ fn in_ball(table: &Table<'_>) -> Result<impl Fn(DVec3) -> bool, SceneError> {
     Ok(move |p: DVec3| p.distance(centre) <= radius)
 }
 
-/// Of all cloths, or of the one that is named.
+/// Selects vertices of all cloths, or of the one that is named.
 fn within(table: &Table<'_>, world: &SceneParts<'_>, is_inside: impl Fn(DVec3) -> bool) -> Result<Vec<u32>, SceneError> {
     let only = if table.has("cloth") {
         Some(named_cloth(table, world)?)
@@ -99,7 +99,8 @@ fn within(table: &Table<'_>, world: &SceneParts<'_>, is_inside: impl Fn(DVec3) -
     Ok(inside.map(|(vertex, _)| vertex as u32).collect())
 }
 
-/// Whether there are vertices, all of the cloth, and none of them `taken` already. Marks them; `done` is what happens to them.
+/// Checks that there are vertices, all of cloth, and none of them `taken` already. Marks them; messages say what is `done` to
+/// them.
 pub(super) fn check_vertices(vertices: &[u32], taken: &mut [bool], done: &str) -> Result<(), ValueError> {
     let wrong = |message: String| Err(ValueError::new("vertices", message));
     if vertices.is_empty() {
@@ -115,7 +116,7 @@ pub(super) fn check_vertices(vertices: &[u32], taken: &mut [bool], done: &str) -
     Ok(())
 }
 
-/// Whether there is such a body.
+/// Checks that the body exists.
 pub(super) fn check_body(body: usize, world: &SceneParts<'_>) -> Result<(), ValueError> {
     if body < world.bodies.len() {
         return Ok(());

@@ -1,14 +1,16 @@
-//! Tearing: edges that are loaded above their strength tear ([`tearing`](crate::model::tearing)).
+//! Tearing: edges tear when their load is above their strength ([`tearing`](crate::model::tearing)).
 //!
-//! **Still certified.** A step ends with a certificate; then what is loaded too much tears, and the two sides of a tear open by a small share of an
-//! edge. That is no part of any step: it is taken only if the exact test finds that nothing meets then, and if a certificate shows that on the
-//! way there nothing has passed through anything but what had a vertex in common before. Otherwise it waits for room. So every state is free, before a tear
-//! and after it. While something has left the promise (a body that is let pass, what was tangled at the start) nothing tears.
+//! **Still certified.** After the certificate of a step, overloaded edges tear, and the two sides of a tear open by a small share
+//! of an edge. This is no part of a step. It is accepted only if the exact test finds no intersection, and if a certificate shows
+//! that nothing passed through anything on the way, except for pairs that had a vertex in common. Otherwise the tear waits for
+//! room. So every state is free, before a tear and after it. While a body or a tangle is excluded from the guarantee, nothing
+//! tears.
 //!
-//! **What it costs.** In each step the tension of each triangle and the load of each edge. A step after which something tears makes anew all
-//! that depends on the mesh, as setting up does: constraints, levels, candidates. So does each twentieth step in which a tear waits.
+//! **Cost.** Each step computes the tension of each triangle and the load of each edge. A step after which something tears
+//! rebuilds everything that depends on the mesh, as set-up does: constraints, levels, candidates. So does each twentieth step in
+//! which a tear waits.
 //!
-//! A [`StrainLimit`](super::StrainLimit) of L holds loads below k·(L − 1): a strength above that is never reached.
+//! A [`StrainLimit`](super::StrainLimit) of L keeps loads below k·(L − 1). A strength above that is never reached.
 
 use super::registration::{Effect, Registration};
 use super::selection::{WAYS, check_vertices, placed, read_vertices};
@@ -40,19 +42,19 @@ pub(super) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Edges between two triangles tear when what [`Stretch`](super::Stretch) pulls with across them is above their strength.
+/// Edges between two triangles tear when the pull of [`Stretch`](super::Stretch) across them exceeds their strength.
 ///
-/// A tear begins at the border with one edge, within the cloth with two at a vertex, and goes on by an edge a step at each of its ends. New
-/// vertices come after the others of their cloth, which keep their numbers; later cloths and bodies begin later then among
-/// [`positions`](crate::Simulation::positions). What pins hold is never split; of what attachments or seams hold, they hold on to what
-/// keeps the number. A closed cloth that has torn has no [`InternalPressure`](super::InternalPressure) any more.
+/// A tear begins at the border with one edge, within the cloth with two edges at a vertex. It advances by an edge per step at
+/// each of its ends. New vertices follow the others of their cloth, which keep their numbers; the vertices of later cloths and
+/// bodies move up among the [`positions`](crate::Simulation::positions). Pinned vertices are never split. Attachments and seams
+/// hold the vertex that keeps the number. A closed cloth that has torn loses its [`InternalPressure`](super::InternalPressure).
 ///
 /// ```
 /// use selvedge_cloth::effects::{PinGroup, PinMotion, Pins, SelfCollision, Stretch, Tearing, Thickness};
 /// use selvedge_cloth::glam::DVec3;
 /// use selvedge_cloth::{Cloth, Keyframe, KeyframeMotion, Scene, Simulation};
 ///
-/// // A strip with a perforation across its middle, whose ends are drawn apart by a centimetre.
+/// // A strip with a perforation across its middle. Its ends are drawn apart by a centimetre.
 /// let mut scene = Scene::new(Cloth::sheet(DVec3::ZERO, [0.1 * DVec3::X, 0.05 * DVec3::Y], [10, 5], 0.2)?, 1e-3);
 /// let [left, right] = ["left", "right"].map(|part| scene.part("cloth", part).unwrap_or_default());
 /// let keys = [(0.0, 0.0), (0.1, 0.01)].map(|(time, x)| Keyframe { time, translation: DVec3::X * x, ..Keyframe::default() });
@@ -72,23 +74,23 @@ pub(super) const REGISTRATION: Registration = Registration {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tearing {
-    /// Of the cloth, in N for each metre of an edge at rest; `None`: it tears along perforations only.
+    /// The strength of the cloth, in N per metre of an edge at rest. `None`: only perforations tear.
     pub strength: Option<f64>,
-    /// Where it is weaker.
+    /// Weaker edges.
     pub perforations: Vec<Perforation>,
 }
 
-/// Edges that tear more easily than others: those of which both ends are named.
+/// Edges that tear more easily than others: those with both ends in `vertices`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Perforation {
-    /// As the scene numbers them, through all cloths.
+    /// The vertices, as the scene numbers them through all cloths.
     pub vertices: Vec<u32>,
-    /// In N for each metre of an edge at rest. Where an edge is in several, and in the cloth, the least counts.
+    /// In N per metre of an edge at rest. If several strengths apply to an edge, the least counts.
     pub strength: f64,
 }
 
 impl Tearing {
-    /// Anywhere, with a strength in N/m.
+    /// Lets any edge tear above a strength in N/m.
     #[must_use]
     pub const fn above(strength: f64) -> Self {
         Self {
@@ -97,7 +99,7 @@ impl Tearing {
         }
     }
 
-    /// Only along edges between these vertices, with a strength in N/m.
+    /// Lets only edges between these vertices tear, above a strength in N/m.
     #[must_use]
     pub fn perforated(vertices: impl Into<Vec<u32>>, strength: f64) -> Self {
         let vertices = vertices.into();
@@ -155,7 +157,7 @@ impl Effect for Tearing {
     }
 
     fn register(&self, plan: &mut Plan<'_>) {
-        // A cloth of several that does not stretch has nothing that pulls.
+        // Without stretch there is no load.
         let Some(stiffness) = plan.fabric().stretch else { return };
         let (world, cloth) = (plan.scene, plan.scene.cloth);
         let first = world

@@ -1,4 +1,4 @@
-//! What both contact effects are told: the distance that contacts aim at, and the one that every step keeps.
+//! The setting of both contact effects: the distance at which contacts aim, and the one that every step keeps.
 
 use crate::contact::Thickness;
 use crate::input::{Field, LENGTH, SceneError, Table, ValueError};
@@ -24,7 +24,7 @@ pub(super) fn check(Thickness { thickness, separation }: &Thickness) -> Result<(
     Err(ValueError::new(SEPARATION.name, message))
 }
 
-/// Both, as settings of an effect.
+/// Returns both distances as settings of an effect.
 pub(super) fn settings(of: &Thickness) -> Vec<(&'static str, String)> {
     vec![
         ("thickness", LENGTH.written_short(of.thickness)),

@@ -1,10 +1,9 @@
-//! How a table of a scene file names vertices of a cloth, by a part that has a name or by their numbers in its mesh: as the scene numbers
-//! them, through all cloths.
+//! Vertices of a cloth in a scene file: a named part, or numbers in the cloth's mesh.
 
 use crate::input::{Count, SceneError, Table, suggestion};
 use crate::world::SceneParts;
 
-/// The vertices that `part`, or `vertices`, names; of which cloth, `cloth` says if there are several.
+/// Reads the vertices that `part` or `vertices` names. If there are several cloths, `cloth` says which one.
 pub(super) fn of_cloth(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Vec<u32>, SceneError> {
     let index = named_cloth(table, world)?;
     let cloth = &world.cloths[index];
@@ -25,7 +24,7 @@ pub(super) fn of_cloth(table: &Table<'_>, world: &SceneParts<'_>) -> Result<Vec<
     Ok(own.into_iter().map(|vertex| first + vertex).collect())
 }
 
-/// The cloth that `cloth` names: its index. The only one if there is but one.
+/// Returns the index of the cloth that `cloth` names, or of the only one.
 pub(super) fn named_cloth(table: &Table<'_>, world: &SceneParts<'_>) -> Result<usize, SceneError> {
     let names = || world.cloths.iter().map(|cloth| cloth.name.as_str());
     match table.text("cloth")? {
@@ -44,7 +43,7 @@ pub(super) fn named_cloth(table: &Table<'_>, world: &SceneParts<'_>) -> Result<u
     }
 }
 
-/// What is told of a vertex that no cloth has.
+/// Returns the message about a vertex that no cloth has.
 pub(super) fn no_vertex(vertex: u32, count: usize) -> String {
     format!("the scene has no vertex {vertex} of cloth: it has {count}, from 0 on")
 }

@@ -1,25 +1,25 @@
-//! What is wrong with a scene, and where.
+//! Errors in scenes, with their place in the file.
 
 use selvedge_files::excerpt::excerpt;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// A scene that cannot be used. `Display` says `FILE:LINE:COLUMN: what is wrong and what to do`.
+/// An error in a scene. `Display` writes `FILE:LINE:COLUMN:`, the error and its remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {
     /// The scene's file.
     pub path: PathBuf,
-    /// Line and column, from 1, the column in characters; `None` if the file as a whole is meant.
+    /// Line and column, from 1, the column in characters. `None` if the error concerns the file as a whole.
     pub place: Option<(usize, usize)>,
-    /// What is wrong, and what would be right.
+    /// The error and its remedy.
     pub message: String,
 }
 
-/// A message has at most so many characters, whatever the names are that it quotes.
+/// The most characters of a message, however long the names are that it quotes.
 const LONGEST: usize = 600;
 
-/// The message itself, but for control characters and endless lists.
+/// Replaces control characters and shortens endless lists.
 fn readable(message: String) -> String {
     if message.len() <= LONGEST && !message.chars().any(char::is_control) {
         message
@@ -29,7 +29,7 @@ fn readable(message: String) -> String {
 }
 
 impl SceneError {
-    /// An error about the bytes `span` of `text`.
+    /// Returns an error about the bytes `span` of `text`.
     pub(crate) fn at(path: &Path, text: &str, span: &Range<usize>, message: String) -> Self {
         let before = text.get(..span.start).unwrap_or(text);
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
@@ -42,7 +42,7 @@ impl SceneError {
         }
     }
 
-    /// An error about the file as a whole.
+    /// Returns an error about the file as a whole.
     pub(crate) fn whole(path: &Path, message: String) -> Self {
         Self {
             path: path.to_owned(),
@@ -64,7 +64,7 @@ impl fmt::Display for SceneError {
 
 impl std::error::Error for SceneError {}
 
-/// The candidate that `name` is probably meant to be: at most a third of its letters differ, or both begin much alike.
+/// Returns the candidate that `name` probably means: at most a third of its letters differ, or both begin alike.
 pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let name = name.to_lowercase();
     let likeness = |candidate: &'a str| {
@@ -78,7 +78,7 @@ pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a s
     alike.min_by_key(|&(distance, _)| distance).map(|(_, candidate)| candidate)
 }
 
-/// `; did you mean 'a'?`, or `; choose one of a, b`.
+/// Returns `; did you mean 'a'?`, or `; choose one of a, b`.
 pub(crate) fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
     let candidates: Vec<_> = candidates.into_iter().collect();
     match nearest(name, candidates.iter().copied()) {

@@ -1,22 +1,22 @@
-//! What a number may be, said once: for scene files, which put a place to it, and for code.
+//! Ranges of numbers. Code and scene files share them; scene files add the place to an error.
 
 use super::quantity::Quantity;
 use selvedge_core::glam::DVec3;
 
-/// A value that cannot be: of what, which one, what is wrong and what would be right.
+/// A value that is out of range or contradicts another one.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}{message}", if .of.is_empty() { String::new() } else { format!("{}: ", .of) })]
 pub struct ValueError {
-    /// Whose it is: the name of an effect or of a body, `cloth`; empty: the scene's own.
+    /// The owner of the value: the name of an effect or a body, or `cloth`. Empty for the scene itself.
     pub of: String,
-    /// As scene files call it.
+    /// The name of the value in scene files.
     pub field: &'static str,
-    /// What is wrong, and what would be right, with units.
+    /// The error and its remedy, with units.
     pub message: String,
 }
 
 impl ValueError {
-    /// A field, and what is wrong with it. Whose it is is told by [`Scene::check`](crate::Scene::check).
+    /// Returns an error about a field. [`Scene::check`](crate::Scene::check) adds the owner.
     pub fn new(field: &'static str, message: impl Into<String>) -> Self {
         Self {
             of: String::new(),
@@ -25,7 +25,7 @@ impl ValueError {
         }
     }
 
-    /// The same, and whose it is.
+    /// Sets the owner.
     pub(crate) fn of(self, of: &str) -> Self {
         Self {
             of: of.to_owned(),
@@ -34,7 +34,7 @@ impl ValueError {
     }
 }
 
-/// A number with a name and a unit, and from where to where it may go.
+/// A number with a name, a unit and a range.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Field {
     pub(crate) name: &'static str,
@@ -53,12 +53,12 @@ impl Field {
         }
     }
 
-    /// Three components, each up to `largest` either way.
+    /// Returns a field of three components, each at most `largest` in magnitude.
     pub(crate) const fn vector(name: &'static str, quantity: Quantity, largest: f64) -> Self {
         Self::new(name, quantity, -largest, largest)
     }
 
-    /// NaN is in no range.
+    /// Returns an error if the value is outside the range. NaN is in no range.
     pub(crate) fn check(&self, value: f64) -> Result<(), ValueError> {
         if (self.least..=self.most).contains(&value) {
             return Ok(());
@@ -74,7 +74,7 @@ impl Field {
     }
 }
 
-/// A whole number with a name, and from where to where it may go.
+/// A whole number with a name and a range.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Count {
     pub(crate) name: &'static str,

@@ -1,5 +1,4 @@
-//! What a number of a scene may be ([`Field`]), and what a scene file is made of: tables, quantities with units, and complaints that name
-//! the place.
+//! Input: ranges of numbers ([`Field`]), and the tables and quantities of a scene file. Every error names its place.
 
 mod error;
 mod field;

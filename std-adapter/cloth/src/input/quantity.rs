@@ -1,13 +1,13 @@
-//! Physical quantities as a scene writes them: a number in SI units, or text with a unit (`"3 mm"`).
+//! Physical quantities in a scene: a number in SI units, or text with a unit (`"3 mm"`).
 
 use super::error::suggestion;
 
 /// A kind of quantity and its units.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Quantity {
-    /// With its article: `a length`.
+    /// The name with its article: `a length`.
     what: &'static str,
-    /// Names of units, the SI unit first, and their size in SI units.
+    /// Names of units, the SI unit first, each with its size in SI units.
     units: &'static [(&'static str, f64)],
 }
 
@@ -38,17 +38,17 @@ quantities! {
     PRESSURE = "a pressure" ["Pa" 1.0, "kPa" 1e3];
 }
 
-/// The largest coordinate that a scene may give, in metres.
+/// The largest coordinate in a scene, in metres.
 pub(crate) const LARGEST_COORDINATE: f64 = 1e3;
-/// The longest time that a scene may give, in seconds.
+/// The longest time in a scene, in seconds.
 pub(crate) const LARGEST_TIME: f64 = 1e5;
 
 impl Quantity {
-    /// Reads text such as `3 mm`, in SI units. What is wrong with it, if it is no such quantity.
+    /// Reads text such as `3 mm` and returns the value in SI units, or an error message.
     pub(crate) fn parse(&self, text: &str) -> Result<f64, String> {
         let text = text.trim();
         let is_number = |text: &str| text.parse::<f64>().is_ok();
-        // The longest beginning that is a number: `1e3 m` and `1.5m` alike.
+        // The number is the longest prefix that parses, so that `1e3 m` and `1.5m` both work.
         let end = (1..=text.len())
             .rev()
             .find(|&end| text.is_char_boundary(end) && is_number(text[..end].trim_end()));
@@ -74,7 +74,7 @@ impl Quantity {
         }
     }
 
-    /// A value with its SI unit.
+    /// Writes a value with its SI unit.
     pub(crate) fn written(&self, value: f64) -> String {
         // The shortest form, with an exponent where zeros would hide the size.
         let number = if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
@@ -88,7 +88,7 @@ impl Quantity {
         }
     }
 
-    /// A value to six digits, in the unit in which that is shortest.
+    /// Writes a value to six digits in the unit that makes it shortest.
     pub(crate) fn written_short(&self, value: f64) -> String {
         let in_unit = |&(unit, size): &(&str, f64)| {
             let digits = format!("{:.5e}", value / size);
@@ -102,7 +102,7 @@ impl Quantity {
         written.min_by_key(String::len).unwrap_or_default()
     }
 
-    /// What a scene may write, for messages.
+    /// Returns an example for messages.
     pub(crate) fn example(&self) -> String {
         match self.units {
             [("", _), ..] => "0.5".to_owned(),

@@ -1,4 +1,4 @@
-//! A table of a scene file, read key by key. Every complaint names the place.
+//! A table of a scene file, read key by key. Every error names its place.
 
 use super::error::{SceneError, suggestion};
 use super::field::{Count, Field, ValueError};
@@ -9,14 +9,14 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// The text that positions in messages refer to.
+/// The text to which the positions in messages refer.
 #[derive(Debug)]
 pub(crate) struct Source<'a> {
     pub(crate) path: &'a Path,
     pub(crate) text: &'a str,
 }
 
-/// One table, and its name as messages write it.
+/// One table, with its name for messages.
 #[derive(Debug)]
 pub(crate) struct Table<'a> {
     source: &'a Source<'a>,
@@ -28,7 +28,7 @@ pub(crate) struct Table<'a> {
 type Value<'a> = Spanned<DeValue<'a>>;
 
 impl<'a> Table<'a> {
-    /// The whole file.
+    /// Returns the table of the whole file.
     pub(crate) fn root(source: &'a Source<'a>, entries: &'a DeTable<'a>) -> Self {
         Self {
             source,
@@ -38,7 +38,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Refuses every key that is not one of `known`.
+    /// Refuses every key that is not in `known`.
     pub(crate) fn expect_keys(&self, known: &[&str]) -> Result<(), SceneError> {
         for key in self.entries.keys() {
             let name = key.get_ref();
@@ -55,7 +55,7 @@ impl<'a> Table<'a> {
         Ok(())
     }
 
-    /// The keys in the order of the file, with their places.
+    /// Returns the keys in the order of the file, with their places.
     pub(crate) fn keys(&self) -> Vec<(&str, Range<usize>)> {
         let mut keys: Vec<_> = self.entries.keys().map(|key| (key.get_ref().as_ref(), key.span())).collect();
         keys.sort_by_key(|(_, span)| span.start);
@@ -66,18 +66,18 @@ impl<'a> Table<'a> {
         self.entries.contains_key(key)
     }
 
-    /// A number in SI units, if the key is there.
+    /// Reads a number in SI units, if the key is present.
     pub(crate) fn number(&self, field: &Field) -> Result<Option<f64>, SceneError> {
         self.get(field.name).map(|value| self.quantity(field, value)).transpose()
     }
 
-    /// A number in SI units.
+    /// Reads a number in SI units.
     pub(crate) fn required_number(&self, field: &Field) -> Result<f64, SceneError> {
         self.number(field)?
             .ok_or_else(|| self.missing(field.name, &field.quantity.example()))
     }
 
-    /// What `of` makes of a number in SI units; `otherwise` if the key is not there, which is an error if that is nothing.
+    /// Reads a number in SI units and maps it by `of`. Returns `otherwise` if the key is missing, and an error if both are.
     pub(crate) fn number_or<T>(&self, field: &Field, of: impl Fn(f64) -> T, otherwise: Option<T>) -> Result<T, SceneError> {
         match (self.number(field)?, otherwise) {
             (Some(number), _) => Ok(of(number)),
@@ -86,17 +86,17 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// A whole number, if the key is there.
+    /// Reads a whole number, if the key is present.
     pub(crate) fn count(&self, count: &Count) -> Result<Option<u32>, SceneError> {
         self.get(count.name).map(|value| self.whole(count, value)).transpose()
     }
 
-    /// A whole number.
+    /// Reads a whole number.
     pub(crate) fn required_count(&self, count: &Count) -> Result<u32, SceneError> {
         self.count(count)?.ok_or_else(|| self.missing(count.name, "20"))
     }
 
-    /// Two whole numbers.
+    /// Reads two whole numbers.
     pub(crate) fn two_counts(&self, count: &Count) -> Result<[u32; 2], SceneError> {
         let example = "[20, 20]";
         let value = self.get(count.name).ok_or_else(|| self.missing(count.name, example))?;
@@ -106,7 +106,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Any number of whole numbers, if the key is there.
+    /// Reads any number of whole numbers, if the key is present.
     pub(crate) fn counts(&self, count: &Count) -> Result<Option<Vec<u32>>, SceneError> {
         let Some(value) = self.get(count.name) else {
             return Ok(None);
@@ -118,7 +118,7 @@ impl<'a> Table<'a> {
         array.iter().map(whole).collect::<Result<_, _>>().map(Some)
     }
 
-    /// A vector of three quantities, if the key is there.
+    /// Reads a vector of three quantities, if the key is present.
     pub(crate) fn vector(&self, field: &Field) -> Result<Option<DVec3>, SceneError> {
         self.get(field.name).map(|value| self.three(field, value)).transpose()
     }
@@ -127,7 +127,7 @@ impl<'a> Table<'a> {
         self.vector(field)?.ok_or_else(|| self.missing(field.name, "[0, 0, 1]"))
     }
 
-    /// Any number of vectors of three quantities each.
+    /// Reads any number of vectors of three quantities each.
     pub(crate) fn required_vectors(&self, field: &Field) -> Result<Vec<DVec3>, SceneError> {
         let example = "[[0, 0, 0], [1, 0, 0]]";
         let value = self.get(field.name).ok_or_else(|| self.missing(field.name, example))?;
@@ -137,7 +137,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// `true` or `false`; false if the key is not there.
+    /// Reads `true` or `false`; false if the key is missing.
     pub(crate) fn flag(&self, key: &str) -> Result<bool, SceneError> {
         match self.get(key) {
             None => Ok(false),
@@ -148,7 +148,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Text in one line, if the key is there. It may be shown on a terminal, over which it must not be able to write.
+    /// Reads one line of text, if the key is present. Control characters are refused, since the text may be shown on a terminal.
     pub(crate) fn text(&self, key: &str) -> Result<Option<&'a str>, SceneError> {
         match self.get(key) {
             None => Ok(None),
@@ -162,12 +162,12 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Text in one line; `example` is how a scene may write it.
+    /// Reads one line of text. Messages show `example`.
     pub(crate) fn required_text(&self, key: &str, example: &str) -> Result<&'a str, SceneError> {
         self.text(key)?.ok_or_else(|| self.missing(key, example))
     }
 
-    /// One of several names, if the key is there.
+    /// Reads one of several names, if the key is present.
     pub(crate) fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<Option<T>, SceneError> {
         let Some(name) = self.text(key)? else {
             return Ok(None);
@@ -192,7 +192,7 @@ impl<'a> Table<'a> {
         self.choice(key, choices)?.ok_or_else(|| self.missing(key, &names()))
     }
 
-    /// The table of this name, if there is one.
+    /// Returns the table of this name, if there is one.
     pub(crate) fn table(&self, key: &str) -> Result<Option<Table<'a>>, SceneError> {
         match self.get(key) {
             None => Ok(None),
@@ -213,7 +213,7 @@ impl<'a> Table<'a> {
         })
     }
 
-    /// The table of this name (`[key]`), or the tables (`[[key]]`), of which there is at least one.
+    /// Returns the table of this name (`[key]`), or the tables (`[[key]]`); at least one is required.
     pub(crate) fn one_or_more_tables(&self, key: &str) -> Result<Vec<Table<'a>>, SceneError> {
         let is_list = self
             .get(key)
@@ -225,7 +225,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// The tables of this name (`[[key]]`), none if it is not there.
+    /// Returns the tables of this name (`[[key]]`); empty if the key is missing.
     pub(crate) fn tables(&self, key: &str) -> Result<Vec<Table<'a>>, SceneError> {
         let Some(value) = self.get(key) else {
             return Ok(Vec::new());
@@ -243,23 +243,23 @@ impl<'a> Table<'a> {
             .collect()
     }
 
-    /// A complaint about the value of `key`; about the table if the key is not there.
+    /// Returns an error about the value of `key`, or about the table if the key is missing.
     pub(crate) fn error(&self, key: &str, message: String) -> SceneError {
         let span = self.get(key).map_or(self.span.clone(), Spanned::span);
         self.complain(span, message)
     }
 
-    /// An error about a value that code could have said as well.
+    /// Adds the place to an error about a value.
     pub(crate) fn placed(&self, error: &ValueError) -> SceneError {
         self.error(error.field, error.message.clone())
     }
 
-    /// A complaint about a place.
+    /// Returns an error about a place.
     pub(crate) fn complain(&self, span: Range<usize>, message: String) -> SceneError {
         SceneError::at(self.source.path, self.source.text, &span, message)
     }
 
-    /// The folder that paths in the file are relative to.
+    /// Returns the folder to which paths in the file are relative.
     pub(crate) fn folder(&self) -> &Path {
         self.source.path.parent().unwrap_or(Path::new("."))
     }

@@ -1,4 +1,4 @@
-//! How cloth, ropes and what joins them are computed: what effects put into a step.
+//! The mechanics of cloth, ropes and seams: the parts that effects put into a step.
 
 pub(crate) mod bending;
 pub(crate) mod energy;

@@ -1,18 +1,19 @@
-//! In which order constraints on a few vertices each are projected: the same for any number of threads.
+//! The order in which local constraints are projected: the same for any number of threads.
 //!
-//! Constraints are coloured greedily, once per mesh: those of one colour share no vertex, so that they may run in any order or at once,
-//! with the same bits. One colour after another is a sweep of Gauss and Seidel's method.
+//! Constraints are coloured greedily, once per mesh. Those of one colour share no vertex, so they may run in any order or at
+//! once, with the same bits. One colour after another is a Gauss–Seidel sweep.
 //!
-//! A block is what runs on positions of its own, copied to it and back. All constraints of a mesh are one block; or, where several
-//! sweeps follow each other, blocks of a few hundred that are near each other, whose vertices stay in the nearest cache. Then blocks are
-//! coloured as well. Inside a block colours serve speed too: a constraint that had to wait for the vertices of the one before would take
-//! three times as long.
+//! A block runs on its own copy of positions. All constraints of a mesh are one block, or, for several sweeps in a row, blocks of
+//! a few hundred neighbouring constraints, whose vertices stay in the nearest cache. Then blocks are coloured as well. Inside a
+//! block colours also serve speed: a constraint that waited for the vertices of the one before would take three times as long.
 //!
-//! **What gives way keeps its multipliers** from sweep to sweep of a step (Macklin et al. 2016, algorithm 1): a constraint C of compliance α̃ = α/h²
-//! whose sweeps came to λ so far gets Δλ = −(C + α̃λ)/(∇C·W∇C + α̃) from the next, so that sweeps go on until C = −α̃λ, which is the
-//! implicit step. Without λ each would begin at what the last has left, and the more of them the stiffer all would be.
+//! **Compliant constraints keep their multipliers** from sweep to sweep of a step (Macklin et al. 2016, algorithm 1). A
+//! constraint C of compliance α̃ = α/h² with the accumulated multiplier λ gets Δλ = −(C + α̃λ)/(∇C·W∇C + α̃) from the next sweep,
+//! so that sweeps converge to C = −α̃λ, the implicit step. Without λ each sweep would start again from the last result, and more
+//! sweeps would be stiffer.
 //!
-//! A block in which nothing moved sleeps until a block that shares a vertex with it moves something: what it would do is nothing.
+//! A block in which nothing moved sleeps until a block that shares a vertex with it moves something, since its result would be
+//! the same.
 
 use super::energy::{Configuration, StoredEnergy};
 use super::step::{Constraint, TimeStep, Touches};
@@ -24,17 +25,18 @@ use std::ops::Range;
 
 /// A constraint on `N` vertices.
 pub(crate) trait Local<const N: usize>: Debug + Send + Sync {
-    /// What it keeps from sweep to sweep of a step, zero before the first: the multipliers of what gives way; `()` if nothing does.
+    /// The multipliers of compliant constraints, kept from sweep to sweep of a step and zero before the first; `()` without
+    /// compliance.
     type Multipliers: Copy + Debug + Default + Send + Sync;
 
-    /// Whether all corrections are certainly zero there: a quick test, where there is one.
+    /// A quick test: returns true only if all corrections are zero.
     fn moves_nothing(&self, _positions: [DVec3; N]) -> bool {
         false
     }
 
-    /// By how much each vertex has to move. `stiffening` is 1/h²: what a compliance is multiplied by.
+    /// Returns the correction of each vertex. `stiffening` is 1/h², the factor of compliances.
     ///
-    /// `so_far` is what earlier sweeps of the step came to, and this one adds its own.
+    /// `so_far` has the multipliers of earlier sweeps of the step, to which this one adds.
     fn corrections(
         &self,
         positions: [DVec3; N],
@@ -43,7 +45,7 @@ pub(crate) trait Local<const N: usize>: Debug + Send + Sync {
         so_far: &mut Self::Multipliers,
     ) -> [DVec3; N];
 
-    /// The elastic energy that it holds, in J; `None`: it holds none, however it stands.
+    /// Returns the elastic energy in J; `None` if the constraint never stores any.
     fn energy(&self, _positions: [DVec3; N]) -> Option<f64> {
         None
     }
@@ -60,42 +62,42 @@ pub(crate) struct Schedule<C: Local<N>, const N: usize> {
     /// The blocks of each colour.
     colours: Vec<Range<usize>>,
     sweeps: u64,
-    /// Of each block, whether it may have something to move.
+    /// Whether each block may have something to move.
     is_awake: Vec<bool>,
 }
 
 #[derive(Debug)]
 struct Block<C: Local<N>, const N: usize> {
-    /// By colour; each on the places that its vertices have among the block's.
+    /// By colour; each on places among the block's vertices.
     constraints: Vec<On<C, N>>,
-    /// Of the constraints, where several sweeps follow each other; else none.
+    /// By constraint, for several sweeps in a row; otherwise empty.
     multipliers: Vec<C::Multipliers>,
-    /// The constraints of each colour that has so many that threads should share them.
+    /// The constraints of each colour with enough of them to share among threads.
     shared: Vec<Range<usize>>,
     vertices: Vec<u32>,
     /// Blocks that share a vertex with it.
     neighbours: Vec<u32>,
-    /// The vertices' positions while it runs, and whether it moved any.
+    /// The vertices' positions while the block runs, and whether any moved.
     positions: Vec<DVec3>,
     has_moved: bool,
-    /// Of the vertices.
+    /// By vertex.
     inverse_masses: Vec<f64>,
-    /// Of the constraints that threads share, and what they have come to.
+    /// The results of constraints that threads share.
     corrections: Vec<([DVec3; N], C::Multipliers)>,
 }
 
-/// Most constraints of one of many blocks: its vertices, positions and constraints take some 30 kB.
+/// The most constraints of one of many blocks: its vertices, positions and constraints take some 30 kB.
 const MOST: usize = 256;
-/// Fewer constraints than this are done before another thread has begun.
+/// Fewer constraints than this are done before another thread has started.
 const WORTH_A_THREAD: usize = 1024;
 
 impl<C: Local<N>, const N: usize> Schedule<C, N> {
-    /// Once, all in one block, on a mesh of so many vertices.
+    /// Makes one block that runs once, on a mesh of `vertex_count` vertices.
     pub(crate) fn once(constraints: Vec<On<C, N>>, vertex_count: usize) -> Self {
         Self::of(vec![constraints], vertex_count, 1)
     }
 
-    /// So many times, on vertices that are at `rest` at rest.
+    /// Makes blocks that run `sweeps` times, on vertices with these rest positions.
     pub(crate) fn times(constraints: Vec<On<C, N>>, rest: &[DVec3], sweeps: u32) -> Self {
         match sweeps {
             1 => Self::once(constraints, rest.len()),
@@ -103,7 +105,7 @@ impl<C: Local<N>, const N: usize> Schedule<C, N> {
         }
     }
 
-    /// Several times, in blocks of constraints that are near each other, on vertices that are at `rest` at rest.
+    /// Makes blocks of neighbouring constraints that run several times, on vertices with these rest positions.
     pub(crate) fn in_blocks(constraints: Vec<On<C, N>>, rest: &[DVec3], sweeps: u64) -> Self {
         let centre = |(vertices, _): &On<C, N>| vertices.iter().map(|&v| rest[v as usize]).sum();
         let centres: Vec<DVec3> = constraints.iter().map(centre).collect();
@@ -198,7 +200,7 @@ impl<C: Local<N>, const N: usize> Constraint for Schedule<C, N> {
 }
 
 impl<C: Local<N>, const N: usize> Block<C, N> {
-    /// `place_of` holds nothing before, and afterwards, of all vertices of a mesh.
+    /// Makes a block. `place_of` has an unset entry for each vertex of the mesh, before and afterwards.
     fn new(mut constraints: Vec<On<C, N>>, place_of: &mut [u32]) -> Self {
         let mut vertices = Vec::new();
         for vertex in constraints.iter_mut().flat_map(|(own, _)| own) {
@@ -261,7 +263,7 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
         }
     }
 
-    /// The constraints of a colour, shared by all threads.
+    /// Runs the constraints of a colour on all threads.
     fn at_once(&mut self, colour: Range<usize>, step: &TimeStep<'_>) {
         let stiffening = stiffening(step);
         let Self {
@@ -290,18 +292,18 @@ impl<C: Local<N>, const N: usize> Block<C, N> {
     }
 }
 
-/// What a compliance is multiplied by.
+/// Returns the factor of compliances.
 fn stiffening(step: &TimeStep<'_>) -> f64 {
     1.0 / (step.h * step.h)
 }
 
-/// What vertices have.
+/// Returns the items of these vertices.
 fn at<T: Copy>(vertices: &[u32], all: &[T]) -> impl Iterator<Item = T> {
     vertices.iter().map(|&vertex| all[vertex as usize])
 }
 
-/// What is at these places. By index, like the next: `map` would not be inlined, and with an iterator moves go through memory, and wait
-/// there.
+/// Returns the items at these places. By index, like the next function: `map` would not be inlined, and an iterator would pass
+/// moves through memory.
 #[inline(always)]
 fn of<T: Copy + Default, const N: usize>(places: &[u32; N], all: &[T]) -> [T; N] {
     let mut own = [T::default(); N];
@@ -318,7 +320,7 @@ fn add<const N: usize>(positions: &mut [DVec3], places: &[u32; N], moves: [DVec3
     }
 }
 
-/// Splits constraints in two by where they are, again and again, until each group fits into a block.
+/// Splits constraints in two by position, repeatedly, until each group fits into a block.
 fn split(order: &mut [u32], centres: &[DVec3], groups: &mut Vec<Vec<u32>>) {
     if order.len() <= MOST {
         groups.push(order.to_vec());
@@ -338,10 +340,10 @@ fn split(order: &mut [u32], centres: &[DVec3], groups: &mut Vec<Vec<u32>>) {
     split(second, centres, groups);
 }
 
-/// Sorts items so that those of one colour, which share no vertex, follow each other. Returns those of each colour.
+/// Sorts items so that those of one colour, which share no vertex, are contiguous. Returns the range of each colour.
 ///
-/// Greedily: each takes the first colour that nothing before it has on any of its vertices. What finds none, since a vertex has more
-/// neighbours than there are colours, is alone.
+/// Greedily, each item takes the first colour that no earlier item has at any of its vertices. An item that finds none, since a
+/// vertex has more neighbours than there are colours, gets a colour of its own.
 fn sort_by_colour<T>(items: &mut Vec<T>, vertices: impl Fn(&T) -> &[u32], vertex_count: usize) -> Vec<Range<usize>> {
     let mut taken = vec![0_u128; vertex_count];
     let colour_of = |item: T| {
@@ -393,7 +395,7 @@ mod tests {
         }
     }
 
-    /// Pulls two vertices, of which it knows the way from one to the other at rest, back with so much compliance.
+    /// Pulls two vertices back to their vector at rest, with a compliance.
     #[derive(Clone, Debug)]
     struct Spring {
         rest: DVec3,
@@ -505,7 +507,7 @@ mod tests {
             prop_assert_eq!(run(&start, &mut many, 1), all);
         }
 
-        /// One sweep is exact for what shares nothing with anything.
+        /// One sweep is exact for constraints that share no vertex.
         #[test]
         fn more_sweeps_make_nothing_stiffer_by_itself(
             pulled in -3.0..3.0_f64, compliance in 1e-3..1e3_f64, sweeps in 2..9_u64,
@@ -519,7 +521,7 @@ mod tests {
             prop_assert!(once[1].distance(many[1]) < 1e-12, "{} and {}", once[1], many[1]);
         }
 
-        /// In an implicit step of length one, of masses of one, what a vertex is moved by is the sum of the springs' forces there.
+        /// In an implicit step of length one and masses of one, the move of a vertex is the sum of the springs' forces there.
         #[test]
         fn many_sweeps_come_to_the_implicit_step(
             count in 3..30_u32, pulled in any::<prop::sample::Index>(), compliance in 0.5..10.0_f64,

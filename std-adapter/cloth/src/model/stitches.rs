@@ -1,11 +1,11 @@
-//! Which points a seam joins, and how it draws them together.
+//! Stitches: the pairs of points that a seam joins.
 //!
-//! Two rows of vertices are laid along each other by their lengths at rest: a vertex at a share of the way along the row that has more of
-//! them is joined to the point at that share of the other row, between two of its vertices. So rows of different meshes fit, and where
-//! both have as many, evenly, each vertex is joined to one.
+//! Two rows of vertices are laid along each other by their lengths at rest. Each vertex of the row with more vertices is joined
+//! to the point at the same share of the other row's length, between two of its vertices. So rows of different meshes fit, and
+//! rows of equally many evenly spaced vertices are joined one to one.
 //!
-//! A stitch is C = |a − (1 − s)·b − s·c| ≤ L, without compliance: Δx = −(|p| − L)·wₖ·∇C/Σw·|∇C|². It only pulls; that the rows keep their
-//! distance is a matter of contact.
+//! A stitch is C = |a − (1 − s)·b − s·c| ≤ L, without compliance: Δx = −(|p| − L)·wₖ·∇C/Σw·|∇C|². It only pulls. Contact keeps
+//! the rows apart.
 
 use crate::model::step::{Constraint, TimeStep, Touches, mobility};
 use selvedge_core::glam::DVec3;
@@ -13,25 +13,25 @@ use selvedge_core::glam::DVec3;
 /// A vertex, and a point between two others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stitch {
-    /// The vertex, then the two between which the point is.
+    /// The vertex, then the two vertices of the point.
     pub(crate) vertices: [u32; 3],
-    /// How far the point is from the first of them to the second.
+    /// The share of the way from the first of the two to the second.
     share: f64,
 }
 
 impl Stitch {
-    /// From the point to the vertex.
+    /// Returns the vector from the point to the vertex.
     fn way(&self, positions: &[DVec3]) -> DVec3 {
         let [a, b, c] = self.vertices.map(|vertex| positions[vertex as usize]);
         a - b.lerp(c, self.share)
     }
 
-    /// How far apart the two are.
+    /// Returns the distance of vertex and point.
     pub(crate) fn length(&self, positions: &[DVec3]) -> f64 {
         self.way(positions).length()
     }
 
-    /// Brings the two within `length` of each other.
+    /// Brings vertex and point within `length` of each other.
     fn draw(&self, length: f64, inverse_masses: &[f64], positions: &mut [DVec3]) {
         let weights = [1.0, self.share - 1.0, -self.share];
         let mobility = mobility(inverse_masses, self.vertices, weights);
@@ -47,7 +47,7 @@ impl Stitch {
     }
 }
 
-/// Lays two rows along each other; each has two vertices or more, and a length, or both are one vertex.
+/// Lays two rows along each other. Each row has at least two vertices and a length, or both are single vertices.
 pub(crate) fn stitches(first: &[u32], second: &[u32], rest: &[DVec3]) -> Vec<Stitch> {
     if let (&[first], &[second]) = (first, second) {
         let vertices = [first, second, second];
@@ -70,7 +70,7 @@ pub(crate) fn stitches(first: &[u32], second: &[u32], rest: &[DVec3]) -> Vec<Sti
     finer.iter().zip(of_finer).map(stitch).collect()
 }
 
-/// Of each vertex, its share of the way along the row, from 0 to 1.
+/// Returns each vertex's share of the row's length, from 0 to 1.
 fn shares(row: &[u32], rest: &[DVec3]) -> Vec<f64> {
     let steps = row
         .windows(2)
@@ -87,16 +87,16 @@ fn shares(row: &[u32], rest: &[DVec3]) -> Vec<f64> {
 /// A seam in motion.
 #[derive(Debug)]
 pub(crate) struct Sewing {
-    /// Each with how far apart its points are at the start, in metres.
+    /// Each with the initial distance of its points, in metres.
     pub(crate) stitches: Vec<(Stitch, f64)>,
-    /// How far apart they are to be in the end, in metres.
+    /// The final distance, in metres.
     pub(crate) gap: f64,
-    /// When they are, in seconds; `None`: they stay as near as they start.
+    /// The time of closing, in seconds; `None` keeps the initial distance.
     pub(crate) closing: Option<f64>,
 }
 
 impl Sewing {
-    /// The one stitch that it may consist of, of two vertices.
+    /// Returns the tie, if the seam consists of one stitch between two vertices.
     pub(crate) fn tie(&self) -> Option<Tie> {
         let &[
             (
@@ -123,14 +123,15 @@ impl Sewing {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tie {
     pub(crate) vertices: [u32; 2],
-    /// How far apart they are at the start, and may be in the end, in metres.
+    /// The initial and the final distance, in metres.
     pub(crate) start: f64,
     pub(crate) gap: f64,
-    /// When that is, in seconds, as a [`Seam`](crate::effects::Seam) has it.
+    /// The time of closing, in seconds, as in a [`Seam`](crate::effects::Seam).
     pub(crate) closing: Option<f64>,
 }
 
-/// How far apart the points of a stitch may be at the end of a step: of a seam that is drawn together from `start` to `gap`.
+/// Returns the largest distance of a stitch's points at the end of a step, for a seam that is drawn together from `start` to
+/// `gap`.
 pub(crate) fn length_at_end(step: &TimeStep<'_>, start: f64, gap: f64, closing: Option<f64>) -> f64 {
     let left = closing.map_or(1.0, |closing| (1.0 - (step.time + step.h) / closing).max(0.0));
     gap + left * (start - gap).max(0.0)
@@ -168,7 +169,7 @@ mod tests {
             assert_eq!((a, met), (index as u32, index as u32 + 4));
             assert!(stitch.share == 0.0 || stitch.share == 1.0);
         }
-        // The finer row is joined, whichever it is, and nothing is left aside.
+        // Each vertex of the finer row is joined, whichever row it is.
         for (first, second) in [(&[0.0, 1.5, 3.0][..], &even[..]), (&even[..], &[0.0, 1.0, 3.0][..])] {
             let (rest, made) = rows(first, second);
             assert_eq!(made.len(), 4);

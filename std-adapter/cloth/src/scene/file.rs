@@ -1,4 +1,4 @@
-//! A scene as a TOML file says it.
+//! Scenes from TOML files.
 
 use super::{FRAME_RATE, OnBlocked, START, Scene, TIME_STEP, TangledStart, check_name, check_start, duration_field};
 use crate::effects::{self, Called, Effects, Gravity, Wrong};
@@ -11,7 +11,7 @@ impl Scene {
     /// Reads a scene file. Paths in it are relative to its folder.
     ///
     /// # Errors
-    /// If it cannot be read, or something in it is wrong: the message names file, line and column.
+    /// If the file cannot be read or contains an error. The message names file, line and column.
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let bytes = std::fs::read(path).map_err(|error| SceneError::whole(path, format!("cannot be read: {error}")))?;
         let text = String::from_utf8(bytes)
@@ -19,10 +19,10 @@ impl Scene {
         Self::parse(&text, path)
     }
 
-    /// Reads a scene from the text of a file. `path` is for messages and for the paths in it.
+    /// Reads a scene from the text of a file. `path` appears in messages, and paths in the text are relative to its folder.
     ///
     /// # Errors
-    /// If something in it is wrong.
+    /// If the text contains an error. The message names file, line and column.
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
         let root = toml::de::DeTable::parse(text).map_err(|error| {
             let span = error.span().unwrap_or(0..0);
@@ -83,7 +83,7 @@ impl Scene {
     }
 }
 
-/// `[cloth]`, or any number of `[[cloth]]`: all but effects of their own.
+/// Reads `[cloth]`, or any number of `[[cloth]]`, without their own effects.
 fn read_cloths(root: &Table<'_>) -> Result<Vec<Cloth>, SceneError> {
     let mut cloths: Vec<Cloth> = Vec::new();
     for table in root.one_or_more_tables("cloth")? {
@@ -108,7 +108,7 @@ fn parts<'a>(root: &Table<'_>, cloths: &'a [Cloth], bodies: &'a [Body], time_ste
     SceneParts::new(cloths, bodies, time_step).map_err(|error| root.placed(&error))
 }
 
-/// `[effects]`, and what the cloths have of their own; together they make sense.
+/// Reads `[effects]` and the cloths' own effects, and checks them together.
 fn read_effects(
     root: &Table<'_>,
     cloths: &[Cloth],
@@ -121,7 +121,8 @@ fn read_effects(
         Some(table) => effects::read(table, world),
         None => Ok(Effects::default()),
     };
-    // What it leaves to a material is of the only cloth: others of a material get effects of their own. Ropes are of none.
+    // The scene's effects take defaults from the material only if there is one cloth. Where there are several, each cloth of a
+    // material gets effects of its own. Ropes have no material.
     let is_plain = |cloth: &Cloth| cloth.material.is_none() && cloth.has_triangles();
     let plain = cloths.iter().position(is_plain);
     let by_scene = of_scene(&parts(root, cloths, bodies, time_step)?.of_cloth(plain))?;

@@ -1,4 +1,4 @@
-//! Scenes: what is to be simulated, as a TOML file or code says it.
+//! Scenes, from a TOML file or from code.
 //!
 //! ```
 //! use selvedge_cloth::Scene;
@@ -37,32 +37,32 @@ use selvedge_files::bytes::Fingerprint;
 use selvedge_files::excerpt::excerpt;
 use std::ops::Range;
 
-/// What to do when bodies or pins force the cloth where it cannot go without intersecting.
+/// The response when bodies or pins force the cloth into an intersection.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OnBlocked {
-    /// End the simulation, and say where.
+    /// Stop with an error that names time, body and pair.
     #[default]
     Stop,
-    /// The clock of bodies and pins waits.
+    /// Let the clock of bodies and pins wait.
     Hold,
-    /// The body's pairs leave the promise until it is apart from the cloth again; where pins are in the way, their clock waits.
+    /// Exclude the body from the guarantee until it is apart from the cloth again. Where pins are in the way, their clock waits.
     Yield,
 }
 
-/// What to do when edges pass through faces where the simulation starts: of the cloth with itself or with bodies, as far as effects are
-/// to keep them apart.
+/// The response when edges pass through faces at the start, between pairs that contact effects keep apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TangledStart {
-    /// Do not start, and tell where.
+    /// Refuse the scene with a list of all intersections.
     #[default]
     Refuse,
-    /// What meets leaves the promise until it is apart; see [`Simulation::crossings`](crate::Simulation::crossings).
+    /// Exclude what intersects from the guarantee until it is apart; see [`Simulation::crossings`](crate::Simulation::crossings).
     Tolerate,
-    /// Pull it apart before the first step, or tell what is left; see [`Simulation::untangled`](crate::Simulation::untangled).
+    /// Pull it apart before the first step, or refuse the scene with the remaining intersections. See
+    /// [`Simulation::untangled`](crate::Simulation::untangled).
     Untangle,
 }
 
-/// A scene: cloths, bodies and effects. Read from a file, or made in code:
+/// A scene: cloths, bodies and effects, read from a file or made in code.
 ///
 /// ```
 /// use selvedge_cloth::effects::{Bend, BodyContact, Gravity, SelfCollision, Stretch, Thickness};
@@ -88,42 +88,42 @@ pub enum TangledStart {
 /// ```
 #[derive(Debug)]
 pub struct Scene {
-    /// `name`, or the file's.
+    /// The name: `name` in the file, or the file's own name.
     pub name: String,
-    /// What is simulated, at rest. Vertices are numbered through all of them, in this order.
+    /// The cloths at rest. Vertices are numbered through all of them, in this order.
     pub cloths: Vec<Cloth>,
-    /// What they meet.
+    /// The bodies that the cloths meet.
     pub bodies: Vec<Body>,
-    /// Seconds.
+    /// The length of a step, in seconds.
     pub time_step: f64,
-    /// Seconds.
+    /// The length of the simulation, in seconds.
     pub duration: f64,
-    /// How many frames to write for each second simulated.
+    /// The number of frames to write for each simulated second.
     pub frame_rate: f64,
-    /// Against gravity, of any length; z where the scene names no gravity.
+    /// The direction against gravity, of any length; z if the scene has no gravity.
     pub up: DVec3,
-    /// The file's text; empty if there is no file.
+    /// The text of the file; empty if there is no file.
     pub text: String,
-    /// What to do when the cloth cannot go on.
+    /// The response when bodies or pins force the cloth into an intersection.
     pub on_blocked: OnBlocked,
-    /// What to do when surfaces pass through each other at the start.
+    /// The response to intersections at the start.
     pub tangled_start: TangledStart,
-    /// The effects called for, in the order in which they run.
+    /// The effects, in the order in which they run.
     effects: Effects,
-    /// Effects that single cloths have instead of the scene's, with the names of these cloths.
+    /// Effects that single cloths have instead of the scene's, by the names of the cloths.
     own: Vec<(String, Effects)>,
 }
 
 const TIME_STEP: Field = Field::new("time_step", TIME, 1e-6, 0.1);
 const FRAME_RATE: Field = Field::new("frames_per_second", FREQUENCY, 0.001, 1e6);
 
-/// As long as a time step, and up to a day and more.
+/// At least a time step, and at most a little more than a day.
 fn duration_field(time_step: f64) -> Field {
     Field::new("duration", TIME, time_step, LARGEST_TIME)
 }
 
 impl Scene {
-    /// A cloth alone, and the length of a step in seconds; for as long as it is run, without any effect yet. More cloths are pushed to
+    /// Makes a scene of one cloth, without effects; `time_step` is in seconds. The duration is unlimited. Push more cloths to
     /// [`cloths`](Self::cloths).
     #[must_use]
     pub fn new(cloth: Cloth, time_step: f64) -> Self {
@@ -143,8 +143,10 @@ impl Scene {
         }
     }
 
-    /// Calls for an effect, instead of one of the same name if there is one. In which order they are added does not matter for ours; a
-    /// caller's own run after them, in the order in which they are added.
+    /// Adds an effect. It replaces an effect of the same name.
+    ///
+    /// The effects of this crate run in a fixed order, whatever the order of these calls. Other effects run after them, in the
+    /// order of these calls.
     pub fn add(&mut self, effect: impl Effect + 'static) -> &mut Self {
         self.effects.add(effect);
         self
@@ -152,7 +154,7 @@ impl Scene {
 
     /// Gives one cloth an effect of its own, instead of the scene's of the same name. `cloth` is the cloth's name.
     ///
-    /// Not for effects that act on the whole scene, such as gravity.
+    /// Effects that act on the whole scene, such as gravity, cannot belong to one cloth.
     ///
     /// ```
     /// use selvedge_cloth::effects::Stretch;
@@ -178,7 +180,7 @@ impl Scene {
         self
     }
 
-    /// All cloths at rest, as one mesh: in the order of the scene, with its numbers of vertices.
+    /// Returns all cloths at rest as one mesh, with the scene's numbers of vertices.
     #[must_use]
     pub fn all_cloth(&self) -> Mesh {
         let mut all = Mesh::default();
@@ -188,7 +190,7 @@ impl Scene {
         all
     }
 
-    /// The loose edges of all cloths, on the vertices of [`all_cloth`](Self::all_cloth).
+    /// Returns the loose edges of all cloths, on the vertices of [`all_cloth`](Self::all_cloth).
     #[must_use]
     pub fn all_loose_edges(&self) -> Vec<[u32; 2]> {
         let mut first = 0;
@@ -200,12 +202,14 @@ impl Scene {
         all
     }
 
-    /// What contact keeps a cloth from itself, in metres, by its index; `None` if nothing does. Of a rope that is its diameter.
+    /// Returns the distance that contact keeps a cloth from itself, in metres; `None` without contact. For a rope it is the
+    /// diameter.
     pub(crate) fn thickness_of(&self, cloth: usize) -> Option<f64> {
         self.called().fabrics().get(cloth)?.thickness
     }
 
-    /// The vertices of a part of a cloth, as the scene numbers them: of pins and seams. `None` if there is no such cloth or part.
+    /// Returns the vertices of a part of a cloth, as the scene numbers them, for pins and seams. `None` if there is no such cloth
+    /// or part.
     #[must_use]
     pub fn part(&self, cloth: &str, part: &str) -> Option<Vec<u32>> {
         let parts = self.parts().ok()?;
@@ -215,7 +219,7 @@ impl Scene {
         Some(vertices.iter().map(|&vertex| first + vertex).collect())
     }
 
-    /// What effects act on.
+    /// Returns the scene without its effects.
     pub(crate) fn parts(&self) -> Result<SceneParts<'_>, ValueError> {
         SceneParts::new(&self.cloths, &self.bodies, self.time_step)
     }
@@ -228,7 +232,7 @@ impl Scene {
         Called::new(&self.effects, &self.cloths, self.cloths.iter().map(own).collect())
     }
 
-    /// Every effect of a single cloth names a cloth that is there.
+    /// Checks that effects of single cloths name existing cloths.
     fn check_own(&self) -> Result<(), ValueError> {
         let is_there = |name: &str| self.cloths.iter().any(|cloth| cloth.name == name);
         let Some((name, _)) = self.own.iter().find(|(name, _)| !is_there(name)) else {
@@ -239,10 +243,11 @@ impl Scene {
         Err(ValueError::new("cloth", message))
     }
 
-    /// Whether all of it makes sense, alone and together. A scene from a file does; [`Simulation::new`](crate::Simulation::new) asks.
+    /// Checks all values, alone and together. Scenes from files are checked already, and
+    /// [`Simulation::new`](crate::Simulation::new) checks again.
     ///
     /// # Errors
-    /// What does not, and what would.
+    /// If a value is invalid. The message says which values are valid.
     pub fn check(&self) -> Result<(), ValueError> {
         TIME_STEP.check(self.time_step)?;
         duration_field(self.time_step).check(self.duration)?;
@@ -261,14 +266,14 @@ impl Scene {
         check_start(self.tangled_start, &self.called().names())
     }
 
-    /// The effects that the scene calls for, in the order in which they run.
+    /// Returns the names of the scene's effects, in the order in which they run.
     #[must_use]
     pub fn effect_names(&self) -> Vec<&'static str> {
         self.called().names()
     }
 
-    /// Forgets all effects but the first `count`, in the order in which they run. What an effect needs runs before it, so that the
-    /// rest is a scene as well. It is another scene for checkpoints.
+    /// Removes all effects but the first `count`, in the order in which they run. The rest is a valid scene, since every effect
+    /// runs after those that it needs. Checkpoints treat it as another scene.
     pub fn keep_first_effects(&mut self, count: usize) {
         let names = self.effect_names();
         let first = &names[..count.min(names.len())];
@@ -276,7 +281,8 @@ impl Scene {
         self.own.iter_mut().for_each(|(_, own)| own.keep(first));
     }
 
-    /// What the cloths are made of, for people to read: their weight, and what effects say of them, each with its value and unit.
+    /// Returns the properties of the cloths for display: their weight, and the properties that effects report, each with value
+    /// and unit.
     #[must_use]
     pub fn fabric(&self) -> Vec<(String, String)> {
         let mut fabric = Vec::new();
@@ -303,7 +309,7 @@ impl Scene {
         fabric
     }
 
-    /// What a cloth has, and which it is if there are several.
+    /// Returns the name of a property, with the cloth's name if there are several.
     fn of_cloth(&self, cloth: &Cloth, what: &str) -> String {
         match self.cloths.len() {
             1 => what.to_owned(),
@@ -311,7 +317,7 @@ impl Scene {
         }
     }
 
-    /// Shows every effect that acts, and the cloth whose own it is; the scene's once, however many cloths it acts on.
+    /// Calls `show` for every effect: once for the scene's, and once for each cloth that has its own.
     fn each_acting(&self, mut show: impl FnMut(Option<&Cloth>, &dyn Effect)) {
         let called = self.called();
         for name in called.names() {
@@ -326,8 +332,8 @@ impl Scene {
         }
     }
 
-    /// What trades time for accuracy, by name, each with its value and unit: the time step, and settings of effects, those that the
-    /// file leaves to their defaults included.
+    /// Returns the settings that trade time for accuracy, each with value and unit: the time step, and settings of effects,
+    /// defaults included.
     #[must_use]
     pub fn settings(&self) -> Vec<(String, String)> {
         let mut settings = vec![("time step".to_owned(), TIME.written_short(self.time_step))];
@@ -339,20 +345,21 @@ impl Scene {
         settings
     }
 
-    /// How many steps the duration takes.
+    /// Returns the number of steps in the duration.
     #[must_use]
     pub fn steps(&self) -> u64 {
-        // A duration that is a whole number of steps but for rounding is no step more.
+        // A duration that is a whole number of steps up to rounding needs no step more.
         (self.duration / self.time_step - 1e-6).ceil().max(1.0) as u64
     }
 
-    /// How many steps there are from one frame to the next.
+    /// Returns the number of steps from one frame to the next.
     #[must_use]
     pub fn steps_per_frame(&self) -> u64 {
         (1.0 / (self.frame_rate * self.time_step)).round().max(1.0) as u64
     }
 
-    /// Tells checkpoints of this scene from others': from its text and all that it was made into.
+    /// Returns a number that distinguishes this scene's checkpoints from those of other scenes. It depends on the text and on all
+    /// parts.
     pub(crate) fn fingerprint(&self) -> u64 {
         // Numbers are written so that they read back.
         let mut fingerprint = Fingerprint::default();
@@ -389,7 +396,7 @@ impl Scene {
     }
 }
 
-/// What nobody keeps apart is not tangled.
+/// Refuses `tangled_start` without a contact effect.
 fn check_start(start: TangledStart, effects: &[&str]) -> Result<(), ValueError> {
     let has_contact = effects
         .iter()
@@ -404,7 +411,7 @@ fn check_start(start: TangledStart, effects: &[&str]) -> Result<(), ValueError> 
 
 const START: &str = "tangled_start";
 
-/// Adds a mesh to others; returns its vertices among all.
+/// Appends a mesh to another; returns the range of its vertices.
 pub(crate) fn append(all: &mut Mesh, mesh: &Mesh) -> Range<usize> {
     let first = all.positions.len();
     all.positions.extend_from_slice(&mesh.positions);
@@ -413,7 +420,7 @@ pub(crate) fn append(all: &mut Mesh, mesh: &Mesh) -> Range<usize> {
     first..all.positions.len()
 }
 
-/// No two of a kind have one name, which messages and scenes tell them by.
+/// Checks that no other thing of the same kind has this name.
 fn check_name<'a>(kind: &str, mut others: impl Iterator<Item = &'a String>, name: &str) -> Result<(), ValueError> {
     if others.any(|other| other == name) {
         let message = format!("there are two {kind} named '{}'", excerpt(name, 40));

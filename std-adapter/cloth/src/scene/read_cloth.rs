@@ -1,4 +1,4 @@
-//! `[cloth]`, or `[[cloth]]` for each of several.
+//! Reads `[cloth]`, or each of several `[[cloth]]`.
 
 use crate::effects::effect_names;
 use crate::input::{SceneError, Table};
@@ -27,7 +27,7 @@ const SHAPES: [(&str, ClothShape); 5] = [
 ];
 
 impl Cloth {
-    /// All but effects of its own, whose tables have the names of effects.
+    /// Reads a cloth without its own effects, whose tables have the names of effects.
     pub(crate) fn read(table: &Table<'_>) -> Result<Self, SceneError> {
         let shape = table.required_choice("shape", &SHAPES)?;
         let own: &[&str] = match shape {
@@ -69,7 +69,7 @@ impl Cloth {
                     None => Self::from_mesh(shapes::of_file(table)?, warp, density()?),
                     Some(linear_density) => {
                         let (mesh, edges) = shapes::of_file_with_loose_edges(table)?;
-                        // What has no triangles has no mass per area.
+                        // Without triangles there is no mass per area.
                         let density = if mesh.triangles.is_empty() { 0.0 } else { density()? };
                         Self::from_mesh_with_loose_edges(mesh, &edges, warp, [density, linear_density])
                     }

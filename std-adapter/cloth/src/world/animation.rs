@@ -1,9 +1,9 @@
-//! Where the vertices of a body that changes its shape go: frames, or a figure that a skeleton moves.
+//! Bodies that deform: frames of vertices, or a figure that a skeleton moves.
 //!
-//! **Free of jumps.** Where a vertex is depends on the clock of bodies alone, and it is there exactly whenever a step, or a part of one, begins
-//! or ends; in between it goes straight, and that way is what the [certified pass](crate::contact) certifies. The clock goes on by a time
-//! step at most, and never back; it may wait. What is no motion but a cut, or in another unit than metres, is refused: no vertex may be
-//! faster than [`FASTEST_VERTEX`].
+//! **No jumps.** The positions depend on the clock of bodies alone. At the begin and the end of a step, or of a part of a step,
+//! they are exact; in between every vertex moves straight, and the [certified pass](crate::contact) covers that motion. The clock
+//! advances by at most a time step and never goes back; it may wait. No vertex may be faster than [`FASTEST_VERTEX`]: a cut in
+//! the animation, or a unit other than metres, is an error.
 
 use crate::input::{FREQUENCY, Field, LARGEST_COORDINATE, LARGEST_TIME, TIME, ValueError};
 use selvedge_core::glam::DVec3;
@@ -12,21 +12,21 @@ use selvedge_files::bytes::Fingerprint;
 use std::fmt;
 use std::sync::Arc;
 
-/// In m/s: much faster than anybody moves a hand, and slower than a figure that is somewhere else in the next frame.
+/// In m/s: much faster than a hand moves, and slower than a figure that jumps elsewhere in the next frame.
 pub(crate) const FASTEST_VERTEX: f64 = 100.0;
 
 pub(super) const RATE: Field = Field::new("frames_per_second", FREQUENCY, 1e-3, 1e5);
 pub(super) const START: Field = Field::new("start", TIME, 0.0, LARGEST_TIME);
 
-/// Where each vertex of a body is at any time, known ahead: [`BodyMotion::Animated`](crate::BodyMotion::Animated).
+/// The position of each vertex of a body over time: [`BodyMotion::Animated`](crate::BodyMotion::Animated).
 ///
-/// Before its first key all is where it is there, after its last one as well.
+/// Before the first key and after the last one nothing moves.
 ///
 /// ```
 /// use selvedge_cloth::glam::DVec3;
 /// use selvedge_cloth::{Animation, Body};
 ///
-/// // A triangle whose tip goes up by 10 cm in half a second, from 1 s on.
+/// // A triangle whose tip rises by 10 cm in half a second, from 1 s on.
 /// let frame = |height| vec![DVec3::ZERO, DVec3::X, DVec3::new(0.0, 1.0, height)];
 /// let animation = Animation::from_frames(vec![frame(0.0), frame(0.1)], 2.0)?.starting_at(1.0);
 /// assert_eq!(animation.span(), [1.0, 1.5]);
@@ -41,14 +41,14 @@ pub(super) const START: Field = Field::new("start", TIME, 0.0, LARGEST_TIME);
 #[derive(Clone, PartialEq)]
 pub struct Animation {
     source: Arc<Source>,
-    /// When its first key is, in seconds of the clock.
+    /// The time of the first key, in seconds of the clock.
     start: f64,
 }
 
 #[derive(PartialEq)]
 struct Source {
     shapes: Shapes,
-    /// From the first key, in seconds.
+    /// The time from the first to the last key, in seconds.
     length: f64,
     vertices: usize,
     fingerprint: u64,
@@ -61,20 +61,22 @@ enum Shapes {
     Figure(Figure),
 }
 
-/// The fastest vertex, and the one that jumps farthest: when, from the first key on, and which.
+/// The fastest vertex and the longest jump, each with its time from the first key, and its vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Jumps {
     /// In m/s.
     speed: (f64, f64, usize),
-    /// In metres, in no time at all.
+    /// In metres, at one instant.
     way: (f64, f64, usize),
 }
 
 impl Animation {
-    /// Frames of all vertices, in metres, so many of them a second; in between all goes straight and evenly. The first frame is at time 0.
+    /// Makes an animation from frames of all vertices, in metres. Between frames every vertex moves straight and evenly. The
+    /// first frame is at time 0.
     ///
     /// # Errors
-    /// If there is no frame, or they are not all of as many vertices, or the rate is none; if a coordinate is not finite or beyond a kilometre.
+    /// If there is no frame, the frames differ in their number of vertices, the rate is invalid, or a coordinate is not finite or
+    /// beyond a kilometre.
     pub fn from_frames(frames: Vec<Vec<DVec3>>, frames_per_second: f64) -> Result<Self, ValueError> {
         RATE.check(frames_per_second)?;
         let wrong = |message: String| Err(ValueError::new("frames", message));
@@ -110,16 +112,16 @@ impl Animation {
         }))
     }
 
-    /// A [figure](crate::files::animation) of a glTF file, in metres. Its first key is at time 0.
+    /// Makes an animation from a [figure](crate::files::animation) of a glTF file, in metres. Its first key is at time 0.
     ///
     /// # Errors
-    /// If a vertex is beyond a kilometre, or not finite, at one of its keys.
+    /// If a vertex is beyond a kilometre, or not finite, at a key.
     pub fn from_figure(figure: Figure) -> Result<Self, ValueError> {
         let [first, last] = figure.span();
         let (mut before, mut at, mut jumps) = (Vec::new(), Vec::new(), Jumps::default());
         let mut last_key = first;
         for key in figure.key_times() {
-            // What it has come to just before, and what it is then: these differ where something jumps.
+            // The figure just before the key and at the key: they differ where it jumps.
             if figure.has_steps() && key > first {
                 std::mem::swap(&mut before, &mut at);
                 figure.positions_at(key.next_down(), &mut at);
@@ -154,25 +156,25 @@ impl Animation {
         }
     }
 
-    /// The same, its first key at a time of the simulation, in seconds from 0 to 100,000.
+    /// Moves the first key to a time of the simulation, in seconds from 0 to 100,000.
     #[must_use]
     pub fn starting_at(self, time: f64) -> Self {
         Self { start: time, ..self }
     }
 
-    /// When its first and its last key are, in seconds of the simulation, if bodies never have to wait.
+    /// Returns the times of the first and the last key, in seconds of the simulation, if bodies never have to wait.
     #[must_use]
     pub fn span(&self) -> [f64; 2] {
         [self.start, self.start + self.source.length]
     }
 
-    /// How many vertices it moves.
+    /// Returns the number of vertices.
     #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.source.vertices
     }
 
-    /// Where all vertices are at a time of the simulation, in seconds, if bodies never have to wait; in metres.
+    /// Returns all positions, in metres, at a time of the simulation, in seconds, if bodies never have to wait.
     #[must_use]
     pub fn positions_at(&self, time: f64) -> Vec<DVec3> {
         let mut positions = Vec::new();
@@ -180,12 +182,12 @@ impl Animation {
         positions
     }
 
-    /// The time of the clock on which all depends: the same before the first key, and after the last.
+    /// Clamps a time of the clock to the keys.
     pub(crate) fn key(&self, clock: f64) -> f64 {
         (clock - self.start).clamp(0.0, self.source.length)
     }
 
-    /// Replaces `positions` by those at a time of the clock, all of them finite.
+    /// Replaces `positions` by those at a time of the clock. All of them are finite.
     pub(crate) fn sample(&self, clock: f64, positions: &mut Vec<DVec3>) {
         let time = self.key(clock);
         match &self.source.shapes {
@@ -215,7 +217,7 @@ impl Animation {
         }
     }
 
-    /// Whether it can move so many vertices, and no jump is too large.
+    /// Checks the number of vertices and the size of jumps.
     pub(super) fn check(&self, vertices: usize, time_step: f64) -> Result<(), ValueError> {
         START.check(self.start)?;
         if self.source.vertices != vertices {
@@ -238,7 +240,7 @@ impl Animation {
     }
 }
 
-/// What tells it from others, not all that it holds.
+/// Shows what identifies the animation, not all of its frames.
 impl fmt::Debug for Animation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut debug = f.debug_struct("Animation");
@@ -248,14 +250,14 @@ impl fmt::Debug for Animation {
 }
 
 impl Jumps {
-    /// Vertices go from one place to another in so many seconds.
+    /// Takes a motion of all vertices in `seconds` into account.
     fn of_way(&mut self, from: &[DVec3], to: &[DVec3], begin: f64, seconds: f64) {
         let (way, vertex) = longest_way(from, to);
         self.speed = larger(self.speed, (way / seconds, begin, vertex));
     }
 }
 
-/// The longest of the ways, and whose it is.
+/// Returns the longest motion and its vertex.
 fn longest_way(from: &[DVec3], to: &[DVec3]) -> (f64, usize) {
     let ways = from.iter().zip(to).map(|(from, to)| from.distance(*to)).enumerate();
     let longest = ways.max_by(|a, b| a.1.total_cmp(&b.1));

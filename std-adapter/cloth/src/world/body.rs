@@ -1,4 +1,4 @@
-//! `[[body]]`: what the cloth meets.
+//! Bodies, `[[body]]`: the obstacles of the cloth.
 
 use super::animation::{Animation, RATE, START};
 use super::motion::{BodyMotion, KeyframeMotion};
@@ -9,7 +9,7 @@ use selvedge_core::glam::DVec3;
 use selvedge_files::animation::{self, AnimationProblem, Choice};
 use selvedge_files::mesh::{self, MeshSequence};
 
-/// A kinematic body: it goes where it is told, whatever the cloth does.
+/// A kinematic body: it follows its motion, whatever the cloth does.
 ///
 /// ```
 /// use selvedge_cloth::{Body, BodyMotion, Placement};
@@ -22,13 +22,13 @@ use selvedge_files::mesh::{self, MeshSequence};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Its name in the scene and in messages.
+    /// The name in the scene and in messages. Names of bodies in a scene must differ.
     pub name: String,
-    /// Its surface at rest.
+    /// The surface at rest, in metres.
     pub mesh: Mesh,
-    /// Where it goes; it rests unless told otherwise.
+    /// The motion; the body rests by default.
     pub motion: BodyMotion,
-    /// Two points and a radius if it is a capsule or a ball: then contact is with the smooth surface.
+    /// Two points and a radius if the body is a capsule or a ball. Contact then uses the smooth surface.
     pub(crate) capsule: Option<([DVec3; 2], f64)>,
 }
 
@@ -56,11 +56,11 @@ const RADIUS: Field = Field::new("radius", LENGTH, 1e-4, LARGEST_COORDINATE);
 const AROUND: Count = Count::new("around", 6, 1024);
 
 impl Body {
-    /// All points within `radius` of the line from one point to another, in metres, as a mesh with so many vertices `around`. The cloth
-    /// slides on the smooth surface.
+    /// Makes a capsule: all points within `radius` of a line between two points, in metres. The mesh has `around` vertices around
+    /// the axis. The cloth slides on the smooth surface.
     ///
     /// # Errors
-    /// If a number is beyond its range.
+    /// If a number is out of range.
     pub fn capsule(name: &str, [from, to]: [DVec3; 2], radius: f64, around: u32) -> Result<Self, ValueError> {
         let checked = FROM.check_vector(from).and(TO.check_vector(to));
         let checked = checked.and(RADIUS.check(radius)).and(AROUND.check(around));
@@ -71,16 +71,16 @@ impl Body {
         })
     }
 
-    /// A ball, in metres, as a mesh with so many vertices `around`. The cloth slides on the smooth surface.
+    /// Makes a ball, in metres. The mesh has `around` vertices around its equator. The cloth slides on the smooth surface.
     ///
     /// # Errors
-    /// If a number is beyond its range.
+    /// If a number is out of range.
     pub fn ball(name: &str, centre: DVec3, radius: f64, around: u32) -> Result<Self, ValueError> {
         CENTRE.check_vector(centre).map_err(|error| error.of(name))?;
         Self::capsule(name, [centre; 2], radius, around)
     }
 
-    /// Any surface, in metres.
+    /// Makes a body from any surface, in metres.
     #[must_use]
     pub fn from_mesh(name: &str, mesh: Mesh) -> Self {
         Self {
@@ -91,7 +91,7 @@ impl Body {
         }
     }
 
-    /// Any surface that changes its shape: its triangles, and where their vertices go.
+    /// Makes a body that deforms from its triangles and the motion of its vertices.
     #[must_use]
     pub fn animated(name: &str, triangles: Vec<[u32; 3]>, animation: Animation) -> Self {
         let positions = animation.positions_at(animation.span()[0]);
@@ -101,7 +101,7 @@ impl Body {
         }
     }
 
-    /// What the mesh and the motion may be.
+    /// Checks the mesh and the motion.
     pub(crate) fn check(&self, time_step: f64) -> Result<(), ValueError> {
         let motion = || self.motion.check(self.mesh.positions.len(), time_step);
         let checked = shapes::check(&self.mesh).and_then(|()| motion());
@@ -143,7 +143,7 @@ impl Body {
         Ok(body)
     }
 
-    /// Numbered files.
+    /// Reads numbered files.
     fn read_frames(name: &str, table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         let files = table.required_text("files", "\"frames/body-####.ply\"")?;
         let rate = table.required_number(&RATE)?;
@@ -153,7 +153,7 @@ impl Body {
         Self::read_animated(name, table, time_step, triangles, animation, "files")
     }
 
-    /// A figure of a glTF file.
+    /// Reads a figure of a glTF file.
     fn read_figure(name: &str, table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         let file = table.required_text("file", "\"figure.glb\"")?;
         let choice = Choice {
@@ -172,7 +172,7 @@ impl Body {
         Self::read_animated(name, table, time_step, triangles, Animation::from_figure(figure), "file")
     }
 
-    /// The rest of what a table says of an animation, which was read from what `key` names.
+    /// Reads the remaining keys of an animation, which was read from the value of `key`.
     fn read_animated(
         name: &str,
         table: &Table<'_>,

@@ -1,4 +1,4 @@
-//! A cloth: its mesh, its mass, and effects of its own. It may have loose edges, of ropes, laces and fringes.
+//! A cloth: its mesh, mass and initial velocity. Loose edges model ropes, laces and fringes.
 
 use super::runs::{Run, runs};
 use super::sleeve::{RefinementError, ring_sizes, sleeve};
@@ -11,7 +11,7 @@ use selvedge_core::glam::DVec3;
 use std::borrow::Cow;
 use std::collections::HashSet;
 
-/// A cloth at rest: its mesh, what it weighs, and what it has of its own.
+/// A cloth at rest: its mesh, its density and its initial velocity.
 ///
 /// ```
 /// use selvedge_cloth::glam::DVec3;
@@ -23,28 +23,29 @@ use std::collections::HashSet;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Cloth {
-    /// Its name in the scene and in messages; `cloth` unless it is given one. No two cloths of a scene have the same.
+    /// The name in the scene and in messages, `cloth` by default. Names of cloths in a scene must differ.
     pub name: String,
     pub(crate) mesh: Mesh,
-    /// Of triangles and loose edges.
+    /// The topology of triangles and loose edges.
     pub(crate) topology: Topology,
-    /// Vertices of the mesh of which tears have made copies, in the order of these, which are its last ones; some are copies themselves.
+    /// The source vertex of each copy that a tear has made. Copies are the last vertices, in this order; a source may be a copy
+    /// itself.
     copied: Vec<u32>,
-    /// Mass per area in kg/m²; of no meaning without triangles.
+    /// Mass per area in kg/m². Without triangles it has no meaning.
     pub density: f64,
-    /// Mass per length of loose edges in kg/m; of no meaning without any.
+    /// Mass per length of loose edges in kg/m. Without loose edges it has no meaning.
     pub linear_density: f64,
-    /// The direction that the warp takes, as far as it lies in each triangle.
+    /// The direction of the warp. Each triangle uses its projection.
     pub(crate) warp: DVec3,
-    /// The velocity that all of it starts with, in m/s.
+    /// The initial velocity of all vertices, in m/s.
     pub velocity: DVec3,
-    /// What it is made of, if that has a name.
+    /// The material, if it was chosen by name.
     pub(crate) material: Option<Material>,
-    /// Vertices that have a name.
+    /// Named groups of vertices.
     parts: Vec<(&'static str, Vec<u32>)>,
 }
 
-/// Its name unless it is given one.
+/// The default name.
 pub(crate) const NAME: &str = "cloth";
 
 pub(crate) const CELLS: Count = Count::new("cells", 1, 2000);
@@ -64,13 +65,14 @@ pub(crate) const SEGMENTS: Count = Count::new("segments", 1, 100_000);
 pub(crate) const VELOCITY: Field = Field::vector("velocity", SPEED, 1e3);
 
 impl Cloth {
-    /// A parallelogram with a corner and two sides, in metres, in `cells` along each; `density` in kg/m². Its warp goes along the first
-    /// side. Vertices go row by row along the first side.
+    /// Makes a parallelogram from a corner and two sides, in metres, with `cells` cells along each side; `density` is in kg/m².
+    ///
+    /// The warp follows the first side. Vertices are numbered row by row along the first side.
     ///
     /// Parts: `left`, `right`, `bottom`, `top`, and the corners, such as `bottom-left`.
     ///
     /// # Errors
-    /// If a number is beyond its range, or the sides are parallel.
+    /// If a number is out of range, or the sides are parallel.
     pub fn sheet(corner: DVec3, sides: [DVec3; 2], cells: [u32; 2], density: f64) -> Result<Self, ValueError> {
         CORNER.check_vector(corner)?;
         FIRST.check_vector(sides[0])?;
@@ -97,12 +99,14 @@ impl Cloth {
         Self::with_parts(shapes::sheet(corner, sides, cells), sides[0], density, parts)
     }
 
-    /// An open tube from one point to another, in metres, with `cells` around and along it; `density` in kg/m². Its warp goes along.
+    /// Makes an open tube between two points, in metres, with `cells` cells around and along it; `density` is in kg/m².
+    ///
+    /// The warp follows the axis.
     ///
     /// Parts: `start`, `end`.
     ///
     /// # Errors
-    /// If a number is beyond its range, or the two points are the same.
+    /// If a number is out of range, or the two points are equal.
     pub fn tube([from, to]: [DVec3; 2], radius: f64, cells: [u32; 2], density: f64) -> Result<Self, ValueError> {
         FROM.check_vector(from)?;
         TO.check_vector(to)?;
@@ -120,12 +124,12 @@ impl Cloth {
         Self::with_parts(mesh, to - from, density, parts)
     }
 
-    /// The paper's [`sleeve`]; `density` in kg/m². Its warp goes along x.
+    /// Makes the paper's [`sleeve`]; `density` is in kg/m². The warp follows x.
     ///
     /// Parts: `shoulder`, `cuff`.
     ///
     /// # Errors
-    /// If a number is beyond its range.
+    /// If a number is out of range.
     pub fn sleeve(refinement: u32, density: f64) -> Result<Self, ValueError> {
         REFINEMENT.check(refinement)?;
         let complain = |error: RefinementError| ValueError::new(REFINEMENT.name, error.to_string());
@@ -137,17 +141,19 @@ impl Cloth {
         Self::with_parts(mesh, DVec3::X, density, parts)
     }
 
-    /// Any mesh of proper triangles, in metres, as it is at rest; `warp` is the direction of the warp, as far as it lies in each
-    /// triangle, `density` in kg/m².
+    /// Makes a cloth from a mesh of proper triangles at rest, in metres. `warp` is the direction of the warp; each triangle uses
+    /// its projection. `density` is in kg/m².
     ///
     /// # Errors
-    /// If a number is beyond its range, or the mesh has vertices without triangles, triangles without area, or none at all.
+    /// If a number is out of range, or the mesh has no triangles, triangles without area or vertices without triangles.
     pub fn from_mesh(mesh: Mesh, warp: DVec3, density: f64) -> Result<Self, ValueError> {
         Self::with_parts(mesh, warp, density, Vec::new())
     }
 
-    /// As [`from_mesh`](Self::from_mesh), with edges that belong to no triangle: fringes, laces, or ropes alone. Each names two vertices of the
-    /// mesh; every vertex is in a triangle or in such an edge. `densities` are in kg/m² and, of loose edges, in kg/m.
+    /// Makes a cloth from a mesh with loose edges, which belong to no triangle: fringes, laces, or ropes alone.
+    ///
+    /// Each edge names two vertices of the mesh. Every vertex must be in a triangle or in a loose edge. `densities` are that of
+    /// triangles in kg/m² and that of loose edges in kg/m.
     ///
     /// ```
     /// use selvedge_cloth::{Cloth, Mesh, glam::DVec3};
@@ -161,8 +167,8 @@ impl Cloth {
     /// ```
     ///
     /// # Errors
-    /// Those of [`from_mesh`](Self::from_mesh), but for a mesh without triangles that has loose edges; and if an edge names a vertex that is not there,
-    /// joins what another one joins or a triangle does, or is shorter than a hundredth of a millimetre.
+    /// Those of [`from_mesh`](Self::from_mesh), except that triangles may be missing if there are loose edges. Also if an edge
+    /// names a vertex that does not exist, repeats another edge, or is shorter than a hundredth of a millimetre.
     pub fn from_mesh_with_loose_edges(
         mesh: Mesh,
         loose_edges: &[[u32; 2]],
@@ -223,28 +229,29 @@ impl Cloth {
         Ok(cloth)
     }
 
-    /// The same with a name.
+    /// Returns the cloth with this name.
     #[must_use]
     pub fn named(self, name: &str) -> Self {
         let name = name.to_owned();
         Self { name, ..self }
     }
 
-    /// Makes it of a material. This sets its density. [`Stretch`](crate::effects::Stretch), [`Shear`](crate::effects::Shear) and
-    /// [`Bend`](crate::effects::Bend) take the material's numbers, unless the scene adds these effects itself.
+    /// Makes the cloth of a material, which sets its density. [`Stretch`](crate::effects::Stretch),
+    /// [`Shear`](crate::effects::Shear) and [`Bend`](crate::effects::Bend) take the material's numbers, unless the scene adds
+    /// these effects itself.
     pub fn set_material(&mut self, material: Material) -> &mut Self {
         self.density = material.density;
         self.material = Some(material);
         self
     }
 
-    /// What may have been changed since it was made.
+    /// Checks the public fields.
     pub(crate) fn check(&self) -> Result<(), ValueError> {
         let checked = self.check_densities().and(VELOCITY.check_vector(self.velocity));
         checked.map_err(|error| error.of(&self.name))
     }
 
-    /// Those of what it has.
+    /// Checks the density of triangles and of loose edges, as far as the cloth has them.
     fn check_densities(&self) -> Result<(), ValueError> {
         if self.has_triangles() {
             DENSITY.check(self.density)?;
@@ -263,19 +270,20 @@ impl Cloth {
         self.topology.loose_edges().len() > 0
     }
 
-    /// Its vertices and triangles at rest, from which the simulation starts; [`topology`](Self::topology) has its loose edges.
+    /// Returns the vertices and triangles at rest, from which the simulation starts. [`topology`](Self::topology) has the loose
+    /// edges.
     #[must_use]
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// Its edges.
+    /// Returns the edges, loose ones included.
     #[must_use]
     pub fn topology(&self) -> &Topology {
         &self.topology
     }
 
-    /// The mass of each vertex, in kg: a third of its triangles' and half of its loose edges'.
+    /// Returns the mass of each vertex, in kg: a third of the mass of its triangles and half of that of its loose edges.
     pub(crate) fn masses(&self) -> Vec<f64> {
         let positions = &self.mesh.positions;
         let mut masses = vec![0.0; positions.len()];
@@ -298,38 +306,39 @@ impl Cloth {
         self.topology.loose_edges().collect()
     }
 
-    /// Its loose edges as rows of vertices, each joined with the next: from where a rope begins, ends or branches to the next such place. Where a
-    /// row is closed its first vertex is the last again.
+    /// Returns the loose edges as rows of joined vertices. A row runs between places where a rope begins, ends or branches. A
+    /// closed row ends with its first vertex.
     pub(crate) fn loose_rows(&self) -> Vec<Vec<u32>> {
         let runs = runs(&self.loose_edges(), self.mesh.positions.len()).into_iter();
         runs.map(Run::into_vertices).collect()
     }
 
-    /// How many vertices it had before it tore.
+    /// Returns the number of vertices before the cloth tore.
     pub(crate) fn vertices_as_made(&self) -> usize {
         self.mesh.positions.len() - self.copied.len()
     }
 
-    /// The vertex that one was before the cloth tore.
+    /// Returns the vertex of the whole cloth from which a vertex was copied, or the vertex itself.
     pub(crate) fn as_made(&self, mut vertex: u32) -> u32 {
-        // What a copy is of comes before it.
+        // The source of a copy comes before the copy.
         while let Some(copy) = (vertex as usize).checked_sub(self.vertices_as_made()) {
             vertex = self.copied[copy];
         }
         vertex
     }
 
-    /// Vertices of which tears have made copies, in the order of these, which are its last ones; some are copies themselves.
+    /// Returns the source vertex of each copy, in the order of the copies, which are the last vertices. A source may be a copy
+    /// itself.
     pub(crate) fn copied(&self) -> &[u32] {
         &self.copied
     }
 
-    /// The vertices that these copies were before the cloth tore.
+    /// Returns the vertices of the whole cloth from which the copies stem.
     pub(crate) fn copied_as_made(&self) -> Vec<u32> {
         self.copied.iter().map(|&vertex| self.as_made(vertex)).collect()
     }
 
-    /// Its edges before it tore.
+    /// Returns the topology before the cloth tore.
     pub(crate) fn topology_as_made(&self) -> Cow<'_, Topology> {
         let made = || {
             let triangles = self.mesh.triangles.iter();
@@ -342,11 +351,10 @@ impl Cloth {
         }
     }
 
-    /// Gives it copies of some of its vertices, instead of those that it has, each of one before it; and triangles that name them. Loose edges stay
-    /// with what keeps its number.
+    /// Replaces the copies of vertices, each with its source before it, and the triangles. Loose edges keep their vertices.
     ///
     /// # Errors
-    /// If there are too many.
+    /// If there are too many edges to count.
     pub(crate) fn tear(&mut self, copied: Vec<u32>, triangles: Vec<[u32; 3]>) -> Result<(), TopologyError> {
         let mut positions = self.mesh.positions[..self.vertices_as_made()].to_vec();
         copied.iter().for_each(|&vertex| positions.push(positions[vertex as usize]));
@@ -355,14 +363,14 @@ impl Cloth {
         Ok(())
     }
 
-    /// The vertices of a part that has a name; `None` if there is no such part.
+    /// Returns the vertices of a named part; `None` if there is no such part.
     #[must_use]
     pub fn part(&self, name: &str) -> Option<&[u32]> {
         let part = self.parts.iter().find(|(known, _)| *known == name);
         part.map(|(_, vertices)| vertices.as_slice())
     }
 
-    /// Of this mesh, 100 g/m², its warp along x.
+    /// Makes a cloth of 100 g/m² with its warp along x.
     #[cfg(test)]
     pub(crate) fn of(mesh: Mesh) -> Self {
         Self {
@@ -379,7 +387,7 @@ impl Cloth {
         }
     }
 
-    /// The vertices of a part, or what is wrong with its name.
+    /// Returns the vertices of a part, or an error message about its name.
     pub(crate) fn named_part(&self, name: &str) -> Result<&[u32], String> {
         self.part(name).ok_or_else(|| {
             let names = self.parts.iter().map(|(known, _)| *known);
@@ -388,12 +396,12 @@ impl Cloth {
     }
 }
 
-/// Of a hundredth of a millimetre.
+/// In metres: a hundredth of a millimetre.
 const SMALLEST_EDGE: f64 = 1e-5;
-/// Edges of a hundredth of a millimetre.
+/// In m²: the area of a square with such edges.
 const SMALLEST_AREA: f64 = SMALLEST_EDGE * SMALLEST_EDGE;
 
-/// Whether each joins two vertices, some way apart, that no other edge joins.
+/// Checks that each loose edge joins two distinct vertices that no other edge joins.
 fn check_loose_edges(mesh: &Mesh, loose_edges: &[[u32; 2]]) -> Result<(), ValueError> {
     if loose_edges.is_empty() {
         return Ok(());

@@ -1,14 +1,14 @@
-//! What carries kinematic vertices; and bodies and pins that the caller moves, step by step.
+//! The motion of kinematic vertices in a step, and of bodies and pins that the caller moves.
 //!
-//! Before a step the caller may say where it leads: a rigid body turns about its origin and moves along evenly, points that are given
-//! one by one go straight. A step that has to be cut, or to wait, leaves them on the way; the next one starts from there.
+//! Before a step the caller may set a goal. A rigid body then turns about its origin and moves evenly; points with goals of their
+//! own move straight. A step that is cut, or that waits, leaves them on the way, and the next step starts from there.
 
 use super::animation::Animation;
 use super::motion::{BodyMotion, KeyframeMotion, Pose};
 use super::placement::Placement;
 use selvedge_core::glam::DVec3;
 
-/// What carries kinematic vertices.
+/// The motion of kinematic vertices.
 #[derive(Debug)]
 pub(crate) enum Kinematic {
     Keyframes(KeyframeMotion),
@@ -16,38 +16,38 @@ pub(crate) enum Kinematic {
     Driven(Box<Driven>),
 }
 
-/// Something of which each vertex goes its own way, known ahead.
+/// A known motion of each vertex.
 #[derive(Debug)]
 pub(crate) struct Animated {
-    /// Of the scene.
+    /// The vertices in the scene.
     vertices: Vec<u32>,
     animation: Animation,
-    /// Of its vertices.
+    /// Their positions.
     positions: Vec<DVec3>,
 }
 
-/// Something that the caller moves.
+/// A motion that the caller drives.
 #[derive(Debug)]
 pub(crate) struct Driven {
-    /// Of the scene.
+    /// The vertices in the scene.
     pub(crate) vertices: Vec<u32>,
-    /// Where its points at rest are now; `None` when they have been moved one by one.
+    /// The present placement of the points at rest; `None` after the caller moved them one by one.
     pub(crate) placement: Option<Placement>,
     goal: Option<Goal>,
     leg: Leg,
-    /// Of the clock, when the leg starts and when it ends.
+    /// Times of the clock at which the leg starts and ends.
     clock: [f64; 2],
 }
 
-/// Where the next step leads.
+/// The goal of the next step.
 #[derive(Debug)]
 enum Goal {
     Placement(Placement),
-    /// Of each of its vertices.
+    /// A position for each vertex.
     Points(Vec<DVec3>),
 }
 
-/// Its way in this step.
+/// The motion in this step.
 #[derive(Debug)]
 enum Leg {
     Rigid {
@@ -86,7 +86,7 @@ impl Kinematic {
         }
     }
 
-    /// Where it is at a time of the clock.
+    /// Returns the pose at a time of the clock.
     pub(crate) fn pose(&self, clock: f64) -> Pose {
         match self {
             Self::Keyframes(motion) => motion.pose(clock),
@@ -95,7 +95,7 @@ impl Kinematic {
         }
     }
 
-    /// Puts points that go their own ways where they are at a time of the clock.
+    /// Writes the positions of points with separate paths at a time of the clock.
     pub(crate) fn put(&mut self, clock: f64, positions: &mut [DVec3]) {
         match self {
             Self::Keyframes(_) => {}
@@ -104,7 +104,7 @@ impl Kinematic {
         }
     }
 
-    /// Goes on where another one is that does the same to the same vertices, which have other numbers now.
+    /// Takes over the state of another motion of the same vertices, which have other numbers now.
     pub(crate) fn take_over(&mut self, other: Self) {
         if let (Self::Driven(own), Self::Driven(other)) = (self, other) {
             let vertices = std::mem::take(&mut own.vertices);
@@ -152,12 +152,12 @@ impl Driven {
         self.goal = Some(Goal::Placement(placement));
     }
 
-    /// One position for each of its vertices.
+    /// Sets a goal for each vertex.
     pub(crate) fn lead_points_to(&mut self, positions: Vec<DVec3>) {
         self.goal = Some(Goal::Points(positions));
     }
 
-    /// A step of `h` seconds of the clock begins, with all points at `positions`; `rest`: where they are when not moved at all.
+    /// Begins a step of `h` seconds of the clock, with all points at `positions`. `rest` are the points without any motion.
     pub(crate) fn begin(&mut self, clock: f64, h: f64, positions: &[DVec3], rest: &[DVec3]) {
         self.clock = [clock, clock + h];
         let now = |positions: &[DVec3]| self.vertices.iter().map(|&v| positions[v as usize]).collect::<Vec<_>>();
@@ -185,7 +185,7 @@ impl Driven {
         };
     }
 
-    /// The step has gone on to this time of the clock, all the way or not: there it stands.
+    /// Ends the step at a time of the clock, and keeps the goal unless the body has arrived.
     pub(crate) fn end(&mut self, clock: f64, has_arrived: bool) {
         let share = self.share(clock);
         self.placement = match &self.leg {
@@ -219,7 +219,7 @@ impl Driven {
         }
     }
 
-    /// Of the leg, from 0 to 1.
+    /// Returns the progress on the leg, from 0 to 1.
     fn share(&self, clock: f64) -> f64 {
         let [from, to] = self.clock;
         if to > from {

@@ -1,15 +1,15 @@
-//! What has which: of each vertex its edges or triangles, of each edge its triangles.
+//! Incidence lists: the edges or triangles of each vertex, the triangles of each edge.
 
-/// Lists, one after the other in one buffer.
+/// Lists in one buffer.
 #[derive(Debug)]
 pub(crate) struct Incidence<T> {
-    /// Where each list begins, and the last one ends.
+    /// The start of each list, and the end of the last.
     starts: Vec<u32>,
     items: Vec<T>,
 }
 
 impl<T: Copy + Default> Incidence<T> {
-    /// So many lists, of `pairs`: the list that an item belongs to, and the item. Each list has its items in the order of the pairs.
+    /// Collects pairs of a list and an item into `lists` lists, each in the order of the pairs.
     pub(crate) fn new<P: Iterator<Item = (u32, T)>>(lists: usize, pairs: impl Fn() -> P) -> Self {
         let mut starts = vec![0_u32; lists + 1];
         pairs().for_each(|(list, _)| starts[list as usize + 1] += 1);
@@ -26,7 +26,7 @@ impl<T: Copy + Default> Incidence<T> {
         Self { starts, items }
     }
 
-    /// How many lists there are.
+    /// Returns the number of lists.
     pub(crate) fn len(&self) -> usize {
         self.starts.len() - 1
     }

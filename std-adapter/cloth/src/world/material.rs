@@ -1,4 +1,4 @@
-//! Fabrics by name: what a square metre weighs, and how it resists being stretched, sheared and bent, from what was measured.
+//! Fabrics by name, with measured density and resistance to stretch, shear and bending.
 //!
 //! | | density | stretch, warp and weft | shear | bend, warp and weft |
 //! |---|---|---|---|---|
@@ -10,28 +10,29 @@
 //! | latex, a sheet of 0.4 mm | 372 g/m² (7) | 480 N/m (7) | 160 N/m (7) | 8.5 µN m (7) |
 //!
 //! 1. Wang, O'Brien and Ramamoorthi 2011, data-driven elastic models for cloth: the fabrics `11oz-black-denim` (99 % cotton) and
-//!    `royal-target` (trousers, 65 % cotton), of which the moduli at the smallest strain and curvature are taken. Of denim's two
-//!    directions the stiffer one is the warp: spandex is in the weft.
+//!    `royal-target` (trousers, 65 % cotton), with their moduli at the smallest strain and curvature. The stiffer direction of
+//!    denim is taken as the warp, since spandex is in the weft.
 //! 2. Penava, Šimić Penava and Knezić 2014: a plain weave of cotton, 150.3 g/m² and 0.318 mm.
-//! 3. A choice among what cantilevers found for fabrics of that weight, which have no names: Feng, Huang, Xu and Wang 2022. Of 140 to 160
-//!    g/m² there are some from 2.5 to 58 µN m, of 55 to 80 g/m² from 1.1 to 33, most of them below 7.
-//! 4. Kawabata 1980: means of 214 suitings for winter on his instruments: a bending rigidity of 10^−0.867 gf cm²/cm, a shear stiffness of
-//!    10^−0.066 gf/(cm deg), 10^1.421 mg/cm². The cotton's shear stiffness is 1.16 gf/(cm deg) in his units, which is a choice.
-//! 5. De Boos and Tester 1994 (SiroFAST, CSIRO report WT92.02): suitings that make no trouble give by 2 to 6 % under 98 N/m, which is their
-//!    100 gf/cm: here by 3 and 4 %.
+//! 3. Chosen from cantilever measurements of unnamed fabrics of that weight: Feng, Huang, Xu and Wang 2022. Fabrics of 140 to 160
+//!    g/m² have 2.5 to 58 µN m; fabrics of 55 to 80 g/m² have 1.1 to 33 µN m, most of them below 7.
+//! 4. Kawabata 1980: means of 214 winter suitings: a bending rigidity of 10^−0.867 gf cm²/cm, a shear stiffness of 10^−0.066
+//!    gf/(cm deg), 10^1.421 mg/cm². The cotton's shear stiffness is a choice: 1.16 gf/(cm deg) in these units.
+//! 5. De Boos and Tester 1994 (SiroFAST, CSIRO report WT92.02): suitings without faults stretch by 2 to 6 % under 98 N/m, their
+//!    100 gf/cm. Here they stretch by 3 and 4 %.
 //! 6. Fitted to a drape coefficient: Memon, Chaklie, Yesuf and Zhu 2021 found 47 to 70 % for sheep leather of 0.64 to 0.96 mm.
-//! 7. Rubber of a Young's modulus of 1.2 MPa and 930 kg/m³ (Treloar 1975) that keeps its volume: stretch E·h, shear E·h/3, and bending
-//!    E·h³/9. No drape coefficient of it was found.
-//! 8. A choice of ours in what is usual: no measurement was at hand.
+//! 7. Rubber of constant volume with a Young's modulus of 1.2 MPa and 930 kg/m³ (Treloar 1975): stretch E·h, shear E·h/3, bending
+//!    E·h³/9. No published drape coefficient was found.
+//! 8. A choice within the usual range, without a measurement.
 //!
-//! **What was read.** Of these 1 and 3, the weight of 2 and the range of 6. Not at hand, and quoted from memory: the means of 4 (that there are
-//! 214 fabrics is in Mahar and Postle's study of the same set), the limits of 5, 1.2 MPa and 930 kg/m³ in 7, and Cusick's regression
-//! in the tests. Treloar's measurements of 1944, as later fits have them, are 0.286 MPa at a stretch of 1.427 and 0.383 MPa at 1.616: three
-//! times s/(λ − λ⁻²) is 0.91 and 0.93 MPa, and rubber that is stretched less is stiffer than that. Look these up before something depends on them.
+//! **Sources that were read**: 1 and 3, the weight in 2 and the range in 6. The following are quoted from memory: the means in 4
+//! (Mahar and Postle's study of the same set has the number of 214 fabrics), the limits in 5, 1.2 MPa and 930 kg/m³ in 7, and
+//! Cusick's regression in the tests. Treloar's measurements of 1944, as later fits quote them, are 0.286 MPa at a stretch of
+//! 1.427 and 0.383 MPa at 1.616. Three times s/(λ − λ⁻²) gives 0.91 and 0.93 MPa, and rubber is stiffer at smaller stretch. Look
+//! these up before something depends on them.
 //!
-//! What real fabrics do beyond this: they get stiffer as they are stretched, and do not return on the way that they came.
+//! Real fabrics also stiffen with stretch, and show hysteresis; these numbers do not.
 
-/// A fabric: measured ones have names, and any other is one with its own numbers.
+/// A fabric. Measured fabrics have names; any other fabric has its own numbers.
 ///
 /// ```
 /// use selvedge_cloth::glam::DVec3;
@@ -48,13 +49,13 @@
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// As scene files call it.
+    /// The name in scene files.
     pub name: &'static str,
     /// Mass per area in kg/m².
     pub density: f64,
-    /// Along warp and weft, in N/m.
+    /// Stretch stiffness of warp and weft, in N/m.
     pub stretch: [f64; 2],
-    /// Of the angle between warp and weft, in N/m: what gives the bias its stiffness.
+    /// Stiffness of the angle between warp and weft, in N/m. It gives the bias its stiffness.
     pub shear: f64,
     /// Flexural rigidities of warp and weft, in N·m.
     pub bend: [f64; 2],
@@ -109,16 +110,16 @@ impl Material {
         shear: 160.0,
         bend: [8.5e-6, 8.5e-6],
     };
-    /// All that have a name.
+    /// All named materials.
     pub const ALL: [Self; 6] = [Self::COTTON, Self::DENIM, Self::SILK, Self::WOOL, Self::LEATHER, Self::LATEX];
 
-    /// In m, of warp and weft: the cube root of the bending rigidity over the weight of an area (Peirce 1930), which is half of what a
-    /// strip hangs over when its tip is 41.5° below its edge.
+    /// Returns the bending lengths of warp and weft, in m: the cube root of the bending rigidity over the weight per area (Peirce
+    /// 1930). It is half the overhang of a strip whose tip is 41.5° below its edge.
     #[must_use]
     pub fn bending_lengths(&self) -> [f64; 2] {
         self.bend.map(|rigidity| libm::cbrt(rigidity / (self.density * GRAVITY)))
     }
 }
 
-/// In m/s²: of the instruments that bending lengths are measured with.
+/// In m/s²: the gravity for which bending lengths are defined.
 const GRAVITY: f64 = 9.81;

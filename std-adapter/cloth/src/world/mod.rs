@@ -1,4 +1,4 @@
-//! What a scene is about: cloths at rest, bodies, and the motions that bodies and pins follow.
+//! The things in a scene: cloths at rest, bodies, and the motions of bodies and pins.
 
 mod animation;
 mod body;
@@ -31,21 +31,21 @@ pub(crate) use runs::runs;
 #[cfg(test)]
 pub(crate) use shapes::{capsule, sheet, tube};
 
-/// What effects act on: a scene but for its effects.
+/// A scene without its effects: the input of an [`Effect`](crate::effects::Effect).
 #[derive(Clone, Copy, Debug)]
 pub struct SceneParts<'a> {
-    /// At rest: the one that the effect acts on, the first if it acts on the whole scene.
+    /// The cloth on which the effect acts, at rest; the first cloth if the effect acts on the whole scene.
     pub cloth: &'a Cloth,
-    /// All of them, at rest. Vertices of a scene are numbered through them, and then through bodies.
+    /// All cloths, at rest. A scene numbers the vertices of all cloths in order, then those of the bodies.
     pub cloths: &'a [Cloth],
-    /// What it meets.
+    /// All bodies.
     pub bodies: &'a [Body],
-    /// In seconds.
+    /// The time step in seconds.
     pub time_step: f64,
 }
 
 impl<'a> SceneParts<'a> {
-    /// Of a scene with these.
+    /// Collects the parts of a scene.
     pub(crate) fn new(cloths: &'a [Cloth], bodies: &'a [Body], time_step: f64) -> Result<Self, ValueError> {
         let none = || ValueError::new("cloth", "the scene has no cloth, but needs one or more");
         Ok(Self {
@@ -56,7 +56,7 @@ impl<'a> SceneParts<'a> {
         })
     }
 
-    /// The same for an effect that acts on one of the cloths.
+    /// Returns the same parts for an effect that acts on one of the cloths.
     pub(crate) fn of_cloth(self, cloth: Option<usize>) -> Self {
         Self {
             cloth: cloth.map_or(self.cloth, |cloth| &self.cloths[cloth]),
@@ -64,7 +64,7 @@ impl<'a> SceneParts<'a> {
         }
     }
 
-    /// Of each cloth, its vertices among the scene's.
+    /// Returns the range of each cloth's vertices among the scene's.
     pub(crate) fn vertices_of_cloths(self) -> impl Iterator<Item = Range<usize>> + use<'a> {
         self.cloths.iter().scan(0, |end, cloth| {
             let first = *end;
@@ -73,7 +73,7 @@ impl<'a> SceneParts<'a> {
         })
     }
 
-    /// The same as the scene was made, of which tears have made more: so effects' settings number them.
+    /// Returns the same ranges before any cloth tore. Settings of effects use these numbers.
     pub(crate) fn vertices_as_made(self) -> impl Iterator<Item = Range<usize>> + use<'a> {
         self.cloths.iter().scan(0, |end, cloth| {
             let first = *end;
@@ -82,7 +82,7 @@ impl<'a> SceneParts<'a> {
         })
     }
 
-    /// Where vertices are now that effects' settings name.
+    /// Maps vertices of an effect's settings to their present numbers.
     pub(crate) fn numbered(self, named: &[u32]) -> Vec<u32> {
         let now = |&vertex: &u32| {
             let mut cloths = self.vertices_as_made().zip(self.vertices_of_cloths());
@@ -92,14 +92,14 @@ impl<'a> SceneParts<'a> {
         named.iter().map(now).collect()
     }
 
-    /// Of each vertex as the scene was made, whether it is among the `named`.
+    /// Returns for each vertex, as numbered before any cloth tore, whether it is in `named`.
     pub(crate) fn named(self, named: &[u32]) -> Vec<bool> {
         let mut is_named = vec![false; self.vertices_as_made().map(|own| own.len()).sum()];
         named.iter().for_each(|&vertex| is_named[vertex as usize] = true);
         is_named
     }
 
-    /// How many vertices all cloths have.
+    /// Returns the number of vertices of all cloths.
     pub(crate) fn cloth_vertices(self) -> usize {
         self.cloths.iter().map(|cloth| cloth.mesh.positions.len()).sum()
     }

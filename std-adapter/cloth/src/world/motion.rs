@@ -1,5 +1,4 @@
-//! Where bodies and pins go: along keyframes, as an [animation](super::animation) says, or wherever the caller says from step to step
-//! ([`driven`](super::driven)).
+//! Motions of bodies and pins: along keyframes, as an [animation](super::animation), or [driven](super::driven) by the caller.
 
 use super::Animation;
 use super::placement::{Placement, TRANSLATION};
@@ -7,21 +6,21 @@ use crate::input::{ANGLE, Field, LARGEST_COORDINATE, LARGEST_TIME, LENGTH, RATIO
 use libm::{cos, sin};
 use selvedge_core::glam::DVec3;
 
-/// What moves a body, or pins.
+/// The motion of a body or of pins.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BodyMotion {
-    /// Known ahead.
+    /// A rigid motion along keyframes.
     Keyframes(KeyframeMotion),
-    /// Known ahead, vertex by vertex: a body that changes its shape.
+    /// A motion per vertex: a body that deforms.
     Animated(Animation),
-    /// By the caller, from here on: each step may be told where it leads, and where it is told nothing, all stays. See
+    /// The caller moves the body from here. Without a call before a step it rests in that step. See
     /// [`Simulation::place_body`](crate::Simulation::place_body).
     Driven(Placement),
 }
 
 impl BodyMotion {
     /// # Errors
-    /// If something turns or jumps too far in a step, a number is beyond its range, or it cannot move so many vertices.
+    /// If something turns or jumps too far in a step, a number is out of range, or it cannot move so many vertices.
     pub(crate) fn check(&self, vertices: usize, time_step: f64) -> Result<(), ValueError> {
         match self {
             Self::Keyframes(motion) => motion.check(time_step),
@@ -35,7 +34,7 @@ impl BodyMotion {
     /// Keys of a table that describes a motion.
     pub(crate) const KEYS: [&'static str; 4] = ["pivot", "axis", "keyframes", "driven"];
 
-    /// Reads what a table says of a motion: keyframes, or that it is driven, from where it is at rest.
+    /// Reads a motion: keyframes, or `driven` from the rest placement.
     pub(crate) fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         if !table.flag("driven")? {
             return KeyframeMotion::read(table, time_step).map(Self::Keyframes);
@@ -59,12 +58,13 @@ impl From<KeyframeMotion> for BodyMotion {
     }
 }
 
-/// A rigid motion: turns about an axis through a pivot, then moves along. Between keyframes both go smoothly, at rest at each
-/// keyframe; before the first and after the last nothing moves.
+/// A rigid motion: a rotation about an axis through a pivot, then a translation.
+///
+/// Between keyframes both are smooth, with zero velocity at each keyframe. Before the first and after the last nothing moves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyframeMotion {
     pivot: DVec3,
-    /// Of length one.
+    /// A unit vector.
     axis: DVec3,
     keyframes: Vec<Keyframe>,
 }
@@ -72,7 +72,7 @@ pub struct KeyframeMotion {
 /// In seconds: far above the resolution of the clock.
 const CLOSEST_KEYS: f64 = 1e-6;
 
-/// In radians a time step, nearly a whole turn: steps with contact are cut until a part turns by a thousandth of it.
+/// In radians a time step, nearly a whole turn. Steps with contact are cut until a part turns by a thousandth of that.
 const FASTEST_TURN: f64 = 6.0;
 
 const PIVOT: Field = Field::vector("pivot", LENGTH, LARGEST_COORDINATE);
@@ -80,18 +80,18 @@ const AXIS: Field = Field::vector("axis", RATIO, LARGEST_COORDINATE);
 pub(crate) const KEY_TIME: Field = Field::new("time", TIME, 0.0, LARGEST_TIME);
 const KEY_ANGLE: Field = Field::new("angle", ANGLE, -1e4, 1e4);
 
-/// Where a motion is at one time.
+/// A rigid motion at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Keyframe {
     /// In seconds of the simulation, zero or more.
     pub time: f64,
-    /// How far it has turned since the start, in radians.
+    /// The rotation since the start, in radians.
     pub angle: f64,
-    /// How far it has moved since the start, in metres.
+    /// The translation since the start, in metres.
     pub translation: DVec3,
 }
 
-/// Whether a keyframe at a time, in seconds, can follow one at the time `last`.
+/// Checks that a keyframe at `time`, in seconds, may follow one at the time `last`.
 pub(crate) fn check_key_time(time: f64, last: Option<f64>) -> Result<(), ValueError> {
     KEY_TIME.check(time)?;
     if last.is_some_and(|last| time < last + CLOSEST_KEYS) {
@@ -102,7 +102,7 @@ pub(crate) fn check_key_time(time: f64, last: Option<f64>) -> Result<(), ValueEr
 }
 
 impl Keyframe {
-    /// Whether it can follow `last`.
+    /// Checks the keyframe, and that it may follow `last`.
     fn check(&self, last: Option<&Self>, time_step: f64) -> Result<(), ValueError> {
         KEY_ANGLE.check(self.angle)?;
         TRANSLATION.check_vector(self.translation)?;
@@ -110,7 +110,7 @@ impl Keyframe {
         let Some(last) = last else {
             return Ok(());
         };
-        // Half-way it is half as fast again as on average.
+        // Half-way the motion is half as fast again as on average.
         let turn = (self.angle - last.angle).abs();
         let in_a_step = turn.min(1.5 * turn * time_step / (self.time - last.time));
         if in_a_step > FASTEST_TURN {
@@ -123,24 +123,24 @@ impl Keyframe {
     }
 }
 
-/// Where a motion has taken everything at one time.
+/// The placement of a moving body at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pose {
-    /// Ahead of all else.
+    /// Applied before everything else.
     base: Option<Placement>,
     pivot: DVec3,
     axis: DVec3,
     pub(crate) angle: f64,
     translation: DVec3,
-    /// How far its points are on ways of their own: then the rest says nothing.
+    /// The progress along separate paths of all points. The other fields then have no meaning.
     pub(super) deformed: Option<f64>,
 }
 
 impl KeyframeMotion {
-    /// Of a table that describes keyframes.
+    /// Keys of a table that describes keyframes.
     const KEYS: [&'static str; 3] = ["pivot", "axis", "keyframes"];
 
-    /// No motion at all.
+    /// Returns a motion at rest.
     #[must_use]
     pub const fn resting() -> Self {
         Self {
@@ -150,10 +150,11 @@ impl KeyframeMotion {
         }
     }
 
-    /// Turns about `axis`, of any length but zero, through `pivot`, in metres, and moves, as `keyframes` say.
+    /// Makes a rotation about `axis`, of any length but zero, through `pivot`, in metres, and a translation, as given by
+    /// `keyframes`.
     ///
     /// # Errors
-    /// If the axis is zero. What else cannot be is found by [`Scene::check`](crate::Scene::check).
+    /// If the axis is zero. [`Scene::check`](crate::Scene::check) finds all other errors.
     pub fn new(pivot: DVec3, axis: DVec3, keyframes: Vec<Keyframe>) -> Result<Self, ValueError> {
         let Some(axis) = axis.try_normalize() else {
             return Err(ValueError::new(
@@ -172,9 +173,9 @@ impl KeyframeMotion {
             .try_for_each(|(last, key)| key.check(last, time_step))
     }
 
-    /// Reads `pivot`, `axis` and `[[keyframes]]`, each with a time and perhaps an angle and a translation.
+    /// Reads `pivot`, `axis` and `[[keyframes]]`, each with a time and optionally an angle and a translation.
     ///
-    /// What turns by more than [`FASTEST_TURN`] in `time_step` seconds is refused.
+    /// Refuses rotations of more than [`FASTEST_TURN`] in `time_step` seconds.
     fn read(table: &Table<'_>, time_step: f64) -> Result<Self, SceneError> {
         let pivot = table.vector(&PIVOT)?.unwrap_or_default();
         let axis = table.vector(&AXIS)?.unwrap_or(DVec3::Z);
@@ -193,7 +194,7 @@ impl KeyframeMotion {
         Ok(motion)
     }
 
-    /// Where everything is at a time.
+    /// Returns the pose at a time.
     pub(crate) fn pose(&self, time: f64) -> Pose {
         let keys = &self.keyframes;
         let next = keys.partition_point(|key| key.time <= time);
@@ -223,7 +224,7 @@ impl KeyframeMotion {
 }
 
 impl Pose {
-    /// That of a body that stands so.
+    /// Returns the pose of a body at this placement.
     pub(super) fn standing(placement: Placement) -> Self {
         Self {
             base: Some(placement),
@@ -235,7 +236,7 @@ impl Pose {
         }
     }
 
-    /// The same, turned about an axis through where its origin is, and moved.
+    /// Adds a rotation about an axis through the body's origin, and a translation.
     pub(super) fn turned_and_moved(self, axis: DVec3, angle: f64, translation: DVec3) -> Self {
         Self {
             axis,
@@ -245,7 +246,7 @@ impl Pose {
         }
     }
 
-    /// That of points on ways of their own, so far on them.
+    /// Returns the pose of points on separate paths, at the progress `along`.
     pub(super) fn deformed(along: f64) -> Self {
         Self {
             deformed: Some(along),
@@ -253,12 +254,12 @@ impl Pose {
         }
     }
 
-    /// Whether it is one of a body that keeps its shape.
+    /// Returns whether the body keeps its shape.
     pub(crate) fn is_rigid(&self) -> bool {
         self.deformed.is_none()
     }
 
-    /// Where a point of the body at rest is, if it is [rigid](Self::is_rigid).
+    /// Returns where a point of the body at rest is, if the pose is [rigid](Self::is_rigid).
     pub(crate) fn apply(&self, point: DVec3) -> DVec3 {
         let point = self.base.map_or(point, |base| base.apply(point));
         if self.angle == 0.0 {
@@ -267,19 +268,19 @@ impl Pose {
         self.pivot + turned(point - self.pivot, self.axis, self.angle) + self.translation
     }
 
-    /// Where a point that is on the body now goes when the body takes the pose `later`, if both are [rigid](Self::is_rigid).
+    /// Returns where a point that moves with the body goes when the pose becomes `later`, if both are [rigid](Self::is_rigid).
     pub(crate) fn carry(&self, later: &Self, point: DVec3) -> DVec3 {
         if self == later {
             return point;
         }
-        // Both poses belong to one motion: they share all but angle and translation.
+        // Both poses belong to one motion: they share everything but angle and translation.
         let from_pivot = point - self.translation - self.pivot;
         let turned = turned(from_pivot, self.axis, later.angle - self.angle);
         self.pivot + turned + later.translation
     }
 }
 
-/// Turned about a unit axis (Rodrigues).
+/// Rotates a vector about a unit axis (Rodrigues).
 fn turned(vector: DVec3, axis: DVec3, angle: f64) -> DVec3 {
     let (sine, cosine) = (sin(angle), cos(angle));
     vector * cosine + axis.cross(vector) * sine + axis * (axis.dot(vector) * (1.0 - cosine))

@@ -1,4 +1,4 @@
-//! Where a rigid body stands.
+//! The placement of a rigid body.
 
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, ValueError};
 use libm::{atan2, cos, sin};
@@ -6,7 +6,7 @@ use selvedge_core::glam::{DQuat, DVec3};
 
 pub(super) const TRANSLATION: Field = Field::vector("translation", LENGTH, LARGEST_COORDINATE);
 
-/// Where a body's points at rest are: turned about the origin, then moved.
+/// A rigid placement: points are rotated about the origin, then moved.
 ///
 /// ```
 /// use selvedge_cloth::Placement;
@@ -17,14 +17,14 @@ pub(super) const TRANSLATION: Field = Field::vector("translation", LENGTH, LARGE
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placement {
-    /// Of length one; where a simulation is told of it, any but zero will do.
+    /// A unit quaternion. A simulation normalises it; only zero is refused.
     pub rotation: DQuat,
     /// In metres.
     pub translation: DVec3,
 }
 
 impl Placement {
-    /// Not turned.
+    /// Returns a placement without rotation; `translation` is in metres.
     #[must_use]
     pub const fn at(translation: DVec3) -> Self {
         Self {
@@ -33,18 +33,18 @@ impl Placement {
         }
     }
 
-    /// Where a point of the body at rest is.
+    /// Returns where a point of the body at rest is placed.
     #[must_use]
     pub fn apply(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
 
-    /// The point at rest that is there: the same bits where it is neither turned nor moved.
+    /// Returns the point at rest that is placed at `place`. Without rotation and translation the bits are the same.
     pub(crate) fn apply_inverse(&self, place: DVec3) -> DVec3 {
         self.rotation.inverse() * (place - self.translation)
     }
 
-    /// The same, its rotation of length one.
+    /// Normalises the rotation.
     pub(crate) fn checked(&self) -> Result<Self, ValueError> {
         TRANSLATION.check_vector(self.translation)?;
         let length = self.rotation.length();
@@ -58,17 +58,17 @@ impl Placement {
         })
     }
 
-    /// The axis and the angle, half a turn at most, by which it turns to `later`.
+    /// Returns the axis and the angle, at most half a turn, of the rotation to `later`.
     pub(super) fn turn_to(&self, later: &Self) -> (DVec3, f64) {
         let turn = later.rotation * self.rotation.inverse();
-        // Of the two quaternions that say the same, the one that goes the shorter way.
+        // Of the two quaternions of a rotation, take the one of the shorter way.
         let turn = if turn.w < 0.0 { -turn } else { turn };
         let along = turn.xyz();
-        // The same bits on every platform.
+        // From `libm`, so that the bits are the same on every platform.
         (along.normalize_or(DVec3::Z), 2.0 * atan2(along.length(), turn.w))
     }
 
-    /// Turned on, and moved on.
+    /// Rotates and moves further.
     pub(super) fn on(&self, axis: DVec3, angle: f64, translation: DVec3) -> Self {
         let [sine, cosine] = [sin(0.5 * angle), cos(0.5 * angle)];
         let turn = DQuat::from_xyzw(axis.x * sine, axis.y * sine, axis.z * sine, cosine);

@@ -7,13 +7,15 @@ use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 
 impl Cloth {
-    /// A rope along a line through these points, in metres, in so many segments of the same length; `linear_density` in kg/m. It cuts
-    /// corners of the line by less than a segment. Vertices go from its first point to its last.
+    /// Makes a rope along a line through these points, in metres, in `segments` segments of equal length; `linear_density` is in
+    /// kg/m.
     ///
-    /// What it resists is said by [`RopeStretch`](crate::effects::RopeStretch) and [`RopeBend`](crate::effects::RopeBend), how thick it is by
-    /// [`SelfCollision`](crate::effects::SelfCollision) and [`BodyContact`](crate::effects::BodyContact).
+    /// It cuts corners of the line by less than a segment. Vertices are numbered from the first point to the last.
     ///
-    /// Parts: `start`, `end`, its first vertex and its last.
+    /// [`RopeStretch`](crate::effects::RopeStretch) and [`RopeBend`](crate::effects::RopeBend) set its resistance,
+    /// [`SelfCollision`](crate::effects::SelfCollision) and [`BodyContact`](crate::effects::BodyContact) its thickness.
+    ///
+    /// Parts: `start` and `end`, the first and the last vertex.
     ///
     /// ```
     /// use selvedge_cloth::effects::{Gravity, PinGroup, Pins, RopeBend, RopeStretch};
@@ -34,7 +36,7 @@ impl Cloth {
     /// ```
     ///
     /// # Errors
-    /// If a number is beyond its range, there are fewer than two points, or two of them that follow each other are the same.
+    /// If a number is out of range, there are fewer than two points, or two successive points are equal.
     pub fn rope(points: &[DVec3], segments: u32, linear_density: f64) -> Result<Self, ValueError> {
         points.iter().try_for_each(|&point| POINTS.check_vector(point))?;
         SEGMENTS.check(segments)?;
@@ -52,7 +54,7 @@ impl Cloth {
     }
 }
 
-/// Points on a line through others, evenly by its length, the first and the last of them included.
+/// Returns points spaced evenly by arc length on the line through `points`, both ends included.
 fn along(points: &[DVec3], segments: u32) -> Vec<DVec3> {
     let lengths: Vec<f64> = points.windows(2).map(|two| two[0].distance(two[1])).collect();
     let whole: f64 = lengths.iter().sum();

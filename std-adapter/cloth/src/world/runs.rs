@@ -1,17 +1,17 @@
-//! Which loose edges follow each other.
+//! Rows of loose edges.
 
 use crate::world::Incidence;
 
-/// Loose edges from vertex to vertex: of all but the first and the last vertex no other loose edge goes off.
+/// A row of loose edges. No other loose edge starts at an inner vertex.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Run {
-    /// Each joined with the next. Where the first is the last again the run is closed.
+    /// Vertices, each joined with the next. In a closed row the last is the first again.
     vertices: Vec<u32>,
-    /// Closed, and no other edge goes off where it closes.
+    /// The row is closed, and no other edge starts where it closes.
     is_ring: bool,
 }
 
-/// Every edge is in one of them. No two edges join the same vertices.
+/// Splits edges into rows; each edge is in one row. No two edges may join the same vertices.
 pub(crate) fn runs(edges: &[[u32; 2]], vertex_count: usize) -> Vec<Run> {
     let ends = || (0..).zip(edges).flat_map(|(edge, ends)| ends.map(|vertex| (vertex, edge)));
     let edges_of = Incidence::<u32>::new(vertex_count, ends);
@@ -38,13 +38,13 @@ pub(crate) fn runs(edges: &[[u32; 2]], vertex_count: usize) -> Vec<Run> {
     for vertex in (0..vertex_count as u32).filter(|&vertex| !goes_on(vertex)) {
         edges_of.of(vertex as usize).iter().for_each(|&edge| follow(vertex, edge));
     }
-    // What is left has no end.
+    // The remaining edges form rings.
     (0..).zip(edges).for_each(|(edge, ends)| follow(ends[0], edge));
     runs
 }
 
 impl Run {
-    /// Each joined with the next; the first one is the last again where it is closed.
+    /// Returns the vertices, each joined with the next; in a closed row the last is the first again.
     pub(crate) fn into_vertices(self) -> Vec<u32> {
         self.vertices
     }
@@ -53,7 +53,7 @@ impl Run {
         self.vertices.first() == self.vertices.last()
     }
 
-    /// Rows of vertices, none twice in a row, that have each edge once.
+    /// Returns rows of distinct vertices that contain each edge once.
     pub(crate) fn pieces(&self) -> Vec<Vec<u32>> {
         let all = &self.vertices;
         if !self.is_closed() {
@@ -63,14 +63,14 @@ impl Run {
         vec![all[..=middle].to_vec(), all[middle..].to_vec()]
     }
 
-    /// Rows of vertices, none twice in a row, that have each joint of two edges once.
+    /// Returns rows of distinct vertices that contain each joint of two edges once.
     pub(crate) fn rows_of_joints(&self) -> Vec<Vec<u32>> {
         let all = &self.vertices;
         let edges = all.len() - 1;
         if !self.is_closed() {
             return if edges < 2 { Vec::new() } else { vec![all.clone()] };
         }
-        // The joint in which a ring closes is the last; after it comes the vertex after the first.
+        // A ring's last joint is the one where it closes; the vertex after the first follows it.
         let joints: Vec<usize> = (1..if self.is_ring { edges + 1 } else { edges }).collect();
         let most = edges.div_ceil(2).min(edges - 2);
         let row = |joints: &[usize]| {

@@ -1,4 +1,5 @@
-//! Meshes: of simple shapes, and of files. Positions of the former are the same bits on every platform: sines come from the `libm` crate.
+//! Meshes of simple shapes, and from files. Simple shapes have the same bits on every platform, since sines come from the `libm`
+//! crate.
 
 use crate::input::{LARGEST_COORDINATE, SceneError, Table, ValueError};
 use libm::{cos, sin};
@@ -8,9 +9,10 @@ use selvedge_files::mesh::{self, LooseMesh};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::PathBuf;
 
-/// A parallelogram with a corner and two sides, in `cells` along each. Diagonals alternate, so that no direction is favoured.
+/// Makes a parallelogram with a corner and two sides, in `cells` along each. Diagonals alternate, so that no direction is
+/// favoured.
 ///
-/// Vertices go row by row along the first side.
+/// Vertices are numbered row by row along the first side.
 pub(crate) fn sheet(corner: DVec3, sides: [DVec3; 2], cells: [u32; 2]) -> Mesh {
     let mut mesh = Mesh::default();
     let [columns, rows] = cells;
@@ -35,8 +37,8 @@ pub(crate) fn sheet(corner: DVec3, sides: [DVec3; 2], cells: [u32; 2]) -> Mesh {
     mesh
 }
 
-/// Rings of vertices joined into a tube, each ring turned by half a vertex against the one before. `rings` holds for each
-/// ring its place along `axis` and its radius. Triangles turn anticlockwise seen from outside.
+/// Joins rings of vertices into a tube; each ring is turned by half a vertex against the one before. `rings` holds for each ring
+/// its place along `axis` and its radius. Triangles turn anticlockwise seen from outside.
 fn rings(origin: DVec3, axis: DVec3, around: u32, rings: impl IntoIterator<Item = (f64, f64)>) -> Mesh {
     let side = axis.any_orthonormal_vector();
     let other = axis.cross(side);
@@ -65,7 +67,7 @@ fn rings(origin: DVec3, axis: DVec3, around: u32, rings: impl IntoIterator<Item 
     mesh
 }
 
-/// An open tube from one point to another, with `cells` around and along it.
+/// Makes an open tube between two points, with `cells` around and along it.
 pub(crate) fn tube([from, to]: [DVec3; 2], radius: f64, cells: [u32; 2]) -> Mesh {
     let length = from.distance(to);
     let axis = (to - from) / length;
@@ -74,8 +76,8 @@ pub(crate) fn tube([from, to]: [DVec3; 2], radius: f64, cells: [u32; 2]) -> Mesh
     rings(from, axis, around, (0..=along).map(ring))
 }
 
-/// A capsule: all points within `radius` of a line from one point to another, a ball if they are the same. Its vertices lie on
-/// the capsule's surface, its triangles a little inside.
+/// Makes a capsule: all points within `radius` of a line between two points; a ball if they are equal. Its vertices lie on the
+/// capsule's surface, its triangles a little inside.
 pub(crate) fn capsule([from, to]: [DVec3; 2], radius: f64, around: u32) -> Mesh {
     let length = from.distance(to);
     let axis = (to - from).try_normalize().unwrap_or(DVec3::Z);
@@ -104,7 +106,7 @@ pub(crate) fn capsule([from, to]: [DVec3; 2], radius: f64, around: u32) -> Mesh 
     mesh
 }
 
-/// The mesh of the file that `file` names.
+/// Reads the mesh of the file that `file` names.
 pub(crate) fn of_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
     let read = mesh::read(&path(table)?);
     let mesh = read.map_err(|error| table.error("file", error.to_string()))?.mesh;
@@ -112,7 +114,7 @@ pub(crate) fn of_file(table: &Table<'_>) -> Result<Mesh, SceneError> {
     Ok(mesh)
 }
 
-/// The same, perhaps without triangles, and its edges that belong to none.
+/// Reads a mesh, possibly without triangles, and its loose edges.
 pub(crate) fn of_file_with_loose_edges(table: &Table<'_>) -> Result<(Mesh, Vec<[u32; 2]>), SceneError> {
     let wrong = |message: String| table.error("file", message);
     let read = mesh::read_with_loose_features(&path(table)?);
@@ -139,7 +141,7 @@ fn path(table: &Table<'_>) -> Result<PathBuf, SceneError> {
     Ok(table.folder().join(file))
 }
 
-/// Whether its vertices are within reach, and its triangles have vertices.
+/// Checks that coordinates are in range, and that triangles name existing vertices.
 pub(super) fn check(mesh: &Mesh) -> Result<(), ValueError> {
     let is_near = |p: &DVec3| p.abs().cmple(DVec3::splat(LARGEST_COORDINATE)).all();
     if let Some(far) = mesh.positions.iter().find(|p| !is_near(p)) {
@@ -160,7 +162,7 @@ pub(super) fn check(mesh: &Mesh) -> Result<(), ValueError> {
 mod tests {
     use super::*;
 
-    /// Six times the volume that a mesh encloses.
+    /// Returns six times the volume that a mesh encloses.
     fn enclosed(mesh: &Mesh) -> f64 {
         let corners = |t: &[u32; 3]| t.map(|v| mesh.positions[v as usize]);
         let parts = mesh.triangles.iter().map(corners);

@@ -1,27 +1,27 @@
-//! A sleeve: a tube of rings that taper from the shoulder to the cuff.
+//! The paper's sleeve: a tube of rings that taper from the shoulder to the cuff.
 //!
-//! A tube of rings n₁ … n_m, triangulated between neighbours, has Σnᵢ vertices and
-//! 2Σnᵢ − n₁ − n_m triangles. With 34 rings that taper from 25 points to 16 these are the 693
-//! vertices and 1,345 triangles of the arm clothing in Lv et al., whose own mesh is not published.
+//! A tube of rings n₁ … n_m, triangulated between neighbours, has Σnᵢ vertices and 2Σnᵢ − n₁ − n_m triangles. With 34 rings that
+//! taper from 25 points to 16 it has the 693 vertices and 1,345 triangles of the arm clothing in Lv et al., whose own mesh is not
+//! published.
 
 use libm::{cos, sin};
 use selvedge::Mesh;
 use selvedge_core::glam::DVec3;
 use std::f64::consts::TAU;
 
-/// From the shoulder at x = 0 to the cuff, in metres.
+/// The length from the shoulder at x = 0 to the cuff, in metres.
 pub const LENGTH: f64 = 0.6;
-/// At the shoulder, in metres.
+/// The radius at the shoulder, in metres.
 pub const SHOULDER_RADIUS: f64 = 0.075;
-/// At the cuff, in metres.
+/// The radius at the cuff, in metres.
 pub const CUFF_RADIUS: f64 = 0.048;
 
 const SHOULDER_POINTS: f64 = 25.0;
 const CUFF_POINTS: f64 = 16.0;
 /// Steps from ring to ring in the paper's sleeve.
 const RING_STEPS: f64 = 33.0;
-/// How many points a ring halfway down has fewer than a straight taper, times four. A straight
-/// taper has 697 vertices, not 693; any value from 0.8 to 0.9 gives 693.
+/// Four times the number of points that a ring halfway down has fewer than a straight taper. A straight taper has 697 vertices,
+/// not 693; any value from 0.8 to 0.9 gives 693.
 const BOW: f64 = 0.85;
 
 /// The largest refinement of [`sleeve`]: 134 million triangles.
@@ -32,7 +32,7 @@ pub const MAX_REFINEMENT: u32 = 100_000;
 #[error("the sleeve's refinement is {0}, but must be a number from 1 to {MAX_REFINEMENT}")]
 pub struct RefinementError(pub u32);
 
-/// How many points each ring of [`sleeve`] has, from shoulder to cuff.
+/// Returns the number of points of each ring of [`sleeve`], from shoulder to cuff.
 ///
 /// # Errors
 /// If `refinement` is zero or above [`MAX_REFINEMENT`].
@@ -50,16 +50,14 @@ pub fn ring_sizes(refinement: u32) -> Result<Vec<u32>, RefinementError> {
     Ok((0..=steps).map(size).collect())
 }
 
-/// A sleeve along the x axis, of 1,345 triangles times `refinement`, within one in a hundred:
-/// exactly 693 vertices and 1,345 triangles for 1.
+/// Makes a sleeve along the x axis, of 1,345 triangles times `refinement`, within one in a hundred: exactly 693 vertices and
+/// 1,345 triangles for 1.
 ///
-/// It is 0.6 m long, open at both ends, and its triangles turn anticlockwise seen from outside.
-/// Vertices are numbered ring by ring from the shoulder, each ring from the y axis towards the
-/// z axis. Rings and points to a ring grow with the square root of `refinement`, so triangles keep
-/// their shape, nearly equilateral.
+/// It is 0.6 m long and open at both ends. Its triangles turn anticlockwise seen from outside. Vertices are numbered ring by ring
+/// from the shoulder, each ring from the y axis towards the z axis. Rings, and points of a ring, grow with the square root of
+/// `refinement`, so that triangles stay nearly equilateral.
 ///
-/// Positions are the same bits on every platform: sine and cosine come from the `libm` crate, not
-/// from the system.
+/// Positions have the same bits on every platform: sine and cosine come from the `libm` crate, not from the system.
 ///
 /// ```
 /// let sleeve = selvedge_cloth::sleeve::sleeve(1)?;
@@ -90,20 +88,19 @@ pub fn sleeve(refinement: u32) -> Result<Mesh, RefinementError> {
     Ok(mesh)
 }
 
-/// Every other ring is turned by half a point, which makes triangles nearly equilateral. In units
-/// of half a point.
+/// Returns the turn of a ring in units of half a point. Every other ring is turned, so that triangles are nearly equilateral.
 fn phase(ring: usize) -> u32 {
     ring as u32 % 2
 }
 
-/// Triangles between `ring`, whose points are numbered from `first`, and the next: always advances
-/// on the ring whose next point has the smaller angle, all the way round.
+/// Joins `ring`, whose points are numbered from `first`, and the next one by triangles. It always advances on the ring whose next
+/// point has the smaller angle, all the way round.
 fn join(triangles: &mut Vec<[u32; 3]>, ring: usize, first: u32, [n, m]: [u32; 2]) {
     let (here, there) = (first, first + n);
     let (mut i, mut j) = (0, 0);
     while i < n || j < m {
-        // Angles as exact fractions of the full turn: (2 (i + 1) + phase) / 2n against the same
-        // in j and m, multiplied out. 64 bits hold the product of any two ring sizes.
+        // Angles as exact fractions of the full turn: (2 (i + 1) + phase) / 2n against the same in j and m, multiplied out. 64
+        // bits hold the product of any two ring sizes.
         let here_next = u64::from(2 * (i + 1) + phase(ring)) * u64::from(m);
         let there_next = u64::from(2 * (j + 1) + phase(ring + 1)) * u64::from(n);
         let advance_here = j == m || (i < n && here_next <= there_next);

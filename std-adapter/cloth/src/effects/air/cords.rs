@@ -1,8 +1,9 @@
-//! What moving air does to loose edges: each is pushed across itself by the air that it stops.
+//! The push of moving air on loose edges: each edge is pushed across itself.
 //!
-//! The force on an edge of length L and diameter d is ½ρ·c·d·L·|u|u, u the part across the edge of the air's velocity relative to it: what
-//! flows along does nothing (the cross-flow principle; Hoerner, Fluid-Dynamic Drag, 1965, chapter 3). With λ its mass per length the edge's own
-//! velocity across follows v′ = −k|v|v, k = ½ρcd/λ: as [`Panels`](super::panels) have it, with the same exact solution over a step.
+//! The force on an edge of length L and diameter d is ½ρ·c·d·L·|u|u, where u is the part across the edge of the air's relative
+//! velocity. Flow along the edge has no effect (the cross-flow principle; Hoerner, Fluid-Dynamic Drag, 1965, chapter 3). With λ
+//! the mass per length, the edge's own velocity across follows v′ = −k|v|v, k = ½ρcd/λ, with the same exact solution over a step
+//! as [`Panels`](super::panels).
 
 use super::drag::{Drag, share_taken, take};
 use crate::model::step::TimeStep;
@@ -11,15 +12,15 @@ use crate::world::Incidence;
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
-/// The loose edges of a cloth, in the air.
+/// The loose edges of a cloth in moving air.
 #[derive(Debug)]
 pub(super) struct Cords {
-    /// k of the module.
+    /// The factor k of the module.
     factor: f64,
     edges: Vec<[u32; 2]>,
-    /// Of each vertex its edges, and the share of each in its mass.
+    /// The edges of each vertex, and the share of each in its mass.
     incidence: Incidence<(u32, f64)>,
-    /// Of each edge's velocity.
+    /// The change of each edge's velocity.
     changes: Vec<DVec3>,
 }
 
@@ -42,7 +43,7 @@ impl Cords {
         }
     }
 
-    /// Changes velocities by air that moves as `air` says of an edge's ends.
+    /// Changes velocities. `air` returns the velocity of the air at an edge, given its ends.
     pub(super) fn push(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3], air: impl Fn(&[DVec3]) -> DVec3 + Sync) {
         let Self {
             factor,

@@ -1,4 +1,4 @@
-//! How strongly moving air pushes cloth, and how vertices take it.
+//! The drag of moving air, and its effect on vertices.
 
 use crate::effects::registration::ActsOn;
 use crate::input::{AIR_DENSITY, Field, LENGTH, RATIO, SceneError, Table, ValueError};
@@ -10,19 +10,19 @@ const DENSITY: Field = Field::new("air_density", AIR_DENSITY, 0.0, 1e3);
 const DRAG: Field = Field::new("drag", RATIO, 0.0, 100.0);
 const ROPE_DIAMETER: Field = Field::new("rope_diameter", LENGTH, 0.0, 1.0);
 
-/// How air meets a cloth.
+/// The properties of air and of the cloth's drag.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drag {
     /// In kg/m³.
     pub(super) density: f64,
-    /// Of what it meets head-on.
+    /// The drag coefficient for head-on flow.
     pub(super) coefficient: f64,
-    /// Of loose edges, in metres; 0: it blows past them.
+    /// The diameter of loose edges, in metres; 0: the air does not push them.
     pub(super) rope_diameter: f64,
 }
 
 impl Drag {
-    /// At sea level, past ropes.
+    /// Air at sea level that does not push ropes.
     pub(super) const DEFAULT: Self = Self {
         density: 1.2,
         coefficient: 1.0,
@@ -38,7 +38,7 @@ impl Drag {
         })
     }
 
-    /// Whether there can be such air, and something that it meets.
+    /// Checks the numbers, and that there are loose edges if they have a diameter.
     pub(super) fn check(self, world: &SceneParts<'_>) -> Result<(), ValueError> {
         DENSITY.check(self.density)?;
         DRAG.check(self.coefficient)?;
@@ -61,18 +61,19 @@ impl Drag {
         }
     }
 
-    /// ½ρc over what a measure of the cloth weighs.
+    /// Returns ½ρc over a density of the cloth.
     pub(super) fn over(self, density: f64) -> f64 {
         0.5 * self.density * self.coefficient / density
     }
 }
 
-/// The share of a relative velocity that is gone after a step, `slowing` being k·h of its length: of v/(1 + k·h·|v|).
+/// Returns the share of a relative velocity that is lost in a step, where `slowing` is k·h times its length. The rest is v/(1 +
+/// k·h·|v|).
 pub(super) fn share_taken(slowing: f64) -> f64 {
     slowing / (1.0 + slowing)
 }
 
-/// Changes the velocities of vertices by what changes those of triangles or edges, by the share of each in a vertex's mass.
+/// Adds the changes of triangles' or edges' velocities to vertices, by the share of each in a vertex's mass.
 pub(super) fn take(step: &TimeStep<'_>, velocities: &mut [DVec3], incidence: &Incidence<(u32, f64)>, changes: &[DVec3]) {
     for (vertex, velocity) in velocities.iter_mut().enumerate().take(incidence.len()) {
         if step.inverse_masses[vertex] > 0.0 {

@@ -1,4 +1,4 @@
-//! A cloth in moving air: what [wind](super::Wind) and [its fields](super::WindField) have in common.
+//! The common part of [wind](super::Wind) and [wind fields](super::WindField): a cloth in moving air.
 
 use super::cords::Cords;
 use super::drag::Drag;
@@ -7,7 +7,7 @@ use crate::model::step::TimeStep;
 use crate::world::Cloth;
 use selvedge_core::glam::DVec3;
 
-/// What of a cloth the air pushes.
+/// The parts of a cloth that the air pushes.
 #[derive(Debug)]
 pub(super) struct InAir {
     panels: Option<Panels>,
@@ -22,7 +22,7 @@ impl InAir {
         }
     }
 
-    /// Changes velocities by air that moves as `air` says of a triangle's corners, or an edge's ends.
+    /// Changes velocities. `air` returns the velocity of the air, given a triangle's corners or an edge's ends.
     pub(super) fn push(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3], air: impl Fn(&[DVec3]) -> DVec3 + Sync) {
         if let Some(panels) = &mut self.panels {
             panels.push(step, velocities, &air);

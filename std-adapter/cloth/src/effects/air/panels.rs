@@ -1,9 +1,9 @@
-//! What moving air does to triangles: each is pushed along its normal by the air that it stops.
+//! The push of moving air on triangles: each is pushed along its normal.
 //!
-//! The force on a triangle of area A is ½ρ·c·A·|u·n|(u·n)·n, u the air's velocity relative to it (Keller et al. 2003 use the
-//! same normal term). The triangle's own normal velocity then follows v′ = −k|v|v, k = ½ρc/σ with σ its mass per area, whose exact
-//! solution over a step is v/(1 + k·h·|v|): so a step never overshoots the wind. Vertices take the changes of their triangles in
-//! the shares that these have in their mass, whose sum is at most one.
+//! The force on a triangle of area A is ½ρ·c·A·|u·n|(u·n)·n, where u is the air's relative velocity (Keller et al. 2003 use the
+//! same normal term). The triangle's own normal velocity then follows v′ = −k|v|v, k = ½ρc/σ with σ the mass per area. The exact
+//! solution over a step is v/(1 + k·h·|v|), so a step never overshoots the wind. Each vertex takes the changes of its triangles,
+//! weighted by their shares in its mass, whose sum is at most one.
 
 use super::drag::{Drag, share_taken, take};
 use crate::model::membrane::triangles_around;
@@ -13,14 +13,14 @@ use crate::world::Incidence;
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
-/// The triangles of a cloth, in the air.
+/// The triangles of a cloth in moving air.
 #[derive(Debug)]
 pub(super) struct Panels {
-    /// k of the module.
+    /// The factor k of the module.
     factor: f64,
     triangles: Vec<[u32; 3]>,
     incidence: Incidence<(u32, f64)>,
-    /// Of each triangle's velocity.
+    /// The change of each triangle's velocity.
     changes: Vec<DVec3>,
 }
 
@@ -34,7 +34,7 @@ impl Panels {
         }
     }
 
-    /// Changes velocities by air that moves as `air` says of a triangle's corners.
+    /// Changes velocities. `air` returns the velocity of the air at a triangle, given its corners.
     pub(super) fn push(&mut self, step: &TimeStep<'_>, velocities: &mut [DVec3], air: impl Fn(&[DVec3]) -> DVec3 + Sync) {
         let Self {
             factor,

@@ -1,15 +1,15 @@
-//! What moves air in a field of wind: velocities of fans and vortices, which add up.
+//! Sources of a wind field: fans and vortices, whose velocities add up.
 //!
-//! **A fan** is a round jet. Its middle goes straight on, and its half-width grows with the distance s as R + 0.094·s (Hussein, Capp and
-//! George 1994, J. Fluid Mech. 258:31). The momentum that goes through each section is the same, ∝ U²R², so that the velocity in the
-//! middle falls as R/(R + 0.094·s); across it is 2^(−r²/half-width²). Behind the fan the air is still, as is what the jet draws in from
-//! its sides.
+//! **A fan** is a round jet. It is straight, and its half-width grows with the distance s as R + 0.094·s (Hussein, Capp and
+//! George 1994, J. Fluid Mech. 258:31). The momentum through each section is the same, ∝ U²R², so that the velocity in the middle
+//! falls as R/(R + 0.094·s); across the jet it is 2^(−r²/half-width²). The air behind the fan is still, and so is the air that
+//! the jet entrains.
 //!
-//! **A vortex** turns about its axis with the velocity 2·v·(r/R)/(1 + (r/R)²), which is v at its core's radius R and most there
+//! **A vortex** turns about its axis with the velocity 2·v·(r/R)/(1 + (r/R)²). Its largest value is v, at the core's radius R
 //! (Kaufmann 1962).
 //!
-//! Neither work was at hand. Others who use them quote a slope of 0.094 from page 44 of the first, with 0.086 to 0.096 in other
-//! measurements, and the second's profile as ∝ r/(R² + r²), which is this one.
+//! Both are quoted from works that use them: the slope of 0.094 from page 44 of the first, with 0.086 to 0.096 in other
+//! measurements; the profile of the second as ∝ r/(R² + r²), which is the one above.
 
 use crate::input::{Field, LARGEST_COORDINATE, LENGTH, RATIO, SPEED, SceneError, Table, ValueError};
 use libm::exp2;
@@ -22,57 +22,57 @@ const RADIUS: Field = Field::new("radius", LENGTH, 1e-3, LARGEST_COORDINATE);
 const AXIS: Field = Field::vector("axis", RATIO, LARGEST_COORDINATE);
 const TURNING: Field = Field::new("speed", SPEED, -1e3, 1e3);
 
-/// Air that moves: its velocity at a place, in metres, and a time, in seconds, in m/s.
+/// Moving air: its velocity in m/s at a place in metres and a time in seconds.
 ///
-/// It must depend on its arguments alone: a step that cannot be made is tried again, and triangles ask in any order. `Debug` is to show all that
-/// it depends on: checkpoints tell scenes apart by it.
+/// It must depend on its arguments alone, since failed steps are tried again and triangles call it in any order. `Debug` must
+/// show all that it depends on, since checkpoints use it to distinguish scenes.
 pub trait Air: Debug + Send + Sync {
-    /// In m/s. What is not finite counts as still.
+    /// Returns the velocity in m/s. A velocity that is not finite counts as zero.
     fn velocity(&self, at: DVec3, time: f64) -> DVec3;
 
-    /// Whether its numbers make sense.
+    /// Checks the numbers.
     ///
     /// # Errors
-    /// Which of them does not, and what would.
+    /// If a number is invalid. The message says which values are valid.
     fn check(&self) -> Result<(), ValueError> {
         Ok(())
     }
 }
 
-/// What moves air.
+/// A source of moving air.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AirSource {
     /// A round jet.
     Fan(Fan),
-    /// Air that turns.
+    /// A vortex.
     Vortex(Vortex),
 }
 
 /// A round jet of air.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fan {
-    /// In metres.
+    /// Its origin, in metres.
     pub at: DVec3,
-    /// In its middle, where it stands, in m/s. Its direction is that of the jet.
+    /// The velocity in the middle at the origin, in m/s, in the direction of the jet.
     pub velocity: DVec3,
-    /// Where the velocity is half of that in the middle, in metres.
+    /// The radius at which the velocity is half of that in the middle, in metres.
     pub radius: f64,
 }
 
-/// Air that turns about an axis, counter-clockwise as seen from where the axis points to.
+/// Air that turns about an axis, counter-clockwise as seen against the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vortex {
     /// A point of the axis, in metres.
     pub at: DVec3,
-    /// Of any length but zero.
+    /// The direction of the axis, of any length but zero.
     pub axis: DVec3,
-    /// The largest, in m/s; negative: clockwise.
+    /// The largest velocity, in m/s; negative: clockwise.
     pub speed: f64,
-    /// Where it is largest, in metres.
+    /// The radius of the largest velocity, in metres.
     pub radius: f64,
 }
 
-/// Of a round jet's half-width, with the distance.
+/// The growth of a round jet's half-width with the distance.
 const SPREADING: f64 = 0.094;
 
 impl Fan {

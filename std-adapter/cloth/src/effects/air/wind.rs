@@ -1,6 +1,6 @@
-//! Wind that is the same everywhere but for gusts: it pushes [triangles](super::panels), and [loose edges](super::cords) that have a diameter.
+//! Uniform wind with gusts. It pushes [triangles](super::panels), and [loose edges](super::cords) that have a diameter.
 //!
-//! Gusts: the wind's speed varies as 1 + g·sin(2πft − q·x) with x along the wind, q one wave in [`GUST_LENGTH`] metres.
+//! Gusts vary the wind's speed as 1 + g·sin(2πft − q·x) with x along the wind; q is one wave per [`GUST_LENGTH`] metres.
 
 use super::drag::Drag;
 use super::in_air::InAir;
@@ -13,7 +13,7 @@ use libm::sin;
 use selvedge_core::glam::DVec3;
 use std::f64::consts::TAU;
 
-/// From gust to gust, in metres.
+/// The distance between gusts, in metres.
 const GUST_LENGTH: f64 = 1.0;
 
 const VELOCITY: Field = Field::vector("velocity", SPEED, 1e3);
@@ -39,25 +39,25 @@ pub(in crate::effects) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Wind, the same everywhere but for gusts. [`Simulation::set_wind`](crate::Simulation::set_wind) changes it from step to step.
+/// Uniform wind with gusts. [`Simulation::set_wind`](crate::Simulation::set_wind) changes it from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wind {
     /// In m/s.
     pub velocity: DVec3,
     /// In kg/m³.
     pub air_density: f64,
-    /// The drag coefficient of a triangle, or a loose edge, that the wind meets head-on. Round cords have some 1.1.
+    /// The drag coefficient of a triangle or a loose edge in head-on flow. Round cords have about 1.1.
     pub drag: f64,
-    /// Of loose edges, in metres; 0: the wind blows past them.
+    /// The diameter of loose edges, in metres; 0: the wind does not push them.
     pub rope_diameter: f64,
-    /// By which share gusts change the speed; 0: none.
+    /// The amplitude of gusts as a share of the speed; 0: no gusts.
     pub gust: f64,
-    /// Gusts a second.
+    /// Gusts per second.
     pub gust_frequency: f64,
 }
 
 impl Default for Wind {
-    /// No wind yet, at sea level; no gusts. It blows past ropes.
+    /// Still air at sea level, without gusts, that does not push ropes.
     fn default() -> Self {
         Self {
             velocity: DVec3::ZERO,
@@ -71,7 +71,7 @@ impl Default for Wind {
 }
 
 impl Wind {
-    /// Whether a wind can blow so.
+    /// Checks the velocity of a wind.
     pub(crate) fn check_velocity(velocity: DVec3) -> Result<(), ValueError> {
         VELOCITY.check_vector(velocity)
     }
@@ -110,7 +110,7 @@ impl Effect for Wind {
     }
 }
 
-/// Phase per metre.
+/// Returns the phase per metre.
 fn wave(velocity: DVec3) -> DVec3 {
     velocity.normalize_or_zero() * (TAU / GUST_LENGTH)
 }

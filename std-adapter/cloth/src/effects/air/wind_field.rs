@@ -1,7 +1,7 @@
-//! Wind from a field: air whose velocity depends on place and time. It pushes [triangles](super::panels), and
-//! [loose edges](super::cords) that have a diameter, by the air in the middle of each.
+//! Wind that varies with place and time. It pushes [triangles](super::panels), and [loose edges](super::cords) that have a
+//! diameter, by the air at the centre of each.
 //!
-//! A scene file makes a field of fans and vortices ([`AirSource`]); code may give any function ([`Air`]).
+//! A scene file makes a field from fans and vortices ([`AirSource`]); code may use any function ([`Air`]).
 
 use super::drag::Drag;
 use super::in_air::InAir;
@@ -40,13 +40,13 @@ pub(in crate::effects) const REGISTRATION: Registration = Registration {
     },
 };
 
-/// Wind that is not the same everywhere.
+/// Wind that varies with place and time.
 ///
 /// ```
 /// use selvedge_cloth::effects::{Air, WindField};
 /// use selvedge_cloth::glam::DVec3;
 ///
-/// /// Faster with height, and with the time.
+/// /// Faster with height and time.
 /// #[derive(Debug)]
 /// struct Rising;
 ///
@@ -61,18 +61,18 @@ pub(in crate::effects) const REGISTRATION: Registration = Registration {
 /// ```
 #[derive(Clone, Debug)]
 pub struct WindField {
-    /// How the air moves.
+    /// The motion of the air.
     pub air: Arc<dyn Air>,
     /// In kg/m³.
     pub air_density: f64,
-    /// The drag coefficient of a triangle, or a loose edge, that the wind meets head-on. Round cords have some 1.1.
+    /// The drag coefficient of a triangle or a loose edge in head-on flow. Round cords have about 1.1.
     pub drag: f64,
-    /// Of loose edges, in metres; 0: the wind blows past them.
+    /// The diameter of loose edges, in metres; 0: the wind does not push them.
     pub rope_diameter: f64,
 }
 
 impl WindField {
-    /// At sea level. It blows past ropes.
+    /// Makes a field of air at sea level that does not push ropes.
     #[must_use]
     pub fn new(air: impl Air + 'static) -> Self {
         Self {
@@ -83,7 +83,7 @@ impl WindField {
         }
     }
 
-    /// Of fans and vortices, as scene files have them.
+    /// Makes a field from fans and vortices, as scene files do.
     #[must_use]
     pub fn from_sources(sources: Vec<AirSource>) -> Self {
         Self::new(sources)

@@ -1,13 +1,13 @@
-//! Folds that stay: what was bent too far does not go back all the way.
+//! Permanent folds: cloth that is bent too far does not flatten completely.
 //!
-//! A hinge has a rest of its own, c₀ along the normal n between its triangles, and costs ½(αD/A)·|C − c₀n|². C is parallel to n but for
-//! what is stretched, so that this varies with C·n alone: forces are −Q·x and (αD/A)·c₀·K·n on its vertices, which sum to zero and do not turn
-//! it. The second part, the loads, is added in each stage of a step, with the normals at its start: as n lags behind what turns, it slows it
-//! down a little.
+//! A hinge has a rest of its own, c₀ along the normal n between its triangles, and the energy ½(αD/A)·|C − c₀n|². C is parallel
+//! to n up to stretch, so the energy depends on C·n alone. The forces are −Q·x and (αD/A)·c₀·K·n on the vertices, which sum to
+//! zero and exert no torque. The second part, the loads, is added in each stage of a step, with the normals at its start. Since n
+//! lags behind a rotation, it damps rotation a little.
 //!
-//! **Yield.** C·n/A is a curvature, c₀/A that of the fold at rest. Where they differ by more than κ when a step is made, the fold creeps: of
-//! what is beyond κ it takes 1 − exp(−h/τ), all of it at once if τ is zero. That is perfect plasticity, the model of Narain, Pfaff and O'Brien
-//! (2013) without hardening, of fold angles instead of curvatures of triangles.
+//! **Yield.** C·n/A is a curvature, c₀/A that of the fold at rest. If they differ by more than κ after a step, the fold creeps:
+//! it takes 1 − exp(−h/τ) of the excess over κ, all of it if τ is zero. That is perfect plasticity: the model of Narain, Pfaff
+//! and O'Brien (2013) without hardening, for fold angles instead of curvatures of triangles.
 
 use super::hinge::Hinge;
 use crate::model::schedule::On;
@@ -16,7 +16,7 @@ use libm::exp;
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
-/// When folds stay.
+/// When folds become permanent.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Yield {
     /// κ of the module, in 1/m.
@@ -29,7 +29,7 @@ pub(crate) struct Yield {
 pub(super) struct Folds {
     when: Yield,
     hinges: Vec<Fold>,
-    /// The vertices that the last ones are copies of: where the cloth has torn.
+    /// The source vertices of the last ones, which are copies made by tears.
     copied: Vec<u32>,
     /// On each vertex, in N.
     loads: Vec<DVec3>,
@@ -44,7 +44,7 @@ struct Fold {
 }
 
 impl Fold {
-    /// C, and the normal between the two triangles.
+    /// Returns C, and the normal between the two triangles.
     fn bent(&self, positions: &[DVec3]) -> [DVec3; 2] {
         let x = self.vertices.map(|v| positions[v as usize]);
         let [a, b, c, d] = x;
@@ -55,7 +55,7 @@ impl Fold {
 }
 
 impl Folds {
-    /// All flat. Of the vertices the last ones are copies of those `copied`.
+    /// Makes flat folds. The last vertices are copies of those in `copied`.
     pub(super) fn new(hinges: &[On<Hinge, 4>], vertex_count: usize, copied: &[u32], when: Yield) -> Self {
         let fold = |&(vertices, hinge): &On<Hinge, 4>| Fold {
             vertices,
@@ -70,8 +70,8 @@ impl Folds {
         }
     }
 
-    /// The vertices of a fold before the cloth tore, those of the edge in ascending order; and whether they are turned round by that,
-    /// which turns the normal.
+    /// Returns the vertices of a fold before the cloth tore, those of the edge in ascending order, and whether that order
+    /// reverses the edge and so the normal.
     fn as_made(&self, fold: &Fold) -> ([u32; 4], bool) {
         let first_copy = self.loads.len() - self.copied.len();
         let made = |vertex: u32| {
@@ -82,7 +82,7 @@ impl Folds {
         ([a.min(b), a.max(b), c, d], a > b)
     }
 
-    /// What folds add to the force on each vertex, with everything at these positions, in N.
+    /// Returns the loads of the folds on each vertex at these positions, in N.
     pub(super) fn loads(&mut self, positions: &[DVec3]) -> &[DVec3] {
         self.loads.fill(DVec3::ZERO);
         for fold in self.hinges.iter().filter(|fold| fold.rest != 0.0) {
@@ -95,7 +95,7 @@ impl Folds {
         &self.loads
     }
 
-    /// What is to be added to ½x·Q·x for the energy, in J.
+    /// Returns the part of the energy besides ½x·Q·x, in J.
     pub(super) fn energy(&self, positions: &[DVec3]) -> f64 {
         let of = |fold: &Fold| {
             let [bent, normal] = fold.bent(positions);
@@ -119,7 +119,7 @@ impl Memory for Folds {
         });
     }
 
-    /// The rest of each fold, in m, with the normal as it was before the cloth tore.
+    /// Returns the rest of each fold, in m, with the normal as it was before the cloth tore.
     fn numbers(&self) -> Vec<f64> {
         let number = |fold: &Fold| match self.as_made(fold) {
             (_, true) => -fold.rest,

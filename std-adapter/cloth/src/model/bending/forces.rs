@@ -1,4 +1,4 @@
-//! The forces of all hinges at once, −Q·x: a sparse symmetric matrix, by rows.
+//! The forces of all hinges at once, −Q·x, with Q a sparse symmetric matrix stored by rows.
 
 use super::hinge::Hinge;
 use crate::model::schedule::On;
@@ -6,15 +6,15 @@ use crate::world::Incidence;
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
 
-/// How often the bound of the fastest wave is made tighter. Measured on a shirt with slivers: 1.95 times the largest eigenvalue with one, 1.06 with five,
-/// 1.004 with nine, 1.00002 with seventeen.
+/// The number of tightenings of the bound on the fastest wave. On a shirt with slivers the bound is 1.95 times the largest
+/// eigenvalue after one, 1.06 after five, 1.004 after nine, 1.00002 after seventeen.
 const TIGHTENINGS: u32 = 12;
 
 /// Rows of Q without the diagonal: a row sums to zero.
 #[derive(Debug)]
 pub(super) struct Forces {
     starts: Vec<u32>,
-    /// Of each entry its column, ascending in a row, and its value. Apart from each other: 12 bytes to read of each in every stage instead of 16.
+    /// The column and the value of each entry, ascending in a row. Two arrays take 12 bytes per entry instead of 16.
     columns: Vec<u32>,
     values: Vec<f64>,
 }
@@ -38,7 +38,7 @@ impl Forces {
         };
         for vertex in 0..vertex_count {
             let row = rows.of_mut(vertex);
-            // Stable, so that sums are the same bits every time.
+            // The sort is stable, so that sums have the same bits every time.
             row.sort_by_key(|(other, _)| *other);
             for same in row.chunk_by(|a, b| a.0 == b.0) {
                 forces.columns.push(same[0].0);
@@ -49,7 +49,7 @@ impl Forces {
         forces
     }
 
-    /// Vertices.
+    /// Returns the number of vertices.
     pub(super) fn len(&self) -> usize {
         self.starts.len() - 1
     }
@@ -61,11 +61,11 @@ impl Forces {
         columns.zip(self.values[row].iter().copied())
     }
 
-    /// No less than the largest eigenvalue of M⁻¹Q, in 1/s², and hardly more, or no more than is `enough`.
+    /// Returns an upper bound of the largest eigenvalue of M⁻¹Q, in 1/s², nearly tight, or at most `enough`.
     ///
-    /// With A the absolute values of M⁻¹Q it is at most the largest (A·d)ᵢ/dᵢ, whatever positive d is (Collatz 1942, Wielandt 1950): with ones
-    /// the largest sum of a row (Gershgorin), which slivers make twice as large as need be. Each d here is the mean of the one before and what A makes
-    /// of it, which never makes the bound larger, as A has no negative entry.
+    /// With A the absolute values of M⁻¹Q, the largest (A·d)ᵢ/dᵢ is a bound for any positive d (Collatz 1942, Wielandt 1950).
+    /// With ones it is the largest row sum (Gershgorin), which slivers double. Each next d is the mean of d and its product with
+    /// A, which never increases the bound, since A has no negative entry.
     pub(super) fn fastest(&self, inverse_masses: &[f64], enough: f64) -> f64 {
         let times = |vertex: usize, d: &[f64]| {
             let row = self.row(vertex);
@@ -90,7 +90,7 @@ impl Forces {
         bound
     }
 
-    /// On a vertex.
+    /// Returns the force on a vertex.
     #[inline(always)]
     fn on(&self, vertex: usize, positions: &[DVec3]) -> DVec3 {
         let own = positions[vertex];
@@ -101,7 +101,8 @@ impl Forces {
         force
     }
 
-    /// ½x·Q·x, in J, not negative whatever is rounded. About the first vertex: forces have no sum, and differences fewer digits to lose.
+    /// Returns ½x·Q·x, in J, not negative whatever the rounding. Positions are relative to the first vertex, since the forces sum
+    /// to zero and differences lose fewer digits.
     pub(super) fn energy(&self, positions: &[DVec3]) -> f64 {
         let of = |vertex: usize| (positions[vertex] - positions[0]).dot(self.on(vertex, positions));
         (-0.5 * (0..self.len()).map(of).sum::<f64>()).max(0.0)
@@ -120,7 +121,7 @@ mod tests {
     use crate::model::hierarchy::irregular;
     use crate::world::{Cloth, sheet};
 
-    /// From below: what M⁻¹Q multiplies the energy of a motion by that it has been applied to often.
+    /// Returns a lower bound: the factor by which M⁻¹Q multiplies the energy of a motion to which it was applied often.
     fn largest_eigenvalue(forces: &Forces, inverse_masses: &[f64]) -> f64 {
         let mut motion: Vec<_> = (0..forces.len()).map(|k| DVec3::Z * (k as f64).sin()).collect();
         let mut largest = 0.0;

@@ -1,4 +1,4 @@
-//! An edge between two triangles, and how it resists being bent.
+//! A hinge: an edge between two triangles with its bending resistance.
 
 use crate::model::membrane::warp_and_weft;
 use crate::model::schedule::{Local, On};
@@ -6,12 +6,12 @@ use crate::world::Cloth;
 use selvedge::Topology;
 use selvedge_core::glam::DVec3;
 
-/// Of its four vertices, the edge's first.
+/// On its four vertices, those of the edge first.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hinge {
     /// K of the module.
     pub(super) weights: [f64; 4],
-    /// What |C|² is multiplied by for twice the energy, in N/m.
+    /// The factor of |C|² in twice the energy, in N/m.
     pub(super) coefficient: f64,
     /// A of the module, in m².
     pub(super) area: f64,
@@ -26,11 +26,11 @@ impl Hinge {
     }
 }
 
-/// No hinge is without stiffness, however blunt the angles opposite its edge.
+/// The least α: no hinge is without stiffness, however blunt the angles opposite its edge.
 const LEAST_SHARE: f64 = 1.0 / 3.0;
 
-/// One for each edge between two triangles. `rigidity` is told the square of the cosine between the warp and the direction that is bent,
-/// which is across the edge.
+/// Returns a hinge for each edge between two triangles. `rigidity` maps the square of the cosine between the warp and the
+/// direction of bending, across the edge, to a flexural rigidity.
 pub(crate) fn hinges(cloth: &Cloth, rigidity: impl Fn(f64) -> f64) -> Vec<On<Hinge, 4>> {
     let topology = &cloth.topology;
     let mut opposite = vec![[u32::MAX; 2]; topology.edges().len()];
@@ -56,7 +56,7 @@ pub(crate) fn hinges(cloth: &Cloth, rigidity: impl Fn(f64) -> f64) -> Vec<On<Hin
         let [_, weft] = warp_and_weft(b - a, c - a, cloth.warp);
         let area = 0.5 * ((b - a).cross(c - a).length() + (b - a).cross(d - a).length());
         let opposite = cotangent(a - c, b - c) + cotangent(a - d, b - d);
-        // The warp is as far from across the edge as the weft is from the edge.
+        // The angle between the warp and the direction across the edge equals that between the weft and the edge.
         let of_warp = weft.dot((b - a).normalize()).powi(2).min(1.0);
         let hinge = Hinge {
             weights: [at_b[0] + at_b[1], at_a[0] + at_a[1], -at_a[0] - at_b[0], -at_a[1] - at_b[1]],
@@ -68,12 +68,12 @@ pub(crate) fn hinges(cloth: &Cloth, rigidity: impl Fn(f64) -> f64) -> Vec<On<Hin
     inner.map(make).collect()
 }
 
-/// α of the module, of the sum of the cotangents of the angles opposite the edge.
+/// Returns α of the module, given the sum of the cotangents of the angles opposite the edge.
 fn share(opposite: f64) -> f64 {
     ((2.0 + opposite) / 3.0).max(LEAST_SHARE)
 }
 
-/// The hinge by itself, in one step of extended position-based dynamics.
+/// A single hinge in one step of extended position-based dynamics.
 impl Local<4> for Hinge {
     type Multipliers = ();
 
@@ -86,7 +86,7 @@ impl Local<4> for Hinge {
             weight += w[i] * k[i] * k[i];
         }
         let multiplier = bent * (-1.0 / weight);
-        // Written out: `map` would not be inlined here.
+        // Written out, since `map` would not be inlined here.
         let by = |i: usize| multiplier * (w[i] * k[i]);
         [by(0), by(1), by(2), by(3)]
     }

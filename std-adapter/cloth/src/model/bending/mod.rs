@@ -1,41 +1,42 @@
-//! Resistance to bending, in one step that neither mesh nor stiffness makes unstable or soft.
+//! Bending resistance, in one step that is stable and accurate for any mesh and stiffness.
 //!
 //! ```text
 //! cloth at rest ──▶ hinges ──▶ forces −Q·x ──▶ stages ──▶ positions
-//!                       └────▶ what is too stiff for the stages, one by one
+//!                       └────▶ the part that is too stiff for the stages, hinge by hinge
 //! ```
 //!
-//! **Energy.** A [`Hinge`] is an edge between two triangles with its four vertices; C = ΣKᵢxᵢ, K made of the cotangents of its angles at
-//! rest, has the length of the edge times the angle between the triangles (Bergou et al. 2006). It costs ½(αD/A)·|C|², D being the
-//! flexural rigidity, in N·m, and A the area of both triangles. The energy is quadratic: forces are −Q·x with a Q that never changes,
-//! there is no trigonometry and no singular fold.
+//! **Energy.** A [`Hinge`] is an edge between two triangles with its four vertices. C = ΣKᵢxᵢ, with K made of the cotangents of
+//! its angles at rest, has the length of the edge times the angle between the triangles (Bergou et al. 2006). Its energy is
+//! ½(αD/A)·|C|², with the flexural rigidity D in N·m and A the area of both triangles. The energy is quadratic: forces are −Q·x
+//! with a constant Q, without trigonometry and without singular folds.
 //!
-//! Bergou et al. have α = 3. That is right for a ball, but cloth hardly ever bends in two directions at once, and bent in one, around rows
-//! of equilateral triangles, it is three times too stiff: only the hinges across the rows are bent, |C| = κ·A for a curvature κ, and
-//! there is one for each A of cloth, which is to cost ½D·κ² an area. With α = 1 equilateral triangles are right in any direction. A grid of
-//! right-angled ones with alternating diagonals, whose vertices move by themselves to where least energy is, would have 5/6 of
-//! the rigidity around its rows and 4/3 around its diagonals; with 4/3 for the legs and 2/3 for the diagonals it is 1 in every direction
-//! (by homogenisation: the least energy of a periodic cell at a given mean curvature). α = (2 + cot γ + cot δ)/3, γ and δ being the
-//! angles opposite the edge, is both, and 1.05 for equilateral triangles. A strip that bends under its weight then finds 0.9 to 1.1 times
-//! the rigidity on grids and on irregular triangles, in any direction; where all diagonals of a grid are parallel, 0.6 to 2.9.
+//! Bergou et al. use α = 3. That is right for a ball, but cloth hardly ever bends in two directions at once. Bent in one
+//! direction around rows of equilateral triangles, it is three times too stiff: only the hinges across the rows bend, |C| = κ·A
+//! for a curvature κ, and there is one for each area A of cloth, whose energy should be ½D·κ² per area. With α = 1 equilateral
+//! triangles are right in any direction. A grid of right-angled triangles with alternating diagonals, whose vertices relax to the
+//! least energy, would have 5/6 of the rigidity around its rows and 4/3 around its diagonals. With 4/3 for the legs and 2/3 for
+//! the diagonals it is 1 in every direction (by homogenisation: the least energy of a periodic cell at a given mean curvature). α
+//! = (2 + cot γ + cot δ)/3, with γ and δ the angles opposite the edge, gives both, and 1.05 for equilateral triangles. A strip
+//! that bends under its weight then shows 0.9 to 1.1 times the rigidity on grids and on irregular triangles, in any direction;
+//! where all diagonals of a grid are parallel, 0.6 to 2.9.
 //!
-//! **In time.** Implicit Euler wants x with (M + h²Q)(x − y) = −h²Q·y, y being where everything else leads. One sweep of Gauss and Seidel,
-//! hinge by hinge, does nearly nothing about long waves on a fine mesh: a strip that should bend under its weight as a fabric does
-//! hung down like a string (0.13 of its rigidity at edges of 2.4 mm, 0.04 at 1.2 mm, in spite of α = 3). But long waves are slow, and for them the
-//! force −Q·y itself is as good. So the force is evaluated s times, in the stages of a Runge–Kutta–Chebyshev method of first order
-//! (van der Houwen and Sommeijer 1980), x = R(h²M⁻¹Q)·y with R(λ) = 1 − λ + O(λ²) for what is slow and |R| ≤ 1/[`DAMPING`](stages::DAMPING)
-//! for what is fast. That needs s in proportion to the root of the largest eigenvalue; one stage is enough for edges of a centimetre.
+//! **Integration.** Implicit Euler solves (M + h²Q)(x − y) = −h²Q·y for x, with y the prediction of everything else. One sweep of
+//! Gauss and Seidel, hinge by hinge, hardly moves long waves on a fine mesh: a strip hangs like a string (0.13 of its rigidity at
+//! edges of 2.4 mm, 0.04 at 1.2 mm, even with α = 3). But long waves are slow, and for them the force −Q·y itself is accurate
+//! enough. So the force is evaluated s times, in the stages of a first-order Runge–Kutta–Chebyshev method (van der Houwen and
+//! Sommeijer 1980): x = R(h²M⁻¹Q)·y with R(λ) = 1 − λ + O(λ²) for slow modes and |R| ≤ 1/[`DAMPING`](stages::DAMPING) for fast
+//! ones. The number of stages grows with the root of the largest eigenvalue; one stage suffices for edges of a centimetre.
 //!
-//! As a polynomial of a symmetric operator whose rows sum to zero, it changes neither momentum nor angular momentum of a free cloth, but
-//! for rounding: Σ yᵢ × (S·y)ᵢ = 0 for any symmetric S. Nothing depends on an order.
+//! As a polynomial of a symmetric operator whose rows sum to zero, the step conserves momentum and angular momentum of a free
+//! cloth up to rounding: Σ yᵢ × (S·y)ᵢ = 0 for any symmetric S. The result does not depend on an order.
 //!
-//! **Stable.** A step multiplies a wave by z with z² − 2R·z + R = 0 (the velocity is x − the last x): |z|² = R if R ≥ 0, and
-//! |z| ≤ 1 if R ≥ −1/3. How large eigenvalues are is known from above ([`Forces::fastest`]).
+//! **Stability.** A step multiplies a wave by z with z² − 2R·z + R = 0 (the velocity is x − the last x): |z|² = R if R ≥ 0, and
+//! |z| ≤ 1 if R ≥ −1/3. [`Forces::fastest`] bounds the eigenvalues from above.
 //!
-//! **Too stiff.** Where a row needs more stages than are allowed, the stiffness of its hinges is parted: what the stages can do is done by
-//! them, the rest by one sweep, hinge by hinge, as if there were no stages. So a plate is at least as stiff as the stages make it. The same is done
-//! where a few slivers alone need more stages than all others, which would have to go along ([`MOST_BEYOND`]). With folds that stay ([`folds`])
-//! there is no such rest: what is too stiff gets softer.
+//! **Too stiff.** Where a row needs more stages than are allowed, the stiffness of its hinges is split: the stages do what they
+//! can, and one sweep, hinge by hinge, the rest as if there were no stages. So a plate is at least as stiff as the stages make
+//! it. The same happens where a few slivers alone need more stages than all others ([`MOST_BEYOND`]). With permanent folds
+//! ([`folds`]) the rest is left out: what is too stiff gets softer.
 
 mod folds;
 mod forces;
@@ -53,19 +54,20 @@ use forces::Forces;
 use selvedge_core::glam::DVec3;
 use stages::Stages;
 
-/// So many of the hinges, at most, are in part done one by one so that the others need fewer stages.
+/// The largest share of hinges that are partly done one by one so that the others need fewer stages.
 const MOST_BEYOND: f64 = 0.02;
-/// So few stages are not made fewer: they take little time, and with one, two and three of them R of the module is 1 − λ + c·λ² with a c of 0, 0.21
-/// and 0.26 instead of the 0.27 to 0.30 of more, so that waves that are not slow move otherwise.
+/// The number of stages that is not reduced further. So few stages take little time. With one, two and three stages R of the
+/// module is 1 − λ + c·λ² with a c of 0, 0.21 and 0.26 instead of the 0.27 to 0.30 of more, so that waves that are not slow would
+/// move differently.
 const ENOUGH_STAGES: u32 = 4;
 
 /// The bending of a cloth, as a constraint.
 #[derive(Debug)]
 pub(crate) struct Bending {
     forces: Forces,
-    /// The largest eigenvalue of M⁻¹Q, or more, in 1/s².
+    /// An upper bound of the largest eigenvalue of M⁻¹Q, in 1/s².
     fastest: f64,
-    /// What is too stiff for the stages.
+    /// The part that is too stiff for the stages.
     beyond: Option<Schedule<Hinge, 4>>,
     folds: Option<Folds>,
     /// The last two stages, and the next.
@@ -73,8 +75,8 @@ pub(crate) struct Bending {
 }
 
 impl Bending {
-    /// Of hinges on vertices with these inverse masses, in 1/kg, in at most so many stages for a step of so many seconds. Of folds is told
-    /// when they stay, and of which vertices the last ones are copies.
+    /// Makes the constraint from hinges on vertices with these inverse masses, in 1/kg, with at most `most_stages` stages for a
+    /// step of `h` seconds. `folds` says when folds become permanent, and which vertices the last ones are copies of.
     pub(crate) fn new(
         hinges: &[On<Hinge, 4>],
         inverse_masses: &[f64],
@@ -84,12 +86,12 @@ impl Bending {
     ) -> Self {
         let vertex_count = inverse_masses.len();
         let reach = |stages| Stages::of(stages).reach() / (time_step * time_step);
-        // A little less, or rounding might ask for one stage more.
+        // A little less, or rounding might need one stage more.
         let [enough, allowed] = [reach(ENOUGH_STAGES) * (1.0 - 1e-9), reach(most_stages)];
         let parted = |few| Parted::new(hinges, inverse_masses, [enough, allowed], few);
         let stages_of = |parted: &Parted| Stages::to_reach(time_step * time_step * parted.fastest).count();
         let mut least = parted(0.0);
-        // Folds have no rest to leave anything to.
+        // Folds have no rest that could take a part.
         if folds.is_none() && stages_of(&least) > ENOUGH_STAGES {
             let without_few = parted(MOST_BEYOND);
             if stages_of(&without_few) < stages_of(&least) {
@@ -112,18 +114,18 @@ impl Bending {
     }
 }
 
-/// Hinges with as much of their stiffness as the stages do, and with what is left of it.
+/// Hinges with the part of their stiffness that the stages do, and with the rest.
 struct Parted {
     within: Vec<On<Hinge, 4>>,
     beyond: Vec<On<Hinge, 4>>,
-    /// Of those within, and their [`Bending::fastest`].
+    /// The forces of the first part, and their [`Bending::fastest`].
     forces: Forces,
     fastest: f64,
 }
 
 impl Parted {
-    /// Within, there is no eigenvalue of M⁻¹Q above `allowed`, in 1/s², nor above what is `enough` and what all hinges but a share of so `few`
-    /// keep to.
+    /// Splits hinges. The first part has no eigenvalue of M⁻¹Q above `allowed`, in 1/s². It also has none above the larger of
+    /// `enough` and the value that all hinges except a share of `few` keep.
     fn new(hinges: &[On<Hinge, 4>], inverse_masses: &[f64], [enough, allowed]: [f64; 2], few: f64) -> Self {
         let [within, beyond] = parted(hinges, inverse_masses, [enough, allowed], few);
         let forces = Forces::new(&within, inverse_masses.len());
@@ -136,7 +138,7 @@ impl Parted {
     }
 }
 
-/// The hinges within and beyond of [`Parted::new`].
+/// Returns the two parts of [`Parted::new`].
 fn parted(hinges: &[On<Hinge, 4>], inverse_masses: &[f64], [enough, allowed]: [f64; 2], few: f64) -> [Vec<On<Hinge, 4>>; 2] {
     let mut sums = vec![0.0; inverse_masses.len()];
     for (vertices, hinge) in hinges {
@@ -166,7 +168,7 @@ fn parted(hinges: &[On<Hinge, 4>], inverse_masses: &[f64], [enough, allowed]: [f
     [within.collect(), beyond]
 }
 
-/// All stages of a step; `whole` makes the whole force on a vertex of that which bending alone has.
+/// Runs all stages of a step; `whole` maps the force of bending on a vertex to the whole force.
 fn run(
     forces: &Forces,
     [before, last, next]: &mut [Vec<DVec3>; 3],
@@ -232,7 +234,7 @@ mod tests {
     use crate::model::schedule::Local;
     use crate::world::{Cloth, sheet};
 
-    /// Whether the stages do all of it or the sweep of hinges a part.
+    /// This holds whether the stages do all of it, or the sweep of hinges does a part.
     #[test]
     fn energy_is_that_of_all_hinges_and_flat_cloth_has_none() {
         let cloth = Cloth::of(sheet(DVec3::ONE, [DVec3::X, DVec3::new(0.3, 1.0, 0.0)], [9, 8]));
@@ -260,7 +262,7 @@ mod tests {
         }
     }
 
-    /// A vertex is moved most of the way towards another one: some thirty of 4,720 hinges then have slivers at their ends.
+    /// A vertex is moved most of the way towards another one. Some thirty of 4,720 hinges then have slivers at their ends.
     #[test]
     fn a_few_slivers_need_no_more_stages_than_the_rest() {
         let even = sheet(DVec3::ZERO, [DVec3::X, DVec3::Y], [40, 40]);

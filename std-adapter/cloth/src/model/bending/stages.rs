@@ -1,16 +1,18 @@
-//! The stages of a Runge–Kutta–Chebyshev method of first order (van der Houwen and Sommeijer 1980; Verwer 1996).
+//! The stages of a first-order Runge–Kutta–Chebyshev method (van der Houwen and Sommeijer 1980; Verwer 1996).
 //!
-//! After s of them a part of the motion with the eigenvalue −λ (λ = h² times that of M⁻¹Q) is multiplied by
-//! R(λ) = Tₛ(w₀ − w₁λ)/Tₛ(w₀), T Chebyshev's polynomials, w₁ = Tₛ(w₀)/Tₛ′(w₀): then R(0) = 1 and R′(0) = −1. With Tₛ(w₀) = [`DAMPING`]
-//! |R| ≤ 1/`DAMPING` wherever |w₀ − w₁λ| ≤ 1, up to λ = (1 + w₀)/w₁, some 0.86·s². With w₀ = cosh θ, Tⱼ(w₀) = cosh jθ.
+//! After s stages a mode of the motion with the eigenvalue −λ (λ = h² times that of M⁻¹Q) is multiplied by R(λ) = Tₛ(w₀ −
+//! w₁λ)/Tₛ(w₀), with T Chebyshev's polynomials and w₁ = Tₛ(w₀)/Tₛ′(w₀): then R(0) = 1 and R′(0) = −1. With Tₛ(w₀) = [`DAMPING`],
+//! |R| ≤ 1/`DAMPING` wherever
+//! |w₀ − w₁λ| ≤ 1, up to λ = (1 + w₀)/w₁, about 0.86·s². With w₀ = cosh θ, Tⱼ(w₀) = cosh jθ.
 //!
-//! R(λ) = bₛTₛ with bⱼ = 1/Tⱼ(w₀), so that Chebyshev's recursion Tⱼ = 2wTⱼ₋₁ − Tⱼ₋₂ at w = w₀ − w₁λ is one of positions:
-//! Yⱼ = 2w₀(bⱼ/bⱼ₋₁)Yⱼ₋₁ − (bⱼ/bⱼ₋₂)Yⱼ₋₂ + 2w₁(bⱼ/bⱼ₋₁)·F(Yⱼ₋₁), F being h²M⁻¹ times the forces there. The first two factors sum to one.
+//! R(λ) = bₛTₛ with bⱼ = 1/Tⱼ(w₀), so that Chebyshev's recursion Tⱼ = 2wTⱼ₋₁ − Tⱼ₋₂ at w = w₀ − w₁λ becomes one of positions: Yⱼ
+//! = 2w₀(bⱼ/bⱼ₋₁)Yⱼ₋₁ − (bⱼ/bⱼ₋₂)Yⱼ₋₂ + 2w₁(bⱼ/bⱼ₋₁)·F(Yⱼ₋₁), where F is h²M⁻¹ times the forces there. The first two factors sum
+//! to one.
 
 use libm::{acosh, cosh, sinh};
 
-/// By how much, at least, a step reduces what is too fast for it. Three is enough for stability; five leaves some of it for rounding, and
-/// for what other constraints do.
+/// The least factor by which a step reduces modes that are too fast for it. Three suffices for stability; five leaves room for
+/// rounding and for other constraints.
 pub(super) const DAMPING: f64 = 5.0;
 
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +22,7 @@ pub(super) struct Stages {
     w1: f64,
 }
 
-/// One stage: the next positions are the last ones, and these shares of what the ones before differ by, and of the force.
+/// One stage: shares of the difference of the last two positions, and of the force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stage {
     pub(super) before: f64,
@@ -28,7 +30,7 @@ pub(super) struct Stage {
 }
 
 impl Stages {
-    /// So many; one at least.
+    /// Returns the coefficients of `count` stages, at least one.
     pub(super) fn of(count: u32) -> Self {
         let count = count.max(1);
         let angle = acosh(DAMPING) / f64::from(count);
@@ -39,7 +41,7 @@ impl Stages {
         }
     }
 
-    /// The fewest that an eigenvalue of h²M⁻¹Q needs.
+    /// Returns the fewest stages for an eigenvalue of h²M⁻¹Q.
     pub(super) fn to_reach(eigenvalue: f64) -> Self {
         // The reach is between 0.85 and 1.2 times the square of the count.
         let mut stages = Self::of((eigenvalue / 1.2).sqrt().min(1e6) as u32);
@@ -53,7 +55,7 @@ impl Stages {
         self.count
     }
 
-    /// The largest eigenvalue of h²M⁻¹Q that they are stable for.
+    /// Returns the largest stable eigenvalue of h²M⁻¹Q.
     pub(super) fn reach(self) -> f64 {
         (1.0 + self.w0) / self.w1
     }
@@ -66,7 +68,7 @@ impl Stages {
             let [one, two] = last;
             let own = 2.0 * w0 * one - two;
             last = [own, one];
-            // The first has nothing before it: Y₁ = Y₀ + (w₁/w₀)·F(Y₀).
+            // The first has no predecessor: Y₁ = Y₀ + (w₁/w₀)·F(Y₀).
             if stage == 1 {
                 return Stage {
                     before: 0.0,
@@ -85,7 +87,7 @@ impl Stages {
 mod tests {
     use super::*;
 
-    /// What the stages multiply a wave of this eigenvalue by.
+    /// Returns the factor of a wave of this eigenvalue.
     fn factor(stages: Stages, eigenvalue: f64) -> f64 {
         let [mut before, mut last] = [1.0, 1.0];
         for stage in stages.each() {

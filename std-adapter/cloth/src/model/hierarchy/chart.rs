@@ -1,7 +1,7 @@
-//! The cloth around a vertex, laid flat: triangle after triangle, each beside one that lies already, the nearest first.
+//! The cloth around a vertex laid flat, triangle by triangle, each beside one that lies already, the nearest first.
 //!
-//! Exact where the cloth at rest can be laid flat, as a sheet or a tube can. Elsewhere it is the way of the triangles through which
-//! a place was reached first. Where three places are not as far apart as they are over the cloth, a level does without them (see
+//! This is exact where the cloth at rest is developable, as a sheet or a tube is. Elsewhere a place depends on the triangles
+//! through which it was reached first. Where three places are not as far apart as over the cloth, a level does without them (see
 //! [`dual`](super::dual)).
 
 use super::surface::Surface;
@@ -13,9 +13,9 @@ use std::collections::BinaryHeap;
 #[derive(Debug)]
 pub(super) struct Chart<'a> {
     surface: &'a Surface<'a>,
-    /// Warp goes along x at the middle.
+    /// The warp at the centre is along x.
     places: Vec<DVec2>,
-    /// The number of the chart that a vertex was placed in last.
+    /// The number of the chart in which a vertex was placed last.
     placed_in: Vec<u32>,
     number: u32,
     nearest: BinaryHeap<(Reverse<u64>, u32)>,
@@ -33,13 +33,13 @@ impl<'a> Chart<'a> {
         }
     }
 
-    /// Where the vertex lies, if it does.
+    /// Returns the place of a vertex, if it lies in the chart.
     pub(super) fn at(&self, vertex: u32) -> Option<DVec2> {
         let is_placed = self.placed_in[vertex as usize] == self.number;
         is_placed.then(|| self.places[vertex as usize])
     }
 
-    /// Forgets all, and lays the cloth around `middle` flat, as far as `is_allowed`, until all that is wanted lies.
+    /// Clears the chart and lays the cloth around `middle` flat, over allowed triangles, until all `wanted` vertices lie.
     pub(super) fn lay(&mut self, middle: u32, wanted: &[u32], is_allowed: impl Fn(u32) -> bool) {
         self.number += 1;
         self.nearest.clear();

@@ -1,6 +1,6 @@
 //! The triangles between seeds: one wherever three of their cells meet, at a triangle of the cloth with three owners.
 //!
-//! So coarse triangles know holes, notches and slits as the cloth does: cells that do not touch have no triangle in common.
+//! Coarse triangles respect holes, notches and slits, since cells that do not touch have no triangle in common.
 
 use super::grouped::Grouped;
 use super::seeds::Seeds;
@@ -8,21 +8,23 @@ use super::surface::Surface;
 use selvedge_core::glam::DVec2;
 use std::collections::BTreeSet;
 
-/// A triangle's height over its longest side is no smaller than this share of it.
+/// The least height of a triangle over its longest side.
 const THINNEST: f64 = 0.05;
-/// Where the straight way between two places of a chart is shorter than the cloth's by more than this, there is no cloth along it.
-/// A way through both cells is longer by up to 1.15, at an obtuse triangle, and one over edges and across hinges by up to 1.08.
+/// The largest ratio of the path over the cloth to the straight distance in a chart. Beyond it there is no cloth along the
+/// straight line. A path through both cells is longer by up to 1.15, at an obtuse triangle, and one over edges and across hinges
+/// by up to 1.08.
 const DETOUR: f64 = 1.3;
-/// Where it is longer than the cloth's, the chart has gone the wrong way round.
+/// The largest inverse ratio. Beyond it the chart has gone the wrong way round.
 const SHORTCUT: f64 = 1.05;
 
 #[derive(Debug)]
 pub(super) struct Dual {
-    /// Seeds, as the cloth's triangles turn, the smallest first.
+    /// Seeds, in the orientation of the cloth's triangles, the smallest first.
     pub(super) triangles: Vec<[u32; 3]>,
     /// The triangles of each seed.
     pub(super) around: Grouped<u32>,
-    /// From a seed to one with a larger number whose cell touches its own, and how long the shortest way through both is; sorted.
+    /// From a seed to one with a larger number whose cell touches its own: the length of the shortest path through both cells;
+    /// sorted.
     ways: Vec<([u32; 2], f64)>,
 }
 
@@ -64,7 +66,7 @@ impl Dual {
         }
     }
 
-    /// Whether the triangle is well shaped, and its sides as long as the cloth between its corners, where a chart places them.
+    /// Returns whether the triangle is well shaped, and its sides in the chart are as long as the cloth between its corners.
     pub(super) fn fits(&self, triangle: u32, places: [DVec2; 3]) -> bool {
         let corners = self.triangles[triangle as usize];
         let mut longest: f64 = 0.0;

@@ -1,4 +1,4 @@
-//! Lists of items, one for each of a number of owners, in one piece of memory.
+//! Lists of items, one for each owner, in one buffer.
 
 use std::ops::Index;
 
@@ -9,7 +9,7 @@ pub(super) struct Grouped<T> {
 }
 
 impl<T: Copy> Grouped<T> {
-    /// Each owner's items in the order in which `pairs` has them.
+    /// Collects items; each owner's items keep the order of `pairs`.
     pub(super) fn new(owners: usize, pairs: &[(u32, T)]) -> Self {
         let mut starts = vec![0_u32; owners + 1];
         pairs.iter().for_each(|(owner, _)| starts[*owner as usize + 1] += 1);

@@ -1,9 +1,9 @@
-//! For tests: triangulations of a square that no program would make of a grid.
+//! For tests: irregular triangulations of a square.
 
 use selvedge::glam::{DVec2, DVec3};
 use selvedge::{Mesh, Topology};
 
-/// Numbers from -1 to 1, the same every time (Steele et al. 2014).
+/// Reproducible numbers from -1 to 1 (Steele et al. 2014).
 struct Random(u64);
 
 impl Random {
@@ -16,8 +16,8 @@ impl Random {
     }
 }
 
-/// A flat sheet from (-½, -½) to (½, ½), with `cells` along each side: vertices thrown about, Delaunay triangles, then `rounds` in
-/// which each vertex goes to the middle of its neighbours.
+/// Makes a flat sheet from (-½, -½) to (½, ½), with `cells` along each side: randomly displaced vertices, Delaunay triangles,
+/// then `rounds` of moving each vertex to the mean of its neighbours.
 pub(crate) fn sheet(cells: u32, rounds: usize) -> Mesh {
     let at = |k: u32| f64::from(k) / f64::from(cells) - 0.5;
     let inner = |k: u32| 0 < k && k < cells;
@@ -71,7 +71,7 @@ fn relax(places: &mut [DVec2], triangles: &[[u32; 3]], is_inner: &[bool]) {
     }
 }
 
-/// Flips edges until all triangles are Delaunay's (Lawson 1977).
+/// Flips edges until all triangles are Delaunay (Lawson 1977).
 fn flip(places: &[DVec2], triangles: &mut [[u32; 3]]) {
     loop {
         let topology = Topology::new(places.len(), triangles.to_vec()).unwrap();
@@ -103,7 +103,7 @@ fn flip(places: &[DVec2], triangles: &mut [[u32; 3]]) {
     }
 }
 
-/// Leaves out triangles around a place, and the vertices that then have none.
+/// Removes the triangles around a place, and vertices without triangles.
 pub(crate) fn with_hole(mesh: &Mesh, middle: DVec3, radius: f64) -> Mesh {
     let outside = |t: &&[u32; 3]| {
         let corners = t.map(|v| mesh.positions[v as usize]);

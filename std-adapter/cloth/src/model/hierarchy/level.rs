@@ -1,4 +1,4 @@
-//! One level: seeds with masses, the triangles between them, and how every vertex follows them.
+//! One level: seeds with masses, the triangles between them, and the weights by which every vertex follows them.
 
 use super::chart::Chart;
 use super::dual::Dual;
@@ -19,31 +19,31 @@ pub(crate) struct CoarseTriangle {
     pub(crate) membrane: Membrane,
     /// In m².
     pub(crate) area: f64,
-    /// The squares of its sides, that from the first to the second first, in m².
+    /// The squares of its sides, that from the first to the second vertex first, in m².
     pub(crate) sides: [f64; 3],
 }
 
-/// A vertex is in a triangle that is no farther off than so many spacings.
+/// A vertex within this distance of a triangle, in spacings, counts as inside.
 const INSIDE: f64 = 1e-6;
 
-/// The cloth as its seeds see it.
+/// A coarse level of a cloth.
 #[derive(Debug)]
 pub(crate) struct Level {
-    /// How far apart seeds are, about, in metres.
+    /// The typical distance of seeds, in metres.
     pub(crate) spacing: f64,
     /// On indices of seeds.
     pub(crate) triangles: Vec<On<CoarseTriangle, 3>>,
-    /// Of each seed: the sum of its shares in its followers' masses, in 1/kg; zero where it is pinned.
+    /// The inverse mass of each seed, in 1/kg: its mass is the sum of its shares in its followers' masses. Zero if it is pinned.
     ///
-    /// Then moves of seeds that do not change Σ mass·position of seeds do not change it of vertices either: momentum is conserved.
+    /// Moves of seeds that conserve Σ mass·position of seeds then conserve that of vertices: momentum is conserved.
     pub(crate) inverse_masses: Vec<f64>,
     /// Vertices of the cloth.
     pub(super) seeds: Vec<u32>,
-    /// Of each vertex of the cloth. No shares where it is pinned or left out.
+    /// By vertex of the cloth. No shares where it is pinned or left out.
     follows: Vec<Follows>,
 }
 
-/// A vertex moves as these seeds do, by these shares.
+/// A vertex that moves with these seeds, by these shares.
 #[derive(Clone, Copy, Debug, Default)]
 struct Follows {
     seeds: [u32; 3],
@@ -51,7 +51,8 @@ struct Follows {
 }
 
 impl Level {
-    /// Of the parts of the cloth that are `wanted`, from which those go that it does not represent well. `None`: no part is left.
+    /// Makes a level of the `wanted` parts of the cloth, and removes those that it does not represent well. `None` if no part
+    /// remains.
     pub(super) fn new(
         surface: &Surface<'_>,
         masses: &[f64],
@@ -90,7 +91,7 @@ impl Level {
             }
         };
         let inverse_masses: Vec<f64> = seeds.vertices.iter().zip(seed_masses).map(inverse).collect();
-        // What is pinned altogether has nothing to move.
+        // A completely pinned triangle has nothing to move.
         triangles.retain(|(corners, _)| corners.iter().any(|&seed| inverse_masses[seed as usize] > 0.0));
         Some(Self {
             spacing,
@@ -101,7 +102,7 @@ impl Level {
         })
     }
 
-    /// The inverse masses of seeds where vertices are heavier, by so many kg each.
+    /// Computes the inverse masses of seeds where vertices are heavier, each by a mass in kg.
     pub(crate) fn weigh(&self, heavier: &[(u32, f64)], inverse_masses: &mut Vec<f64>) {
         inverse_masses.clone_from(&self.inverse_masses);
         for &(vertex, mass) in heavier {
@@ -113,7 +114,7 @@ impl Level {
         }
     }
 
-    /// Where the seeds are.
+    /// Reads the positions of the seeds.
     pub(crate) fn read(&self, positions: &[DVec3], seeds: &mut Vec<DVec3>) {
         seeds.clear();
         seeds.extend(self.seeds.iter().map(|&seed| positions[seed as usize]));
@@ -130,29 +131,29 @@ impl Level {
     }
 }
 
-/// Which seeds every vertex follows.
+/// The seeds that every vertex follows.
 struct Interpolation {
     triangles: Vec<On<CoarseTriangle, 3>>,
     follows: Vec<Follows>,
-    /// Of each part of the cloth: how many vertices are in no triangle.
+    /// The number of vertices outside all triangles, by part of the cloth.
     outside: Vec<usize>,
 }
 
-/// A coarse triangle where a chart places it.
+/// A coarse triangle in a chart.
 struct Flat {
     corners: [u32; 3],
     places: [DVec2; 3],
 }
 
-/// A place of a coarse triangle, and how far off what follows it is.
+/// A place in a coarse triangle, and its distance from the follower.
 struct Nearest {
     follows: Follows,
     squared_way: f64,
 }
 
 impl Interpolation {
-    /// Each cell in a chart of its own, together with the triangles around its seed; and with those around its neighbours, where it
-    /// reaches beyond.
+    /// Interpolates each cell in a chart of its own, together with the triangles around its seed, and with those around its
+    /// neighbours where it reaches beyond.
     fn new(surface: &Surface<'_>, seeds: &Seeds, spacing: f64) -> Self {
         let dual = Dual::new(surface, seeds);
         let owned = seeds.owner.iter().enumerate();
@@ -190,7 +191,7 @@ impl Interpolation {
                 }
                 left.retain(|&vertex| {
                     let Some(place) = chart.at(vertex) else { return true };
-                    // Outside all it is drawn to the nearest.
+                    // A vertex outside all triangles is assigned to the nearest.
                     let nearest = flats.iter().map(|flat| flat.nearest(place));
                     let Some(nearest) = nearest.min_by(|a, b| a.squared_way.total_cmp(&b.squared_way)) else {
                         return true;
@@ -210,7 +211,8 @@ impl Interpolation {
         all
     }
 
-    /// What no chart reached, as beyond a vertex by which alone two pieces of cloth hang together, follows what its neighbours follow.
+    /// Lets vertices that no chart reached follow what their neighbours follow, as beyond a vertex that alone joins two pieces of
+    /// cloth.
     fn join(&mut self, surface: &Surface<'_>, seeds: &Seeds) {
         let follows_any = |follows: &Follows| follows.shares != [0.0; 3];
         let is_left =
@@ -234,7 +236,7 @@ impl Interpolation {
     }
 }
 
-/// Adds the neighbours of seeds to them, sorted. Returns the triangles around those that were there before.
+/// Adds the neighbours of seeds to them, sorted. Returns the triangles around the seeds that were there before.
 fn with_neighbours(dual: &Dual, near: &mut Vec<u32>) -> Vec<u32> {
     let mut triangles: Vec<u32> = near.iter().flat_map(|&seed| &dual.around[seed]).copied().collect();
     triangles.sort_unstable();
@@ -255,7 +257,8 @@ impl Flat {
         }
     }
 
-    /// The nearest point of the triangle, by barycentric coordinates none of which is negative; about the nearest, if it is at a corner.
+    /// Returns the nearest point of the triangle in barycentric coordinates, none of them negative; approximately the nearest at
+    /// a corner.
     fn nearest(&self, place: DVec2) -> Nearest {
         let [a, b, c] = self.places.map(|corner| corner - place);
         let [across_a, across_b, across_c] =

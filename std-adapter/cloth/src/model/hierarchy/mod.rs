@@ -1,15 +1,16 @@
-//! The cloth at several resolutions, for effects that act over longer ways than an edge.
+//! The cloth at several resolutions, for effects over distances longer than an edge.
 //!
 //! ```text
 //! Surface ──▶ Seeds ──▶ Dual ──▶ Chart by Chart ──▶ Level
-//! ways over   farthest  where    each cell laid     masses, triangles at rest, and
-//! the cloth   points    three    flat with the      how every vertex follows seeds
-//!                       cells    triangles around
+//! distances   farthest  where    each cell laid     masses, triangles at rest, and
+//! over the    points    three    flat with the      how every vertex follows seeds
+//! cloth                 cells    triangles around
 //!                       meet
 //! ```
 //!
-//! Made once, of the mesh at rest alone: any triangles, with holes, in several parts, open or closed, flat or curved. A part that a
-//! level does not represent well is left out of it, and of all coarser ones: there its effects are what they are without levels.
+//! Levels are made once, from the mesh at rest alone: any triangles, with holes, in several parts, open or closed, flat or
+//! curved. A part that a level does not represent well is left out of this level and of all coarser ones. Effects act there as
+//! without levels.
 
 mod chart;
 mod dual;
@@ -26,20 +27,20 @@ use crate::world::Cloth;
 use std::sync::Arc;
 use surface::Surface;
 
-/// How much farther apart seeds are than those of the level before.
+/// The ratio of seed distances from level to level.
 const RATIO: f64 = 2.0;
-/// No level has fewer than so many spacings along a part of the cloth (along a square of its area): below that it is hardly a mesh.
+/// The least number of spacings along a part of the cloth (along a square of its area). A coarser level would hardly be a mesh.
 const FEWEST_SPACINGS: f64 = 4.0;
 
-/// The levels so far, from fine to coarse. They are made when they are asked for.
+/// The levels so far, from fine to coarse, made on demand.
 #[derive(Debug)]
 pub(crate) struct Hierarchy<'a> {
     surface: Surface<'a>,
     masses: Vec<f64>,
     is_pinned: Vec<bool>,
-    /// The parts of the cloth that the next level has.
+    /// The parts of the cloth in the next level.
     wanted: Vec<bool>,
-    /// Of the next level.
+    /// The seed distance of the next level.
     spacing: f64,
     levels: Vec<Arc<Level>>,
 }
@@ -58,7 +59,7 @@ impl<'a> Hierarchy<'a> {
         }
     }
 
-    /// The levels whose seeds are no farther apart than `coarsest`, from fine to coarse.
+    /// Returns the levels with seeds at most `coarsest` apart, from fine to coarse.
     pub(crate) fn levels_to(&mut self, coarsest: f64) -> Vec<Arc<Level>> {
         while self.spacing <= coarsest {
             for (wanted, (_, area)) in self.wanted.iter_mut().zip(&self.surface.parts) {
@@ -77,7 +78,7 @@ impl<'a> Hierarchy<'a> {
     }
 }
 
-/// How far apart vertices are, about, in metres: those of its triangles; those of its loose edges if it has no triangles.
+/// Returns the typical distance of vertices in metres: of its triangles, or of its loose edges if it has no triangles.
 pub(crate) fn mesh_spacing(cloth: &Cloth) -> f64 {
     let at = |v: u32| cloth.mesh.positions[v as usize];
     let edges = cloth.topology.loose_edges();
@@ -116,7 +117,7 @@ mod tests {
         crate::world::sheet(DVec3::new(-0.5, -0.5, 0.0), sides, [cells; 2])
     }
 
-    /// Regular, thrown about, relaxed, and with a hole.
+    /// Regular, randomly displaced, relaxed, and with a hole.
     fn sheets() -> [Mesh; 4] {
         let thrown = irregular::sheet(32, 0);
         let hole = irregular::with_hole(&thrown, DVec3::new(-0.1, 0.2, 0.0), 0.15);
@@ -140,7 +141,7 @@ mod tests {
         }
     }
 
-    /// So that a cloth that is moved as a whole, turned or stretched evenly is moved, turned or stretched evenly by its seeds.
+    /// A cloth that moves, rotates or stretches evenly does the same after its seeds do.
     #[test]
     fn what_is_linear_in_the_plane_is_interpolated_exactly_but_for_a_rim() {
         for mesh in sheets() {
@@ -168,7 +169,7 @@ mod tests {
             let cloth = Cloth::of(mesh);
             let masses = cloth.masses();
             for level in levels(&cloth, &[]) {
-                // A seed that no vertex follows has none.
+                // A seed without followers has no mass.
                 let mass = |inverse: &f64| if *inverse > 0.0 { 1.0 / inverse } else { 0.0 };
                 let own: Vec<f64> = level.inverse_masses.iter().map(mass).collect();
                 let all: f64 = masses.iter().sum();
@@ -243,7 +244,7 @@ mod tests {
         }
     }
 
-    /// Nothing of it can be laid flat: whatever levels there are, they have no more cloth than there is.
+    /// Nothing of a ball can be laid flat: levels have at most as much cloth as there is.
     #[test]
     fn a_closed_ball_has_levels_that_hold_no_more_cloth_than_there_is() {
         let ball = crate::world::capsule([DVec3::ZERO; 2], 0.3, 64);

@@ -1,5 +1,4 @@
-//! Which vertices a coarse level keeps: the farthest from all chosen so far, again and again, by ways over the cloth (Eldar et al. 1997;
-//! Moenning and Dodgson 2003).
+//! The vertices of a coarse level, by farthest-point sampling over the cloth (Eldar et al. 1997; Moenning and Dodgson 2003).
 //!
 //! Pins and corners come first, then the border, so that a level ends where the cloth ends and holds where it is held.
 
@@ -7,16 +6,16 @@ use super::surface::Surface;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// No pin or corner is nearer than so many spacings to one chosen before.
+/// The least distance, in spacings, of a pin or corner to those chosen before.
 const FIRST: f64 = 0.3;
-/// No vertex of the border is farther than so many spacings from a seed, and no vertex at all.
+/// The largest distance, in spacings, of a border vertex to a seed; no vertex at all is farther than one spacing.
 const BORDER: f64 = 0.6;
 const INNER: f64 = 0.7;
 
 #[derive(Debug)]
 pub(super) struct Seeds {
     pub(super) vertices: Vec<u32>,
-    /// Of each vertex of the cloth: the nearest seed, and how far it is; none where the cloth is left out.
+    /// The nearest seed of each vertex, with its distance; none where the cloth is left out.
     pub(super) owner: Vec<u32>,
     pub(super) distance: Vec<f64>,
 }
@@ -24,7 +23,7 @@ pub(super) struct Seeds {
 impl Seeds {
     pub(super) const NONE: u32 = u32::MAX;
 
-    /// On the parts of the cloth that are `wanted`.
+    /// Samples the parts of the cloth that are `wanted`.
     pub(super) fn new(surface: &Surface<'_>, is_pinned: &[bool], wanted: &[bool], spacing: f64) -> Self {
         let count = is_pinned.len();
         let mut seeds = Self {
@@ -47,9 +46,9 @@ impl Seeds {
         seeds
     }
 
-    /// Until none of these vertices is as far as `reach` from all seeds.
+    /// Adds seeds until no selected vertex is as far as `reach` from all seeds.
     fn fill(&mut self, surface: &Surface<'_>, reach: f64, is_meant: impl Fn(usize) -> bool) {
-        // Lengths are not negative, so that their bits have their order.
+        // Lengths are not negative, so their bits have the same order.
         let meant = (0..self.owner.len()).filter(|&vertex| is_meant(vertex));
         let mut farthest: BinaryHeap<(u64, u32)> = meant.map(|v| (self.distance[v].to_bits(), v as u32)).collect();
         while let Some((bits, vertex)) = farthest.pop() {
@@ -65,7 +64,7 @@ impl Seeds {
         }
     }
 
-    /// Takes over what is nearer to it than to all others (Dijkstra).
+    /// Adds a seed, and gives it all vertices that are nearer to it than to all others (Dijkstra).
     fn add(&mut self, surface: &Surface<'_>, seed: u32) {
         let own = self.vertices.len() as u32;
         self.vertices.push(seed);

@@ -1,4 +1,4 @@
-//! What a hierarchy asks of the cloth at rest: ways over it, its triangles around a vertex, where it ends, what hangs together.
+//! The cloth at rest as a hierarchy sees it: distances over it, triangles around a vertex, borders, connected parts.
 
 use super::grouped::Grouped;
 use crate::world::Cloth;
@@ -9,17 +9,17 @@ use std::f64::consts::{FRAC_PI_4, PI};
 #[derive(Debug)]
 pub(super) struct Surface<'a> {
     pub(super) cloth: &'a Cloth,
-    /// Over edges, and over each pair of triangles with a common edge straight from one tip to the other where they are convex
-    /// together: vertices and lengths. Ways over edges alone would be longer than the cloth's by half.
+    /// Neighbours with distances: over edges, and straight across a hinge from one tip to the other where both triangles are
+    /// convex together. Paths over edges alone would be longer than the cloth's by half.
     pub(super) ways: Grouped<(u32, f64)>,
     pub(super) triangles: Grouped<u32>,
-    /// Ends of an edge that has not just two triangles: a boundary, or a seam where several panels meet.
+    /// Ends of an edge without exactly two triangles: a boundary, or a seam of several panels.
     pub(super) is_border: Vec<bool>,
-    /// Where the border turns.
+    /// Vertices at which the border turns.
     pub(super) is_corner: Vec<bool>,
-    /// Of each vertex: the part of the cloth that it belongs to, one after the other.
+    /// The connected part of each vertex, numbered from 0.
     pub(super) part: Vec<u32>,
-    /// How many vertices each part has, and its area in m².
+    /// The number of vertices of each part, and its area in m².
     pub(super) parts: Vec<(usize, f64)>,
 }
 
@@ -44,7 +44,7 @@ impl<'a> Surface<'a> {
         let mut add = |a: u32, b: u32, length: f64| ways.extend([(a, (b, length)), (b, (a, length))]);
         for (&[a, b], &([c, d], found)) in topology.edges().iter().zip(&tips) {
             if found == 0 {
-                // A loose edge: nothing of the surface.
+                // A loose edge is no part of the surface.
                 continue;
             }
             add(a, b, at(a).distance(at(b)));
@@ -80,7 +80,7 @@ impl<'a> Surface<'a> {
         self.cloth.mesh.positions[vertex as usize]
     }
 
-    /// The triangle's vertices, turned so that it begins with this one.
+    /// Returns the triangle's vertices, rotated so that `vertex` comes first.
     pub(super) fn from(&self, vertex: u32, triangle: u32) -> [u32; 3] {
         let [a, b, c] = self.cloth.mesh.triangles[triangle as usize];
         if a == vertex {
@@ -129,7 +129,8 @@ impl<'a> Surface<'a> {
     }
 }
 
-/// The way from `c` to `d` over the edge from `a` to `b`, both triangles laid flat; `None` where it would pass by the edge's end.
+/// Returns the distance from `c` to `d` over the edge from `a` to `b`, with both triangles laid flat. `None` if the path would
+/// miss the edge.
 fn across([a, b, c, d]: [DVec3; 4]) -> Option<f64> {
     let edge = b - a;
     let length = edge.length();

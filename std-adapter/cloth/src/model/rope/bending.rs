@@ -1,13 +1,14 @@
-//! Bending of a rope: one implicit step in which every joint of two edges takes part.
+//! Bending of a rope: one implicit step of all its joints.
 //!
-//! At a joint b between a and c, whose edges are u and v long at rest, e = (c − b)/v − (b − a)/u is the change of direction, but for the rope's
-//! stretch: of a curvature κ it is κ·L, with L = (u + v)/2 the length of rope that a joint stands for. So ½(D/L)·|e|² is the energy
-//! ½D·κ² of that length, D being the flexural rigidity: quadratic, like that of the [hinges of cloth](crate::model::bending) (Bergou et al. 2006,
-//! "A quadratic bending model for inextensible surfaces"), and no twist in it. A joint that is bent by r at rest has ½(D/L)·|e − r·ê|², where ê is
-//! the direction of e before the step: to which side it is bent nobody asks.
+//! At a joint b between a and c, with edges of lengths u and v at rest, e = (c − b)/v − (b − a)/u is the change of direction, up
+//! to stretch. At a curvature κ it is κ·L, where L = (u + v)/2 is the length of rope of a joint. So ½(D/L)·|e|² is the energy
+//! ½D·κ² of that length, with D the flexural rigidity. It is quadratic, like that of the [hinges of cloth](crate::model::bending)
+//! (Bergou et al. 2006, "A quadratic bending model for inextensible surfaces"), and has no twist. A joint that is bent by r at
+//! rest has ½(D/L)·|e − r·ê|², with ê the direction of e before the step: the side of the bend is free.
 //!
-//! Implicit Euler wants (M + h²CᵀDC/L)·d = h²f, in which every vertex knows two to either side, x, y and z each by themselves: a band that is factorised
-//! as L·D·Lᵀ. It is stable for any stiffness. Vertices that are kinematic take part without moving, so that two of them in a row clamp a rope.
+//! Implicit Euler solves (M + h²CᵀDC/L)·d = h²f. Every vertex couples with two to either side, x, y and z separately: a band
+//! matrix, factorised as L·D·Lᵀ. It is stable for any stiffness. Kinematic vertices take part without moving, so two of them in a
+//! row clamp a rope.
 
 use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::step::{Constraint, TimeStep, Touches};
@@ -15,10 +16,11 @@ use crate::world::Cloth;
 use crate::world::runs;
 use selvedge_core::glam::DVec3;
 
-/// Stiffer than so many times a vertex's mass over h² no joint is, so that masses do not vanish beside it: rounding is 10⁻⁶ of a move there.
+/// The largest stiffness of a joint, in masses of a vertex over h². Masses then do not vanish beside it: rounding is 10⁻⁶ of a
+/// move.
 const STIFFEST: f64 = 1e10;
 
-/// The joints of loose edges of a cloth.
+/// The joints of a cloth's loose edges.
 #[derive(Debug)]
 pub(crate) struct Bending {
     rows: Vec<Row>,
@@ -28,7 +30,7 @@ pub(crate) struct Bending {
 #[derive(Debug)]
 struct Row {
     vertices: Vec<u32>,
-    /// Each of a vertex, the next one and the one after that.
+    /// Each of a vertex and the next two.
     joints: Vec<Joint>,
 }
 
@@ -38,11 +40,11 @@ struct Joint {
     weights: [f64; 3],
     /// D/L, in J.
     stiffness: f64,
-    /// Of e at rest.
+    /// The length of e at rest.
     bent: f64,
 }
 
-/// A symmetric matrix with two diagonals beside the main one, then its factors; and what is on the right.
+/// A symmetric matrix with two diagonals beside the main one, then its factors, and the right-hand side.
 #[derive(Debug, Default)]
 struct Band {
     diagonal: Vec<f64>,
@@ -52,7 +54,7 @@ struct Band {
 }
 
 impl Bending {
-    /// Of a flexural rigidity, in N·m².
+    /// Makes the joints with a flexural rigidity, in N·m².
     pub(crate) fn new(cloth: &Cloth, rigidity: f64, is_bent_at_rest: bool) -> Self {
         let edges: Vec<[u32; 2]> = cloth.topology.loose_edges().collect();
         let rest = &cloth.mesh.positions;
@@ -110,7 +112,7 @@ impl Row {
         let count = self.vertices.len();
         let inverse_mass = |k: usize| step.inverse_masses[self.vertices[k] as usize];
         band.diagonal.clear();
-        // What does not move may weigh anything.
+        // The mass of a vertex that does not move has no meaning.
         let mass = |k: usize| {
             let inverse = inverse_mass(k);
             if inverse > 0.0 { inverse.recip() } else { 1.0 }
@@ -155,7 +157,7 @@ impl Joint {
 }
 
 impl Band {
-    /// Leaves the solution on the right.
+    /// Replaces the right-hand side by the solution.
     fn solve(&mut self) {
         let Self {
             diagonal,
@@ -197,7 +199,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// CᵀC plus a diagonal, as of joints, times the solution is what was on the right.
+        /// CᵀC plus a diagonal, as of joints, times the solution equals the right-hand side.
         #[test]
         fn the_band_solves_its_equations(
             masses in prop::collection::vec(0.1..2.0_f64, 3..12),

@@ -1,13 +1,13 @@
-//! Loose edges in a step: ropes, laces and fringes that resist being stretched and bent.
+//! Loose edges in a step: ropes, laces and fringes with stretch and bending resistance.
 //!
 //! ```text
-//! loose edges ──▶ runs, from where one begins, ends or branches to the next ──▶ pieces ──▶ each solved at once, in O(vertices)
+//! loose edges ──▶ runs, from where one begins, ends or branches to the next ──▶ pieces ──▶ each solved directly, in O(vertices)
 //! ```
 //!
-//! A pull goes along a rope faster than along cloth, and there is but one way for it: what one sweep over the edges does is forgotten
-//! before it arrives (a rope of 200 edges would be as soft as rubber). But edges one after the other give equations in which each vertex
-//! knows only its neighbours, and elimination from one end to the other solves these exactly. So each piece of a rope does one implicit step of
-//! its own: [`Stretching`], and [`Bending`]. Pieces that meet at a vertex follow each other.
+//! A pull travels along a rope faster than along cloth, and only one way: one sweep over the edges would lose it (a rope of 200
+//! edges would be as soft as rubber). But a row of edges gives equations in which each vertex couples only with its neighbours.
+//! Elimination from one end to the other solves them exactly. So each piece of a rope does one implicit step of its own:
+//! [`Stretching`], then [`Bending`]. Pieces that meet at a vertex follow each other.
 
 mod bending;
 mod stretching;

@@ -1,26 +1,28 @@
 //! Stretch of a rope: one implicit step of a row of springs.
 //!
-//! A spring of the stiffness k = (axial stiffness)/(length L at rest), ℓ long now along n, pulls with T = k(ℓ − L). Implicit Euler wants positions
-//! x with M(x − y) = h²f(x), y being where everything else leads and f the pull of the springs. One step of Newton's method from y solves
+//! A spring of the stiffness k = (axial stiffness)/(length L at rest), with the length ℓ along n, pulls with T = k(ℓ − L).
+//! Implicit Euler solves M(x − y) = h²f(x) for x, with y the prediction of everything else and f the pull of the springs. One
+//! Newton step from y solves
 //!
 //! ```text
 //! (M + K)·d = h²f(y),    K of a spring = h²(k·n·nᵀ + a·(1 − n·nᵀ))
 //! ```
 //!
-//! as Baraff and Witkin (1998) do for cloth. The second part of K is tension: a spring pulls back what goes aside, with a = T/ℓ. Without it a taut
-//! rope of short edges would be shaken to pieces, as by explicit steps in which waves go farther than an edge. A spring that is pressed together
-//! would push on what goes aside, which is left out (Choi and Ko 2002): so there is always one answer.
+//! as Baraff and Witkin (1998) do for cloth. The second part of K is tension: a spring pulls back sideways motion, with a = T/ℓ.
+//! Without it a taut rope of short edges would be unstable, as explicit steps are when waves travel farther than an edge. A
+//! compressed spring would push sideways motion on; this term is left out (Choi and Ko 2002), so the matrix is always definite.
 //!
-//! **Which tension.** That at the end of the step, as pulls go along the whole rope in one: where an end is jerked no other edge knows of it at y.
-//! So the equations are solved twice: with the tension at y, of which only T + k·n·(d of the one end − d of the other) is kept, the tension that comes
-//! of it, and with that.
+//! **Tension.** Tension at the end of the step counts, since a pull travels along the whole rope within a step: at y no other
+//! edge knows of a jerk at one end. So the equations are solved twice: first with the tension at y, from which the tension T +
+//! k·n·(d of one end − d of the other) results, then with that tension.
 //!
-//! **Tied.** A rope whose end a seam joins with one other vertex is solved together with that vertex, by a spring as stiff as can be where the two
-//! are as far apart as they may: a light end would else give way to what hangs from it, by so many times its own fall as that is heavier.
+//! **Ties.** A rope whose end a seam joins with one other vertex is solved together with that vertex, by a spring as stiff as
+//! possible when the two are as far apart as they may be. Otherwise a light end would give way to a heavy load, by the ratio of
+//! the masses times the load's own fall.
 //!
-//! **Elimination** keeps masses beside stiffnesses that may be 10⁹ times theirs: what a vertex of the effective mass E feels through a spring
-//! K at the next vertex is K(E + K)⁻¹E, the two one after the other, in which nothing is subtracted; and E + K is never inverted but factorised,
-//! with which a solution is off by its condition number times rounding, not by the square of that.
+//! **Elimination** keeps masses beside stiffnesses up to 10⁹ times theirs. The effective mass E of a vertex, felt through a
+//! spring K at the next vertex, is K(E + K)⁻¹E, the two in series, in which nothing is subtracted. E + K is never inverted but
+//! factorised, so that the error of a solution is its condition number times rounding, not the square of it.
 
 use crate::model::energy::{Configuration, StoredEnergy};
 use crate::model::step::{Constraint, TimeStep, Touches};
@@ -29,14 +31,14 @@ use crate::world::Cloth;
 use crate::world::runs;
 use selvedge_core::glam::{DMat3, DVec3};
 
-/// Stiffer than so many times the lighter vertex's mass over h² is not asked for, so that rounding is 10⁻⁷ of a move: under its own weight a rope of n
-/// vertices is stretched there by n·g·h²/10⁹ an edge, with n = 1,000 and h = 1 ms by a hundredth of a nanometre.
+/// The largest stiffness, in masses of the lighter vertex over h², so that rounding is 10⁻⁷ of a move. Under its own weight a
+/// rope of n vertices is then stretched by n·g·h²/10⁹ an edge: with n = 1,000 and h = 1 ms by a hundredth of a nanometre.
 const STIFFEST: f64 = 1e9;
 
-/// A tie that is as long as this share of what it may be is taut: stitches that ran before leave it so, but for rounding.
+/// A tie longer than this share of its largest length is taut. Earlier stitches leave it so, up to rounding.
 const TAUT: f64 = 0.999;
 
-/// The loose edges of a cloth, as springs.
+/// The loose edges of a cloth as springs.
 #[derive(Debug)]
 pub(crate) struct Stretching {
     /// In N.
@@ -47,7 +49,7 @@ pub(crate) struct Stretching {
 
 #[derive(Debug)]
 struct Piece {
-    /// As the scene numbers them; what the first and the last of the rope are tied to comes before and after them.
+    /// As the scene numbers them. The vertices to which the rope's ends are tied come before and after them.
     vertices: Vec<u32>,
     /// Each from a vertex to the next.
     edges: Vec<Edge>,
@@ -55,7 +57,7 @@ struct Piece {
 
 #[derive(Clone, Copy, Debug)]
 enum Edge {
-    /// Of a length at rest, in m.
+    /// A length at rest, in m.
     Rope(f64),
     Tied(Tie),
 }
@@ -69,31 +71,31 @@ struct Work {
     moves: Vec<DVec3>,
 }
 
-/// An edge; what has to do with force is times h².
+/// An edge; forces are multiplied by h².
 #[derive(Clone, Copy, Debug)]
 struct Spring {
-    /// From its first end to its second, of length one; zero where there is no direction to speak of.
+    /// The unit vector from its first end to its second; zero if the edge has hardly any length.
     along: DVec3,
     /// At rest, in m.
     length: f64,
     stiffness: f64,
-    /// Where everything else leads.
+    /// At the prediction of everything else.
     pull: f64,
-    /// The tension by which it pulls back what goes aside.
+    /// The tension that pulls back sideways motion.
     tension: f64,
 }
 
-/// A vertex and the spring to the next one, after all before have been eliminated.
+/// A vertex and the spring to the next one, after elimination of all before.
 #[derive(Debug)]
 struct Link {
-    /// Of E + K; `None` where the vertex is kinematic.
+    /// The factors of E + K; `None` for a kinematic vertex.
     factors: Option<Factors>,
     spring: DMat3,
     pull: DVec3,
 }
 
 impl Stretching {
-    /// Of an axial stiffness, in N, of a cloth with this first vertex in the scene.
+    /// Makes the springs of a cloth with an axial stiffness, in N; `first` is its first vertex in the scene.
     pub(crate) fn new(cloth: &Cloth, stiffness: f64, first: u32, ties: &[Tie]) -> Self {
         let edges: Vec<[u32; 2]> = cloth.topology.loose_edges().collect();
         let rest = &cloth.mesh.positions;
@@ -116,7 +118,7 @@ impl Stretching {
 }
 
 impl Piece {
-    /// Adds what its ends are tied to, if that is no vertex of its own.
+    /// Adds the vertices to which the ends are tied, unless they are its own.
     fn tie(&mut self, ties: &[Tie]) {
         for is_last in [false, true] {
             let end = if is_last {
@@ -194,7 +196,7 @@ impl Work {
         self.springs.extend(edges.map(spring));
     }
 
-    /// Finds how far each vertex moves.
+    /// Computes the move of each vertex.
     fn solve(&mut self) {
         let Self {
             masses,
@@ -204,7 +206,7 @@ impl Work {
         } = self;
         links.clear();
         let diagonal = |mass: f64| DMat3::from_diagonal(DVec3::splat(mass));
-        // What the vertices before add to the mass of the next one, and pull it with.
+        // The mass and the pull that the vertices before add to the next one.
         let (mut before, mut pulled) = (DMat3::ZERO, DVec3::ZERO);
         for (&mass, own) in masses.iter().zip(&*springs) {
             let (spring, force) = (own.matrix(), own.along * own.pull);
@@ -216,7 +218,7 @@ impl Work {
                     let columns = [effective.x_axis, effective.y_axis, effective.z_axis].map(|column| factors.solve(column));
                     let [x, y, z] = columns.map(|column| spring * column);
                     let next = DMat3::from_cols(x, y, z);
-                    // Factors are of one half of a matrix: what rounding makes the other differ by would grow from link to link.
+                    // Factors use one half of a matrix: rounding differences of the other half would grow from link to link.
                     let next = (next + next.transpose()) * 0.5;
                     (next, spring * factors.solve(pull) - force)
                 }
@@ -236,9 +238,9 @@ impl Work {
         moves.reverse();
     }
 
-    /// Keeps of the moves the tension that comes of them.
+    /// Computes the tension that results from the moves.
     fn take_tension(&mut self) {
-        // By index: of `windows` the compiler makes one thing or another, by what else is in the program (`instruction-counts/`).
+        // By index: with `windows` the generated code varies with the rest of the program.
         for (k, spring) in self.springs.iter_mut().enumerate() {
             spring.tension = spring.pull + spring.stiffness * spring.along.dot(self.moves[k + 1] - self.moves[k]);
         }
@@ -279,7 +281,7 @@ impl Factors {
 impl Spring {
     fn new(way: DVec3, length: f64, stiffness: f64) -> Self {
         let now = way.length();
-        // Shorter than a millionth there is no direction to speak of.
+        // Shorter than a millionth the direction is meaningless.
         let is_there = now > 1e-6 * length;
         let pull = if is_there { stiffness * (now - length) } else { 0.0 };
         Self {
@@ -291,7 +293,7 @@ impl Spring {
         }
     }
 
-    /// Of two vertices that may be as far apart as told, and no farther: it does nothing where they are nearer, but for what rounding makes of it.
+    /// Makes the spring of a tie with a largest length. It does nothing up to rounding where the two are nearer.
     fn tied(way: DVec3, length: f64, stiffness: f64) -> Self {
         let spring = Self::new(way, length, stiffness);
         if way.length() >= TAUT * spring.length {
@@ -304,7 +306,7 @@ impl Spring {
         }
     }
 
-    /// K of the module. As long as it is under its tension, a is less than its stiffness.
+    /// K of the module. While the spring is under tension, a is less than its stiffness.
     fn matrix(&self) -> DMat3 {
         let n = self.along;
         let tension = self.tension.max(0.0);
@@ -338,7 +340,7 @@ mod tests {
     }
 
     proptest! {
-        /// M·d + K·d = h²f, asked of the matrix as a whole: with pins, from soft to stiff.
+        /// M·d + K·d = h²f holds for the matrix as a whole: with pins, from soft to stiff.
         #[test]
         fn elimination_solves_the_implicit_step(
             moves in prop::collection::vec(point(), 6), pinned in prop::collection::vec(any::<bool>(), 6),
@@ -352,7 +354,7 @@ mod tests {
             let mut end = start.clone();
             Stretching::new(&cloth, stiffness, 0, &[]).project(&step(&start, &inverse), &mut end, &mut Touches::default());
             let moved: Vec<DVec3> = start.iter().zip(&end).map(|(from, to)| *to - *from).collect();
-            // With the tension that comes of the first solution.
+            // With the tension of the first solution.
             let mut work = Work::default();
             let own = Stretching::new(&cloth, stiffness, 0, &[]);
             work.begin(&own.pieces[0], stiffness, &step(&start, &inverse), &start);
@@ -377,7 +379,7 @@ mod tests {
         }
     }
 
-    /// What a thousand links add to each other's rounding: the whole equation again.
+    /// The rounding of a thousand links: the whole equation holds.
     #[test]
     fn elimination_is_exact_to_rounding_over_many_stiff_links() {
         let cloth = Cloth::rope(&[DVec3::ZERO, DVec3::new(0.5, 0.0, -0.4), DVec3::X], 1000, 0.03).unwrap();

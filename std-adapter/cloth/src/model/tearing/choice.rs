@@ -1,4 +1,4 @@
-//! Which edges tear after a step.
+//! The choice of edges that tear after a step.
 
 use super::loads::{Edge, Tearable};
 use selvedge_core::glam::DVec3;
@@ -11,24 +11,23 @@ pub(crate) struct Tear {
     pub(crate) cloth: usize,
     /// One edge, or two within the cloth, each with its load in N/m.
     pub(crate) edges: Vec<([u32; 2], f64)>,
-    /// Vertices that fall apart, and the fans of each: the first one keeps it.
+    /// The split vertices with their fans. The first fan keeps the vertex.
     pub(crate) splits: Vec<(u32, Vec<Vec<u32>>)>,
     /// All vertices of the fans, in order.
     pub(crate) around: Vec<u32>,
 }
 
 impl Tearable {
-    /// What tears where the cloth is at `positions`, from what is loaded most over its strength to what is loaded least. `may_split` tells
-    /// which vertices can.
+    /// Returns the tears at `positions`, in descending order of load over strength. `may_split` says which vertices may be split.
     pub(crate) fn tears(&mut self, positions: &[DVec3], may_split: impl Fn(u32) -> bool) -> Vec<Tear> {
         self.look(positions);
         let this = &*self;
         let loads = this.edges.iter().map(|edge| this.load(edge));
         let above = { this.edges.iter().zip(loads) }.filter(|(edge, load)| *load > edge.strength);
         let mut above: Vec<(&Edge, f64)> = above.collect();
-        // Edges are in ascending order of their ends, and stay so where they are loaded alike.
+        // Edges are in ascending order of their ends, and stay so where their loads are equal.
         above.sort_by(|(one, a), (other, b)| (b / other.strength).total_cmp(&(a / one.strength)));
-        // Of each end, the places of those that it is of.
+        // For each end, the places of its edges.
         let mut places: Vec<(u32, usize)> = { above.iter().enumerate() }
             .flat_map(|(place, (edge, _))| edge.vertices.map(|end| (end, place)))
             .collect();
@@ -45,7 +44,7 @@ impl Tearable {
             }
             let alone = this.tear(&[(edge.vertices, load)], &may_split);
             let tear = alone.or_else(|| {
-                // With any before it, it was tried as that one's second.
+                // Pairs with an earlier edge were tried before, as that edge's second.
                 let after = edge.vertices.into_iter().flat_map(of_end).filter(|(_, other)| *other > place);
                 let seconds: BTreeSet<usize> = after.map(|(_, other)| *other).collect();
                 seconds.into_iter().find_map(|second| {
@@ -63,7 +62,7 @@ impl Tearable {
         tears
     }
 
-    /// Whether a tear along one edge goes on along the other, by a turn of less than a right angle.
+    /// Returns whether a tear along one edge continues along the other, with a turn of less than a right angle.
     fn goes_on(&self, one: [u32; 2], other: [u32; 2]) -> bool {
         let Some(&middle) = one.iter().find(|end| other.contains(end)) else {
             return false;
@@ -75,7 +74,7 @@ impl Tearable {
         way(one).dot(way(other)) < 0.0
     }
 
-    /// The tear along these edges, if one of their ends falls apart by it.
+    /// Returns the tear along these edges, if it splits one of their ends.
     fn tear(&self, edges: &[([u32; 2], f64)], may_split: &impl Fn(u32) -> bool) -> Option<Tear> {
         let cut: Vec<[u32; 2]> = edges.iter().map(|(edge, _)| *edge).collect();
         let ends: BTreeSet<u32> = cut.iter().flatten().copied().collect();
@@ -97,7 +96,7 @@ mod tests {
     use super::*;
     use crate::world::{Cloth, sheet};
 
-    /// Of 6 cells along x and y of a metre each, pulled by a tenth along x, with a strength that some edges have.
+    /// Tears of a sheet of 6 cells along x and y of a metre each, stretched by a tenth along x; `strength` selects edges.
     fn tears(strength: impl Fn([DVec3; 2]) -> Option<f64>) -> Vec<Tear> {
         let cloth = Cloth::of(sheet(DVec3::ZERO, [DVec3::X * 6.0, DVec3::Y * 6.0], [6, 6]));
         let positions: Vec<_> = { cloth.mesh.positions.iter() }

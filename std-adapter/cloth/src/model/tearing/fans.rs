@@ -1,4 +1,4 @@
-//! The fans of a vertex: its triangles, as far as they hang together by edges at the vertex that are not cut.
+//! The fans of a vertex: its triangles, grouped by edges at the vertex that are not cut.
 
 use crate::world::Incidence;
 use selvedge_core::glam::DVec3;
@@ -7,7 +7,7 @@ use selvedge_core::glam::DVec3;
 #[derive(Debug)]
 pub(super) struct Fabric {
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Of each vertex; the shares are not asked for.
+    /// The triangles of each vertex; the shares are not used.
     pub(super) around: Incidence<(u32, f64)>,
     pub(super) rest: Vec<DVec3>,
 }
@@ -18,7 +18,7 @@ impl Fabric {
         around.map(|&(triangle, _)| triangle).collect()
     }
 
-    /// The fans of a vertex, if cutting these edges makes more of them than there are.
+    /// Returns the fans of a vertex, if cutting these edges makes more of them than there are.
     pub(super) fn parted(&self, vertex: u32, cut: &[[u32; 2]]) -> Option<Vec<Vec<u32>>> {
         let around = self.around(vertex);
         let is_cut = |edge: [u32; 2]| cut.iter().any(|own| *own == edge || [own[1], own[0]] == edge);
@@ -27,9 +27,10 @@ impl Fabric {
     }
 }
 
-/// The triangles of each fan of `vertex`, of those that are `around` it, in ascending order; fans in the order of their first triangles.
+/// Returns the triangles of each fan of `vertex`, among those `around` it, in ascending order. Fans are in the order of their
+/// first triangles.
 fn fans(vertex: u32, around: &[u32], triangles: &[[u32; 3]], is_cut: impl Fn([u32; 2]) -> bool) -> Vec<Vec<u32>> {
-    // Which fan each is in: the place of one of its triangles.
+    // The fan of each triangle, named by the place of one of its triangles.
     let mut fan_of: Vec<usize> = (0..around.len()).collect();
     for first in 0..around.len() {
         for second in first + 1..around.len() {

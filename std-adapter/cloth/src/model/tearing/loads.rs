@@ -1,9 +1,9 @@
-//! What edges are loaded with.
+//! The loads of edges.
 //!
-//! Stretch pulls a triangle together along warp and weft with T_u = k_u·(|w_u| − 1)·w_u/|w_u|, and T_v alike, in newtons for each metre of
-//! cloth at rest ([`stretch`](crate::effects::Stretch)); what is pressed together pulls with nothing. Across a line whose normal in the cloth at
-//! rest is ν go T_u·ν_u + T_v·ν_v for each metre of it (the first Piola–Kirchhoff stress). The load of an edge is the mean of what its
-//! two triangles pull with across it. Shear, and what a strain limit holds back, are not in it.
+//! Stretch pulls a triangle together along warp and weft with T_u = k_u·(|w_u| − 1)·w_u/|w_u|, and T_v likewise, in newtons per
+//! metre of cloth at rest ([`stretch`](crate::effects::Stretch)). Compression does not pull. The force per metre across a line
+//! whose normal in the cloth at rest is ν is T_u·ν_u + T_v·ν_v (the first Piola–Kirchhoff stress). The load of an edge is the
+//! mean of this force in its two triangles. It leaves out shear and the forces of a strain limit.
 
 use super::fans::Fabric;
 use crate::model::membrane::{Flat, Membrane, image, triangles_around};
@@ -12,17 +12,17 @@ use selvedge::Topology;
 use selvedge::parallel;
 use selvedge_core::glam::{DVec2, DVec3};
 
-/// The edges of a cloth that may tear, and what pulls at them.
+/// The edges of a cloth that may tear, and their loads.
 #[derive(Debug)]
 pub(crate) struct Tearable {
-    /// Its index among the scene's effects.
+    /// The effect's index in the scene.
     pub(crate) effect: usize,
     /// The cloth's index.
     pub(crate) cloth: usize,
     /// k_u and k_v of the module, in N/m.
     stiffness: [f64; 2],
     pub(super) fabric: Fabric,
-    /// Of the triangles that have such edges, each with its corners.
+    /// Of the triangles of such edges, each with its corners.
     membranes: Vec<(Membrane, [u32; 3])>,
     pub(super) edges: Vec<Edge>,
     /// T_u and T_v of each of these triangles.
@@ -32,25 +32,25 @@ pub(crate) struct Tearable {
 /// An edge between two triangles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
-    /// Of the cloth.
+    /// Vertices of the cloth.
     pub(super) vertices: [u32; 2],
-    /// By their places among those that are looked at.
+    /// Places among the triangles of such edges.
     triangles: [u32; 2],
-    /// ν of the module, in each of them: along warp and weft.
+    /// ν of the module in each triangle, along warp and weft.
     across: [DVec2; 2],
     /// In N/m.
     pub(super) strength: f64,
 }
 
 impl Tearable {
-    /// Of a cloth with such a stiffness along warp and weft, in N/m; `strength` tells that of an edge between two of its vertices, in N/m,
-    /// if it may tear at all.
+    /// Collects the edges of a cloth with this stiffness along warp and weft, in N/m. `strength` returns the strength of an edge
+    /// between two vertices, in N/m, or `None` if it cannot tear.
     pub(crate) fn new(cloth: &Cloth, stiffness: [f64; 2], strength: impl Fn([u32; 2]) -> Option<f64>) -> Self {
         let flat = cloth.mesh.triangles.iter().map(|triangle| Flat::new(cloth, *triangle));
         let flat: Vec<Flat> = flat.collect();
         let topology = &cloth.topology;
         let mut triangles_of = vec![Vec::new(); topology.edges().len()];
-        // What is loose comes after them.
+        // Loose edges come after the triangles.
         let triangles = cloth.mesh.triangles.len() as u32;
         for (triangle, edges) in (0..triangles).zip(topology.triangle_edges()) {
             edges
@@ -91,12 +91,12 @@ impl Tearable {
         }
     }
 
-    /// The same of an effect and a cloth, by their indices.
+    /// Sets the effect and the cloth, by their indices.
     pub(crate) fn placed(self, effect: usize, cloth: usize) -> Self {
         Self { effect, cloth, ..self }
     }
 
-    /// Looks where the cloth is, before loads are asked for.
+    /// Computes tensions at these positions, which [`load`](Self::load) needs.
     pub(super) fn look(&mut self, positions: &[DVec3]) {
         let Self {
             stiffness,
@@ -119,7 +119,7 @@ impl Tearable {
         });
     }
 
-    /// Of an edge, in N/m, with everything where it was [looked at](Self::look).
+    /// Returns the load of an edge, in N/m, at the positions of the last [`look`](Self::look).
     pub(super) fn load(&self, edge: &Edge) -> f64 {
         let pull = |(&triangle, across): (&u32, DVec2)| {
             let [warp, weft] = self.tensions[triangle as usize];

@@ -1,14 +1,15 @@
-//! How a tear opens: the copies of a vertex move apart a little, each into its fan, so that what was one touches nothing any more.
+//! The opening of a tear: the copies of a vertex move apart a little, each into its fan, so that the parts no longer touch.
 //!
-//! A fan spans some angle around its vertex. The mean of all directions in it, Σ (u + v)·tan(φ/2) over its triangles, u and v of length one
-//! along their sides and φ the angle between, bisects the angle of a flat fan: a vertex that goes so stays within its fan, and off all others. All
-//! move so that their centre of mass stays where it is; with one velocity, no momentum changes.
+//! A fan spans some angle around its vertex. The mean of all directions in it, Σ (u + v)·tan(φ/2) over its triangles, with u and
+//! v unit vectors along their sides and φ the angle between, bisects the angle of a flat fan. A vertex that moves so stays within
+//! its fan, away from all others. All copies move so that their centre of mass stays; they have one velocity, so momentum does
+//! not change.
 
 use super::Tear;
 use selvedge_core::glam::DVec3;
 
-/// Moves the copies of each vertex that a tear has split apart, by about `share` of its shortest edge. `copies` tells of a vertex of the tear's cloth and
-/// the place of a fan where that fan's copy is among all, `triangle` the corners of a triangle among all.
+/// Moves the copies of each split vertex by about `share` of its shortest edge. `copies` maps a vertex of the tear's cloth and
+/// the place of a fan to that fan's copy among all vertices. `triangle` returns the corners of a triangle among all vertices.
 pub(crate) fn open(
     tear: &Tear,
     share: f64,
@@ -49,12 +50,12 @@ pub(crate) fn open(
     }
 }
 
-/// The first two; zero where there are fewer.
+/// Returns the first two items; zero where there are fewer.
 fn two(mut all: impl Iterator<Item = DVec3>) -> [DVec3; 2] {
     [all.next().unwrap_or_default(), all.next().unwrap_or_default()]
 }
 
-/// The integral of all directions from one to the other, both of length one: (u + v)·tan(φ/2).
+/// Returns the integral of all directions between two unit vectors: (u + v)·tan(φ/2).
 fn mean_direction(u: DVec3, v: DVec3) -> DVec3 {
     let half = u.cross(v).length() / (1.0 + u.dot(v));
     if half.is_finite() { (u + v) * half } else { DVec3::ZERO }
@@ -77,7 +78,7 @@ mod tests {
         assert_eq!(mean_direction(DVec3::X, -DVec3::X), DVec3::ZERO);
     }
 
-    /// A half wheel around vertex 0, whose copy is vertex 4, cut in the middle.
+    /// Half a wheel around vertex 0, whose copy is vertex 4, cut in the middle.
     #[test]
     fn copies_move_apart_and_their_centre_of_mass_stays() {
         let mut positions = [DVec3::ZERO, DVec3::X, DVec3::Y, -DVec3::X, DVec3::ZERO];
