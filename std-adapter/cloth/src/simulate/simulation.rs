@@ -15,6 +15,33 @@ use selvedge_core::glam::DVec3;
 use std::ops::Range;
 
 /// A scene in motion.
+///
+/// [`step`](Self::step) advances it by the scene's time step. Between steps you read positions and move what is
+/// [driven](crate::BodyMotion::Driven).
+///
+/// ```
+/// use selvedge_cloth::effects::{BodyContact, Gravity, SelfCollision, Stretch, Thickness};
+/// use selvedge_cloth::glam::DVec3;
+/// use selvedge_cloth::{Body, Cloth, Scene, Simulation};
+///
+/// // A sheet of 30 cm above a ball of 10 cm radius. Units are SI.
+/// let corner = DVec3::new(-0.15, -0.15, 0.11);
+/// let sheet = Cloth::sheet(corner, [DVec3::X * 0.3, DVec3::Y * 0.3], [12, 12], 0.2)?;
+/// let mut scene = Scene::new(sheet, 2e-3);
+/// scene.bodies.push(Body::ball("ball", DVec3::ZERO, 0.1, 24)?);
+/// scene.add(Gravity::default()).add(Stretch::isotropic(1000.0));
+/// scene.add(BodyContact(Thickness::new(4e-3))).add(SelfCollision(Thickness::new(4e-3)));
+///
+/// let mut simulation = Simulation::new(scene, 1)?;
+/// while simulation.time() < 0.1 {
+///     simulation.step()?;
+/// }
+/// assert!(simulation.is_certified());
+/// let sheet = simulation.vertices_of_cloth(0).expect("there is one cloth");
+/// let ball = &simulation.positions()[sheet.end..];
+/// assert!(simulation.positions()[sheet].iter().all(|point| point.length() > 0.1) && !ball.is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct Simulation {
     pub(super) name: String,

@@ -15,44 +15,19 @@
 //! A block in which nothing moved sleeps until a block that shares a vertex with it moves something, since its result would be
 //! the same.
 
+mod block;
+mod colouring;
+mod local;
+
+pub(crate) use local::{Local, On};
+
 use super::energy::{Configuration, StoredEnergy};
 use super::step::{Constraint, TimeStep, Touches};
+use block::Block;
+use colouring::{in_groups, sort_by_colour};
 use selvedge::parallel;
 use selvedge_core::glam::DVec3;
-use std::fmt::Debug;
-use std::iter::repeat;
 use std::ops::Range;
-
-/// A constraint on `N` vertices.
-pub(crate) trait Local<const N: usize>: Debug + Send + Sync {
-    /// The multipliers of compliant constraints, kept from sweep to sweep of a step and zero before the first; `()` without
-    /// compliance.
-    type Multipliers: Copy + Debug + Default + Send + Sync;
-
-    /// A quick test: returns true only if all corrections are zero.
-    fn moves_nothing(&self, _positions: [DVec3; N]) -> bool {
-        false
-    }
-
-    /// Returns the correction of each vertex. `stiffening` is 1/h², the factor of compliances.
-    ///
-    /// `so_far` has the multipliers of earlier sweeps of the step, to which this one adds.
-    fn corrections(
-        &self,
-        positions: [DVec3; N],
-        inverse_masses: [f64; N],
-        stiffening: f64,
-        so_far: &mut Self::Multipliers,
-    ) -> [DVec3; N];
-
-    /// Returns the elastic energy in J; `None` if the constraint never stores any.
-    fn energy(&self, _positions: [DVec3; N]) -> Option<f64> {
-        None
-    }
-}
-
-/// The vertices of a constraint, and the constraint.
-pub(crate) type On<C, const N: usize> = ([u32; N], C);
 
 /// Constraints that are projected in a fixed order, a number of times.
 #[derive(Debug)]
@@ -65,31 +40,6 @@ pub(crate) struct Schedule<C: Local<N>, const N: usize> {
     /// Whether each block may have something to move.
     is_awake: Vec<bool>,
 }
-
-#[derive(Debug)]
-struct Block<C: Local<N>, const N: usize> {
-    /// By colour; each on places among the block's vertices.
-    constraints: Vec<On<C, N>>,
-    /// By constraint, for several sweeps in a row; otherwise empty.
-    multipliers: Vec<C::Multipliers>,
-    /// The constraints of each colour with enough of them to share among threads.
-    shared: Vec<Range<usize>>,
-    vertices: Vec<u32>,
-    /// Blocks that share a vertex with it.
-    neighbours: Vec<u32>,
-    /// The vertices' positions while the block runs, and whether any moved.
-    positions: Vec<DVec3>,
-    has_moved: bool,
-    /// By vertex.
-    inverse_masses: Vec<f64>,
-    /// The results of constraints that threads share.
-    corrections: Vec<([DVec3; N], C::Multipliers)>,
-}
-
-/// The most constraints of one of many blocks: its vertices, positions and constraints take some 30 kB.
-const MOST: usize = 256;
-/// Fewer constraints than this are done before another thread has started.
-const WORTH_A_THREAD: usize = 1024;
 
 impl<C: Local<N>, const N: usize> Schedule<C, N> {
     /// Makes one block that runs once, on a mesh of `vertex_count` vertices.
@@ -111,7 +61,7 @@ impl<C: Local<N>, const N: usize> Schedule<C, N> {
         let centres: Vec<DVec3> = constraints.iter().map(centre).collect();
         let mut order: Vec<u32> = (0..constraints.len() as u32).collect();
         let mut groups = Vec::new();
-        split(&mut order, &centres, &mut groups);
+        in_groups(&mut order, &centres, &mut groups);
 
         let mut constraints: Vec<_> = constraints.into_iter().map(Some).collect();
         let mut take = |mut group: Vec<u32>| {
@@ -172,12 +122,7 @@ impl<C: Local<N>, const N: usize> Constraint for Schedule<C, N> {
     fn project(&mut self, step: &TimeStep<'_>, positions: &mut [DVec3], _: &mut Touches) {
         self.is_awake.fill(true);
         for block in &mut self.blocks {
-            block.inverse_masses.clear();
-            block.inverse_masses.extend(at(&block.vertices, step.inverse_masses));
-            if self.sweeps > 1 {
-                block.multipliers.clear();
-                block.multipliers.resize(block.constraints.len(), C::Multipliers::default());
-            }
+            block.begin(step, self.sweeps > 1);
         }
         for _ in 0..self.sweeps {
             for colour in 0..self.colours.len() {
@@ -187,183 +132,10 @@ impl<C: Local<N>, const N: usize> Constraint for Schedule<C, N> {
     }
 
     fn energy(&self, now: &Configuration<'_>) -> Option<StoredEnergy> {
-        let of_block = |block: &Block<C, N>| {
-            let own: Vec<DVec3> = at(&block.vertices, now.positions).collect();
-            let constraints = block.constraints.iter();
-            constraints
-                .map(|(places, constraint)| constraint.energy(of(places, &own)))
-                .sum::<Option<f64>>()
-        };
-        let joules = self.blocks.iter().map(of_block).sum::<Option<f64>>()?;
+        let joules = { self.blocks.iter() }.map(|block| block.energy(now.positions));
+        let joules = joules.sum::<Option<f64>>()?;
         Some(StoredEnergy::Elastic(joules))
     }
-}
-
-impl<C: Local<N>, const N: usize> Block<C, N> {
-    /// Makes a block. `place_of` has an unset entry for each vertex of the mesh, before and afterwards.
-    fn new(mut constraints: Vec<On<C, N>>, place_of: &mut [u32]) -> Self {
-        let mut vertices = Vec::new();
-        for vertex in constraints.iter_mut().flat_map(|(own, _)| own) {
-            let place = &mut place_of[*vertex as usize];
-            if *place == u32::MAX {
-                *place = vertices.len() as u32;
-                vertices.push(*vertex);
-            }
-            *vertex = *place;
-        }
-        vertices.iter().for_each(|&vertex| place_of[vertex as usize] = u32::MAX);
-        let colours = sort_by_colour(&mut constraints, |(places, _)| places, vertices.len());
-        Self {
-            constraints,
-            multipliers: Vec::new(),
-            shared: colours.into_iter().filter(|colour| colour.len() >= WORTH_A_THREAD).collect(),
-            vertices,
-            neighbours: Vec::new(),
-            positions: Vec::new(),
-            has_moved: false,
-            inverse_masses: Vec::new(),
-            corrections: Vec::new(),
-        }
-    }
-
-    /// Runs the constraints on the block's own positions. Returns whether anything moved.
-    fn run(&mut self, step: &TimeStep<'_>, positions: &[DVec3]) -> bool {
-        self.positions.clear();
-        self.positions.extend(at(&self.vertices, positions));
-        let mut done = 0;
-        if parallel::has_many_threads() {
-            for index in 0..self.shared.len() {
-                let colour = self.shared[index].clone();
-                self.in_turn(done..colour.start, step);
-                self.at_once(colour.clone(), step);
-                done = colour.end;
-            }
-        }
-        self.in_turn(done..self.constraints.len(), step);
-        !at(&self.vertices, positions).eq(self.positions.iter().copied())
-    }
-
-    fn in_turn(&mut self, range: Range<usize>, step: &TimeStep<'_>) {
-        let stiffening = stiffening(step);
-        let (own, inverse_masses) = (&mut self.positions[..], &self.inverse_masses[..]);
-        let mut project = |(places, constraint): &On<C, N>, so_far: &mut C::Multipliers| {
-            let at = of(places, own);
-            if !constraint.moves_nothing(at) {
-                let moves = constraint.corrections(at, of(places, inverse_masses), stiffening, so_far);
-                add(own, places, moves);
-            }
-        };
-        let constraints = &self.constraints[range.clone()];
-        match self.multipliers.get_mut(range) {
-            Some(multipliers) => constraints
-                .iter()
-                .zip(multipliers)
-                .for_each(|(on, so_far)| project(on, so_far)),
-            None => constraints.iter().for_each(|on| project(on, &mut C::Multipliers::default())),
-        }
-    }
-
-    /// Runs the constraints of a colour on all threads.
-    fn at_once(&mut self, colour: Range<usize>, step: &TimeStep<'_>) {
-        let stiffening = stiffening(step);
-        let Self {
-            constraints,
-            multipliers,
-            positions,
-            inverse_masses,
-            corrections,
-            ..
-        } = self;
-        let constraints = &constraints[colour.clone()];
-        let multipliers = multipliers.get_mut(colour).unwrap_or_default();
-        let so_far = multipliers.iter().copied().chain(repeat(C::Multipliers::default()));
-        corrections.clear();
-        corrections.extend(so_far.take(constraints.len()).map(|so_far| ([DVec3::ZERO; N], so_far)));
-        parallel::for_each(corrections, |index, (moves, so_far)| {
-            let (places, constraint) = &constraints[index];
-            *moves = constraint.corrections(of(places, positions), of(places, inverse_masses), stiffening, so_far);
-        });
-        for ((places, _), &(moves, _)) in constraints.iter().zip(&*corrections) {
-            add(positions, places, moves);
-        }
-        for (multipliers, &(_, so_far)) in multipliers.iter_mut().zip(&*corrections) {
-            *multipliers = so_far;
-        }
-    }
-}
-
-/// Returns the factor of compliances.
-fn stiffening(step: &TimeStep<'_>) -> f64 {
-    1.0 / (step.h * step.h)
-}
-
-/// Returns the items of these vertices.
-fn at<T: Copy>(vertices: &[u32], all: &[T]) -> impl Iterator<Item = T> {
-    vertices.iter().map(|&vertex| all[vertex as usize])
-}
-
-/// Returns the items at these places. By index, like the next function: `map` would not be inlined, and an iterator would pass
-/// moves through memory.
-#[inline(always)]
-fn of<T: Copy + Default, const N: usize>(places: &[u32; N], all: &[T]) -> [T; N] {
-    let mut own = [T::default(); N];
-    for k in 0..N {
-        own[k] = all[places[k] as usize];
-    }
-    own
-}
-
-#[inline(always)]
-fn add<const N: usize>(positions: &mut [DVec3], places: &[u32; N], moves: [DVec3; N]) {
-    for k in 0..N {
-        positions[places[k] as usize] += moves[k];
-    }
-}
-
-/// Splits constraints in two by position, repeatedly, until each group fits into a block.
-fn split(order: &mut [u32], centres: &[DVec3], groups: &mut Vec<Vec<u32>>) {
-    if order.len() <= MOST {
-        groups.push(order.to_vec());
-        return;
-    }
-    let points = || order.iter().map(|&k| centres[k as usize]);
-    let lower = points().fold(DVec3::INFINITY, DVec3::min);
-    let upper = points().fold(DVec3::NEG_INFINITY, DVec3::max);
-    let axis = (upper - lower).max_position();
-    let middle = order.len() / 2;
-    order.select_nth_unstable_by(middle, |&a, &b| {
-        let [x, y] = [a, b].map(|k| centres[k as usize][axis]);
-        x.total_cmp(&y).then(a.cmp(&b))
-    });
-    let (first, second) = order.split_at_mut(middle);
-    split(first, centres, groups);
-    split(second, centres, groups);
-}
-
-/// Sorts items so that those of one colour, which share no vertex, are contiguous. Returns the range of each colour.
-///
-/// Greedily, each item takes the first colour that no earlier item has at any of its vertices. An item that finds none, since a
-/// vertex has more neighbours than there are colours, gets a colour of its own.
-fn sort_by_colour<T>(items: &mut Vec<T>, vertices: impl Fn(&T) -> &[u32], vertex_count: usize) -> Vec<Range<usize>> {
-    let mut taken = vec![0_u128; vertex_count];
-    let colour_of = |item: T| {
-        let all = vertices(&item).iter().map(|&v| taken[v as usize]);
-        let colour = all.fold(0, |all, own| all | own).trailing_ones();
-        let bit = 1_u128.checked_shl(colour).unwrap_or(0);
-        vertices(&item).iter().for_each(|&v| taken[v as usize] |= bit);
-        (colour, item)
-    };
-    let mut by_colour: Vec<_> = items.drain(..).map(colour_of).collect();
-    by_colour.sort_by_key(|(colour, _)| *colour);
-    let mut end = 0;
-    let colours = by_colour.chunk_by(|a, b| a.0 == b.0 && a.0 < u128::BITS).map(|group| {
-        let begin = end;
-        end += group.len();
-        begin..end
-    });
-    let colours = colours.collect();
-    items.extend(by_colour.into_iter().map(|(_, item)| item));
-    colours
 }
 
 #[cfg(test)]
@@ -543,7 +315,7 @@ mod tests {
 
     #[test]
     fn any_number_of_threads_gives_the_same_bits() {
-        let (start, ropes) = wave(8 * WORTH_A_THREAD as u32, 0.9);
+        let (start, ropes) = wave(8 * block::WORTH_A_THREAD as u32, 0.9);
         let give = springs(&wave(start.len() as u32, 0.4).0, 0.5);
         are_the_same_for_any_number_of_threads(&start, Schedule::once(ropes.clone(), start.len()));
         are_the_same_for_any_number_of_threads(&start, Schedule::in_blocks(ropes, &start, 4));
